@@ -1,0 +1,71 @@
+// A character model: the baked regression of Le et al. 2019 as plain data. Rest space, metres.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <string>
+#include <vector>
+
+#include "character/kernel.h"
+#include "core/vec.h"
+
+namespace nook {
+
+// Rigid to one bone.
+struct ProxySphere {
+  Vec3 centre;
+  float radius = 0;
+  std::uint16_t bone = 0;
+  // Share of the sphere's form factor that counts when it darkens another instance, fitted at bake time against ray
+  // tracing, so that overlapping spheres of one character do not darken twice. >= 0.
+  float caster_weight = 1;
+};
+
+// Follows up to four bones by linear blend skinning; the blended normal is renormalised.
+struct KeyPoint {
+  static constexpr int max_bones = 4;
+  Vec3 position;          // fitted: where self-shadow is evaluated
+  Vec3 normal;            // fitted, unit length
+  Vec3 surface_position;  // mean of the vertices that use it: where added casters are felt
+  Vec3 surface_normal;    // their mean normal, unit length
+  std::array<std::uint16_t, max_bones> bone{};
+  std::array<float, max_bones> weight{};  // non-negative, sum 1
+};
+
+struct PrimitiveRange {
+  std::uint32_t first_vertex = 0;  // in file order
+  std::uint32_t vertex_count = 0;
+};
+
+struct CharacterModel {
+  explicit CharacterModel(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : bone_names(memory), spheres(memory), key_points(memory), influence(memory), alpha(memory), bias(memory),
+        static_ao(memory), file_to_welded(memory), primitives(memory), recipe(memory) {}
+
+  Kernel kernel;
+  std::pmr::vector<std::pmr::string> bone_names;  // their number is the bone count
+  std::pmr::vector<ProxySphere> spheres;
+  std::pmr::vector<KeyPoint> key_points;
+
+  // Linear layer: AO of welded vertex i is 1 - (sum_s alpha[i * influences + s] * shadow[influence[...]] + bias[i]).
+  std::uint32_t influences = 0;               // entries per vertex; unused ones have alpha 0
+  std::pmr::vector<std::uint16_t> influence;  // key-point indices
+  std::pmr::vector<float> alpha;              // >= 0; at least one entry per vertex is > 0
+  std::pmr::vector<float> bias;
+  std::pmr::vector<float> static_ao;          // AO of the rest pose per welded vertex, what a static bake gives; may be empty
+
+  std::pmr::vector<std::uint32_t> file_to_welded;  // for each vertex in file order, its welded vertex
+  std::pmr::vector<PrimitiveRange> primitives;
+
+  float bounding_radius = 0;         // metres, of the rest pose round bounding_centre
+  Vec3 bounding_centre;
+  std::uint16_t root_bone = 0;       // bone that the ground and the bounding sphere follow
+
+  std::pmr::string recipe;  // JSON text of how it was baked; the runtime does not read it
+
+  std::size_t vertex_count() const { return bias.size(); }
+  std::size_t bone_count() const { return bone_names.size(); }
+};
+
+}  // namespace nook
