@@ -1,0 +1,173 @@
+// A scene as plain data, and the steps that evaluate it. The CPU path runs all of them; the GPU path runs the
+// first two on the CPU and the others in shaders, reading the same fields. World space, metres.
+#pragma once
+
+#include <nook/nook_character.h>
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "character/loaded_model.h"
+#include "character/neighbours.h"
+#include "core/aligned_array.h"
+#include "core/parallel.h"
+
+namespace nook {
+
+struct Sphere {
+  Vec3 centre;
+  float radius = 0;  // 0: none
+};
+
+// Points p with dot(normal, p) = offset.
+struct Plane {
+  Vec3 normal{0, 1, 0};  // unit length
+  float offset = 0;
+};
+
+// Proxy spheres in world space; entries beyond `count` have radius 0. Pointers are into
+// InstanceArrays::storage.
+struct SphereLanes {
+  std::uint32_t count = 0;
+  float *x = nullptr, *y = nullptr, *z = nullptr, *radius = nullptr;
+  float* caster_weight = nullptr;  // the model's, constant
+};
+
+// Key points in world space, each array padded to a multiple of simd_width. Padding holds copies of key point
+// 0, so that kernels may compute on it freely. Pointers are into InstanceArrays::storage.
+struct PointLanes {
+  std::uint32_t count = 0;
+  std::uint32_t padded = 0;
+  float *x = nullptr, *y = nullptr, *z = nullptr;                          // position, for self-shadow
+  float *nx = nullptr, *ny = nullptr, *nz = nullptr;                       // unit normal
+  float *surface_x = nullptr, *surface_y = nullptr, *surface_z = nullptr;  // where added casters are felt
+  float *surface_nx = nullptr, *surface_ny = nullptr, *surface_nz = nullptr;
+  float* norm_sum = nullptr;       // sum over spheres of (solid angle * visibility)^gamma
+  float* shadow = nullptr;         // norm_sum^(1 / gamma): the model's shadow
+  float* optical_depth = nullptr;  // composed form: sum over added spheres
+  float* added = nullptr;          // composed form: 1 - exp(-optical_depth), 0 is unshadowed
+};
+
+struct InstanceArrays {
+  SphereLanes spheres;
+  PointLanes points;
+  AlignedArray<float> storage;
+};
+InstanceArrays make_instance_arrays(const CharacterModel& model, std::pmr::memory_resource* memory);
+
+struct Instance {
+  explicit Instance(std::pmr::memory_resource* memory)
+      : bones(memory), linked(memory), casters(memory), occluders(memory) {}
+
+  nook_instance_id id = 0;  // 0: this slot is free, and everything below is empty
+  Ref<const LoadedModel> model;
+
+  // What the host sets.
+  std::pmr::vector<Mat3x4> bones;   // rest space to world, one for each bone of the model
+  std::uint64_t pose_revision = 0;  // rises with every set_pose; never 0 for a living instance
+  bool has_ground = false;
+  Plane ground;
+  std::pmr::vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
+
+  // What resolve_casters decides, for this update.
+  Sphere bound;     // holds all proxy spheres and key points of the pose
+  float scale = 1;  // of the root bone's matrix
+  std::pmr::vector<std::uint32_t>
+      casters;  // slots, ascending, each once; capacity reserved when links are made
+  std::pmr::vector<std::uint32_t> occluders;  // slots of free occluders that matter here
+  Sphere ground_sphere;                       // radius 0: no ground, or too far to matter
+  std::uint32_t culled = 0;                   // casters and occluders left out by the cut-off
+  std::uint32_t level = 0;                    // level of detail of the model, 0 is full
+  bool due = true;  // to be evaluated in this update; the others keep what they have
+
+  // What the evaluation leaves.
+  InstanceArrays arrays;
+  std::uint64_t evaluations = 0;  // sphere-key-point pairs of the last evaluation
+};
+
+struct Occluder {
+  nook_occluder_id id = 0;  // 0: this slot is free
+  Sphere sphere;
+};
+
+struct SceneSettings {
+  nook_combine combine = NOOK_COMBINE_COMPOSED;
+  nook_isa isa = NOOK_ISA_AUTO;
+  float cutoff_error = 1.0f / 1024;  // AO
+  float lod_error = 0;               // AO, rms at lod_distance
+  float lod_distance = 10;           // metres
+  std::uint32_t lod_max_interval = 1;
+  float ground_radius = 100;  // metres
+};
+
+struct Scene {
+  Scene(const SceneSettings& scene_settings, const Parallel& host_parallel,
+        std::pmr::memory_resource* scene_memory)
+      : settings(scene_settings),
+        parallel(host_parallel),
+        memory(scene_memory),
+        instances(memory),
+        free_slots(memory),
+        occluders(memory),
+        neighbours(memory) {}
+
+  SceneSettings settings;
+  Parallel parallel;
+  std::pmr::memory_resource* memory;
+
+  std::pmr::vector<Instance> instances;  // by slot; an id holds its slot, see slot_of
+  std::pmr::vector<std::uint32_t> free_slots;
+  std::pmr::vector<Occluder> occluders;  // by slot
+  std::uint32_t living = 0;              // instances in use
+  std::uint64_t structure_revision = 0;  // rises when instances or occluders come or go
+
+  std::uint32_t nearest = 0;       // k of link_nearest; 0: off
+  float nearest_max_distance = 0;  // metres
+  NeighbourGrid neighbours;
+  bool has_camera = false;
+  Vec3 camera;
+  std::uint32_t terms = NOOK_TERM_ALL;
+
+  std::uint64_t frame = 0;  // updates so far
+  nook_scene_stats stats{};
+};
+
+// ---- Edits: strong guarantee, ids checked (throws Failure) ----
+std::uint32_t add_instance(Scene& scene, Ref<const LoadedModel> model);  // its slot
+void remove_instance(Scene& scene, nook_instance_id id);
+std::uint32_t slot_of(const Scene& scene, nook_instance_id id);
+void set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones);
+void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
+void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
+void link_nearest(Scene& scene, std::uint32_t k, float max_distance);
+void set_ground(Scene& scene, nook_instance_id id, const Plane* plane);
+nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere);
+void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere);
+void remove_occluder(Scene& scene, nook_occluder_id id);
+
+// ---- Steps of an update, in order; none allocates or throws ----
+
+// Spheres of the pose, and the bound of the instance.
+void transform_spheres(Instance& instance) noexcept;
+// Key points of the pose.
+void transform_key_points(Instance& instance) noexcept;
+// Both.
+inline void transform_model(Instance& instance) noexcept {
+  transform_spheres(instance);
+  transform_key_points(instance);
+}
+// Levels of detail and who is due, then casters, occluders and ground sphere of each instance that is due:
+// explicit links, the k nearest, less those below the cut-off. Needs the bounds that transform_spheres left
+// in every living instance.
+void resolve_casters(Scene& scene) noexcept;
+// Shadow and added occlusion at the key points of one instance that is due.
+void evaluate_shadows(const Scene& scene, Instance& instance) noexcept;
+// All of the above for all instances, and the statistics.
+void update(Scene& scene) noexcept;
+
+// AO of the last update in file order; `out` has the model's number of file vertices, `stride` bytes apart.
+void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride) noexcept;
+
+}  // namespace nook

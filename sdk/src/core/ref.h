@@ -1,0 +1,102 @@
+// Intrusive reference counts behind the public handles: whatever refers to an object keeps it and its memory
+// alive, so that every order of destruction is defined.
+#pragma once
+
+#include <atomic>
+#include <memory_resource>
+#include <utility>
+
+namespace nook {
+
+class RefCounted {
+ public:
+  RefCounted(const RefCounted&) = delete;
+  RefCounted& operator=(const RefCounted&) = delete;
+
+  void retain() const noexcept { count_.fetch_add(1, std::memory_order_relaxed); }
+  void release() const noexcept {
+    if (count_.fetch_sub(1, std::memory_order_acq_rel) == 1) const_cast<RefCounted*>(this)->destroy();
+  }
+
+ protected:
+  RefCounted() = default;  // the creator holds the first reference
+  virtual ~RefCounted() = default;
+
+ private:
+  virtual void destroy() noexcept = 0;
+
+  mutable std::atomic<int> count_{1};
+};
+
+template <class T>
+class Ref {
+ public:
+  Ref() = default;
+  // Takes over a reference that the caller holds.
+  static Ref adopt(T* object) noexcept {
+    Ref ref;
+    ref.object_ = object;
+    return ref;
+  }
+  static Ref share(T* object) noexcept {
+    if (object) object->retain();
+    return adopt(object);
+  }
+  Ref(const Ref& other) noexcept : object_(other.object_) {
+    if (object_) object_->retain();
+  }
+  Ref(Ref&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+  template <class U>
+  Ref(Ref<U> other) noexcept : object_(other.detach()) {}
+  Ref& operator=(Ref other) noexcept {
+    std::swap(object_, other.object_);
+    return *this;
+  }
+  ~Ref() {
+    if (object_) object_->release();
+  }
+
+  T* get() const noexcept { return object_; }
+  T* operator->() const noexcept { return object_; }
+  T& operator*() const noexcept { return *object_; }
+  explicit operator bool() const noexcept { return object_ != nullptr; }
+  T* detach() noexcept { return std::exchange(object_, nullptr); }
+
+ private:
+  T* object_ = nullptr;
+};
+
+// An object in memory of `memory`, which `owner` (may be null) keeps alive until after the object is gone.
+template <class T>
+class Owned final : public T {
+ public:
+  template <class... Arguments>
+  static Ref<T> make(std::pmr::memory_resource* memory, Ref<const RefCounted> owner,
+                     Arguments&&... arguments) {
+    void* place = memory->allocate(sizeof(Owned), alignof(Owned));
+    try {
+      return Ref<T>::adopt(new (place)
+                               Owned(memory, std::move(owner), std::forward<Arguments>(arguments)...));
+    } catch (...) {
+      memory->deallocate(place, sizeof(Owned), alignof(Owned));
+      throw;
+    }
+  }
+
+ private:
+  template <class... Arguments>
+  Owned(std::pmr::memory_resource* memory, Ref<const RefCounted> owner, Arguments&&... arguments)
+      : T(std::forward<Arguments>(arguments)...), memory_(memory), owner_(std::move(owner)) {}
+
+  void destroy() noexcept override {
+    const Ref<const RefCounted> owner = std::move(owner_);
+    std::pmr::memory_resource* memory = memory_;
+    this->~Owned();
+    memory->deallocate(this, sizeof(Owned), alignof(Owned));
+  }
+
+  std::pmr::memory_resource* memory_;
+  Ref<const RefCounted> owner_;
+};
+
+}  // namespace nook
