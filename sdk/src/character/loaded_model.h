@@ -1,20 +1,40 @@
 // A model as the runtime holds it: shared and immutable, with what is worth deriving once from its data.
 #pragma once
 
+#include "character/linear_layer.h"
 #include "character/model.h"
+#include "character/shadow_kernels_rest.h"
 #include "core/ref.h"
 
 namespace nook {
 
 struct LoadedModel : RefCounted {
-  explicit LoadedModel(CharacterModel loaded);
+  // The model must have passed check_model.
+  LoadedModel(CharacterModel loaded, std::pmr::memory_resource* memory);
 
-  CharacterModel model;
-  // Largest sum of alpha over a vertex: by how much a change of every shadow can change an AO.
-  float max_alpha_sum = 0;
-  // True if welded vertices are numbered as they first occur in file order, as the bakers number them: AO in
-  // file order is then computed in runs.
-  bool in_file_order = true;
+  const CharacterModel model;
+  const RestSpheres rest_spheres;
+  const RestKeyPoints rest_key_points;
+  const LinearLayer linear;
+
+  // File vertices that take the AO of slot s of the linear layer:
+  // slot_file_vertex[slot_begin[s]...slot_begin[s + 1]].
+  AlignedArray<std::uint32_t> slot_begin;
+  AlignedArray<std::uint32_t> slot_file_vertex;
+  AlignedArray<float>
+      open_without_bias;  // 1 per slot, in place of LinearView::open_bias where self-shadow is switched off
+
+  // For each bone, a sphere in rest space that holds every key point it moves and every proxy sphere that
+  // rides on it, or radius < 0 where there is none: their images hold the posed character, because a blended
+  // point lies between its images.
+  struct BoneBound {
+    Vec3 centre;
+    float radius = -1;
+  };
+  AlignedArray<BoneBound> bone_bounds;
+  float max_alpha_sum =
+      0;  // largest sum of alpha over a vertex: the most that a unit of shadow can change an AO
+  float caster_strength = 0;  // sum of caster_weight * radius^2, square metres
 };
 
 }  // namespace nook

@@ -27,27 +27,28 @@ struct Plane {
   float offset = 0;
 };
 
-// Proxy spheres in world space; entries beyond `count` have radius 0. Pointers are into
-// InstanceArrays::storage.
+// Proxy spheres in world space. Pointers are into InstanceArrays::storage, but for caster_weight, which is
+// the model's.
 struct SphereLanes {
+  float *x = nullptr, *y = nullptr, *z = nullptr;
+  float* inverse_radius = nullptr;  // per metre
   std::uint32_t count = 0;
-  float *x = nullptr, *y = nullptr, *z = nullptr, *radius = nullptr;
-  float* caster_weight = nullptr;  // the model's, constant
 };
 
-// Key points in world space, each array padded to a multiple of simd_width. Padding holds copies of key point
-// 0, so that kernels may compute on it freely. Pointers are into InstanceArrays::storage.
+// Key points in world space, each array padded_count long. Padding holds finite numbers. Pointers are into
+// InstanceArrays::storage.
 struct PointLanes {
-  std::uint32_t count = 0;
-  std::uint32_t padded = 0;
-  float *x = nullptr, *y = nullptr, *z = nullptr;                          // position, for self-shadow
-  float *nx = nullptr, *ny = nullptr, *nz = nullptr;                       // unit normal
+  float *x = nullptr, *y = nullptr, *z = nullptr;                          // fitted position, for self-shadow
+  float *nx = nullptr, *ny = nullptr, *nz = nullptr;                       // fitted unit normal
   float *surface_x = nullptr, *surface_y = nullptr, *surface_z = nullptr;  // where added casters are felt
   float *surface_nx = nullptr, *surface_ny = nullptr, *surface_nz = nullptr;
   float* norm_sum = nullptr;       // sum over spheres of (solid angle * visibility)^gamma
   float* shadow = nullptr;         // norm_sum^(1 / gamma): the model's shadow
-  float* optical_depth = nullptr;  // composed form: sum over added spheres
-  float* added = nullptr;          // composed form: 1 - exp(-optical_depth), 0 is unshadowed
+  float* optical_depth = nullptr;  // composed form: sum over linked spheres of caster_weight * form factor
+  float* open = nullptr;           // composed form: product over ground and occluders of 1 - form factor
+  float* added = nullptr;          // composed form: 1 - open * exp(-optical_depth); 0 is unshadowed
+  std::uint32_t count = 0;
+  std::uint32_t padded_count = 0;
 };
 
 struct InstanceArrays {
@@ -55,7 +56,7 @@ struct InstanceArrays {
   PointLanes points;
   AlignedArray<float> storage;
 };
-InstanceArrays make_instance_arrays(const CharacterModel& model, std::pmr::memory_resource* memory);
+InstanceArrays make_instance_arrays(const LoadedModel& model, std::pmr::memory_resource* memory);
 
 struct Instance {
   explicit Instance(std::pmr::memory_resource* memory)
@@ -71,20 +72,23 @@ struct Instance {
   Plane ground;
   std::pmr::vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
 
+  // What set_pose derives: a sphere round the root bone's image of the model's bounding centre that holds all
+  // key points and proxy spheres of the pose, and the largest scale of its bones.
+  Sphere bound;
+  float scale = 1;
+
   // What resolve_casters decides, for this update.
-  Sphere bound;     // holds all proxy spheres and key points of the pose
-  float scale = 1;  // of the root bone's matrix
-  std::pmr::vector<std::uint32_t>
-      casters;  // slots, ascending, each once; capacity reserved when links are made
+  std::pmr::vector<std::uint32_t> casters;    // slots, ascending, each once; capacity reserved by the edits
   std::pmr::vector<std::uint32_t> occluders;  // slots of free occluders that matter here
   Sphere ground_sphere;                       // radius 0: no ground, or too far to matter
   std::uint32_t culled = 0;                   // casters and occluders left out by the cut-off
   std::uint32_t level = 0;                    // level of detail of the model, 0 is full
-  bool due = true;  // to be evaluated in this update; the others keep what they have
+  bool due = true;                            // evaluated in this update; the others keep what they have
 
   // What the evaluation leaves.
   InstanceArrays arrays;
-  std::uint64_t evaluations = 0;  // sphere-key-point pairs of the last evaluation
+  std::uint64_t transformed_revision = 0;  // pose_revision that the spheres in `arrays` show
+  std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
 };
 
 struct Occluder {
@@ -103,17 +107,12 @@ struct SceneSettings {
 };
 
 struct Scene {
+  // Throws Failure if the processor lacks settings.isa.
   Scene(const SceneSettings& scene_settings, const Parallel& host_parallel,
-        std::pmr::memory_resource* scene_memory)
-      : settings(scene_settings),
-        parallel(host_parallel),
-        memory(scene_memory),
-        instances(memory),
-        free_slots(memory),
-        occluders(memory),
-        neighbours(memory) {}
+        std::pmr::memory_resource* scene_memory);
 
   SceneSettings settings;
+  const ShadowKernels* kernels;  // of settings.isa
   Parallel parallel;
   std::pmr::memory_resource* memory;
 
@@ -149,25 +148,20 @@ void remove_occluder(Scene& scene, nook_occluder_id id);
 
 // ---- Steps of an update, in order; none allocates or throws ----
 
-// Spheres of the pose, and the bound of the instance.
-void transform_spheres(Instance& instance) noexcept;
-// Key points of the pose.
-void transform_key_points(Instance& instance) noexcept;
-// Both.
-inline void transform_model(Instance& instance) noexcept {
-  transform_spheres(instance);
-  transform_key_points(instance);
-}
 // Levels of detail and who is due, then casters, occluders and ground sphere of each instance that is due:
-// explicit links, the k nearest, less those below the cut-off. Needs the bounds that transform_spheres left
-// in every living instance.
+// explicit links and the k nearest, less those below the cut-off. Needs the poses only.
 void resolve_casters(Scene& scene) noexcept;
-// Shadow and added occlusion at the key points of one instance that is due.
+// World-space spheres of an instance, which it and its receivers need.
+void transform_spheres(const Scene& scene, Instance& instance) noexcept;
+// World-space key points of an instance that is due.
+void transform_key_points(const Scene& scene, Instance& instance) noexcept;
+// Shadow and added occlusion at the key points of an instance that is due.
 void evaluate_shadows(const Scene& scene, Instance& instance) noexcept;
 // All of the above for all instances, and the statistics.
 void update(Scene& scene) noexcept;
 
-// AO of the last update in file order; `out` has the model's number of file vertices, `stride` bytes apart.
-void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride) noexcept;
+// Blends the key points to vertices and writes the AO of the last update in file order; `out` has the model's
+// number of file vertices, stride_bytes apart.
+void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept;
 
 }  // namespace nook

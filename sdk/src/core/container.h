@@ -1,0 +1,69 @@
+// The .nook container, little-endian:
+//   0  "NOOK"            4  u32 0x01020304, the byte-order mark
+//   8  u32 format version of the kind           12  four letters, the kind
+//  16  u64 size of the whole file               24  u64 XXH64 of the whole file but these eight bytes
+//  32  u32 number of sections                   36  u32 0
+//  40  the section table: four letters, u32 0, u64 offset from the file's start, u64 size; then the sections.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/bytes.h"
+
+namespace nook {
+
+using FourLetters = std::uint32_t;
+constexpr FourLetters four_letters(const char (&text)[5]) {
+  FourLetters value = 0;
+  for (int i = 0; i < 4; ++i) value |= FourLetters(static_cast<unsigned char>(text[i])) << (8 * i);
+  return value;
+}
+
+struct ContainerKind {
+  FourLetters kind = 0;
+  const char* name = "";  // "character model"
+  std::uint32_t oldest_version = 1;
+  std::uint32_t newest_version = 1;
+};
+
+struct ContainerSection {
+  FourLetters name = 0;
+  std::vector<std::byte> bytes;
+};
+
+std::vector<std::byte> write_container(const ContainerKind& kind, std::span<const ContainerSection> sections);
+
+// A view of a file's bytes; allocates nothing.
+class Container {
+ public:
+  // Checks everything but the contents of the sections; throws Failure with a message of its own for each
+  // fault.
+  Container(std::span<const std::byte> bytes, const ContainerKind& kind);
+
+  std::uint32_t version() const { return version_; }
+  bool has(const char (&name)[5]) const;
+  ByteReader section(const char (&name)[5]) const;  // throws Failure if it is missing
+
+ private:
+  struct Entry {
+    FourLetters name;
+    std::uint64_t offset;
+    std::uint64_t size;
+  };
+  Entry entry(std::uint32_t index) const;
+  bool find(FourLetters name, Entry& found) const;
+
+  std::span<const std::byte> bytes_;
+  std::uint32_t version_ = 0;
+  std::uint32_t sections_ = 0;
+};
+
+// Puts the right checksum into bytes that were changed; for tests of what lies behind the checksum.
+void repair_checksum(std::span<std::byte> bytes);
+// The kind of a file, so that a tool can choose a reader; 0 if it is no .nook file at all.
+FourLetters container_kind(std::span<const std::byte> bytes);
+
+}  // namespace nook
