@@ -1,0 +1,157 @@
+// The per-frame work of a character on the CPU as a table of plain functions, one table for each instruction
+// set. All of them work on arrays of numbers that the caller owns; none allocates, locks or throws.
+//
+// A character's frame: pose_spheres and pose_key_points bring the model to world space; self_norm_sum and
+// norm_root give the shadow at each key point; composed_depth, exact_open and composed_occlusion give what
+// other casters take away; linear_layer blends both to vertices; scatter writes them in the file's order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "character/kernel.h"
+#include "core/vec.h"
+
+namespace nook {
+
+enum class Isa : std::uint8_t { scalar = 0, sse2 = 1, avx2 = 2, avx512 = 3 };
+
+// Key points come in groups of this many: arrays that run over key points hold padded_key_points(count)
+// entries, and the padding must hold finite numbers (pose_key_points fills it).
+inline constexpr std::uint32_t key_point_group = 16;
+constexpr std::uint32_t padded_key_points(std::uint32_t count) {
+  return (count + key_point_group - 1) / key_point_group * key_point_group;
+}
+
+// Spheres smaller than this count as this large, so that the squares of distances in radii stay finite: 1
+// micrometre.
+inline constexpr float min_sphere_radius = 1e-6f;
+// Coordinates up to this many metres from the origin give finite results; float resolution ends far before.
+inline constexpr float max_coordinate = 1e9f;
+constexpr float inverse_sphere_radius(float radius) {
+  return 1 / (radius > min_sphere_radius ? radius : min_sphere_radius);
+}
+
+// Spheres in the space of the key points they act on, metres.
+struct SphereSoa {
+  const float* x = nullptr;
+  const float* y = nullptr;
+  const float* z = nullptr;
+  const float* inverse_radius = nullptr;  // of inverse_sphere_radius, per metre
+  const float* caster_weight = nullptr;   // only composed_depth and exact_open read it
+  std::uint32_t count = 0;
+};
+
+// Key points, metres; normals have unit length, or zero in the padding. Arrays of padded_count entries;
+// 64-byte alignment is not needed but faster.
+struct KeyPointSoa {
+  const float* x = nullptr;
+  const float* y = nullptr;
+  const float* z = nullptr;
+  const float* nx = nullptr;
+  const float* ny = nullptr;
+  const float* nz = nullptr;
+  std::uint32_t padded_count = 0;  // a multiple of key_point_group
+};
+
+// Where pose_spheres and pose_key_points write; the same arrays then serve as SphereSoa and KeyPointSoa.
+struct SphereTarget {
+  float* x = nullptr;
+  float* y = nullptr;
+  float* z = nullptr;
+  float* inverse_radius = nullptr;
+};
+struct KeyPointTarget {
+  float* x = nullptr;
+  float* y = nullptr;
+  float* z = nullptr;
+  float* nx = nullptr;
+  float* ny = nullptr;
+  float* nz = nullptr;
+};
+
+// Proxy spheres of a model, rest space, metres. Owned by RestSpheres.
+struct RestSphereView {
+  const float* x = nullptr;
+  const float* y = nullptr;
+  const float* z = nullptr;
+  const float* radius = nullptr;
+  const std::uint16_t* bone = nullptr;
+  std::uint32_t count = 0;
+};
+
+// Key points of a model, rest space, metres; four bones and weights for each in a row. Owned by
+// RestKeyPoints.
+struct RestKeyPointView {
+  KeyPointSoa fitted;
+  KeyPointSoa surface;
+  const std::uint16_t* bone = nullptr;
+  const float* weight = nullptr;
+  std::uint32_t padded_count = 0;
+};
+
+// 16 vertices of the linear layer. Entry e of vertex lane l is at first_entry + 16 e + l in key_point and
+// alpha.
+struct LinearBlock {
+  std::uint32_t first_entry = 0;
+  std::uint32_t entries = 0;
+};
+inline constexpr std::uint32_t linear_block_vertices = 16;
+
+// The linear layer by slots, the vertices in an order of its own. Owned by LinearLayer.
+struct LinearView {
+  const LinearBlock* blocks = nullptr;
+  std::uint32_t block_count = 0;
+  const std::uint16_t* key_point = nullptr;
+  const float* alpha = nullptr;
+  const float* open_bias = nullptr;          // 1 - bias, per slot
+  const float* inverse_alpha_sum = nullptr;  // per slot
+};
+
+struct ShadowKernels {
+  Isa isa = Isa::scalar;
+  const char* name = nullptr;
+
+  // sum[k] += sum over spheres of y^gamma. Several calls with the same key points join their spheres in one
+  // norm.
+  void (*self_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
+                        float* sum);
+  // shadow[k] = sum[k]^(1 / gamma); sum and shadow may be the same array.
+  void (*norm_root)(const float* sum, std::uint32_t padded_count, float gamma, float* shadow);
+
+  // depth[k] += sum over spheres of caster_weight * form factor, by the fast form; points are the surface key
+  // points.
+  void (*composed_depth)(const SphereSoa& spheres, const KeyPointSoa& points, float* depth);
+  // open[k] *= 1 - min(1, caster_weight * form factor) for each sphere, by the exact form: the ground and
+  // free occluders. caster_weight NULL: all 1.
+  void (*exact_open)(const SphereSoa& spheres, const KeyPointSoa& points, float* open);
+  // occlusion[k] = 1 - open[k] * exp(-depth[k]). depth NULL: 0; open NULL: 1.
+  void (*composed_occlusion)(const float* depth, const float* open, std::uint32_t padded_count,
+                             float* occlusion);
+
+  // ao[slot] = clamp(1 - (sum alpha * shadow + bias), 0, 1) * (1 - sum(alpha * occlusion) / sum alpha) in the
+  // layer's slot order, 16 entries a block. occlusion NULL: self only. Whatever the inputs, ao is a number in
+  // [0, 1].
+  void (*linear_layer)(const LinearView& layer, const float* shadow, const float* occlusion, float* ao);
+  // For i < count: the float at (char*)out + i * stride_bytes = values[index[i]]. With
+  // LinearLayer::file_to_slot this is file order.
+  void (*scatter)(const float* values, const std::uint32_t* index, std::uint32_t count, float* out,
+                  std::size_t stride_bytes);
+
+  // World space from rest space; bones are rest space to world, rigid or with uniform scale, which scales
+  // radii. offset_ws is subtracted: a scene far from the world's origin keeps its digits by working near the
+  // instance.
+  void (*pose_spheres)(const RestSphereView& rest, const Mat3x4* bones, Vec3 offset_ws,
+                       const SphereTarget& out);
+  // surface NULL: only the fitted positions and normals; otherwise also the surface ones, which
+  // composed_depth uses.
+  void (*pose_key_points)(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
+                          const KeyPointTarget& out, const KeyPointTarget* surface);
+};
+
+// The table of one instruction set; NULL where the processor or the build lacks it. scalar is always there.
+const ShadowKernels* shadow_kernels(Isa isa);
+// The table of the best instruction set there is.
+const ShadowKernels& best_shadow_kernels();
+
+}  // namespace nook

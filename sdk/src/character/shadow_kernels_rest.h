@@ -1,0 +1,47 @@
+// The moving parts of a character model, spheres and key points, laid out as the pose kernels read them.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+
+#include "character/model.h"
+#include "character/shadow_kernels.h"
+#include "core/aligned_array.h"
+
+namespace nook {
+
+class RestSpheres {
+ public:
+  // Throws Failure when a sphere's bone is not one of the model's.
+  explicit RestSpheres(const CharacterModel& model,
+                       std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+  const RestSphereView& view() const { return view_; }
+  // For SphereSoa::caster_weight; it does not change with the pose.
+  const float* caster_weight() const { return caster_weight_; }
+
+ private:
+  AlignedArray<float> numbers_;
+  AlignedArray<std::uint16_t> bone_;
+  const float* caster_weight_ = nullptr;
+  RestSphereView view_;
+};
+
+// Padded to key_point_group with copies of the last key point.
+class RestKeyPoints {
+ public:
+  // Throws Failure when a key point's bone is not one of the model's.
+  explicit RestKeyPoints(const CharacterModel& model,
+                         std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+  const RestKeyPointView& view() const { return view_; }
+  std::uint32_t padded_count() const { return view_.padded_count; }
+
+ private:
+  AlignedArray<float> numbers_;
+  AlignedArray<std::uint16_t> bone_;
+  AlignedArray<float> weight_;
+  RestKeyPointView view_;
+};
+
+}  // namespace nook

@@ -1,0 +1,44 @@
+// The reference: plain float arithmetic in the order the formulas are written, and what processors without
+// x86 SIMD run.
+#include <cstdint>
+
+#include "character/kernel.h"
+#include "character/shadow_kernels.h"
+#include "character/shadow_kernels_tables.h"
+#include "core/simd_scalar.h"
+
+namespace nook::isa_scalar {
+
+using Float = float;
+constexpr std::uint32_t width = 1;
+
+namespace {
+Float broadcast(float a) {
+  return a;
+}
+Float load(const float* p) {
+  return *p;
+}
+void store(float* p, Float a) {
+  *p = a;
+}
+Float gather(const float* table, const std::uint16_t* index) {
+  return table[*index];
+}
+Float gather(const float* table, const std::uint32_t* index) {
+  return table[*index];
+}
+}  // namespace
+
+#include "character/shadow_kernels_impl.inl"
+#include "character/shadow_kernels_pose_scalar.inl"
+
+constexpr ShadowKernels table{Isa::scalar,    "scalar",     self_norm_sum,      norm_root,
+                              composed_depth, exact_open,   composed_occlusion, linear_layer,
+                              scatter,        pose_spheres, pose_key_points};
+
+const ShadowKernels& kernels() {
+  return table;
+}
+
+}  // namespace nook::isa_scalar
