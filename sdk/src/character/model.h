@@ -43,13 +43,15 @@ struct CharacterModel {
       : bone_names(memory), spheres(memory), key_points(memory), influence(memory), alpha(memory), bias(memory),
         static_ao(memory), file_to_welded(memory), primitives(memory), recipe(memory) {}
 
+  static constexpr std::uint32_t max_influences = 8;
+
   Kernel kernel;
   std::pmr::vector<std::pmr::string> bone_names;  // their number is the bone count
   std::pmr::vector<ProxySphere> spheres;
   std::pmr::vector<KeyPoint> key_points;
 
   // Linear layer: AO of welded vertex i is 1 - (sum_s alpha[i * influences + s] * shadow[influence[...]] + bias[i]).
-  std::uint32_t influences = 0;               // entries per vertex; unused ones have alpha 0
+  std::uint32_t influences = 0;               // entries per vertex, 1 to max_influences; unused ones have alpha 0
   std::pmr::vector<std::uint16_t> influence;  // key-point indices
   std::pmr::vector<float> alpha;              // >= 0; at least one entry per vertex is > 0
   std::pmr::vector<float> bias;

@@ -1,0 +1,157 @@
+#include "character/model_check.h"
+
+#include <cmath>
+
+#include "core/failure.h"
+
+namespace nook {
+namespace {
+
+// Rest-space coordinates beyond a million metres are no character; the bound keeps every later product
+// finite.
+constexpr float max_metres = 1e6f;
+// A gamma-norm beyond this is the maximum norm to float precision.
+constexpr float max_gamma = 64;
+constexpr float max_coefficient = 1e4f;  // of alpha, bias and caster weight: far above anything a fit gives
+constexpr std::size_t max_indexed = 65536;  // what 16-bit indices reach
+
+bool within(float value, float low, float high) {
+  return value >= low && value <= high;
+}  // false for NaN
+bool is_place(Vec3 p) {
+  return within(std::abs(p.x), 0, max_metres) && within(std::abs(p.y), 0, max_metres) &&
+         within(std::abs(p.z), 0, max_metres);
+}
+// 1e-3: far above rounding and quantisation, far below anything that could be meant.
+bool is_unit(Vec3 n) {
+  return within(dot(n, n), 1 - 2e-3f, 1 + 2e-3f);
+}
+
+struct Check {
+  nook_result code;
+
+  void count(const char* what, std::size_t got, std::size_t low, std::size_t high) const {
+    if (got < low || got > high)
+      throw Failure(code, "the number of %s is out of range (got %zu, need %zu to %zu); bake the model again",
+                    what, got, low, high);
+  }
+  void sized(const char* what, std::size_t got, std::size_t need) const {
+    if (got != need)
+      throw Failure(code, "the array of %s has the wrong length (got %zu, need %zu); bake the model again",
+                    what, got, need);
+  }
+  void that(bool sound, const char* what, std::size_t index, double got, const char* need) const {
+    if (!sound)
+      throw Failure(code, "%s %zu is out of range (got %g, need %s); bake the model again", what, index, got,
+                    need);
+  }
+  void place(const char* what, std::size_t index, Vec3 p) const {
+    if (!is_place(p))
+      throw Failure(
+          code, "%s %zu is out of range (got %g %g %g, need finite metres below 1e6); bake the model again",
+          what, index, double(p.x), double(p.y), double(p.z));
+  }
+  void unit(const char* what, std::size_t index, Vec3 n) const {
+    if (!is_unit(n))
+      throw Failure(code, "%s %zu is no unit vector (got %g %g %g); bake the model again", what, index,
+                    double(n.x), double(n.y), double(n.z));
+  }
+};
+
+void check_spheres(const CharacterModel& model, const Check& check) {
+  for (std::size_t i = 0; i < model.spheres.size(); ++i) {
+    const ProxySphere& sphere = model.spheres[i];
+    check.place("centre of sphere", i, sphere.centre);
+    check.that(sphere.radius > 0 && sphere.radius <= max_metres, "radius of sphere", i, sphere.radius,
+               "more than 0");
+    check.that(sphere.bone < model.bone_count(), "bone of sphere", i, sphere.bone,
+               "less than the number of bones");
+    check.that(within(sphere.caster_weight, 0, max_coefficient), "caster weight of sphere", i,
+               sphere.caster_weight, "0 to 1e4");
+  }
+}
+
+void check_key_points(const CharacterModel& model, const Check& check) {
+  for (std::size_t k = 0; k < model.key_points.size(); ++k) {
+    const KeyPoint& point = model.key_points[k];
+    check.place("position of key point", k, point.position);
+    check.place("surface position of key point", k, point.surface_position);
+    check.unit("normal of key point", k, point.normal);
+    check.unit("surface normal of key point", k, point.surface_normal);
+    float sum = 0;
+    for (int b = 0; b < KeyPoint::max_bones; ++b) {
+      check.that(point.bone[b] < model.bone_count(), "bone of key point", k, point.bone[b],
+                 "less than the number of bones");
+      check.that(within(point.weight[b], 0, 1), "bone weight of key point", k, point.weight[b], "0 to 1");
+      sum += point.weight[b];
+    }
+    // Four float additions and a conversion from double stay well below 1e-4.
+    check.that(within(sum, 1 - 1e-4f, 1 + 1e-4f), "sum of bone weights of key point", k, sum, "1");
+  }
+}
+
+void check_linear_layer(const CharacterModel& model, const Check& check) {
+  const std::size_t vertices = model.vertex_count(), entries = vertices * model.influences;
+  check.sized("influences", model.influence.size(), entries);
+  check.sized("alphas", model.alpha.size(), entries);
+  if (!model.static_ao.empty()) check.sized("static AO", model.static_ao.size(), vertices);
+  for (std::size_t i = 0; i < vertices; ++i) {
+    float sum = 0;
+    for (std::size_t e = i * model.influences; e < (i + 1) * model.influences; ++e) {
+      check.that(model.influence[e] < model.key_points.size(), "key point of vertex", i, model.influence[e],
+                 "less than the number of key points");
+      check.that(within(model.alpha[e], 0, max_coefficient), "alpha of vertex", i, model.alpha[e],
+                 "0 to 1e4");
+      sum += model.alpha[e];
+    }
+    check.that(sum > 0, "sum of alphas of vertex", i, sum, "more than 0");
+    check.that(within(std::abs(model.bias[i]), 0, max_coefficient), "bias of vertex", i, model.bias[i],
+               "-1e4 to 1e4");
+    if (!model.static_ao.empty())
+      check.that(within(model.static_ao[i], 0, 1), "static AO of vertex", i, model.static_ao[i], "0 to 1");
+  }
+}
+
+void check_file_order(const CharacterModel& model, const Check& check) {
+  for (std::size_t i = 0; i < model.file_to_welded.size(); ++i)
+    check.that(model.file_to_welded[i] < model.vertex_count(), "welded vertex of file vertex", i,
+               model.file_to_welded[i], "less than the number of welded vertices");
+  std::uint64_t next = 0;
+  for (std::size_t p = 0; p < model.primitives.size(); ++p) {
+    check.that(model.primitives[p].first_vertex == next, "first vertex of primitive", p,
+               model.primitives[p].first_vertex, "the end of the primitive before");
+    next += model.primitives[p].vertex_count;
+  }
+  check.sized("file vertices", model.file_to_welded.size(), next);
+}
+
+}  // namespace
+
+void check_model(const CharacterModel& model, nook_result code) {
+  const Check check{code};
+  check.count("bones", model.bone_count(), 1, max_indexed);
+  check.count("spheres", model.spheres.size(), 1, max_indexed);
+  check.count("key points", model.key_points.size(), 1, max_indexed);
+  check.count("vertices", model.vertex_count(), 1, UINT32_MAX);
+  check.count("file vertices", model.file_to_welded.size(), 1, UINT32_MAX);
+  check.count("primitives", model.primitives.size(), 1, UINT32_MAX);
+  check.count("influences of a vertex", model.influences, 1, CharacterModel::max_influences);
+  if (static_cast<int>(model.kernel.form) >= kernel_form_count)
+    throw Failure(code, "the kernel form is unknown (got %d, need less than %d); use a newer library",
+                  static_cast<int>(model.kernel.form), kernel_form_count);
+  check.that(within(model.kernel.gamma, 1, max_gamma), "gamma", 0, model.kernel.gamma, "1 to 64");
+  check.place("bounding centre", 0, model.bounding_centre);
+  check.that(within(model.bounding_radius, 0, 2 * max_metres), "bounding radius", 0, model.bounding_radius,
+             "metres");
+  check.that(model.root_bone < model.bone_count(), "root bone", 0, model.root_bone,
+             "less than the number of bones");
+  for (std::size_t b = 0; b < model.bone_count(); ++b)
+    if (model.bone_names[b].find('\0') != std::pmr::string::npos)
+      throw Failure(code, "the name of bone %zu holds a NUL character; bake the model again", b);
+  check_spheres(model, check);
+  check_key_points(model, check);
+  check_linear_layer(model, check);
+  check_file_order(model, check);
+}
+
+}  // namespace nook

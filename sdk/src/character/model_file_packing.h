@@ -1,0 +1,109 @@
+// How the numbers of a character model become small integers, and back.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "character/model.h"
+#include "core/bytes.h"
+
+namespace nook {
+
+// Bits of each field of version 1.
+struct CharacterBits {
+  static constexpr int sphere_centre = 16;  // a coordinate in the box of all centres: 30 micrometres in 2 m
+  static constexpr int sphere_radius = 16;
+  static constexpr int caster_weight = 8;
+  static constexpr int key_position = 16;
+  static constexpr int key_normal = 11;      // each of two octahedral coordinates: within 0.1 degree
+  static constexpr int surface_offset = 12;  // surface position less position: 0.1 mm in 0.4 m
+  static constexpr int surface_normal = 10;
+  static constexpr int bone_count = 2;
+  static constexpr int bone_weight = 8;  // in 1/256, so that the sum of a key point's weights is exactly 1
+  static constexpr int entry_count = 3;
+  static constexpr int alpha = 8;  // square-root companded
+  static constexpr int bias = 8;
+};
+
+// Bytes that a bone's name may take over from the one before it, so that a small file cannot fill the memory
+// with names.
+inline constexpr std::uint32_t max_shared_name = 64;
+
+// Evenly spaced codes from low to high, both of which are met exactly.
+struct Range {
+  float low = 0, high = 0;
+
+  static constexpr std::uint32_t last_code(int bits) { return (1u << bits) - 1; }
+  void include(float value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  std::uint32_t encode(float value, int bits) const {
+    if (!(high > low)) return 0;
+    const double share = (double(value) - low) / (double(high) - low);
+    return static_cast<std::uint32_t>(std::lround(std::min(std::max(share, 0.0), 1.0) * last_code(bits)));
+  }
+  float decode(std::uint32_t code, int bits) const {
+    return static_cast<float>(low + (double(high) - low) * code / last_code(bits));
+  }
+};
+
+struct Box {
+  Range x, y, z;
+
+  static Box around(Vec3 p) { return {{p.x, p.x}, {p.y, p.y}, {p.z, p.z}}; }
+  void include(Vec3 p) {
+    x.include(p.x);
+    y.include(p.y);
+    z.include(p.z);
+  }
+};
+
+inline void write_range(ByteWriter& out, const Range& range) {
+  out.f32(range.low);
+  out.f32(range.high);
+}
+// Throws Failure unless low <= high, both finite and at most `limit` in magnitude: every decoded value is
+// then finite.
+Range read_range(ByteReader& in, float limit);
+
+inline void write_box(ByteWriter& out, const Box& box) {
+  write_range(out, box.x);
+  write_range(out, box.y);
+  write_range(out, box.z);
+}
+Box read_box(ByteReader& in, float limit);
+
+inline void write_point(ByteWriter& out, const Box& box, Vec3 p, int bits) {
+  out.bits(box.x.encode(p.x, bits), bits);
+  out.bits(box.y.encode(p.y, bits), bits);
+  out.bits(box.z.encode(p.z, bits), bits);
+}
+inline Vec3 read_point(ByteReader& in, const Box& box, int bits) {
+  const float x = box.x.decode(in.bits(bits), bits);
+  const float y = box.y.decode(in.bits(bits), bits);
+  return {x, y, box.z.decode(in.bits(bits), bits)};
+}
+
+// Octahedral mapping of unit vectors: Meyer et al. 2010, "On floating-point normal vectors".
+void write_normal(ByteWriter& out, Vec3 normal, int bits);
+Vec3 read_normal(ByteReader& in, int bits);
+
+// Bone weights in 1/256 that sum to 256, by largest remainders.
+std::array<std::uint32_t, KeyPoint::max_bones> weight_codes(
+    const std::array<float, KeyPoint::max_bones>& weight);
+
+// alpha = max_alpha * (code / 255)^2: fine steps where alpha is small. Code 0 is kept for "no entry".
+inline float decode_alpha(std::uint32_t code, float max_alpha) {
+  const double share = code / double(Range::last_code(CharacterBits::alpha));
+  return static_cast<float>(max_alpha * share * share);
+}
+inline std::uint32_t encode_alpha(float alpha, float max_alpha) {
+  const std::uint32_t last = Range::last_code(CharacterBits::alpha);
+  const double code = std::round(last * std::sqrt(std::max(0.0, double(alpha) / max_alpha)));
+  return static_cast<std::uint32_t>(std::min(std::max(code, 1.0), double(last)));
+}
+
+}  // namespace nook

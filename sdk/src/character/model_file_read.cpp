@@ -1,0 +1,188 @@
+#include <algorithm>
+
+#include "character/model_check.h"
+#include "character/model_file.h"
+#include "character/model_file_packing.h"
+
+namespace nook {
+namespace {
+
+using Bits = CharacterBits;
+
+// Bounds of ranges: those of check_model, which has the last word; these only keep decoded numbers finite.
+constexpr float max_metres = 2e6f, max_coefficient = 1e4f;
+
+void read_head(ByteReader in, CharacterModel& model) {
+  model.kernel.form = static_cast<KernelForm>(in.u8());
+  model.kernel.gamma = in.f32();
+  model.bounding_centre.x = in.f32();
+  model.bounding_centre.y = in.f32();
+  model.bounding_centre.z = in.f32();
+  model.bounding_radius = in.f32();
+  model.root_bone = static_cast<std::uint16_t>(in.u16());
+  in.check_end();
+}
+
+void read_bone_names(ByteReader in, CharacterModel& model) {
+  const std::uint32_t count = in.check_count(in.varint(), 16, "bone names");
+  model.bone_names.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t shared = in.varint();
+    const std::uint32_t rest = in.varint();
+    const std::size_t before = i == 0 ? 0 : model.bone_names.back().size();
+    if (shared > before || shared > max_shared_name)
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "the name of bone %u repeats too much (got %u bytes); bake the file again", i, shared);
+    const std::string_view tail = in.text(rest);
+    std::pmr::string& name = model.bone_names.emplace_back();
+    name.reserve(shared + rest);
+    if (i > 0) name.append(model.bone_names[i - 1], 0, shared);
+    name.append(tail);
+  }
+  in.check_end();
+}
+
+void read_spheres(ByteReader in, CharacterModel& model) {
+  const int bone_bits = index_bits(model.bone_count());
+  const std::uint32_t count = in.varint();
+  const Box box = read_box(in, max_metres);
+  const Range radius = read_range(in, max_metres);
+  const Range weight = read_range(in, max_coefficient);
+  in.check_count(count, 3 * Bits::sphere_centre + Bits::sphere_radius + Bits::caster_weight, "spheres");
+  model.spheres.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    ProxySphere& sphere = model.spheres.emplace_back();
+    sphere.centre = read_point(in, box, Bits::sphere_centre);
+    sphere.radius = radius.decode(in.bits(Bits::sphere_radius), Bits::sphere_radius);
+    sphere.caster_weight = weight.decode(in.bits(Bits::caster_weight), Bits::caster_weight);
+    sphere.bone = static_cast<std::uint16_t>(in.bits(bone_bits));
+  }
+  in.check_end();
+}
+
+void read_key_points(ByteReader in, CharacterModel& model) {
+  const int bone_bits = index_bits(model.bone_count());
+  const std::uint32_t count = in.varint();
+  const Box box = read_box(in, max_metres);
+  const Box offsets = read_box(in, max_metres);
+  in.check_count(count, 3 * Bits::key_position + 2 * Bits::key_normal + 3 * Bits::surface_offset,
+                 "key points");
+  model.key_points.reserve(count);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    KeyPoint& point = model.key_points.emplace_back();
+    point.position = read_point(in, box, Bits::key_position);
+    point.normal = read_normal(in, Bits::key_normal);
+    point.surface_position = point.position + read_point(in, offsets, Bits::surface_offset);
+    point.surface_normal = read_normal(in, Bits::surface_normal);
+    const std::uint32_t used = in.bits(Bits::bone_count) + 1;
+    std::uint32_t left = 256;
+    for (std::uint32_t b = 0; b < used; ++b) {
+      point.bone[b] = static_cast<std::uint16_t>(in.bits(bone_bits));
+      const std::uint32_t code = b + 1 < used ? in.bits(Bits::bone_weight) : left;
+      if (code == 0 || code > left)
+        throw Failure(NOOK_ERROR_BAD_FILE,
+                      "the bone weights of key point %u do not sum to 1; bake the file again", k);
+      point.weight[b] = static_cast<float>(code) / 256;
+      left -= code;
+    }
+  }
+  in.check_end();
+}
+
+void read_linear_layer(ByteReader in, CharacterModel& model) {
+  const int key_point_bits = index_bits(model.key_points.size());
+  const std::uint32_t vertices = in.varint();
+  const std::uint32_t influences = in.u8();
+  const float max_alpha = in.f32();
+  const Range bias = read_range(in, max_coefficient);
+  if (influences < 1 || influences > CharacterModel::max_influences)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the number of influences of a vertex is out of range (got %u, need 1 to %u)", influences,
+                  CharacterModel::max_influences);
+  if (!(max_alpha > 0 && max_alpha <= max_coefficient))
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the largest alpha is out of range (got %g, need 0 to 1e4); bake the file again",
+                  double(max_alpha));
+  in.check_count(vertices, Bits::entry_count + Bits::alpha + Bits::bias, "vertices");
+  model.influences = influences;
+  model.influence.assign(std::size_t(vertices) * influences, 0);
+  model.alpha.assign(std::size_t(vertices) * influences, 0.0f);
+  model.bias.reserve(vertices);
+  for (std::uint32_t i = 0; i < vertices; ++i) {
+    const std::uint32_t count = in.bits(Bits::entry_count) + 1;
+    if (count > influences)
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "vertex %u has too many influences (got %u, need at most %u); bake the file again", i,
+                    count, influences);
+    for (std::uint32_t e = 0; e < count; ++e) {
+      const std::size_t at = std::size_t(i) * influences + e;
+      model.influence[at] = static_cast<std::uint16_t>(in.bits(key_point_bits));
+      model.alpha[at] = decode_alpha(in.bits(Bits::alpha), max_alpha);
+    }
+    model.bias.push_back(bias.decode(in.bits(Bits::bias), Bits::bias));
+  }
+  in.check_end();
+}
+
+void read_static_ao(ByteReader in, CharacterModel& model) {
+  model.static_ao.reserve(in.remaining());
+  while (in.remaining()) model.static_ao.push_back(Range{0, 1}.decode(in.u8(), 8));
+}
+
+void read_file_order(ByteReader in, CharacterModel& model) {
+  const std::uint32_t count = in.varint();
+  const std::uint32_t mode = in.u8();
+  if (mode > 1)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "section FMAP has an unknown mode (got %u, need 0 or 1); bake the file again", mode);
+  in.check_count(count, 1, "file vertices");
+  model.file_to_welded.reserve(count);
+  const int welded_bits = std::max(1, index_bits(model.vertex_count()));
+  std::uint32_t next = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (mode == 1)
+      model.file_to_welded.push_back(in.bits(welded_bits));
+    else if (in.bits(1) == 0)
+      model.file_to_welded.push_back(next++);
+    else
+      model.file_to_welded.push_back(in.bits(index_bits(next)));
+  }
+  in.check_end();
+}
+
+void read_primitives(ByteReader in, CharacterModel& model) {
+  const std::uint32_t count = in.check_count(in.varint(), 8, "primitives");
+  model.primitives.reserve(count);
+  std::uint64_t first = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t vertices = in.varint();
+    model.primitives.push_back({static_cast<std::uint32_t>(first), vertices});
+    first += vertices;
+    if (first > model.file_to_welded.size())
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "primitive %u lies outside the file vertices (ends at %llu, need at most %zu)", i,
+                    static_cast<unsigned long long>(first), model.file_to_welded.size());
+  }
+  in.check_end();
+}
+
+}  // namespace
+
+CharacterModel read_character_model(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
+  const Container file(bytes, character_kind);
+  CharacterModel model(memory);
+  read_head(file.section("HEAD"), model);
+  read_bone_names(file.section("BONE"), model);
+  read_spheres(file.section("SPHR"), model);
+  read_key_points(file.section("KEYP"), model);
+  read_linear_layer(file.section("LINR"), model);
+  if (file.has("STAO")) read_static_ao(file.section("STAO"), model);
+  read_file_order(file.section("FMAP"), model);
+  read_primitives(file.section("PRIM"), model);
+  ByteReader recipe = file.section("RECP");
+  model.recipe = recipe.text(recipe.remaining());
+  check_model(model, NOOK_ERROR_BAD_FILE);
+  return model;
+}
+
+}  // namespace nook

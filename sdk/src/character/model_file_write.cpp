@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <numeric>
+
+#include "character/model_check.h"
+#include "character/model_file.h"
+#include "character/model_file_packing.h"
+
+namespace nook {
+namespace {
+
+using Bits = CharacterBits;
+
+ByteWriter write_head(const CharacterModel& model) {
+  ByteWriter out;
+  out.u8(static_cast<std::uint32_t>(model.kernel.form));
+  out.f32(model.kernel.gamma);
+  out.f32(model.bounding_centre.x);
+  out.f32(model.bounding_centre.y);
+  out.f32(model.bounding_centre.z);
+  out.f32(model.bounding_radius);
+  out.u16(model.root_bone);
+  return out;
+}
+
+// Front coding: how many bytes a name shares with the one before it, then the rest. Skeletons share long
+// prefixes.
+ByteWriter write_bone_names(const CharacterModel& model) {
+  ByteWriter out;
+  out.varint(static_cast<std::uint32_t>(model.bone_count()));
+  std::string_view before;
+  for (const std::pmr::string& text : model.bone_names) {
+    const std::string_view name = text;
+    const auto shared = std::ranges::mismatch(before.substr(0, max_shared_name), name).in2 - name.begin();
+    out.varint(static_cast<std::uint32_t>(shared));
+    out.varint(static_cast<std::uint32_t>(name.size() - shared));
+    out.text(name.substr(shared));
+    before = name;
+  }
+  return out;
+}
+
+ByteWriter write_spheres(const CharacterModel& model) {
+  const ProxySphere& first = model.spheres.front();
+  Box box = Box::around(first.centre);
+  Range radius{first.radius, first.radius}, weight{0, 0};
+  for (const ProxySphere& sphere : model.spheres) {
+    box.include(sphere.centre);
+    radius.include(sphere.radius);
+    weight.include(sphere.caster_weight);
+  }
+  ByteWriter out;
+  out.varint(static_cast<std::uint32_t>(model.spheres.size()));
+  write_box(out, box);
+  write_range(out, radius);
+  write_range(out, weight);
+  for (const ProxySphere& sphere : model.spheres) {
+    write_point(out, box, sphere.centre, Bits::sphere_centre);
+    out.bits(radius.encode(sphere.radius, Bits::sphere_radius), Bits::sphere_radius);
+    out.bits(weight.encode(sphere.caster_weight, Bits::caster_weight), Bits::caster_weight);
+    out.bits(sphere.bone, index_bits(model.bone_count()));
+  }
+  return out;
+}
+
+ByteWriter write_key_points(const CharacterModel& model) {
+  const KeyPoint& first = model.key_points.front();
+  Box box = Box::around(first.position);
+  Box offsets = Box::around(first.surface_position - first.position);
+  for (const KeyPoint& point : model.key_points) {
+    box.include(point.position);
+    offsets.include(point.surface_position - point.position);
+  }
+  ByteWriter out;
+  out.varint(static_cast<std::uint32_t>(model.key_points.size()));
+  write_box(out, box);
+  write_box(out, offsets);
+  for (const KeyPoint& point : model.key_points) {
+    write_point(out, box, point.position, Bits::key_position);
+    write_normal(out, point.normal, Bits::key_normal);
+    write_point(out, offsets, point.surface_position - point.position, Bits::surface_offset);
+    write_normal(out, point.surface_normal, Bits::surface_normal);
+
+    const auto codes = weight_codes(point.weight);
+    std::uint32_t used = 4 - static_cast<std::uint32_t>(std::ranges::count(codes, 0u));
+    out.bits(used - 1, Bits::bone_count);
+    for (int b = 0; b < KeyPoint::max_bones; ++b) {
+      if (codes[b] == 0) continue;
+      out.bits(point.bone[b], index_bits(model.bone_count()));
+      // The last weight is what is missing to 256.
+      if (--used > 0) out.bits(codes[b], Bits::bone_weight);
+    }
+  }
+  return out;
+}
+
+ByteWriter write_linear_layer(const CharacterModel& model) {
+  const float max_alpha = *std::ranges::max_element(model.alpha);
+  Range bias{model.bias.front(), model.bias.front()};
+  for (const float b : model.bias) bias.include(b);
+  ByteWriter out;
+  out.varint(static_cast<std::uint32_t>(model.vertex_count()));
+  out.u8(model.influences);
+  out.f32(max_alpha);
+  write_range(out, bias);
+
+  for (std::size_t i = 0; i < model.vertex_count(); ++i) {
+    const float* alpha = model.alpha.data() + i * model.influences;
+    const std::uint16_t* key_point = model.influence.data() + i * model.influences;
+    std::array<std::uint32_t, CharacterModel::max_influences> used{}, code{};
+    std::uint32_t count = 0;
+    for (std::uint32_t e = 0; e < model.influences; ++e)
+      if (alpha[e] > 0) used[count++] = e;
+    // The largest first, each passing its rounding error on to the next, whose steps are finer: the sum of
+    // alphas, which matters most because neighbouring key points have like shadows, stays right.
+    std::array<std::uint32_t, CharacterModel::max_influences> order = used;
+    std::stable_sort(order.begin(), order.begin() + count,
+                     [&](std::uint32_t a, std::uint32_t b) { return alpha[a] > alpha[b]; });
+    double error = 0;
+    for (std::uint32_t e = 0; e < count; ++e) {
+      const double wanted = alpha[order[e]] + error;
+      code[order[e]] = encode_alpha(static_cast<float>(wanted), max_alpha);
+      error = wanted - decode_alpha(code[order[e]], max_alpha);
+    }
+    out.bits(count - 1, Bits::entry_count);
+    for (std::uint32_t e = 0; e < count; ++e) {
+      out.bits(key_point[used[e]], index_bits(model.key_points.size()));
+      out.bits(code[used[e]], Bits::alpha);
+    }
+    out.bits(bias.encode(model.bias[i], Bits::bias), Bits::bias);
+  }
+  return out;
+}
+
+ByteWriter write_static_ao(const CharacterModel& model) {
+  ByteWriter out;
+  for (const float ao : model.static_ao) out.u8(Range{0, 1}.encode(ao, 8));
+  return out;
+}
+
+// Mode 0, when welded vertices are numbered as they first occur: a bit 0 for the next new one, or a bit 1 and
+// the index of one seen before. Mode 1: the index.
+ByteWriter write_file_order(const CharacterModel& model) {
+  std::uint32_t next = 0;
+  const bool in_order = std::ranges::all_of(model.file_to_welded, [&](std::uint32_t welded) {
+    if (welded == next) ++next;
+    return welded < next;
+  });
+  ByteWriter out;
+  out.varint(static_cast<std::uint32_t>(model.file_to_welded.size()));
+  out.u8(in_order ? 0 : 1);
+  next = 0;
+  for (const std::uint32_t welded : model.file_to_welded) {
+    if (!in_order) {
+      out.bits(welded, std::max(1, index_bits(model.vertex_count())));
+    } else if (welded == next) {
+      out.bits(0, 1);
+      ++next;
+    } else {
+      out.bits(1, 1);
+      out.bits(welded, index_bits(next));
+    }
+  }
+  return out;
+}
+
+ByteWriter write_primitives(const CharacterModel& model) {
+  ByteWriter out;
+  out.varint(static_cast<std::uint32_t>(model.primitives.size()));
+  for (const PrimitiveRange& primitive : model.primitives) out.varint(primitive.vertex_count);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::byte> write_character_model(const CharacterModel& model) {
+  check_model(model, NOOK_ERROR_INVALID_ARGUMENT);
+  std::vector<ContainerSection> sections;
+  const auto add = [&](const char(&name)[5], const ByteWriter& out) {
+    sections.push_back({four_letters(name), out.bytes()});
+  };
+  add("HEAD", write_head(model));
+  add("BONE", write_bone_names(model));
+  add("SPHR", write_spheres(model));
+  add("KEYP", write_key_points(model));
+  add("LINR", write_linear_layer(model));
+  if (!model.static_ao.empty()) add("STAO", write_static_ao(model));
+  add("FMAP", write_file_order(model));
+  add("PRIM", write_primitives(model));
+  ByteWriter recipe;
+  recipe.text(model.recipe);
+  add("RECP", recipe);
+  return write_container(character_kind, sections);
+}
+
+CharacterModel quantise(const CharacterModel& model) {
+  return read_character_model(write_character_model(model));
+}
+
+}  // namespace nook
