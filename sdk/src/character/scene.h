@@ -62,7 +62,8 @@ struct Instance {
   explicit Instance(std::pmr::memory_resource* memory)
       : bones(memory), linked(memory), casters(memory), occluders(memory) {}
 
-  nook_instance_id id = 0;  // 0: this slot is free, and everything below is empty
+  nook_instance_id id = 0;       // 0: this slot is free, and everything below but `generation` is empty
+  std::uint32_t generation = 0;  // how often the slot was used before, part of the id
   Ref<const LoadedModel> model;
 
   // What the host sets.
@@ -73,7 +74,7 @@ struct Instance {
   std::pmr::vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
 
   // What set_pose derives: a sphere round the root bone's image of the model's bounding centre that holds all
-  // key points and proxy spheres of the pose, and the largest scale of its bones.
+  // key points and proxy spheres of the pose, and an upper bound of the scale of its bones.
   Sphere bound;
   float scale = 1;
 
@@ -88,11 +89,13 @@ struct Instance {
   // What the evaluation leaves.
   InstanceArrays arrays;
   std::uint64_t transformed_revision = 0;  // pose_revision that the spheres in `arrays` show
+  std::uint64_t evaluated_frame = 0;       // Scene::frame of the last evaluation; 0: never
   std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
 };
 
 struct Occluder {
   nook_occluder_id id = 0;  // 0: this slot is free
+  std::uint32_t generation = 0;
   Sphere sphere;
 };
 
@@ -116,9 +119,10 @@ struct Scene {
   Parallel parallel;
   std::pmr::memory_resource* memory;
 
-  std::pmr::vector<Instance> instances;  // by slot; an id holds its slot, see slot_of
-  std::pmr::vector<std::uint32_t> free_slots;
-  std::pmr::vector<Occluder> occluders;  // by slot
+  std::pmr::vector<Instance> instances;            // by slot
+  std::pmr::vector<std::uint32_t> free_instances;  // slots
+  std::pmr::vector<Occluder> occluders;            // by slot
+  std::pmr::vector<std::uint32_t> free_occluders;
   std::uint32_t living = 0;              // instances in use
   std::uint64_t structure_revision = 0;  // rises when instances or occluders come or go
 
@@ -133,10 +137,11 @@ struct Scene {
   nook_scene_stats stats{};
 };
 
-// ---- Edits: strong guarantee, ids checked (throws Failure) ----
-std::uint32_t add_instance(Scene& scene, Ref<const LoadedModel> model);  // its slot
+// ---- Edits: they throw Failure on a bad id or value and std::bad_alloc, and then change nothing ----
+nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model);
 void remove_instance(Scene& scene, nook_instance_id id);
-std::uint32_t slot_of(const Scene& scene, nook_instance_id id);
+Instance& instance_of(Scene& scene, nook_instance_id id);
+const Instance& instance_of(const Scene& scene, nook_instance_id id);
 void set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones);
 void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
 void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
@@ -145,6 +150,12 @@ void set_ground(Scene& scene, nook_instance_id id, const Plane* plane);
 nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere);
 void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere);
 void remove_occluder(Scene& scene, nook_occluder_id id);
+
+// An id is the slot + 1 in the low bits and the slot's generation in the high ones. A slot whose generations
+// are used up is never used again, so that no id ever comes back.
+inline constexpr std::uint32_t id_slot_bits = 20;
+inline constexpr std::uint32_t id_generations = 1u << (32 - id_slot_bits);
+inline constexpr std::uint32_t max_slots = (1u << id_slot_bits) - 1;
 
 // ---- Steps of an update, in order; none allocates or throws ----
 

@@ -1,0 +1,71 @@
+#include "character/loaded_model.h"
+
+#include <algorithm>
+
+namespace nook {
+namespace {
+
+void grow(LoadedModel::BoneBound& bound, Vec3 place, float radius) {
+  bound.radius = std::max(bound.radius, length(place - bound.centre) + radius);
+}
+
+// Centred on the mean of what the bone moves, which is near enough to the smallest sphere for a bound.
+AlignedArray<LoadedModel::BoneBound> make_bone_bounds(const CharacterModel& model,
+                                                      std::pmr::memory_resource* memory) {
+  AlignedArray<LoadedModel::BoneBound> bounds(model.bone_count(), memory);
+  std::pmr::vector<std::uint32_t> count(model.bone_count(), 0u, memory);
+  const auto visit = [&](auto&& body) {
+    for (const ProxySphere& sphere : model.spheres) body(sphere.bone, sphere.centre, sphere.radius);
+    for (const KeyPoint& point : model.key_points)
+      for (int b = 0; b < KeyPoint::max_bones; ++b) {
+        if (point.weight[b] == 0) continue;
+        body(point.bone[b], point.position, 0.0f);
+        body(point.bone[b], point.surface_position, 0.0f);
+      }
+  };
+  visit([&](std::uint16_t bone, Vec3 place, float) {
+    ++count[bone];
+    bounds[bone].centre += place;
+  });
+  for (std::size_t b = 0; b < bounds.size(); ++b) {
+    bounds[b].radius = -1;
+    if (count[b]) bounds[b].centre = bounds[b].centre * (1 / static_cast<float>(count[b]));
+  }
+  visit([&](std::uint16_t bone, Vec3 place, float radius) { grow(bounds[bone], place, radius); });
+  return bounds;
+}
+
+// Slots of the linear layer to file vertices, as one list of lists.
+void invert_file_order(LoadedModel& loaded, std::pmr::memory_resource* memory) {
+  const AlignedArray<std::uint32_t>& slot_of = loaded.linear.file_to_slot();
+  const std::size_t slots = loaded.linear.padded_slots(), file_vertices = loaded.model.file_to_welded.size();
+  loaded.slot_begin = AlignedArray<std::uint32_t>(slots + 1, memory);
+  loaded.slot_file_vertex = AlignedArray<std::uint32_t>(file_vertices, memory);
+  for (std::size_t i = 0; i < file_vertices; ++i) ++loaded.slot_begin[slot_of[i]];
+  std::uint32_t sum = 0;
+  for (std::uint32_t& end : loaded.slot_begin) end = sum += end;
+  for (std::size_t i = file_vertices; i-- > 0;)
+    loaded.slot_file_vertex[--loaded.slot_begin[slot_of[i]]] = static_cast<std::uint32_t>(i);
+}
+
+}  // namespace
+
+LoadedModel::LoadedModel(CharacterModel loaded, std::pmr::memory_resource* memory)
+    : model(std::move(loaded)),
+      rest_spheres(model, memory),
+      rest_key_points(model, memory),
+      linear(model, memory),
+      open_without_bias(linear.padded_slots(), memory),
+      bone_bounds(make_bone_bounds(model, memory)) {
+  std::ranges::fill(open_without_bias, 1.0f);
+  invert_file_order(*this, memory);
+  for (std::size_t i = 0; i < model.vertex_count(); ++i) {
+    float sum = 0;
+    for (std::uint32_t e = 0; e < model.influences; ++e) sum += model.alpha[i * model.influences + e];
+    max_alpha_sum = std::max(max_alpha_sum, sum);
+  }
+  for (const ProxySphere& sphere : model.spheres)
+    caster_strength += sphere.caster_weight * sphere.radius * sphere.radius;
+}
+
+}  // namespace nook

@@ -1,0 +1,292 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "character/scene.h"
+#include "core/failure.h"
+
+namespace nook {
+namespace {
+
+constexpr std::uint32_t slot_in(std::uint32_t id) {
+  return (id & max_slots) - 1;
+}
+
+// The slot that the next object takes, a freed one or one past the end; makes room for it to be freed again.
+template <class Object>
+std::uint32_t next_slot(const std::pmr::vector<Object>& objects, std::pmr::vector<std::uint32_t>& free_slots,
+                        const char* what) {
+  if (!free_slots.empty()) return free_slots.back();
+  if (objects.size() >= max_slots)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the scene is full of %s (got %zu, need less than %u); use a second scene", what,
+                  objects.size(), max_slots);
+  free_slots.reserve(std::bit_ceil(objects.size() + 1));
+  return static_cast<std::uint32_t>(objects.size());
+}
+
+template <class Objects>
+auto& find(Objects& objects, std::uint32_t id, const char* what) {
+  const std::uint32_t slot = slot_in(id);
+  if (id == 0 || slot >= objects.size() || objects[slot].id != id)
+    throw Failure(NOOK_ERROR_INVALID_HANDLE,
+                  "this scene has no %s %u; it was removed, or belongs to another scene", what, id);
+  return objects[slot];
+}
+
+// Throws unless the matrix is finite and its 3x3 part a rotation times a scale, to 1 %. Returns the largest
+// squared scale.
+float check_bone_matrix(const Mat3x4& matrix, std::size_t bone) {
+  // Far beyond any world, and small enough that squares stay finite.
+  constexpr float max_metres = 1e9f, max_scale = 1e6f;
+  const float* m = matrix.m;
+  for (int i = 0; i < 12; ++i)
+    if (!(std::abs(m[i]) <= (i % 4 == 3 ? max_metres : max_scale)))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "the matrix of bone %zu is not finite or far too large (element %d is %g)", bone, i,
+                    double(m[i]));
+  const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
+  const float xx = dot(x, x), yy = dot(y, y), zz = dot(z, z);
+  const float most = std::max({xx, yy, zz}), least = std::min({xx, yy, zz});
+  // 1 % of length is 2 % of its square; 1 % of shear is a cosine of 0.01. The last digit is for rounding.
+  if (most > least * 1.0205f)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the matrix of bone %zu scales unevenly (axes have lengths %g %g %g, need equal to 1 %%); "
+                  "bake scale into "
+                  "the character",
+                  bone, double(std::sqrt(xx)), double(std::sqrt(yy)), double(std::sqrt(zz)));
+  const float shear = std::max({std::abs(dot(x, y)), std::abs(dot(y, z)), std::abs(dot(z, x))});
+  if (shear > most * 0.0101f)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the matrix of bone %zu is sheared (cosine between axes %g, need at most 0.01); bone_3x4 "
+                  "is row-major, "
+                  "transposing may help",
+                  bone, double(shear / most));
+  return most;
+}
+
+void derive_bound(Instance& instance, float largest_scale_squared) {
+  const LoadedModel& loaded = *instance.model;
+  // The admitted unevenness and shear can lengthen a vector by less than 2 % more than the longest axis.
+  const float stretch = std::sqrt(largest_scale_squared) * 1.02f;
+  instance.bound.centre =
+      transform_point(instance.bones[loaded.model.root_bone], loaded.model.bounding_centre);
+  instance.bound.radius = 0;
+  for (std::size_t b = 0; b < loaded.bone_bounds.size(); ++b) {
+    const LoadedModel::BoneBound& bound = loaded.bone_bounds[b];
+    if (bound.radius < 0) continue;
+    const float reach = length(transform_point(instance.bones[b], bound.centre) - instance.bound.centre) +
+                        stretch * bound.radius;
+    instance.bound.radius = std::max(instance.bound.radius, reach);
+  }
+  instance.scale = stretch;
+}
+
+std::uint32_t slot_of(const Scene& scene, const Instance& instance) {
+  return static_cast<std::uint32_t>(&instance - scene.instances.data());
+}
+
+}  // namespace
+
+InstanceArrays make_instance_arrays(const LoadedModel& model, std::pmr::memory_resource* memory) {
+  InstanceArrays arrays;
+  SphereLanes& spheres = arrays.spheres;
+  PointLanes& points = arrays.points;
+  spheres.count = static_cast<std::uint32_t>(model.model.spheres.size());
+  points.count = static_cast<std::uint32_t>(model.model.key_points.size());
+  points.padded_count = model.rest_key_points.padded_count();
+  float** const of_spheres[] = {&spheres.x, &spheres.y, &spheres.z, &spheres.inverse_radius};
+  float** const of_points[] = {
+      &points.x,          &points.y,          &points.z,         &points.nx,        &points.ny,
+      &points.nz,         &points.surface_x,  &points.surface_y, &points.surface_z, &points.surface_nx,
+      &points.surface_ny, &points.surface_nz, &points.norm_sum,  &points.shadow,    &points.optical_depth,
+      &points.open,       &points.added};
+  const std::size_t padded_spheres = padded_count(spheres.count);
+  arrays.storage = AlignedArray<float>(
+      std::size(of_spheres) * padded_spheres + std::size(of_points) * points.padded_count, memory);
+  float* at = arrays.storage.data();
+  for (float** lane : of_spheres) {
+    *lane = at;
+    at += padded_spheres;
+  }
+  for (float** lane : of_points) {
+    *lane = at;
+    at += points.padded_count;
+  }
+  return arrays;
+}
+
+Scene::Scene(const SceneSettings& scene_settings, const Parallel& host_parallel,
+             std::pmr::memory_resource* scene_memory)
+    : settings(scene_settings),
+      kernels(settings.isa == NOOK_ISA_AUTO
+                  ? &best_shadow_kernels()
+                  : shadow_kernels(static_cast<Isa>(settings.isa - NOOK_ISA_SCALAR))),
+      parallel(host_parallel),
+      memory(scene_memory),
+      instances(memory),
+      free_instances(memory),
+      occluders(memory),
+      free_occluders(memory),
+      neighbours(memory) {
+  if (!kernels)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "this processor or build lacks instruction set %d; use NOOK_ISA_AUTO", settings.isa);
+}
+
+Instance& instance_of(Scene& scene, nook_instance_id id) {
+  return find(scene.instances, id, "instance");
+}
+const Instance& instance_of(const Scene& scene, nook_instance_id id) {
+  return find(scene.instances, id, "instance");
+}
+
+nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model) {
+  const std::uint32_t slot = next_slot(scene.instances, scene.free_instances, "instances");
+  const bool fresh = slot == scene.instances.size();
+  Instance added(scene.memory);
+  added.generation = fresh ? 0 : scene.instances[slot].generation;
+  added.id = added.generation << id_slot_bits | (slot + 1);
+  added.bones.resize(model->model.bone_count());
+  added.arrays = make_instance_arrays(*model, scene.memory);
+  added.casters.reserve(scene.nearest);
+  added.occluders.reserve(scene.occluders.size());
+  added.model = std::move(model);
+  added.pose_revision = 1;
+  derive_bound(added, 1);
+  const std::size_t slots = scene.instances.size() + (fresh ? 1 : 0);
+  if (scene.nearest) reserve_grid(scene.neighbours, std::bit_ceil(slots));
+  if (fresh) {
+    scene.instances.push_back(std::move(added));
+  } else {
+    scene.free_instances.pop_back();
+    scene.instances[slot] = std::move(added);
+  }
+  ++scene.living;
+  ++scene.structure_revision;
+  return scene.instances[slot].id;
+}
+
+void remove_instance(Scene& scene, nook_instance_id id) {
+  Instance& removed = instance_of(scene, id);
+  const std::uint32_t slot = slot_of(scene, removed);
+  const std::uint32_t generation = removed.generation + 1;
+  removed = Instance(scene.memory);
+  removed.generation = generation;
+  if (generation < id_generations) scene.free_instances.push_back(slot);
+  for (Instance& other : scene.instances) {
+    std::erase(other.linked, slot);
+    std::erase(other.casters, slot);
+  }
+  --scene.living;
+  ++scene.structure_revision;
+}
+
+void set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) {
+  Instance& instance = instance_of(scene, id);
+  if (bones.size() != instance.bones.size())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "bone_count is not the model's (got %zu, need %zu); see nook_character_model_get_info",
+                  bones.size(), instance.bones.size());
+  float largest = 0;
+  for (std::size_t b = 0; b < bones.size(); ++b) largest = std::max(largest, check_bone_matrix(bones[b], b));
+  std::ranges::copy(bones, instance.bones.begin());
+  derive_bound(instance, largest);
+  ++instance.pose_revision;
+}
+
+void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
+  Instance& instance = instance_of(scene, receiver);
+  const std::uint32_t slot = slot_of(scene, instance_of(scene, caster));
+  if (receiver == caster)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "receiver and caster are the same instance %u; its own shadow is always there", receiver);
+  const auto at = std::ranges::lower_bound(instance.linked, slot);
+  if (at != instance.linked.end() && *at == slot) return;
+  instance.casters.reserve(instance.linked.size() + 1 + scene.nearest);
+  instance.linked.insert(at, slot);
+}
+
+void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
+  Instance& instance = instance_of(scene, receiver);
+  const std::uint32_t slot = slot_of(scene, instance_of(scene, caster));
+  if (std::erase(instance.linked, slot) == 0)
+    throw Failure(NOOK_ERROR_INVALID_HANDLE,
+                  "instance %u is not linked to caster %u; links of link_nearest are not unlinked", receiver,
+                  caster);
+}
+
+void link_nearest(Scene& scene, std::uint32_t k, float max_distance) {
+  if (k > max_nearest)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "k is too large (got %u, need at most %u)", k, max_nearest);
+  if (k > 0 && !(max_distance > 0 && std::isfinite(max_distance)))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "max_distance is out of range (got %g, need finite metres above 0)", double(max_distance));
+  for (Instance& instance : scene.instances) instance.casters.reserve(instance.linked.size() + k);
+  if (k > 0) reserve_grid(scene.neighbours, std::bit_ceil(scene.instances.size()));
+  scene.nearest = k;
+  scene.nearest_max_distance = max_distance;
+}
+
+void set_ground(Scene& scene, nook_instance_id id, const Plane* plane) {
+  Instance& instance = instance_of(scene, id);
+  if (plane && !(std::abs(length(plane->normal) - 1) <= 1e-3f))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the normal of the plane is not of unit length (got %g, need 1 to 0.001)",
+                  double(length(plane->normal)));
+  if (plane && !(std::abs(plane->offset) <= 1e9f))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the offset of the plane is out of range (got %g, need finite metres)",
+                  double(plane->offset));
+  instance.has_ground = plane != nullptr;
+  if (plane) instance.ground = *plane;
+}
+
+namespace {
+
+void check_occluder(const Sphere& sphere) {
+  const Vec3 c = sphere.centre;
+  if (!(std::abs(c.x) <= 1e9f && std::abs(c.y) <= 1e9f && std::abs(c.z) <= 1e9f))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the centre is out of range (got %g %g %g, need finite metres)", double(c.x), double(c.y),
+                  double(c.z));
+  if (!(sphere.radius > 0 && sphere.radius <= 1e9f))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the radius is out of range (got %g, need finite metres above 0)", double(sphere.radius));
+}
+
+}  // namespace
+
+nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere) {
+  check_occluder(sphere);
+  const std::uint32_t slot = next_slot(scene.occluders, scene.free_occluders, "occluders");
+  const bool fresh = slot == scene.occluders.size();
+  for (Instance& instance : scene.instances)
+    if (instance.id) instance.occluders.reserve(std::bit_ceil(slot + 1));
+  if (fresh)
+    scene.occluders.emplace_back();
+  else
+    scene.free_occluders.pop_back();
+  Occluder& occluder = scene.occluders[slot];
+  occluder.id = occluder.generation << id_slot_bits | (slot + 1);
+  occluder.sphere = sphere;
+  ++scene.structure_revision;
+  return occluder.id;
+}
+
+void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere) {
+  check_occluder(sphere);
+  find(scene.occluders, id, "occluder").sphere = sphere;
+}
+
+void remove_occluder(Scene& scene, nook_occluder_id id) {
+  Occluder& occluder = find(scene.occluders, id, "occluder");
+  occluder.id = 0;
+  ++occluder.generation;
+  const auto slot = static_cast<std::uint32_t>(&occluder - scene.occluders.data());
+  if (occluder.generation < id_generations) scene.free_occluders.push_back(slot);
+  for (Instance& instance : scene.instances) std::erase(instance.occluders, slot);
+  ++scene.structure_revision;
+}
+
+}  // namespace nook
