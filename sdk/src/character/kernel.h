@@ -49,12 +49,9 @@ F shadow_paper(F xi, F delta2) {
 inline constexpr float nook_kernel_core = 0.6f;
 template <class F>
 F shadow_nook(F xi, F delta2) {
-  const F q = fma(xi, xi, F(1.0f));
-  // For spheres far below the horizon the sum cancels; rounding must not make it negative, which a power
-  // would turn to NaN.
-  const F s = max(F(0.5f) * (xi + sqrt_fast(q)), F(0.0f));
-  const F t = rsqrt(delta2 + F(nook_kernel_core));
-  return s * t * t * t;
+  // For spheres far below the horizon the sum cancels and rounding can leave a tiny negative y, which the
+  // powers take as 0.
+  return (xi + sqrt_positive(fma(xi, xi, F(1.0f)))) * rsqrt_cubed(delta2 + F(nook_kernel_core), 0.5f);
 }
 
 template <class F>

@@ -7,6 +7,23 @@
 
 namespace {
 
+// How to read and write a number type: one vector, or a pair of them.
+template <class F>
+struct Lanes {
+  static constexpr std::uint32_t count = width;
+  static F read(const float* p) { return load(p); }
+  static void write(float* p, F a) { store(p, a); }
+};
+template <class V>
+struct Lanes<simd::Pair<V>> {
+  static constexpr std::uint32_t count = 2 * width;
+  static simd::Pair<V> read(const float* p) { return {load(p), load(p + width)}; }
+  static void write(float* p, simd::Pair<V> a) {
+    store(p, a.a);
+    store(p + width, a.b);
+  }
+};
+
 enum class NormPower { one, three_halves, two, general };
 
 constexpr NormPower norm_power(float gamma) {
@@ -16,49 +33,60 @@ constexpr NormPower norm_power(float gamma) {
   return NormPower::general;
 }
 
-template <NormPower P>
-Float raised(Float y, [[maybe_unused]] Float gamma) {
+template <NormPower P, class F>
+F raised(F y, [[maybe_unused]] F gamma) {
   if constexpr (P == NormPower::one) return y;
-  if constexpr (P == NormPower::three_halves) return y * sqrt_fast(y);
+  if constexpr (P == NormPower::three_halves) return power_three_halves(y);
   if constexpr (P == NormPower::two) return y * y;
   if constexpr (P == NormPower::general) return power(y, gamma);
 }
 
+template <class F>
 struct Points {
-  Float x, y, z, nx, ny, nz;
+  F x, y, z, nx, ny, nz;
 };
 
-Points load_points(const KeyPointSoa& points, std::uint32_t k) {
-  return {load(points.x + k),  load(points.y + k),  load(points.z + k),
-          load(points.nx + k), load(points.ny + k), load(points.nz + k)};
+template <class F>
+Points<F> load_points(const KeyPointSoa& points, std::uint32_t k) {
+  return {Lanes<F>::read(points.x + k),  Lanes<F>::read(points.y + k),  Lanes<F>::read(points.z + k),
+          Lanes<F>::read(points.nx + k), Lanes<F>::read(points.ny + k), Lanes<F>::read(points.nz + k)};
 }
 
+template <class F>
 struct Seen {
-  Float xi, delta2;
+  F xi, delta2;
 };
 
-Seen see(const SphereSoa& spheres, std::uint32_t i, const Points& p) {
-  const Float dx = broadcast(spheres.x[i]) - p.x;
-  const Float dy = broadcast(spheres.y[i]) - p.y;
-  const Float dz = broadcast(spheres.z[i]) - p.z;
-  const Float inverse_radius = broadcast(spheres.inverse_radius[i]);
-  const Float height = fma(dx, p.nx, fma(dy, p.ny, dz * p.nz));
-  const Float distance2 = fma(dx, dx, fma(dy, dy, dz * dz));
-  return {height * inverse_radius, distance2 * (inverse_radius * inverse_radius)};
+template <class F>
+Seen<F> see(const SphereSoa& spheres, std::uint32_t i, const Points<F>& p) {
+  const F dx = F(broadcast(spheres.x[i])) - p.x;
+  const F dy = F(broadcast(spheres.y[i])) - p.y;
+  const F dz = F(broadcast(spheres.z[i])) - p.z;
+  const F inverse_radius = F(broadcast(spheres.inverse_radius[i]));
+  const F height = fma(dx, p.nx, fma(dy, p.ny, dz * p.nz));
+  const F distance2 = fma(dx, dx, fma(dy, dy, dz * dz));
+  return {height * inverse_radius, distance2 * inverse_radius * inverse_radius};
+}
+
+template <KernelForm Form, NormPower P, class F>
+void norm_sum_at(const SphereSoa& spheres, const KeyPointSoa& points, float gamma, std::uint32_t k,
+                 float* sum) {
+  const F exponent = F(broadcast(gamma));
+  const Points<F> p = load_points<F>(points, k);
+  F total = Lanes<F>::read(sum + k);
+  for (std::uint32_t i = 0; i < spheres.count; ++i) {
+    const Seen<F> seen = see(spheres, i, p);
+    total = total + raised<P>(shadow_term(Form, seen.xi, seen.delta2), exponent);
+  }
+  Lanes<F>::write(sum + k, total);
 }
 
 template <KernelForm Form, NormPower P>
 void norm_sum(const SphereSoa& spheres, const KeyPointSoa& points, float gamma, float* sum) {
-  const Float exponent = broadcast(gamma);
-  for (std::uint32_t k = 0; k < points.padded_count; k += width) {
-    const Points p = load_points(points, k);
-    Float total = load(sum + k);
-    for (std::uint32_t i = 0; i < spheres.count; ++i) {
-      const Seen seen = see(spheres, i, p);
-      total = total + raised<P>(shadow_term(Form, seen.xi, seen.delta2), exponent);
-    }
-    store(sum + k, total);
-  }
+  std::uint32_t k = 0;
+  for (; k + Lanes<Wide>::count <= points.padded_count; k += Lanes<Wide>::count)
+    norm_sum_at<Form, P, Wide>(spheres, points, gamma, k, sum);
+  for (; k < points.padded_count; k += width) norm_sum_at<Form, P, Float>(spheres, points, gamma, k, sum);
 }
 
 template <KernelForm Form>
@@ -97,10 +125,10 @@ void norm_root(const float* sum, std::uint32_t padded_count, float gamma, float*
 
 void composed_depth(const SphereSoa& spheres, const KeyPointSoa& points, float* depth) {
   for (std::uint32_t k = 0; k < points.padded_count; k += width) {
-    const Points p = load_points(points, k);
+    const Points<Float> p = load_points<Float>(points, k);
     Float total = load(depth + k);
     for (std::uint32_t i = 0; i < spheres.count; ++i) {
-      const Seen seen = see(spheres, i, p);
+      const Seen<Float> seen = see(spheres, i, p);
       total = fma(broadcast(spheres.caster_weight[i]), form_factor_fast(seen.xi, seen.delta2), total);
     }
     store(depth + k, total);
@@ -110,10 +138,10 @@ void composed_depth(const SphereSoa& spheres, const KeyPointSoa& points, float* 
 void exact_open(const SphereSoa& spheres, const KeyPointSoa& points, float* open) {
   const Float one = broadcast(1.0f);
   for (std::uint32_t k = 0; k < points.padded_count; k += width) {
-    const Points p = load_points(points, k);
+    const Points<Float> p = load_points<Float>(points, k);
     Float product = load(open + k);
     for (std::uint32_t i = 0; i < spheres.count; ++i) {
-      const Seen seen = see(spheres, i, p);
+      const Seen<Float> seen = see(spheres, i, p);
       const Float weight = spheres.caster_weight ? broadcast(spheres.caster_weight[i]) : one;
       product = product * (one - min(weight * form_factor_exact(seen.xi, seen.delta2), one));
     }

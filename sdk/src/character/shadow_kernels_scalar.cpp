@@ -5,12 +5,14 @@
 #include "character/kernel.h"
 #include "character/shadow_kernels.h"
 #include "character/shadow_kernels_tables.h"
+#include "core/simd_pair.h"
 #include "core/simd_scalar.h"
 
 namespace nook::isa_scalar {
 
 using Float = float;
 constexpr std::uint32_t width = 1;
+using Wide = Float;  // what the loops over spheres run on
 
 namespace {
 Float broadcast(float a) {

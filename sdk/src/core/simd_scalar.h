@@ -37,11 +37,22 @@ template <std::floating_point T>
 T rsqrt(T a) {
   return 1 / std::sqrt(a);
 }
-// Square root of a >= 0 to about 1e-5 of its value; exact here, an estimate with at most one Newton step in
-// SIMD.
+// SIMD answers the next three from the processor's estimates, within 1e-4 of their value.
+// Square root of a >= 1e-30.
 template <std::floating_point T>
-T sqrt_fast(T a) {
+T sqrt_positive(T a) {
   return std::sqrt(a);
+}
+// a^(3/2); 0 for what rounding made negative.
+template <std::floating_point T>
+T power_three_halves(T a) {
+  return a > 0 ? a * std::sqrt(a) : T(0);
+}
+// scale * a^(-3/2), a >= 1e-30.
+template <std::floating_point T>
+T rsqrt_cubed(T a, float scale) {
+  const T t = 1 / std::sqrt(a);
+  return scale * t * t * t;
 }
 // base >= 0, exponent > 0.
 template <std::floating_point T>

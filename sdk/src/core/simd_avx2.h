@@ -1,0 +1,116 @@
+// Eight floats, AVX2 and FMA. Include only in translation units compiled for them.
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+#include "core/simd_polynomials.h"
+
+namespace nook::isa_avx2 {
+
+struct Float {
+  __m256 v;
+  Float() = default;
+  Float(__m256 a) : v(a) {}
+  explicit Float(float a) : v(_mm256_set1_ps(a)) {}
+};
+inline constexpr std::uint32_t width = 8;
+
+inline Float broadcast(float a) {
+  return _mm256_set1_ps(a);
+}
+inline Float load(const float* p) {
+  return _mm256_loadu_ps(p);
+}
+inline void store(float* p, Float a) {
+  _mm256_storeu_ps(p, a.v);
+}
+inline Float gather(const float* table, const std::uint16_t* i) {
+  const __m256i index = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(i)));
+  return _mm256_i32gather_ps(table, index, 4);
+}
+inline Float gather(const float* table, const std::uint32_t* i) {
+  return _mm256_i32gather_ps(table, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(i)), 4);
+}
+
+inline Float operator+(Float a, Float b) {
+  return _mm256_add_ps(a.v, b.v);
+}
+inline Float operator-(Float a, Float b) {
+  return _mm256_sub_ps(a.v, b.v);
+}
+inline Float operator*(Float a, Float b) {
+  return _mm256_mul_ps(a.v, b.v);
+}
+inline Float operator/(Float a, Float b) {
+  return _mm256_div_ps(a.v, b.v);
+}
+inline Float fma(Float a, Float b, Float c) {
+  return _mm256_fmadd_ps(a.v, b.v, c.v);
+}
+inline Float min(Float a, Float b) {
+  return _mm256_min_ps(a.v, b.v);
+}
+inline Float max(Float a, Float b) {
+  return _mm256_max_ps(a.v, b.v);
+}
+
+struct Mask {
+  __m256 v;
+};
+inline Mask less(Float a, Float b) {
+  return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)};
+}
+inline Float select(Mask m, Float yes, Float no) {
+  return _mm256_blendv_ps(no.v, yes.v, m.v);
+}
+
+inline Float sqrt(Float a) {
+  return _mm256_sqrt_ps(a.v);
+}
+// The divider has time to spare beside the other ports: its root is cheaper than an estimate with a Newton
+// step.
+inline Float sqrt_positive(Float a) {
+  return _mm256_sqrt_ps(a.v);
+}
+inline Float power_three_halves(Float a) {
+  return a * Float(_mm256_sqrt_ps(_mm256_max_ps(a.v, _mm256_setzero_ps())));
+}
+// The estimate has 12 bits; one Newton step gives 22.
+inline Float rsqrt(Float a) {
+  const __m256 t = _mm256_rsqrt_ps(a.v);
+  const __m256 residual = _mm256_fnmadd_ps(_mm256_mul_ps(a.v, t), t, _mm256_set1_ps(1.0f));
+  return _mm256_fmadd_ps(_mm256_mul_ps(t, _mm256_set1_ps(0.5f)), residual, t);
+}
+// From the estimate r with e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) to e^2, 1e-6.
+inline Float rsqrt_cubed(Float a, float scale) {
+  const Float r = _mm256_rsqrt_ps(a.v);
+  const Float r2 = r * r;
+  return (Float(1.5f * scale) * r) * (r2 * Float(_mm256_fnmadd_ps(a.v, r2.v, _mm256_set1_ps(5.0f / 3.0f))));
+}
+
+inline void split(Float a, Float& exponent, Float& mantissa) {
+  const __m256i bits = _mm256_castps_si256(a.v);
+  // 0x3f3504f3 is 1/sqrt(2): subtracting it first makes the shift round at that mantissa.
+  const __m256i e = _mm256_srai_epi32(_mm256_sub_epi32(bits, _mm256_set1_epi32(0x3f3504f3)), 23);
+  exponent = _mm256_cvtepi32_ps(e);
+  mantissa = _mm256_castsi256_ps(_mm256_sub_epi32(bits, _mm256_slli_epi32(e, 23)));
+}
+inline Float nearest(Float a) {
+  return _mm256_round_ps(a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
+inline Float times_power_of_two(Float a, Float n) {
+  const __m256i e = _mm256_slli_epi32(_mm256_add_epi32(_mm256_cvtps_epi32(n.v), _mm256_set1_epi32(127)), 23);
+  return a * Float(_mm256_castsi256_ps(e));
+}
+inline Float power(Float base, Float exponent) {
+  return simd::power_of(base, exponent);
+}
+inline Float exponential(Float a) {
+  return simd::exponential_of(a);
+}
+inline Float arc_cosine(Float a) {
+  return simd::arc_cosine_of(a);
+}
+}  // namespace nook::isa_avx2

@@ -1,0 +1,113 @@
+// Sixteen floats, AVX-512F. Include only in translation units compiled for it.
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+#include "core/simd_polynomials.h"
+
+namespace nook::isa_avx512 {
+
+struct Float {
+  __m512 v;
+  Float() = default;
+  Float(__m512 a) : v(a) {}
+  explicit Float(float a) : v(_mm512_set1_ps(a)) {}
+};
+inline constexpr std::uint32_t width = 16;
+
+inline Float broadcast(float a) {
+  return _mm512_set1_ps(a);
+}
+inline Float load(const float* p) {
+  return _mm512_loadu_ps(p);
+}
+inline void store(float* p, Float a) {
+  _mm512_storeu_ps(p, a.v);
+}
+inline Float gather(const float* table, const std::uint16_t* i) {
+  const __m512i index = _mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(i)));
+  return _mm512_i32gather_ps(index, table, 4);
+}
+inline Float gather(const float* table, const std::uint32_t* i) {
+  return _mm512_i32gather_ps(_mm512_loadu_si512(i), table, 4);
+}
+
+inline Float operator+(Float a, Float b) {
+  return _mm512_add_ps(a.v, b.v);
+}
+inline Float operator-(Float a, Float b) {
+  return _mm512_sub_ps(a.v, b.v);
+}
+inline Float operator*(Float a, Float b) {
+  return _mm512_mul_ps(a.v, b.v);
+}
+inline Float operator/(Float a, Float b) {
+  return _mm512_div_ps(a.v, b.v);
+}
+inline Float fma(Float a, Float b, Float c) {
+  return _mm512_fmadd_ps(a.v, b.v, c.v);
+}
+inline Float min(Float a, Float b) {
+  return _mm512_min_ps(a.v, b.v);
+}
+inline Float max(Float a, Float b) {
+  return _mm512_max_ps(a.v, b.v);
+}
+
+inline __mmask16 less(Float a, Float b) {
+  return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ);
+}
+inline Float select(__mmask16 m, Float yes, Float no) {
+  return _mm512_mask_blend_ps(m, no.v, yes.v);
+}
+
+inline Float sqrt(Float a) {
+  return _mm512_sqrt_ps(a.v);
+}
+// The estimates have 14 bits, a relative error of 6e-5.
+inline Float sqrt_positive(Float a) {
+  return a * Float(_mm512_rsqrt14_ps(a.v));
+}
+// The floor keeps 0 * infinity away.
+inline Float power_three_halves(Float a) {
+  return a * a * Float(_mm512_rsqrt14_ps(_mm512_max_ps(a.v, _mm512_set1_ps(1e-30f))));
+}
+// One Newton step on the 14-bit estimate gives float's own precision.
+inline Float rsqrt(Float a) {
+  const __m512 t = _mm512_rsqrt14_ps(a.v);
+  const __m512 residual = _mm512_fnmadd_ps(_mm512_mul_ps(a.v, t), t, _mm512_set1_ps(1.0f));
+  return _mm512_fmadd_ps(_mm512_mul_ps(t, _mm512_set1_ps(0.5f)), residual, t);
+}
+// From the estimate r with e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) to e^2, below
+// float's rounding.
+inline Float rsqrt_cubed(Float a, float scale) {
+  const Float r = _mm512_rsqrt14_ps(a.v);
+  const Float r2 = r * r;
+  return (Float(1.5f * scale) * r) * (r2 * Float(_mm512_fnmadd_ps(a.v, r2.v, _mm512_set1_ps(5.0f / 3.0f))));
+}
+
+inline void split(Float a, Float& exponent, Float& mantissa) {
+  const __m512i bits = _mm512_castps_si512(a.v);
+  // 0x3f3504f3 is 1/sqrt(2): subtracting it first makes the shift round at that mantissa.
+  const __m512i e = _mm512_srai_epi32(_mm512_sub_epi32(bits, _mm512_set1_epi32(0x3f3504f3)), 23);
+  exponent = _mm512_cvtepi32_ps(e);
+  mantissa = _mm512_castsi512_ps(_mm512_sub_epi32(bits, _mm512_slli_epi32(e, 23)));
+}
+inline Float nearest(Float a) {
+  return _mm512_roundscale_ps(a.v, 0);
+}
+inline Float times_power_of_two(Float a, Float n) {
+  return _mm512_scalef_ps(a.v, n.v);
+}
+inline Float power(Float base, Float exponent) {
+  return simd::power_of(base, exponent);
+}
+inline Float exponential(Float a) {
+  return simd::exponential_of(a);
+}
+inline Float arc_cosine(Float a) {
+  return simd::arc_cosine_of(a);
+}
+}  // namespace nook::isa_avx512

@@ -1,0 +1,71 @@
+// Functions that processors lack, over a SIMD vector type F of one instruction set. F brings the operations
+// of core/simd_scalar.h and
+//   split(x, exponent, mantissa): x = mantissa * 2^exponent with mantissa in [1/sqrt(2), sqrt(2)), for normal
+//   x > 0; times_power_of_two(a, n): a * 2^n for whole n in [-126, 127]; nearest(a): a rounded to a whole
+//   number.
+// Coefficients are interpolations at Chebyshev nodes, near the best polynomials of their degree.
+#pragma once
+
+namespace nook::simd {
+
+// Absolute error <= 1e-6 + rounding.
+template <class F>
+F log2_of(F a) {
+  F exponent, mantissa;
+  split(a, exponent, mantissa);
+  const F f = mantissa - F(1.0f);
+  F p = F(0.168186591f);
+  p = fma(p, f, F(-0.267963871f));
+  p = fma(p, f, F(0.296119557f));
+  p = fma(p, f, F(-0.359524455f));
+  p = fma(p, f, F(0.480613125f));
+  p = fma(p, f, F(-0.721360179f));
+  p = fma(p, f, F(1.44269652f));
+  return fma(p, f, exponent);
+}
+
+// Relative error <= 1e-7 + rounding; the result stays normal: 2^-126 for anything less, 2^127 for more.
+template <class F>
+F exp2_of(F a) {
+  const F x = min(max(a, F(-126.0f)), F(127.0f));
+  const F whole = nearest(x);
+  const F f = x - whole;
+  F p = F(0.00133908634f);
+  p = fma(p, f, F(0.00967603192f));
+  p = fma(p, f, F(0.0555035711f));
+  p = fma(p, f, F(0.240221075f));
+  p = fma(p, f, F(0.693147188f));
+  p = fma(p, f, F(1.0f));
+  return times_power_of_two(p, whole);
+}
+
+// Relative error <= 1e-5 for base in [1e-6, 1e3] and exponent in (0, 4]: the log's error times the exponent.
+// 0 stays 0.
+template <class F>
+F power_of(F base, F exponent) {
+  const F smallest(1e-37f);
+  return select(less(smallest, base), exp2_of(exponent * log2_of(max(base, smallest))), F(0.0f));
+}
+
+template <class F>
+F exponential_of(F a) {
+  return exp2_of(a * F(1.44269504f));
+}
+
+// Abramowitz & Stegun 4.4.46, absolute error 2e-8 + rounding; a in [-1, 1].
+template <class F>
+F arc_cosine_of(F a) {
+  const F x = max(a, F(0.0f) - a);
+  F p = F(-0.0012624911f);
+  p = fma(p, x, F(0.0066700901f));
+  p = fma(p, x, F(-0.0170881256f));
+  p = fma(p, x, F(0.0308918810f));
+  p = fma(p, x, F(-0.0501743046f));
+  p = fma(p, x, F(0.0889789874f));
+  p = fma(p, x, F(-0.2145988016f));
+  p = fma(p, x, F(1.5707963050f));
+  const F r = sqrt(max(F(1.0f) - x, F(0.0f))) * p;
+  return select(less(a, F(0.0f)), F(3.14159265f) - r, r);
+}
+
+}  // namespace nook::simd

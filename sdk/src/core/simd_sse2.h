@@ -1,0 +1,110 @@
+// Four floats, SSE2: what every x86-64 processor has.
+#pragma once
+
+#include <emmintrin.h>
+
+#include <cstdint>
+
+#include "core/simd_polynomials.h"
+
+namespace nook::isa_sse2 {
+
+struct Float {
+  __m128 v;
+  Float() = default;
+  Float(__m128 a) : v(a) {}
+  explicit Float(float a) : v(_mm_set1_ps(a)) {}
+};
+inline constexpr std::uint32_t width = 4;
+
+inline Float broadcast(float a) {
+  return _mm_set1_ps(a);
+}
+inline Float load(const float* p) {
+  return _mm_loadu_ps(p);
+}
+inline void store(float* p, Float a) {
+  _mm_storeu_ps(p, a.v);
+}
+template <class Index>
+inline Float gather(const float* table, const Index* i) {
+  return _mm_setr_ps(table[i[0]], table[i[1]], table[i[2]], table[i[3]]);
+}
+
+inline Float operator+(Float a, Float b) {
+  return _mm_add_ps(a.v, b.v);
+}
+inline Float operator-(Float a, Float b) {
+  return _mm_sub_ps(a.v, b.v);
+}
+inline Float operator*(Float a, Float b) {
+  return _mm_mul_ps(a.v, b.v);
+}
+inline Float operator/(Float a, Float b) {
+  return _mm_div_ps(a.v, b.v);
+}
+inline Float fma(Float a, Float b, Float c) {
+  return a * b + c;
+}
+inline Float min(Float a, Float b) {
+  return _mm_min_ps(a.v, b.v);
+}
+inline Float max(Float a, Float b) {
+  return _mm_max_ps(a.v, b.v);
+}
+
+struct Mask {
+  __m128 v;
+};
+inline Mask less(Float a, Float b) {
+  return {_mm_cmplt_ps(a.v, b.v)};
+}
+inline Float select(Mask m, Float yes, Float no) {
+  return _mm_or_ps(_mm_and_ps(m.v, yes.v), _mm_andnot_ps(m.v, no.v));
+}
+
+inline Float sqrt(Float a) {
+  return _mm_sqrt_ps(a.v);
+}
+inline Float sqrt_positive(Float a) {
+  return _mm_sqrt_ps(a.v);
+}
+inline Float power_three_halves(Float a) {
+  return a * Float(_mm_sqrt_ps(_mm_max_ps(a.v, _mm_setzero_ps())));
+}
+// The estimate has 12 bits; one Newton step gives 22.
+inline Float rsqrt(Float a) {
+  const Float t = _mm_rsqrt_ps(a.v);
+  return t * (Float(1.5f) - Float(0.5f) * a * t * t);
+}
+// From the estimate r with e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) to e^2, 1e-6.
+inline Float rsqrt_cubed(Float a, float scale) {
+  const Float r = _mm_rsqrt_ps(a.v);
+  const Float r2 = r * r;
+  return (Float(1.5f * scale) * r) * (r2 * Float(5.0f / 3.0f) - a * r2);
+}
+
+inline void split(Float a, Float& exponent, Float& mantissa) {
+  const __m128i bits = _mm_castps_si128(a.v);
+  // 0x3f3504f3 is 1/sqrt(2): subtracting it first makes the shift round at that mantissa.
+  const __m128i e = _mm_srai_epi32(_mm_sub_epi32(bits, _mm_set1_epi32(0x3f3504f3)), 23);
+  exponent = _mm_cvtepi32_ps(e);
+  mantissa = _mm_castsi128_ps(_mm_sub_epi32(bits, _mm_slli_epi32(e, 23)));
+}
+inline Float nearest(Float a) {
+  return _mm_cvtepi32_ps(_mm_cvtps_epi32(a.v));
+}
+inline Float times_power_of_two(Float a, Float n) {
+  const __m128i e = _mm_slli_epi32(_mm_add_epi32(_mm_cvtps_epi32(n.v), _mm_set1_epi32(127)), 23);
+  return a * Float(_mm_castsi128_ps(e));
+}
+inline Float power(Float base, Float exponent) {
+  return simd::power_of(base, exponent);
+}
+inline Float exponential(Float a) {
+  return simd::exponential_of(a);
+}
+inline Float arc_cosine(Float a) {
+  return simd::arc_cosine_of(a);
+}
+}  // namespace nook::isa_sse2
