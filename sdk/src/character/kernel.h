@@ -99,10 +99,23 @@ F form_factor_exact(F xi, F delta2) {
   return fma(max(one - f, F(0.0f)), depth, f);
 }
 
-// The same for the many spheres of a caster.
+// The same without angles, for the many spheres of a caster. With a = 1 / h, b = sqrt(1 - a^2) and t = (1 +
+// xi) / 2 clamped to [0, 1], f = a^3 max(xi, 1) (t + t (1 - t) P(b, t)): exact where the sphere is not
+// clipped, and P is even in xi because f(xi) - f(-xi) = xi a^3 exactly. P vanishes on the surface (b = 0, f =
+// t), far away (b = 1) it is -1 - 0.6044 t (1 - t), which gives 2 / (3 pi) on the horizon and, within 0.004,
+// the integral G(xi) = 2/pi int_-xi^1 (xi + x) sqrt(1 - x^2) dx; between, its two free numbers were fitted.
+// Error against form_factor_exact: 0.009 at most, 0.005 for h >= 1.05, rms 0.0022.
 template <class F>
 F form_factor_fast(F xi, F delta2) {
-  return form_factor_exact(xi, delta2);
+  const F one(1.0f);
+  const F a = rsqrt(max(delta2, one));
+  const F a2 = a * a;
+  const F b = sqrt_positive(max(one - a2, F(1e-30f)));
+  const F t = fma(min(max(xi, F(-1.0f)), one), F(0.5f), F(0.5f));
+  const F v = t - t * t;
+  const F p = fma(v, fma(b, F(-5.21348f), F(4.60908f)), fma(b, F(2.22202f), F(-3.22202f))) * b;
+  const F outside = max(a2 * a * max(xi, one) * fma(v, p, t), F(0.0f));
+  return fma(max(one - outside, F(0.0f)), max(one - delta2, F(0.0f)), outside);
 }
 
 }  // namespace nook

@@ -123,16 +123,22 @@ void norm_root(const float* sum, std::uint32_t padded_count, float gamma, float*
   }
 }
 
-void composed_depth(const SphereSoa& spheres, const KeyPointSoa& points, float* depth) {
-  for (std::uint32_t k = 0; k < points.padded_count; k += width) {
-    const Points<Float> p = load_points<Float>(points, k);
-    Float total = load(depth + k);
-    for (std::uint32_t i = 0; i < spheres.count; ++i) {
-      const Seen<Float> seen = see(spheres, i, p);
-      total = fma(broadcast(spheres.caster_weight[i]), form_factor_fast(seen.xi, seen.delta2), total);
-    }
-    store(depth + k, total);
+template <class F>
+void composed_depth_at(const SphereSoa& spheres, const KeyPointSoa& points, std::uint32_t k, float* depth) {
+  const Points<F> p = load_points<F>(points, k);
+  F total = Lanes<F>::read(depth + k);
+  for (std::uint32_t i = 0; i < spheres.count; ++i) {
+    const Seen<F> seen = see(spheres, i, p);
+    total = fma(F(broadcast(spheres.caster_weight[i])), form_factor_fast(seen.xi, seen.delta2), total);
   }
+  Lanes<F>::write(depth + k, total);
+}
+
+void composed_depth(const SphereSoa& spheres, const KeyPointSoa& points, float* depth) {
+  std::uint32_t k = 0;
+  for (; k + Lanes<Wide>::count <= points.padded_count; k += Lanes<Wide>::count)
+    composed_depth_at<Wide>(spheres, points, k, depth);
+  for (; k < points.padded_count; k += width) composed_depth_at<Float>(spheres, points, k, depth);
 }
 
 void exact_open(const SphereSoa& spheres, const KeyPointSoa& points, float* open) {
