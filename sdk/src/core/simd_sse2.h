@@ -81,7 +81,7 @@ inline Float rsqrt(Float a) {
 inline Float rsqrt_cubed(Float a, float scale) {
   const Float r = _mm_rsqrt_ps(a.v);
   const Float r2 = r * r;
-  return (Float(1.5f * scale) * r) * (r2 * Float(5.0f / 3.0f) - a * r2);
+  return (Float(1.5f * scale) * r) * (r2 * (Float(5.0f / 3.0f) - a * r2));
 }
 
 inline void split(Float a, Float& exponent, Float& mantissa) {

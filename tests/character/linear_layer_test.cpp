@@ -1,0 +1,132 @@
+// The linear layer's own layout and its kernels against the sum as the model states it.
+#include "character/linear_layer.h"
+
+#include <cmath>
+#include <limits>
+
+#include "catch.h"
+#include "core/failure.h"
+#include "kernel_reference.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+constexpr std::uint32_t key_points = 40, influences = 7;
+
+// Vertex v uses v % (influences + 1) entries, with the unused ones scattered among them.
+CharacterModel random_model(std::uint32_t vertices) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> unit(0, 1);
+  CharacterModel model;
+  model.key_points.resize(key_points);
+  model.influences = influences;
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    for (std::uint32_t s = 0; s < influences; ++s) {
+      const bool used = (s * 3) % influences < v % (influences + 1);
+      model.influence.push_back(static_cast<std::uint16_t>(unit(random) * key_points * 0.999f));
+      model.alpha.push_back(used ? 0.05f + 0.3f * unit(random) : 0.0f);
+    }
+    model.bias.push_back(0.2f * unit(random) - 0.1f);
+  }
+  for (std::uint32_t i = 0; i < vertices + vertices / 5; ++i)
+    model.file_to_welded.push_back(i * 7 % vertices);
+  return model;
+}
+
+struct Inputs {
+  std::vector<float> shadow = std::vector<float>(padded_key_points(key_points));
+  std::vector<float> occlusion = shadow;
+
+  Inputs() {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (float& s : shadow) s = unit(random);
+    for (float& o : occlusion) o = unit(random);
+  }
+};
+
+double truth(const CharacterModel& model, const Inputs& in, std::uint32_t v, bool added) {
+  double shaded = model.bias[v], weighted = 0, alpha_sum = 0;
+  for (std::uint32_t e = v * influences; e < (v + 1) * influences; ++e) {
+    shaded += double(model.alpha[e]) * in.shadow[model.influence[e]];
+    weighted += double(model.alpha[e]) * in.occlusion[model.influence[e]];
+    alpha_sum += model.alpha[e];
+  }
+  const double self = std::clamp(1 - shaded, 0.0, 1.0);
+  return added && alpha_sum > 0 ? self * (1 - weighted / alpha_sum) : self;
+}
+
+std::vector<float> vertex_ao(const ShadowKernels& kernels, const LinearLayer& layer, const float* shadow,
+                             const float* occlusion, const AlignedArray<std::uint32_t>& index) {
+  std::vector<float> slots(layer.padded_slots()), out(index.size());
+  kernels.linear_layer(layer.view(), shadow, occlusion, slots.data());
+  kernels.scatter(slots.data(), index.data(), static_cast<std::uint32_t>(index.size()), out.data(),
+                  sizeof(float));
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("the linear layer gives the model's AO in welded and in file order") {
+  const Inputs in;
+  for (const std::uint32_t vertices : {1u, 15u, 16u, 17u, 333u}) {
+    const CharacterModel model = random_model(vertices);
+    const LinearLayer layer(model);
+    for (const ShadowKernels* kernels : available_kernels())
+      for (const bool added : {false, true}) {
+        INFO(kernels->name << " vertices " << vertices << " added " << added);
+        const float* occlusion = added ? in.occlusion.data() : nullptr;
+        const auto welded = vertex_ao(*kernels, layer, in.shadow.data(), occlusion, layer.welded_to_slot());
+        const auto file = vertex_ao(*kernels, layer, in.shadow.data(), occlusion, layer.file_to_slot());
+        REQUIRE(welded.size() == vertices);
+        // Eight products and sums of numbers below 1 in float.
+        for (std::uint32_t v = 0; v < vertices; ++v)
+          CHECK(std::abs(welded[v] - truth(model, in, v, added)) < 1e-6);
+        for (std::size_t i = 0; i < file.size(); ++i) CHECK(file[i] == welded[model.file_to_welded[i]]);
+      }
+  }
+}
+
+TEST_CASE("blocks leave out what has no weight") {
+  const CharacterModel model = random_model(800);
+  const LinearLayer layer(model);
+  std::uint32_t stored = 0, used = 0;
+  for (std::uint32_t b = 0; b < layer.view().block_count; ++b)
+    stored += layer.view().blocks[b].entries * linear_block_vertices;
+  for (const float a : model.alpha) used += a > 0;
+  // A block is as long as its longest vertex; sorting leaves at most one entry a vertex unused where counts
+  // change, here eight times in fifty blocks.
+  CHECK(stored >= used);
+  CHECK(stored <= used + 8 * linear_block_vertices);
+}
+
+TEST_CASE("whatever the shadows, AO is a number between 0 and 1") {
+  const CharacterModel model = random_model(64);
+  const LinearLayer layer(model);
+  const float infinite = std::numeric_limits<float>::infinity();
+  for (const float poison : {std::numeric_limits<float>::quiet_NaN(), infinite, -infinite, 1e30f, -5.0f}) {
+    const std::vector<float> bad(padded_key_points(key_points), poison);
+    for (const ShadowKernels* kernels : available_kernels())
+      for (const float* occlusion : {static_cast<const float*>(nullptr), bad.data()})
+        for (const float ao : vertex_ao(*kernels, layer, bad.data(), occlusion, layer.welded_to_slot())) {
+          INFO(kernels->name << " poison " << poison);
+          CHECK((ao >= 0 && ao <= 1));
+        }
+  }
+}
+
+TEST_CASE("a model that contradicts itself is refused") {
+  CharacterModel model = random_model(20);
+  SECTION("a key point that is not there") {
+    model.influence[influences] = key_points;
+  }
+  SECTION("weights missing") {
+    model.alpha.pop_back();
+  }
+  SECTION("a welded vertex that is not there") {
+    model.file_to_welded[3] = 20;
+  }
+  CHECK_THROWS_AS(LinearLayer(model), Failure);
+}
