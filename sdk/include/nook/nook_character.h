@@ -53,7 +53,7 @@ NOOK_API nook_result nook_character_model_primitive(nook_character_model model, 
                                                     uint32_t* first_vertex, uint32_t* vertex_count);
 
 /* The AO of the baked rest pose in file order, what a static bake would give. Any thread.
- * Errors: INVALID_ARGUMENT (count is not file_vertex_count). */
+ * Errors: INVALID_ARGUMENT (count is not file_vertex_count), UNSUPPORTED (the model was baked without it). */
 NOOK_API nook_result nook_character_model_static_ao(nook_character_model model, float* out, uint32_t count);
 
 /* ---- Scenes ---- */
@@ -86,6 +86,7 @@ typedef struct nook_scene_desc {
   float lod_distance;           /* metres, > 0, default 10 */
   uint32_t lod_max_interval;    /* frames; a distant instance is updated at least this often. >= 1, default 1: always */
   float ground_radius;          /* metres, radius of the sphere that stands for a ground plane. > 0, default 100 */
+  uint32_t reserved;            /* 0 */
 } nook_scene_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
@@ -114,6 +115,8 @@ NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id inst
 /* Lets caster darken receiver until unlinked; linking twice is one link. Allocates. One at a time.
  * Errors: INVALID_ARGUMENT (both the same), INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
+
+/* Undoes nook_scene_link. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (also: there is no such link). */
 NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
 /* From the next update on, each instance is also darkened by its k nearest instances within max_distance (metres between
@@ -134,22 +137,24 @@ NOOK_API nook_result nook_scene_add_occluder(nook_scene scene, const float centr
 /* Moves or resizes it; no allocation. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id occluder, const float centre_ws[3],
                                              float radius);
+/* One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_id occluder);
 
-/* Where the camera is, for level of detail; without a call every instance is near. One at a time.
- * Errors: INVALID_ARGUMENT. */
+/* Where the camera is, for level of detail. Without a call, and after one with NULL, every instance is near.
+ * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]);
 
 enum { NOOK_TERM_SELF = 1, NOOK_TERM_LINKS = 2, NOOK_TERM_GROUND = 4, NOOK_TERM_OCCLUDERS = 8, NOOK_TERM_ALL = 15 };
-/* Which casters count, for debug views and artists; default NOOK_TERM_ALL. One at a time. Errors: INVALID_ARGUMENT. */
+/* Which casters count, for debug views and artists; default NOOK_TERM_ALL. Without NOOK_TERM_SELF the bias of the fit is
+ * left out too, so that an instance with nothing near it is open. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_terms(nook_scene scene, uint32_t terms);
 
 /* Evaluates the shadows of all instances at their key points on the CPU, through the context's parallel_for if there is one.
  * No allocation, no locks. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_update(nook_scene scene);
 
-/* Writes the AO of the last update in the imported file's vertex order, all primitives in a row. stride is in bytes
- * (0: sizeof(float)); count must be the model's file_vertex_count. No allocation. Any thread while no other call changes the
+/* Writes the AO of the last nook_scene_update in the imported file's vertex order, all primitives in a row; 1 for an instance
+ * that none has seen yet. stride is in bytes (0: sizeof(float)); count must be the model's file_vertex_count. No allocation. Any thread while no other call changes the
  * scene. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, float* out, uint32_t count,
                                         size_t stride);

@@ -147,6 +147,12 @@ void read_ao(const Scene& scene, const Instance& instance, float* out, std::size
   constexpr std::uint32_t chunk_blocks = 16;
   alignas(64) std::array<float, chunk_blocks * linear_block_vertices> ao;
   auto* const bytes = reinterpret_cast<unsigned char*>(out);
+  if (instance.evaluated_frame == 0) {
+    const float open = 1;
+    for (std::size_t i = 0; i < loaded.model.file_to_welded.size(); ++i)
+      std::memcpy(bytes + i * stride_bytes, &open, sizeof open);
+    return;
+  }
   for (std::uint32_t block = 0; block < view.block_count; block += chunk_blocks) {
     const std::uint32_t first_slot = block * linear_block_vertices;
     const LinearView chunk{view.blocks + block,

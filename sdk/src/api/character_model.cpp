@@ -1,0 +1,84 @@
+#include <algorithm>
+
+#include "api/descriptors.h"
+#include "api/entry.h"
+#include "api/handles.h"
+#include "character/model_file.h"
+
+using namespace nook;
+
+nook_result nook_character_model_load(nook_context context, const void* bytes, size_t size,
+                                      nook_character_model* out) {
+  return api::enter("nook_character_model_load", [&] {
+    api::need(out, "out");
+    *out = nullptr;
+    api::need(context, "context");
+    api::need(bytes, "bytes");
+    const auto shared = Ref<nook_context_s>::share(context);
+    CharacterModel model =
+        read_character_model({static_cast<const std::byte*>(bytes), size}, context->memory());
+    *out = Owned<nook_character_model_s>::make(context->memory(), shared, shared, std::move(model)).detach();
+    const CharacterModel& loaded = (*out)->model;
+    context->log(
+        NOOK_LOG_INFO, "character model: %zu vertices, %zu bones, %zu spheres, %zu key points, %zu bytes",
+        loaded.vertex_count(), loaded.bone_count(), loaded.spheres.size(), loaded.key_points.size(), size);
+  });
+}
+
+void nook_character_model_destroy(nook_character_model* model) {
+  if (!model || !*model) return;
+  (*model)->release();
+  *model = nullptr;
+}
+
+nook_result nook_character_model_get_info(nook_character_model model, nook_character_model_info* info) {
+  return api::enter("nook_character_model_get_info", [&] {
+    api::need(model, "model");
+    const CharacterModel& m = model->model;
+    nook_character_model_info answer{};
+    answer.bone_count = static_cast<uint32_t>(m.bone_count());
+    answer.sphere_count = static_cast<uint32_t>(m.spheres.size());
+    answer.key_point_count = static_cast<uint32_t>(m.key_points.size());
+    answer.vertex_count = static_cast<uint32_t>(m.vertex_count());
+    answer.file_vertex_count = static_cast<uint32_t>(m.file_to_welded.size());
+    answer.primitive_count = static_cast<uint32_t>(m.primitives.size());
+    answer.lod_count = 1;
+    answer.bounding_radius = m.bounding_radius;
+    answer.gamma = m.kernel.gamma;
+    api::write_info(info, offsetof(nook_character_model_info, gamma) + sizeof info->gamma, answer);
+  });
+}
+
+const char* nook_character_model_bone_name(nook_character_model model, uint32_t bone) {
+  return model && bone < model->model.bone_count() ? model->model.bone_names[bone].c_str() : nullptr;
+}
+
+nook_result nook_character_model_primitive(nook_character_model model, uint32_t primitive,
+                                           uint32_t* first_vertex, uint32_t* vertex_count) {
+  return api::enter("nook_character_model_primitive", [&] {
+    api::need(model, "model");
+    api::need(first_vertex, "first_vertex");
+    api::need(vertex_count, "vertex_count");
+    const auto& primitives = model->model.primitives;
+    if (primitive >= primitives.size())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "primitive is out of range (got %u, need less than %zu)",
+                    primitive, primitives.size());
+    *first_vertex = primitives[primitive].first_vertex;
+    *vertex_count = primitives[primitive].vertex_count;
+  });
+}
+
+nook_result nook_character_model_static_ao(nook_character_model model, float* out, uint32_t count) {
+  return api::enter("nook_character_model_static_ao", [&] {
+    api::need(model, "model");
+    api::need(out, "out");
+    const CharacterModel& m = model->model;
+    if (count != m.file_to_welded.size())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "count is not the model's file_vertex_count (got %u, need %zu)", count,
+                    m.file_to_welded.size());
+    if (m.static_ao.empty())
+      throw Failure(NOOK_ERROR_UNSUPPORTED, "the model was baked without static AO; bake it with it");
+    std::ranges::transform(m.file_to_welded, out, [&](std::uint32_t welded) { return m.static_ao[welded]; });
+  });
+}

@@ -1,0 +1,206 @@
+#include <cmath>
+
+#include "api/descriptors.h"
+#include "api/entry.h"
+#include "api/handles.h"
+
+using namespace nook;
+
+namespace {
+
+nook_scene_desc default_scene_desc() {
+  const SceneSettings defaults;
+  nook_scene_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.header_version = NOOK_VERSION;
+  desc.combine = defaults.combine;
+  desc.isa = defaults.isa;
+  desc.cutoff_error = defaults.cutoff_error;
+  desc.lod_error = defaults.lod_error;
+  desc.lod_distance = defaults.lod_distance;
+  desc.lod_max_interval = defaults.lod_max_interval;
+  desc.ground_radius = defaults.ground_radius;
+  return desc;
+}
+constexpr std::size_t first_scene_desc = offsetof(nook_scene_desc, reserved) + sizeof(std::uint32_t);
+
+// The bounds keep squares finite; written so that NaN fails.
+void check_range(const char* name, float value, float low, float high, const char* need) {
+  if (!(value >= low && value <= high))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is out of range (got %g, need %s)", name,
+                  double(value), need);
+}
+
+void check_value(const char* name, std::int32_t value, std::int32_t last) {
+  if (value < 0 || value > last)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is unknown (got %d, need 0 to %d)", name, value,
+                  last);
+}
+
+SceneSettings settings_of(const nook_scene_desc& desc) {
+  constexpr float tiny = 1e-6f, huge = 1e9f;
+  check_value("combine", desc.combine, NOOK_COMBINE_PAPER);
+  check_value("isa", desc.isa, NOOK_ISA_AVX512);
+  check_range("cutoff_error", desc.cutoff_error, 0, 1, "0 to 1");
+  check_range("lod_error", desc.lod_error, 0, huge, "0 or more");
+  check_range("lod_distance", desc.lod_distance, tiny, huge, "metres above 0");
+  check_range("ground_radius", desc.ground_radius, tiny, huge, "metres above 0");
+  if (desc.lod_max_interval < 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.lod_max_interval is out of range (got 0, need 1 or more)");
+  if (desc.reserved)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is not 0 (got %u); call nook_scene_desc_init",
+                  desc.reserved);
+  return {desc.combine,          desc.isa,          desc.cutoff_error, desc.lod_error, desc.lod_distance,
+          desc.lod_max_interval, desc.ground_radius};
+}
+
+// Runs body on the scene behind the handle.
+template <class Body>
+nook_result with_scene(const char* function, nook_scene scene, Body&& body) noexcept {
+  return api::enter(function, [&] {
+    api::need(scene, "scene");
+    body(scene->scene);
+  });
+}
+
+Sphere sphere_of(const float* centre_ws, float radius) {
+  api::need(centre_ws, "centre_ws");
+  return {{centre_ws[0], centre_ws[1], centre_ws[2]}, radius};
+}
+
+}  // namespace
+
+nook_result nook_scene_desc_init(nook_scene_desc* desc, size_t size, uint32_t header_version) {
+  return api::enter("nook_scene_desc_init", [&] {
+    api::init_descriptor(desc, size, header_version, first_scene_desc, default_scene_desc());
+  });
+}
+
+nook_result nook_scene_create(nook_context context, const nook_scene_desc* desc, nook_scene* out) {
+  return api::enter("nook_scene_create", [&] {
+    api::need(out, "out");
+    *out = nullptr;
+    api::need(context, "context");
+    const SceneSettings settings = settings_of(
+        api::read_descriptor(desc, "nook_scene_desc_init", first_scene_desc, default_scene_desc()));
+    *out =
+        Owned<nook_scene_s>::make(context->memory(), Ref<nook_context_s>::share(context), context, settings)
+            .detach();
+  });
+}
+
+void nook_scene_destroy(nook_scene* scene) {
+  if (!scene || !*scene) return;
+  (*scene)->destroyed.store(true, std::memory_order_release);
+  (*scene)->release();
+  *scene = nullptr;
+}
+
+nook_result nook_scene_add_instance(nook_scene scene, nook_character_model model, nook_instance_id* out) {
+  return with_scene("nook_scene_add_instance", scene, [&](Scene& s) {
+    api::need(out, "out");
+    *out = 0;
+    api::need(model, "model");
+    *out = add_instance(s, Ref<const LoadedModel>::share(model));
+  });
+}
+
+nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_id instance) {
+  return with_scene("nook_scene_remove_instance", scene, [&](Scene& s) { remove_instance(s, instance); });
+}
+
+nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance, const float* bones_3x4,
+                                uint32_t bone_count) {
+  return with_scene("nook_scene_set_pose", scene, [&](Scene& s) {
+    api::need(bones_3x4, "bones_3x4");
+    static_assert(sizeof(Mat3x4) == 12 * sizeof(float) && alignof(Mat3x4) == alignof(float));
+    set_pose(s, instance, {reinterpret_cast<const Mat3x4*>(bones_3x4), bone_count});
+  });
+}
+
+nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver, nook_instance_id caster) {
+  return with_scene("nook_scene_link", scene, [&](Scene& s) { link(s, receiver, caster); });
+}
+
+nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiver, nook_instance_id caster) {
+  return with_scene("nook_scene_unlink", scene, [&](Scene& s) { unlink(s, receiver, caster); });
+}
+
+nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance) {
+  return with_scene("nook_scene_link_nearest", scene, [&](Scene& s) { link_nearest(s, k, max_distance); });
+}
+
+nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance, const float* plane_xyzd) {
+  return with_scene("nook_scene_set_ground", scene, [&](Scene& s) {
+    const float* p = plane_xyzd;
+    const Plane plane = p ? Plane{{p[0], p[1], p[2]}, p[3]} : Plane{};
+    set_ground(s, instance, p ? &plane : nullptr);
+  });
+}
+
+nook_result nook_scene_add_occluder(nook_scene scene, const float centre_ws[3], float radius,
+                                    nook_occluder_id* out) {
+  return with_scene("nook_scene_add_occluder", scene, [&](Scene& s) {
+    api::need(out, "out");
+    *out = 0;
+    *out = add_occluder(s, sphere_of(centre_ws, radius));
+  });
+}
+
+nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id occluder, const float centre_ws[3],
+                                    float radius) {
+  return with_scene("nook_scene_set_occluder", scene,
+                    [&](Scene& s) { set_occluder(s, occluder, sphere_of(centre_ws, radius)); });
+}
+
+nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_id occluder) {
+  return with_scene("nook_scene_remove_occluder", scene, [&](Scene& s) { remove_occluder(s, occluder); });
+}
+
+nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]) {
+  return with_scene("nook_scene_set_camera", scene, [&](Scene& s) {
+    for (int i = 0; position_ws && i < 3; ++i)
+      if (!(std::abs(position_ws[i]) <= 1e9f))
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "position_ws is out of range (element %d is %g, need finite metres)", i,
+                      double(position_ws[i]));
+    s.has_camera = position_ws != nullptr;
+    if (position_ws) s.camera = {position_ws[0], position_ws[1], position_ws[2]};
+  });
+}
+
+nook_result nook_scene_set_terms(nook_scene scene, uint32_t terms) {
+  return with_scene("nook_scene_set_terms", scene, [&](Scene& s) {
+    if (terms & ~uint32_t(NOOK_TERM_ALL))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "terms has unknown bits (got 0x%x, need a sum of NOOK_TERM_ values)", terms);
+    s.terms = terms;
+  });
+}
+
+nook_result nook_scene_update(nook_scene scene) {
+  return with_scene("nook_scene_update", scene, [](Scene& s) { update(s); });
+}
+
+nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, float* out, uint32_t count,
+                               size_t stride) {
+  return with_scene("nook_scene_read_ao", scene, [&](const Scene& s) {
+    const Instance& found = instance_of(s, instance);
+    api::need(out, "out");
+    const std::size_t file_vertices = found.model->model.file_to_welded.size();
+    if (count != file_vertices)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "count is not the model's file_vertex_count (got %u, need %zu)", count, file_vertices);
+    if (stride != 0 && stride < sizeof(float))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "stride is too small (got %zu bytes, need 0 or at least %zu)", stride, sizeof(float));
+    read_ao(s, found, out, stride ? stride : sizeof(float));
+  });
+}
+
+nook_result nook_scene_get_stats(nook_scene scene, nook_scene_stats* stats) {
+  return with_scene("nook_scene_get_stats", scene, [&](const Scene& s) {
+    api::write_info(stats, offsetof(nook_scene_stats, evaluations) + sizeof stats->evaluations, s.stats);
+  });
+}

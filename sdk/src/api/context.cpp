@@ -1,0 +1,108 @@
+#include <cstdio>
+
+#include "api/descriptors.h"
+#include "api/entry.h"
+#include "api/handles.h"
+
+namespace nook::api {
+namespace {
+
+// Plain bytes, so that nothing has to be destroyed when a thread ends or the library is unloaded.
+thread_local char last_message[640] = "";
+
+nook_context_desc default_context_desc() {
+  nook_context_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.header_version = NOOK_VERSION;
+  return desc;
+}
+constexpr std::size_t first_context_desc = offsetof(nook_context_desc, parallel_for_user) + sizeof(void*);
+
+unsigned major_of(std::uint32_t version) {
+  return version >> 22;
+}
+unsigned minor_of(std::uint32_t version) {
+  return version >> 12 & 1023;
+}
+
+}  // namespace
+
+nook_result fail(const char* function, nook_result code, const char* text) noexcept {
+  std::snprintf(last_message, sizeof last_message, "%s: %s", function, text);
+  return code;
+}
+
+void check_version(std::uint32_t version) {
+  if (major_of(version) != NOOK_VERSION_MAJOR || minor_of(version) > NOOK_VERSION_MINOR)
+    throw Failure(NOOK_ERROR_VERSION,
+                  "the caller's headers do not fit this library (got version %u.%u, need %d.%d or older of "
+                  "the same major "
+                  "version); pass NOOK_VERSION, or update the library",
+                  major_of(version), minor_of(version), NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR);
+}
+
+}  // namespace nook::api
+
+using namespace nook;
+
+const char* nook_last_message(void) {
+  return api::last_message;
+}
+
+uint32_t nook_version(void) {
+  return NOOK_VERSION;
+}
+
+const char* nook_result_name(nook_result result) {
+  switch (result) {
+#define NOOK_RESULT_CASE(name) \
+  case name:                   \
+    return #name
+    NOOK_RESULT_CASE(NOOK_OK);
+    NOOK_RESULT_CASE(NOOK_ERROR_INVALID_ARGUMENT);
+    NOOK_RESULT_CASE(NOOK_ERROR_INVALID_HANDLE);
+    NOOK_RESULT_CASE(NOOK_ERROR_OUT_OF_MEMORY);
+    NOOK_RESULT_CASE(NOOK_ERROR_BAD_FILE);
+    NOOK_RESULT_CASE(NOOK_ERROR_FILE_VERSION);
+    NOOK_RESULT_CASE(NOOK_ERROR_VERSION);
+    NOOK_RESULT_CASE(NOOK_ERROR_UNSUPPORTED);
+    NOOK_RESULT_CASE(NOOK_ERROR_GL);
+    NOOK_RESULT_CASE(NOOK_ERROR_CANCELLED);
+    NOOK_RESULT_CASE(NOOK_ERROR_INTERNAL);
+#undef NOOK_RESULT_CASE
+    default:
+      return "unknown result";
+  }
+}
+
+nook_result nook_context_desc_init(nook_context_desc* desc, size_t size, uint32_t header_version) {
+  return api::enter("nook_context_desc_init", [&] {
+    api::init_descriptor(desc, size, header_version, api::first_context_desc, api::default_context_desc());
+  });
+}
+
+nook_result nook_context_create(const nook_context_desc* desc, nook_context* out) {
+  return api::enter("nook_context_create", [&] {
+    api::need(out, "out");
+    *out = nullptr;
+    const nook_context_desc settings = api::read_descriptor(
+        desc, "nook_context_desc_init", api::first_context_desc, api::default_context_desc());
+    if (!settings.allocator.allocate != !settings.allocator.release)
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "desc.allocator has only one function (got %s, need both or none); set allocate and release",
+          settings.allocator.allocate ? "allocate" : "release");
+    HostMemory memory(settings.allocator);
+    void* place = static_cast<std::pmr::memory_resource&>(memory).allocate(sizeof(nook_context_s),
+                                                                           alignof(nook_context_s));
+    *out = new (place) nook_context_s(settings);
+    (*out)->log(NOOK_LOG_INFO, "nook %d.%d.%d, instruction set %s", NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR,
+                NOOK_VERSION_PATCH, best_shadow_kernels().name);
+  });
+}
+
+void nook_context_destroy(nook_context* context) {
+  if (!context || !*context) return;
+  (*context)->release();
+  *context = nullptr;
+}

@@ -1,0 +1,44 @@
+// Every C function that can fail runs its body through here: whatever is thrown becomes a result and this
+// thread's message.
+#pragma once
+
+#include <nook/nook.h>
+
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include "core/failure.h"
+
+namespace nook::api {
+
+// Keeps "function: text" as this thread's last message and returns the code.
+nook_result fail(const char* function, nook_result code, const char* text) noexcept;
+
+template <class Body>
+nook_result enter(const char* function, Body&& body) noexcept {
+  try {
+    std::forward<Body>(body)();
+    return NOOK_OK;
+  } catch (const Failure& failure) {
+    return fail(function, failure.code(), failure.what());
+  } catch (const std::bad_alloc&) {
+    return fail(function, NOOK_ERROR_OUT_OF_MEMORY,
+                "the allocator returned NULL; free memory and call again");
+  } catch (const std::length_error&) {
+    return fail(function, NOOK_ERROR_OUT_OF_MEMORY,
+                "more memory is needed than can be addressed; use smaller data");
+  } catch (const std::exception& e) {
+    return fail(function, NOOK_ERROR_INTERNAL, e.what());
+  } catch (...) {
+    return fail(function, NOOK_ERROR_INTERNAL, "an unknown exception; please report it");
+  }
+}
+
+// Throws unless the pointer is there.
+inline void need(const void* pointer, const char* name) {
+  if (!pointer)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is NULL; a valid pointer or handle is needed", name);
+}
+
+}  // namespace nook::api

@@ -1,0 +1,37 @@
+// What a context holds: the host's callbacks. Everything made from a context refers to it and so keeps it
+// alive.
+#pragma once
+
+#include <nook/nook.h>
+
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "core/ref.h"
+
+namespace nook {
+
+class Context : public RefCounted {
+ public:
+  explicit Context(const nook_context_desc& desc) noexcept
+      : memory_(desc.allocator),
+        log_(desc.log),
+        log_user_(desc.log_user),
+        parallel_{desc.parallel_for, desc.parallel_for_user} {}
+
+  std::pmr::memory_resource* memory() noexcept { return &memory_; }
+  const Parallel& parallel() const noexcept { return parallel_; }
+  // printf-style, cut at 512 characters; does nothing without a log.
+  void log(nook_log_severity severity, const char* format, ...) const noexcept
+      __attribute__((format(printf, 3, 4)));
+
+ protected:
+  const nook_allocator& allocator() const noexcept { return memory_.allocator(); }
+
+ private:
+  HostMemory memory_;
+  nook_log_fn log_;
+  void* log_user_;
+  Parallel parallel_;
+};
+
+}  // namespace nook
