@@ -1,0 +1,292 @@
+#include "character/pose_clusters.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "character/peers_features.h"
+#include "character/peers_k_means.h"
+#include "character/peers_validation.h"
+
+namespace nook::bake {
+namespace {
+
+using Eigen::Index;
+
+constexpr std::array<Index, 6> cluster_counts{1, 2, 4, 8, 16, 32};
+constexpr std::array<Index, 7> ranks{2, 4, 8, 16, 32, 64, 128};
+constexpr std::array ridges{1e-4, 1e-3, 1e-2, 3e-2,
+                            1e-1, 3e-1, 1.0};  // times the mean variance of a basis direction
+constexpr std::array widths{
+    0.1, 0.3, 1.0};  // of the blend: its variance over the poses' mean squared distance to a centre
+constexpr std::size_t voting_vertices = 256;
+constexpr double size_slack = 0.005;
+constexpr float least_weight = 1e-3f;  // a cluster below it neither sees a pose nor answers for it
+
+struct Settings {
+  bool by_moved_share = false;  // metric: features times the root of the share of vertices that they move
+  Index clusters = 1, rank = ranks.back();
+  double ridge = ridges.back(), width = 1;
+};
+
+// Blend weights of poses x clusters: Gaussians of the distance to the centres, normalised.
+PeerMatrix blend_weights(const PeerMatrix& features, const PeerMatrix& centres, double variance) {
+  PeerMatrix w = squared_distances(features, centres);
+  for (Index t = 0; t < w.rows(); ++t) {
+    w.row(t) = ((w.row(t).minCoeff() - w.row(t).array()) / float(2 * std::max(variance, 1e-12))).exp();
+    w.row(t) /= w.row(t).sum();
+    w.row(t) = (w.row(t).array() < least_weight).select(0.0f, w.row(t).array()).matrix().eval();
+    w.row(t) /= w.row(t).sum();
+  }
+  return w;
+}
+
+std::vector<Index> seen_by(const PeerMatrix& weights, Index cluster) {
+  std::vector<Index> rows;
+  for (Index t = 0; t < weights.rows(); ++t)
+    if (weights(t, cluster) > 0) rows.push_back(t);
+  return rows;
+}
+
+// One cluster's weighted least squares in its own principal components, before ridge and rank are applied:
+// the basis makes the normal equations diagonal.
+struct ClusterFit {
+  Eigen::RowVectorXf feature_mean, target_mean;
+  PeerMatrix basis;          // features x most components, strongest first
+  Eigen::VectorXf variance;  // of the poses along each
+  PeerMatrix correlation;    // components x targets
+};
+
+ClusterFit principal_components(const PeerMatrix& features, const Eigen::VectorXf& weight, Index most) {
+  ClusterFit fit;
+  const float sum = weight.sum();
+  fit.feature_mean = weight.transpose() * features / sum;
+  const PeerMatrix centred = features.rowwise() - fit.feature_mean;
+  const Eigen::MatrixXd covariance =
+      (centred.transpose() * (weight / sum).asDiagonal() * centred).cast<double>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+  const Index kept = std::min(most, features.cols());
+  fit.basis = solver.eigenvectors().rightCols(kept).rowwise().reverse().cast<float>();
+  fit.variance = solver.eigenvalues().tail(kept).reverse().cwiseMax(0.0).cast<float>();
+  return fit;
+}
+
+void correlate(ClusterFit& fit, const PeerMatrix& features, const Eigen::VectorXf& weight,
+               const PeerMatrix& targets) {
+  const float sum = weight.sum();
+  fit.target_mean = weight.transpose() * targets / sum;
+  const PeerMatrix reduced = (features.rowwise() - fit.feature_mean) * fit.basis;
+  fit.correlation = reduced.transpose() * (weight / sum).asDiagonal() * (targets.rowwise() - fit.target_mean);
+}
+
+Eigen::VectorXf shrinkage(const ClusterFit& fit, double ridge) {
+  const float level = std::max(fit.variance.mean(), 1e-8f) * float(ridge);
+  return (fit.variance.array() + level).inverse();
+}
+
+PeerMatrix rows_of(const PeerMatrix& matrix, const std::vector<Index>& rows) {
+  return matrix(rows, Eigen::all);
+}
+
+using ErrorGrid = Eigen::Array<double, ranks.size(), ridges.size()>;
+
+// Squared errors of one fold for every rank and ridge.
+ErrorGrid validate_fold(const PeerMatrix& features, const PeerMatrix& targets, const ValidationFold& fold,
+                        Index clusters, double width, std::uint64_t seed) {
+  const PeerMatrix x = rows_of(features, fold.fitted), y = rows_of(targets, fold.fitted);
+  const PeerMatrix held_x = rows_of(features, fold.left_out), held_y = rows_of(targets, fold.left_out);
+  const PoseGroups groups = k_means(x, std::min(clusters, x.rows()), seed);
+  const double variance = width * groups.mean_squared_distance;
+  const PeerMatrix w = blend_weights(x, groups.centre, variance),
+                   held_w = blend_weights(held_x, groups.centre, variance);
+  std::vector<PeerMatrix> prediction(ranks.size() * ridges.size(),
+                                     PeerMatrix::Zero(held_y.rows(), held_y.cols()));
+  for (Index k = 0; k < groups.centre.rows(); ++k) {
+    const std::vector<Index> seen = seen_by(w, k), asked = seen_by(held_w, k);
+    if (asked.empty() || seen.empty()) continue;
+    const PeerMatrix seen_x = rows_of(x, seen);
+    const Eigen::VectorXf seen_w = w.col(k)(seen), asked_w = held_w.col(k)(asked);
+    ClusterFit fit = principal_components(seen_x, seen_w, ranks.back());
+    correlate(fit, seen_x, seen_w, rows_of(y, seen));
+    const PeerMatrix reduced = (rows_of(held_x, asked).rowwise() - fit.feature_mean) * fit.basis;
+    for (std::size_t g = 0; g < ridges.size(); ++g) {
+      const PeerMatrix shrunk = shrinkage(fit, ridges[g]).asDiagonal() * fit.correlation;
+      PeerMatrix answer = fit.target_mean.replicate(reduced.rows(), 1);
+      Index done = 0;
+      for (std::size_t r = 0; r < ranks.size(); ++r) {
+        const Index rank = std::min(ranks[r], reduced.cols());
+        answer += reduced.middleCols(done, rank - done) * shrunk.middleRows(done, rank - done);
+        done = rank;
+        PeerMatrix& sum = prediction[r * ridges.size() + g];
+        for (std::size_t i = 0; i < asked.size(); ++i)
+          sum.row(asked[i]) += asked_w[Index(i)] * answer.row(Index(i));
+      }
+    }
+  }
+  ErrorGrid errors;
+  for (std::size_t r = 0; r < ranks.size(); ++r)
+    for (std::size_t g = 0; g < ridges.size(); ++g)
+      errors(Index(r), Index(g)) = clamped_squared_error(prediction[r * ridges.size() + g], held_y);
+  return errors;
+}
+
+PeerMatrix metric_features(const PoseFeatures& features, const SkinnedMesh& mesh, std::span<const Pose> poses,
+                           bool by_moved_share) {
+  PeerMatrix x = features.of(poses);
+  if (by_moved_share) x = (x.array().rowwise() * features.moved_share(mesh).array()).matrix();
+  return x;
+}
+
+std::size_t stored_numbers(Index clusters, Index rank, Index features, std::size_t vertices) {
+  return std::size_t(clusters) * (std::size_t(rank + 1) * vertices + std::size_t((rank + 2) * features));
+}
+
+Settings choose_settings(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
+                         std::uint64_t seed) {
+  const PoseFeatures features(mesh, FeatureKind::axis_angle);
+  const std::vector<ValidationFold> folds = validation_folds(poses.size());
+  const PeerMatrix voting = target_columns(targets, sample_vertices(targets.vertex_count, voting_vertices));
+  std::vector<Settings> tried;
+  std::vector<SizedError> errors;
+  for (bool by_moved_share : {false, true}) {
+    const PeerMatrix x = metric_features(features, mesh, poses, by_moved_share);
+    for (Index clusters : cluster_counts) {
+      // Below a few poses a cluster, its linear model says nothing.
+      if (std::size_t(clusters) * 8 > poses.size() && clusters > 1) continue;
+      const std::size_t width_count = clusters == 1 ? 1 : widths.size();
+      std::vector<ErrorGrid> partial(width_count * folds.size());
+      tbb::parallel_for(std::size_t(0), partial.size(), [&](std::size_t i) {
+        partial[i] =
+            validate_fold(x, voting, folds[i % folds.size()], clusters, widths[i / folds.size()], seed);
+      });
+      for (std::size_t i = 0; i < width_count; ++i) {
+        ErrorGrid sum = ErrorGrid::Zero();
+        for (std::size_t f = 0; f < folds.size(); ++f) sum += partial[i * folds.size() + f];
+        for (std::size_t r = 0; r < ranks.size(); ++r)
+          for (std::size_t g = 0; g < ridges.size(); ++g) {
+            tried.push_back({by_moved_share, clusters, std::min(ranks[r], x.cols()), ridges[g], widths[i]});
+            errors.push_back({sum(Index(r), Index(g)),
+                              stored_numbers(clusters, tried.back().rank, x.cols(), targets.vertex_count)});
+          }
+      }
+    }
+  }
+  return tried[smallest_near_best(errors, size_slack)];
+}
+
+class PoseClusters final : public PoseRegression {
+ public:
+  PoseClusters(const SkinnedMesh& mesh, const Settings& settings)
+      : settings_(settings), features_(mesh, FeatureKind::axis_angle), metric_(features_.moved_share(mesh)) {
+    settings_.rank = std::min(settings_.rank, features_.count());
+    if (!settings.by_moved_share) metric_.setOnes();
+  }
+
+  void fit(std::span<const Pose> poses, const AoTargets& targets, std::uint64_t seed) {
+    vertices_ = targets.vertex_count;
+    const PeerMatrix x = (features_.of(poses).array().rowwise() * metric_.array()).matrix();
+    if (x.cols() == 0) {
+      mean_only_ = target_columns(targets, 0, vertices_).colwise().mean();
+      return;
+    }
+    const PoseGroups groups = k_means(x, std::min(settings_.clusters, x.rows()), seed);
+    centres_ = groups.centre;
+    variance_ = settings_.width * groups.mean_squared_distance;
+    const PeerMatrix w = blend_weights(x, centres_, variance_);
+    clusters_.resize(std::size_t(centres_.rows()));
+    for (Index k = 0; k < centres_.rows(); ++k) fit_cluster(clusters_[std::size_t(k)], x, w, k, targets);
+  }
+
+  std::vector<float> predict(const Pose& pose) const override {
+    if (clusters_.empty()) return {mean_only_.data(), mean_only_.data() + mean_only_.size()};
+    const PeerMatrix x = (features_.of(pose).array() * metric_.array()).matrix();
+    const PeerMatrix w = blend_weights(x, centres_, variance_);
+    Eigen::RowVectorXf ao = Eigen::RowVectorXf::Zero(Index(vertices_));
+    for (std::size_t k = 0; k < clusters_.size(); ++k) {
+      const float weight = w(0, Index(k));
+      if (weight <= 0) continue;
+      const Cluster& c = clusters_[k];
+      ao += weight * (c.mean + (x.row(0) - c.feature_mean) * c.basis * c.map);
+    }
+    ao = ao.cwiseMax(0.0f).cwiseMin(1.0f);
+    return {ao.data(), ao.data() + ao.size()};
+  }
+  std::size_t model_bytes() const override {
+    if (clusters_.empty()) return 2 * vertices_;
+    return 2 * stored_numbers(Index(clusters_.size()), clusters_.front().basis.cols(), features_.count(),
+                              vertices_);
+  }
+  std::string description() const override {
+    char text[160];
+    std::snprintf(text, sizeof text, "%td clusters, rank %td, ridge %g, blend width %g%s", settings_.clusters,
+                  settings_.rank, settings_.ridge, settings_.width,
+                  settings_.by_moved_share ? ", joints weighted by the share of vertices they move" : "");
+    return text;
+  }
+
+ private:
+  static constexpr std::size_t block = 256;  // vertices solved together
+  struct Cluster {
+    Eigen::RowVectorXf feature_mean;
+    PeerMatrix basis;         // features x rank
+    Eigen::RowVectorXf mean;  // a value a vertex
+    PeerMatrix map;           // rank x vertices
+  };
+
+  void fit_cluster(Cluster& cluster, const PeerMatrix& x, const PeerMatrix& w, Index k,
+                   const AoTargets& targets) {
+    const std::vector<Index> seen = seen_by(w, k);
+    cluster.mean = Eigen::RowVectorXf::Zero(Index(vertices_));
+    cluster.feature_mean = centres_.row(k);
+    cluster.basis = PeerMatrix::Zero(x.cols(), settings_.rank);
+    cluster.map = PeerMatrix::Zero(settings_.rank, Index(vertices_));
+    if (seen.empty()) return;
+    const PeerMatrix seen_x = rows_of(x, seen);
+    const Eigen::VectorXf seen_w = w.col(k)(seen);
+    const ClusterFit shared = principal_components(seen_x, seen_w, settings_.rank);
+    cluster.feature_mean = shared.feature_mean;
+    cluster.basis = shared.basis;
+    const Eigen::VectorXf shrink = full_shrinkage(seen_x, seen_w);
+    tbb::parallel_for(std::size_t(0), (vertices_ + block - 1) / block, [&](std::size_t b) {
+      const std::size_t first = b * block, last = std::min(vertices_, first + block);
+      ClusterFit part = shared;
+      correlate(part, seen_x, seen_w, rows_of(target_columns(targets, first, last), seen));
+      cluster.mean.segment(Index(first), Index(last - first)) = part.target_mean;
+      cluster.map.middleCols(Index(first), Index(last - first)) = shrink.asDiagonal() * part.correlation;
+    });
+    round_to_half(cluster.basis);
+    round_to_half(cluster.map);
+  }
+
+  // The ridge is relative to the mean variance of the most components that validation looked at, whatever the
+  // rank.
+  Eigen::VectorXf full_shrinkage(const PeerMatrix& seen_x, const Eigen::VectorXf& seen_w) const {
+    const ClusterFit full = principal_components(seen_x, seen_w, ranks.back());
+    return shrinkage(full, settings_.ridge).head(settings_.rank);
+  }
+
+  Settings settings_;
+  PoseFeatures features_;
+  Eigen::RowVectorXf metric_, mean_only_;
+  PeerMatrix centres_;
+  double variance_ = 1;
+  std::size_t vertices_ = 0;
+  std::vector<Cluster> clusters_;
+};
+
+}  // namespace
+
+std::unique_ptr<PoseRegression> fit_pose_clusters(const SkinnedMesh& mesh, std::span<const Pose> poses,
+                                                  const AoTargets& targets, std::uint64_t seed) {
+  Settings settings;
+  const bool comparable = PoseFeatures(mesh, FeatureKind::axis_angle).count() > 0 && poses.size() > 1;
+  if (comparable) settings = choose_settings(mesh, poses, targets, seed);
+  auto model = std::make_unique<PoseClusters>(mesh, settings);
+  model->fit(poses, targets, seed);
+  return model;
+}
+
+}  // namespace nook::bake
