@@ -1,0 +1,40 @@
+#include "character/presets.h"
+
+#include <algorithm>
+
+namespace nook::bake {
+
+PresetValues preset_values(Preset preset, FitMethod fit) {
+  // Steps of mini-batches are cheap, rounds of block descent are not.
+  const bool paper = fit == FitMethod::paper;
+  PresetValues v;
+  v.settings.fit = fit;
+  switch (preset) {
+    case Preset::draft:
+      v.settings.rays = 16;
+      v.settings.steps = paper ? 3 : 1200;
+      v.auto_poses = 150;
+      v.clip_poses = 150;
+      v.single_joint_steps = 3;
+      break;
+    case Preset::standard:
+      v.settings.rays = 32;
+      v.settings.steps = paper ? 20 : 12000;
+      v.auto_poses = 900;
+      v.clip_poses = 1100;
+      break;
+    case Preset::production:
+      v.settings.rays = 64;
+      v.settings.steps = paper ? 100 : 60000;
+      v.auto_poses = 4000;
+      v.clip_poses = 4000;
+      break;
+  }
+  return v;
+}
+
+std::size_t samples_per_clip(const PresetValues& values, std::size_t clips) {
+  return clips == 0 ? 0 : std::clamp<std::size_t>((values.clip_poses + clips / 2) / clips, 4, 64);
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,169 @@
+#include "character/recipe.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <cinttypes>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "character/auto_poses.h"
+#include "character/pose_sets.h"
+#include "core/failure.h"
+#include "import/skinning.h"
+
+namespace nook::bake {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array preset_names{"draft", "standard", "production"};
+constexpr std::array pose_names{"auto", "single-joint", "clips", "all", "extra"};
+constexpr std::array kernel_names{"paper", "nook", "rational"};
+constexpr std::array fit_names{"nook", "paper"};
+
+template <std::size_t N>
+std::size_t index_of(const std::array<const char*, N>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the recipe says \"%s\", which this version does not know; bake it again", name.c_str());
+  return std::size_t(found - names.begin());
+}
+
+std::string hex(std::uint64_t value) {
+  char text[20];
+  std::snprintf(text, sizeof text, "%016" PRIx64, value);
+  return text;
+}
+
+std::string hash_of_names(const ImportedCharacter& character) {
+  std::string all;
+  for (std::size_t clip : clips_by_name(character)) (all += character.clips[clip].name) += '\0';
+  return hex(XXH64(all.data(), all.size(), 0));
+}
+
+// One hexadecimal digit for four clips, the first clip in the lowest bit of the first digit.
+std::string clip_bits(const ImportedCharacter& character, const std::vector<std::size_t>& chosen) {
+  const std::vector<std::size_t> order = clips_by_name(character);
+  std::vector<unsigned> digits((order.size() + 3) / 4, 0);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (std::find(chosen.begin(), chosen.end(), order[i]) != chosen.end()) digits[i / 4] |= 1u << (i % 4);
+  std::string text;
+  for (unsigned d : digits) text += "0123456789abcdef"[d];
+  return text;
+}
+
+std::vector<std::size_t> clips_of_bits(const ImportedCharacter& character, const std::string& bits) {
+  const std::vector<std::size_t> order = clips_by_name(character);
+  if (bits.size() != (order.size() + 3) / 4)
+    throw Failure(NOOK_ERROR_BAD_FILE, "the model was baked from a file with other clips; bake it again");
+  std::vector<std::size_t> clips;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::size_t digit = std::string("0123456789abcdef").find(bits[i / 4]);
+    if (digit == std::string::npos)
+      throw Failure(NOOK_ERROR_BAD_FILE, "the recipe's clip list is damaged; bake it again");
+    if (digit >> (i % 4) & 1) clips.push_back(order[i]);
+  }
+  return clips;
+}
+
+}  // namespace
+
+const char* name_of(Preset preset) {
+  return preset_names[std::size_t(preset)];
+}
+const char* name_of(PoseMode mode) {
+  return pose_names[std::size_t(mode)];
+}
+const char* name_of(KernelForm form) {
+  return kernel_names[std::size_t(form)];
+}
+const char* name_of(FitMethod fit) {
+  return fit_names[std::size_t(fit)];
+}
+
+std::vector<std::size_t> clips_by_name(const ImportedCharacter& character) {
+  std::vector<std::size_t> order(character.clips.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return character.clips[a].name < character.clips[b].name; });
+  return order;
+}
+
+std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe& recipe) {
+  std::vector<Pose> poses;
+  const auto add = [&](std::vector<Pose> more) {
+    poses.insert(poses.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  };
+  if (recipe.auto_poses > 0) {
+    const std::vector<float> area = vertex_areas(character.mesh, character.mesh.position);
+    add(auto_poses(character.mesh, area, recipe.auto_poses, recipe.settings.seed));
+  }
+  if (!recipe.clips.empty()) add(clip_poses(character, recipe.clips, recipe.samples_per_clip));
+  if (recipe.single_joint_steps > 0)
+    add(single_joint_poses(character.mesh, recipe.single_joint_steps, single_joint_range));
+  return poses;
+}
+
+std::string recipe_text(const ImportedCharacter& character, const Recipe& recipe) {
+  const BakeSettings& s = recipe.settings;
+  Json j;
+  j["nook"] = std::to_string(NOOK_VERSION_MAJOR) + "." + std::to_string(NOOK_VERSION_MINOR);
+  j["source"] = hex(recipe.source_hash);
+  j["preset"] = name_of(recipe.preset);
+  j["poses"] = name_of(recipe.poses);
+  j["auto_poses"] = recipe.auto_poses;
+  if (!character.clips.empty()) {
+    j["clips"] = clip_bits(character, recipe.clips);
+    j["clip_names"] = hash_of_names(character);
+  }
+  j["samples_per_clip"] = recipe.samples_per_clip;
+  j["single_joint_steps"] = recipe.single_joint_steps;
+  j["extra_poses"] = recipe.extra_poses;
+  j["seed"] = s.seed;
+  j["rays"] = s.rays;
+  j["spheres"] = s.spheres;
+  j["key_points"] = s.key_points;
+  j["steps"] = s.steps;
+  j["kernel"] = name_of(s.kernel.form);
+  j["fit"] = name_of(s.fit);
+  j["time_limit_s"] = s.time_limit_s;
+  return j.dump();
+}
+
+Recipe read_recipe(const ImportedCharacter& character, std::string_view text) {
+  try {
+    const Json j = Json::parse(text);
+    Recipe r;
+    r.preset = Preset(index_of(preset_names, j.at("preset")));
+    r.poses = PoseMode(index_of(pose_names, j.at("poses")));
+    r.auto_poses = j.at("auto_poses");
+    r.source_hash = std::stoull(j.at("source").get<std::string>(), nullptr, 16);
+    if (j.contains("clips")) {
+      if (j.at("clip_names") != hash_of_names(character))
+        throw Failure(NOOK_ERROR_BAD_FILE, "the model was baked from a file with other clips; bake it again");
+      r.clips = clips_of_bits(character, j.at("clips"));
+    }
+    r.samples_per_clip = j.at("samples_per_clip");
+    r.single_joint_steps = j.at("single_joint_steps");
+    r.extra_poses = j.at("extra_poses");
+    r.settings.seed = j.at("seed");
+    r.settings.rays = j.at("rays");
+    r.settings.spheres = j.at("spheres");
+    r.settings.key_points = j.at("key_points");
+    r.settings.steps = j.at("steps");
+    r.settings.kernel.form = KernelForm(index_of(kernel_names, j.at("kernel")));
+    r.settings.fit = FitMethod(index_of(fit_names, j.at("fit")));
+    r.settings.time_limit_s = j.at("time_limit_s");
+    return r;
+  } catch (const Failure&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw Failure(NOOK_ERROR_BAD_FILE, "the model's recipe cannot be read (%s); bake it again", e.what());
+  }
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,49 @@
+// How a model was baked, as text inside its file: enough to make the same training poses again.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "character/bake.h"
+#include "character/presets.h"
+#include "import/gltf.h"
+
+namespace nook::bake {
+
+enum class PoseMode : std::uint8_t { automatic, single_joint, clips, all, extra };
+
+struct Recipe {
+  Preset preset = Preset::standard;
+  PoseMode poses = PoseMode::all;
+  std::size_t auto_poses = 0;      // 0: none
+  std::vector<std::size_t> clips;  // indices into the character's clips, in byte order of their names
+  std::size_t samples_per_clip = 0;
+  int single_joint_steps = 0;   // 0: none
+  std::size_t extra_poses = 0;  // given by the host; they cannot be made again
+  std::uint64_t source_hash = 0;
+  BakeSettings settings;
+};
+
+inline constexpr float single_joint_range = 0.785398163f;  // radians: +-45 degrees
+
+// Clips of a character in byte order of their names, reference poses included: what the recipe's bits count.
+std::vector<std::size_t> clips_by_name(const ImportedCharacter& character);
+
+// The training poses: automatic ones, clips, single joints, in this order; without the host's extra poses.
+std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe& recipe);
+
+// One line of JSON. Clips are stored as bits over clips_by_name and a hash of all names, so that it stays
+// short.
+std::string recipe_text(const ImportedCharacter& character, const Recipe& recipe);
+
+// Fails with BAD_FILE where the text is no recipe, or was made for a file with other clips.
+Recipe read_recipe(const ImportedCharacter& character, std::string_view text);
+
+const char* name_of(Preset preset);
+const char* name_of(PoseMode mode);
+const char* name_of(KernelForm form);
+const char* name_of(FitMethod fit);
+
+}  // namespace nook::bake
