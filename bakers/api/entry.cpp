@@ -1,0 +1,72 @@
+#include "api/entry.h"
+
+#include <nook/nook_bake.h>
+
+#include <cstdio>
+#include <new>
+#include <stdexcept>
+
+#include "api/descriptors.h"
+
+namespace nook::bake::api {
+namespace {
+
+// Plain bytes, so that nothing has to be destroyed when a thread ends or the library is unloaded.
+thread_local char last_message[640] = "";
+
+unsigned major_of(std::uint32_t version) {
+  return version >> 22;
+}
+unsigned minor_of(std::uint32_t version) {
+  return version >> 12 & 1023;
+}
+
+Outcome make_outcome(nook_result result, const char* text) noexcept {
+  Outcome outcome;
+  outcome.result = result;
+  std::snprintf(outcome.text, sizeof outcome.text, "%s", text);
+  return outcome;
+}
+
+}  // namespace
+
+Outcome outcome_of(const std::exception_ptr& exception) noexcept {
+  try {
+    std::rethrow_exception(exception);
+  } catch (const Failure& failure) {
+    return make_outcome(failure.code(), failure.what());
+  } catch (const std::bad_alloc&) {
+    return make_outcome(NOOK_ERROR_OUT_OF_MEMORY,
+                        "not enough memory; use fewer poses, or free memory and call again");
+  } catch (const std::length_error&) {
+    return make_outcome(NOOK_ERROR_OUT_OF_MEMORY,
+                        "more memory is needed than can be addressed; use smaller data");
+  } catch (const std::exception& e) {
+    return make_outcome(NOOK_ERROR_INTERNAL, e.what());
+  } catch (...) {
+    return make_outcome(NOOK_ERROR_INTERNAL, "an unknown exception; please report it");
+  }
+}
+
+nook_result fail(const char* function, const Outcome& outcome) noexcept {
+  std::snprintf(last_message, sizeof last_message, "%s: %s", function, outcome.text);
+  return outcome.result;
+}
+
+void check_version(std::uint32_t version) {
+  if (major_of(version) != NOOK_VERSION_MAJOR || minor_of(version) > NOOK_VERSION_MINOR)
+    throw Failure(NOOK_ERROR_VERSION,
+                  "the caller's headers do not fit this library (got version %u.%u, need %d.%d or older of "
+                  "the same major "
+                  "version); pass NOOK_VERSION, or update the library",
+                  major_of(version), minor_of(version), NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR);
+}
+
+}  // namespace nook::bake::api
+
+const char* nook_bake_last_message(void) {
+  return nook::bake::api::last_message;
+}
+uint32_t nook_bake_version(void) {
+  return NOOK_VERSION;
+}

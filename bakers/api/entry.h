@@ -1,0 +1,41 @@
+// Every C function that can fail runs its body through here: whatever is thrown becomes a result and this
+// thread's message.
+#pragma once
+
+#include <nook/nook.h>
+
+#include <exception>
+#include <utility>
+
+#include "core/failure.h"
+
+namespace nook::bake::api {
+
+struct Outcome {
+  nook_result result = NOOK_OK;
+  char text[480] = "";
+};
+
+// What an exception means to a caller.
+Outcome outcome_of(const std::exception_ptr& exception) noexcept;
+
+// Keeps "function: text" as this thread's last message and returns the code.
+nook_result fail(const char* function, const Outcome& outcome) noexcept;
+
+template <class Body>
+nook_result enter(const char* function, Body&& body) noexcept {
+  try {
+    std::forward<Body>(body)();
+    return NOOK_OK;
+  } catch (...) {
+    return fail(function, outcome_of(std::current_exception()));
+  }
+}
+
+// Throws unless the pointer is there.
+inline void need(const void* pointer, const char* name) {
+  if (!pointer)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is NULL; a valid pointer or handle is needed", name);
+}
+
+}  // namespace nook::bake::api

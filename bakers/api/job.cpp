@@ -1,0 +1,124 @@
+// Bake jobs: descriptor to recipe, and the life of a job.
+#include <nook/nook_bake.h>
+
+#include "api/descriptors.h"
+#include "api/entry.h"
+#include "api/handles.h"
+#include "api/job_recipe.h"
+#include "api/pose_arrays.h"
+
+using namespace nook;
+using namespace nook::bake;
+
+namespace {
+
+constexpr std::size_t first_job_desc = offsetof(nook_bake_job_desc, progress_user) + sizeof(void*);
+constexpr std::size_t first_progress = sizeof(nook_bake_progress);
+
+nook_bake_job_desc default_job_desc() {
+  nook_bake_job_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.header_version = NOOK_VERSION;
+  desc.preset = NOOK_BAKE_PRESET_STANDARD;
+  desc.pose_mode = NOOK_BAKE_POSES_ALL;
+  desc.seed = 1;
+  return desc;
+}
+
+nook_bake_stage stage_of(const JobProgress& p) {
+  if (p.finished) return NOOK_BAKE_STAGE_DONE;
+  if (!p.started) return NOOK_BAKE_STAGE_WAITING;
+  switch (p.stage) {
+    case BakeStage::raytrace:
+      return NOOK_BAKE_STAGE_RAYTRACE;
+    case BakeStage::initialise:
+      return NOOK_BAKE_STAGE_INITIALISE;
+    case BakeStage::fit:
+      return NOOK_BAKE_STAGE_FIT;
+    case BakeStage::casters:
+      break;
+  }
+  return NOOK_BAKE_STAGE_CASTERS;
+}
+
+nook_bake_progress public_progress(const JobProgress& p) {
+  return {std::uint32_t(sizeof(nook_bake_progress)), stage_of(p), p.done, p.total};
+}
+
+const BakeJob& get(nook_bake_job job) {
+  api::need(job, "job");
+  return job->job;
+}
+
+}  // namespace
+
+nook_result nook_bake_job_desc_init(nook_bake_job_desc* desc, size_t size, uint32_t header_version) {
+  return api::enter("nook_bake_job_desc_init", [&] {
+    api::init_descriptor(desc, size, header_version, first_job_desc, default_job_desc());
+  });
+}
+
+nook_result nook_bake_job_start(nook_bake_character character, const nook_bake_job_desc* desc,
+                                nook_bake_job* out) {
+  return api::enter("nook_bake_job_start", [&] {
+    api::need(out, "out");
+    *out = nullptr;
+    api::need(character, "character");
+    const nook_bake_job_desc settings =
+        api::read_descriptor(desc, "nook_bake_job_desc_init", first_job_desc, default_job_desc());
+    const ImportedCharacter& imported = *character->character;
+    Recipe recipe = api::recipe_of(settings, imported);
+    std::vector<Pose> extra =
+        api::read_poses(settings.extra_poses_3x4, settings.extra_pose_count, imported.mesh.bones.size());
+    BakeJob::Listener listener;
+    if (settings.progress)
+      listener = [call = settings.progress, user = settings.progress_user](const JobProgress& p) {
+        const nook_bake_progress now = public_progress(p);
+        return call(user, &now) != 0;
+      };
+    *out = new nook_bake_job_s{BakeJob(character->character, std::move(recipe), std::move(extra),
+                                       settings.threads, std::move(listener))};
+  });
+}
+
+nook_result nook_bake_job_poll(nook_bake_job job, nook_bake_progress* progress) {
+  return api::enter("nook_bake_job_poll",
+                    [&] { api::write_info(progress, first_progress, public_progress(get(job).progress())); });
+}
+
+nook_result nook_bake_job_cancel(nook_bake_job job) {
+  return api::enter("nook_bake_job_cancel", [&] {
+    api::need(job, "job");
+    job->job.cancel();
+  });
+}
+
+nook_result nook_bake_job_wait(nook_bake_job job) {
+  return api::enter("nook_bake_job_wait", [&] {
+    get(job).wait();
+    get(job).file();
+  });
+}
+
+nook_result nook_bake_job_get_model(nook_bake_job job, const void** bytes, size_t* size) {
+  return api::enter("nook_bake_job_get_model", [&] {
+    api::need(bytes, "bytes");
+    api::need(size, "size");
+    const BakedFile& file = get(job).file();
+    *bytes = file.model.data();
+    *size = file.model.size();
+  });
+}
+
+nook_result nook_bake_job_get_report(nook_bake_job job, const char** json) {
+  return api::enter("nook_bake_job_get_report", [&] {
+    api::need(json, "json");
+    *json = get(job).file().report.c_str();
+  });
+}
+
+void nook_bake_job_destroy(nook_bake_job* job) {
+  if (!job) return;
+  delete *job;
+  *job = nullptr;
+}
