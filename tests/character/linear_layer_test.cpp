@@ -1,6 +1,7 @@
 // The linear layer's own layout and its kernels against the sum as the model states it.
 #include "character/linear_layer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -89,17 +90,51 @@ TEST_CASE("the linear layer gives the model's AO in welded and in file order") {
   }
 }
 
-TEST_CASE("blocks leave out what has no weight") {
-  const CharacterModel model = random_model(800);
+TEST_CASE("vertices that share key points share a block") {
+  // 800 vertices in 50 families of 16 that use the same seven key points, in an order that separates them.
+  // Each family has a place of its own.
+  CharacterModel model;
+  model.influences = influences;
+  for (std::uint32_t k = 0; k < 50 * influences; ++k) {
+    KeyPoint point;
+    point.surface_position = {static_cast<float>(k / influences), 0,
+                              0.01f * static_cast<float>(k % influences)};
+    point.surface_normal = {0, 1, 0};
+    model.key_points.push_back(point);
+  }
+  for (std::uint32_t v = 0; v < 800; ++v) {
+    for (std::uint32_t s = 0; s < influences; ++s) {
+      model.influence.push_back(static_cast<std::uint16_t>(v % 50 * influences + s));
+      model.alpha.push_back(0.1f);
+    }
+    model.bias.push_back(0);
+    model.file_to_welded.push_back(v);
+  }
   const LinearLayer layer(model);
-  std::uint32_t stored = 0, used = 0;
-  for (std::uint32_t b = 0; b < layer.view().block_count; ++b)
-    stored += layer.view().blocks[b].entries * linear_block_vertices;
-  for (const float a : model.alpha) used += a > 0;
-  // A block is as long as its longest vertex; sorting leaves at most one entry a vertex unused where counts
-  // change, here eight times in fifty blocks.
-  CHECK(stored >= used);
-  CHECK(stored <= used + 8 * linear_block_vertices);
+  REQUIRE(layer.view().block_count == 50);
+  for (std::uint32_t b = 0; b < 50; ++b) CHECK(layer.view().blocks[b].columns == influences);
+}
+
+TEST_CASE("absurd weights still give every vertex a slot") {
+  CharacterModel model = random_model(333);
+  for (KeyPoint& point : model.key_points) point.surface_position = {1e30f, -1e30f, 1e30f};
+  for (std::size_t e = 0; e < model.alpha.size(); e += 5) model.alpha[e] *= 1e37f;
+  const LinearLayer layer(model);
+  std::vector<bool> taken(layer.padded_slots(), false);
+  for (const std::uint32_t slot : layer.welded_to_slot()) {
+    CHECK_FALSE(taken[slot]);
+    taken[slot] = true;
+  }
+}
+
+TEST_CASE("key points without weight have no column") {
+  const CharacterModel model = random_model(8);  // vertex 0 uses none, the last all seven
+  const LinearLayer layer(model);
+  std::vector<bool> used(key_points, false);
+  for (std::size_t e = 0; e < model.alpha.size(); ++e)
+    if (model.alpha[e] > 0) used[model.influence[e]] = true;
+  CHECK(layer.view().blocks[0].columns ==
+        static_cast<std::uint32_t>(std::count(used.begin(), used.end(), true)));
 }
 
 TEST_CASE("whatever the shadows, AO is a number between 0 and 1") {

@@ -4,9 +4,11 @@ function(nook_add_kernels target)
   set(room ${CMAKE_CURRENT_FUNCTION_LIST_DIR})
   target_sources(${target} PRIVATE
     ${room}/linear_layer.cpp
+    ${room}/linear_layer_order.cpp
     ${room}/shadow_kernels.cpp
     ${room}/shadow_kernels_rest.cpp
-    ${room}/shadow_kernels_scalar.cpp)
+    ${room}/shadow_kernels_scalar.cpp
+    ${room}/shadow_kernels_scatter.cpp)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
     return()
   endif()

@@ -3,48 +3,57 @@
 #include <algorithm>
 #include <vector>
 
+#include "character/linear_layer_order.h"
 #include "core/failure.h"
 
 namespace nook {
 namespace {
 
-// Number of entries with alpha > 0 of each vertex; throws where the model contradicts itself.
-std::pmr::vector<std::uint32_t> used_entries(const CharacterModel& model, std::pmr::memory_resource* memory) {
-  const std::size_t vertices = model.vertex_count(), influences = model.influences;
-  if (model.alpha.size() != vertices * influences || model.influence.size() != vertices * influences)
+void check_influences(const CharacterModel& model) {
+  const std::size_t entries = model.vertex_count() * model.influences;
+  if (model.alpha.size() != entries || model.influence.size() != entries)
     throw Failure(NOOK_ERROR_BAD_FILE, "linear layer has %zu indices and %zu weights (need %zu of each)",
-                  model.influence.size(), model.alpha.size(), vertices * influences);
-  std::pmr::vector<std::uint32_t> used(vertices, 0, memory);
-  for (std::size_t v = 0; v < vertices; ++v)
-    for (std::size_t s = 0; s < influences; ++s) {
-      if (model.alpha[v * influences + s] == 0) continue;
-      const std::uint16_t key_point = model.influence[v * influences + s];
-      if (key_point >= model.key_points.size())
-        throw Failure(NOOK_ERROR_BAD_FILE,
-                      "vertex %zu is shaded by key point %u, which is not one of the model's (need < %zu)", v,
-                      static_cast<unsigned>(key_point), model.key_points.size());
-      ++used[v];
-    }
-  return used;
-}
-
-// Vertices by falling number of entries; those with equally many keep their order and with it their
-// neighbourhood.
-std::pmr::vector<std::uint32_t> slot_order(const std::pmr::vector<std::uint32_t>& used,
-                                           std::pmr::memory_resource* memory) {
-  std::uint32_t most = 0;
-  for (const std::uint32_t n : used) most = std::max(most, n);
-  std::pmr::vector<std::uint32_t> order(memory);
-  order.reserve(used.size());
-  for (std::uint32_t n = most + 1; n-- > 0;)
-    for (std::uint32_t v = 0; v < used.size(); ++v)
-      if (used[v] == n) order.push_back(v);
-  return order;
+                  model.influence.size(), model.alpha.size(), entries);
+  for (std::size_t e = 0; e < entries; ++e)
+    if (model.alpha[e] != 0 && model.influence[e] >= model.key_points.size())
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "vertex %zu is shaded by key point %u, which is not one of the model's (need < %zu)",
+                    e / model.influences, static_cast<unsigned>(model.influence[e]), model.key_points.size());
 }
 
 std::uint32_t block_count_of(std::size_t vertices) {
   return static_cast<std::uint32_t>((vertices + linear_block_vertices - 1) / linear_block_vertices);
 }
+
+// The columns of all blocks one after another: the key points that a block's vertices use, ascending, each
+// once.
+struct Columns {
+  std::pmr::vector<std::uint16_t> key_point;
+  std::pmr::vector<std::uint32_t> first;  // per block, and the end
+
+  Columns(const CharacterModel& model, const std::pmr::vector<std::uint32_t>& order,
+          std::pmr::memory_resource* memory)
+      : key_point(memory), first(memory) {
+    first.push_back(0);
+    for (std::size_t begin = 0; begin < order.size(); begin += linear_block_vertices) {
+      const std::size_t end = std::min<std::size_t>(begin + linear_block_vertices, order.size());
+      for (std::size_t slot = begin; slot < end; ++slot)
+        for (std::size_t e = std::size_t{order[slot]} * model.influences;
+             e < (order[slot] + 1ull) * model.influences; ++e)
+          if (model.alpha[e] != 0) key_point.push_back(model.influence[e]);
+      const auto own = key_point.begin() + first.back();
+      std::sort(own, key_point.end());
+      key_point.erase(std::unique(own, key_point.end()), key_point.end());
+      first.push_back(static_cast<std::uint32_t>(key_point.size()));
+    }
+  }
+
+  std::size_t find(std::size_t block, std::uint16_t k) const {
+    const auto begin = key_point.begin();
+    return static_cast<std::size_t>(std::lower_bound(begin + first[block], begin + first[block + 1], k) -
+                                    begin);
+  }
+};
 
 }  // namespace
 
@@ -54,28 +63,25 @@ LinearLayer::LinearLayer(const CharacterModel& model, std::pmr::memory_resource*
       inverse_alpha_sum_(blocks_.size() * linear_block_vertices, memory),
       welded_to_slot_(model.vertex_count(), memory),
       file_to_slot_(model.file_to_welded.size(), memory) {
-  const std::pmr::vector<std::uint32_t> used = used_entries(model, memory);
-  const std::pmr::vector<std::uint32_t> order = slot_order(used, memory);
+  check_influences(model);
+  const std::pmr::vector<std::uint32_t> order = linear_layer_order(model, linear_block_vertices, memory);
+  const Columns columns(model, order, memory);
 
-  std::uint32_t entries = 0;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    blocks_[b] = {entries, used[order[b * linear_block_vertices]]};
-    entries += blocks_[b].entries * linear_block_vertices;
-  }
-  key_point_ = AlignedArray<std::uint16_t>(entries, memory);
-  alpha_ = AlignedArray<float>(entries, memory);
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    blocks_[b] = {columns.first[b], columns.first[b + 1] - columns.first[b]};
+  key_point_ = AlignedArray<std::uint16_t>(columns.key_point.size(), memory);
+  std::copy(columns.key_point.begin(), columns.key_point.end(), key_point_.begin());
+  alpha_ = AlignedArray<float>(columns.key_point.size() * linear_block_vertices, memory);
 
   for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
     const std::size_t vertex = order[slot];
     welded_to_slot_[vertex] = slot;
-    std::uint32_t next = blocks_[slot / linear_block_vertices].first_entry + slot % linear_block_vertices;
     float alpha_sum = 0;
-    for (std::size_t s = vertex * model.influences; s < (vertex + 1) * model.influences; ++s) {
-      if (model.alpha[s] == 0) continue;
-      key_point_[next] = model.influence[s];
-      alpha_[next] = model.alpha[s];
-      alpha_sum += model.alpha[s];
-      next += linear_block_vertices;
+    for (std::size_t e = vertex * model.influences; e < (vertex + 1) * model.influences; ++e) {
+      if (model.alpha[e] == 0) continue;
+      const std::size_t column = columns.find(slot / linear_block_vertices, model.influence[e]);
+      alpha_[column * linear_block_vertices + slot % linear_block_vertices] += model.alpha[e];
+      alpha_sum += model.alpha[e];
     }
     open_bias_[slot] = 1 - model.bias[vertex];
     inverse_alpha_sum_[slot] = alpha_sum > 0 ? 1 / alpha_sum : 0;

@@ -1,5 +1,5 @@
-// The linear layer of a character model in the order the processor likes: blocks of 16 vertices, the entries
-// of each block transposed, vertices sorted by their number of entries so that no block computes many zeros.
+// The linear layer of a character model in the order the processor likes: blocks of 16 vertices that share
+// key points, each a small dense matrix.
 #pragma once
 
 #include <cstdint>

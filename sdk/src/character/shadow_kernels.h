@@ -90,11 +90,13 @@ struct RestKeyPointView {
   std::uint32_t padded_count = 0;
 };
 
-// 16 vertices of the linear layer. Entry e of vertex lane l is at first_entry + 16 e + l in key_point and
-// alpha.
+// 16 vertices of the linear layer as a small dense matrix, one column for each key point that any of them
+// uses: a column is one broadcast and one multiply-add for all 16, while looking key points up vertex by
+// vertex costs a load for each. Column c of the block is key_point[first_column + c]; the alphas of its 16
+// vertices are at alpha[16 (first_column + c)].
 struct LinearBlock {
-  std::uint32_t first_entry = 0;
-  std::uint32_t entries = 0;
+  std::uint32_t first_column = 0;
+  std::uint32_t columns = 0;
 };
 inline constexpr std::uint32_t linear_block_vertices = 16;
 

@@ -1,7 +1,7 @@
 // The kernels over one vector type. Each instruction set includes this file inside its own namespace, after
 // defining there
 //   Float, a vector of `width` numbers with the operations of core/simd_scalar.h,
-//   broadcast, load, store, and gather from 16-bit and 32-bit indices.
+//   broadcast, load and store.
 // Everything here has internal linkage or a name that contains the instruction set's type: code compiled for
 // a better processor can never be merged into a function that an older one runs.
 
@@ -176,13 +176,14 @@ void linear_blocks(const LinearView& layer, const float* shadow, const float* oc
     const LinearBlock block = layer.blocks[b];
     Float shaded[parts], added[parts];
     for (std::uint32_t p = 0; p < parts; ++p) shaded[p] = added[p] = broadcast(0.0f);
-    for (std::uint32_t e = 0; e < block.entries; ++e) {
-      const std::uint32_t first = block.first_entry + e * linear_block_vertices;
+    const std::uint32_t end = block.first_column + block.columns;
+    for (std::uint32_t c = block.first_column; c < end; ++c) {
+      const Float gamma = broadcast(shadow[layer.key_point[c]]);
+      const Float dark = broadcast(Added ? occlusion[layer.key_point[c]] : 0.0f);
       for (std::uint32_t p = 0; p < parts; ++p) {
-        const Float alpha = load(layer.alpha + first + p * width);
-        shaded[p] = fma(alpha, gather(shadow, layer.key_point + first + p * width), shaded[p]);
-        if constexpr (Added)
-          added[p] = fma(alpha, gather(occlusion, layer.key_point + first + p * width), added[p]);
+        const Float alpha = load(layer.alpha + c * linear_block_vertices + p * width);
+        shaded[p] = fma(alpha, gamma, shaded[p]);
+        if constexpr (Added) added[p] = fma(alpha, dark, added[p]);
       }
     }
     for (std::uint32_t p = 0; p < parts; ++p) {
@@ -200,15 +201,6 @@ void linear_layer(const LinearView& layer, const float* shadow, const float* occ
     linear_blocks<true>(layer, shadow, occlusion, ao);
   else
     linear_blocks<false>(layer, shadow, nullptr, ao);
-}
-
-void scatter(const float* values, const std::uint32_t* index, std::uint32_t count, float* out,
-             std::size_t stride_bytes) {
-  std::uint32_t i = 0;
-  if (stride_bytes == sizeof(float))
-    for (; i + width <= count; i += width) store(out + i, gather(values, index + i));
-  char* target = reinterpret_cast<char*>(out) + i * stride_bytes;
-  for (; i < count; ++i, target += stride_bytes) *reinterpret_cast<float*>(target) = values[index[i]];
 }
 
 }  // namespace

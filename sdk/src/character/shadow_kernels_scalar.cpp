@@ -24,12 +24,6 @@ Float load(const float* p) {
 void store(float* p, Float a) {
   *p = a;
 }
-Float gather(const float* table, const std::uint16_t* index) {
-  return table[*index];
-}
-Float gather(const float* table, const std::uint32_t* index) {
-  return table[*index];
-}
 }  // namespace
 
 #include "character/shadow_kernels_impl.inl"

@@ -26,13 +26,6 @@ inline Float load(const float* p) {
 inline void store(float* p, Float a) {
   _mm256_storeu_ps(p, a.v);
 }
-inline Float gather(const float* table, const std::uint16_t* i) {
-  const __m256i index = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(i)));
-  return _mm256_i32gather_ps(table, index, 4);
-}
-inline Float gather(const float* table, const std::uint32_t* i) {
-  return _mm256_i32gather_ps(table, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(i)), 4);
-}
 
 inline Float operator+(Float a, Float b) {
   return _mm256_add_ps(a.v, b.v);

@@ -26,13 +26,6 @@ inline Float load(const float* p) {
 inline void store(float* p, Float a) {
   _mm512_storeu_ps(p, a.v);
 }
-inline Float gather(const float* table, const std::uint16_t* i) {
-  const __m512i index = _mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(i)));
-  return _mm512_i32gather_ps(index, table, 4);
-}
-inline Float gather(const float* table, const std::uint32_t* i) {
-  return _mm512_i32gather_ps(_mm512_loadu_si512(i), table, 4);
-}
 
 inline Float operator+(Float a, Float b) {
   return _mm512_add_ps(a.v, b.v);

@@ -26,10 +26,6 @@ inline Float load(const float* p) {
 inline void store(float* p, Float a) {
   _mm_storeu_ps(p, a.v);
 }
-template <class Index>
-inline Float gather(const float* table, const Index* i) {
-  return _mm_setr_ps(table[i[0]], table[i[1]], table[i[2]], table[i[3]]);
-}
 
 inline Float operator+(Float a, Float b) {
   return _mm_add_ps(a.v, b.v);
