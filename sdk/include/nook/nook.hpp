@@ -1,0 +1,162 @@
+// C++17 over the C headers: handles that destroy what they hold, and failed calls as exceptions. Header only,
+// so that no C++ type crosses the library's boundary.
+#ifndef NOOK_NOOK_HPP
+#define NOOK_NOOK_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nook_character.h"
+
+namespace nook {
+
+class Error : public std::runtime_error {
+ public:
+  explicit Error(nook_result result) : std::runtime_error(nook_last_message()), result_(result) {}
+  nook_result result() const noexcept { return result_; }
+
+ private:
+  nook_result result_;
+};
+
+inline void check(nook_result result) {
+  if (result != NOOK_OK) throw Error(result);
+}
+
+// Owns one handle. get() is what the C functions take.
+template <class Handle, void (*destroy)(Handle*)>
+class Unique {
+ public:
+  Unique() = default;
+  explicit Unique(Handle handle) noexcept : handle_(handle) {}
+  Unique(Unique&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+  Unique& operator=(Unique&& other) noexcept {
+    std::swap(handle_, other.handle_);
+    return *this;
+  }
+  ~Unique() { destroy(&handle_); }
+
+  Handle get() const noexcept { return handle_; }
+  explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+ private:
+  Handle handle_ = nullptr;
+};
+
+inline nook_context_desc context_desc() {
+  nook_context_desc desc;
+  check(nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+inline nook_scene_desc scene_desc() {
+  nook_scene_desc desc;
+  check(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+class Context : public Unique<nook_context, nook_context_destroy> {
+ public:
+  explicit Context(const nook_context_desc& desc = context_desc()) : Unique(create(desc)) {}
+
+ private:
+  static nook_context create(const nook_context_desc& desc) {
+    nook_context handle = nullptr;
+    check(nook_context_create(&desc, &handle));
+    return handle;
+  }
+};
+
+class CharacterModel : public Unique<nook_character_model, nook_character_model_destroy> {
+ public:
+  CharacterModel(const Context& context, const void* bytes, std::size_t size)
+      : Unique(load(context, bytes, size)) {}
+
+  nook_character_model_info info() const {
+    nook_character_model_info info{};
+    info.struct_size = sizeof info;
+    check(nook_character_model_get_info(get(), &info));
+    return info;
+  }
+  // Empty for an index out of range.
+  std::string bone_name(std::uint32_t bone) const {
+    const char* name = nook_character_model_bone_name(get(), bone);
+    return name ? name : "";
+  }
+  std::vector<float> static_ao() const {
+    std::vector<float> ao(info().file_vertex_count);
+    check(nook_character_model_static_ao(get(), ao.data(), static_cast<std::uint32_t>(ao.size())));
+    return ao;
+  }
+
+ private:
+  static nook_character_model load(const Context& context, const void* bytes, std::size_t size) {
+    nook_character_model handle = nullptr;
+    check(nook_character_model_load(context.get(), bytes, size, &handle));
+    return handle;
+  }
+};
+
+class Scene : public Unique<nook_scene, nook_scene_destroy> {
+ public:
+  explicit Scene(const Context& context, const nook_scene_desc& desc = scene_desc())
+      : Unique(create(context, desc)) {}
+
+  nook_instance_id add_instance(const CharacterModel& model) {
+    nook_instance_id id = 0;
+    check(nook_scene_add_instance(get(), model.get(), &id));
+    return id;
+  }
+  void remove_instance(nook_instance_id id) { check(nook_scene_remove_instance(get(), id)); }
+  // bones_3x4: 12 floats a bone, row-major.
+  void set_pose(nook_instance_id id, const float* bones_3x4, std::uint32_t bone_count) {
+    check(nook_scene_set_pose(get(), id, bones_3x4, bone_count));
+  }
+  void link(nook_instance_id receiver, nook_instance_id caster) {
+    check(nook_scene_link(get(), receiver, caster));
+  }
+  void unlink(nook_instance_id receiver, nook_instance_id caster) {
+    check(nook_scene_unlink(get(), receiver, caster));
+  }
+  void link_nearest(std::uint32_t k, float max_distance) {
+    check(nook_scene_link_nearest(get(), k, max_distance));
+  }
+  void set_ground(nook_instance_id id, const float* plane_xyzd) {
+    check(nook_scene_set_ground(get(), id, plane_xyzd));
+  }
+  nook_occluder_id add_occluder(const float centre_ws[3], float radius) {
+    nook_occluder_id id = 0;
+    check(nook_scene_add_occluder(get(), centre_ws, radius, &id));
+    return id;
+  }
+  void set_occluder(nook_occluder_id id, const float centre_ws[3], float radius) {
+    check(nook_scene_set_occluder(get(), id, centre_ws, radius));
+  }
+  void remove_occluder(nook_occluder_id id) { check(nook_scene_remove_occluder(get(), id)); }
+  void set_camera(const float position_ws[3]) { check(nook_scene_set_camera(get(), position_ws)); }
+  void set_terms(std::uint32_t terms) { check(nook_scene_set_terms(get(), terms)); }
+  void update() { check(nook_scene_update(get())); }
+  void read_ao(nook_instance_id id, float* out, std::uint32_t count, std::size_t stride = 0) const {
+    check(nook_scene_read_ao(get(), id, out, count, stride));
+  }
+  nook_scene_stats stats() const {
+    nook_scene_stats stats{};
+    stats.struct_size = sizeof stats;
+    check(nook_scene_get_stats(get(), &stats));
+    return stats;
+  }
+
+ private:
+  static nook_scene create(const Context& context, const nook_scene_desc& desc) {
+    nook_scene handle = nullptr;
+    check(nook_scene_create(context.get(), &desc, &handle));
+    return handle;
+  }
+};
+
+}  // namespace nook
+#endif

@@ -1,0 +1,256 @@
+#include "character/model_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <string>
+
+#include "catch.h"
+#include "character/model_check.h"
+#include "core/failure.h"
+#include "model_sample.h"
+
+using namespace nook;
+
+namespace {
+
+// The code and text with which reading fails; NOOK_OK if it does not.
+struct Outcome {
+  nook_result code = NOOK_OK;
+  std::string text;
+};
+
+Outcome read_outcome(std::span<const std::byte> bytes) {
+  try {
+    check_model(read_character_model(bytes), NOOK_ERROR_INTERNAL);
+  } catch (const Failure& failure) {
+    return {failure.code(), failure.what()};
+  }
+  return {};
+}
+
+bool mentions(const Outcome& outcome, const char* part) {
+  return outcome.text.find(part) != std::string::npos;
+}
+
+// Counts what a reader asks for.
+class CountingMemory final : public std::pmr::memory_resource {
+ public:
+  std::size_t total = 0;
+
+ private:
+  void* do_allocate(std::size_t size, std::size_t alignment) override {
+    total += size;
+    return std::pmr::new_delete_resource()->allocate(size, alignment);
+  }
+  void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
+    std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+  }
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+};
+
+void put_u32(std::vector<std::byte>& file, std::size_t at, std::uint32_t value) {
+  for (int i = 0; i < 4; ++i) file[at + i] = std::byte(value >> (8 * i) & 255);
+}
+
+}  // namespace
+
+TEST_CASE("a model comes back from its file within the steps of its codes") {
+  const CharacterModel model = test::sample_model(3, {40, 60, 90, 700, 200, 8});
+  const CharacterModel read = quantise(model);
+
+  REQUIRE(read.bone_names == model.bone_names);
+  REQUIRE(read.kernel.form == model.kernel.form);
+  REQUIRE(read.kernel.gamma == model.kernel.gamma);
+  REQUIRE(read.bounding_radius == model.bounding_radius);
+  REQUIRE(read.recipe == model.recipe);
+  REQUIRE(read.file_to_welded == model.file_to_welded);
+  REQUIRE(read.primitives.size() == model.primitives.size());
+  REQUIRE(read.spheres.size() == model.spheres.size());
+  for (std::size_t i = 0; i < read.spheres.size(); ++i) {
+    // Half a step of 0.8 m / 65535, on three axes.
+    CHECK(length(read.spheres[i].centre - model.spheres[i].centre) < 1.1e-5f);
+    CHECK(std::abs(read.spheres[i].radius - model.spheres[i].radius) < 1e-6f);
+    CHECK(std::abs(read.spheres[i].caster_weight - model.spheres[i].caster_weight) < 0.9f / 255 / 2 + 1e-6f);
+    CHECK(read.spheres[i].bone == model.spheres[i].bone);
+  }
+  for (std::size_t k = 0; k < read.key_points.size(); ++k) {
+    const KeyPoint &got = read.key_points[k], &want = model.key_points[k];
+    CHECK(length(got.position - want.position) < 1.4e-5f);
+    // Both the position's step and the offset's, 0.04 m / 4095.
+    CHECK(length(got.surface_position - want.surface_position) < 2.5e-5f);
+    // Half a step h on two coordinates moves the point of the octahedron by at most sqrt(6) h, 1 / sqrt(3)
+    // from the centre.
+    CHECK(length(got.normal - want.normal) < 4.3f / 2047);
+    CHECK(length(got.surface_normal - want.surface_normal) < 4.3f / 1023);
+    float sum = 0;
+    for (int b = 0; b < KeyPoint::max_bones; ++b) {
+      sum += got.weight[b];
+      // Largest remainders move a weight by less than one step.
+      CHECK(std::abs(got.weight[b] - want.weight[b]) < 1.0f / 256);
+    }
+    CHECK(sum == 1.0f);
+  }
+  const float max_alpha = *std::ranges::max_element(model.alpha);
+  for (std::size_t v = 0; v < read.vertex_count(); ++v) {
+    float got_sum = 0, want_sum = 0;
+    for (std::size_t e = v * 8; e < v * 8 + 8; ++e) {
+      CHECK((read.alpha[e] > 0) == (model.alpha[e] > 0));
+      CHECK(read.influence[e] == model.influence[e]);
+      // A step of the square-root code is at most 2 / 255 of the largest; errors passed on add at most one
+      // more.
+      CHECK(std::abs(read.alpha[e] - model.alpha[e]) < max_alpha * 2 / 255);
+      got_sum += read.alpha[e];
+      want_sum += model.alpha[e];
+    }
+    CHECK(std::abs(got_sum - want_sum) < max_alpha / 255);
+    // Half a step of the range 0.3.
+    CHECK(std::abs(read.bias[v] - model.bias[v]) < 0.3f / 255 / 2 + 1e-6f);
+    CHECK(std::abs(read.static_ao[v] - model.static_ao[v]) < 0.5f / 255 + 1e-6f);
+  }
+}
+
+TEST_CASE("quantising twice changes nothing more") {
+  const CharacterModel once = quantise(test::sample_model(5));
+  CHECK(write_character_model(once) == write_character_model(quantise(once)));
+}
+
+TEST_CASE("a file stays within 16 bytes a vertex and 16 KB") {
+  // The largest model of the product's tables, with 6 entries a vertex on average.
+  CharacterModel model = test::sample_model(9, {80, 130, 500, 6000, 0, 8});
+  for (std::size_t v = 0; v < model.vertex_count(); ++v)
+    for (std::size_t e = 0; e < 8; ++e) {
+      model.alpha[v * 8 + e] = e < 5 + v % 3 ? 0.1f : 0.0f;
+      model.influence[v * 8 + e] = static_cast<std::uint16_t>((v + e) % 500);
+    }
+  model.recipe.assign(1024, ' ');
+  const std::vector<std::byte> file = write_character_model(model);
+  const std::size_t file_order = (model.file_to_welded.size() + 7) / 8 + 8;
+  INFO(file.size());
+  CHECK(file.size() <= 16 * model.vertex_count() + 16384 + file_order);
+}
+
+TEST_CASE("welded vertices may be numbered in any order") {
+  CharacterModel model = test::sample_model(2);
+  std::ranges::reverse(model.file_to_welded);
+  CHECK(quantise(model).file_to_welded == model.file_to_welded);
+}
+
+TEST_CASE("each fault of the container has a message of its own") {
+  const std::vector<std::byte> good = write_character_model(test::sample_model());
+  REQUIRE(read_outcome(good).code == NOOK_OK);
+
+  CHECK(mentions(read_outcome({}), "too short"));
+  auto file = good;
+  file[0] = std::byte{'X'};
+  CHECK(mentions(read_outcome(file), "not \"NOOK\""));
+  file = good;
+  put_u32(file, 4, 0x04030201);
+  CHECK(mentions(read_outcome(file), "big-endian"));
+  file = good;
+  put_u32(file, 8, 7);
+  CHECK(read_outcome(file).code == NOOK_ERROR_FILE_VERSION);
+  CHECK(mentions(read_outcome(file), "got 7, need 1"));
+  file = good;
+  put_u32(file, 12, four_letters("NNAO"));
+  CHECK(mentions(read_outcome(file), "got \"NNAO\", need \"CHAR\""));
+  file = good;
+  file.push_back({});
+  CHECK(mentions(read_outcome(file), "size is wrong"));
+  file = good;
+  file.back() ^= std::byte{1};
+  CHECK(mentions(read_outcome(file), "checksum"));
+  file = good;
+  put_u32(file, 40, four_letters("ODDS"));  // the first section's name
+  repair_checksum(file);
+  CHECK(mentions(read_outcome(file), "section HEAD is missing"));
+  file = good;
+  put_u32(file, 40 + 12, 0x7fffffff);  // the upper half of the first section's offset
+  repair_checksum(file);
+  CHECK(mentions(read_outcome(file), "outside the file"));
+}
+
+TEST_CASE("a file cut at any byte is refused") {
+  const std::vector<std::byte> good = write_character_model(test::sample_model());
+  for (std::size_t size = 0; size < good.size(); ++size) {
+    // An exact copy on the heap, so that the address sanitizer sees one byte too far.
+    const std::vector<std::byte> cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
+    REQUIRE(read_outcome(cut).code == NOOK_ERROR_BAD_FILE);
+  }
+}
+
+TEST_CASE("a file flipped at any byte is refused") {
+  const std::vector<std::byte> good = write_character_model(test::sample_model());
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    auto file = good;
+    file[i] ^= std::byte{0x81};
+    REQUIRE(read_outcome(file).code != NOOK_OK);
+  }
+}
+
+TEST_CASE("a file flipped at any byte with its checksum repaired loads soundly or is refused") {
+  const std::vector<std::byte> good = write_character_model(test::sample_model());
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < good.size(); ++i)
+    for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
+      auto file = good;
+      file[i] ^= std::byte(flip);
+      repair_checksum(file);
+      const Outcome outcome = read_outcome(file);
+      refused += outcome.code != NOOK_OK;
+      REQUIRE((outcome.code == NOOK_OK || outcome.code == NOOK_ERROR_BAD_FILE ||
+               outcome.code == NOOK_ERROR_FILE_VERSION));
+    }
+  // Heads, tables and counts are a good part of so small a file.
+  CHECK(refused > good.size() / 2);
+}
+
+TEST_CASE("memory for a hostile file is bounded by its size") {
+  const std::vector<std::byte> good = write_character_model(test::sample_model());
+  for (std::size_t i = 40; i < good.size(); ++i) {
+    auto file = good;
+    file[i] ^= std::byte{0xff};
+    repair_checksum(file);
+    CountingMemory memory;
+    try {
+      read_character_model(file, &memory);
+    } catch (const Failure&) {
+    }
+    // 19 bits of the linear layer become at most 48 bytes of arrays: a factor of 20; names and the rest stay
+    // below.
+    REQUIRE(memory.total < 64 * file.size());
+  }
+}
+
+TEST_CASE("a model with a fault is not written, and the message names it") {
+  const auto refusal = [](auto&& damage) {
+    CharacterModel model = test::sample_model();
+    damage(model);
+    try {
+      write_character_model(model);
+    } catch (const Failure& failure) {
+      REQUIRE(failure.code() == NOOK_ERROR_INVALID_ARGUMENT);
+      return std::string(failure.what());
+    }
+    return std::string();
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  CHECK(has(refusal([](CharacterModel& m) { m.spheres.clear(); }), "number of spheres"));
+  CHECK(has(refusal([](CharacterModel& m) { m.spheres[2].centre.y = NAN; }), "centre of sphere 2"));
+  CHECK(has(refusal([](CharacterModel& m) { m.spheres[1].radius = 0; }), "radius of sphere 1"));
+  CHECK(has(refusal([](CharacterModel& m) { m.spheres[3].bone = 5; }), "bone of sphere 3"));
+  CHECK(has(refusal([](CharacterModel& m) { m.key_points[4].normal = {}; }), "normal of key point 4"));
+  CHECK(has(refusal([](CharacterModel& m) { m.key_points[4].weight[0] += 0.5f; }), "key point 4"));
+  CHECK(has(refusal([](CharacterModel& m) { m.influence[0] = 12; }), "key point of vertex 0"));
+  CHECK(has(refusal([](CharacterModel& m) { m.alpha[0] = -1; }), "alpha of vertex 0"));
+  CHECK(
+      has(refusal([](CharacterModel& m) { std::ranges::fill(m.alpha, 0.0f); }), "sum of alphas of vertex 0"));
+  CHECK(has(refusal([](CharacterModel& m) { m.bias[7] = INFINITY; }), "bias of vertex 7"));
+  CHECK(has(refusal([](CharacterModel& m) { m.file_to_welded[1] = 40; }), "file vertex 1"));
+  CHECK(has(refusal([](CharacterModel& m) { m.primitives.pop_back(); }), "file vertices"));
+  CHECK(has(refusal([](CharacterModel& m) { m.kernel.gamma = 0.5f; }), "gamma"));
+  CHECK(has(refusal([](CharacterModel& m) { m.root_bone = 5; }), "root bone"));
+  CHECK(has(refusal([](CharacterModel& m) { m.influences = 9; }), "influences"));
+}

@@ -1,0 +1,100 @@
+// Small character models with known numbers, for tests that need no bake.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "character/model.h"
+
+namespace nook::test {
+
+// Reproducible numbers on every platform (Numerical Recipes' linear congruential generator).
+class Numbers {
+ public:
+  explicit Numbers(std::uint32_t seed) : state_(seed) {}
+  std::uint32_t next() { return state_ = state_ * 1664525u + 1013904223u; }
+  float between(float low, float high) {
+    return low + (high - low) * static_cast<float>(next() >> 8) / 16777216.0f;
+  }
+  std::uint32_t below(std::uint32_t count) { return (next() >> 8) % count; }
+  Vec3 place(float half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
+  Vec3 direction() {
+    for (;;) {
+      const Vec3 v = place(1);
+      if (length(v) > 0.1f && length(v) <= 1) return normalised(v);
+    }
+  }
+
+ private:
+  std::uint32_t state_;
+};
+
+struct SampleSize {
+  std::uint32_t bones = 5, spheres = 7, key_points = 12, vertices = 40, repeats = 10, influences = 4;
+};
+
+// Spheres, key points and weights at random in a box of a metre; `repeats` file vertices are second copies.
+inline CharacterModel sample_model(std::uint32_t seed = 1, const SampleSize& size = {}) {
+  Numbers numbers(seed);
+  CharacterModel model;
+  for (std::uint32_t b = 0; b < size.bones; ++b)
+    model.bone_names.emplace_back(("skeleton:bone_" + std::to_string(b)).c_str());
+  for (std::uint32_t s = 0; s < size.spheres; ++s)
+    model.spheres.push_back({numbers.place(0.4f), numbers.between(0.03f, 0.15f),
+                             static_cast<std::uint16_t>(numbers.below(size.bones)),
+                             numbers.between(0.2f, 0.9f)});
+  for (std::uint32_t k = 0; k < size.key_points; ++k) {
+    KeyPoint point;
+    point.position = numbers.place(0.5f);
+    point.normal = numbers.direction();
+    point.surface_position = point.position + numbers.place(0.02f);
+    point.surface_normal = numbers.direction();
+    const std::uint32_t used = 1 + numbers.below(KeyPoint::max_bones);
+    float sum = 0;
+    for (std::uint32_t b = 0; b < used; ++b) {
+      point.bone[b] = static_cast<std::uint16_t>(numbers.below(size.bones));
+      sum += point.weight[b] = numbers.between(0.1f, 1);
+    }
+    for (float& weight : point.weight) weight /= sum;
+    model.key_points.push_back(point);
+  }
+  model.influences = size.influences;
+  for (std::uint32_t v = 0; v < size.vertices; ++v) {
+    const std::uint32_t used = 1 + numbers.below(size.influences);
+    for (std::uint32_t e = 0; e < size.influences; ++e) {
+      model.influence.push_back(static_cast<std::uint16_t>(e < used ? numbers.below(size.key_points) : 0));
+      model.alpha.push_back(e < used ? numbers.between(0.001f, 0.6f) : 0.0f);
+    }
+    model.bias.push_back(numbers.between(-0.1f, 0.2f));
+    model.static_ao.push_back(numbers.between(0, 1));
+    model.file_to_welded.push_back(v);
+    if (numbers.below(size.vertices) < size.repeats) model.file_to_welded.push_back(numbers.below(v + 1));
+  }
+  const auto file_vertices = static_cast<std::uint32_t>(model.file_to_welded.size());
+  model.primitives = {{0, file_vertices / 3}, {file_vertices / 3, file_vertices - file_vertices / 3}};
+  model.bounding_radius = 0.9f;
+  model.recipe = "{\"preset\": \"test\"}";
+  return model;
+}
+
+// One bone, one sphere, and one upward key point at the origin that one vertex takes in full.
+inline CharacterModel single_model(Vec3 sphere_centre, float sphere_radius, float alpha = 1, float bias = 0) {
+  CharacterModel model;
+  model.bone_names.emplace_back("root");
+  model.spheres.push_back({sphere_centre, sphere_radius, 0, 1});
+  KeyPoint point;
+  point.normal = point.surface_normal = {0, 1, 0};
+  point.weight[0] = 1;
+  model.key_points.push_back(point);
+  model.influences = 1;
+  model.influence = {0};
+  model.alpha = {alpha};
+  model.bias = {bias};
+  model.file_to_welded = {0};
+  model.primitives = {{0, 1}};
+  model.bounding_radius = length(sphere_centre) + sphere_radius;
+  return model;
+}
+
+}  // namespace nook::test
