@@ -1,0 +1,154 @@
+// How the cost of an instance changes with the size of the crowd, through the C ABI on one thread: constant
+// density, four nearest neighbours linked, ground, no level of detail, no cut-off.
+#include <benchmark/benchmark.h>
+#include <nook/nook_character.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "character/model_file.h"
+#include "sample_character.h"
+
+namespace {
+
+using namespace nook;
+using namespace nook::bench;
+
+void require(nook_result result) {
+  if (result != NOOK_OK) throw std::runtime_error(nook_last_message());
+}
+
+// Characters on a jittered grid, one to two square metres.
+class Crowd {
+ public:
+  explicit Crowd(std::uint32_t count) {
+    nook_context_desc context_desc;
+    require(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+    require(nook_context_create(&context_desc, &context_));
+    const CharacterModel model = sample_model();
+    const std::vector<std::byte> file = write_character_model(model);
+    require(nook_character_model_load(context_, file.data(), file.size(), &model_));
+    nook_scene_desc scene_desc;
+    require(nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION));
+    scene_desc.cutoff_error = 0;
+    require(nook_scene_create(context_, &scene_desc, &scene_));
+    require(nook_scene_link_nearest(scene_, 4, 10));
+
+    bones_ = model.bone_count();
+    for (unsigned seed = 0; seed < 16; ++seed) poses_.push_back(sample_pose(bones_, seed));
+    ao_.resize(model.file_to_welded.size());
+    const auto side = static_cast<std::uint32_t>(std::ceil(std::sqrt(double(count))));
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> jitter(-0.4f, 0.4f);
+    const float ground[4] = {0, 1, 0, 0};
+    for (std::uint32_t i = 0; i < count; ++i) {
+      nook_instance_id id = 0;
+      require(nook_scene_add_instance(scene_, model_, &id));
+      require(nook_scene_set_ground(scene_, id, ground));
+      ids_.push_back(id);
+      const float x = 1.4142f * float(i % side) + jitter(random),
+                  z = 1.4142f * float(i / side) + jitter(random);
+      places_.push_back({x, 0, z});
+    }
+  }
+  ~Crowd() {
+    nook_scene_destroy(&scene_);
+    nook_character_model_destroy(&model_);
+    nook_context_destroy(&context_);
+  }
+  Crowd(const Crowd&) = delete;
+  Crowd& operator=(const Crowd&) = delete;
+
+  void self_only() { require(nook_scene_set_terms(scene_, NOOK_TERM_SELF)); }
+  void set_poses() {
+    ++frame_;
+    std::vector<Mat3x4> pose(bones_);
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      pose = poses_[(i + frame_) % poses_.size()];
+      for (Mat3x4& bone : pose) bone.m[3] += places_[i].x, bone.m[11] += places_[i].z;
+      require(nook_scene_set_pose(scene_, ids_[i], pose.data()->m, static_cast<std::uint32_t>(bones_)));
+    }
+  }
+  void update() { require(nook_scene_update(scene_)); }
+  void read() {
+    for (const nook_instance_id id : ids_)
+      require(nook_scene_read_ao(scene_, id, ao_.data(), static_cast<std::uint32_t>(ao_.size()), 0));
+  }
+  nook_scene_stats stats() {
+    nook_scene_stats stats{};
+    stats.struct_size = sizeof stats;
+    require(nook_scene_get_stats(scene_, &stats));
+    return stats;
+  }
+
+ private:
+  nook_context context_ = nullptr;
+  nook_character_model model_ = nullptr;
+  nook_scene scene_ = nullptr;
+  std::size_t bones_ = 0, frame_ = 0;
+  std::vector<std::vector<Mat3x4>> poses_;
+  std::vector<nook_instance_id> ids_;
+  std::vector<Vec3> places_;
+  std::vector<float> ao_;
+};
+
+template <class Work>
+double seconds(Work&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void scene(benchmark::State& state) {
+  const auto count = static_cast<std::uint32_t>(state.range(0));
+  Crowd crowd(count);
+  // The fastest of the frames: other processes can only add to it.
+  double pose = 1e9, update = 1e9, read = 1e9;
+  for (auto _ : state) {
+    pose = std::min(pose, seconds([&] { crowd.set_poses(); }));
+    update = std::min(update, seconds([&] { crowd.update(); }));
+    read = std::min(read, seconds([&] { crowd.read(); }));
+  }
+  const nook_scene_stats stats = crowd.stats();
+  state.counters["us_per_instance"] = 1e6 * (pose + update + read) / count;
+  state.counters["set_pose_us"] = 1e6 * pose / count;
+  state.counters["update_us"] = 1e6 * update / count;
+  state.counters["read_ao_us"] = 1e6 * read / count;
+  state.counters["links_per_instance"] = double(stats.links) / count;
+  state.counters["G_evals_per_s"] = 1e-9 * double(stats.evaluations) / update;
+}
+BENCHMARK(scene)->Arg(100)->Arg(1000)->Arg(10000)->MinTime(2)->Unit(benchmark::kMillisecond);
+
+// The whole of one character's self AO as a host gets it, beside skinning the same vertices; see
+// one_character for the kernels alone.
+void one_character_through_the_abi(benchmark::State& state) {
+  Crowd crowd(1);
+  crowd.self_only();
+  const CharacterModel model = sample_model();
+  const SampleSkin vertices = sample_skin(model);
+  AlignedArray<SkinningMatrix> bones(model.bone_count(), std::pmr::get_default_resource());
+  const std::vector<Mat3x4> pose = sample_pose(bones.size(), 5);
+  for (std::size_t b = 0; b < bones.size(); ++b) bones[b] = skinning_matrix(pose[b]);
+  AlignedArray<float> posed(6 * vertices.view.count + 16, std::pmr::get_default_resource());
+  const SkinFunction skin = skin_avx512() ? skin_avx512() : skin_avx2() ? skin_avx2() : skin_scalar;
+
+  double ao = 1e9, skinning = 1e9;
+  for (auto _ : state) {
+    skinning = std::min(skinning, seconds([&] { skin(vertices.view, bones.data(), posed.data()); }));
+    ao = std::min(ao, seconds([&] {
+                    crowd.set_poses();
+                    crowd.update();
+                    crowd.read();
+                  }));
+  }
+  state.counters["ao_us"] = 1e6 * ao;
+  state.counters["skinning_us"] = 1e6 * skinning;
+  state.counters["times_skinning"] = ao / skinning;
+}
+BENCHMARK(one_character_through_the_abi)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
