@@ -97,7 +97,8 @@ class Character {
     const LinearBlock& last = layer.blocks[layer.block_count - 1];
     return double(last.first_column + last.columns) / layer.block_count;
   }
-  double evaluations() const { return double(rest_spheres_.view().count) * points_count(); }
+  // Without the padding, whose work nobody sees.
+  double evaluations() const { return double(model_.spheres.size() * model_.key_points.size()); }
   const CharacterModel& model() const { return model_; }
 
  private:
