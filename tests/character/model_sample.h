@@ -35,7 +35,7 @@ struct SampleSize {
 };
 
 // Spheres, key points and weights at random in a box of a metre; `repeats` file vertices are second copies.
-inline CharacterModel sample_model(std::uint32_t seed = 1, const SampleSize& size = {}) {
+inline CharacterModel sample_model(std::uint32_t seed = 1, SampleSize size = {}) {
   Numbers numbers(seed);
   CharacterModel model;
   for (std::uint32_t b = 0; b < size.bones; ++b)

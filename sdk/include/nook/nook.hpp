@@ -13,6 +13,9 @@
 #include "nook_character.h"
 
 namespace nook {
+// A namespace within, so that these names never meet the library's own at link time. Write nook::Scene all
+// the same.
+inline namespace wrapper {
 
 class Error : public std::runtime_error {
  public:
@@ -158,5 +161,6 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
   }
 };
 
+}  // namespace wrapper
 }  // namespace nook
 #endif
