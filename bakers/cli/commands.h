@@ -1,0 +1,15 @@
+// The subcommands. Each adds itself, with its options, to its parent and runs when the parent is parsed; it
+// ends by returning or by throwing ToolError or Failure.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace nook::cli {
+
+void add_bake_character(CLI::App& bake);
+void add_evaluate_character(CLI::App& evaluate);
+void add_inspect(CLI::App& tool);
+
+}  // namespace nook::cli

@@ -1,0 +1,80 @@
+// nook inspect: what is inside a .nook file.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "character/model_file.h"
+#include "cli/commands.h"
+#include "cli/common_options.h"
+#include "cli/input_file.h"
+#include "cli/output_file.h"
+#include "cli/table.h"
+
+namespace nook::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::string input;
+};
+
+constexpr const char* kernel_names[] = {"paper", "nook", "rational"};
+
+Json describe_character(std::span<const std::byte> bytes) {
+  const CharacterModel model = read_character_model(bytes);
+  const Container container(bytes, character_kind);
+  Json row;
+  row["kind"] = "character model";
+  row["format_version"] = container.version();
+  row["bytes"] = bytes.size();
+  row["vertices"] = model.vertex_count();
+  row["file_vertices"] = model.file_to_welded.size();
+  row["primitives"] = model.primitives.size();
+  row["bones"] = model.bone_count();
+  row["spheres"] = model.spheres.size();
+  row["key_points"] = model.key_points.size();
+  row["influences"] = model.influences;
+  row["kernel"] = kernel_names[std::size_t(model.kernel.form)];
+  row["gamma"] = model.kernel.gamma;
+  row["bounding_radius_m"] = model.bounding_radius;
+  for (const char* name : {"HEAD", "BONE", "SPHR", "KEYP", "LINR", "STAO", "FMAP", "PRIM", "RECP"}) {
+    const char letters[5] = {name[0], name[1], name[2], name[3], 0};
+    row[std::string("bytes_") + name] = container.has(letters) ? container.section(letters).remaining() : 0;
+  }
+  const Json recipe = Json::parse(model.recipe, nullptr, false);
+  if (recipe.is_object())
+    for (const auto& item : recipe.items()) row["recipe_" + item.key()] = item.value();
+  return row;
+}
+
+void run(const Options& options) {
+  const std::vector<std::byte> bytes = read_file(options.input);
+  std::optional<OutputFile> report;
+  if (!options.common.report.empty()) report.emplace(options.common.report);
+  const Json row = naming_file(options.input, [&] {
+    if (bytes.size() >= 16 && container_kind(bytes) != character_kind.kind && container_kind(bytes) != 0)
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "a .nook file of a kind that this version cannot inspect; use a newer one");
+    return describe_character(bytes);
+  });
+  if (report)
+    report->commit(Json{{"rows", Json::array({row})}}.dump(2, ' ', false, Json::error_handler_t::replace) +
+                   "\n");
+  if (!options.common.quiet) std::fputs(table_text(Json::array({row})).c_str(), stdout);
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& tool) {
+  CLI::App* command = tool.add_subcommand("inspect", "show what a .nook file holds");
+  const auto options = std::make_shared<Options>();
+  command->add_option("file", options->input, "a .nook file")->required();
+  add_common_options(*command, options->common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::cli

@@ -1,0 +1,55 @@
+// nook: bakes, measures and inspects what the runtime loads.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/tool_error.h"
+#include "core/failure.h"
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App tool(
+      "Bakes ambient occlusion, measures it against ray tracing, and inspects .nook files.\n"
+      "Exit codes: 0 done, 2 bad arguments, 3 bad input, 1 anything else.",
+      "nook");
+  tool.set_version_flag("--version", std::to_string(NOOK_VERSION_MAJOR) + "." +
+                                         std::to_string(NOOK_VERSION_MINOR) + "." +
+                                         std::to_string(NOOK_VERSION_PATCH));
+  tool.require_subcommand(1);
+  CLI::App* bake = tool.add_subcommand("bake", "make .nook files")->require_subcommand(1);
+  CLI::App* evaluate =
+      tool.add_subcommand("evaluate", "measure .nook files against ray tracing")->require_subcommand(1);
+  nook::cli::add_bake_character(*bake);
+  nook::cli::add_evaluate_character(*evaluate);
+  nook::cli::add_inspect(tool);
+  try {
+    tool.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return tool.exit(e) == 0 ? nook::cli::exit_done : nook::cli::exit_bad_arguments;
+  }
+  return nook::cli::exit_done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  nook::cli::watch_for_interrupt();
+  const auto fail = [](int code, const char* text) {
+    std::fprintf(stderr, "nook: %s\n", text);
+    return code;
+  };
+  try {
+    return run(argc, argv);
+  } catch (const nook::cli::ToolError& e) {
+    return fail(e.code(), e.what());
+  } catch (const nook::Failure& e) {
+    return fail(nook::cli::exit_code_of(e.code()), e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(nook::cli::exit_other, "not enough memory; use fewer poses, or a smaller preset");
+  } catch (const std::exception& e) {
+    return fail(nook::cli::exit_other, e.what());
+  }
+}
