@@ -1,0 +1,32 @@
+// Reads glTF accessors with every bound checked: tinygltf checks only some of them.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nook::bake {
+
+// Components in a row as floats: normalised integers become [0, 1] or [-1, 1], plain integers keep their
+// value. Sparse accessors are resolved. `what` names the accessor in messages. Fails with BAD_FILE.
+struct Floats {
+  std::vector<float> value;
+  std::size_t count = 0;
+  int components = 0;
+};
+Floats read_floats(const tinygltf::Model& model, int accessor, const std::string& what);
+
+// As read_floats, and the accessor must have this many components.
+Floats read_floats(const tinygltf::Model& model, int accessor, int components, const std::string& what);
+
+// Unsigned integers: indices and joints.
+struct Integers {
+  std::vector<std::uint32_t> value;
+  std::size_t count = 0;
+  int components = 0;
+};
+Integers read_integers(const tinygltf::Model& model, int accessor, int components, const std::string& what);
+
+}  // namespace nook::bake

@@ -1,0 +1,48 @@
+// Affine transforms in double precision: chains of nodes under a 0.01 scale lose too many digits in floats.
+#pragma once
+
+#include <array>
+
+#include "core/vec.h"
+
+namespace nook::bake {
+
+// Three rows of [linear part | translation], like Mat3x4.
+struct Affine {
+  std::array<double, 12> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+};
+
+Affine operator*(const Affine& a, const Affine& b);  // applies b first
+std::array<double, 3> transform(const Affine& a, double x, double y, double z);
+Vec3 transform(const Affine& a, Vec3 p);
+double determinant(const Affine& a);
+bool is_finite(const Affine& a);
+
+// The caller checks determinant(a) != 0 first.
+Affine inverse(const Affine& a);
+
+// Columns of a 4x4 matrix as glTF stores them; the last row is taken to be 0 0 0 1.
+Affine from_columns(const double* columns_4x4);
+
+// Translation, unit quaternion (x, y, z, w), scale, applied in the order scale, rotation, translation.
+struct Trs {
+  std::array<double, 3> translation{0, 0, 0};
+  std::array<double, 4> rotation{0, 0, 0, 1};
+  std::array<double, 3> scale{1, 1, 1};
+};
+Affine to_affine(const Trs& trs);
+
+// The nearest s * R (Frobenius norm) with R a rotation and s > 0.
+struct Similarity {
+  Affine matrix;
+  double scale = 1;
+  double deviation = 0;  // |A - s R| / |s R| of the linear parts: 0 for a rigid or uniformly scaled matrix
+};
+
+// fixed is the point whose image stays the same: the joint's origin, so that removing shear does not move the
+// joint.
+Similarity nearest_similarity(const Affine& a, const std::array<double, 3>& fixed);
+
+Mat3x4 to_float(const Affine& a);
+
+}  // namespace nook::bake

@@ -1,0 +1,43 @@
+// A rigged character out of a glTF 2.0 file (.glb or .gltf): welded mesh, bones, clips.
+//
+// Rest space is the bind-posed body in metres where the file's default root puts it: for the skin's top-most
+// joint r, rest = world_default(r) * inverse_bind(r) * v. Node transforms above the skeleton (a 0.01 scale, a
+// 90 degree turn) are thus part of it, and a default pose that is not the bind pose does not matter.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "import/clip.h"
+#include "import/node_tree.h"
+#include "import/skinned_mesh.h"
+
+namespace nook::bake {
+
+// Where a bone's matrix comes from: world(node) * node_from_rest.
+struct BoneBinding {
+  std::uint32_t node = 0;
+  Affine node_from_rest;
+  std::array<double, 3> origin_rest{};  // the joint's origin in rest space
+};
+
+struct ImportedCharacter {
+  SkinnedMesh mesh;
+  std::vector<Clip> clips;
+  NodeTree nodes;
+  std::vector<BoneBinding> bindings;  // one for each bone of the mesh
+  std::vector<std::string> warnings;  // what was left out or repaired, one sentence each
+  std::uint64_t source_hash = 0;      // XXH64 of the file's bytes and of the external buffers it names
+};
+
+// Fails with BAD_FILE; the message names the fault, the caller adds the file's name.
+ImportedCharacter import_gltf(const std::filesystem::path& path);
+
+// From memory, without access to any file: buffers must be in the bytes or in data URIs.
+ImportedCharacter import_gltf(std::span<const std::byte> bytes);
+
+}  // namespace nook::bake

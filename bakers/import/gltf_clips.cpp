@@ -1,0 +1,123 @@
+#include "import/gltf_clips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/failure.h"
+#include "import/accessor.h"
+#include "import/unique_names.h"
+
+namespace nook::bake {
+namespace {
+
+constexpr std::size_t max_key_floats = std::size_t{1}
+                                       << 26;  // all clips together; bounds memory on hostile input
+
+std::optional<ChannelPath> path_of(const std::string& text) {
+  if (text == "translation") return ChannelPath::translation;
+  if (text == "rotation") return ChannelPath::rotation;
+  if (text == "scale") return ChannelPath::scale;
+  return std::nullopt;
+}
+
+Interpolation interpolation_of(const std::string& text, const std::string& what) {
+  if (text.empty() || text == "LINEAR") return Interpolation::linear;
+  if (text == "STEP") return Interpolation::step;
+  if (text == "CUBICSPLINE") return Interpolation::cubic_spline;
+  throw Failure(NOOK_ERROR_BAD_FILE, "%s: interpolation \"%s\" (need LINEAR, STEP or CUBICSPLINE)",
+                what.c_str(), text.c_str());
+}
+
+Channel read_channel(const tinygltf::Model& model, const tinygltf::Animation& animation,
+                     const tinygltf::AnimationChannel& source, ChannelPath path, const std::string& what) {
+  if (source.sampler < 0 || static_cast<std::size_t>(source.sampler) >= animation.samplers.size())
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s names sampler %d (animation has %zu)", what.c_str(),
+                  source.sampler, animation.samplers.size());
+  const tinygltf::AnimationSampler& sampler = animation.samplers[source.sampler];
+  Channel channel;
+  channel.node = static_cast<std::uint32_t>(source.target_node);
+  channel.path = path;
+  channel.interpolation = interpolation_of(sampler.interpolation, what);
+  channel.time_s = read_floats(model, sampler.input, 1, what + " input").value;
+  Floats output = read_floats(model, sampler.output, channel.components(), what + " output");
+  const std::size_t per_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
+  if (channel.time_s.empty() || output.count != per_key * channel.time_s.size())
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s has %zu values for %zu keys (need %zu a key, and one key at least)", what.c_str(),
+                  output.count, channel.time_s.size(), per_key);
+  channel.value = std::move(output.value);
+  const auto is_finite = [](float v) { return std::isfinite(v); };
+  if (!std::all_of(channel.time_s.begin(), channel.time_s.end(), is_finite) ||
+      !std::all_of(channel.value.begin(), channel.value.end(), is_finite))
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s has a key that is not finite", what.c_str());
+  if (!std::is_sorted(channel.time_s.begin(), channel.time_s.end()))
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s has key times that go back", what.c_str());
+  return channel;
+}
+
+// Puts the clip's first key at 0.
+void settle_times(Clip& clip) {
+  float first = clip.channels[0].time_s.front();
+  float last = clip.channels[0].time_s.back();
+  for (const Channel& channel : clip.channels) {
+    first = std::min(first, channel.time_s.front());
+    last = std::max(last, channel.time_s.back());
+  }
+  clip.start_s = first;
+  clip.duration_s = last - first;
+  for (Channel& channel : clip.channels)
+    for (float& t : channel.time_s) t -= first;
+}
+
+}  // namespace
+
+std::vector<Clip> read_clips(const tinygltf::Model& model, const NodeTree& nodes,
+                             std::vector<std::string>& warnings) {
+  std::vector<std::string> names;
+  for (const tinygltf::Animation& animation : model.animations) names.push_back(animation.name);
+  names = unique_names(names, "clip");
+
+  std::vector<Clip> clips;
+  std::size_t key_floats = 0;
+  std::size_t morph_channels = 0;
+  for (std::size_t a = 0; a < model.animations.size(); ++a) {
+    const tinygltf::Animation& animation = model.animations[a];
+    Clip clip;
+    clip.name = names[a];
+    for (std::size_t c = 0; c < animation.channels.size(); ++c) {
+      const tinygltf::AnimationChannel& source = animation.channels[c];
+      const std::string what = "clip \"" + clip.name + "\" channel " + std::to_string(c);
+      const std::optional<ChannelPath> path = path_of(source.target_path);
+      // A channel without a node is legal and does nothing.
+      if (!path || source.target_node < 0) {
+        ++morph_channels;
+        continue;
+      }
+      if (static_cast<std::size_t>(source.target_node) >= nodes.size())
+        throw Failure(NOOK_ERROR_BAD_FILE, "%s names node %d (file has %zu)", what.c_str(),
+                      source.target_node, nodes.size());
+      if (nodes.nodes[source.target_node].matrix)
+        throw Failure(NOOK_ERROR_BAD_FILE,
+                      "%s animates node %d, which has a matrix (need translation, rotation, scale)",
+                      what.c_str(), source.target_node);
+      clip.channels.push_back(read_channel(model, animation, source, *path, what));
+      key_floats += clip.channels.back().time_s.size() + clip.channels.back().value.size();
+      if (key_floats > max_key_floats)
+        throw Failure(NOOK_ERROR_BAD_FILE, "too many animation keys (need at most %zu numbers)",
+                      max_key_floats);
+    }
+    if (clip.channels.empty()) {
+      warnings.push_back("clip \"" + clip.name + "\" moves no node and was left out");
+      continue;
+    }
+    settle_times(clip);
+    clips.push_back(std::move(clip));
+  }
+  if (morph_channels > 0)
+    warnings.push_back(std::to_string(morph_channels) +
+                       " animation channels move no node (morph targets) and were left out");
+  return clips;
+}
+
+}  // namespace nook::bake

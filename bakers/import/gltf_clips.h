@@ -1,0 +1,18 @@
+// Animations of a glTF file as clips.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <string>
+#include <vector>
+
+#include "import/clip.h"
+
+namespace nook::bake {
+
+// Channels of morph targets are left out, and so are clips that move no node (both are told in warnings).
+// Fails with BAD_FILE.
+std::vector<Clip> read_clips(const tinygltf::Model& model, const NodeTree& nodes,
+                             std::vector<std::string>& warnings);
+
+}  // namespace nook::bake

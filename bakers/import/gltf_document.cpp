@@ -1,0 +1,196 @@
+#include "import/gltf_document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/failure.h"
+
+namespace nook::bake {
+namespace {
+
+bool is_binary(std::span<const std::byte> bytes) {
+  return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+}
+
+std::uint32_t load_u32(std::span<const std::byte> bytes, std::size_t at) {
+  std::uint32_t value;
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+// glTF 2.0, section 4.4: a 12-byte header, then the JSON chunk.
+std::span<const std::byte> json_of_binary(std::span<const std::byte> bytes) {
+  if (bytes.size() < 20)
+    throw Failure(NOOK_ERROR_BAD_FILE, "truncated .glb (got %zu bytes, need 20 for its headers)",
+                  bytes.size());
+  const std::uint32_t version = load_u32(bytes, 4);
+  const std::uint32_t total = load_u32(bytes, 8);
+  const std::uint32_t json = load_u32(bytes, 12);
+  if (version != 2) throw Failure(NOOK_ERROR_BAD_FILE, "glTF version %u (need 2)", version);
+  if (total > bytes.size() || total < 20)
+    throw Failure(NOOK_ERROR_BAD_FILE, "truncated .glb (got %zu bytes, its header says %u)", bytes.size(),
+                  total);
+  if (json > total - 20)
+    throw Failure(NOOK_ERROR_BAD_FILE, "truncated .glb (its JSON chunk says %u bytes, %u are left)", json,
+                  total - 20);
+  return bytes.subspan(20, json);
+}
+
+// tinygltf walks "extras" by recursion, so that deep nesting would exhaust the stack.
+void refuse_deep_nesting(std::span<const std::byte> json) {
+  constexpr int max_depth = 128;
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = static_cast<char>(json[i]);
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '{' || c == '[') {
+      if (++depth > max_depth)
+        throw Failure(NOOK_ERROR_BAD_FILE, "JSON nested deeper than %d levels", max_depth);
+    } else if (c == '}' || c == ']') {
+      --depth;
+    }
+  }
+}
+
+bool accept_any_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*,
+                      int, void*) {
+  return true;
+}
+
+tinygltf::FsCallbacks no_files() {
+  tinygltf::FsCallbacks callbacks{};
+  callbacks.FileExists = [](const std::string&, void*) { return false; };
+  callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+  callbacks.ReadWholeFile = [](std::vector<unsigned char>*, std::string* error, const std::string&, void*) {
+    if (error) *error += "external files are not read from memory\n";
+    return false;
+  };
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+  };
+  return callbacks;
+}
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+void refuse_compression(const tinygltf::Model& model) {
+  for (const std::string& extension : model.extensionsRequired)
+    if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
+      throw Failure(NOOK_ERROR_BAD_FILE, "file needs %s, which is not read; export it without compression",
+                    extension.c_str());
+}
+
+template <std::size_t n>
+std::array<double, n> read_numbers(const std::vector<double>& from, std::array<double, n> otherwise,
+                                   std::size_t node) {
+  if (from.empty()) return otherwise;
+  std::array<double, n> out{};
+  if (from.size() != n)
+    throw Failure(NOOK_ERROR_BAD_FILE, "node %zu has a transform of %zu numbers (need %zu)", node,
+                  from.size(), n);
+  std::copy(from.begin(), from.end(), out.begin());
+  return out;
+}
+
+Node read_node(const tinygltf::Node& source, std::size_t index) {
+  Node node;
+  node.name = source.name;
+  if (!source.matrix.empty()) node.matrix = from_columns(read_numbers<16>(source.matrix, {}, index).data());
+  node.local.translation = read_numbers(source.translation, node.local.translation, index);
+  node.local.rotation = read_numbers(source.rotation, node.local.rotation, index);
+  node.local.scale = read_numbers(source.scale, node.local.scale, index);
+  double square = 0;
+  for (const double q : node.local.rotation) square += q * q;
+  if (square > 0)
+    for (double& q : node.local.rotation) q /= std::sqrt(square);
+  if (!(square > 0) || !is_finite(default_local(node)))
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "node %zu (\"%s\") has a transform that is not finite or a zero quaternion", index,
+                  node.name.c_str());
+  return node;
+}
+
+}  // namespace
+
+tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const std::string& base_dir) {
+  if (bytes.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "empty file");
+  if (bytes.size() > 0x7fffffffu)
+    throw Failure(NOOK_ERROR_BAD_FILE, "file of %zu bytes (need less than 2 GiB)", bytes.size());
+  refuse_deep_nesting(is_binary(bytes) ? json_of_binary(bytes) : bytes);
+
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader(accept_any_image, nullptr);
+  if (base_dir.empty()) loader.SetFsCallbacks(no_files());
+  tinygltf::Model model;
+  std::string error;
+  std::string warning;
+  bool is_loaded = false;
+  try {
+    const auto size = static_cast<unsigned int>(bytes.size());
+    is_loaded = is_binary(bytes)
+                    ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                                  reinterpret_cast<const unsigned char*>(bytes.data()), size,
+                                                  base_dir)
+                    : loader.LoadASCIIFromString(&model, &error, &warning,
+                                                 reinterpret_cast<const char*>(bytes.data()), size, base_dir);
+  } catch (const std::exception& fault) {
+    error = fault.what();
+    is_loaded = false;
+  }
+  if (!is_loaded)
+    throw Failure(NOOK_ERROR_BAD_FILE, "not a glTF 2.0 file, or a damaged one: %s",
+                  error.empty() ? "the parser gives no reason" : one_line(error).c_str());
+  refuse_compression(model);
+  return model;
+}
+
+NodeTree read_nodes(const tinygltf::Model& model) {
+  NodeTree tree;
+  tree.nodes.reserve(model.nodes.size());
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) tree.nodes.push_back(read_node(model.nodes[i], i));
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    for (const int child : model.nodes[i].children) {
+      if (child < 0 || static_cast<std::size_t>(child) >= tree.size())
+        throw Failure(NOOK_ERROR_BAD_FILE, "node %zu names child %d (file has %zu nodes)", i, child,
+                      tree.size());
+      if (tree.nodes[child].parent >= 0)
+        throw Failure(NOOK_ERROR_BAD_FILE, "node %d has two parents, %d and %zu (need a tree)", child,
+                      tree.nodes[child].parent, i);
+      tree.nodes[child].parent = static_cast<std::int32_t>(i);
+    }
+  sort_parents_first(tree);
+  const std::vector<Affine> world = default_world_transforms(tree);
+  for (std::size_t i = 0; i < world.size(); ++i)
+    if (!is_finite(world[i]))
+      throw Failure(NOOK_ERROR_BAD_FILE, "node %zu (\"%s\") has a world matrix that is not finite", i,
+                    tree.nodes[i].name.c_str());
+  return tree;
+}
+
+std::vector<bool> shown_nodes(const tinygltf::Model& model, const NodeTree& nodes) {
+  if (model.scenes.empty()) return std::vector<bool>(nodes.size(), true);
+  const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
+  if (static_cast<std::size_t>(scene) >= model.scenes.size())
+    throw Failure(NOOK_ERROR_BAD_FILE, "default scene is %d (file has %zu)", scene, model.scenes.size());
+  std::vector<bool> shown(nodes.size(), false);
+  for (const int root : model.scenes[scene].nodes) {
+    if (root < 0 || static_cast<std::size_t>(root) >= nodes.size())
+      throw Failure(NOOK_ERROR_BAD_FILE, "scene %d names node %d (file has %zu)", scene, root, nodes.size());
+    shown[root] = true;
+  }
+  for (const std::uint32_t i : nodes.order)
+    if (nodes.nodes[i].parent >= 0 && shown[nodes.nodes[i].parent]) shown[i] = true;
+  return shown;
+}
+
+}  // namespace nook::bake

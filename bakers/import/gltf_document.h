@@ -1,0 +1,24 @@
+// Bytes to a parsed glTF document, and its node tree.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "import/node_tree.h"
+
+namespace nook::bake {
+
+// base_dir empty: external files are refused. Images are not decoded. Fails with BAD_FILE.
+tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const std::string& base_dir);
+
+// Fails with BAD_FILE on cycles, second parents, indices out of range and transforms that are not finite.
+NodeTree read_nodes(const tinygltf::Model& model);
+
+// Which nodes the default scene shows; all of them when the file has no scene.
+std::vector<bool> shown_nodes(const tinygltf::Model& model, const NodeTree& nodes);
+
+}  // namespace nook::bake

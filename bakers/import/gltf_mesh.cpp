@@ -1,0 +1,189 @@
+#include "import/gltf_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/failure.h"
+#include "import/accessor.h"
+#include "import/validate.h"
+
+namespace nook::bake {
+namespace {
+
+constexpr std::size_t max_triangles = std::size_t{1} << 25;  // bounds memory on hostile input
+
+int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
+  const auto found = primitive.attributes.find(name);
+  return found == primitive.attributes.end() ? -1 : found->second;
+}
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+// glTF 2.0, section 3.7.2.1: how strips and fans turn into triangles that all face the same way.
+void append_triangles(const std::vector<std::uint32_t>& index, int mode, const std::string& what,
+                      Triangles& out) {
+  const std::size_t n = index.size();
+  if (mode == TINYGLTF_MODE_TRIANGLES) {
+    if (n % 3 != 0)
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s: a triangle list of %zu indices (need three a triangle)",
+                    what.c_str(), n);
+    for (std::size_t i = 0; i + 2 < n; i += 3) out.push_back({index[i], index[i + 1], index[i + 2]});
+    return;
+  }
+  for (std::size_t i = 0; i + 2 < n; ++i) {
+    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+      out.push_back({index[i], index[i + 1 + i % 2], index[i + 2 - i % 2]});
+    else
+      out.push_back({index[i + 1], index[i + 2], index[0]});
+  }
+}
+
+// The joints and weights of one primitive: JOINTS_0, JOINTS_1 and so on.
+struct Influences {
+  std::vector<Integers> joint;
+  std::vector<Floats> weight;
+};
+
+Influences read_influences(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                           std::size_t vertices, const std::string& what) {
+  Influences out;
+  for (int set = 0;; ++set) {
+    const std::string suffix = std::to_string(set);
+    const int joints = attribute(primitive, "JOINTS_" + suffix);
+    const int weights = attribute(primitive, "WEIGHTS_" + suffix);
+    if (joints < 0 && weights < 0) break;
+    if (joints < 0 || weights < 0)
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s has only one of JOINTS_%d and WEIGHTS_%d (need both)",
+                    what.c_str(), set, set);
+    out.joint.push_back(read_integers(model, joints, 4, what + ".JOINTS_" + suffix));
+    out.weight.push_back(read_floats(model, weights, 4, what + ".WEIGHTS_" + suffix));
+    if (out.joint.back().count != vertices || out.weight.back().count != vertices)
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu joints and %zu weights for %zu vertices (need as many)",
+                    what.c_str(), out.joint.back().count, out.weight.back().count, vertices);
+  }
+  if (out.joint.empty())
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s has a skin but no JOINTS_0 and WEIGHTS_0; export it with its weights", what.c_str());
+  return out;
+}
+
+void append_skin_weights(const Influences& influences, const MeshBinding& binding, std::size_t vertices,
+                         const std::string& what, FileMesh& out, MeshRepairs& repairs) {
+  std::vector<std::pair<std::uint16_t, float>> of_vertex;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    of_vertex.clear();
+    double sum = 0;
+    std::size_t positive = 0;
+    for (std::size_t set = 0; set < influences.joint.size(); ++set)
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t joint = influences.joint[set].value[4 * v + k];
+        const float weight = influences.weight[set].value[4 * v + k];
+        if (!std::isfinite(weight))
+          throw Failure(NOOK_ERROR_BAD_FILE, "%s: vertex %zu has a weight that is not finite", what.c_str(),
+                        v);
+        // Unused slots may name any joint.
+        if (weight == 0) continue;
+        if (weight < 0) {
+          ++repairs.negative_weights;
+          continue;
+        }
+        if (joint >= binding.bone.size())
+          throw Failure(NOOK_ERROR_BAD_FILE, "%s: vertex %zu names joint %u (skin has %zu)", what.c_str(), v,
+                        joint, binding.bone.size());
+        of_vertex.push_back({binding.bone[joint], weight});
+        sum += weight;
+        ++positive;
+      }
+    // Exporters round weights to bytes or shorts: 4 x half a step of 1/255 is the most that an honest one is
+    // off.
+    if (positive > 0 && std::abs(sum - 1) > 0.01) {
+      ++repairs.sums_not_one;
+      if (std::abs(sum - 1) > std::abs(repairs.worst_sum - 1)) repairs.worst_sum = sum;
+    }
+    if (positive > SkinWeights::max_bones) ++repairs.too_many_bones;
+    out.weights.push_back(make_weights(of_vertex));
+  }
+}
+
+void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                      const std::string& what, const std::string& mesh_name, const MeshBinding& binding,
+                      bool is_skinned, FileMesh& out, MeshRepairs& repairs) {
+  const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+  if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
+      mode != TINYGLTF_MODE_TRIANGLE_FAN) {
+    ++repairs.not_triangles;
+    return;
+  }
+  const int position_accessor = attribute(primitive, "POSITION");
+  if (position_accessor < 0) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no POSITION", what.c_str());
+  const Floats position = read_floats(model, position_accessor, 3, what + ".POSITION");
+  const std::size_t first = out.position.size();
+  if (position.count > max_file_vertices - first)
+    throw Failure(NOOK_ERROR_BAD_FILE, "too many vertices (need at most %zu)", max_file_vertices);
+
+  std::vector<std::uint32_t> index;
+  if (primitive.indices >= 0) {
+    index = read_integers(model, primitive.indices, 1, what + ".indices").value;
+    for (const std::uint32_t i : index)
+      if (i >= position.count)
+        throw Failure(NOOK_ERROR_BAD_FILE, "%s has index %u (it has %zu vertices)", what.c_str(), i,
+                      position.count);
+  } else {
+    for (std::uint32_t i = 0; i < position.count; ++i) index.push_back(i);
+  }
+  const std::size_t first_triangle = out.triangle.size();
+  if (index.size() > max_triangles - std::min(first_triangle, max_triangles))
+    throw Failure(NOOK_ERROR_BAD_FILE, "too many triangles (need at most %zu)", max_triangles);
+  append_triangles(index, mode, what, out.triangle);
+  const bool is_mirrored = determinant(binding.rest_from_mesh) < 0;
+  for (std::size_t t = first_triangle; t < out.triangle.size(); ++t) {
+    for (std::uint32_t& i : out.triangle[t]) i += static_cast<std::uint32_t>(first);
+    if (is_mirrored) std::swap(out.triangle[t][1], out.triangle[t][2]);
+  }
+
+  for (std::size_t v = 0; v < position.count; ++v)
+    out.position.push_back(
+        transform(binding.rest_from_mesh,
+                  Vec3{position.value[3 * v], position.value[3 * v + 1], position.value[3 * v + 2]}));
+  if (is_skinned) {
+    append_skin_weights(read_influences(model, primitive, position.count, what), binding, position.count,
+                        what, out, repairs);
+  } else {
+    const std::pair<std::uint16_t, float> rigid{binding.bone[0], 1.0f};
+    out.weights.resize(out.position.size(), make_weights({&rigid, 1}));
+  }
+  out.primitives.push_back(
+      {mesh_name, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(position.count)});
+}
+
+}  // namespace
+
+void append_mesh(const tinygltf::Model& model, int mesh_index, const MeshBinding& binding, bool is_skinned,
+                 FileMesh& out, MeshRepairs& repairs) {
+  const tinygltf::Mesh& mesh = model.meshes[mesh_index];
+  const std::string name = mesh.name.empty() ? "mesh_" + std::to_string(mesh_index) : mesh.name;
+  for (std::size_t p = 0; p < mesh.primitives.size(); ++p)
+    append_primitive(model, mesh.primitives[p], "mesh \"" + name + "\" primitive " + std::to_string(p), name,
+                     binding, is_skinned, out, repairs);
+}
+
+void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings) {
+  char text[200];
+  if (repairs.sums_not_one > 0) {
+    std::snprintf(text, sizeof text,
+                  "%zu vertices have weights that do not add up to 1 (worst sum %g); normalised",
+                  repairs.sums_not_one, repairs.worst_sum);
+    warnings.push_back(text);
+  }
+  if (repairs.negative_weights > 0)
+    warnings.push_back(std::to_string(repairs.negative_weights) + " negative weights were taken as 0");
+  if (repairs.too_many_bones > 0)
+    warnings.push_back(std::to_string(repairs.too_many_bones) + " vertices have more than " +
+                       std::to_string(SkinWeights::max_bones) + " bones; the smallest weights were dropped");
+  if (repairs.not_triangles > 0)
+    warnings.push_back(std::to_string(repairs.not_triangles) +
+                       " primitives of points or lines were left out");
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,29 @@
+// Mesh primitives of a glTF file, appended to a mesh in file order.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <string>
+
+#include "import/skeleton.h"
+#include "import/weld.h"
+
+namespace nook::bake {
+
+// Counts over all primitives, for the warnings.
+struct MeshRepairs {
+  std::size_t sums_not_one = 0;
+  double worst_sum = 1;
+  std::size_t negative_weights = 0;
+  std::size_t too_many_bones = 0;
+  std::size_t not_triangles = 0;  // primitives of points or lines, left out
+};
+
+// Appends all triangle primitives of a mesh as one mesh node shows it. is_skinned: joints and weights are
+// read; else everything rides on binding.bone[0]. Fails with BAD_FILE.
+void append_mesh(const tinygltf::Model& model, int mesh, const MeshBinding& binding, bool is_skinned,
+                 FileMesh& out, MeshRepairs& repairs);
+
+void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings);
+
+}  // namespace nook::bake

@@ -1,0 +1,49 @@
+#include "import/node_tree.h"
+
+#include "core/failure.h"
+
+namespace nook::bake {
+
+void sort_parents_first(NodeTree& tree) {
+  const std::size_t count = tree.size();
+  std::vector<std::vector<std::uint32_t>> children(count);
+  tree.order.clear();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (tree.nodes[i].parent < 0)
+      tree.order.push_back(i);
+    else
+      children[tree.nodes[i].parent].push_back(i);
+  }
+  for (std::size_t next = 0; next < tree.order.size(); ++next)
+    for (const std::uint32_t child : children[tree.order[next]]) tree.order.push_back(child);
+  if (tree.order.size() != count)
+    throw Failure(NOOK_ERROR_BAD_FILE, "%zu nodes form a cycle (need a tree); repair the file",
+                  count - tree.order.size());
+}
+
+Affine default_local(const Node& node) {
+  return node.matrix ? *node.matrix : to_affine(node.local);
+}
+
+std::vector<Affine> world_transforms(const NodeTree& tree, const std::vector<Trs>& locals) {
+  std::vector<Affine> world(tree.size());
+  for (const std::uint32_t i : tree.order) {
+    const Node& node = tree.nodes[i];
+    const Affine local = node.matrix ? *node.matrix : to_affine(locals[i]);
+    world[i] = node.parent < 0 ? local : world[node.parent] * local;
+  }
+  return world;
+}
+
+std::vector<Affine> default_world_transforms(const NodeTree& tree) {
+  return world_transforms(tree, default_locals(tree));
+}
+
+std::vector<Trs> default_locals(const NodeTree& tree) {
+  std::vector<Trs> locals;
+  locals.reserve(tree.size());
+  for (const Node& node : tree.nodes) locals.push_back(node.local);
+  return locals;
+}
+
+}  // namespace nook::bake

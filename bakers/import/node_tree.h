@@ -1,0 +1,40 @@
+// The nodes of a file: their default local transforms and their ancestry, apart from any skin.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "import/affine.h"
+
+namespace nook::bake {
+
+struct Node {
+  std::string name;
+  std::int32_t parent = -1;
+  Trs local;                     // default pose
+  std::optional<Affine> matrix;  // given instead of local; such a node is never animated
+};
+
+struct NodeTree {
+  std::vector<Node> nodes;           // in the file's order
+  std::vector<std::uint32_t> order;  // every node once, parents before children
+
+  std::size_t size() const { return nodes.size(); }
+};
+
+// Fills tree.order. Fails with BAD_FILE when the parents make a cycle.
+void sort_parents_first(NodeTree& tree);
+
+Affine default_local(const Node& node);
+
+// World matrices of all nodes for the given local transforms, one for each node (nodes with a matrix keep
+// it).
+std::vector<Affine> world_transforms(const NodeTree& tree, const std::vector<Trs>& locals);
+std::vector<Affine> default_world_transforms(const NodeTree& tree);
+
+// Default local transforms of all nodes, where a clip's sampling begins.
+std::vector<Trs> default_locals(const NodeTree& tree);
+
+}  // namespace nook::bake

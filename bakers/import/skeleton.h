@@ -1,0 +1,36 @@
+// Bones out of the skins and the rigid parts of a file, and the matrices that bring its meshes to rest space.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "import/gltf.h"
+#include "import/node_tree.h"
+
+namespace nook::bake {
+
+struct Skin {
+  std::vector<std::uint32_t> joint;  // nodes
+  std::vector<Affine> inverse_bind;  // one a joint, invertible
+};
+
+// How one mesh node gets to rest space and which bones its joints are; a rigid part has one joint, number 0.
+struct MeshBinding {
+  Affine rest_from_mesh;
+  std::vector<std::uint16_t> bone;  // one for each joint of the skin
+};
+
+struct Skeleton {
+  std::vector<Bone> bones;
+  std::vector<BoneBinding> bindings;
+  std::vector<MeshBinding> skins;  // one for each skin given
+  std::vector<MeshBinding>
+      rigid_parts;  // one for each rigid node given; without a bone: it is static and belongs to nobody
+};
+
+// `moves` says which nodes a clip animates, `rigid_nodes` are mesh nodes without a skin.
+Skeleton build_skeleton(const NodeTree& nodes, const std::vector<Skin>& skins, const std::vector<bool>& moves,
+                        const std::vector<std::uint32_t>& rigid_nodes);
+
+}  // namespace nook::bake

@@ -1,0 +1,128 @@
+#include "import/validate.h"
+
+#include <cmath>
+
+#include "core/failure.h"
+#include "import/weld.h"
+
+namespace nook::bake {
+namespace {
+
+bool is_finite(Vec3 p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+// Calls fault(i) for all i and reports the first and the number of those that are true.
+template <typename Fault>
+void refuse_any(std::size_t count, const char* what, nook_result code, Fault fault) {
+  std::size_t first = 0;
+  std::size_t faults = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (fault(i) && faults++ == 0) first = i;
+  if (faults > 0) throw Failure(code, "%s: %zu of %zu, the first is number %zu", what, faults, count, first);
+}
+
+bool is_orthonormal(const Mat3x4& a) {
+  for (const float v : a.m)
+    if (!std::isfinite(v)) return false;
+  const Vec3 x{a.m[0], a.m[4], a.m[8]};
+  const Vec3 y{a.m[1], a.m[5], a.m[9]};
+  const Vec3 z{a.m[2], a.m[6], a.m[10]};
+  const Vec3 c = cross(x, y);
+  const float tolerance = 1e-3f;
+  return std::abs(dot(x, x) - 1) < tolerance && std::abs(dot(y, y) - 1) < tolerance &&
+         std::abs(dot(x, y)) < tolerance && length(c - z) < tolerance;
+}
+
+void validate_bones(const std::vector<Bone>& bones, nook_result code) {
+  if (bones.empty()) throw Failure(code, "no bones (need 1 to %zu)", max_bone_count);
+  if (bones.size() > max_bone_count)
+    throw Failure(code, "too many bones (got %zu, need at most %zu)", bones.size(), max_bone_count);
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    if (bones[i].parent < -1 || bones[i].parent >= static_cast<std::int64_t>(i))
+      throw Failure(
+          code, "bone %zu (\"%s\") has parent %d (need -1 or a smaller index); sort parents before children",
+          i, bones[i].name.c_str(), bones[i].parent);
+    if (!is_orthonormal(bones[i].frame_rest))
+      throw Failure(code,
+                    "bone %zu (\"%s\") has a rest frame that is not finite, orthonormal and right-handed", i,
+                    bones[i].name.c_str());
+  }
+}
+
+void validate_vertices(const std::vector<Vec3>& position, const std::vector<SkinWeights>& weights,
+                       std::size_t bone_count, nook_result code) {
+  if (position.size() > max_file_vertices)
+    throw Failure(code, "too many vertices (got %zu, need at most %zu)", position.size(), max_file_vertices);
+  if (weights.size() != position.size())
+    throw Failure(code, "%zu skinning weights for %zu vertices (need as many)", weights.size(),
+                  position.size());
+  refuse_any(position.size(), "vertices with a position that is not finite", code,
+             [&](std::size_t v) { return !is_finite(position[v]); });
+  refuse_any(weights.size(), "vertices with weights that are not finite or negative", code,
+             [&](std::size_t v) {
+               for (const float w : weights[v].weight)
+                 if (!(std::isfinite(w) && w >= 0)) return true;
+               return false;
+             });
+  refuse_any(weights.size(), "vertices whose weights are all zero", code, [&](std::size_t v) {
+    for (const float w : weights[v].weight)
+      if (w > 0) return false;
+    return true;
+  });
+  refuse_any(weights.size(), "vertices with a bone index out of range", code, [&](std::size_t v) {
+    for (const std::uint16_t b : weights[v].bone)
+      if (b >= bone_count) return true;
+    return false;
+  });
+  refuse_any(weights.size(), "vertices whose weights are not in falling order with sum 1", code,
+             [&](std::size_t v) {
+               float sum = weights[v].weight[0];
+               for (int k = 1; k < SkinWeights::max_bones; ++k) {
+                 if (weights[v].weight[k] > weights[v].weight[k - 1]) return true;
+                 sum += weights[v].weight[k];
+               }
+               return std::abs(sum - 1) > 1e-4f;
+             });
+}
+
+void validate_triangles(const std::vector<std::array<std::uint32_t, 3>>& triangle, std::size_t vertices,
+                        nook_result code) {
+  if (triangle.empty()) throw Failure(code, "no triangles (need at least one)");
+  refuse_any(triangle.size(), "triangles with a vertex index out of range", code, [&](std::size_t t) {
+    return triangle[t][0] >= vertices || triangle[t][1] >= vertices || triangle[t][2] >= vertices;
+  });
+}
+
+void validate_primitives(const std::vector<Primitive>& primitives, std::size_t file_vertices,
+                         nook_result code) {
+  std::size_t next = 0;
+  for (std::size_t p = 0; p < primitives.size(); ++p) {
+    if (primitives[p].first_vertex != next)
+      throw Failure(code, "primitive %zu starts at vertex %u (need %zu: all primitives in a row)", p,
+                    primitives[p].first_vertex, next);
+    next += primitives[p].vertex_count;
+  }
+  if (next != file_vertices)
+    throw Failure(code, "primitives hold %zu vertices (mesh has %zu)", next, file_vertices);
+}
+
+}  // namespace
+
+void validate(const FileMesh& mesh, nook_result code) {
+  validate_bones(mesh.bones, code);
+  validate_triangles(mesh.triangle, mesh.position.size(), code);
+  validate_vertices(mesh.position, mesh.weights, mesh.bones.size(), code);
+  validate_primitives(mesh.primitives, mesh.position.size(), code);
+}
+
+void validate(const SkinnedMesh& mesh, nook_result code) {
+  validate_bones(mesh.bones, code);
+  validate_triangles(mesh.triangle, mesh.position.size(), code);
+  validate_vertices(mesh.position, mesh.weights, mesh.bones.size(), code);
+  validate_primitives(mesh.primitives, mesh.file_to_welded.size(), code);
+  refuse_any(mesh.file_to_welded.size(), "file vertices that map to no welded vertex", code,
+             [&](std::size_t v) { return mesh.file_to_welded[v] >= mesh.position.size(); });
+}
+
+}  // namespace nook::bake

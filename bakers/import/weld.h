@@ -1,0 +1,47 @@
+// From vertices in file order to a welded mesh. Vertices split at UV or normal seams become one again, so
+// that ambient occlusion agrees across seams.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nook/nook.h>
+
+#include "import/skinned_mesh.h"
+
+namespace nook::bake {
+
+// Vertices in file order, all primitives in a row, rest space.
+struct FileMesh {
+  std::vector<Bone> bones;
+  std::vector<Vec3> position;
+  std::vector<SkinWeights> weights;
+  std::vector<std::array<std::uint32_t, 3>> triangle;
+  std::vector<Primitive> primitives;  // empty: one that holds everything
+};
+
+// Keeps the max_bones largest, adds up entries of the same bone, drops what is not positive, and makes the
+// sum 1. Equal sets give equal results whatever their order. Without any positive weight the result is all
+// zero.
+SkinWeights make_weights(std::span<const std::pair<std::uint16_t, float>> influences);
+
+// Arrays as a game has them in memory. Fails with `code`; the limits are those of validate().
+struct MeshArrays {
+  std::vector<Bone> bones;
+  std::span<const Vec3> position;        // rest space, metres
+  std::span<const std::uint32_t> index;  // three a triangle
+  std::size_t influences = 0;            // joints and weights a vertex
+  std::span<const std::uint16_t> joint;  // influences * vertices
+  std::span<const float> weight;         // the same
+  std::vector<Primitive> primitives;
+};
+FileMesh to_file_mesh(const MeshArrays& arrays, nook_result code);
+
+// Welds exactly equal rest positions (-0 equals 0) with equal weights, drops degenerate triangles (says so in
+// warnings) and validates the result; fails with `code`.
+SkinnedMesh weld(FileMesh mesh, std::vector<std::string>& warnings, nook_result code);
+
+}  // namespace nook::bake
