@@ -10,6 +10,7 @@ install(DIRECTORY include/nook DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MAT
 install(EXPORT nook_targets NAMESPACE nook:: DESTINATION ${nook_package_dir} FILE nook-config.cmake)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/nook-config-version.cmake COMPATIBILITY SameMajorVersion)
 file(RELATIVE_PATH nook_pc_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" nook_pc_to_prefix ${nook_pc_to_prefix})
 list(TRANSFORM nook_runtime PREPEND -l OUTPUT_VARIABLE nook_pc_libs)
 list(JOIN nook_pc_libs " " nook_pc_libs)
 configure_file(nook.pc.in ${CMAKE_CURRENT_BINARY_DIR}/nook.pc @ONLY)

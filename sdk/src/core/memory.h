@@ -26,7 +26,7 @@ class HostMemory final : public std::pmr::memory_resource {
     if (allocator_.release)
       allocator_.release(allocator_.user, memory, size, alignment);
     else
-      ::operator delete(memory, size, std::align_val_t(alignment));
+      ::operator delete(memory, std::align_val_t(alignment));
   }
   bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 
