@@ -3,76 +3,168 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include <cstring>
+#include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 
 #include "core/failure.h"
-#include "import/gltf_parts.h"
+#include "import/accessor.h"
+#include "import/gltf_clips.h"
+#include "import/gltf_document.h"
+#include "import/gltf_mesh.h"
+#include "import/skeleton.h"
+#include "import/validate.h"
 
 namespace nook::bake {
 namespace {
 
-// Textures are not read: their files may be missing and their formats unknown.
-bool ignore_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
-  return true;
+Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes) {
+  const tinygltf::Skin& source = model.skins[index];
+  const std::string what = "skin " + std::to_string(index);
+  if (source.joints.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no joints", what.c_str());
+  if (source.joints.size() > max_bone_count)
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s has too many joints (got %zu, need at most %zu)", what.c_str(),
+                  source.joints.size(), max_bone_count);
+  Skin skin;
+  for (const int joint : source.joints) {
+    if (joint < 0 || static_cast<std::size_t>(joint) >= nodes.size())
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s names joint node %d (file has %zu nodes)", what.c_str(), joint,
+                    nodes.size());
+    skin.joint.push_back(static_cast<std::uint32_t>(joint));
+  }
+  // Without the accessor all matrices are identity: glTF 2.0, section 3.7.3.1.
+  skin.inverse_bind.resize(skin.joint.size());
+  if (source.inverseBindMatrices < 0) return skin;
+  const Floats matrices = read_floats(model, source.inverseBindMatrices, 16, what + " inverse bind matrices");
+  if (matrices.count < skin.joint.size())
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu inverse bind matrices for %zu joints", what.c_str(),
+                  matrices.count, skin.joint.size());
+  for (std::size_t j = 0; j < skin.joint.size(); ++j) {
+    std::array<double, 16> columns;
+    std::copy_n(matrices.value.begin() + 16 * j, 16, columns.begin());
+    skin.inverse_bind[j] = from_columns(columns.data());
+  }
+  return skin;
 }
 
-tinygltf::Model parse(std::span<const std::byte> bytes, const std::string& folder) {
-  if (bytes.size() < 20)
-    throw Failure(NOOK_ERROR_BAD_FILE, "not a glTF file (got %zu bytes, a .glb has at least 20)", bytes.size());
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(ignore_image, nullptr);
-  if (folder.empty()) {
-    // Memory must not reach for files that a hostile document names.
-    tinygltf::FsCallbacks none{};
-    none.FileExists = [](const std::string&, void*) { return false; };
-    none.ExpandFilePath = [](const std::string& path, void*) { return path; };
-    none.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; };
-    none.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-      return false;
-    };
-    loader.SetFsCallbacks(none);
-  }
-  tinygltf::Model model;
-  std::string error, warning;
-  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-  const bool binary = std::memcmp(data, "glTF", 4) == 0;
-  bool loaded = false;
-  try {
-    loaded = binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, data, unsigned(bytes.size()), folder)
-                    : loader.LoadASCIIFromString(&model, &error, &warning, reinterpret_cast<const char*>(data),
-                                                 unsigned(bytes.size()), folder);
-  } catch (const std::exception& e) {
-    error = e.what();
-  }
-  if (!loaded) {
-    while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
-    throw Failure(NOOK_ERROR_BAD_FILE, "not a readable glTF file (%s)", error.empty() ? "unknown fault" : error.c_str());
-  }
-  return model;
+std::vector<bool> animated_nodes(const std::vector<Clip>& clips, std::size_t node_count) {
+  std::vector<bool> moves(node_count, false);
+  for (const Clip& clip : clips)
+    for (const Channel& channel : clip.channels) moves[channel.node] = true;
+  return moves;
 }
 
-ImportedCharacter import_document(std::span<const std::byte> bytes, const std::string& folder) {
-  if (bytes.size() > UINT32_MAX)
-    throw Failure(NOOK_ERROR_BAD_FILE, "file too large (got %zu bytes, glTF allows 4 GiB)", bytes.size());
-  const tinygltf::Model model = parse(bytes, folder);
-  ImportedCharacter character;
-  character.nodes = read_nodes(model);
-  Skeleton skeleton = read_skeleton(model, character.nodes, character.warnings);
-  FileMesh mesh = read_meshes(model, character.nodes, skeleton, character.warnings);
-  mesh.bones = std::move(skeleton.bones);
-  character.bindings = std::move(skeleton.bindings);
-  character.mesh = weld(std::move(mesh), character.warnings, NOOK_ERROR_BAD_FILE);
-  character.clips = read_clips(model, character.warnings);
+// A mesh node that the scene shows, with the place of its binding in the skeleton.
+struct MeshNode {
+  std::uint32_t node = 0;
+  bool is_skinned = false;
+  std::size_t binding = 0;  // into Skeleton::skins or rigid_parts
+};
 
-  XXH64_state_t hash;
-  XXH64_reset(&hash, 0);
-  XXH64_update(&hash, bytes.data(), bytes.size());
+struct MeshNodes {
+  std::vector<MeshNode> all;  // in the file's node order
+  std::vector<Skin> skins;    // only those in use
+  std::vector<std::uint32_t> rigid_nodes;
+};
+
+MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes) {
+  const std::vector<bool> shown = shown_nodes(model, nodes);
+  MeshNodes out;
+  std::vector<std::int64_t> place_of_skin(model.skins.size(), -1);
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    const int mesh = model.nodes[i].mesh;
+    const int skin = model.nodes[i].skin;
+    if (mesh < 0 || !shown[i]) continue;
+    if (static_cast<std::size_t>(mesh) >= model.meshes.size())
+      throw Failure(NOOK_ERROR_BAD_FILE, "node %u names mesh %d (file has %zu)", i, mesh,
+                    model.meshes.size());
+    if (skin < 0) {
+      out.all.push_back({i, false, out.rigid_nodes.size()});
+      out.rigid_nodes.push_back(i);
+      continue;
+    }
+    if (static_cast<std::size_t>(skin) >= model.skins.size())
+      throw Failure(NOOK_ERROR_BAD_FILE, "node %u names skin %d (file has %zu)", i, skin, model.skins.size());
+    if (place_of_skin[skin] < 0) {
+      place_of_skin[skin] = static_cast<std::int64_t>(out.skins.size());
+      out.skins.push_back(read_skin(model, skin, nodes));
+    }
+    out.all.push_back({i, true, static_cast<std::size_t>(place_of_skin[skin])});
+  }
+  if (out.all.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "no triangles: the scene shows no mesh");
+  return out;
+}
+
+// Bones that a clip shears or scales unevenly: their matrices are replaced by the nearest similarity.
+void warn_of_uneven_bones(ImportedCharacter& character) {
+  constexpr int samples = 8;
+  constexpr double tolerance = 1e-3;
+  std::vector<double> worst(character.bindings.size(), 0.0);
+  std::vector<double> deviation;
+  const auto look = [&](const std::vector<Trs>& locals) {
+    bone_matrices(character, locals, &deviation);
+    for (std::size_t b = 0; b < worst.size(); ++b) worst[b] = std::max(worst[b], deviation[b]);
+  };
+  look(default_locals(character.nodes));
+  for (const Clip& clip : character.clips)
+    for (int i = 0; i < samples; ++i) {
+      std::vector<Trs> locals = default_locals(character.nodes);
+      apply_clip(clip, clip.duration_s * static_cast<float>(i) / (samples - 1), locals);
+      look(locals);
+    }
+  for (std::size_t b = 0; b < worst.size(); ++b) {
+    if (worst[b] <= tolerance) continue;
+    char percent[32];
+    std::snprintf(percent, sizeof percent, "%.2g", 100 * worst[b]);
+    character.warnings.push_back("bone \"" + character.mesh.bones[b].name +
+                                 "\" is sheared or unevenly scaled by its default pose or clips (" + percent +
+                                 " %); its nearest rotation and scale are used");
+  }
+}
+
+std::uint64_t hash_of(std::span<const std::byte> bytes, const tinygltf::Model& model) {
+  std::uint64_t hash = XXH64(bytes.data(), bytes.size(), 0);
   for (const tinygltf::Buffer& buffer : model.buffers)
     if (!buffer.uri.empty() && buffer.uri.compare(0, 5, "data:") != 0)
-      XXH64_update(&hash, buffer.data.data(), buffer.data.size());
-  character.source_hash = XXH64_digest(&hash);
+      hash = XXH64(buffer.data.data(), buffer.data.size(), hash);
+  return hash;
+}
+
+ImportedCharacter import_bytes(std::span<const std::byte> bytes, const std::string& base_dir) {
+  const tinygltf::Model model = parse_gltf(bytes, base_dir);
+  ImportedCharacter character;
+  character.source_hash = hash_of(bytes, model);
+  character.nodes = read_nodes(model);
+  character.clips = read_clips(model, character.nodes, character.warnings);
+
+  const MeshNodes mesh_nodes = find_mesh_nodes(model, character.nodes);
+  Skeleton skeleton =
+      build_skeleton(character.nodes, mesh_nodes.skins,
+                     animated_nodes(character.clips, character.nodes.size()), mesh_nodes.rigid_nodes);
+  if (skeleton.bones.empty())
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "no skin: no mesh has one and no clip moves a mesh (%zu meshes, %zu clips); export it with "
+                  "its armature",
+                  mesh_nodes.all.size(), character.clips.size());
+
+  FileMesh file;
+  MeshRepairs repairs;
+  for (const MeshNode& at : mesh_nodes.all) {
+    const MeshBinding& binding =
+        at.is_skinned ? skeleton.skins[at.binding] : skeleton.rigid_parts[at.binding];
+    if (binding.bone.empty()) {
+      character.warnings.push_back("mesh node \"" + character.nodes.nodes[at.node].name +
+                                   "\" has no skin and hangs on no joint and was left out");
+      continue;
+    }
+    append_mesh(model, model.nodes[at.node].mesh, binding, at.is_skinned, file, repairs);
+  }
+  add_warnings(repairs, character.warnings);
+  file.bones = std::move(skeleton.bones);
+  character.bindings = std::move(skeleton.bindings);
+  character.mesh = weld(std::move(file), character.warnings, NOOK_ERROR_BAD_FILE);
+  warn_of_uneven_bones(character);
   return character;
 }
 
@@ -80,14 +172,17 @@ ImportedCharacter import_document(std::span<const std::byte> bytes, const std::s
 
 ImportedCharacter import_gltf(const std::filesystem::path& path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw Failure(NOOK_ERROR_BAD_FILE, "is a folder, need a file");
+  if (std::filesystem::is_directory(path, error))
+    throw Failure(NOOK_ERROR_BAD_FILE, "this is a folder (need a .glb or .gltf file)");
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be opened for reading");
+  if (!file) throw Failure(NOOK_ERROR_BAD_FILE, "the file is missing or cannot be read");
   const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const std::string folder = path.has_parent_path() ? path.parent_path().string() : std::string(".");
-  return import_document(std::as_bytes(std::span(bytes)), folder);
+  return import_bytes(std::as_bytes(std::span(bytes)),
+                      std::filesystem::absolute(path).parent_path().string());
 }
 
-ImportedCharacter import_gltf(std::span<const std::byte> bytes) { return import_document(bytes, {}); }
+ImportedCharacter import_gltf(std::span<const std::byte> bytes) {
+  return import_bytes(bytes, "");
+}
 
 }  // namespace nook::bake

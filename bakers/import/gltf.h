@@ -34,7 +34,7 @@ struct ImportedCharacter {
   std::uint64_t source_hash = 0;      // XXH64 of the file's bytes and of the external buffers it names
 };
 
-// Fails with BAD_FILE; the message names the fault, the caller adds the file's name.
+// Fails with BAD_FILE; the message names the fault, and the caller adds the name of the file.
 ImportedCharacter import_gltf(const std::filesystem::path& path);
 
 // From memory, without access to any file: buffers must be in the bytes or in data URIs.
