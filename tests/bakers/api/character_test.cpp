@@ -1,0 +1,269 @@
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "catch.h"
+#include "handles.h"
+
+namespace {
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+
+struct TubeDesc {
+  tube t;
+  nook_bake_mesh_desc desc;
+  TubeDesc() {
+    make_tube(&t);
+    desc = describe_tube(&t);
+  }
+  // The result of creating a character from it; nothing must be handed out on failure.
+  nook_result create() {
+    nook_bake_character character = nullptr;
+    const nook_result result = nook_bake_character_create(&desc, &character);
+    CHECK((character != nullptr) == (result == NOOK_OK));
+    nook_bake_character_destroy(&character);
+    return result;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("every function can be called from C") {
+  CHECK(call_every_function() == 0);
+}
+
+TEST_CASE("descriptors know their version and size") {
+  nook_bake_mesh_desc desc;
+  CHECK(nook_bake_mesh_desc_init(nullptr, sizeof desc, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("nook_bake_mesh_desc_init: desc is NULL"));
+  CHECK(nook_bake_mesh_desc_init(&desc, 8, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("size is out of range"));
+  CHECK(nook_bake_mesh_desc_init(&desc, sizeof desc, NOOK_VERSION + (1u << 22)) == NOOK_ERROR_VERSION);
+  CHECK(nook_bake_job_desc_init(nullptr, 0, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_trace_desc_init(nullptr, 0, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
+
+  // A caller with a newer header has a larger struct: what this library does not know is zeroed, and must
+  // stay zero.
+  struct Newer {
+    nook_bake_job_desc known;
+    std::uint64_t more;
+  } newer;
+  std::memset(static_cast<void*>(&newer), 0xff, sizeof newer);
+  REQUIRE(nook_bake_job_desc_init(&newer.known, sizeof newer, NOOK_VERSION) == NOOK_OK);
+  CHECK(newer.more == 0);
+  CHECK(newer.known.struct_size == sizeof newer);
+  newer.more = 1;
+  const Character character = tube_character();
+  nook_bake_job job = nullptr;
+  CHECK(nook_bake_job_start(character.get(), &newer.known, &job) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("fields that this library does not know"));
+}
+
+TEST_CASE("a character from memory is what was given") {
+  const Character character = tube_character();
+  REQUIRE(character);
+  nook_bake_character_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_bake_character_get_info(character.get(), &info) == NOOK_OK);
+  CHECK(info.vertex_count == tube_vertices);
+  CHECK(info.file_vertex_count == tube_vertices);
+  CHECK(info.triangle_count == tube_triangles);
+  CHECK(info.bone_count == 2);
+  CHECK(info.clip_count == 0);
+  CHECK(info.primitive_count == 1);
+  CHECK(info.bounds_low[0] == 0);
+  CHECK(info.bounds_high[0] == 1);
+
+  tube t;
+  make_tube(&t);
+  std::vector<float> positions(3 * tube_vertices), normals(3 * tube_vertices);
+  REQUIRE(nook_bake_character_read_vertices(character.get(), positions.data(), normals.data(),
+                                            tube_vertices) == NOOK_OK);
+  CHECK(std::memcmp(positions.data(), t.positions, sizeof t.positions) == 0);
+  // The normals of a tube point away from its axis; ten flat sides and area weights keep this exact up to
+  // rounding, but for the rings at its ends, whose triangles are not symmetric.
+  for (int v = tube_segments; v < tube_vertices - tube_segments; ++v) {
+    const float* p = &positions[3 * std::size_t(v)];
+    const float* n = &normals[3 * std::size_t(v)];
+    CHECK(std::fabs((p[1] * n[1] + p[2] * n[2]) / 0.1f) > 0.99f);
+  }
+  std::vector<std::uint32_t> indices(3 * tube_triangles);
+  REQUIRE(nook_bake_character_read_triangles(character.get(), indices.data(), 3 * tube_triangles) == NOOK_OK);
+  CHECK(std::memcmp(indices.data(), t.indices, sizeof t.indices) == 0);
+
+  std::vector<std::uint16_t> joints(4 * tube_vertices);
+  std::vector<float> weights(4 * tube_vertices);
+  REQUIRE(nook_bake_character_read_skin(character.get(), joints.data(), weights.data(), tube_vertices) ==
+          NOOK_OK);
+  for (std::size_t v = 0; v < tube_vertices; ++v) {
+    float tip = 0, sum = 0;
+    for (std::size_t s = 4 * v; s < 4 * v + 4; ++s) {
+      sum += weights[s];
+      if (joints[s] == 1) tip += weights[s];
+    }
+    CHECK(std::fabs(sum - 1) < 1e-6f);
+    CHECK(std::fabs(tip - t.weights[2 * v + 1]) < 1e-6f);
+  }
+}
+
+TEST_CASE("split vertices come back in file order and agree") {
+  TubeDesc d;
+  // Two primitives that both hold the last ring's vertices would need a copy of it; here the whole tube comes
+  // twice.
+  std::vector<float> positions(d.t.positions, d.t.positions + 3 * tube_vertices);
+  positions.insert(positions.end(), d.t.positions, d.t.positions + 3 * tube_vertices);
+  std::vector<std::uint16_t> joints(d.t.joints, d.t.joints + 2 * tube_vertices);
+  joints.insert(joints.end(), d.t.joints, d.t.joints + 2 * tube_vertices);
+  std::vector<float> weights(d.t.weights, d.t.weights + 2 * tube_vertices);
+  weights.insert(weights.end(), d.t.weights, d.t.weights + 2 * tube_vertices);
+  const nook_bake_primitive primitives[] = {{0, tube_vertices}, {tube_vertices, tube_vertices}};
+  d.desc.positions = positions.data();
+  d.desc.joints = joints.data();
+  d.desc.weights = weights.data();
+  d.desc.vertex_count = 2 * tube_vertices;
+  d.desc.primitives = primitives;
+  d.desc.primitive_count = 2;
+  nook_bake_character handle = nullptr;
+  REQUIRE(nook_bake_character_create(&d.desc, &handle) == NOOK_OK);
+  const Character character(handle);
+  nook_bake_character_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_bake_character_get_info(handle, &info) == NOOK_OK);
+  CHECK(info.vertex_count == tube_vertices);
+  CHECK(info.file_vertex_count == 2 * tube_vertices);
+  nook_bake_primitive second{};
+  REQUIRE(nook_bake_character_get_primitive(handle, 1, &second) == NOOK_OK);
+  CHECK(second.first_vertex == tube_vertices);
+  CHECK(second.vertex_count == tube_vertices);
+  std::vector<float> out(6 * tube_vertices), normals(6 * tube_vertices);
+  REQUIRE(nook_bake_character_read_vertices(handle, out.data(), normals.data(), 2 * tube_vertices) ==
+          NOOK_OK);
+  CHECK(out == positions);
+  CHECK(std::memcmp(normals.data(), normals.data() + 3 * tube_vertices, 3 * tube_vertices * sizeof(float)) ==
+        0);
+}
+
+TEST_CASE("skinning moves the vertices by their bones") {
+  const Character character = tube_character();
+  // The tip is lifted by a metre, the root stays.
+  float bones[24] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 0};
+  std::vector<float> rest(3 * tube_vertices), posed(3 * tube_vertices);
+  REQUIRE(nook_bake_character_read_vertices(character.get(), rest.data(), nullptr, tube_vertices) == NOOK_OK);
+  REQUIRE(nook_bake_character_skin(character.get(), bones, 2, posed.data(), nullptr, tube_vertices) ==
+          NOOK_OK);
+  tube t;
+  make_tube(&t);
+  for (std::size_t v = 0; v < tube_vertices; ++v) {
+    CHECK(std::fabs(posed[3 * v] - rest[3 * v]) < 1e-6f);
+    CHECK(std::fabs(posed[3 * v + 1] - rest[3 * v + 1] - t.weights[2 * v + 1]) < 1e-6f);
+  }
+  bones[5] = nan_value;
+  CHECK(nook_bake_character_skin(character.get(), bones, 2, posed.data(), nullptr, tube_vertices) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("bone 0"));
+  CHECK(nook_bake_character_skin(character.get(), bones, 3, posed.data(), nullptr, tube_vertices) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("bone_count is wrong (got 3, need 2)"));
+}
+
+TEST_CASE("generated poses are rigid and the same for the same seed") {
+  const Character character = tube_character();
+  std::vector<float> a(24 * 5), b(24 * 5), c(24 * 5);
+  REQUIRE(nook_bake_character_auto_poses(character.get(), 7, 5, a.data(), 2) == NOOK_OK);
+  REQUIRE(nook_bake_character_auto_poses(character.get(), 7, 5, b.data(), 2) == NOOK_OK);
+  REQUIRE(nook_bake_character_auto_poses(character.get(), 8, 5, c.data(), 2) == NOOK_OK);
+  CHECK(a == b);
+  CHECK(a != c);
+  for (std::size_t m = 0; m < 10; ++m)
+    for (std::size_t column = 0; column < 3; ++column) {
+      float square = 0;
+      for (std::size_t row = 0; row < 3; ++row)
+        square += a[12 * m + 4 * row + column] * a[12 * m + 4 * row + column];
+      CHECK(std::fabs(square - 1) < 1e-4f);  // products of a few single-precision rotations
+    }
+  std::uint32_t count = 0;
+  REQUIRE(nook_bake_character_single_joint_poses(character.get(), 3, 45, &count, nullptr, 2) == NOOK_OK);
+  CHECK(count == 27);  // one joint moves some but not all vertices; the rest pose is the middle of its grid
+  std::vector<float> grid(24 * 27);
+  count = 26;
+  CHECK(nook_bake_character_single_joint_poses(character.get(), 3, 45, &count, grid.data(), 2) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_single_joint_poses(character.get(), 0, 45, &count, nullptr, 2) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_single_joint_poses(character.get(), 3, nan_value, &count, nullptr, 2) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_CASE("faults of a mesh in memory are named") {
+  TubeDesc d;
+  SECTION("a NULL array") {
+    d.desc.positions = nullptr;
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc.positions is NULL"));
+  }
+  SECTION("a position that is not finite") {
+    d.t.positions[40] = nan_value;
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+  }
+  SECTION("an index out of range") {
+    d.t.indices[5] = tube_vertices;
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+  }
+  SECTION("a joint out of range") {
+    d.t.joints[2 * (tube_vertices - 1) + 1] = 2;
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+  }
+  SECTION("weights that are all zero") {
+    d.t.weights[0] = d.t.weights[1] = 0;
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+  }
+  SECTION("a parent after its child") {
+    d.t.parents[0] = 1;
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+  }
+  SECTION("no triangles") {
+    d.desc.index_count = 0;
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+  }
+  SECTION("no bones") {
+    d.desc.bone_count = 0;
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+  }
+  SECTION("no influences") {
+    d.desc.influences = 0;
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc.influences is out of range (got 0"));
+  }
+  SECTION("an extension") {
+    d.desc.next = &d;
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc.next is not NULL"));
+  }
+  CHECK(message_has("nook_bake_character_create: "));
+}
+
+TEST_CASE("NULL handles and wrong counts are refused") {
+  const Character character = tube_character();
+  const nook_bake_character c = character.get();
+  float f[24] = {};
+  nook_bake_character_info info{};
+  CHECK(nook_bake_character_get_info(c, &info) == NOOK_ERROR_INVALID_ARGUMENT);  // struct_size is 0
+  CHECK(nook_bake_character_get_info(nullptr, &info) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_get_info(c, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_bone_name(nullptr, 0) == nullptr);
+  CHECK(nook_bake_character_bone_name(c, 2) == nullptr);
+  CHECK(nook_bake_character_primitive_name(c, 1) == nullptr);
+  CHECK(nook_bake_character_read_bones(c, nullptr, f, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_get_primitive(c, 0, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_bake_primitive primitive;
+  CHECK(nook_bake_character_get_primitive(c, 1, &primitive) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("primitive is out of range (got 1, there are 1)"));
+  CHECK(nook_bake_character_read_vertices(c, f, f, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_read_triangles(c, nullptr, 3 * tube_triangles) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_read_skin(c, nullptr, nullptr, tube_vertices) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_auto_poses(c, 1, 1, nullptr, 2) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_import_gltf(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_import_gltf_bytes("x", 1, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_bake_character_destroy(nullptr);
+}

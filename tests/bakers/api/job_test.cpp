@@ -1,0 +1,291 @@
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
+
+#include "catch.h"
+#include "handles.h"
+
+namespace {
+
+// Small enough for a second, and every stage is run through.
+nook_bake_job_desc small_bake() {
+  nook_bake_job_desc desc;
+  nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  desc.preset = NOOK_BAKE_PRESET_DRAFT;
+  desc.pose_mode = NOOK_BAKE_POSES_AUTO;
+  desc.auto_pose_count = 40;
+  desc.spheres = 8;
+  desc.key_points = 24;
+  desc.rays = 4;
+  desc.steps = 40;
+  return desc;
+}
+
+Job start(const Character& character, const nook_bake_job_desc& desc) {
+  nook_bake_job job = nullptr;
+  const nook_result result = nook_bake_job_start(character.get(), &desc, &job);
+  INFO(nook_bake_last_message());
+  CHECK(result == NOOK_OK);
+  return Job(job);
+}
+
+std::vector<char> model_of(const Job& job) {
+  const nook_result result = nook_bake_job_wait(job.get());
+  INFO(nook_bake_last_message());
+  REQUIRE(result == NOOK_OK);
+  const void* bytes = nullptr;
+  std::size_t size = 0;
+  REQUIRE(nook_bake_job_get_model(job.get(), &bytes, &size) == NOOK_OK);
+  const char* first = static_cast<const char*>(bytes);
+  return {first, first + size};
+}
+
+nook_result start_result(const Character& character, const nook_bake_job_desc& desc) {
+  nook_bake_job job = nullptr;
+  const nook_result result = nook_bake_job_start(character.get(), &desc, &job);
+  CHECK((job != nullptr) == (result == NOOK_OK));
+  nook_bake_job_destroy(&job);
+  return result;
+}
+
+// Cancels at the n-th call, and notes whether a call came after the job was over.
+struct Canceller {
+  int left;
+  std::atomic<bool> over{false}, late{false};
+  static std::int32_t call(void* user, const nook_bake_progress*) {
+    Canceller& c = *static_cast<Canceller*>(user);
+    if (c.over) c.late = true;
+    return --c.left > 0;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the same seed gives the same bytes on any number of threads") {
+  const Character character = tube_character();
+  nook_bake_job_desc desc = small_bake();
+  desc.threads = 1;
+  const std::vector<char> one = model_of(start(character, desc));
+  desc.threads = 2;
+  const std::vector<char> two = model_of(start(character, desc));
+  CHECK(one == two);
+  desc.seed = 2;
+  CHECK(model_of(start(character, desc)) != one);
+}
+
+TEST_CASE("two bakes at once are what each is alone") {
+  const Character character = tube_character();
+  nook_bake_job_desc desc = small_bake();
+  const std::vector<char> alone = model_of(start(character, desc));
+  nook_bake_job_desc other = desc;
+  other.seed = 9;
+  const Job a = start(character, desc), b = start(character, other), c = start(character, desc);
+  CHECK(model_of(a) == alone);
+  CHECK(model_of(c) == alone);
+  CHECK(model_of(b) != alone);
+}
+
+TEST_CASE("a job can be cancelled at any point of its progress") {
+  const Character character = tube_character();
+  nook_bake_job_desc desc = small_bake();
+  for (int calls : {1, 2, 5, 17, 39, 40, 41, 43}) {
+    Canceller canceller{calls};
+    desc.progress = Canceller::call;
+    desc.progress_user = &canceller;
+    const Job job = start(character, desc);
+    const nook_result result = nook_bake_job_wait(job.get());
+    canceller.over = true;
+    INFO("cancelled at call " << calls << ": " << nook_bake_last_message());
+    // A bake may have fewer calls than that; one that was asked to stop did.
+    CHECK(result == (canceller.left <= 0 ? NOOK_ERROR_CANCELLED : NOOK_OK));
+    if (calls <= 40) CHECK(result == NOOK_ERROR_CANCELLED);  // one call a traced pose at least
+    const void* bytes = nullptr;
+    std::size_t size = 0;
+    CHECK(nook_bake_job_get_model(job.get(), &bytes, &size) == result);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    CHECK_FALSE(canceller.late);
+  }
+}
+
+TEST_CASE("destroying a running job cancels it and waits") {
+  Character character = tube_character();
+  nook_bake_job_desc desc = small_bake();
+  desc.auto_pose_count = 20000;
+  Canceller canceller{1 << 30};
+  desc.progress = Canceller::call;
+  desc.progress_user = &canceller;
+  Job job = start(character, desc);
+  // The job keeps what it needs.
+  character.reset();
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  nook_bake_progress progress{};
+  progress.struct_size = sizeof progress;
+  CHECK(nook_bake_job_poll(job.get(), &progress) == NOOK_OK);
+  CHECK(progress.stage != NOOK_BAKE_STAGE_DONE);
+  const void* bytes = nullptr;
+  std::size_t size = 0;
+  CHECK(nook_bake_job_get_model(job.get(), &bytes, &size) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("still running"));
+  job.reset();
+  canceller.over = true;
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  CHECK_FALSE(canceller.late);
+}
+
+TEST_CASE("cancel from another thread ends a job soon") {
+  const Character character = tube_character();
+  nook_bake_job_desc desc = small_bake();
+  desc.auto_pose_count = 2000;
+  desc.rays = 4096;
+  const Job job = start(character, desc);
+  std::thread([&] { nook_bake_job_cancel(job.get()); }).join();
+  CHECK(nook_bake_job_wait(job.get()) == NOOK_ERROR_CANCELLED);
+  CHECK(nook_bake_job_wait(job.get()) == NOOK_ERROR_CANCELLED);
+  CHECK(message_has("nook_bake_job_wait: "));
+  nook_bake_progress progress{};
+  progress.struct_size = sizeof progress;
+  CHECK(nook_bake_job_poll(job.get(), &progress) == NOOK_OK);
+  CHECK(progress.stage == NOOK_BAKE_STAGE_DONE);
+}
+
+TEST_CASE("the report says what was baked") {
+  const Character character = tube_character();
+  nook_bake_job_desc desc = small_bake();
+  std::vector<float> extra(24 * 3);
+  REQUIRE(nook_bake_character_auto_poses(character.get(), 77, 3, extra.data(), 2) == NOOK_OK);
+  desc.extra_poses_3x4 = extra.data();
+  desc.extra_pose_count = 3;
+  desc.gamma = 2;
+  desc.kernel = NOOK_BAKE_KERNEL_PAPER;
+  const Job job = start(character, desc);
+  model_of(job);
+  const char* text = nullptr;
+  REQUIRE(nook_bake_job_get_report(job.get(), &text) == NOOK_OK);
+  const nlohmann::json report = nlohmann::json::parse(text);
+  CHECK(report.at("train_poses").get<int>() <= 43);
+  CHECK(report.at("train_poses").get<int>() > 20);
+  CHECK(report.at("vertices") == tube_vertices);
+  CHECK(report.at("gamma").get<float>() == 2);
+  CHECK(report.at("recipe").at("kernel") == "paper");
+  CHECK(report.at("recipe").at("extra_poses") == 3);
+  CHECK(report.at("recipe").at("auto_poses") == 40);
+  CHECK(report.at("recipe").at("poses") == "auto");
+  for (const char* key :
+       {"seconds_raytrace", "seconds_fit", "iterations", "mse_initial", "mse_train", "curve", "peak_bytes"})
+    CHECK(report.contains(key));
+}
+
+TEST_CASE("a bake of the host's own poses alone") {
+  const Character character = tube_character();
+  nook_bake_job_desc desc = small_bake();
+  desc.pose_mode = NOOK_BAKE_POSES_EXTRA;
+  std::vector<float> poses(24 * 30);
+  REQUIRE(nook_bake_character_auto_poses(character.get(), 5, 30, poses.data(), 2) == NOOK_OK);
+  desc.extra_poses_3x4 = poses.data();
+  desc.extra_pose_count = 30;
+  CHECK_FALSE(model_of(start(character, desc)).empty());
+  poses[13] = std::numeric_limits<float>::infinity();
+  CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("the matrix of bone 1 in pose 0 is not finite"));
+}
+
+TEST_CASE("settings that make no sense are refused before the job starts") {
+  const Character character = tube_character();
+  nook_bake_job_desc desc = small_bake();
+  const char* clips[] = {"walk"};
+  const char* expected = "";
+  SECTION("preset") {
+    desc.preset = 7;
+    expected = "desc.preset has an unknown value (got 7)";
+  }
+  SECTION("poses") {
+    desc.pose_mode = -1;
+    expected = "desc.pose_mode has an unknown value (got -1)";
+  }
+  SECTION("kernel") {
+    desc.kernel = 3;
+    expected = "desc.kernel has an unknown value";
+  }
+  SECTION("fit") {
+    desc.fit = 3;
+    expected = "desc.fit has an unknown value";
+  }
+  SECTION("gamma") {
+    desc.gamma = 0.5f;
+    expected = "desc.gamma is out of range (got 0.5";
+  }
+  SECTION("gamma that is no number") {
+    desc.gamma = std::nanf("");
+    expected = "desc.gamma is out of range";
+  }
+  SECTION("time limit") {
+    desc.time_limit_s = -1;
+    expected = "desc.time_limit_s is out of range";
+  }
+  SECTION("spheres") {
+    desc.spheres = 1u << 30;
+    expected = "desc.spheres is out of range";
+  }
+  SECTION("clips of a character that has none") {
+    desc.pose_mode = NOOK_BAKE_POSES_CLIPS;
+    expected = "no clip that shows motion";
+  }
+  SECTION("an unknown clip") {
+    desc.pose_mode = NOOK_BAKE_POSES_CLIPS;
+    desc.clip_names = clips;
+    desc.clip_count = 1;
+    expected = "walk";
+  }
+  SECTION("clips that are not used") {
+    desc.clip_names = clips;
+    desc.clip_count = 1;
+    expected = "desc.pose_mode uses no clips";
+  }
+  SECTION("clip names missing") {
+    desc.pose_mode = NOOK_BAKE_POSES_ALL;
+    desc.clip_count = 1;
+    expected = "desc.clip_names is NULL";
+  }
+  SECTION("split") {
+    desc.pose_mode = NOOK_BAKE_POSES_ALL;
+    desc.clip_split = 5;
+    expected = "desc.clip_split has an unknown value";
+  }
+  SECTION("extra poses missing") {
+    desc.extra_pose_count = 1;
+    expected = "desc.extra_poses_3x4 is NULL";
+  }
+  SECTION("no poses at all") {
+    desc.pose_mode = NOOK_BAKE_POSES_EXTRA;
+    expected = "desc.extra_pose_count is 0";
+  }
+  SECTION("header of another major version") {
+    desc.header_version += 1u << 22;
+    CHECK(start_result(character, desc) == NOOK_ERROR_VERSION);
+    return;
+  }
+  CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+  INFO(nook_bake_last_message());
+  CHECK(message_has(expected));
+  CHECK(message_has("nook_bake_job_start: "));
+}
+
+TEST_CASE("NULL jobs are refused, or ignored by destroy") {
+  const Character character = tube_character();
+  nook_bake_job_desc desc = small_bake();
+  nook_bake_job job = nullptr;
+  CHECK(nook_bake_job_start(nullptr, &desc, &job) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_start(character.get(), nullptr, &job) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_start(character.get(), &desc, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_wait(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_cancel(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_poll(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_get_model(nullptr, nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_get_report(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_bake_job_destroy(nullptr);
+  nook_bake_job_destroy(&job);
+}
