@@ -1,0 +1,377 @@
+#include "character/auto_poses.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "character/initialise.h"
+#include "character/joint_roles.h"
+#include "character/pose_sets.h"
+#include "character/rotation.h"
+#include "character/self_collision.h"
+
+namespace nook::bake {
+namespace {
+
+constexpr float degree = std::numbers::pi_v<float> / 180;
+
+// mt19937_64's bits are the same everywhere; the standard's distributions are not.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : bits_(seed) {}
+  float uniform() { return float(bits_() >> 40) * 0x1p-24f; }
+  float between(float low, float high) { return low + (high - low) * uniform(); }
+  bool chance(float p) { return uniform() < p; }
+  float normal() {
+    const float r = std::sqrt(-2 * std::log(uniform() + 1e-12f));
+    return r * std::cos(2 * std::numbers::pi_v<float> * uniform());
+  }
+  Vec3 normal3() {
+    const float x = normal(), y = normal(), z = normal();
+    return {x, y, z};
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+// Directions of the body in rest space.
+struct BodyFrame {
+  Vec3 left, up, forward;
+};
+
+Vec3 joint_origin(const Bone& bone) { return {bone.frame_rest.m[3], bone.frame_rest.m[7], bone.frame_rest.m[11]}; }
+
+BodyFrame body_frame(const SkinnedMesh& mesh, std::span<const Joint> joints) {
+  Vec3 sum;
+  for (std::size_t b = 0; b < joints.size(); ++b) {
+    if (joints[b].role == JointRole::other) continue;
+    if (joints[b].side == Side::left) sum += joint_origin(mesh.bones[b]);
+    if (joints[b].side == Side::right) sum += -1.0f * joint_origin(mesh.bones[b]);
+  }
+  BodyFrame frame;
+  frame.up = {0, 1, 0};
+  frame.left = normalised({sum.x, 0, sum.z});
+  if (dot(frame.left, frame.left) == 0) frame.left = {1, 0, 0};
+  frame.forward = cross(frame.left, frame.up);
+  return frame;
+}
+
+// What the limbs of one side do in one pose; angles in radians.
+struct LimbPlan {
+  Vec3 arm_direction;     // of the upper arm, body frame axes (left, up, forward), mirrored for the right side
+  float arm_twist, elbow, hip_flexion, hip_abduction, hip_twist, knee, ankle, toe, curl, thumb;
+  Vec3 elbow_lean;        // random part of the direction to which the elbow bends
+  Vec3 clavicle, hand;
+};
+
+LimbPlan plan_limbs(Random& random) {
+  LimbPlan plan;
+  // Arms: hanging, reaching forwards, raised to the side or overhead. Elevation from straight down, azimuth from the front.
+  const float kind = random.uniform();
+  float elevation, azimuth;
+  if (kind < 0.45f) {
+    elevation = std::fabs(12 + 18 * random.normal()) * degree;
+    azimuth = random.between(-60, 150) * degree;
+    plan.elbow = std::fabs(random.chance(0.5f) ? 15 + 15 * random.normal() : 60 + 40 * random.normal()) * degree;
+  } else if (kind < 0.85f) {
+    elevation = (60 + 25 * random.normal()) * degree;
+    azimuth = (15 + 35 * random.normal()) * degree;
+    plan.elbow = std::fabs(60 + 45 * random.normal()) * degree;
+  } else {
+    elevation = random.between(60, 165) * degree;
+    azimuth = random.between(10, 110) * degree;
+    plan.elbow = std::fabs(45 + 45 * random.normal()) * degree;
+  }
+  plan.elbow = std::min(plan.elbow, 145 * degree);
+  plan.arm_direction = {std::sin(elevation) * std::sin(azimuth), -std::cos(elevation),
+                        std::sin(elevation) * std::cos(azimuth)};
+  plan.arm_twist = 25 * degree * random.normal();
+  plan.elbow_lean = 0.5f * random.normal3();
+  // Legs: standing, striding, crouching or sitting, kicked back.
+  const float stance = random.uniform();
+  if (stance < 0.35f) {
+    plan.hip_flexion = 10 * degree * random.normal();
+    plan.knee = std::fabs(10 * random.normal()) * degree;
+  } else if (stance < 0.65f) {
+    plan.hip_flexion = (10 + 28 * random.normal()) * degree;
+    plan.knee = std::fabs(30 + 28 * random.normal()) * degree;
+  } else if (stance < 0.95f) {
+    plan.hip_flexion = (80 + 22 * random.normal()) * degree;
+    plan.knee = std::fabs(90 + 28 * random.normal()) * degree;
+  } else {
+    plan.hip_flexion = random.between(-40, 0) * degree;
+    plan.knee = random.between(20, 120) * degree;
+  }
+  plan.hip_flexion = std::clamp(plan.hip_flexion, -45 * degree, 130 * degree);
+  plan.knee = std::clamp(plan.knee, 0.0f, 145 * degree);
+  plan.hip_abduction = (6 + 12 * random.normal()) * degree;
+  plan.hip_twist = 12 * degree * random.normal();
+  plan.ankle = 15 * degree * random.normal();
+  plan.toe = random.chance(0.3f) ? random.between(0, 40) * degree : 0;
+  // Fingers: open, relaxed or a fist.
+  const float grip = random.uniform();
+  plan.curl = grip < 0.25f ? 0.08f * random.normal() : grip < 0.65f ? 0.35f + 0.15f * random.normal()
+                                                                    : 0.85f + 0.15f * random.normal();
+  plan.thumb = random.uniform();
+  plan.clavicle = (8 * degree) * random.normal3();
+  plan.hand = (20 * degree) * random.normal3();
+  return plan;
+}
+
+struct BodyPlan {
+  LimbPlan limb[2];      // left, right
+  float bend, lean, twist;  // of the whole spine, radians
+  Vec3 neck;
+};
+
+BodyPlan plan_body(Random& random) {
+  BodyPlan plan;
+  plan.limb[0] = plan_limbs(random);
+  plan.limb[1] = plan_limbs(random);
+  // People often do the same with both sides; then the sides differ a little.
+  if (random.chance(0.4f)) {
+    LimbPlan& l = plan.limb[1];
+    l = plan.limb[0];
+    l.arm_direction = normalised(l.arm_direction + 0.15f * random.normal3());
+    l.elbow = std::fabs(l.elbow + 10 * degree * random.normal());
+    l.hip_flexion += 8 * degree * random.normal();
+    l.knee = std::fabs(l.knee + 8 * degree * random.normal());
+    l.curl += 0.1f * random.normal();
+  } else if (random.chance(0.4f)) {
+    plan.limb[1].hip_flexion = plan.limb[0].hip_flexion + 10 * degree * random.normal();
+    plan.limb[1].knee = std::fabs(plan.limb[0].knee + 10 * degree * random.normal());
+  }
+  const float crouch = std::max(0.0f, std::min(plan.limb[0].hip_flexion, plan.limb[1].hip_flexion));
+  plan.bend = (8 + 16 * random.normal()) * degree + 0.25f * crouch * random.uniform();
+  plan.lean = 9 * degree * random.normal();
+  plan.twist = 15 * degree * random.normal();
+  plan.neck = {15 * degree * random.normal(), 22 * degree * random.normal(), 8 * degree * random.normal()};
+  return plan;
+}
+
+// The rotation that takes one unit vector to another by the shortest way.
+Vec3 shortest_arc(Vec3 from, Vec3 to) {
+  const Vec3 axis = cross(from, to);
+  const float s = length(axis), c = dot(from, to);
+  if (s < 1e-6f) {
+    if (c > 0) return {};
+    const Vec3 any = std::fabs(from.x) < 0.7f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    return std::numbers::pi_v<float> * normalised(cross(from, any));
+  }
+  return std::atan2(s, c) / s * axis;
+}
+
+// Turns that a plan asks of a rig, in rest-space axes round each joint's origin, parents first.
+class Rig {
+ public:
+  explicit Rig(const SkinnedMesh& mesh) : mesh_(mesh), joints_(joint_roles(mesh)), frame_(body_frame(mesh, joints_)) {
+    posable_.assign(mesh.bones.size(), 0);
+    for (std::uint32_t b : posable_joints(mesh)) posable_[b] = 1;
+    spine_count_ = std::max<std::size_t>(
+        1, std::size_t(std::count_if(joints_.begin(), joints_.end(),
+                                     [](const Joint& j) { return j.role == JointRole::spine; })));
+    neck_count_ =
+        std::max<std::size_t>(1, std::size_t(std::count_if(joints_.begin(), joints_.end(), [](const Joint& j) {
+                                return j.role == JointRole::neck || j.role == JointRole::head;
+                              })));
+    find_curl_axes();
+  }
+
+  Pose pose(const BodyPlan& plan, Random& random) const {
+    std::vector<Mat3x4> local(mesh_.bones.size());
+    for (std::size_t b = 0; b < local.size(); ++b) {
+      const Vec3 turn = joint_turn(b, plan, random);
+      local[b] = rotation_about(joint_origin(mesh_.bones[b]), turn);
+    }
+    place_arms(plan, local);
+    Pose pose(local.size());
+    for (std::size_t b = 0; b < pose.size(); ++b) {
+      const std::int32_t parent = mesh_.bones[b].parent;
+      pose[b] = parent >= 0 ? pose[std::size_t(parent)] * local[b] : local[b];
+    }
+    return pose;
+  }
+
+ private:
+  Vec3 direction_of(std::size_t bone) const {
+    const std::int32_t next = joints_[bone].continuation;
+    return next < 0 ? Vec3{} : normalised(joint_origin(mesh_.bones[std::size_t(next)]) - joint_origin(mesh_.bones[bone]));
+  }
+
+  // Fingers curl towards the palm: about the axis across them, on the side that the thumb is on.
+  void find_curl_axes() {
+    curl_axis_.assign(mesh_.bones.size(), Vec3{});
+    for (std::size_t hand = 0; hand < joints_.size(); ++hand) {
+      if (joints_[hand].role != JointRole::hand) continue;
+      const Vec3 wrist = joint_origin(mesh_.bones[hand]);
+      Vec3 along, thumb;
+      std::vector<std::size_t> knuckles, members;
+      for (std::size_t b = hand + 1; b < joints_.size(); ++b) {
+        if (!is_below(b, hand)) continue;
+        if (joints_[b].role == JointRole::finger) {
+          members.push_back(b);
+          if (joints_[b].segment == 0) {
+            knuckles.push_back(b);
+            along += normalised(joint_origin(mesh_.bones[b]) - wrist);
+          }
+        } else if (joints_[b].role == JointRole::thumb) {
+          members.push_back(b);
+          thumb += joint_origin(mesh_.bones[b]) - wrist;
+        }
+      }
+      if (knuckles.empty()) continue;
+      along = normalised(along);
+      // The knuckle farthest from the others on the thumb's side is the index finger.
+      Vec3 across;
+      for (std::size_t a : knuckles)
+        for (std::size_t b : knuckles) {
+          const Vec3 d = joint_origin(mesh_.bones[a]) - joint_origin(mesh_.bones[b]);
+          if (length(d) > length(across)) across = d;
+        }
+      if (length(across) == 0) across = cross(along, frame_.up);
+      if (dot(across, thumb) < 0) across = -across;
+      across = normalised(across - dot(across, along) * along);
+      // Rest curl, where there is any, is the surest sign; else the palm is where the thumb hangs.
+      Vec3 bend;
+      for (std::size_t b : members) {
+        const std::int32_t next = joints_[b].continuation, parent = mesh_.bones[b].parent;
+        if (joints_[b].role != JointRole::finger || next < 0 || joints_[b].segment == 0 || parent < 0) continue;
+        bend += cross(direction_of(std::size_t(parent)), direction_of(b));
+      }
+      Vec3 axis = across;
+      if (length(bend) > 0.05f * float(knuckles.size())) {
+        if (dot(bend, across) < 0) axis = -across;
+      } else if (dot(cross(across, along), thumb) < 0) {
+        axis = -across;
+      }
+      for (std::size_t b : members) {
+        if (joints_[b].role == JointRole::finger) {
+          curl_axis_[b] = axis;
+        } else {
+          // The thumb folds over the palm: half about its own length seen from the palm.
+          const Vec3 palm = cross(axis, along);
+          const Vec3 own = normalised(thumb);
+          const Vec3 fold = cross(own, normalised(palm - across));
+          curl_axis_[b] = normalised(dot(fold, fold) > 0 ? fold : axis);
+        }
+      }
+    }
+  }
+
+  bool is_below(std::size_t bone, std::size_t ancestor) const {
+    for (std::int32_t b = mesh_.bones[bone].parent; b >= 0; b = mesh_.bones[std::size_t(b)].parent)
+      if (std::size_t(b) == ancestor) return true;
+    return false;
+  }
+
+  Vec3 joint_turn(std::size_t b, const BodyPlan& plan, Random& random) const {
+    const Joint& joint = joints_[b];
+    const int s = joint.side == Side::right ? 1 : 0;
+    const float mirror = joint.side == Side::right ? -1.0f : 1.0f;
+    const LimbPlan& limb = plan.limb[s];
+    const auto& [left, up, forward] = frame_;
+    switch (joint.role) {
+      case JointRole::spine: {
+        const float share = 1 / float(spine_count_);
+        return share * (plan.bend * left + plan.lean * forward + plan.twist * up) + 0.04f * random.normal3();
+      }
+      case JointRole::neck:
+      case JointRole::head: {
+        const float share = 1 / float(neck_count_);
+        return share * (plan.neck.x * left + plan.neck.y * up + plan.neck.z * forward);
+      }
+      case JointRole::clavicle: return limb.clavicle;
+      case JointRole::hand: return limb.hand;
+      case JointRole::finger: {
+        static constexpr float reach[3] = {85, 100, 70};
+        const float curl = std::clamp(limb.curl + 0.12f * random.normal(), -0.1f, 1.1f);
+        const Vec3 spread = joint.segment == 0 ? 0.08f * random.normal() * up : Vec3{};
+        return curl * reach[std::min<int>(joint.segment, 2)] * degree * curl_axis_[b] + spread;
+      }
+      case JointRole::thumb:
+        return limb.thumb * std::max(0.2f, limb.curl) * 40 * degree * curl_axis_[b] + 0.08f * random.normal3();
+      case JointRole::thigh:
+        // Flexion swings the knee forwards: a turn about -left.
+        return -limb.hip_flexion * left + mirror * limb.hip_abduction * forward + mirror * limb.hip_twist * up;
+      case JointRole::calf: return limb.knee * left;
+      case JointRole::foot: return limb.ankle * left + 0.12f * random.normal3();
+      case JointRole::toe: return -limb.toe * left;
+      case JointRole::upper_arm:
+      case JointRole::forearm: return {};  // placed by direction, see place_arms
+      case JointRole::pelvis: return {};
+      case JointRole::other: {
+        if (!posable_[b] || joint.side == Side::none) return posable_[b] ? 0.06f * random.normal3() : Vec3{};
+        return 0.08f * std::exp(0.5f * random.normal()) * random.normal3();
+      }
+    }
+    return {};
+  }
+
+  // Upper arms and forearms go where the plan points, whatever pose they rest in.
+  void place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
+    const auto& [left, up, forward] = frame_;
+    for (std::size_t b = 0; b < joints_.size(); ++b) {
+      if (joints_[b].role != JointRole::upper_arm) continue;
+      const float mirror = joints_[b].side == Side::right ? -1.0f : 1.0f;
+      const LimbPlan& limb = plan.limb[joints_[b].side == Side::right ? 1 : 0];
+      const Vec3 rest = direction_of(b);
+      if (dot(rest, rest) == 0) continue;
+      const Vec3 wish = normalised(mirror * limb.arm_direction.x * left + limb.arm_direction.y * up +
+                                   limb.arm_direction.z * forward);
+      const Vec3 origin = joint_origin(mesh_.bones[b]);
+      local[b] = rotation_about(origin, limb.arm_twist * wish) * rotation_about(origin, shortest_arc(rest, wish));
+      const std::int32_t elbow = joints_[b].continuation;
+      if (elbow < 0) continue;
+      // The forearm bends forwards, a little up and inwards, seen from the posed upper arm, then back into rest axes.
+      const Vec3 lean = forward + 0.5f * up - 0.5f * mirror * left + limb.elbow_lean;
+      const Vec3 inward = normalised(lean - dot(lean, wish) * wish);
+      const Vec3 axis_posed = normalised(cross(wish, inward));
+      const Vec3 axis = transform_vector(inverse_rigid(local[b]), axis_posed);
+      // The rest pose may hold a slight bend already: first straighten, then bend.
+      const Vec3 fore = direction_of(std::size_t(elbow));
+      const Vec3 joint = joint_origin(mesh_.bones[std::size_t(elbow)]);
+      const Mat3x4 straighten =
+          dot(fore, fore) > 0 ? rotation_about(joint, shortest_arc(fore, rest)) : Mat3x4{};
+      local[std::size_t(elbow)] = rotation_about(joint, limb.elbow * axis) * straighten;
+    }
+  }
+
+  const SkinnedMesh& mesh_;
+  std::vector<Joint> joints_;
+  BodyFrame frame_;
+  std::vector<char> posable_;
+  std::vector<Vec3> curl_axis_;
+  std::size_t spine_count_ = 1, neck_count_ = 1;
+};
+
+}  // namespace
+
+std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> vertex_area, std::size_t count,
+                             std::uint64_t seed) {
+  const Rig rig(mesh);
+  const SelfCollision collision(mesh, vertex_area);
+  std::vector<Pose> poses(count);
+  tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+    Random random(mix_bits(seed ^ mix_bits(i)));
+    // Of a few tries the first that keeps out of itself, or the best: limbs that touch are wanted, limbs inside are not.
+    constexpr int tries = 12;
+    constexpr float allowed = 0.25f;
+    float best = 0;
+    for (int attempt = 0; attempt < tries; ++attempt) {
+      Pose pose = rig.pose(plan_body(random), random);
+      const float depth = collision.depth(pose);
+      if (attempt == 0 || depth < best) {
+        best = depth;
+        poses[i] = std::move(pose);
+      }
+      if (best <= allowed) break;
+    }
+  });
+  return poses;
+}
+
+}  // namespace nook::bake

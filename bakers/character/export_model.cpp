@@ -1,0 +1,114 @@
+#include "character/export_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nook::bake {
+namespace {
+
+// The smallest weight that a vertex keeps, so that added casters reach vertices that no self-shadow does: its own darkening
+// by it stays below the step of an 8-bit image.
+constexpr float least_alpha = 1e-3f;
+
+void set_surface_frames(CharacterModel& model, const SkinnedMesh& mesh, std::span<const float> vertex_area,
+                        std::span<const Vec3> vertex_normal) {
+  std::vector<float> total(model.key_points.size(), 0.0f);
+  std::vector<Vec3> position(total.size()), normal(total.size());
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+    float sum = 0;
+    for (std::size_t s = 0; s < model.influences; ++s) sum += model.alpha[i * model.influences + s];
+    for (std::size_t s = 0; s < model.influences; ++s) {
+      const float w = model.alpha[i * model.influences + s] / sum * (vertex_area[i] + 1e-9f);
+      const std::size_t k = model.influence[i * model.influences + s];
+      total[k] += w;
+      position[k] += w * mesh.position[i];
+      normal[k] += w * vertex_normal[i];
+    }
+  }
+  for (std::size_t k = 0; k < total.size(); ++k) {
+    KeyPoint& p = model.key_points[k];
+    p.surface_position = total[k] > 0 ? position[k] * (1 / total[k]) : p.position;
+    const Vec3 n = normalised(normal[k]);
+    p.surface_normal = dot(n, n) > 0 ? n : p.normal;
+  }
+}
+
+}  // namespace
+
+CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh, std::span<const float> vertex_area,
+                            std::span<const Vec3> vertex_normal, std::span<const float> static_ao) {
+  const LayerStructure& structure = state.structure;
+  CharacterModel model;
+  model.kernel = structure.kernel;
+  for (const Bone& bone : mesh.bones) model.bone_names.emplace_back(bone.name);
+  for (std::size_t h = 0; h < structure.sphere_count(); ++h) {
+    const float* q = &state.parameters[structure.sphere_offset(h)];
+    model.spheres.push_back({{q[0], q[1], q[2]}, std::exp(q[3]), structure.sphere_bone[h], 1.0f});
+  }
+  for (std::size_t k = 0; k < structure.key_point_count(); ++k) {
+    const float* q = &state.parameters[structure.key_point_offset(k)];
+    KeyPoint p;
+    p.position = {q[0], q[1], q[2]};
+    p.normal = normalised({q[3], q[4], q[5]});
+    if (dot(p.normal, p.normal) == 0) p.normal = {0, 1, 0};
+    float sum = 0;
+    for (int j = 0; j < KeyPoint::max_bones; ++j) sum += q[6 + j] * q[6 + j];
+    for (int j = 0; j < KeyPoint::max_bones; ++j) p.weight[j] = q[6 + j] * q[6 + j] / sum;
+    p.bone = structure.key_point_bone[k];
+    model.key_points.push_back(p);
+  }
+  const LinearLayerFit& linear = state.linear;
+  model.influences = std::uint32_t(linear.entries);
+  model.influence.assign(linear.key_point.begin(), linear.key_point.end());
+  model.alpha.assign(linear.alpha.begin(), linear.alpha.end());
+  model.bias.assign(linear.bias.begin(), linear.bias.end());
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+    float* alpha = &model.alpha[i * model.influences];
+    float* largest = std::max_element(alpha, alpha + model.influences);
+    *largest = std::max(*largest, least_alpha);
+  }
+  model.static_ao.assign(static_ao.begin(), static_ao.end());
+  model.file_to_welded.assign(mesh.file_to_welded.begin(), mesh.file_to_welded.end());
+  for (const Primitive& p : mesh.primitives) model.primitives.push_back({p.first_vertex, p.vertex_count});
+
+  Vec3 low = mesh.position.front(), high = low;
+  for (Vec3 p : mesh.position) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  model.bounding_centre = 0.5f * (low + high);
+  for (Vec3 p : mesh.position) model.bounding_radius = std::max(model.bounding_radius, length(p - model.bounding_centre));
+  // The bone that carries most of the body's subtree yet has the weight of the middle: the nearest skin weight to the centre.
+  float nearest = INFINITY;
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+    const float d = length(mesh.position[i] - model.bounding_centre);
+    if (d < nearest) {
+      nearest = d;
+      model.root_bone = mesh.weights[i].bone[0];
+    }
+  }
+  set_surface_frames(model, mesh, vertex_area, vertex_normal);
+  return model;
+}
+
+FitState state_of_model(const CharacterModel& model) {
+  FitState state;
+  state.structure.kernel = model.kernel;
+  for (const ProxySphere& s : model.spheres) {
+    state.structure.sphere_bone.push_back(s.bone);
+    state.parameters.insert(state.parameters.end(), {s.centre.x, s.centre.y, s.centre.z, std::log(s.radius)});
+  }
+  for (const KeyPoint& p : model.key_points) {
+    state.structure.key_point_bone.push_back(p.bone);
+    state.parameters.insert(state.parameters.end(),
+                            {p.position.x, p.position.y, p.position.z, p.normal.x, p.normal.y, p.normal.z});
+    for (float w : p.weight) state.parameters.push_back(std::sqrt(w));
+  }
+  state.linear.entries = model.influences;
+  state.linear.key_point.assign(model.influence.begin(), model.influence.end());
+  state.linear.alpha.assign(model.alpha.begin(), model.alpha.end());
+  state.linear.bias.assign(model.bias.begin(), model.bias.end());
+  return state;
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,52 @@
+// What a fit reads and what it changes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "character/non_linear_layer.h"
+#include "import/skinned_mesh.h"
+#include "raytrace/ambient_occlusion.h"
+
+namespace nook::bake {
+
+// Poses with their ray-traced AO. The last held_out poses are never fitted: they decide when a fit stops.
+struct TrainingSet {
+  std::vector<Pose> poses;
+  AoTargets targets;                 // poses x welded vertices
+  std::vector<float> vertex_weight;  // of the squared error, mean 1
+  std::size_t held_out = 0;
+
+  std::size_t fitted() const { return poses.size() - held_out; }
+};
+
+// The linear layer while it is fitted: AO = 1 - (sum alpha * shadow + bias), a fixed number of entries a vertex.
+struct LinearLayerFit {
+  std::size_t entries = 0;
+  std::vector<std::uint16_t> key_point;  // vertices x entries
+  std::vector<float> alpha;              // the same, >= 0
+  std::vector<float> bias;               // a value a vertex
+
+  std::size_t vertex_count() const { return bias.size(); }
+};
+
+struct FitState {
+  LayerStructure structure;
+  std::vector<float> parameters;  // of the non-linear layer, see LayerStructure
+  LinearLayerFit linear;
+};
+
+// Shadows of many poses: poses x padded key points, row-major. Parallel over poses.
+std::vector<float> shadows_of(const FitState& state, std::span<const Pose> poses);
+
+struct FitError {
+  double mse = 0;       // over all vertices and poses
+  double mse_area = 0;  // weighted by the vertex weights given
+};
+// Clamped predictions against unclamped targets, over poses [first, last) of the set.
+FitError measure_fit(const FitState& state, const TrainingSet& set, std::size_t first, std::size_t last,
+                     std::span<const float> vertex_area);
+
+}  // namespace nook::bake

@@ -1,0 +1,106 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "character/initialise.h"
+
+namespace nook::bake {
+
+std::vector<KeyPoint> key_points_of_clusters(const SkinnedMesh& mesh, std::span<const std::uint32_t> cluster,
+                                             std::span<const float> vertex_weight, std::span<const Vec3> normal) {
+  const std::size_t count = cluster.empty() ? 0 : *std::max_element(cluster.begin(), cluster.end()) + 1;
+  std::vector<float> size(count, 0.0f);
+  std::vector<KeyPoint> points(count);
+  std::vector<std::map<std::uint16_t, float>> weights(count);
+  std::vector<Vec3> any_normal(count);
+  for (std::size_t i = 0; i < cluster.size(); ++i) {
+    const std::size_t c = cluster[i];
+    const float w = std::max(vertex_weight[i], 1e-6f);
+    size[c] += w;
+    points[c].position += w * mesh.position[i];
+    points[c].normal += w * normal[i];
+    any_normal[c] = normal[i];
+    for (int s = 0; s < SkinWeights::max_bones; ++s)
+      if (mesh.weights[i].weight[s] > 0) weights[c][mesh.weights[i].bone[s]] += w * mesh.weights[i].weight[s];
+  }
+  for (std::size_t c = 0; c < count; ++c) {
+    KeyPoint& p = points[c];
+    p.position = p.position * (1 / size[c]);
+    p.normal = normalised(p.normal);
+    if (dot(p.normal, p.normal) == 0) p.normal = any_normal[c];
+    p.surface_position = p.position;
+    p.surface_normal = p.normal;
+    std::vector<std::pair<float, std::uint16_t>> largest;
+    for (const auto& [bone, w] : weights[c]) largest.push_back({w, bone});
+    std::sort(largest.begin(), largest.end(), [](const auto& a, const auto& b) {
+      return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    if (largest.size() > KeyPoint::max_bones) largest.resize(KeyPoint::max_bones);
+    float total = 0;
+    for (const auto& [w, bone] : largest) total += w;
+    for (std::size_t j = 0; j < largest.size(); ++j) {
+      p.weight[j] = largest[j].first / total;
+      p.bone[j] = largest[j].second;
+    }
+  }
+  return points;
+}
+
+FitState initial_state(const Kernel& kernel, std::span<const InitialSphere> spheres,
+                       std::span<const KeyPoint> key_points) {
+  FitState state;
+  state.structure.kernel = kernel;
+  for (const InitialSphere& s : spheres) state.structure.sphere_bone.push_back(s.bone);
+  for (const KeyPoint& k : key_points) state.structure.key_point_bone.push_back(k.bone);
+  state.parameters.resize(state.structure.parameter_count());
+  for (std::size_t h = 0; h < spheres.size(); ++h) {
+    float* q = &state.parameters[state.structure.sphere_offset(h)];
+    q[0] = spheres[h].centre.x;
+    q[1] = spheres[h].centre.y;
+    q[2] = spheres[h].centre.z;
+    q[3] = std::log(spheres[h].radius);
+  }
+  for (std::size_t k = 0; k < key_points.size(); ++k) {
+    float* q = &state.parameters[state.structure.key_point_offset(k)];
+    const KeyPoint& p = key_points[k];
+    const float values[6] = {p.position.x, p.position.y, p.position.z, p.normal.x, p.normal.y, p.normal.z};
+    std::copy_n(values, 6, q);
+    for (int j = 0; j < KeyPoint::max_bones; ++j) q[6 + j] = std::sqrt(p.weight[j]);
+  }
+  return state;
+}
+
+std::vector<std::uint16_t> nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> normal,
+                                              std::span<const KeyPoint> key_points, std::size_t count) {
+  count = std::min(count, key_points.size());
+  std::vector<std::uint16_t> nearest(mesh.vertex_count() * count);
+  // A turn of the normal by 90 degrees or a full change of bone counts like this many metres, in a body about 1.7 m tall.
+  constexpr float normal_metres = 0.04f, weight_metres = 0.15f;
+  constexpr std::size_t block = 256;
+  tbb::parallel_for(std::size_t(0), (mesh.vertex_count() + block - 1) / block, [&](std::size_t b) {
+    std::vector<std::pair<float, std::uint16_t>> distance(key_points.size());
+    std::vector<float> dense(mesh.bones.size(), 0.0f);
+    for (std::size_t i = b * block; i < std::min(mesh.vertex_count(), (b + 1) * block); ++i) {
+      const SkinWeights& own = mesh.weights[i];
+      for (int s = 0; s < SkinWeights::max_bones; ++s) dense[own.bone[s]] += own.weight[s];
+      for (std::size_t k = 0; k < key_points.size(); ++k) {
+        const KeyPoint& p = key_points[k];
+        const Vec3 d = mesh.position[i] - p.position, n = normal[i] - p.normal;
+        float shared = 0;
+        for (int j = 0; j < KeyPoint::max_bones; ++j) shared += std::min(p.weight[j], dense[p.bone[j]]);
+        const float unlike = 1 - std::min(1.0f, shared);
+        distance[k] = {dot(d, d) + normal_metres * normal_metres * 0.5f * dot(n, n) +
+                           weight_metres * weight_metres * unlike * unlike,
+                       std::uint16_t(k)};
+      }
+      for (int s = 0; s < SkinWeights::max_bones; ++s) dense[own.bone[s]] = 0;
+      std::partial_sort(distance.begin(), distance.begin() + std::ptrdiff_t(count), distance.end());
+      for (std::size_t c = 0; c < count; ++c) nearest[i * count + c] = distance[c].second;
+    }
+  });
+  return nearest;
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,111 @@
+#include "character/joint_roles.h"
+
+#include <cctype>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace nook::bake {
+namespace {
+
+// Lower-case words of a name: split at anything that is no letter or digit, and where a capital follows a small letter.
+std::vector<std::string> words_of(std::string_view name) {
+  const std::size_t space = name.find_last_of(":|");
+  if (space != std::string_view::npos) name.remove_prefix(space + 1);
+  std::vector<std::string> words(1);
+  char before = 0;
+  for (char c : name) {
+    const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
+    const bool starts = std::isupper(static_cast<unsigned char>(c)) && std::islower(static_cast<unsigned char>(before));
+    if (!letter || starts) words.emplace_back();
+    if (letter || std::isdigit(static_cast<unsigned char>(c)))
+      words.back() += char(std::tolower(static_cast<unsigned char>(c)));
+    before = c;
+  }
+  std::erase(words, std::string());
+  return words;
+}
+
+bool contains(const std::string& text, std::initializer_list<const char*> parts) {
+  for (const char* part : parts)
+    if (text.find(part) != std::string::npos) return true;
+  return false;
+}
+
+Side side_of(const std::vector<std::string>& words) {
+  for (const std::string& w : words) {
+    if (w == "l" || w == "left") return Side::left;
+    if (w == "r" || w == "right") return Side::right;
+  }
+  return Side::none;
+}
+
+JointRole role_of(const std::string& text, Side side, JointRole parent) {
+  if (contains(text, {"twist", "roll", "leaf", "pole", "ik"}) && !contains(text, {"spike"})) return JointRole::other;
+  const bool facial = contains(text, {"eye", "brow", "mouth", "lip", "cheek", "jaw", "tongue", "nose", "tail", "ear"});
+  if (facial && !contains(text, {"forearm"})) return JointRole::other;
+  if (contains(text, {"thumb", "finger0"})) return JointRole::thumb;
+  if (contains(text, {"index", "middle", "ring", "pinky", "little", "finger"})) return JointRole::finger;
+  if (contains(text, {"toe", "ball"})) return JointRole::toe;
+  if (contains(text, {"foot", "ankle"})) return parent == JointRole::foot ? JointRole::toe : JointRole::foot;
+  if (contains(text, {"calf", "shin", "lowerleg", "knee"})) return JointRole::calf;
+  if (contains(text, {"thigh", "upleg", "upperleg"})) return JointRole::thigh;
+  if (contains(text, {"forearm", "lowerarm", "elbow"})) return JointRole::forearm;
+  if (contains(text, {"upperarm", "uparm"})) return JointRole::upper_arm;
+  if (contains(text, {"clavicle", "collar", "shoulder"})) return JointRole::clavicle;
+  if (contains(text, {"hand", "wrist", "palm"})) return parent == JointRole::hand ? JointRole::other : JointRole::hand;
+  if (contains(text, {"neck"})) return JointRole::neck;
+  if (contains(text, {"head"})) return JointRole::head;
+  if (contains(text, {"spine", "chest", "torso", "abdomen", "waist"})) return JointRole::spine;
+  if (contains(text, {"pelvis", "hip"})) return side == Side::none ? JointRole::pelvis : JointRole::thigh;
+  // Bare "arm" and "leg" mean the limb's next part.
+  if (contains(text, {"arm"}) && side != Side::none)
+    return parent == JointRole::upper_arm ? JointRole::forearm
+           : parent == JointRole::forearm ? JointRole::hand
+                                          : JointRole::upper_arm;
+  if (contains(text, {"leg"}) && side != Side::none)
+    return parent == JointRole::thigh  ? JointRole::calf
+           : parent == JointRole::calf ? JointRole::foot
+           : parent == JointRole::foot ? JointRole::toe
+                                       : JointRole::thigh;
+  return JointRole::other;
+}
+
+// The role that continues a limb towards its end.
+JointRole next_role(JointRole role) {
+  switch (role) {
+    case JointRole::clavicle: return JointRole::upper_arm;
+    case JointRole::upper_arm: return JointRole::forearm;
+    case JointRole::forearm: return JointRole::hand;
+    case JointRole::thigh: return JointRole::calf;
+    case JointRole::calf: return JointRole::foot;
+    case JointRole::foot: return JointRole::toe;
+    default: return role;  // spines, necks and fingers continue in kind
+  }
+}
+
+}  // namespace
+
+std::vector<Joint> joint_roles(const SkinnedMesh& mesh) {
+  std::vector<Joint> joints(mesh.bones.size());
+  for (std::size_t b = 0; b < joints.size(); ++b) {
+    const std::vector<std::string> words = words_of(mesh.bones[b].name);
+    std::string text;
+    Joint& joint = joints[b];
+    joint.side = side_of(words);
+    for (const std::string& w : words)
+      if (w != "l" && w != "r" && w != "left" && w != "right") text += w;
+    const std::int32_t parent = mesh.bones[b].parent;
+    const Joint above = parent >= 0 ? joints[std::size_t(parent)] : Joint{};
+    if (joint.side == Side::none && above.side != Side::none) joint.side = above.side;
+    joint.role = role_of(text, joint.side, above.role);
+    if ((joint.role == JointRole::finger || joint.role == JointRole::thumb) && above.role == joint.role)
+      joint.segment = std::uint8_t(above.segment + 1);
+    if (parent >= 0 && joint.role != JointRole::other && joints[std::size_t(parent)].continuation < 0 &&
+        joint.role == next_role(above.role))
+      joints[std::size_t(parent)].continuation = std::int32_t(b);
+  }
+  return joints;
+}
+
+}  // namespace nook::bake

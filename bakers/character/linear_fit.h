@@ -1,0 +1,29 @@
+// The linear layer by constrained least squares: few key points a vertex, non-negative weights, free bias.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "character/fit_state.h"
+
+namespace nook::bake {
+
+// For each vertex, the key points it may use, nearest first: vertices x count.
+struct Candidates {
+  std::size_t count = 0;
+  std::vector<std::uint16_t> key_point;
+};
+
+struct LinearFitSettings {
+  std::size_t entries = 7;        // at most this many key points a vertex
+  double ridge = 1e-4;            // on alpha, relative to the mean variance of the shadows
+  double least_gain = 1e-3;       // an entry must lower the vertex's squared error by this share of its variance
+};
+
+// Solves for alpha and bias of every vertex over the fitted poses of the set. The Gram matrix of the shadows is shared by all
+// vertices (the seed's caching, slides 55 to 57, seen from the linear layer): a vertex costs no more than its candidates.
+LinearLayerFit fit_linear_layer(std::span<const float> shadows, std::size_t padded, const TrainingSet& set,
+                                const Candidates& candidates, const LinearFitSettings& settings);
+
+}  // namespace nook::bake

@@ -1,0 +1,65 @@
+// The non-linear layer of the model with its gradient: bone matrices -> shadow at every key point, and back to the parameters
+// (Le et al. 2019, slides 13 to 20). One pose at a time; callers parallelise over poses.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "character/kernel.h"
+#include "character/model.h"
+#include "core/vec.h"
+
+namespace nook::bake {
+
+// What stays fixed while the layer is fitted.
+struct LayerStructure {
+  Kernel kernel;
+  std::vector<std::uint16_t> sphere_bone;
+  std::vector<std::array<std::uint16_t, KeyPoint::max_bones>> key_point_bone;
+
+  std::size_t sphere_count() const { return sphere_bone.size(); }
+  std::size_t key_point_count() const { return key_point_bone.size(); }
+  // Rows of shadows are padded to whole SIMD vectors.
+  std::size_t padded_count() const { return (key_point_count() + 15) / 16 * 16; }
+
+  // Parameters in one flat vector, unconstrained, so that any optimiser can walk it:
+  //   4 a sphere: centre (rest space, metres), log radius;
+  //   10 a key point: position, normal (any length), 4 roots of bone weights (weight = root^2 / sum of root^2).
+  std::size_t sphere_offset(std::size_t h) const { return 4 * h; }
+  std::size_t key_point_offset(std::size_t k) const { return 4 * sphere_count() + 10 * k; }
+  std::size_t parameter_count() const { return 4 * sphere_count() + 10 * key_point_count(); }
+};
+
+// Scratch memory of one evaluation; reused between poses by one thread at a time.
+class LayerWorkspace {
+ public:
+  explicit LayerWorkspace(const LayerStructure& structure);
+
+ private:
+  friend class NonLinearLayer;
+  std::vector<float> sphere_;       // 5 arrays: x y z radius inverse_radius
+  std::vector<float> key_;          // position x y z, normal x y z
+  std::vector<float> sum_;          // sum of y^gamma
+  std::vector<float> gradient_key_; // as key_
+  std::vector<float> gradient_sum_;
+};
+
+class NonLinearLayer {
+ public:
+  explicit NonLinearLayer(const LayerStructure& structure) : structure_(structure) {}
+
+  // shadow: padded_count() values, stride apart (1: a row). The workspace keeps what backward needs.
+  void forward(std::span<const Mat3x4> bones, std::span<const float> parameters, LayerWorkspace& workspace,
+               float* shadow, std::size_t stride = 1) const;
+
+  // Adds d(loss)/d(parameters) to gradient, given d(loss)/d(shadow). forward must have run with the same arguments.
+  void backward(std::span<const Mat3x4> bones, std::span<const float> parameters, LayerWorkspace& workspace,
+                const float* gradient_shadow, std::size_t stride, std::span<float> gradient) const;
+
+ private:
+  const LayerStructure& structure_;
+};
+
+}  // namespace nook::bake

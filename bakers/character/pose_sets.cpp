@@ -1,0 +1,104 @@
+#include "character/pose_sets.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "character/rotation.h"
+
+namespace nook::bake {
+namespace {
+
+// "T-Pose", "t_pose", "TPose", "A-Pose", "Armature|A pose": a name whose letters end in tpose or apose as a word.
+bool is_reference_pose(const std::string& name) {
+  std::string letters;
+  for (char c : name) {
+    if (std::isalpha(static_cast<unsigned char>(c)))
+      letters += char(std::tolower(static_cast<unsigned char>(c)));
+    else if (c == '|' || c == ':')
+      letters.clear();
+  }
+  return letters == "tpose" || letters == "apose";
+}
+
+}  // namespace
+
+Pose turn_joints(const SkinnedMesh& mesh, std::span<const JointRotation> turns) {
+  Pose pose(mesh.bones.size());
+  std::vector<Mat3x4> local(mesh.bones.size());
+  std::vector<char> turned(mesh.bones.size(), 0);
+  for (const JointRotation& t : turns) {
+    const Mat3x4& frame = mesh.bones[t.bone].frame_rest;
+    local[t.bone] = local[t.bone] * (frame * rotation(t.axis_angle) * inverse_rigid(frame));
+    turned[t.bone] = 1;
+  }
+  for (std::size_t b = 0; b < pose.size(); ++b) {
+    const std::int32_t parent = mesh.bones[b].parent;
+    if (parent >= 0) pose[b] = turned[b] ? pose[std::size_t(parent)] * local[b] : pose[std::size_t(parent)];
+    else pose[b] = local[b];
+  }
+  return pose;
+}
+
+std::vector<Pose> clip_poses(const ImportedCharacter& character, std::span<const std::size_t> clips,
+                             std::size_t samples_per_clip) {
+  std::vector<Pose> poses;
+  poses.reserve(clips.size() * samples_per_clip);
+  for (std::size_t clip : clips)
+    for (std::size_t i = 0; i < samples_per_clip; ++i)
+      poses.push_back(sample_clip(character, clip,
+                                  (float(i) + 0.5f) / float(samples_per_clip) * character.clips[clip].duration_s));
+  return poses;
+}
+
+std::vector<std::size_t> motion_clips(const ImportedCharacter& character) {
+  std::vector<std::size_t> clips;
+  for (std::size_t i = 0; i < character.clips.size(); ++i)
+    if (!is_reference_pose(character.clips[i].name)) clips.push_back(i);
+  std::sort(clips.begin(), clips.end(),
+            [&](std::size_t a, std::size_t b) { return character.clips[a].name < character.clips[b].name; });
+  return clips;
+}
+
+ClipSplit split_clips(std::span<const std::size_t> clips) {
+  ClipSplit split;
+  for (std::size_t i = 0; i < clips.size(); ++i) (i % 2 == 0 ? split.fitted : split.measured).push_back(clips[i]);
+  return split;
+}
+
+std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh) {
+  const std::size_t bones = mesh.bones.size(), vertices = mesh.vertex_count();
+  std::vector<std::size_t> moved(bones, 0);
+  std::vector<char> touches(bones);
+  for (const SkinWeights& w : mesh.weights) {
+    std::fill(touches.begin(), touches.end(), char(0));
+    for (int s = 0; s < SkinWeights::max_bones; ++s) {
+      if (w.weight[s] <= 0) continue;
+      for (std::int32_t b = w.bone[s]; b >= 0 && !touches[std::size_t(b)]; b = mesh.bones[std::size_t(b)].parent)
+        touches[std::size_t(b)] = 1;
+    }
+    for (std::size_t b = 0; b < bones; ++b) moved[b] += std::size_t(touches[b]);
+  }
+  std::vector<std::uint32_t> joints;
+  for (std::size_t b = 0; b < bones; ++b) {
+    // Moving every vertex wholly changes nothing; a root shared by part of the weights still does.
+    if (moved[b] > 0 && moved[b] < vertices) joints.push_back(std::uint32_t(b));
+  }
+  return joints;
+}
+
+std::vector<Pose> single_joint_poses(const SkinnedMesh& mesh, int steps, float range_radians) {
+  std::vector<Pose> poses{Pose(mesh.bones.size())};
+  const auto angle = [&](int i) { return steps > 1 ? range_radians * (2 * float(i) / float(steps - 1) - 1) : 0.0f; };
+  for (std::uint32_t joint : posable_joints(mesh))
+    for (int x = 0; x < steps; ++x)
+      for (int y = 0; y < steps; ++y)
+        for (int z = 0; z < steps; ++z) {
+          if (angle(x) == 0 && angle(y) == 0 && angle(z) == 0) continue;
+          const JointRotation turns[] = {
+              {joint, {angle(x), 0, 0}}, {joint, {0, angle(y), 0}}, {joint, {0, 0, angle(z)}}};
+          poses.push_back(turn_joints(mesh, turns));
+        }
+  return poses;
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,42 @@
+// Which poses a character is baked on and measured on. All are deterministic for a seed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "import/gltf.h"
+
+namespace nook::bake {
+
+// A rotation of one joint about its own rest axes, radians.
+struct JointRotation {
+  std::uint32_t bone = 0;
+  Vec3 axis_angle;  // joint frame; length is the angle
+};
+
+// The pose in which the given joints are turned and all others rest; a joint given twice turns twice.
+Pose turn_joints(const SkinnedMesh& mesh, std::span<const JointRotation> turns);
+
+// Times (i + 0.5) / samples of each clip's duration.
+std::vector<Pose> clip_poses(const ImportedCharacter& character, std::span<const std::size_t> clips,
+                             std::size_t samples_per_clip);
+
+// Clips of a character that show motion: all but T- and A-poses (by name), in byte order of their names.
+std::vector<std::size_t> motion_clips(const ImportedCharacter& character);
+
+// Every second one: index 0, 2, ... are for fitting, the others for measuring (design, unseen clips).
+struct ClipSplit {
+  std::vector<std::size_t> fitted, measured;
+};
+ClipSplit split_clips(std::span<const std::size_t> clips);
+
+// Joints that move some but not all vertices.
+std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh);
+
+// Each such joint alone on a steps^3 grid of Euler rotations (x, then y, then z about its local axes) over +-range radians
+// (the seed's training set, slide 9). The rest pose is in it once.
+std::vector<Pose> single_joint_poses(const SkinnedMesh& mesh, int steps, float range_radians);
+
+}  // namespace nook::bake

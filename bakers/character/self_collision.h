@@ -1,0 +1,26 @@
+// How far a posed body runs through itself, from a few spheres a bone.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "character/initialise.h"
+
+namespace nook::bake {
+
+class SelfCollision {
+ public:
+  SelfCollision(const SkinnedMesh& mesh, std::span<const float> vertex_area);
+
+  // The deepest overlap of two spheres of bones that are not neighbours, beyond their overlap at rest, as a share of the
+  // smaller radius: 0 apart or touching, 1 sunk in by its radius.
+  float depth(const Pose& pose) const;
+
+ private:
+  std::vector<InitialSphere> spheres_;
+  std::vector<std::pair<std::uint16_t, std::uint16_t>> pairs_;
+  std::vector<float> rest_overlap_;  // a pair, metres
+};
+
+}  // namespace nook::bake

@@ -1,0 +1,191 @@
+#include "raytrace/ambient_occlusion.h"
+
+#include <pmmintrin.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+
+#include "core/failure.h"
+#include "import/skinning.h"
+#include "raytrace/embree.h"
+
+namespace nook::bake {
+namespace {
+
+// Embree wants denormals flushed on every thread that traces; the caller's mode comes back afterwards.
+class FlushDenormals {
+ public:
+  FlushDenormals() : saved_(_mm_getcsr()) {
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  }
+  ~FlushDenormals() { _mm_setcsr(saved_); }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned saved_;
+};
+
+void build_scene(RTCDevice device, RTCScene scene, std::span<const Vec3> positions,
+                 std::span<const std::array<std::uint32_t, 3>> triangles) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3),
+                                           positions.size());
+  std::memcpy(vertices, positions.data(), positions.size_bytes());
+  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                          3 * sizeof(std::uint32_t), triangles.size());
+  std::memcpy(indices, triangles.data(), triangles.size_bytes());
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+}
+
+struct Frame {
+  Vec3 x, y, z;
+};
+
+// An orthonormal basis round a unit normal, turned by an angle given as cosine and sine (Duff et al. 2017 for the basis).
+Frame turned_frame(Vec3 n, float cosine, float sine) {
+  const float sign = std::copysign(1.0f, n.z);
+  const float a = -1 / (sign + n.z);
+  const float b = n.x * n.y * a;
+  const Vec3 u{1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+  const Vec3 v{b, sign + n.y * n.y * a, -n.y};
+  return {cosine * u + sine * v, cosine * v - sine * u, n};
+}
+
+float trace_point(RTCScene scene, Vec3 position, Vec3 normal, const HemispherePatterns& patterns, float radius,
+                  float origin_offset, std::uint64_t random) {
+  const float angle = 6.2831853f * unit_float(random);
+  const Frame frame = turned_frame(normal, std::cos(angle), std::sin(angle));
+  const Vec3* local = patterns.pattern(std::uint32_t(random));
+  const Vec3 origin = position + origin_offset * normal;
+  const std::uint32_t rays = patterns.rays();
+  std::uint32_t open = 0;
+  alignas(64) RTCRay16 packet;
+  alignas(64) int valid[16];
+  for (std::uint32_t first = 0; first < rays; first += 16) {
+    for (std::uint32_t lane = 0; lane < 16; ++lane) {
+      const bool used = first + lane < rays;
+      const Vec3 d = used ? local[first + lane] : Vec3{0, 0, 1};
+      const Vec3 direction = d.x * frame.x + d.y * frame.y + d.z * frame.z;
+      valid[lane] = used ? -1 : 0;
+      packet.org_x[lane] = origin.x;
+      packet.org_y[lane] = origin.y;
+      packet.org_z[lane] = origin.z;
+      packet.dir_x[lane] = direction.x;
+      packet.dir_y[lane] = direction.y;
+      packet.dir_z[lane] = direction.z;
+      packet.tnear[lane] = 0;
+      packet.tfar[lane] = used ? radius : -1;
+      packet.time[lane] = 0;
+      packet.mask[lane] = ~0u;
+      packet.id[lane] = lane;
+      packet.flags[lane] = 0;
+    }
+    occluded16(scene, valid, packet);
+    for (std::uint32_t lane = 0; lane < 16; ++lane) open += valid[lane] && packet.tfar[lane] >= 0;
+  }
+  return float(open) / float(rays);
+}
+
+}  // namespace
+
+float ray_origin_offset(std::span<const Vec3> rest_positions) {
+  Vec3 low = rest_positions.front(), high = low;
+  for (Vec3 p : rest_positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return 1e-4f * length(high - low);
+}
+
+std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers, const AoSettings& settings) {
+  const EmbreeDevice device;
+  const EmbreeScene scene(device.get());
+  {
+    const FlushDenormals flush;
+    build_scene(device.get(), scene.get(), occluders.position, occluders.triangle);
+  }
+  const HemispherePatterns patterns(settings.rays, settings.seed);
+  std::vector<float> ao(receivers.position.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ao.size(), 256), [&](const auto& range) {
+    const FlushDenormals flush;
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      ao[i] = trace_point(scene.get(), receivers.position[i], receivers.normal[i], patterns, settings.radius,
+                          settings.origin_offset, mix_bits(settings.seed ^ mix_bits(i)));
+  });
+  return ao;
+}
+
+AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
+                             const Progress& progress) {
+  AoTargets targets;
+  targets.vertex_count = mesh.vertex_count();
+  targets.value.resize(poses.size() * mesh.vertex_count());
+  const float offset = ray_origin_offset(mesh.position);
+  const HemispherePatterns patterns(rays, seed);
+  const EmbreeDevice device;
+  struct Workspace {
+    std::vector<Vec3> position, normal;
+  };
+  tbb::enumerable_thread_specific<Workspace> workspaces;
+  std::atomic<bool> cancelled{false};
+  std::mutex progress_mutex;
+  std::size_t done = 0;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, poses.size(), 1),
+      [&](const auto& range) {
+        const FlushDenormals flush;
+        Workspace& work = workspaces.local();
+        for (std::size_t p = range.begin(); p < range.end() && !cancelled; ++p) {
+          skin_positions(mesh, poses[p], work.position);
+          vertex_normals(mesh.triangle, work.position, work.normal);
+          const EmbreeScene scene(device.get());
+          build_scene(device.get(), scene.get(), work.position, mesh.triangle);
+          std::uint16_t* row = &targets.value[p * targets.vertex_count];
+          for (std::size_t v = 0; v < targets.vertex_count; ++v) {
+            const std::uint64_t random = mix_bits(mix_bits(seed + p) ^ v);
+            const float ao = trace_point(scene.get(), work.position[v], work.normal[v], patterns,
+                                         std::numeric_limits<float>::infinity(), offset, random);
+            row[v] = std::uint16_t(std::lround(ao * 65535));
+          }
+          if (progress) {
+            const std::lock_guard lock(progress_mutex);
+            if (!progress(++done, poses.size())) cancelled = true;
+          }
+        }
+      },
+      tbb::simple_partitioner());
+  if (cancelled) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu poses done)", done, poses.size());
+  return targets;
+}
+
+double measure_noise_floor(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
+                           std::uint32_t rays, std::uint64_t seed) {
+  constexpr std::size_t sample_poses = 8;
+  std::vector<Pose> sample;
+  std::vector<std::size_t> index;
+  for (std::size_t i = 0; i < std::min(sample_poses, poses.size()); ++i) {
+    index.push_back(i * poses.size() / std::min(sample_poses, poses.size()));
+    sample.push_back(poses[index.back()]);
+  }
+  const AoTargets again = trace_character_ao(mesh, sample, rays, mix_bits(~seed));
+  double sum = 0;
+  for (std::size_t s = 0; s < sample.size(); ++s)
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+      const double d = (double(again.row(s)[i]) - double(targets.row(index[s])[i])) * double(AoTargets::scale);
+      sum += d * d;
+    }
+  return 0.5 * sum / (double(sample.size()) * double(mesh.vertex_count()));
+}
+
+}  // namespace nook::bake

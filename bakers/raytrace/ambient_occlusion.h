@@ -1,0 +1,68 @@
+// Ray-traced ambient occlusion: the ground truth of everything that Nook claims. Cosine-weighted visibility over the
+// hemisphere round a normal, both triangle sides occlude, 1 is open.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "import/skinned_mesh.h"
+#include "raytrace/hemisphere.h"
+
+namespace nook::bake {
+
+// Occluders, world space, metres.
+struct TriangleSoup {
+  std::vector<Vec3> position;
+  std::vector<std::array<std::uint32_t, 3>> triangle;
+};
+
+// Points whose AO is wanted, world space; normals are unit length.
+struct Receivers {
+  std::span<const Vec3> position;
+  std::span<const Vec3> normal;
+};
+
+struct AoSettings {
+  std::uint32_t rays = 64;                                 // per point
+  std::uint64_t seed = 1;
+  float radius = std::numeric_limits<float>::infinity();   // metres; longer rays count as open
+  float origin_offset = 0;                                 // metres along the normal
+};
+
+// AO of every receiver against one soup; threads work on blocks of receivers, the result does not depend on their number.
+std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers, const AoSettings& settings);
+
+// Returns false to stop; called from any worker thread, one call at a time.
+using Progress = std::function<bool(std::size_t done, std::size_t total)>;
+
+// AO targets of a character: row-major poses x vertices, 16-bit fixed point (value / 65535), half the size of floats at a
+// quantum far below the ray noise.
+struct AoTargets {
+  std::size_t vertex_count = 0;
+  std::vector<std::uint16_t> value;
+  std::size_t pose_count() const { return vertex_count ? value.size() / vertex_count : 0; }
+  std::span<const std::uint16_t> row(std::size_t pose) const {
+    return {value.data() + pose * vertex_count, vertex_count};
+  }
+  static constexpr float scale = 1.0f / 65535.0f;
+};
+
+// Poses are distributed over all threads, each with a BVH of its own; the same seed gives the same targets on any number of
+// threads. Throws Failure(NOOK_ERROR_CANCELLED) when progress returns false.
+AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
+                             const Progress& progress = {});
+
+// The expected squared error of such targets: half the mean squared difference to a second, independent tracing of a few of
+// the poses.
+double measure_noise_floor(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
+                           std::uint32_t rays, std::uint64_t seed);
+
+// The offset of the ray origins for a character: 1e-4 of its rest bounding-box diagonal.
+float ray_origin_offset(std::span<const Vec3> rest_positions);
+
+}  // namespace nook::bake

@@ -1,0 +1,50 @@
+// One spelling for Embree 3 (Debian 12) and Embree 4 (Debian 13): owned devices and scenes, and the 16-wide occlusion call.
+#pragma once
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <utility>
+
+namespace nook::bake {
+
+class EmbreeDevice {
+ public:
+  // Single-threaded inside: callers parallelise over scenes, so that results do not depend on Embree's own scheduling.
+  EmbreeDevice() : handle_(rtcNewDevice("threads=1,set_affinity=0")) {}
+  ~EmbreeDevice() { rtcReleaseDevice(handle_); }
+  EmbreeDevice(const EmbreeDevice&) = delete;
+  EmbreeDevice& operator=(const EmbreeDevice&) = delete;
+  RTCDevice get() const { return handle_; }
+
+ private:
+  RTCDevice handle_;
+};
+
+class EmbreeScene {
+ public:
+  explicit EmbreeScene(RTCDevice device) : handle_(rtcNewScene(device)) {}
+  ~EmbreeScene() { rtcReleaseScene(handle_); }
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+  RTCScene get() const { return handle_; }
+
+ private:
+  RTCScene handle_;
+};
+
+// Occlusion of 16 rays; tfar of an occluded ray becomes -infinity.
+inline void occluded16(RTCScene scene, const int* valid, RTCRay16& rays) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded16(valid, scene, &rays, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded16(valid, scene, &context, &rays);
+#endif
+}
+
+}  // namespace nook::bake
