@@ -81,8 +81,8 @@ typedef struct nook_scene_desc {
   nook_isa isa;                 /* default NOOK_ISA_AUTO; a better one than the processor has: UNSUPPORTED */
   float cutoff_error;           /* AO; linked casters and occluders that darken by less than this bound are skipped.
                                    [0, 1], default 1/1024; 0 culls nothing */
-  float lod_error;              /* AO, rms; the coarsest level whose baked error is below this times (distance to the
-                                   camera / lod_distance) is used. >= 0, default 0: always full detail */
+  float lod_error;              /* AO, rms; the coarsest level whose baked error (of self-shadow) is below this times
+                                   (distance to the camera / lod_distance) is used. >= 0, default 0: full detail */
   float lod_distance;           /* metres, > 0, default 10 */
   uint32_t lod_max_interval;    /* frames; a distant instance is updated at least this often. >= 1, default 1: always */
   float ground_radius;          /* metres, radius of the sphere that stands for a ground plane. > 0, default 100 */

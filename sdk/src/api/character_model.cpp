@@ -42,7 +42,7 @@ nook_result nook_character_model_get_info(nook_character_model model, nook_chara
     answer.vertex_count = static_cast<uint32_t>(m.vertex_count());
     answer.file_vertex_count = static_cast<uint32_t>(m.file_to_welded.size());
     answer.primitive_count = static_cast<uint32_t>(m.primitives.size());
-    answer.lod_count = 1;
+    answer.lod_count = static_cast<uint32_t>(1 + m.levels.size());
     answer.bounding_radius = m.bounding_radius;
     answer.gamma = m.kernel.gamma;
     api::write_info(info, offsetof(nook_character_model_info, gamma) + sizeof info->gamma, answer);

@@ -34,11 +34,17 @@ float paper_bound(const LoadedModel& receiver, float radius, float gap) {
                       : INFINITY;
 }
 
+const std::pmr::vector<ProxySphere>& spheres_at(const CharacterModel& model, std::uint32_t level) {
+  const std::size_t l = std::min<std::size_t>(level, model.levels.size());
+  return l == 0 ? model.spheres : model.levels[l - 1].spheres;
+}
+
 // All spheres of a caster: by Minkowski's inequality the norm grows by at most the norm of the new terms.
-float paper_bound(const LoadedModel& receiver, const Instance& caster, float gap) {
+float paper_bound(const LoadedModel& receiver, std::uint32_t receiver_level, const Instance& caster,
+                  float gap) {
   const Kernel& kernel = receiver.model.kernel;
   float sum = 0;
-  for (const ProxySphere& sphere : caster.model->model.spheres) {
+  for (const ProxySphere& sphere : spheres_at(caster.model->model, receiver_level)) {
     const float radius = sphere.radius * caster.scale;
     if (!(gap > radius)) return INFINITY;
     sum += std::pow(term_bound(kernel.form, gap / radius), kernel.gamma);
@@ -52,7 +58,7 @@ bool matters(const Scene& scene, const Instance& receiver, const Instance& caste
       length(caster.bound.centre - receiver.bound.centre) - caster.bound.radius - receiver.bound.radius;
   const float bound = scene.settings.combine == NOOK_COMBINE_COMPOSED
                           ? composed_bound(caster.model->caster_strength * caster.scale * caster.scale, gap)
-                          : paper_bound(*receiver.model, caster, gap);
+                          : paper_bound(*receiver.model, receiver.level, caster, gap);
   return !(bound < scene.settings.cutoff_error);
 }
 
@@ -110,13 +116,17 @@ void place_ground(const Scene& scene, Instance& receiver) {
     ++receiver.culled;
 }
 
-// Distant instances take turns, each at least every lod_max_interval frames.
+// Distant instances take turns, each at least every lod_max_interval frames, and use the coarsest level whose
+// error their distance allows.
 void choose_detail(const Scene& scene, std::uint32_t slot, Instance& instance) {
   instance.level = 0;
   instance.due = true;
   if (!scene.has_camera) return;
   const SceneSettings& settings = scene.settings;
   const float distance = length(instance.bound.centre - scene.camera) / settings.lod_distance;
+  const auto& levels = instance.model->model.levels;
+  for (std::uint32_t level = 0; level < levels.size(); ++level)
+    if (levels[level].error_rms < settings.lod_error * distance) instance.level = level + 1;
   const float most = static_cast<float>(settings.lod_max_interval);
   const auto interval = static_cast<std::uint32_t>(std::min(std::max(distance, 1.0f), most));
   instance.due = instance.evaluated_frame == 0 || (scene.frame + slot) % interval == 0;

@@ -8,9 +8,28 @@
 namespace nook {
 namespace {
 
-SphereSoa spheres_of(const Instance& instance) {
-  const SphereLanes& s = instance.arrays.spheres;
-  return {s.x, s.y, s.z, s.inverse_radius, instance.model->rest_spheres.caster_weight(), s.count};
+// Spheres of an instance at a level, or at its coarsest if that is finer.
+SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
+  const LoadedModel& model = *instance.model;
+  const std::size_t l = std::min<std::size_t>(level, model.levels.size());
+  const SphereLanes& s = l == 0 ? instance.arrays.spheres : instance.arrays.coarse_spheres[l - 1];
+  const RestSpheres& rest = l == 0 ? model.rest_spheres : model.levels[l - 1].rest_spheres;
+  return {s.x, s.y, s.z, s.inverse_radius, rest.caster_weight(), s.count};
+}
+
+const RestKeyPoints& rest_points_of(const Instance& instance) {
+  return instance.level == 0 ? instance.model->rest_key_points
+                             : instance.model->levels[instance.level - 1].rest_key_points;
+}
+
+// The lanes of the key points that are evaluated at the instance's level.
+PointLanes evaluated_points(const Instance& instance) {
+  PointLanes points = instance.arrays.points;
+  points.padded_count = rest_points_of(instance).padded_count();
+  if (instance.level > 0)
+    points.count =
+        static_cast<std::uint32_t>(instance.model->model.levels[instance.level - 1].evaluated.size());
+  return points;
 }
 
 KeyPointSoa fitted_points(const PointLanes& p) {
@@ -42,45 +61,60 @@ void for_free_spheres(const Scene& scene, const Instance& instance, Apply&& appl
   flush();
 }
 
-void evaluate_composed(const Scene& scene, Instance& instance) {
-  const PointLanes& points = instance.arrays.points;
+// Leaves what casters add in optical_depth, which then is no depth any more.
+void evaluate_composed(const Scene& scene, const Instance& instance, const PointLanes& points) {
   const KeyPointSoa surface = surface_points(points);
   std::fill_n(points.optical_depth, points.padded_count, 0.0f);
   std::fill_n(points.open, points.padded_count, 1.0f);
   for (const std::uint32_t caster : instance.casters)
-    scene.kernels->composed_depth(spheres_of(scene.instances[caster]), surface, points.optical_depth);
+    scene.kernels->composed_depth(spheres_of(scene.instances[caster], instance.level), surface,
+                                  points.optical_depth);
   for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
     scene.kernels->exact_open(spheres, surface, points.open);
   });
-  scene.kernels->composed_occlusion(points.optical_depth, points.open, points.padded_count, points.added);
+  scene.kernels->composed_occlusion(points.optical_depth, points.open, points.padded_count,
+                                    points.optical_depth);
 }
 
-void join_paper_norm(const Scene& scene, Instance& instance) {
-  const PointLanes& points = instance.arrays.points;
+void join_paper_norm(const Scene& scene, const Instance& instance, const PointLanes& points) {
   const Kernel& kernel = instance.model->model.kernel;
   for (const std::uint32_t caster : instance.casters)
-    scene.kernels->self_norm_sum(spheres_of(scene.instances[caster]), fitted_points(points), kernel,
-                                 points.norm_sum);
+    scene.kernels->self_norm_sum(spheres_of(scene.instances[caster], instance.level), fitted_points(points),
+                                 kernel, points.norm_sum);
   for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
     scene.kernels->self_norm_sum(spheres, fitted_points(points), kernel, points.norm_sum);
   });
-  std::fill_n(points.added, points.padded_count, 0.0f);
+  std::fill_n(points.optical_depth, points.padded_count, 0.0f);
 }
 
-std::uint64_t count_evaluations(const Scene& scene, const Instance& instance) {
-  std::uint64_t spheres = (scene.terms & NOOK_TERM_SELF ? instance.arrays.spheres.count : 0) +
+std::uint64_t count_evaluations(const Scene& scene, const Instance& instance, std::uint32_t points) {
+  std::uint64_t spheres = (scene.terms & NOOK_TERM_SELF ? spheres_of(instance, instance.level).count : 0) +
                           instance.occluders.size() + (instance.ground_sphere.radius > 0);
-  for (const std::uint32_t caster : instance.casters) spheres += scene.instances[caster].arrays.spheres.count;
-  return spheres * instance.arrays.points.count;
+  for (const std::uint32_t caster : instance.casters)
+    spheres += spheres_of(scene.instances[caster], instance.level).count;
+  return spheres * points;
+}
+
+// From the evaluated key points to all of them. Scale and offset belong to self-shadow.
+void spread_level(const CharacterLevel& level, bool with_self, const PointLanes& points) {
+  for (std::uint32_t k = 0; k < points.count; ++k) {
+    const std::uint16_t source = level.source[k];
+    points.shadow[k] = with_self ? std::max(level.scale[k] * points.norm_sum[source] + level.offset[k], 0.0f)
+                                 : points.norm_sum[source];
+    points.added[k] = points.optical_depth[source];
+  }
 }
 
 }  // namespace
 
 void transform_spheres(const Scene& scene, Instance& instance) noexcept {
   if (instance.transformed_revision == instance.pose_revision) return;
-  const SphereLanes& s = instance.arrays.spheres;
-  scene.kernels->pose_spheres(instance.model->rest_spheres.view(), instance.bones.data(), {},
-                              {s.x, s.y, s.z, s.inverse_radius});
+  const auto transform = [&](const RestSpheres& rest, const SphereLanes& s) {
+    scene.kernels->pose_spheres(rest.view(), instance.bones.data(), {}, {s.x, s.y, s.z, s.inverse_radius});
+  };
+  transform(instance.model->rest_spheres, instance.arrays.spheres);
+  for (std::size_t l = 0; l < instance.model->levels.size(); ++l)
+    transform(instance.model->levels[l].rest_spheres, instance.arrays.coarse_spheres[l]);
   instance.transformed_revision = instance.pose_revision;
 }
 
@@ -90,22 +124,30 @@ void transform_key_points(const Scene& scene, Instance& instance) noexcept {
   const KeyPointTarget surface{p.surface_x,  p.surface_y,  p.surface_z,
                                p.surface_nx, p.surface_ny, p.surface_nz};
   const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
-  scene.kernels->pose_key_points(instance.model->rest_key_points.view(), instance.bones.data(), {}, fitted,
+  scene.kernels->pose_key_points(rest_points_of(instance).view(), instance.bones.data(), {}, fitted,
                                  composed ? &surface : nullptr);
 }
 
 void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
-  const PointLanes& points = instance.arrays.points;
+  const PointLanes points = evaluated_points(instance);
   const Kernel& kernel = instance.model->model.kernel;
   std::fill_n(points.norm_sum, points.padded_count, 0.0f);
   if (scene.terms & NOOK_TERM_SELF)
-    scene.kernels->self_norm_sum(spheres_of(instance), fitted_points(points), kernel, points.norm_sum);
+    scene.kernels->self_norm_sum(spheres_of(instance, instance.level), fitted_points(points), kernel,
+                                 points.norm_sum);
   if (scene.settings.combine == NOOK_COMBINE_COMPOSED)
-    evaluate_composed(scene, instance);
+    evaluate_composed(scene, instance, points);
   else
-    join_paper_norm(scene, instance);
-  scene.kernels->norm_root(points.norm_sum, points.padded_count, kernel.gamma, points.shadow);
-  instance.evaluations = count_evaluations(scene, instance);
+    join_paper_norm(scene, instance, points);
+  if (instance.level == 0) {
+    scene.kernels->norm_root(points.norm_sum, points.padded_count, kernel.gamma, points.shadow);
+    std::copy_n(points.optical_depth, points.padded_count, points.added);
+  } else {
+    scene.kernels->norm_root(points.norm_sum, points.padded_count, kernel.gamma, points.norm_sum);
+    spread_level(instance.model->model.levels[instance.level - 1], scene.terms & NOOK_TERM_SELF,
+                 instance.arrays.points);
+  }
+  instance.evaluations = count_evaluations(scene, instance, points.count);
   instance.evaluated_frame = scene.frame;
 }
 

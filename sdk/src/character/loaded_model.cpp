@@ -16,6 +16,8 @@ AlignedArray<LoadedModel::BoneBound> make_bone_bounds(const CharacterModel& mode
   std::pmr::vector<std::uint32_t> count(model.bone_count(), 0u, memory);
   const auto visit = [&](auto&& body) {
     for (const ProxySphere& sphere : model.spheres) body(sphere.bone, sphere.centre, sphere.radius);
+    for (const CharacterLevel& level : model.levels)
+      for (const ProxySphere& sphere : level.spheres) body(sphere.bone, sphere.centre, sphere.radius);
     for (const KeyPoint& point : model.key_points)
       for (int b = 0; b < KeyPoint::max_bones; ++b) {
         if (point.weight[b] == 0) continue;
@@ -33,6 +35,20 @@ AlignedArray<LoadedModel::BoneBound> make_bone_bounds(const CharacterModel& mode
   }
   visit([&](std::uint16_t bone, Vec3 place, float radius) { grow(bounds[bone], place, radius); });
   return bounds;
+}
+
+std::pmr::vector<LoadedLevel> load_levels(const CharacterModel& model, std::pmr::memory_resource* memory) {
+  std::pmr::vector<LoadedLevel> loaded(memory);
+  loaded.reserve(model.levels.size());
+  for (const CharacterLevel& level : model.levels) {
+    CharacterModel subset(memory);
+    subset.bone_names.resize(model.bone_count());
+    subset.spheres = level.spheres;
+    subset.key_points.reserve(level.evaluated.size());
+    for (const std::uint16_t k : level.evaluated) subset.key_points.push_back(model.key_points[k]);
+    loaded.emplace_back(subset, memory);
+  }
+  return loaded;
 }
 
 // Slots of the linear layer to file vertices, as one list of lists.
@@ -55,6 +71,7 @@ LoadedModel::LoadedModel(CharacterModel loaded, std::pmr::memory_resource* memor
       rest_spheres(model, memory),
       rest_key_points(model, memory),
       linear(model, memory),
+      levels(load_levels(model, memory)),
       open_without_bias(linear.padded_slots(), memory),
       bone_bounds(make_bone_bounds(model, memory)) {
   std::ranges::fill(open_without_bias, 1.0f);
@@ -64,8 +81,14 @@ LoadedModel::LoadedModel(CharacterModel loaded, std::pmr::memory_resource* memor
     for (std::uint32_t e = 0; e < model.influences; ++e) sum += model.alpha[i * model.influences + e];
     max_alpha_sum = std::max(max_alpha_sum, sum);
   }
-  for (const ProxySphere& sphere : model.spheres)
-    caster_strength += sphere.caster_weight * sphere.radius * sphere.radius;
+  const auto strength = [](const std::pmr::vector<ProxySphere>& spheres) {
+    float sum = 0;
+    for (const ProxySphere& sphere : spheres) sum += sphere.caster_weight * sphere.radius * sphere.radius;
+    return sum;
+  };
+  caster_strength = strength(model.spheres);
+  for (const CharacterLevel& level : model.levels)
+    caster_strength = std::max(caster_strength, strength(level.spheres));
 }
 
 }  // namespace nook

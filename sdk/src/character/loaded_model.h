@@ -8,6 +8,15 @@
 
 namespace nook {
 
+// Spheres and evaluated key points of one level of detail, as the pose kernels read them.
+struct LoadedLevel {
+  LoadedLevel(const CharacterModel& subset, std::pmr::memory_resource* memory)
+      : rest_spheres(subset, memory), rest_key_points(subset, memory) {}
+
+  RestSpheres rest_spheres;
+  RestKeyPoints rest_key_points;
+};
+
 struct LoadedModel : RefCounted {
   // The model must have passed check_model.
   LoadedModel(CharacterModel loaded, std::pmr::memory_resource* memory);
@@ -16,6 +25,7 @@ struct LoadedModel : RefCounted {
   const RestSpheres rest_spheres;
   const RestKeyPoints rest_key_points;
   const LinearLayer linear;
+  const std::pmr::vector<LoadedLevel> levels;  // of model.levels; full detail is not among them
 
   // File vertices that take the AO of slot s of the linear layer:
   // slot_file_vertex[slot_begin[s]...slot_begin[s + 1]].
@@ -34,7 +44,7 @@ struct LoadedModel : RefCounted {
   AlignedArray<BoneBound> bone_bounds;
   float max_alpha_sum =
       0;  // largest sum of alpha over a vertex: the most that a unit of shadow can change an AO
-  float caster_strength = 0;  // sum of caster_weight * radius^2, square metres
+  float caster_strength = 0;  // sum of caster_weight * radius^2, the most of any level, square metres
 };
 
 }  // namespace nook

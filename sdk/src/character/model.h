@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory_resource>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "character/kernel.h"
@@ -38,10 +39,35 @@ struct PrimitiveRange {
   std::uint32_t vertex_count = 0;
 };
 
+// A coarser stand-in for the non-linear layer, for distant instances: fewer spheres act on fewer key points, and the shadow
+// of every key point follows from one that is evaluated. The linear layer stays.
+struct CharacterLevel {
+  using allocator_type = std::pmr::polymorphic_allocator<>;
+  explicit CharacterLevel(const allocator_type& memory = {})
+      : spheres(memory), evaluated(memory), source(memory), scale(memory), offset(memory) {}
+  CharacterLevel(const CharacterLevel&) = default;
+  CharacterLevel(CharacterLevel&&) = default;
+  CharacterLevel(const CharacterLevel& other, const allocator_type& memory) : CharacterLevel(memory) { *this = other; }
+  CharacterLevel(CharacterLevel&& other, const allocator_type& memory) : CharacterLevel(memory) {
+    *this = std::move(other);
+  }
+  CharacterLevel& operator=(const CharacterLevel&) = default;
+  CharacterLevel& operator=(CharacterLevel&&) = default;
+
+  std::pmr::vector<ProxySphere> spheres;
+  std::pmr::vector<std::uint16_t> evaluated;  // key points, ascending
+  // For each key point k: shadow[k] = max(0, scale[k] * shadow[evaluated[source[k]]] + offset[k]); what other casters add is
+  // taken over as it is.
+  std::pmr::vector<std::uint16_t> source;
+  std::pmr::vector<float> scale;
+  std::pmr::vector<float> offset;
+  float error_rms = 0;  // AO of the instance alone against full detail, over vertices and held-out poses
+};
+
 struct CharacterModel {
   explicit CharacterModel(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : bone_names(memory), spheres(memory), key_points(memory), influence(memory), alpha(memory), bias(memory),
-        static_ao(memory), file_to_welded(memory), primitives(memory), recipe(memory) {}
+        static_ao(memory), file_to_welded(memory), primitives(memory), levels(memory), recipe(memory) {}
 
   static constexpr std::uint32_t max_influences = 8;
 
@@ -59,6 +85,9 @@ struct CharacterModel {
 
   std::pmr::vector<std::uint32_t> file_to_welded;  // for each vertex in file order, its welded vertex
   std::pmr::vector<PrimitiveRange> primitives;
+
+  static constexpr std::size_t max_levels = 4;
+  std::pmr::vector<CharacterLevel> levels;  // from fine to coarse, without full detail; may be empty
 
   float bounding_radius = 0;         // metres, of the rest pose round bounding_centre
   Vec3 bounding_centre;

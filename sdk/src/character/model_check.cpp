@@ -58,9 +58,10 @@ struct Check {
   }
 };
 
-void check_spheres(const CharacterModel& model, const Check& check) {
-  for (std::size_t i = 0; i < model.spheres.size(); ++i) {
-    const ProxySphere& sphere = model.spheres[i];
+void check_spheres(const CharacterModel& model, const std::pmr::vector<ProxySphere>& spheres,
+                   const Check& check) {
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const ProxySphere& sphere = spheres[i];
     check.place("centre of sphere", i, sphere.centre);
     check.that(sphere.radius > 0 && sphere.radius <= max_metres, "radius of sphere", i, sphere.radius,
                "more than 0");
@@ -112,6 +113,28 @@ void check_linear_layer(const CharacterModel& model, const Check& check) {
   }
 }
 
+void check_level(const CharacterModel& model, const CharacterLevel& level, const Check& check) {
+  const std::size_t key_points = model.key_points.size();
+  check.count("spheres of a level", level.spheres.size(), 1, model.spheres.size());
+  check_spheres(model, level.spheres, check);
+  check.count("evaluated key points of a level", level.evaluated.size(), 1, key_points);
+  for (std::size_t i = 0; i < level.evaluated.size(); ++i)
+    check.that(level.evaluated[i] < key_points && (i == 0 || level.evaluated[i - 1] < level.evaluated[i]),
+               "evaluated key point", i, level.evaluated[i], "ascending, less than the number of key points");
+  check.sized("sources of a level", level.source.size(), key_points);
+  check.sized("scales of a level", level.scale.size(), key_points);
+  check.sized("offsets of a level", level.offset.size(), key_points);
+  for (std::size_t k = 0; k < key_points; ++k) {
+    check.that(level.source[k] < level.evaluated.size(), "source of key point", k, level.source[k],
+               "less than the number of evaluated key points");
+    check.that(within(level.scale[k], 0, max_coefficient), "scale of key point", k, level.scale[k],
+               "0 to 1e4");
+    check.that(within(std::abs(level.offset[k]), 0, max_coefficient), "offset of key point", k,
+               level.offset[k], "-1e4 to 1e4");
+  }
+  check.that(within(level.error_rms, 0, max_coefficient), "error of level", 0, level.error_rms, "0 to 1e4");
+}
+
 void check_file_order(const CharacterModel& model, const Check& check) {
   for (std::size_t i = 0; i < model.file_to_welded.size(); ++i)
     check.that(model.file_to_welded[i] < model.vertex_count(), "welded vertex of file vertex", i,
@@ -148,10 +171,12 @@ void check_model(const CharacterModel& model, nook_result code) {
   for (std::size_t b = 0; b < model.bone_count(); ++b)
     if (model.bone_names[b].find('\0') != std::pmr::string::npos)
       throw Failure(code, "the name of bone %zu holds a NUL character; bake the model again", b);
-  check_spheres(model, check);
+  check_spheres(model, model.spheres, check);
   check_key_points(model, check);
   check_linear_layer(model, check);
   check_file_order(model, check);
+  check.count("levels of detail", model.levels.size(), 0, CharacterModel::max_levels);
+  for (const CharacterLevel& level : model.levels) check_level(model, level, check);
 }
 
 }  // namespace nook

@@ -1,7 +1,7 @@
 // Character models as .nook files. Version 1 of the kind "CHAR" has the sections
 //   HEAD kernel, bounds   BONE names   SPHR proxy spheres   KEYP key points   LINR linear layer
-//   STAO static AO, one byte a welded vertex (may be missing)   FMAP file order   PRIM primitives   RECP
-//   recipe
+//   STAO static AO, one byte a welded vertex (may be missing)   FMAP file order   PRIM primitives
+//   LODS levels of detail (may be missing)   RECP recipe
 // Numbers are quantised to what the error budget allows; model_file_packing.h says how.
 #pragma once
 

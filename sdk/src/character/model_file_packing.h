@@ -25,6 +25,8 @@ struct CharacterBits {
   static constexpr int entry_count = 3;
   static constexpr int alpha = 8;  // square-root companded
   static constexpr int bias = 8;
+  static constexpr int level_scale = 8;
+  static constexpr int level_offset = 8;
 };
 
 // Bytes that a bone's name may take over from the one before it, so that a small file cannot fill the memory

@@ -42,22 +42,21 @@ void read_bone_names(ByteReader in, CharacterModel& model) {
   in.check_end();
 }
 
-void read_spheres(ByteReader in, CharacterModel& model) {
-  const int bone_bits = index_bits(model.bone_count());
+void read_spheres(ByteReader& in, std::pmr::vector<ProxySphere>& spheres, int bone_bits) {
   const std::uint32_t count = in.varint();
   const Box box = read_box(in, max_metres);
   const Range radius = read_range(in, max_metres);
   const Range weight = read_range(in, max_coefficient);
   in.check_count(count, 3 * Bits::sphere_centre + Bits::sphere_radius + Bits::caster_weight, "spheres");
-  model.spheres.reserve(count);
+  spheres.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    ProxySphere& sphere = model.spheres.emplace_back();
+    ProxySphere& sphere = spheres.emplace_back();
     sphere.centre = read_point(in, box, Bits::sphere_centre);
     sphere.radius = radius.decode(in.bits(Bits::sphere_radius), Bits::sphere_radius);
     sphere.caster_weight = weight.decode(in.bits(Bits::caster_weight), Bits::caster_weight);
     sphere.bone = static_cast<std::uint16_t>(in.bits(bone_bits));
   }
-  in.check_end();
+  in.align();
 }
 
 void read_key_points(ByteReader in, CharacterModel& model) {
@@ -124,6 +123,37 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
   in.check_end();
 }
 
+void read_level(ByteReader& in, const CharacterModel& model, CharacterLevel& level) {
+  const auto key_points = static_cast<std::uint32_t>(model.key_points.size());
+  level.error_rms = in.f32();
+  read_spheres(in, level.spheres, index_bits(model.bone_count()));
+  const Range scale = read_range(in, max_coefficient);
+  const Range offset = read_range(in, max_coefficient);
+  in.check_count(key_points, 1 + Bits::level_scale + Bits::level_offset, "key points");
+  for (std::uint32_t k = 0; k < key_points; ++k)
+    if (in.bits(1)) level.evaluated.push_back(static_cast<std::uint16_t>(k));
+  const int source_bits = index_bits(level.evaluated.size());
+  level.source.reserve(key_points);
+  level.scale.reserve(key_points);
+  level.offset.reserve(key_points);
+  for (std::uint32_t k = 0; k < key_points; ++k) {
+    level.source.push_back(static_cast<std::uint16_t>(in.bits(source_bits)));
+    level.scale.push_back(scale.decode(in.bits(Bits::level_scale), Bits::level_scale));
+    level.offset.push_back(offset.decode(in.bits(Bits::level_offset), Bits::level_offset));
+  }
+  in.align();
+}
+
+void read_levels(ByteReader in, CharacterModel& model) {
+  const std::uint32_t count = in.u8();
+  if (count > CharacterModel::max_levels)
+    throw Failure(NOOK_ERROR_BAD_FILE, "the file has too many levels of detail (got %u, need at most %zu)",
+                  count, CharacterModel::max_levels);
+  model.levels.reserve(count);
+  for (std::uint32_t l = 0; l < count; ++l) read_level(in, model, model.levels.emplace_back());
+  in.check_end();
+}
+
 void read_static_ao(ByteReader in, CharacterModel& model) {
   model.static_ao.reserve(in.remaining());
   while (in.remaining()) model.static_ao.push_back(Range{0, 1}.decode(in.u8(), 8));
@@ -173,12 +203,15 @@ CharacterModel read_character_model(std::span<const std::byte> bytes, std::pmr::
   CharacterModel model(memory);
   read_head(file.section("HEAD"), model);
   read_bone_names(file.section("BONE"), model);
-  read_spheres(file.section("SPHR"), model);
+  ByteReader spheres = file.section("SPHR");
+  read_spheres(spheres, model.spheres, index_bits(model.bone_count()));
+  spheres.check_end();
   read_key_points(file.section("KEYP"), model);
   read_linear_layer(file.section("LINR"), model);
   if (file.has("STAO")) read_static_ao(file.section("STAO"), model);
   read_file_order(file.section("FMAP"), model);
   read_primitives(file.section("PRIM"), model);
+  if (file.has("LODS")) read_levels(file.section("LODS"), model);
   ByteReader recipe = file.section("RECP");
   model.recipe = recipe.text(recipe.remaining());
   check_model(model, NOOK_ERROR_BAD_FILE);

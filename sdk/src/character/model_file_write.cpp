@@ -39,27 +39,25 @@ ByteWriter write_bone_names(const CharacterModel& model) {
   return out;
 }
 
-ByteWriter write_spheres(const CharacterModel& model) {
-  const ProxySphere& first = model.spheres.front();
+void write_spheres(ByteWriter& out, const std::pmr::vector<ProxySphere>& spheres, std::size_t bones) {
+  const ProxySphere& first = spheres.front();
   Box box = Box::around(first.centre);
   Range radius{first.radius, first.radius}, weight{0, 0};
-  for (const ProxySphere& sphere : model.spheres) {
+  for (const ProxySphere& sphere : spheres) {
     box.include(sphere.centre);
     radius.include(sphere.radius);
     weight.include(sphere.caster_weight);
   }
-  ByteWriter out;
-  out.varint(static_cast<std::uint32_t>(model.spheres.size()));
+  out.varint(static_cast<std::uint32_t>(spheres.size()));
   write_box(out, box);
   write_range(out, radius);
   write_range(out, weight);
-  for (const ProxySphere& sphere : model.spheres) {
+  for (const ProxySphere& sphere : spheres) {
     write_point(out, box, sphere.centre, Bits::sphere_centre);
     out.bits(radius.encode(sphere.radius, Bits::sphere_radius), Bits::sphere_radius);
     out.bits(weight.encode(sphere.caster_weight, Bits::caster_weight), Bits::caster_weight);
-    out.bits(sphere.bone, index_bits(model.bone_count()));
+    out.bits(sphere.bone, index_bits(bones));
   }
-  return out;
 }
 
 ByteWriter write_key_points(const CharacterModel& model) {
@@ -131,6 +129,30 @@ ByteWriter write_linear_layer(const CharacterModel& model) {
   return out;
 }
 
+// For each key point a bit that says whether it is evaluated, then which one it follows and how.
+void write_level(ByteWriter& out, const CharacterLevel& level, std::size_t bones) {
+  out.f32(level.error_rms);
+  write_spheres(out, level.spheres, bones);
+  out.align();
+  Range scale{level.scale[0], level.scale[0]}, offset{level.offset[0], level.offset[0]};
+  for (const float s : level.scale) scale.include(s);
+  for (const float o : level.offset) offset.include(o);
+  write_range(out, scale);
+  write_range(out, offset);
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < level.source.size(); ++k) {
+    const bool evaluated = next < level.evaluated.size() && level.evaluated[next] == k;
+    out.bits(evaluated, 1);
+    next += evaluated;
+  }
+  for (std::size_t k = 0; k < level.source.size(); ++k) {
+    out.bits(level.source[k], index_bits(level.evaluated.size()));
+    out.bits(scale.encode(level.scale[k], Bits::level_scale), Bits::level_scale);
+    out.bits(offset.encode(level.offset[k], Bits::level_offset), Bits::level_offset);
+  }
+  out.align();
+}
+
 ByteWriter write_static_ao(const CharacterModel& model) {
   ByteWriter out;
   for (const float ao : model.static_ao) out.u8(Range{0, 1}.encode(ao, 8));
@@ -180,12 +202,20 @@ std::vector<std::byte> write_character_model(const CharacterModel& model) {
   };
   add("HEAD", write_head(model));
   add("BONE", write_bone_names(model));
-  add("SPHR", write_spheres(model));
+  ByteWriter spheres;
+  write_spheres(spheres, model.spheres, model.bone_count());
+  add("SPHR", spheres);
   add("KEYP", write_key_points(model));
   add("LINR", write_linear_layer(model));
   if (!model.static_ao.empty()) add("STAO", write_static_ao(model));
   add("FMAP", write_file_order(model));
   add("PRIM", write_primitives(model));
+  if (!model.levels.empty()) {
+    ByteWriter levels;
+    levels.u8(static_cast<std::uint32_t>(model.levels.size()));
+    for (const CharacterLevel& level : model.levels) write_level(levels, level, model.bone_count());
+    add("LODS", levels);
+  }
   ByteWriter recipe;
   recipe.text(model.recipe);
   add("RECP", recipe);

@@ -4,6 +4,7 @@
 
 #include <nook/nook_character.h>
 
+#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -52,7 +53,10 @@ struct PointLanes {
 };
 
 struct InstanceArrays {
-  SphereLanes spheres;
+  SphereLanes spheres;  // full detail
+  std::array<SphereLanes, CharacterModel::max_levels> coarse_spheres;
+  // At a coarser level the position and normal lanes hold the evaluated key points only; shadow and added are
+  // always complete.
   PointLanes points;
   AlignedArray<float> storage;
 };
@@ -162,9 +166,9 @@ inline constexpr std::uint32_t max_slots = (1u << id_slot_bits) - 1;
 // Levels of detail and who is due, then casters, occluders and ground sphere of each instance that is due:
 // explicit links and the k nearest, less those below the cut-off. Needs the poses only.
 void resolve_casters(Scene& scene) noexcept;
-// World-space spheres of an instance, which it and its receivers need.
+// World-space spheres of an instance at all levels, which it and its receivers need.
 void transform_spheres(const Scene& scene, Instance& instance) noexcept;
-// World-space key points of an instance that is due.
+// World-space key points of an instance that is due, at its level.
 void transform_key_points(const Scene& scene, Instance& instance) noexcept;
 // Shadow and added occlusion at the key points of an instance that is due.
 void evaluate_shadows(const Scene& scene, Instance& instance) noexcept;

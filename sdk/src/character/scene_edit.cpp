@@ -90,29 +90,34 @@ std::uint32_t slot_of(const Scene& scene, const Instance& instance) {
 
 InstanceArrays make_instance_arrays(const LoadedModel& model, std::pmr::memory_resource* memory) {
   InstanceArrays arrays;
-  SphereLanes& spheres = arrays.spheres;
   PointLanes& points = arrays.points;
-  spheres.count = static_cast<std::uint32_t>(model.model.spheres.size());
   points.count = static_cast<std::uint32_t>(model.model.key_points.size());
   points.padded_count = model.rest_key_points.padded_count();
-  float** const of_spheres[] = {&spheres.x, &spheres.y, &spheres.z, &spheres.inverse_radius};
   float** const of_points[] = {
       &points.x,          &points.y,          &points.z,         &points.nx,        &points.ny,
       &points.nz,         &points.surface_x,  &points.surface_y, &points.surface_z, &points.surface_nx,
       &points.surface_ny, &points.surface_nz, &points.norm_sum,  &points.shadow,    &points.optical_depth,
       &points.open,       &points.added};
-  const std::size_t padded_spheres = padded_count(spheres.count);
-  arrays.storage = AlignedArray<float>(
-      std::size(of_spheres) * padded_spheres + std::size(of_points) * points.padded_count, memory);
+  arrays.spheres.count = static_cast<std::uint32_t>(model.model.spheres.size());
+  std::size_t size = 4 * padded_count(arrays.spheres.count) + std::size(of_points) * points.padded_count;
+  for (std::size_t l = 0; l < model.levels.size(); ++l) {
+    arrays.coarse_spheres[l].count = model.levels[l].rest_spheres.view().count;
+    size += 4 * padded_count(arrays.coarse_spheres[l].count);
+  }
+
+  arrays.storage = AlignedArray<float>(size, memory);
   float* at = arrays.storage.data();
-  for (float** lane : of_spheres) {
+  const auto take = [&](float** lane, std::size_t count) {
     *lane = at;
-    at += padded_spheres;
-  }
-  for (float** lane : of_points) {
-    *lane = at;
-    at += points.padded_count;
-  }
+    at += count;
+  };
+  const auto take_spheres = [&](SphereLanes& spheres) {
+    for (float** lane : {&spheres.x, &spheres.y, &spheres.z, &spheres.inverse_radius})
+      take(lane, padded_count(spheres.count));
+  };
+  take_spheres(arrays.spheres);
+  for (std::size_t l = 0; l < model.levels.size(); ++l) take_spheres(arrays.coarse_spheres[l]);
+  for (float** lane : of_points) take(lane, points.padded_count);
   return arrays;
 }
 
