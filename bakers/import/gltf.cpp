@@ -33,6 +33,11 @@ Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes) {
                     nodes.size());
     skin.joint.push_back(static_cast<std::uint32_t>(joint));
   }
+  std::vector<std::uint32_t> sorted = skin.joint;
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end())
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s lists joint node %u twice", what.c_str(), *twice);
   // Without the accessor all matrices are identity: glTF 2.0, section 3.7.3.1.
   skin.inverse_bind.resize(skin.joint.size());
   if (source.inverseBindMatrices < 0) return skin;
@@ -123,6 +128,22 @@ void warn_of_uneven_bones(ImportedCharacter& character) {
   }
 }
 
+// The length unit of glTF is the metre, but some exporters write what they have.
+void warn_of_size(const SkinnedMesh& mesh, std::vector<std::string>& warnings) {
+  Vec3 low = mesh.position[0];
+  Vec3 high = low;
+  for (const Vec3 p : mesh.position) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const float diagonal = length(high - low);
+  if (diagonal > 0.05f && diagonal < 20) return;
+  char text[120];
+  std::snprintf(text, sizeof text, "the rest pose is %.3g m across; the file may not be in metres",
+                static_cast<double>(diagonal));
+  warnings.push_back(text);
+}
+
 std::uint64_t hash_of(std::span<const std::byte> bytes, const tinygltf::Model& model) {
   std::uint64_t hash = XXH64(bytes.data(), bytes.size(), 0);
   for (const tinygltf::Buffer& buffer : model.buffers)
@@ -164,6 +185,7 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const std::stri
   file.bones = std::move(skeleton.bones);
   character.bindings = std::move(skeleton.bindings);
   character.mesh = weld(std::move(file), character.warnings, NOOK_ERROR_BAD_FILE);
+  warn_of_size(character.mesh, character.warnings);
   warn_of_uneven_bones(character);
   return character;
 }

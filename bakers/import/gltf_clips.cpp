@@ -66,6 +66,8 @@ void settle_times(Clip& clip) {
   }
   clip.start_s = first;
   clip.duration_s = last - first;
+  if (!std::isfinite(clip.duration_s))
+    throw Failure(NOOK_ERROR_BAD_FILE, "clip \"%s\" lasts longer than a float can say", clip.name.c_str());
   for (Channel& channel : clip.channels)
     for (float& t : channel.time_s) t -= first;
 }

@@ -5,7 +5,11 @@
 namespace nook::bake {
 
 void sort_parents_first(NodeTree& tree) {
+  // Walks up the ancestry are repeated for every bone, so that endless chains would cost their length
+  // squared.
+  constexpr std::uint32_t max_depth = 4096;
   const std::size_t count = tree.size();
+  std::vector<std::uint32_t> depth(count, 0);
   std::vector<std::vector<std::uint32_t>> children(count);
   tree.order.clear();
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -15,7 +19,12 @@ void sort_parents_first(NodeTree& tree) {
       children[tree.nodes[i].parent].push_back(i);
   }
   for (std::size_t next = 0; next < tree.order.size(); ++next)
-    for (const std::uint32_t child : children[tree.order[next]]) tree.order.push_back(child);
+    for (const std::uint32_t child : children[tree.order[next]]) {
+      depth[child] = depth[tree.order[next]] + 1;
+      if (depth[child] > max_depth)
+        throw Failure(NOOK_ERROR_BAD_FILE, "nodes are nested deeper than %u levels", max_depth);
+      tree.order.push_back(child);
+    }
   if (tree.order.size() != count)
     throw Failure(NOOK_ERROR_BAD_FILE, "%zu nodes form a cycle (need a tree); repair the file",
                   count - tree.order.size());

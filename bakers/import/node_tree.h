@@ -24,7 +24,7 @@ struct NodeTree {
   std::size_t size() const { return nodes.size(); }
 };
 
-// Fills tree.order. Fails with BAD_FILE when the parents make a cycle.
+// Fills tree.order. Fails with BAD_FILE when the parents make a cycle or an endless chain.
 void sort_parents_first(NodeTree& tree);
 
 Affine default_local(const Node& node);
