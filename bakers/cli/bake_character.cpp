@@ -2,13 +2,11 @@
 #include <nook/nook_bake.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 #include "cli/clip_names.h"
 #include "cli/commands.h"
@@ -63,7 +61,37 @@ Character import_character(const Options& options) {
   return character;
 }
 
-Job start(const Options& options, nook_bake_character character) {
+// Shows a job's progress; an interrupt cancels it.
+class Follower {
+ public:
+  explicit Follower(bool quiet) : bar_(quiet) {}
+
+  static std::int32_t call(void* user, const nook_bake_progress* progress) {
+    static_cast<Follower*>(user)->show(*progress);
+    return !interrupted();
+  }
+
+ private:
+  void show(const nook_bake_progress& progress) {
+    const auto done = std::size_t(progress.done), total = std::size_t(progress.total);
+    switch (progress.stage) {
+      case NOOK_BAKE_STAGE_RAYTRACE:
+        return bar_.show("ray tracing", "poses", done, total);
+      case NOOK_BAKE_STAGE_INITIALISE:
+        return bar_.show("initialising", "steps", done, total);
+      case NOOK_BAKE_STAGE_FIT:
+        return bar_.show("fitting", "steps", done, total);
+      case NOOK_BAKE_STAGE_CASTERS:
+        return bar_.show("fitting casters", "steps", done, total);
+      default:
+        return;
+    }
+  }
+
+  ProgressBar bar_;
+};
+
+Job start(const Options& options, nook_bake_character character, Follower& follower) {
   nook_bake_job_desc desc;
   require(nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION));
   desc.preset = options.preset;
@@ -85,34 +113,11 @@ Job start(const Options& options, nook_bake_character character) {
   desc.fit = options.fit;
   desc.gamma = options.gamma;
   desc.time_limit_s = options.time_limit_s;
+  desc.progress = Follower::call;
+  desc.progress_user = &follower;
   nook_bake_job handle = nullptr;
   require(nook_bake_job_start(character, &desc, &handle));
   return Job(handle);
-}
-
-// Shows progress until the job is over; an interrupt cancels it.
-void follow(nook_bake_job job, bool quiet) {
-  struct Shown {
-    const char *label, *unit;
-  };
-  static const std::map<nook_bake_stage, Shown> stages{
-      {NOOK_BAKE_STAGE_RAYTRACE, {"ray tracing", "poses"}},
-      {NOOK_BAKE_STAGE_INITIALISE, {"initialising", "steps"}},
-      {NOOK_BAKE_STAGE_FIT, {"fitting", "steps"}},
-      {NOOK_BAKE_STAGE_CASTERS, {"casters", "steps"}}};
-  ProgressBar bar(quiet);
-  for (;;) {
-    nook_bake_progress progress{};
-    progress.struct_size = sizeof progress;
-    require(nook_bake_job_poll(job, &progress));
-    if (progress.stage == NOOK_BAKE_STAGE_DONE) return;
-    const auto shown = stages.find(progress.stage);
-    if (shown != stages.end())
-      bar.show(shown->second.label, shown->second.unit, std::size_t(progress.done),
-               std::size_t(progress.total));
-    if (interrupted()) nook_bake_job_cancel(job);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
 }
 
 // The report without what only a file wants.
@@ -127,9 +132,10 @@ void run(const Options& options) {
   OutputFile output(options.output);
   std::optional<OutputFile> report_file;
   if (!options.common.report.empty()) report_file.emplace(options.common.report);
-  const Job job = start(options, character.get());
-  follow(job.get(), options.common.quiet);
+  auto follower = std::make_unique<Follower>(options.common.quiet);
+  const Job job = start(options, character.get(), *follower);
   const nook_result result = nook_bake_job_wait(job.get());
+  follower.reset();  // ends the bar's line before anything else is said
   if (result == NOOK_ERROR_CANCELLED) throw ToolError(exit_other, "stopped; nothing was written");
   require(result);
   const void* bytes = nullptr;

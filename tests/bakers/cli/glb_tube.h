@@ -1,0 +1,9 @@
+// A rigged tube as the bytes of a .glb file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+// Two joints along x, 14 rings of 10 vertices; for each name a clip of one second that bends the second
+// joint, each by another angle. With skin false the file has the mesh alone.
+std::string glb_tube(const std::vector<std::string>& clips, bool skin = true);
