@@ -1,0 +1,81 @@
+#include <glad/gl.h>
+
+#include <stdexcept>
+
+#include "platform/kinds.h"
+
+namespace platform {
+
+Context::Context(int width, int height, bool has_framebuffer)
+    : width_(width), height_(height), has_framebuffer_(has_framebuffer) {}
+
+Context::~Context() = default;
+
+void Context::size(int* width, int* height) const {
+  *width = width_;
+  *height = height_;
+}
+
+void* Context::loader(void* user, const char* name) {
+  return static_cast<Context*>(user)->proc(name);
+}
+
+void Context::load_functions() {
+  gl_ = std::make_unique<GladGLContext>();
+  const GLADuserptrloadfunc load = [](void* user, const char* name) {
+    return reinterpret_cast<GLADapiproc>(loader(user, name));
+  };
+  if (!gladLoadGLContextUserPtr(gl_.get(), load, this))
+    throw std::runtime_error("create_context: the OpenGL functions could not be loaded; check the driver");
+}
+
+unsigned Context::framebuffer() {
+  if (has_framebuffer_) {
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    return 0;
+  }
+  if (framebuffer_ == 0) {
+    gl_->GenFramebuffers(1, &framebuffer_);
+    gl_->GenRenderbuffers(2, renderbuffers_);
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    const GLenum formats[2] = {GL_RGBA8, GL_DEPTH_COMPONENT24};
+    const GLenum attachments[2] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+    for (int i = 0; i < 2; ++i) {
+      gl_->BindRenderbuffer(GL_RENDERBUFFER, renderbuffers_[i]);
+      gl_->RenderbufferStorage(GL_RENDERBUFFER, formats[i], width_, height_);
+      gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, attachments[i], GL_RENDERBUFFER, renderbuffers_[i]);
+    }
+    gl_->BindRenderbuffer(GL_RENDERBUFFER, 0);
+    if (gl_->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+      throw std::runtime_error("Context::framebuffer: RGBA8 with a 24-bit depth buffer is not complete here");
+  }
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  return framebuffer_;
+}
+
+std::string Context::version() const {
+  return reinterpret_cast<const char*>(gl_->GetString(GL_VERSION));
+}
+std::string Context::renderer() const {
+  return reinterpret_cast<const char*>(gl_->GetString(GL_RENDERER));
+}
+
+const char* context_kinds() {
+#ifdef PLATFORM_HAS_OSMESA
+  return "egl, osmesa, window";
+#else
+  return "egl, window";
+#endif
+}
+
+std::unique_ptr<Context> create_context(const ContextRequest& request) {
+  if (request.kind == "egl") return create_egl_context(request);
+  if (request.kind == "window") return create_window_context(request);
+#ifdef PLATFORM_HAS_OSMESA
+  if (request.kind == "osmesa") return create_osmesa_context(request);
+#endif
+  throw std::runtime_error("create_context: unknown kind of context '" + request.kind +
+                           "'; this build knows " + context_kinds());
+}
+
+}  // namespace platform

@@ -1,0 +1,89 @@
+// EGL without a display: Mesa's surfaceless platform, else the first EGL device that gives a context.
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include <cstring>
+#include <stdexcept>
+
+#include "platform/kinds.h"
+
+namespace platform {
+namespace {
+
+template <class F>
+F egl_function(const char* name) {
+  return reinterpret_cast<F>(eglGetProcAddress(name));
+}
+
+bool client_has(const char* extension) {
+  const char* all = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  return all && std::strstr(all, extension);
+}
+
+std::vector<EGLDisplay> displays() {
+  std::vector<EGLDisplay> found;
+  const auto platform_display = egl_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+  if (!platform_display) return found;
+  if (client_has("EGL_MESA_platform_surfaceless"))
+    found.push_back(platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  const auto query_devices = egl_function<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+  if (query_devices && client_has("EGL_EXT_platform_device")) {
+    EGLDeviceEXT devices[8];
+    EGLint count = 0;
+    if (query_devices(8, devices, &count))
+      for (EGLint i = 0; i < count; ++i)
+        found.push_back(platform_display(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
+  }
+  return found;
+}
+
+// The display is never terminated: it may be shared with other code of the process, and Mesa's LLVM leaks
+// when it is.
+class EglContext final : public Context {
+ public:
+  EglContext(const ContextRequest& request, EGLDisplay display, EGLContext context)
+      : Context(request.width, request.height, false), display_(display), context_(context) {
+    make_current();
+    load_functions();
+  }
+  ~EglContext() override {
+    if (eglGetCurrentContext() == context_) clear_current();
+    eglDestroyContext(display_, context_);
+  }
+  void make_current() override {
+    if (!eglBindAPI(EGL_OPENGL_API) || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+      throw std::runtime_error(
+          "Context::make_current: eglMakeCurrent failed; EGL_KHR_surfaceless_context is needed");
+  }
+  void clear_current() override { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+  void* proc(const char* name) const override { return reinterpret_cast<void*>(eglGetProcAddress(name)); }
+
+ private:
+  EGLDisplay display_;
+  EGLContext context_;
+};
+
+}  // namespace
+
+std::unique_ptr<Context> create_egl_context(const ContextRequest& request) {
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               request.major,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               request.minor,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_CONTEXT_OPENGL_DEBUG,
+                               request.debug ? EGL_TRUE : EGL_FALSE,
+                               EGL_NONE};
+  for (const EGLDisplay display : displays()) {
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API))
+      continue;
+    const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    if (context != EGL_NO_CONTEXT) return std::make_unique<EglContext>(request, display, context);
+  }
+  throw std::runtime_error("create_context: no EGL display gives an OpenGL " + std::to_string(request.major) +
+                           "." + std::to_string(request.minor) +
+                           " core context; install libegl1 and libgl1-mesa-dri");
+}
+
+}  // namespace platform

@@ -1,0 +1,89 @@
+// OpenGL contexts and pictures for samples and tests. One context is current per thread; a context is used on
+// the thread that made it. Every function that fails throws std::runtime_error with a text that says what to
+// do.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+typedef struct GladGLContext GladGLContext;
+
+namespace platform {
+
+struct ContextRequest {
+  std::string kind = "egl";  // "egl" (no display needed), "osmesa" or "window"
+  int width = 1280;          // pixels
+  int height = 720;
+  int major = 4;  // OpenGL core profile wanted; Mesa's software renderer has 4.5 at most
+  int minor = 5;
+  bool debug = false;  // a debug context, for KHR_debug messages
+  std::string title = "Nook";
+};
+
+class Context {
+ public:
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  virtual ~Context();
+
+  virtual void make_current() = 0;
+  virtual void clear_current() = 0;
+  // Shows what was drawn and reads the events of a window; nothing without one.
+  virtual void present() {}
+  virtual bool should_close() const { return false; }
+  // NULL unless the kind is "window".
+  virtual GLFWwindow* window() const { return nullptr; }
+  // Size of the drawable in pixels; a window may be resized.
+  virtual void size(int* width, int* height) const;
+  virtual void* proc(const char* name) const = 0;
+
+  // What to draw into: 0 where the context has a framebuffer of its own, else one made at the first call
+  // (RGBA8 and a 24-bit depth buffer). The call leaves it bound.
+  unsigned framebuffer();
+  // The whole table of functions that this context has.
+  const GladGLContext& gl() const { return *gl_; }
+  std::string version() const;
+  std::string renderer() const;
+
+  // The loader in the form of nook_gl_desc.get_proc; user is the Context.
+  static void* loader(void* user, const char* name);
+
+ protected:
+  Context(int width, int height, bool has_framebuffer);
+  // Called by each kind once it is current for the first time.
+  void load_functions();
+
+  int width_;
+  int height_;
+
+ private:
+  bool has_framebuffer_;
+  unsigned framebuffer_ = 0;
+  unsigned renderbuffers_[2] = {};
+  std::unique_ptr<GladGLContext> gl_;
+};
+
+// Creates a context and makes it current.
+std::unique_ptr<Context> create_context(const ContextRequest& request);
+// The kinds that this build knows, in words fit for a message.
+const char* context_kinds();
+
+// Rows from top to bottom, three or four bytes a pixel.
+struct Image {
+  int width = 0;
+  int height = 0;
+  int channels = 4;
+  std::vector<std::uint8_t> pixels;
+};
+
+// Reads the framebuffer that is bound for reading. Waits for the GPU. Pixel-pack state is set and not
+// restored.
+Image read_pixels(const Context& context, int width, int height, int channels = 3);
+// The format follows the file's extension; the file is written beside its target and renamed.
+void write_image(const std::filesystem::path& path, const Image& image);
+
+}  // namespace platform
