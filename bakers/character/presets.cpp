@@ -12,7 +12,7 @@ PresetValues preset_values(Preset preset, FitMethod fit) {
   switch (preset) {
     case Preset::draft:
       v.settings.rays = 16;
-      v.settings.steps = paper ? 3 : 1200;
+      v.settings.steps = paper ? 3 : 700;
       v.auto_poses = 150;
       v.clip_poses = 150;
       v.single_joint_steps = 3;
