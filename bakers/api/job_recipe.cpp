@@ -10,8 +10,8 @@ namespace nook::bake::api {
 namespace {
 
 // Bounds that no sensible bake comes near; they keep hostile numbers from asking for all of memory.
-constexpr std::uint32_t most_spheres = 4096, most_key_points = 65535, most_rays = 65536,
-                        most_poses = 1'000'000, most_threads = 1024, most_steps = 100'000'000;
+constexpr std::uint32_t most_spheres = 1024, most_key_points = 4096, most_rays = 65536,
+                        most_poses = 1'000'000, most_threads = 1024, most_steps = 10'000'000;
 
 [[noreturn]] void unknown(const char* name, int value) {
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -112,9 +112,9 @@ void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
   if (desc.steps) settings.steps = desc.steps;
   settings.seed = desc.seed;
   if (desc.gamma != 0) {
-    if (!(desc.gamma >= 1 && desc.gamma <= 16))
+    if (!(desc.gamma >= 1 && desc.gamma <= 8))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.gamma is out of range (got %g, need 1 to 16, or 0 for the preset's)",
+                    "desc.gamma is out of range (got %g, need 1 to 8, or 0 for the preset's)",
                     double(desc.gamma));
     settings.kernel.gamma = desc.gamma;
   }

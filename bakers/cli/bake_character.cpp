@@ -186,15 +186,15 @@ void add_bake_character(CLI::App& bake) {
          "without --clips: all motion clips (default), or half: every second one in byte order of the names, "
          "so that `evaluate` "
          "measures on the others. T- and A-poses are never fitted");
-  command->add_option("--spheres", o.spheres, "proxy spheres at most")->check(CLI::Range(1, 4096));
-  command->add_option("--key-points", o.key_points, "key points at most")->check(CLI::Range(1, 65535));
+  command->add_option("--spheres", o.spheres, "proxy spheres at most")->check(CLI::Range(1, 1024));
+  command->add_option("--key-points", o.key_points, "key points at most")->check(CLI::Range(1, 4096));
   command->add_option("--rays", o.rays, "rays a vertex and pose")->check(CLI::Range(1, 65536));
   command->add_option("--auto-poses", o.auto_poses, "number of generated poses")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--samples-per-clip", o.samples_per_clip, "poses of each clip")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--steps", o.steps, "steps of the fit (--fit paper: rounds)")
-      ->check(CLI::Range(1, 100000000));
+      ->check(CLI::Range(1, 10000000));
   choice("--kernel", o.kernel,
          {{"nook", NOOK_BAKE_KERNEL_NOOK},
           {"paper", NOOK_BAKE_KERNEL_PAPER},
@@ -202,7 +202,7 @@ void add_bake_character(CLI::App& bake) {
          "shadow of a sphere: nook (default), paper (Le et al. 2019) or rational");
   choice("--fit", o.fit, {{"nook", NOOK_BAKE_FIT_NOOK}, {"paper", NOOK_BAKE_FIT_PAPER}},
          "nook (mini-batches, default) or paper (block coordinate descent with L-BFGS)");
-  command->add_option("--gamma", o.gamma, "exponent of the shadow norm")->check(CLI::Range(1.0, 16.0));
+  command->add_option("--gamma", o.gamma, "exponent of the shadow norm")->check(CLI::Range(1.0, 8.0));
   command
       ->add_option("--time-limit", o.time_limit_s,
                    "end the fit after so many seconds; such a bake is not reproducible bit for bit")

@@ -203,8 +203,8 @@ typedef struct nook_bake_job_desc {
   uint32_t header_version;           /* set by nook_bake_job_desc_init */
   const void* next;                  /* NULL */
   nook_bake_preset preset;           /* default STANDARD; what is 0 below takes the preset's value */
-  uint32_t spheres;                  /* proxy spheres at most */
-  uint32_t key_points;               /* at most; at most 65535 */
+  uint32_t spheres;                  /* proxy spheres at most; at most 1024 */
+  uint32_t key_points;               /* at most; at most 4096 */
   uint32_t rays;                     /* a vertex and pose, of the ray-traced targets */
   uint32_t steps;                    /* of the fit */
   nook_bake_pose_mode pose_mode;     /* default ALL, which is AUTO for a character without clips */
@@ -219,7 +219,7 @@ typedef struct nook_bake_job_desc {
   uint32_t threads;                  /* default 0: all cores */
   nook_bake_kernel kernel;           /* default NOOK */
   nook_bake_fit fit;                 /* default NOOK */
-  float gamma;                       /* exponent of the shadow norm, >= 1; default 0: the preset's */
+  float gamma;                       /* exponent of the shadow norm, 1 to 8; default 0: the preset's */
   double time_limit_s;               /* of the fit; default 0: none. A fit that it ends is not reproducible bit for bit */
   nook_bake_progress_fn progress;    /* NULL: poll instead */
   void* progress_user;
