@@ -1,0 +1,26 @@
+#include "camera.h"
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace crowd {
+
+glm::mat4 clip_from_world(const Camera& camera, float aspect) {
+  const float distance_m = glm::length(camera.eye_ws - camera.target_ws);
+  return glm::perspective(camera.fov_rad, aspect, 0.1f, 60.0f + 4 * distance_m) *
+         glm::lookAt(camera.eye_ws, camera.target_ws, glm::vec3(0, 1, 0));
+}
+
+Camera orbit(float radius_m, float turn) {
+  const float angle = turn * glm::two_pi<float>() + 0.5f;
+  const float distance_m = 0.95f * radius_m + 4.0f;
+  Camera camera;
+  camera.eye_ws = {distance_m * std::sin(angle), 1.7f + 0.22f * distance_m, distance_m * std::cos(angle)};
+  // Nearer than the middle, so that the front rows fill the picture.
+  camera.target_ws = 0.3f * radius_m * glm::vec3(std::sin(angle), 0, std::cos(angle)) + glm::vec3(0, 0.7f, 0);
+  camera.fov_rad = 0.55f;
+  return camera;
+}
+
+}  // namespace crowd

@@ -1,0 +1,34 @@
+// The crowd against ray tracing: rows of the report and the two sheets.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+
+#include "frames.h"
+
+namespace crowd {
+
+struct ComparisonRequest {
+  std::uint32_t neighbours = 4;
+  int tier = 0;
+  std::uint64_t seed = 1;
+  std::filesystem::path out;
+  std::span<const unsigned char> gamma_1_model;  // the same character fitted with gamma 1
+  std::span<const unsigned char> model;
+};
+
+// Adds rows, what was sampled and the noise of the rays to the report. scene holds the poses.
+void measure_errors(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
+                    const ComparisonRequest& request, nlohmann::ordered_json& report);
+
+// sheet.png: no AO, static, self, all, ray traced, difference.
+void write_comparison_sheet(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
+                            const ComparisonRequest& request);
+
+// double_shadowing.png: gamma 1 against the model's, self and linked in one norm, beside the default and
+// rays.
+void write_double_shadowing_sheet(platform::Context& context, const Stage& stage, CrowdScene& scene,
+                                  const std::vector<Bones>& poses, const ComparisonRequest& request);
+
+}  // namespace crowd

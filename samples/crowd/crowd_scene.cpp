@@ -1,0 +1,92 @@
+#include "crowd_scene.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cstdio>
+
+namespace crowd {
+namespace {
+
+constexpr float kGroundPlane[4] = {0, 1, 0, 0};
+constexpr float kLinkDistance_m = 4.0f;  // between bounding-sphere centres; farther neighbours hardly darken
+
+nook_context_desc host_services() {
+  nook_context_desc desc = nook::context_desc();
+  desc.log = [](void*, nook_log_severity severity, const char* text) {
+    if (severity != NOOK_LOG_INFO) std::fprintf(stderr, "nook: %s\n", text);
+  };
+  desc.parallel_for = [](void*, std::uint32_t count, nook_job_fn body, void* body_user) {
+    tbb::parallel_for(0u, count, [&](std::uint32_t i) { body(body_user, i); });
+  };
+  return desc;
+}
+
+nook_scene_desc scene_settings(nook_combine combine) {
+  nook_scene_desc desc = nook::scene_desc();
+  desc.combine = combine;
+  return desc;
+}
+
+nook_gl create_gl(const nook::Context& nook_context, platform::Context& context, int tier) {
+  nook_gl_desc desc;
+  nook::check(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.get_proc = platform::Context::loader;
+  desc.get_proc_user = &context;
+  desc.max_tier = tier;
+  nook_gl gl = nullptr;
+  nook::check(nook_gl_create(nook_context.get(), &desc, &gl));
+  return gl;
+}
+
+}  // namespace
+
+CrowdScene::CrowdScene(platform::Context& context, std::span<const unsigned char> model_bytes,
+                       const CrowdSceneRequest& request)
+    : context_(host_services()),
+      model_(context_, model_bytes.data(), model_bytes.size()),
+      scene_(context_, scene_settings(request.combine)),
+      gl_(create_gl(context_, context, request.tier)) {
+  for (std::uint32_t i = 0; i < request.characters; ++i) {
+    instances_.push_back(scene_.add_instance(model_));
+    scene_.set_ground(instances_.back(), kGroundPlane);
+  }
+  link_nearest(request.neighbours);
+  nook::check(nook_gl_scene_prepare(gl_.get(), scene_.get()));
+}
+
+void CrowdScene::link_nearest(std::uint32_t neighbours) {
+  scene_.link_nearest(neighbours, kLinkDistance_m);
+}
+
+void CrowdScene::set_poses(const std::vector<Bones>& poses) {
+  for (std::size_t i = 0; i < instances_.size(); ++i)
+    scene_.set_pose(instances_[i], poses[i].data(), std::uint32_t(poses[i].size() / 12));
+}
+
+void CrowdScene::update(std::uint32_t terms) {
+  scene_.set_terms(terms);
+  nook::check(nook_gl_scene_update(gl_.get(), scene_.get()));
+}
+
+AoSource CrowdScene::ao(std::size_t character) const {
+  nook_gl_ao_view view{};
+  view.struct_size = sizeof view;
+  nook::check(nook_gl_scene_ao_buffer(gl_.get(), scene_.get(), instances_[character], &view));
+  return {view.buffer, view.offset, view.stride};
+}
+
+std::vector<float> CrowdScene::read_ao(std::size_t character) const {
+  std::vector<float> ao(model_.info().file_vertex_count);
+  nook::check(nook_gl_scene_read_ao(gl_.get(), scene_.get(), instances_[character], ao.data(),
+                                    std::uint32_t(ao.size())));
+  return ao;
+}
+
+nook_gl_info CrowdScene::gl_info() const {
+  nook_gl_info info{};
+  info.struct_size = sizeof info;
+  nook::check(nook_gl_get_info(gl_.get(), &info));
+  return info;
+}
+
+}  // namespace crowd

@@ -1,0 +1,47 @@
+// Nook's side of the crowd: one model, an instance for each character, evaluated through OpenGL.
+#pragma once
+
+#include <nook/nook_gl.h>
+#include <nook/nook.hpp>
+#include <span>
+#include <vector>
+
+#include "hero.h"
+#include "platform/platform.h"
+#include "renderer.h"
+
+namespace crowd {
+
+struct CrowdSceneRequest {
+  std::uint32_t characters = 1, neighbours = 4;
+  int tier = 0;  // 0: the best that the context has
+  nook_combine combine = NOOK_COMBINE_COMPOSED;
+};
+
+class CrowdScene {
+ public:
+  CrowdScene(platform::Context& context, std::span<const unsigned char> model_bytes,
+             const CrowdSceneRequest& request);
+
+  // One pose for each character, in their order.
+  void set_poses(const std::vector<Bones>& poses);
+  // terms: NOOK_TERM_*, which casters count. Leaves the AO on the GPU.
+  void update(std::uint32_t terms = NOOK_TERM_ALL);
+  AoSource ao(std::size_t character) const;
+  // Waits for the GPU: for reports, not for frames.
+  std::vector<float> read_ao(std::size_t character) const;
+
+  void link_nearest(std::uint32_t neighbours);
+  nook_gl_info gl_info() const;
+  nook_scene_stats stats() const { return scene_.stats(); }
+  const nook::CharacterModel& model() const { return model_; }
+
+ private:
+  nook::Context context_;
+  nook::CharacterModel model_;
+  nook::Scene scene_;
+  nook::Unique<nook_gl, nook_gl_destroy> gl_;
+  std::vector<nook_instance_id> instances_;
+};
+
+}  // namespace crowd

@@ -1,0 +1,94 @@
+#include "frames.h"
+
+#include <glad/gl.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "animation.h"
+
+namespace crowd {
+namespace {
+
+constexpr float kSecondsPerFrame = 1.0f / 30;
+
+class Stopwatch {
+ public:
+  double lap_ms() {
+    const auto now = Clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace
+
+std::vector<Bones> pose_crowd(const Hero& hero, const std::vector<Placement>& places, float time_s) {
+  std::vector<Bones> poses(places.size());
+  tbb::parallel_for(std::size_t(0), places.size(),
+                    [&](std::size_t i) { poses[i] = placed_pose(hero, places[i], time_s); });
+  return poses;
+}
+
+glm::vec3 albedo_of(std::size_t character) {
+  // Linear reflectances of plaster, sand, terracotta, sage, slate and rose.
+  static const glm::vec3 colours[] = {{0.62f, 0.60f, 0.56f}, {0.58f, 0.48f, 0.34f}, {0.52f, 0.28f, 0.19f},
+                                      {0.34f, 0.43f, 0.30f}, {0.27f, 0.36f, 0.46f}, {0.54f, 0.38f, 0.37f}};
+  return colours[character * 7 % 6];
+}
+
+float crowd_radius_m(const std::vector<Placement>& places) {
+  float radius = 0;
+  for (const Placement& p : places) radius = std::max(radius, std::hypot(p.x_m, p.z_m));
+  return radius + 1.0f;
+}
+
+FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest& request,
+                       const std::function<void(std::uint32_t)>& progress) {
+  const GladGLContext& gl = stage.context.gl();
+  const float radius_m = crowd_radius_m(stage.places);
+  Look look;
+  look.fog_start_m = 1.2f * radius_m + 8;
+  FrameTimes sum;
+  for (std::uint32_t frame = 0; frame < request.frames; ++frame) {
+    Stopwatch watch;
+    const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, float(frame) * kSecondsPerFrame);
+    scene.set_poses(poses);
+    FrameTimes now;
+    now.pose = watch.lap_ms();
+    scene.update();
+    gl.Finish();
+    now.scene_update = watch.lap_ms();
+    std::vector<DrawnInstance> drawn(poses.size());
+    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {&poses[i], scene.ao(i), albedo_of(i)};
+    stage.target.bind();
+    stage.renderer.draw(drawn, orbit(radius_m, float(frame) / float(std::max(request.frames, 24u))), look,
+                        glm::vec3(0), radius_m + 1);
+    gl.Finish();
+    now.draw = watch.lap_ms();
+    const platform::Image picture = stage.target.read();
+    now.read = watch.lap_ms();
+    char name[32];
+    std::snprintf(name, sizeof name, "frame_%04u.png", frame);
+    platform::write_image(request.out / name, picture);
+    progress(frame + 1);
+    // The first frame also makes buffers and compiles.
+    if (frame == 0 && request.frames > 1) continue;
+    sum.pose += now.pose;
+    sum.scene_update += now.scene_update;
+    sum.draw += now.draw;
+    sum.read += now.read;
+  }
+  const double measured = request.frames > 1 ? request.frames - 1 : std::max(request.frames, 1u);
+  return {sum.pose / measured, sum.scene_update / measured, sum.draw / measured, sum.read / measured};
+}
+
+}  // namespace crowd

@@ -1,0 +1,43 @@
+// The frames of the animation, drawn and timed.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "crowd_scene.h"
+#include "layout.h"
+#include "render_target.h"
+
+namespace crowd {
+
+// All that is drawn, owned by main.
+struct Stage {
+  const platform::Context& context;
+  const Hero& hero;
+  const std::vector<Placement>& places;
+  Renderer& renderer;
+  RenderTarget& target;
+};
+
+// Milliseconds by the wall clock, each stage waited for: means over the frames after the first.
+struct FrameTimes {
+  double pose = 0, scene_update = 0, draw = 0, read = 0;
+};
+
+struct FrameRequest {
+  std::uint32_t frames = 4;
+  std::filesystem::path out;
+};
+
+std::vector<Bones> pose_crowd(const Hero& hero, const std::vector<Placement>& places, float time_s);
+// A muted colour that stays with a character.
+glm::vec3 albedo_of(std::size_t character);
+// Farthest root from the origin, with room for the body.
+float crowd_radius_m(const std::vector<Placement>& places);
+
+// Writes frame_0000.png and so on; calls progress with the number of frames done.
+FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest& request,
+                       const std::function<void(std::uint32_t)>& progress);
+
+}  // namespace crowd

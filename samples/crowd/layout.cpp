@@ -1,0 +1,170 @@
+#include "layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+namespace crowd {
+namespace {
+
+constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
+constexpr float kGroupSpacing_m = 2.6f;
+constexpr float kClearance_m = 0.03f;
+constexpr int kGroupSize = 3;
+
+int bearing_index(float bearing_rad) {
+  const float turns = bearing_rad / kTwoPi;
+  return int((turns - std::floor(turns)) * Outline::kBearings) % Outline::kBearings;
+}
+
+// std's distributions differ between libraries; this does not.
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : engine_(seed) {}
+  float unit() { return float(engine_() >> 8) * 0x1p-24f; }
+  float between(float low, float high) { return low + (high - low) * unit(); }
+
+ private:
+  std::mt19937 engine_;
+};
+
+float squared_distance(const Placement& a, const Placement& b) {
+  return (a.x_m - b.x_m) * (a.x_m - b.x_m) + (a.z_m - b.z_m) * (a.z_m - b.z_m);
+}
+
+// Bearings turn from +z towards +x, as yaw does.
+bool overlap(const std::vector<Outline>& outlines, const Placement& a, const Placement& b) {
+  const float bearing = std::atan2(b.x_m - a.x_m, b.z_m - a.z_m);
+  const float needed = outlines[a.clip].reach(bearing - a.yaw_rad) +
+                       outlines[b.clip].reach(bearing + kTwoPi / 2 - b.yaw_rad) + kClearance_m;
+  return squared_distance(a, b) < needed * needed;
+}
+
+bool fits(const std::vector<Outline>& outlines, const std::vector<Placement>& crowd,
+          const Placement& candidate) {
+  return std::none_of(crowd.begin(), crowd.end(),
+                      [&](const Placement& other) { return overlap(outlines, other, candidate); });
+}
+
+Placement beside(const Placement& leader, float bearing_rad, float distance_m, Placement member) {
+  member.x_m = leader.x_m + distance_m * std::sin(bearing_rad);
+  member.z_m = leader.z_m + distance_m * std::cos(bearing_rad);
+  return member;
+}
+
+// Tries bearings round the leader from near to far; false where the group has no room.
+bool place_beside(const std::vector<Outline>& outlines, std::vector<Placement>& crowd,
+                  const Placement& leader, const Placement& member, Random& random) {
+  const float first = random.unit() * kTwoPi;
+  for (float distance_m = 0.45f; distance_m < 1.6f; distance_m += 0.04f)
+    for (int k = 0; k < 12; ++k) {
+      const Placement candidate = beside(leader, first + float(k) * kTwoPi / 12, distance_m, member);
+      if (!fits(outlines, crowd, candidate)) continue;
+      crowd.push_back(candidate);
+      return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+float Outline::reach(float bearing_rad) const {
+  const int middle = bearing_index(bearing_rad);
+  float widest = 0;
+  for (int d = -2; d <= 2; ++d)
+    widest = std::max(widest, reach_m[std::size_t((middle + d + kBearings) % kBearings)]);
+  return widest;
+}
+
+std::vector<Outline> clip_outlines(const Hero& hero) {
+  std::vector<Outline> outlines(hero.clips().size());
+  std::vector<float> positions, normals;
+  for (std::size_t c = 0; c < outlines.size(); ++c)
+    for (int step = 0; step < 8; ++step) {
+      hero.skin(hero.pose(c, float(step) / 8), positions, normals);
+      for (std::size_t i = 0; i < positions.size(); i += 3) {
+        float& reach =
+            outlines[c].reach_m[std::size_t(bearing_index(std::atan2(positions[i], positions[i + 2])))];
+        reach = std::max(reach, std::hypot(positions[i], positions[i + 2]));
+      }
+    }
+  return outlines;
+}
+
+std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::uint32_t count,
+                                   std::uint32_t seed) {
+  Random random(seed);
+  std::uint32_t made = 0;
+  const auto next_member = [&] {
+    Placement p;
+    // Clips in turn, so that a small crowd shows all of them.
+    p.clip = made++ % std::uint32_t(outlines.size());
+    p.phase = random.unit();
+    p.yaw_rad = random.unit() * kTwoPi;
+    return p;
+  };
+  const int groups = int((count + kGroupSize - 1) / kGroupSize);
+  const int columns = std::max(1, int(std::ceil(std::sqrt(float(groups)))));
+  float widest = 0;
+  for (const Outline& o : outlines)
+    widest = std::max(widest, *std::max_element(o.reach_m.begin(), o.reach_m.end()));
+  const float spacing = std::max(kGroupSpacing_m, 2.4f * widest);
+  std::vector<Placement> crowd;
+  // Groups that have no room for all their members leave some over; they go to further rows of the grid.
+  for (int cell = 0; crowd.size() < count; ++cell) {
+    Placement leader = next_member();
+    leader.x_m = (float(cell % columns) - float(columns - 1) / 2 + random.between(-0.2f, 0.2f)) * spacing;
+    leader.z_m = (float(cell / columns) - float(columns - 1) / 2 + random.between(-0.2f, 0.2f)) * spacing;
+    if (!fits(outlines, crowd, leader)) continue;
+    crowd.push_back(leader);
+    for (int m = 1; m < kGroupSize && crowd.size() < count; ++m)
+      place_beside(outlines, crowd, leader, next_member(), random);
+  }
+  return crowd;
+}
+
+std::vector<std::uint32_t> with_neighbour_within(const std::vector<Placement>& crowd, float distance_m) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < crowd.size(); ++i)
+    for (std::uint32_t j = 0; j < crowd.size(); ++j)
+      if (i != j && squared_distance(crowd[i], crowd[j]) <= distance_m * distance_m) {
+        found.push_back(i);
+        break;
+      }
+  return found;
+}
+
+std::vector<std::uint32_t> nearest_to(const std::vector<Placement>& crowd, float x_m, float z_m,
+                                      std::size_t count) {
+  Placement point;
+  point.x_m = x_m;
+  point.z_m = z_m;
+  std::vector<std::uint32_t> order(crowd.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return squared_distance(crowd[a], point) < squared_distance(crowd[b], point);
+  });
+  order.resize(std::min(count, order.size()));
+  return order;
+}
+
+std::uint32_t busiest(const std::vector<Placement>& crowd, float distance_m) {
+  std::uint32_t best = 0;
+  float best_score = -1;
+  for (std::uint32_t i = 0; i < crowd.size(); ++i) {
+    float score = 0;
+    for (const Placement& other : crowd)
+      if (squared_distance(crowd[i], other) <= distance_m * distance_m) score += 1;
+    // Less than one neighbour's worth: only breaks ties.
+    score -= 0.5f * std::min(1.0f, std::hypot(crowd[i].x_m, crowd[i].z_m) / 100);
+    if (score > best_score) {
+      best_score = score;
+      best = i;
+    }
+  }
+  return best;
+}
+
+}  // namespace crowd

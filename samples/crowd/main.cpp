@@ -1,0 +1,136 @@
+// Bakes a character, fills a plane with a crowd of it, draws the crowd and compares it with ray tracing.
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <nlohmann/json.hpp>
+
+#include "baked_hero.h"
+#include "comparison.h"
+#include "file_bytes.h"
+#include "frames.h"
+#include "layout.h"
+#include "options.h"
+#include "progress_line.h"
+#ifdef CROWD_HAS_WINDOW_LOOP
+#include "window_loop.h"
+#endif
+
+namespace crowd {
+namespace {
+
+struct Character {
+  Hero hero;
+  std::uint64_t source_hash;
+  std::vector<unsigned char> model;
+};
+
+Character load_character(const Options& o) {
+  const bool built_in = o.hero_glb.empty();
+  const std::vector<unsigned char> source = built_in ? built_in_glb(o.cache) : read_file(o.hero_glb);
+  Character c{
+      built_in ? Hero(source) : Hero(o.hero_glb.string()), hash_bytes(source.data(), source.size()), {}};
+  c.model = o.hero_nook.empty() ? cached_model(c.hero, {c.source_hash, o.cache, 0, o.quiet})
+                                : read_file(o.hero_nook);
+  return c;
+}
+
+void require_same_character(const Hero& hero, const nook::CharacterModel& model) {
+  const nook_character_model_info info = model.info();
+  if (info.file_vertex_count == hero.vertex_count() && info.bone_count == hero.bone_count()) return;
+  throw std::runtime_error(
+      "crowd: the model does not belong to the character (it has " + std::to_string(info.file_vertex_count) +
+      " vertices and " + std::to_string(info.bone_count) + " bones, need " +
+      std::to_string(hero.vertex_count()) + " and " + std::to_string(hero.bone_count()) + "); bake it anew");
+}
+
+nlohmann::ordered_json describe(const platform::Context& context, const CrowdScene& scene, const Options& o) {
+  const nook_gl_info gl = scene.gl_info();
+  const nook_character_model_info model = scene.model().info();
+  return {{"characters", o.characters},
+          {"neighbours", o.neighbours},
+          {"frames", o.frames},
+          {"width", o.width_px},
+          {"height", o.height_px},
+          {"seed", o.seed},
+          {"context", o.context},
+          {"renderer", context.renderer()},
+          {"version", context.version()},
+          {"tier", gl.tier},
+          {"gl_buffer_bytes", gl.buffer_bytes},
+          {"vertices", model.vertex_count},
+          {"bones", model.bone_count},
+          {"spheres", model.sphere_count},
+          {"key_points", model.key_point_count},
+          {"gamma", model.gamma}};
+}
+
+void compare_with_rays(platform::Context& context, const Stage& stage, CrowdScene& scene, const Options& o,
+                       const Character& character, nlohmann::ordered_json& report, ProgressLine& line) {
+  const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
+  scene.set_poses(poses);
+  ComparisonRequest request{o.neighbours, o.tier, o.seed, o.out, {}, character.model};
+  measure_errors(stage, scene, poses, request, report);
+  line.show("comparing", "parts", 1, 3);
+  write_comparison_sheet(stage, scene, poses, request);
+  line.show("comparing", "parts", 2, 3);
+  const std::vector<unsigned char> gamma_1 =
+      cached_model(stage.hero, {character.source_hash, o.cache, 1.0f, o.quiet});
+  request.gamma_1_model = gamma_1;
+  write_double_shadowing_sheet(context, stage, scene, poses, request);
+  line.show("comparing", "parts", 3, 3);
+}
+
+void run(const Options& o) {
+  const Character character = load_character(o);
+  platform::ContextRequest wanted;
+  wanted.kind = o.context;
+  wanted.width = o.width_px;
+  wanted.height = o.height_px;
+  wanted.title = "Nook crowd";
+  const std::unique_ptr<platform::Context> context = platform::create_context(wanted);
+  const std::vector<Placement> places = make_layout(clip_outlines(character.hero), o.characters, o.seed);
+  CrowdScene scene(*context, character.model, {o.characters, o.neighbours, o.tier, NOOK_COMBINE_COMPOSED});
+  require_same_character(character.hero, scene.model());
+  Renderer renderer(context->gl(), character.hero);
+#ifdef CROWD_HAS_WINDOW_LOOP
+  if (o.context == "window" && o.frames == 0) {
+    run_window(*context, character.hero, character.model, places, renderer, o);
+    return;
+  }
+#endif
+  std::filesystem::create_directories(o.out);
+  RenderTarget target(*context, o.width_px, o.height_px);
+  const Stage stage{*context, character.hero, places, renderer, target};
+  ProgressLine line(o.quiet);
+  const FrameTimes ms = draw_frames(stage, scene, {o.frames, o.out}, [&](std::uint32_t done) {
+    line.show("drawing", "frames", done, o.frames);
+  });
+  nlohmann::ordered_json report = describe(*context, scene, o);
+  report["links"] = scene.stats().links;
+  report["ms"] = {{"pose", ms.pose}, {"scene_update", ms.scene_update}, {"draw", ms.draw}, {"read", ms.read}};
+  report["rows"] = nlohmann::ordered_json::array();
+  if (o.sheets) compare_with_rays(*context, stage, scene, o, character, report, line);
+  const std::string text = report.dump(2) + "\n";
+  write_file(o.report, text.data(), text.size());
+  std::printf("pictures: %s\nreport:   %s\n", std::filesystem::absolute(o.out).c_str(),
+              std::filesystem::absolute(o.report).c_str());
+}
+
+}  // namespace
+}  // namespace crowd
+
+int main(int argc, char** argv) {
+  crowd::Options options;
+  int exit_code = 0;
+  if (!crowd::parse_options(argc, argv, options, exit_code)) return exit_code;
+  try {
+    crowd::run(options);
+    return 0;
+  } catch (const nook::Error& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return e.result() == NOOK_ERROR_BAD_FILE || e.result() == NOOK_ERROR_FILE_VERSION ? 3 : 1;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,63 @@
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "platform/platform.h"
+
+namespace crowd {
+namespace {
+
+std::string parse_size(const std::string& text, Options& o) {
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &o.width_px, &o.height_px, &rest) == 2 && o.width_px >= 16 &&
+      o.height_px >= 16 && o.width_px <= 8192 && o.height_px <= 8192)
+    return "";
+  return "got '" + text + "', need WIDTHxHEIGHT from 16x16 to 8192x8192";
+}
+
+std::string parse_tier(const std::string& text, Options& o) {
+  o.tier = text == "33" ? 33 : text == "43" ? 43 : 0;
+  return "";
+}
+
+}  // namespace
+
+bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
+  CLI::App app(
+      "Draws a crowd of animated characters with Nook's ambient occlusion and compares it with ray tracing.");
+  std::string size = "1280x720", tier = "best";
+  o.cache = CROWD_CACHE;
+  app.add_option("hero", o.hero_glb, "a rigged .glb or .gltf; without it, the built-in character")
+      ->check(CLI::ExistingFile);
+  app.add_option("model", o.hero_nook, "its baked .nook; without it, one is baked (draft preset) and cached")
+      ->check(CLI::ExistingFile);
+  app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
+      ->check(CLI::IsMember({"window", "egl", "osmesa"}));
+  app.add_option("--characters", o.characters, "number of characters")->check(CLI::Range(1, 10000));
+  app.add_option("--neighbours", o.neighbours, "nearest neighbours that darken each character")
+      ->check(CLI::Range(0, 16));
+  app.add_option("--frames", o.frames, "pictures to draw (window: 0 runs until it is closed)")
+      ->check(CLI::Range(0, 100000));
+  app.add_option("--size", size, "pixels of a picture, WIDTHxHEIGHT");
+  app.add_option("--out", o.out, "folder of the pictures");
+  app.add_option("--report", o.report, "JSON with times and errors (default: report.json in --out)");
+  app.add_option("--tier", tier, "highest OpenGL tier: 33, 43 or best")
+      ->check(CLI::IsMember({"33", "43", "best"}));
+  app.add_option("--seed", o.seed, "of the places, the clips and the rays");
+  app.add_option("--cache", o.cache, "folder where baked characters are kept");
+  app.add_flag("!--no-sheets", o.sheets, "draw frames only: no comparison sheets, no ray tracing");
+  app.add_flag("--quiet", o.quiet, "no progress");
+  try {
+    app.parse(argc, argv);
+    for (const std::string& fault : {parse_size(size, o), parse_tier(tier, o)})
+      if (!fault.empty()) throw CLI::ValidationError("--size", fault);
+    if (o.report.empty()) o.report = o.out / "report.json";
+    return true;
+  } catch (const CLI::ParseError& e) {
+    exit_code = app.exit(e) == 0 ? 0 : 2;
+    return false;
+  }
+}
+
+}  // namespace crowd

@@ -1,0 +1,24 @@
+// The command line of the crowd.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace crowd {
+
+struct Options {
+  std::filesystem::path hero_glb, hero_nook;  // empty: the built-in character, and a model baked here
+  std::string context = "egl";
+  std::uint32_t characters = 100, neighbours = 4, frames = 4, seed = 1;
+  int width_px = 1280, height_px = 720;
+  int tier = 0;  // 33, 43 or 0 for the best there is
+  std::filesystem::path out = "out/crowd", report;
+  std::filesystem::path cache;
+  bool sheets = true, quiet = false;
+};
+
+// Fills options; returns false with *exit_code set where the program should end at once.
+bool parse_options(int argc, char** argv, Options& options, int& exit_code);
+
+}  // namespace crowd

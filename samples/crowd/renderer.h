@@ -1,0 +1,68 @@
+// Draws skinned instances of one character with their ambient occlusion as a vertex attribute.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "camera.h"
+#include "gpu_program.h"
+#include "hero.h"
+
+namespace crowd {
+
+// Where an instance's AO lies; buffer 0 means fully open. Nook's view of an instance has these fields.
+struct AoSource {
+  GLuint buffer = 0;
+  std::uint64_t offset = 0;
+  std::uint32_t stride = sizeof(float);
+};
+
+struct DrawnInstance {
+  const Bones* bones = nullptr;
+  AoSource ao;
+  glm::vec3 albedo{0.6f};
+};
+
+struct Look {
+  float key_strength = 0.55f;
+  float ao_strength = 1.0f;
+  glm::vec3 ground_albedo{0.42f, 0.42f, 0.43f};
+  glm::vec3 background{0.56f, 0.62f, 0.70f};
+  float fog_start_m = 22;
+};
+
+class Renderer {
+ public:
+  Renderer(const GladGLContext& gl, const Hero& hero);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  // Draws into the framebuffer that is bound, whose viewport is set; the shadow map covers shadow_radius_m
+  // round the origin of shadow_centre_ws.
+  void draw(std::span<const DrawnInstance> instances, const Camera& camera, const Look& look,
+            const glm::vec3& shadow_centre_ws, float shadow_radius_m);
+
+ private:
+  void upload_bones(std::span<const DrawnInstance> instances);
+  void draw_characters(const GpuProgram& program, std::span<const DrawnInstance> instances,
+                       const glm::mat4& view);
+  void draw_shadow_map(std::span<const DrawnInstance> instances);
+  void set_look(const GpuProgram& program, const Camera& camera, const Look& look);
+
+  const GladGLContext& gl_;
+  GpuProgram character_, ground_, shadow_;
+  GLsizei index_count_;
+  std::size_t bone_texels_;
+  GLuint arrays_[2] = {};   // character, ground
+  GLuint buffers_[3] = {};  // vertices, indices, bones
+  GLuint bone_texture_ = 0, shadow_texture_ = 0, shadow_framebuffer_ = 0;
+  std::size_t chunk_ = 1;  // instances whose bones fit into one texture buffer
+  glm::vec3 to_key_ws_;
+  glm::mat4 shadow_from_world_{1.0f};
+};
+
+}  // namespace crowd

@@ -1,0 +1,94 @@
+#include "shaders.h"
+
+namespace crowd {
+
+const char* const kCharacterVertex = R"(#version 330 core
+layout(location = 0) in vec3 position_m;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in uvec4 joints;
+layout(location = 3) in vec4 weights;
+layout(location = 4) in float ao;
+uniform samplerBuffer bones;
+uniform int first_bone_texel;
+uniform mat4 clip_from_world;
+uniform vec3 instance_albedo;
+out vec3 surface_position_ws;
+out vec3 surface_normal_ws;
+out vec3 surface_albedo;
+out float surface_ao;
+vec4 bone_row(int bone, int row) { return texelFetch(bones, first_bone_texel + 3 * bone + row); }
+void main() {
+  vec4 rows[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
+  for (int i = 0; i < 4; ++i)
+    for (int r = 0; r < 3; ++r) rows[r] += weights[i] * bone_row(int(joints[i]), r);
+  vec4 p = vec4(position_m, 1.0);
+  surface_position_ws = vec3(dot(rows[0], p), dot(rows[1], p), dot(rows[2], p));
+  surface_normal_ws = vec3(dot(rows[0].xyz, normal), dot(rows[1].xyz, normal), dot(rows[2].xyz, normal));
+  surface_albedo = instance_albedo;
+  surface_ao = ao;
+  gl_Position = clip_from_world * vec4(surface_position_ws, 1.0);
+}
+)";
+
+const char* const kGroundVertex = R"(#version 330 core
+uniform mat4 clip_from_world;
+uniform vec3 instance_albedo;
+uniform float ground_half_size_m;
+out vec3 surface_position_ws;
+out vec3 surface_normal_ws;
+out vec3 surface_albedo;
+out float surface_ao;
+void main() {
+  vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 2.0 - 1.0;
+  surface_position_ws = vec3(corner.x, 0.0, corner.y) * ground_half_size_m;
+  surface_normal_ws = vec3(0.0, 1.0, 0.0);
+  surface_albedo = instance_albedo;
+  surface_ao = 1.0;
+  gl_Position = clip_from_world * vec4(surface_position_ws, 1.0);
+}
+)";
+
+const char* const kLitFragment = R"(#version 330 core
+in vec3 surface_position_ws;
+in vec3 surface_normal_ws;
+in vec3 surface_albedo;
+in float surface_ao;
+uniform sampler2DShadow shadow_map;
+uniform mat4 shadow_from_world;
+uniform vec3 to_key_ws;
+uniform float key_strength;
+uniform float ao_strength;
+uniform vec3 eye_ws;
+uniform vec3 background;
+uniform float fog_start_m;
+out vec4 colour;
+float key_visibility(vec3 n) {
+  // Moved along the normal by about a texel of the map, against self-shadow.
+  vec4 s = shadow_from_world * vec4(surface_position_ws + 0.025 * n, 1.0);
+  vec3 uvz = s.xyz * 0.5 + 0.5;
+  if (any(lessThan(uvz, vec3(0.0))) || any(greaterThan(uvz, vec3(1.0)))) return 1.0;
+  vec2 texel = 1.5 / vec2(textureSize(shadow_map, 0));
+  float sum = 0.0;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) sum += texture(shadow_map, vec3(uvz.xy + vec2(x, y) * texel, uvz.z - 0.0008));
+  return sum / 9.0;
+}
+void main() {
+  vec3 n = normalize(surface_normal_ws);
+  vec3 sky = vec3(0.80, 0.87, 1.00), bounce = vec3(0.46, 0.43, 0.40);
+  vec3 ambient = mix(bounce, sky, 0.5 + 0.5 * n.y) * 0.72;
+  float ao = mix(1.0, surface_ao, ao_strength);
+  float key = max(dot(n, to_key_ws), 0.0);
+  if (key > 0.0 && key_strength > 0.0) key *= key_visibility(n);
+  vec3 light = ambient * ao + key * key_strength * vec3(1.0, 0.95, 0.86);
+  float distance_m = length(surface_position_ws - eye_ws);
+  float fog = 1.0 - exp(-max(distance_m - fog_start_m, 0.0) / (0.7 * fog_start_m));
+  colour = vec4(mix(surface_albedo * light, background, fog), 1.0);
+}
+)";
+
+const char* const kShadowFragment = R"(#version 330 core
+void main() {}
+)";
+
+}  // namespace crowd

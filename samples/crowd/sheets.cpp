@@ -1,0 +1,98 @@
+#include "sheets.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "label.h"
+
+namespace crowd {
+namespace {
+
+constexpr float kGroupDistance_m = 4.6f;  // from the camera to the group
+constexpr int kBearings = 24;
+
+// How much stands between a camera at this bearing and the group.
+float obstruction(const std::vector<Placement>& places, const Placement& focus, float bearing_rad) {
+  const float s = std::sin(bearing_rad), c = std::cos(bearing_rad);
+  float sum = 0;
+  for (const Placement& p : places) {
+    const float dx = p.x_m - focus.x_m, dz = p.z_m - focus.z_m;
+    const float ahead_m = dx * s + dz * c, aside_m = std::abs(dx * c - dz * s);
+    if (ahead_m > 0.8f && ahead_m < kGroupDistance_m + 1.0f && aside_m < 1.1f) sum += 1.0f + ahead_m;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Group choose_group(const std::vector<Placement>& places, std::size_t count) {
+  const Placement& focus = places[busiest(places, 1.0f)];
+  float best = 0, best_obstruction = INFINITY;
+  for (int k = 0; k < kBearings; ++k) {
+    const float bearing = 6.2831853f * float(k) / kBearings;
+    const float found = obstruction(places, focus, bearing);
+    if (found < best_obstruction) {
+      best = bearing;
+      best_obstruction = found;
+    }
+  }
+  Group group;
+  group.camera.target_ws = {focus.x_m, 0.82f, focus.z_m};
+  group.camera.eye_ws =
+      group.camera.target_ws + kGroupDistance_m * glm::vec3(std::sin(best), 0.28f, std::cos(best));
+  group.camera.fov_rad = 0.5f;
+  group.members = nearest_to(places, focus.x_m, focus.z_m, count);
+  // Bodies right before the lens would hide the group; their shadow stays.
+  std::erase_if(group.members, [&](std::uint32_t i) {
+    return std::hypot(places[i].x_m - group.camera.eye_ws.x, places[i].z_m - group.camera.eye_ws.z) <
+           0.6f * kGroupDistance_m;
+  });
+  return group;
+}
+
+void SheetPainter::add(const std::string& label, const std::vector<std::vector<float>>& ao) {
+  const GladGLContext& gl = stage_.context.gl();
+  std::vector<float> values;
+  std::vector<AoSource> sources(group_.members.size());
+  GLuint buffer = 0;
+  if (!ao.empty()) {
+    gl.GenBuffers(1, &buffer);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      sources[i] = {buffer, values.size() * sizeof(float), sizeof(float)};
+      values.insert(values.end(), ao[i].begin(), ao[i].end());
+    }
+    gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
+    gl.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * sizeof(float)), values.data(), GL_STREAM_DRAW);
+  }
+  add_panel(label, sources);
+  gl.DeleteBuffers(1, &buffer);
+}
+
+void SheetPainter::add(const std::string& label, const CrowdScene& scene) {
+  std::vector<AoSource> sources;
+  for (const std::uint32_t member : group_.members) sources.push_back(scene.ao(member));
+  add_panel(label, sources);
+}
+
+void SheetPainter::add_panel(const std::string& label, std::span<const AoSource> sources) {
+  Look look;
+  look.key_strength = 0.16f;  // mostly ambient light, in which AO is what there is to see
+  look.ground_albedo = glm::vec3(0.5f);
+  look.background = glm::vec3(0.62f);
+  look.fog_start_m = 14;
+  std::vector<DrawnInstance> drawn;
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    drawn.push_back({&poses_[group_.members[i]], sources[i], glm::vec3(0.72f)});
+  stage_.target.bind();
+  stage_.renderer.draw(drawn, group_.camera, look, group_.camera.target_ws, 6.0f);
+  panels_.push_back(stage_.target.read());
+  draw_label(panels_.back(), label);
+}
+
+void SheetPainter::write(const std::filesystem::path& path, int columns) const {
+  platform::write_image(path, tile(panels_, columns));
+}
+
+}  // namespace crowd

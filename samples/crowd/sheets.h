@@ -1,0 +1,43 @@
+// Panels that show one group of the crowd with several kinds of ambient occlusion, through the same camera.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frames.h"
+
+namespace crowd {
+
+// The group that the sheets look at, with its poses of the first frame.
+struct Group {
+  std::vector<std::uint32_t> members;  // indices of the crowd
+  Camera camera;
+};
+
+// The members nearest to the busiest place, seen from where the fewest others stand in the way.
+Group choose_group(const std::vector<Placement>& places, std::size_t count);
+
+class SheetPainter {
+ public:
+  SheetPainter(const Stage& stage, const std::vector<Bones>& poses, Group group)
+      : stage_(stage), poses_(poses), group_(std::move(group)) {}
+
+  const Group& group() const { return group_; }
+  // One value a vertex and member; empty: fully open.
+  void add(const std::string& label, const std::vector<std::vector<float>>& ao);
+  // From Nook's own buffers, as a host draws it.
+  void add(const std::string& label, const CrowdScene& scene);
+  void write(const std::filesystem::path& path, int columns) const;
+
+ private:
+  void add_panel(const std::string& label, std::span<const AoSource> sources);
+
+  const Stage& stage_;
+  const std::vector<Bones>& poses_;
+  Group group_;
+  std::vector<platform::Image> panels_;
+};
+
+}  // namespace crowd

@@ -1,0 +1,30 @@
+// Ray-traced ambient occlusion of the crowd, and how far Nook's is from it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hero.h"
+
+namespace crowd {
+
+struct TraceRequest {
+  std::uint32_t rays = 64;  // a vertex
+  std::uint64_t seed = 1;
+};
+
+// AO of the receivers' vertices, one array for each, against all bodies near them and the ground plane y = 0.
+std::vector<std::vector<float>> traced_ao(const Hero& hero, const std::vector<Bones>& poses,
+                                          std::span<const std::uint32_t> receivers,
+                                          const TraceRequest& request);
+
+struct Errors {
+  double mse = 0;       // mean over vertices
+  double mse_area = 0;  // weighted by the area of the posed surface
+};
+
+// Over all receivers; vertices that no triangle uses, copies at seams, are left out.
+Errors compare(const Hero& hero, const std::vector<Bones>& poses, std::span<const std::uint32_t> receivers,
+               const std::vector<std::vector<float>>& ao, const std::vector<std::vector<float>>& truth);
+
+}  // namespace crowd

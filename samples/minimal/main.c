@@ -1,0 +1,140 @@
+/* The smallest user of Nook: two characters side by side on the ground, ambient occlusion on the CPU.
+ *
+ *   minimal MODEL.nook
+ *
+ * An engine needs the three marked regions. The rest of this file reads a file, prints, and stands in for the
+ * engine's own animation. minimal_gl.c is the same with the result left on the GPU. */
+#include <nook/nook_character.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The engine's skinning matrices: here the rest pose, moved sideways. Twelve floats a bone, three rows of
+ * four. */
+static float* rest_pose(uint32_t bone_count, float x_m) {
+  float* const bones = calloc(bone_count, 12 * sizeof(float));
+  for (uint32_t b = 0; bones && b < bone_count; ++b) {
+    bones[12 * b] = bones[12 * b + 5] = bones[12 * b + 10] = 1.0F;
+    bones[12 * b + 3] = x_m;
+  }
+  return bones;
+}
+
+static void* read_file(const char* path, size_t* size) {
+  FILE* const file = fopen(path, "rb");
+  void* bytes = NULL;
+  long length;
+  if (!file) return NULL;
+  if (fseek(file, 0, SEEK_END) == 0 && (length = ftell(file)) > 0 && fseek(file, 0, SEEK_SET) == 0) {
+    *size = (size_t)length;
+    bytes = malloc(*size);
+    if (bytes && fread(bytes, 1, *size, file) != *size) {
+      free(bytes);
+      bytes = NULL;
+    }
+  }
+  fclose(file);
+  return bytes;
+}
+
+static double mean(const float* values, uint32_t count) {
+  double sum = 0;
+  for (uint32_t i = 0; i < count; ++i) sum += values[i];
+  return sum / count;
+}
+
+typedef struct Character {
+  nook_context context;
+  nook_character_model model;
+  nook_scene scene;
+  nook_instance_id left, right;
+} Character;
+
+/* ---- 1. Once: load the model and put two instances into a scene ---- */
+static nook_result start(Character* c, const void* bytes, size_t size) {
+  const float ground[4] = {0, 1, 0, 0}; /* the plane y = 0 */
+  nook_context_desc context_desc;
+  nook_scene_desc scene_desc;
+  nook_result r = nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION);
+  if (!r) r = nook_context_create(&context_desc, &c->context);
+  if (!r) r = nook_character_model_load(c->context, bytes, size, &c->model);
+  if (!r) r = nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION);
+  if (!r) r = nook_scene_create(c->context, &scene_desc, &c->scene);
+  if (!r) r = nook_scene_add_instance(c->scene, c->model, &c->left);
+  if (!r) r = nook_scene_add_instance(c->scene, c->model, &c->right);
+  if (!r) r = nook_scene_set_ground(c->scene, c->left, ground);
+  if (!r) r = nook_scene_set_ground(c->scene, c->right, ground);
+  /* Here two fixed links; nook_scene_link_nearest finds the neighbours of a crowd. */
+  if (!r) r = nook_scene_link(c->scene, c->left, c->right);
+  if (!r) r = nook_scene_link(c->scene, c->right, c->left);
+  return r;
+}
+
+/* ---- 2. Each frame: hand over the poses, evaluate, read one value a vertex ---- */
+static nook_result frame(Character* c, const float* left_pose, const float* right_pose, uint32_t bone_count,
+                         float* ao, uint32_t vertex_count) {
+  nook_result r = nook_scene_set_pose(c->scene, c->left, left_pose, bone_count);
+  if (!r) r = nook_scene_set_pose(c->scene, c->right, right_pose, bone_count);
+  if (!r) r = nook_scene_update(c->scene);
+  if (!r) r = nook_scene_read_ao(c->scene, c->left, ao, vertex_count, 0);
+  return r;
+}
+
+/* ---- 3. At the end: any order will do ---- */
+static void stop(Character* c) {
+  nook_scene_destroy(&c->scene);
+  nook_character_model_destroy(&c->model);
+  nook_context_destroy(&c->context);
+}
+
+/* Frames with the other instance ever nearer: the mean falls. */
+static nook_result approach(Character* c) {
+  static const float distances_m[] = {4.0F, 2.0F, 1.0F, 0.6F};
+  nook_character_model_info info;
+  nook_result r;
+  memset(&info, 0, sizeof info);
+  info.struct_size = sizeof info;
+  r = nook_character_model_get_info(c->model, &info);
+  if (r) return r;
+  printf("%u vertices, %u bones, %u spheres, %u key points\n", (unsigned)info.file_vertex_count,
+         (unsigned)info.bone_count, (unsigned)info.sphere_count, (unsigned)info.key_point_count);
+  float* const ao = malloc(info.file_vertex_count * sizeof *ao);
+  float* const here = rest_pose(info.bone_count, 0);
+  for (size_t i = 0; !r && i < sizeof distances_m / sizeof *distances_m; ++i) {
+    float* const there = rest_pose(info.bone_count, distances_m[i]);
+    if (!ao || !here || !there) {
+      fputs("minimal: out of memory\n", stderr);
+      exit(1);
+    }
+    r = frame(c, here, there, info.bone_count, ao, info.file_vertex_count);
+    if (!r)
+      printf("neighbour at %.1f m: mean ambient occlusion %.4f (1 is open)\n", (double)distances_m[i],
+             mean(ao, info.file_vertex_count));
+    free(there);
+  }
+  free(here);
+  free(ao);
+  return r;
+}
+
+int main(int argc, char** argv) {
+  Character character = {NULL, NULL, NULL, 0, 0};
+  size_t size = 0;
+  void* bytes;
+  nook_result result;
+  if (argc != 2) {
+    fputs("usage: minimal MODEL.nook\n", stderr);
+    return 2;
+  }
+  bytes = read_file(argv[1], &size);
+  if (!bytes) {
+    fprintf(stderr, "minimal: %s cannot be read\n", argv[1]);
+    return 3;
+  }
+  result = start(&character, bytes, size);
+  free(bytes); /* the model keeps a copy */
+  if (!result) result = approach(&character);
+  if (result) fprintf(stderr, "%s (%s)\n", nook_last_message(), nook_result_name(result));
+  stop(&character);
+  return result ? 3 : 0;
+}
