@@ -235,7 +235,8 @@ TEST_CASE("uniform scale stays, uneven scale is replaced by the nearest similari
     file.add_animation("vanish");
     file.add_channel(2, "scale", {0, 1}, {1, 1, 1, 0, 0, 0});
     const ImportedCharacter character = load(file);
-    for (const float v : sample_clip(character, 2, 1)[1].m) CHECK(std::isfinite(v));
+    const Pose pose = sample_clip(character, 2, 1);
+    for (const float v : pose[1].m) CHECK(std::isfinite(v));
   }
 }
 
