@@ -17,7 +17,7 @@ using Eigen::Index;
 
 constexpr std::array ridges{1e-6, 1e-5, 1e-4, 1e-3, 3e-3,
                             1e-2, 3e-2, 1e-1, 3e-1, 1.0};  // times the mean variance
-constexpr std::array<Index, 9> ranks{2, 4, 8, 16, 24, 32, 48, 64, 96};
+constexpr std::array<Index, 12> ranks{2, 4, 8, 16, 24, 32, 48, 64, 96, 128, 192, 256};
 constexpr std::size_t voting_vertices = 384;
 constexpr double rank_slack = 0.005;
 

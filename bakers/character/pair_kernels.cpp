@@ -44,6 +44,10 @@ struct NookForm {
   }
 };
 
+// Keeps powers and their slopes finite where rounding leaves nothing. A plain comparison, because fmax asks for the handling
+// of NaNs and stops the compiler from vectorising.
+NOOK_INLINE float at_least(float y) { return y > 1e-9f ? y : 1e-9f; }
+
 // y^gamma and its derivative by y.
 struct Power {
   float value, slope;
@@ -79,7 +83,7 @@ NOOK_INLINE void add_sphere_loop(Gamma gamma, const float centre[3], float inver
                 dz = (oz - pz[k]) * inverse_radius;
     const float delta2 = dx * dx + dy * dy + dz * dz;
     const float xi = dx * nx[k] + dy * ny[k] + dz * nz[k];
-    const float y = std::fmax(Form::value(delta2, xi).y, 1e-9f);
+    const float y = at_least(Form::value(delta2, xi).y);
     sum[k] += gamma(y).value;
   }
 }
@@ -100,7 +104,7 @@ NOOK_INLINE SphereGradient sphere_gradient_loop(Gamma gamma, const float centre[
     const float delta2 = dx * dx + dy * dy + dz * dz;
     const float xi = dx * nx[k] + dy * ny[k] + dz * nz[k];
     const Value v = Form::value(delta2, xi);
-    const float g = gradient_sum[k] * gamma(std::fmax(v.y, 1e-9f)).slope;
+    const float g = gradient_sum[k] * gamma(at_least(v.y)).slope;
     const float g_delta2 = g * v.dy_ddelta2, g_xi = g * v.dy_dxi;
     const float ex = (2 * g_delta2 * dx + g_xi * nx[k]) * inverse_radius;
     const float ey = (2 * g_delta2 * dy + g_xi * ny[k]) * inverse_radius;

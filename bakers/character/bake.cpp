@@ -1,0 +1,231 @@
+#include "character/bake.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "character/block_descent.h"
+#include "character/caster_fit.h"
+#include "character/export_model.h"
+#include "character/fit_state.h"
+#include "character/initialise.h"
+#include "character/levels.h"
+#include "character/linear_fit.h"
+#include "character/mini_batch_fit.h"
+#include "core/failure.h"
+#include "import/skinning.h"
+
+namespace nook::bake {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& s) {
+  const auto refuse = [](const char* what, std::size_t got, const char* need) {
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s out of range (got %zu, need %s)", what, got, need);
+  };
+  if (poses.empty()) refuse("pose count", 0, "at least 1");
+  if (s.spheres < 1 || s.spheres > 1024) refuse("spheres", s.spheres, "1 to 1024");
+  if (s.key_points < 1 || s.key_points > 4096) refuse("key points", s.key_points, "1 to 4096");
+  if (s.entries < 1 || s.entries > 8) refuse("entries", s.entries, "1 to 8");
+  if (s.rays < 1 || s.rays > 65536) refuse("rays", s.rays, "1 to 65536");
+  if (s.steps > 10'000'000) refuse("steps", s.steps, "at most 10,000,000");
+  if (!(s.kernel.gamma >= 1 && s.kernel.gamma <= 8))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "gamma out of range (got %g, need 1 to 8)", double(s.kernel.gamma));
+  for (std::size_t p = 0; p < poses.size(); ++p) {
+    if (poses[p].size() != mesh.bones.size())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "pose %zu has the wrong number of bones (got %zu, need %zu)", p,
+                    poses[p].size(), mesh.bones.size());
+    for (const Mat3x4& m : poses[p])
+      for (float v : m.m)
+        if (!std::isfinite(v))
+          throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "pose %zu holds a matrix that is not finite", p);
+  }
+}
+
+// Every 16th pose is held out and goes to the end.
+std::size_t hold_out(std::vector<Pose>& poses) {
+  constexpr std::size_t every = 16;
+  std::vector<Pose> fitted, held;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    (i % every == every - 1 ? held : fitted).push_back(std::move(poses[i]));
+  const std::size_t count = held.size();
+  poses = std::move(fitted);
+  for (Pose& p : held) poses.push_back(std::move(p));
+  return count;
+}
+
+// Half of the weight by vertex, as the reported mse has it, half by area, as the eye does.
+std::vector<float> vertex_weights(std::span<const float> area) {
+  double mean = 0;
+  for (float a : area) mean += double(a);
+  mean /= double(area.size());
+  std::vector<float> weight;
+  for (float a : area) weight.push_back(mean > 0 ? float(0.5 + 0.5 * double(a) / mean) : 1.0f);
+  return weight;
+}
+
+// One fit in progress: the state, what it is measured by, and the best state so far by held-out error.
+class Fit {
+ public:
+  Fit(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings, const Candidates& candidates,
+      FitState state, BakeReport& report)
+      : set_(set), area_(area), candidates_(candidates), report_(report), state_(std::move(state)) {
+    linear_.entries = settings.entries;
+  }
+
+  FitState& state() { return state_; }
+  const FitState& best() const { return best_; }
+  double seconds() const { return watch_.seconds(); }
+
+  void solve_linear() {
+    const std::vector<float> shadows = shadows_of(state_, std::span(set_.poses).first(set_.fitted()));
+    state_.linear = fit_linear_layer(shadows, state_.structure.padded_count(), set_, candidates_, linear_);
+  }
+
+  // Adds a point to the curve and keeps the state if it is the best yet. Returns whether it improved by a share.
+  bool measure(double least_gain = 0) {
+    const std::size_t fitted = set_.fitted();
+    const double train = measure_fit(state_, set_, 0, fitted, area_).mse;
+    const double held = set_.held_out ? measure_fit(state_, set_, fitted, set_.poses.size(), area_).mse : train;
+    report_.curve.push_back({watch_.seconds(), train, held});
+    const bool gained = best_.parameters.empty() || held < best_held_ * (1 - least_gain);
+    if (best_.parameters.empty() || held < best_held_) {
+      best_ = state_;
+      best_held_ = held;
+      report_.mse_train = train;
+      report_.mse_held_out = held;
+    }
+    return gained;
+  }
+
+ private:
+  const TrainingSet& set_;
+  const std::vector<float>& area_;
+  const Candidates& candidates_;
+  BakeReport& report_;
+  FitState state_, best_;
+  LinearFitSettings linear_;
+  double best_held_ = 0;
+  Stopwatch watch_;
+};
+
+[[noreturn]] void cancelled() { throw Failure(NOOK_ERROR_CANCELLED, "cancelled while fitting"); }
+
+// Mini-batches in rounds; between rounds each vertex chooses its key points anew.
+void fit_by_mini_batches(Fit& fit, const TrainingSet& set, const BakeSettings& settings, BakeReport& report,
+                         const BakeProgress& progress) {
+  constexpr std::size_t rounds = 3;
+  std::size_t done = 0;
+  for (std::size_t r = 0; r < rounds; ++r) {
+    MiniBatchSettings batch;
+    // The last round is the longest: the key points are chosen, what is left is polish.
+    batch.steps = r + 1 < rounds ? settings.steps / 4 : settings.steps - done;
+    batch.seed = settings.seed + r;
+    batch.final_rate = r + 1 < rounds ? 0.3f : 0.01f;
+    bool stop = false;
+    fit_mini_batches(fit.state(), set, batch, [&](std::size_t step) {
+      if (settings.time_limit_s > 0 && fit.seconds() > settings.time_limit_s) return false;
+      stop = progress && step % 16 == 0 && !progress(BakeStage::fit, done + step, settings.steps);
+      return !stop;
+    });
+    if (stop) cancelled();
+    done += batch.steps;
+    report.iterations = done;
+    if (r + 1 < rounds) fit.solve_linear();
+    fit.measure();
+  }
+}
+
+void fit_by_blocks(Fit& fit, const TrainingSet& set, const BakeSettings& settings, BakeReport& report,
+                   const BakeProgress& progress) {
+  int without_gain = 0;
+  for (std::size_t round = 0; round < settings.steps && without_gain < 3; ++round) {
+    if (progress && !progress(BakeStage::fit, round, settings.steps)) cancelled();
+    if (settings.time_limit_s > 0 && fit.seconds() > settings.time_limit_s) break;
+    descend_non_linear(fit.state(), set, {});
+    fit.solve_linear();
+    report.iterations = round + 1;
+    without_gain = fit.measure(1e-3) ? 0 : without_gain + 1;
+  }
+}
+
+}  // namespace
+
+BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& settings,
+                          const BakeProgress& progress) {
+  check(mesh, poses, settings);
+  BakeReport report;
+  const auto stage_progress = [&](BakeStage stage) {
+    return [&progress, stage](std::size_t done, std::size_t total) { return !progress || progress(stage, done, total); };
+  };
+  TrainingSet set;
+  set.poses.assign(poses.begin(), poses.end());
+  set.held_out = hold_out(set.poses);
+  const Stopwatch trace_watch;
+  set.targets =
+      trace_character_ao(mesh, set.poses, settings.rays, settings.seed, stage_progress(BakeStage::raytrace));
+  report.noise_floor_mse = measure_noise_floor(mesh, set.poses, set.targets, settings.rays, settings.seed);
+  const std::vector<Pose> rest{Pose(mesh.bones.size())};
+  constexpr std::uint32_t rest_rays = 1024;
+  const AoTargets rest_ao = trace_character_ao(mesh, rest, rest_rays, settings.seed);
+  report.seconds_raytrace = trace_watch.seconds();
+  report.train_poses = set.poses.size();
+
+  const auto step = [&](std::size_t done) {
+    if (progress && !progress(BakeStage::initialise, done, 3)) throw Failure(NOOK_ERROR_CANCELLED, "cancelled");
+  };
+  step(0);
+  const std::vector<float> area = vertex_areas(mesh, mesh.position);
+  std::vector<Vec3> normal;
+  vertex_normals(mesh.triangle, mesh.position, normal);
+  set.vertex_weight = vertex_weights(area);
+  const std::vector<Vec3> feature_normal =
+      settings.fit == FitMethod::paper ? centre_of_rotation_normals(mesh, area, normal) : normal;
+  step(1);
+  ClusterSettings clustering;
+  clustering.count = std::min(settings.key_points, mesh.vertex_count());
+  const std::vector<std::uint32_t> cluster = cluster_vertices(mesh, set.vertex_weight, feature_normal, clustering);
+  const std::vector<KeyPoint> key_points = key_points_of_clusters(mesh, cluster, set.vertex_weight, feature_normal);
+  const std::vector<InitialSphere> spheres = initial_spheres(mesh, set.vertex_weight, settings.spheres);
+  Candidates candidates;
+  candidates.count = std::min<std::size_t>(40, key_points.size());
+  candidates.key_point = nearest_key_points(mesh, feature_normal, key_points, candidates.count);
+  step(2);
+
+  Fit fit(set, area, settings, candidates, initial_state(settings.kernel, spheres, key_points), report);
+  fit.solve_linear();
+  fit.measure();
+  report.mse_initial = report.curve.back().mse_train;
+  if (settings.fit == FitMethod::nook)
+    fit_by_mini_batches(fit, set, settings, report, progress);
+  else
+    fit_by_blocks(fit, set, settings, report, progress);
+  report.seconds_fit = fit.seconds();
+
+  std::vector<float> static_ao;
+  for (std::uint16_t v : rest_ao.row(0)) static_ao.push_back(float(v) * AoTargets::scale);
+  BakeResult result{export_model(fit.best(), mesh, area, normal, static_ao), std::move(report)};
+  CasterFitSettings casters;
+  casters.seed = settings.seed;
+  fit_caster_weights(result.model, mesh, set.poses, casters, stage_progress(BakeStage::casters));
+
+  // Levels of detail are made and measured on a spread of the training poses.
+  constexpr std::size_t level_poses = 120;
+  std::vector<Pose> spread;
+  const std::size_t count = std::min(level_poses, set.poses.size());
+  for (std::size_t i = 0; i < count; ++i) spread.push_back(set.poses[i * set.poses.size() / count]);
+  if (spread.size() >= 4)
+    for (CharacterLevel& level : make_levels(result.model, spread)) result.model.levels.push_back(std::move(level));
+  return result;
+}
+
+}  // namespace nook::bake

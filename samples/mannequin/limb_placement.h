@@ -1,0 +1,50 @@
+#pragma once
+
+#include "pose.h"
+
+namespace nook_samples::mannequin {
+
+/// Where a foot stands. Given for a flat foot and then rolled over its heel or its ball, so that it cannot
+/// sink in.
+struct FootPlan {
+  Vec3 ball_m;             ///< Under the ball of the foot; y is the height of the sole over the ground.
+  double yaw_deg = 0.0;    ///< Toes outwards, beyond the bind pose's own turn.
+  double pitch_deg = 0.0;  ///< Positive lifts the heel and keeps the toes down; negative lifts the toes.
+  double knee_out = 0.0;   ///< How far the knee points sideways for each step that it points ahead.
+};
+/// Turns thigh, calf, foot and toes so that the foot stands as planned, or as near as the leg reaches.
+void place_foot(Pose& pose, Side side, const FootPlan& plan);
+/// The plan's `ball_m` of the bind pose.
+Vec3 bind_ball_m(Side side);
+
+/// Where an arm goes. Directions are seen from the chest, outwards being away from the middle of the body.
+struct ArmPlan {
+  Vec3 upper;               ///< Direction of the upper arm: x outwards, y up, z ahead.
+  Vec3 bends_to;            ///< Where the elbow takes the forearm.
+  double elbow_deg = 10.0;  ///< Zero is straight.
+  double roll_deg = 0.0;    ///< Turns the palm: positive to face back and down, negative to face up.
+  double wrist_deg = 0.0;   ///< Positive bends towards the palm.
+  double shrug_deg = 0.0;   ///< Lifts the collar bone.
+  double reach_deg = 0.0;   ///< Brings the collar bone forward.
+};
+void place_arm(Pose& pose, Side side, const ArmPlan& plan);
+
+/// Where a hand goes, in model space.
+struct ReachPlan {
+  Vec3 wrist_m;
+  Vec3 elbow_to;      ///< The side to which the elbow gives way.
+  Vec3 fingers_to;    ///< Direction of the straight fingers.
+  Vec3 back_of_hand;  ///< Direction that the back of the hand faces.
+  double shrug_deg = 0.0;
+  double reach_deg = 0.0;
+};
+/// Turns the arm so that the hand lies as planned, or as near as the arm reaches.
+void place_hand(Pose& pose, Side side, const ReachPlan& plan);
+
+/// Curls the fingers by degrees a joint, thumb apart.
+void curl_fingers(Pose& pose, Side side, double fingers_deg, double thumb_deg);
+void make_fist(Pose& pose, Side side);
+/// Brings the spread fingers of the bind pose together; one is parallel.
+void close_fingers(Pose& pose, Side side, double amount);
+
+}  // namespace nook_samples::mannequin

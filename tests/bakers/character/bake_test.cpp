@@ -1,0 +1,154 @@
+// A whole bake on a small body: it beats a static bake, it is reproducible, it can be cancelled, and quantisation is cheap.
+#include "character/bake.h"
+
+#include <tbb/global_control.h>
+
+#include "bending_tube.h"
+#include "catch.h"
+#include "character/block_descent.h"
+#include "character/cached_objective.h"
+#include "character/caster_fit.h"
+#include "character/evaluate.h"
+#include "character/export_model.h"
+#include "character/mini_batch_fit.h"
+#include "character/model_file.h"
+
+using namespace nook;
+using namespace nook::bake;
+
+namespace {
+
+BakeSettings small_settings() {
+  BakeSettings s;
+  s.spheres = 16;
+  s.key_points = 60;
+  s.rays = 64;
+  s.steps = 300;
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("a baked model follows poses that it has not seen") {
+  const SkinnedMesh mesh = bending_tube();
+  const std::vector<Pose> train = tube_poses(mesh, 150);
+  const FitMethod method = GENERATE(FitMethod::nook, FitMethod::paper);
+  BakeSettings settings = small_settings();
+  settings.fit = method;
+  if (method == FitMethod::paper) {
+    settings.steps = 4;
+    settings.kernel = {KernelForm::paper, 2.0f};
+  }
+  const BakeResult baked = bake_character(mesh, train, settings);
+  CHECK(baked.report.mse_train < baked.report.mse_initial);
+  std::vector<Pose> unseen;
+  for (float angle : {0.4f, 0.9f, 1.4f, 1.9f}) {
+    const JointRotation joint{1, {0, angle * 0.8f, angle * 0.6f}};
+    unseen.push_back(turn_joints(mesh, {&joint, 1}));
+  }
+  const CharacterEvaluation e = evaluate_character(mesh, baked.model, unseen, 256, 5);
+  INFO("mse " << e.model.mse << " static " << e.static_bake.mse << " oracle " << e.oracle.mse);
+  CHECK(e.noise_floor_mse < 1e-4);             // 3.3e-5 is usual for 256 stratified rays
+  CHECK(e.model.mse < 0.2 * e.static_bake.mse);  // the issue asks it of real bodies; a tube is easier
+  CHECK(e.model.mse < e.oracle.mse);
+
+  // What ships loses little by its 8-bit weights.
+  const CharacterEvaluation shipped = evaluate_character(mesh, quantise(baked.model), unseen, 256, 5);
+  CHECK(shipped.model.mse < 1.05 * e.model.mse + 1e-5);
+}
+
+TEST_CASE("the same seed gives the same model on any number of threads") {
+  const SkinnedMesh mesh = bending_tube(16, 10);
+  const std::vector<Pose> poses = tube_poses(mesh, 40);
+  BakeSettings settings = small_settings();
+  settings.steps = 60;
+  std::vector<std::byte> one;
+  {
+    const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+    one = write_character_model(bake_character(mesh, poses, settings).model);
+  }
+  CHECK(one == write_character_model(bake_character(mesh, poses, settings).model));
+  settings.seed = 2;
+  CHECK(one != write_character_model(bake_character(mesh, poses, settings).model));
+}
+
+TEST_CASE("a known model is recovered from its own AO") {
+  const SkinnedMesh mesh = bending_tube(16, 10);
+  BakeSettings settings = small_settings();
+  settings.steps = 200;
+  const std::vector<Pose> poses = tube_poses(mesh, 80);
+  const CharacterModel planted = bake_character(mesh, poses, settings).model;
+  TrainingSet set;
+  set.poses = poses;
+  set.targets.vertex_count = mesh.vertex_count();
+  set.vertex_weight.assign(mesh.vertex_count(), 1.0f);
+  for (const Pose& pose : poses)
+    for (float ao : predict_ao(planted, pose)) set.targets.value.push_back(std::uint16_t(ao * 65535 + 0.5f));
+  // Moved off its optimum, the fit must find the way back.
+  FitState state = state_of_model(planted);
+  for (std::size_t i = 0; i < state.parameters.size(); i += 3) state.parameters[i] += 0.01f;
+  for (float& a : state.linear.alpha) a *= 0.8f;
+  const double before = measure_fit(state, set, 0, poses.size(), set.vertex_weight).mse;
+  MiniBatchSettings batch;
+  batch.steps = 400;
+  batch.rate = 0.3f;
+  fit_mini_batches(state, set, batch);
+  const double after = measure_fit(state, set, 0, poses.size(), set.vertex_weight).mse;
+  CHECK(before > 1e-4);
+  CHECK(after < 0.05 * before);
+}
+
+TEST_CASE("block descent never makes the cached objective worse") {
+  const SkinnedMesh mesh = bending_tube(16, 10);
+  const std::vector<Pose> poses = tube_poses(mesh, 40);
+  BakeSettings settings = small_settings();
+  settings.steps = 0;
+  FitState state = state_of_model(bake_character(mesh, poses, settings).model);
+  TrainingSet set;
+  set.poses = poses;
+  set.targets = trace_character_ao(mesh, poses, 32, 1);
+  set.vertex_weight.assign(mesh.vertex_count(), 1.0f);
+  const double before = evaluate_cached(state, set, cache_linear_layer(state, set), nullptr);
+  const double after = descend_non_linear(state, set, {10, 8});
+  CHECK(after < before);
+  CHECK(std::abs(evaluate_direct(state, set, nullptr) - after) < 1e-4 * after + 1e-7);
+}
+
+TEST_CASE("caster weights give the traced darkening of points outside the body") {
+  const SkinnedMesh mesh = bending_tube();
+  const std::vector<Pose> poses = tube_poses(mesh, 20);
+  BakeSettings settings = small_settings();
+  settings.steps = 0;
+  const CharacterModel model = bake_character(mesh, poses, settings).model;
+  // A surface facing the tube's side, 1 m away: the traced form factor of its silhouette.
+  TriangleSoup soup{mesh.position, mesh.triangle};
+  const Vec3 position{0.5f, 0, -1}, normal{0, 0, 1};
+  AoSettings rays;
+  rays.rays = 16384;
+  const float traced = 1 - trace_ao(soup, {{&position, 1}, {&normal, 1}}, rays)[0];
+  float depth = 0;
+  for (const ProxySphere& s : model.spheres) {
+    const Vec3 d = (s.centre - position) * (1 / s.radius);
+    depth += s.caster_weight * form_factor_fast(dot(d, normal), dot(d, d));
+  }
+  const float fitted = 1 - std::exp(-depth);
+  CHECK(traced > 0.03f);
+  CHECK(std::abs(fitted - traced) < 0.15f * traced);  // the issue allows 20 % of the darkening
+}
+
+TEST_CASE("bakes refuse nonsense and stop when asked") {
+  const SkinnedMesh mesh = bending_tube(8, 8);
+  BakeSettings settings = small_settings();
+  CHECK_THROWS(bake_character(mesh, {}, settings));
+  const std::vector<Pose> short_pose{Pose(1)};
+  CHECK_THROWS(bake_character(mesh, short_pose, settings));
+  std::vector<Pose> poses = tube_poses(mesh, 4);
+  poses[2][1].m[5] = NAN;
+  CHECK_THROWS(bake_character(mesh, poses, settings));
+  poses = tube_poses(mesh, 20);
+  CHECK_THROWS(bake_character(mesh, poses, settings, [](BakeStage stage, std::size_t, std::size_t) {
+    return stage != BakeStage::fit;
+  }));
+  settings.kernel.gamma = 0.5f;
+  CHECK_THROWS(bake_character(mesh, poses, settings));
+}

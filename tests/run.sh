@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Builds everything and runs all tests from a fresh checkout: the plain build, then the library under the address and
+# undefined-behaviour sanitizers, then its threads under the thread sanitizer. NOOK_BUILD_DIR says where (default: build).
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=${NOOK_BUILD_DIR:-$root/build}
+jobs=$(nproc)
+
+"$root/install_packages.sh"
+
+# GL tests that find no context fail instead of being skipped.
+export NOOK_REQUIRE_GL=1
+export LSAN_OPTIONS=suppressions=$root/tests/lsan.supp:print_suppressions=0
+
+configure() {  # folder, options...
+  local folder=$1
+  shift
+  cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@" \
+    >"$folder.configure.log" 2>&1 || { cat "$folder.configure.log"; exit 1; }
+}
+mkdir -p "$(dirname "$build")"
+
+echo "== build and tests"
+configure "$build"
+ninja -C "$build"
+ctest --test-dir "$build" --output-on-failure -j "$jobs"
+
+echo "== library under address and undefined-behaviour sanitizers"
+configure "$build-asan" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DNOOK_SANITIZE=ON -DNOOK_BAKERS=OFF -DNOOK_SAMPLES=OFF
+ninja -C "$build-asan"
+ctest --test-dir "$build-asan" --output-on-failure -j "$jobs"
+
+echo "== library under the thread sanitizer"
+configure "$build-tsan" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DNOOK_SANITIZE_THREAD=ON -DNOOK_BAKERS=OFF -DNOOK_SAMPLES=OFF
+ninja -C "$build-tsan" nook_abi_tests
+"$build-tsan/tests/abi/nook_abi_tests"
+
+echo "all tests passed"
