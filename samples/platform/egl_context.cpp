@@ -63,22 +63,28 @@ class EglContext final : public Context {
   EGLContext context_;
 };
 
-}  // namespace
-
-std::unique_ptr<Context> create_egl_context(const ContextRequest& request) {
+// Some drivers refuse the debug attribute whatever its value.
+EGLContext create(EGLDisplay display, const ContextRequest& request, bool debug) {
   const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                request.major,
                                EGL_CONTEXT_MINOR_VERSION,
                                request.minor,
                                EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               EGL_CONTEXT_OPENGL_DEBUG,
-                               request.debug ? EGL_TRUE : EGL_FALSE,
+                               debug ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE,
+                               EGL_TRUE,
                                EGL_NONE};
+  return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+}
+
+}  // namespace
+
+std::unique_ptr<Context> create_egl_context(const ContextRequest& request) {
   for (const EGLDisplay display : displays()) {
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API))
       continue;
-    const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    EGLContext context = request.debug ? create(display, request, true) : EGL_NO_CONTEXT;
+    if (context == EGL_NO_CONTEXT) context = create(display, request, false);
     if (context != EGL_NO_CONTEXT) return std::make_unique<EglContext>(request, display, context);
   }
   throw std::runtime_error("create_context: no EGL display gives an OpenGL " + std::to_string(request.major) +

@@ -20,7 +20,7 @@ struct ContextRequest {
   int height = 720;
   int major = 4;  // OpenGL core profile wanted; Mesa's software renderer has 4.5 at most
   int minor = 5;
-  bool debug = false;  // a debug context, for KHR_debug messages
+  bool debug = false;  // a debug context where the driver has one
   std::string title = "Nook";
 };
 
