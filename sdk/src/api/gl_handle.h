@@ -1,0 +1,27 @@
+// The object behind the handle nook_gl.
+#pragma once
+
+#include <nook/nook_gl.h>
+
+#include <string>
+
+#include "api/handles.h"
+#include "gl/character/character_gl.h"
+#include "gl/state_guard.h"
+
+struct nook_gl_s : nook::RefCounted {
+  nook_gl_s(nook_context_s* made_by, const nook_gl_desc& desc);
+
+  // Runs body with the OpenGL state kept as promised at creation.
+  template <class Body>
+  void guarded(Body&& body) {
+    device.need_alive();
+    const nook::gl::StateGuard guard(device.gl, device.state_mode);
+    body();
+  }
+
+  nook::gl::Device device;
+  std::pmr::string version;
+  std::pmr::string renderer;
+  std::optional<nook::gl::CharacterGl> characters;
+};

@@ -1,0 +1,43 @@
+// What all OpenGL objects of one nook_gl share: functions, limits, the books of its memory.
+#pragma once
+
+#include <nook/nook_gl.h>
+
+#include <cstdint>
+
+#include "core/context.h"
+#include "gl/functions.h"
+
+namespace nook::gl {
+
+struct Device {
+  // Reads limits: the OpenGL context must be current. Throws Failure.
+  Device(Context& host, const nook_gl_desc& desc);
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  // Moves errors that the host left to the log, so that what follows is Nook's own.
+  void report_host_errors() const;
+  // Throws Failure if OpenGL reported an error since; `what` was being done.
+  void check(const char* what) const;
+  // Throws Failure after the OpenGL context was lost.
+  void need_alive() const;
+  void label(GLenum kind, GLuint name, const char* text) const {
+    if (gl.ObjectLabel) gl.ObjectLabel(kind, name, -1, text);
+  }
+
+  const Context& context;
+  std::pmr::memory_resource* const memory;
+  const Functions gl;
+  const nook_gl_state_mode state_mode;
+  bool lost = false;  // no OpenGL call may be made any more
+  std::uint64_t buffer_bytes = 0;
+  std::uint64_t ao_bytes = 0;
+
+  // Of a buffer that is bound as one piece: what the context allows, and below 128 MiB in any case.
+  std::uint64_t max_piece_bytes = std::uint64_t{128} << 20;
+  std::uint64_t storage_alignment = 256;  // bytes
+  std::uint32_t max_texels = 65536;       // of a texture buffer
+};
+
+}  // namespace nook::gl

@@ -1,0 +1,56 @@
+#include "gl/functions.h"
+
+#include "core/failure.h"
+
+namespace nook::gl {
+namespace {
+
+template <class F>
+void load_optional(F& function, nook_gl_proc_fn get_proc, void* user, const char* name) {
+  function = reinterpret_cast<F>(get_proc(user, name));
+}
+
+template <class F>
+void load_required(F& function, nook_gl_proc_fn get_proc, void* user, const char* name, const char* version) {
+  load_optional(function, get_proc, user, name);
+  if (!function)
+    throw Failure(
+        NOOK_ERROR_UNSUPPORTED,
+        "required function \"%s\" of OpenGL %s not provided by get_proc; make the context current and pass "
+        "its own loader",
+        name, version);
+}
+
+}  // namespace
+
+Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier) {
+  Functions gl;
+#define NOOK_X(name) load_required(gl.name, get_proc, user, "gl" #name, "3.3");
+  NOOK_GL_FUNCTIONS_33(NOOK_X)
+#undef NOOK_X
+
+  GLint major = 0, minor = 0;
+  gl.GetIntegerv(GL_MAJOR_VERSION, &major);
+  gl.GetIntegerv(GL_MINOR_VERSION, &minor);
+  gl.version = 10 * major + minor;
+  if (gl.version < 33)
+    throw Failure(NOOK_ERROR_UNSUPPORTED, "the current context has OpenGL %d.%d, need 3.3 core or newer%s",
+                  major, minor, major == 0 ? "; is a context current on this thread?" : "");
+
+  gl.tier = gl.version >= 43 && (max_tier == 0 || max_tier >= 43) ? 43 : 33;
+  if (gl.tier == 43) {
+#define NOOK_X(name) load_required(gl.name, get_proc, user, "gl" #name, "4.3");
+    NOOK_GL_FUNCTIONS_43(NOOK_X)
+#undef NOOK_X
+  }
+  // A loader may return a stub for what the context lacks, so the version decides before the pointer does.
+  if (gl.version >= 40) {
+    load_optional(gl.BindTransformFeedback, get_proc, user, "glBindTransformFeedback");
+    load_optional(gl.DeleteTransformFeedbacks, get_proc, user, "glDeleteTransformFeedbacks");
+    load_optional(gl.GenTransformFeedbacks, get_proc, user, "glGenTransformFeedbacks");
+  }
+  if (gl.version >= 43) load_optional(gl.ObjectLabel, get_proc, user, "glObjectLabel");
+  return gl;
+}
+
+}  // namespace nook::gl

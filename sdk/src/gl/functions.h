@@ -1,0 +1,100 @@
+// The OpenGL functions that Nook calls: one list for each tier, one table for each context, filled by the
+// host's loader. glad supplies the types and constants only; nothing of its loader is linked, so that no
+// symbol and no memory of it exists.
+#pragma once
+
+#include <glad/gl.h>
+#include <nook/nook_gl.h>
+
+namespace nook::gl {
+
+// Needed on every context: OpenGL 3.3 core.
+#define NOOK_GL_FUNCTIONS_33(X) \
+  X(ActiveTexture)              \
+  X(AttachShader)               \
+  X(BeginTransformFeedback)     \
+  X(BindBuffer)                 \
+  X(BindBufferBase)             \
+  X(BindBufferRange)            \
+  X(BindFramebuffer)            \
+  X(BindRenderbuffer)           \
+  X(BindTexture)                \
+  X(BindVertexArray)            \
+  X(BufferData)                 \
+  X(BufferSubData)              \
+  X(CheckFramebufferStatus)     \
+  X(CompileShader)              \
+  X(CreateProgram)              \
+  X(CreateShader)               \
+  X(DeleteBuffers)              \
+  X(DeleteFramebuffers)         \
+  X(DeleteProgram)              \
+  X(DeleteRenderbuffers)        \
+  X(DeleteShader)               \
+  X(DeleteTextures)             \
+  X(DeleteVertexArrays)         \
+  X(DetachShader)               \
+  X(Disable)                    \
+  X(DrawElementsInstanced)      \
+  X(Enable)                     \
+  X(EnableVertexAttribArray)    \
+  X(EndTransformFeedback)       \
+  X(FramebufferRenderbuffer)    \
+  X(GenBuffers)                 \
+  X(GenFramebuffers)            \
+  X(GenRenderbuffers)           \
+  X(GenTextures)                \
+  X(GenVertexArrays)            \
+  X(GetBufferSubData)           \
+  X(GetError)                   \
+  X(GetInteger64i_v)            \
+  X(GetIntegeri_v)              \
+  X(GetIntegerv)                \
+  X(GetProgramInfoLog)          \
+  X(GetProgramiv)               \
+  X(GetShaderInfoLog)           \
+  X(GetShaderiv)                \
+  X(GetString)                  \
+  X(GetUniformLocation)         \
+  X(IsEnabled)                  \
+  X(IsProgram)                  \
+  X(LinkProgram)                \
+  X(MapBufferRange)             \
+  X(RenderbufferStorage)        \
+  X(ShaderSource)               \
+  X(TexBuffer)                  \
+  X(TransformFeedbackVaryings)  \
+  X(Uniform1f)                  \
+  X(Uniform1i)                  \
+  X(Uniform1ui)                 \
+  X(UnmapBuffer)                \
+  X(UseProgram)                 \
+  X(VertexAttribIPointer)       \
+  X(VertexAttribPointer)
+
+// Needed as well where the context has OpenGL 4.3 and the tier may be 43.
+#define NOOK_GL_FUNCTIONS_43(X) \
+  X(DispatchCompute)            \
+  X(MemoryBarrier)
+
+// Used where present, done without where absent.
+#define NOOK_GL_FUNCTIONS_OPTIONAL(X) \
+  X(BindTransformFeedback)            \
+  X(DeleteTransformFeedbacks)         \
+  X(GenTransformFeedbacks)            \
+  X(ObjectLabel)
+
+struct Functions {
+#define NOOK_X(name) decltype(GladGLContext::name) name = nullptr;
+  NOOK_GL_FUNCTIONS_33(NOOK_X)
+  NOOK_GL_FUNCTIONS_43(NOOK_X)
+  NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
+#undef NOOK_X
+  int version = 0;  // of the context, 10 * major + minor
+  int tier = 0;     // 33 or 43
+};
+
+// Throws Failure: UNSUPPORTED names the function that get_proc did not give, or the version that is too low.
+Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier);
+
+}  // namespace nook::gl

@@ -1,0 +1,118 @@
+#include "gl/object.h"
+
+#include "core/failure.h"
+
+namespace nook::gl {
+
+Buffer::Buffer(Device& device, const char* label, std::uint64_t bytes, const void* data, GLenum usage,
+               BufferUse use) {
+  Buffer made;  // deletes the name if the memory cannot be had
+  made.device_ = &device;
+  made.gl_usage_ = usage;
+  made.use_ = use;
+  device.gl.GenBuffers(1, &made.name_);
+  device.gl.BindBuffer(GL_ARRAY_BUFFER, made.name_);
+  device.gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, usage);
+  device.check("allocating a buffer");
+  device.label(GL_BUFFER, made.name_, label);
+  made.bytes_ = bytes;
+  device.buffer_bytes += bytes;
+  if (use == BufferUse::ao) device.ao_bytes += bytes;
+  swap(made);
+}
+
+Buffer::~Buffer() {
+  if (!device_) return;
+  device_->buffer_bytes -= bytes_;
+  if (use_ == BufferUse::ao) device_->ao_bytes -= bytes_;
+  if (!device_->lost) device_->gl.DeleteBuffers(1, &name_);
+}
+
+void* Buffer::begin_write(std::uint64_t bytes) {
+  const Functions& gl = device_->gl;
+  gl.BindBuffer(GL_ARRAY_BUFFER, name_);
+  // Half as much again where it grows, so that a growing scene seldom comes here.
+  const std::uint64_t kept = bytes > bytes_ ? bytes + bytes / 2 : bytes_;
+  // A new store rather than GL_MAP_INVALIDATE_BUFFER_BIT alone: Mesa's softpipe keeps cached texels of a
+  // mapped buffer.
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(kept), nullptr, gl_usage_);
+  device_->buffer_bytes += kept - bytes_;
+  bytes_ = kept;
+  void* memory = gl.MapBufferRange(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(bytes),
+                                   GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+  if (!memory)
+    throw Failure(NOOK_ERROR_GL,
+                  "glMapBufferRange gave no memory (%llu bytes); is the context of nook_gl_create current?",
+                  static_cast<unsigned long long>(bytes));
+  return memory;
+}
+
+void Buffer::end_write() {
+  device_->gl.UnmapBuffer(GL_ARRAY_BUFFER);
+}
+
+void Buffer::swap(Buffer& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(name_, other.name_);
+  std::swap(gl_usage_, other.gl_usage_);
+  std::swap(use_, other.use_);
+  std::swap(bytes_, other.bytes_);
+}
+
+Object Object::make(Device& device, Kind kind) {
+  const Functions& gl = device.gl;
+  GLuint name = 0;
+  switch (kind) {
+    case Kind::framebuffer:
+      gl.GenFramebuffers(1, &name);
+      break;
+    case Kind::renderbuffer:
+      gl.GenRenderbuffers(1, &name);
+      break;
+    case Kind::texture:
+      gl.GenTextures(1, &name);
+      break;
+    case Kind::vertex_array:
+      gl.GenVertexArrays(1, &name);
+      break;
+    case Kind::transform_feedback:
+      gl.GenTransformFeedbacks(1, &name);
+      break;
+    case Kind::program:
+      name = gl.CreateProgram();
+      break;
+    case Kind::shader:
+      break;  // these need a stage; program.cpp makes them
+  }
+  return Object(device, kind, name);
+}
+
+Object::~Object() {
+  if (!device_ || device_->lost || name_ == 0) return;
+  const Functions& gl = device_->gl;
+  switch (kind_) {
+    case Kind::framebuffer:
+      gl.DeleteFramebuffers(1, &name_);
+      break;
+    case Kind::renderbuffer:
+      gl.DeleteRenderbuffers(1, &name_);
+      break;
+    case Kind::texture:
+      gl.DeleteTextures(1, &name_);
+      break;
+    case Kind::vertex_array:
+      gl.DeleteVertexArrays(1, &name_);
+      break;
+    case Kind::transform_feedback:
+      gl.DeleteTransformFeedbacks(1, &name_);
+      break;
+    case Kind::program:
+      gl.DeleteProgram(name_);
+      break;
+    case Kind::shader:
+      gl.DeleteShader(name_);
+      break;
+  }
+}
+
+}  // namespace nook::gl

@@ -1,0 +1,76 @@
+// OpenGL names that are deleted with their owner, or forgotten if the OpenGL context is lost.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "gl/device.h"
+
+namespace nook::gl {
+
+enum class BufferUse { working, ao };
+
+class Buffer {
+ public:
+  Buffer() = default;
+  // Binds GL_ARRAY_BUFFER, as every function here that writes. data may be NULL: the bytes are undefined
+  // then. Throws Failure.
+  Buffer(Device& device, const char* label, std::uint64_t bytes, const void* data, GLenum usage,
+         BufferUse use = BufferUse::working);
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept {
+    Buffer old(std::move(other));
+    swap(old);
+    return *this;
+  }
+  ~Buffer();
+
+  GLuint name() const { return name_; }
+  std::uint64_t bytes() const { return bytes_; }
+  // Memory for new contents; what the GPU still reads of the old ones stays as it was. Nothing waits. Throws
+  // Failure.
+  void* begin_write(std::uint64_t bytes);
+  void end_write();
+
+ private:
+  void swap(Buffer& other) noexcept;
+
+  Device* device_ = nullptr;
+  GLuint name_ = 0;
+  GLenum gl_usage_ = GL_STATIC_DRAW;
+  BufferUse use_ = BufferUse::working;
+  std::uint64_t bytes_ = 0;
+};
+
+// Any other kind of object; one owner type, since they differ only in the call that deletes them.
+class Object {
+ public:
+  enum class Kind { framebuffer, renderbuffer, texture, vertex_array, transform_feedback, program, shader };
+
+  Object() = default;
+  // Takes over a name.
+  Object(Device& device, Kind kind, GLuint name) : device_(&device), kind_(kind), name_(name) {}
+  static Object make(Device& device, Kind kind);
+  Object(Object&& other) noexcept { swap(other); }
+  Object& operator=(Object&& other) noexcept {
+    Object old(std::move(other));
+    swap(old);
+    return *this;
+  }
+  ~Object();
+
+  GLuint name() const { return name_; }
+
+ private:
+  void swap(Object& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(kind_, other.kind_);
+    std::swap(name_, other.name_);
+  }
+
+  Device* device_ = nullptr;
+  Kind kind_ = Kind::texture;
+  GLuint name_ = 0;
+};
+
+}  // namespace nook::gl

@@ -1,0 +1,17 @@
+// Programs from the embedded shaders.
+#pragma once
+
+#include "gl/object.h"
+
+namespace nook::gl {
+
+// `path` names an embedded shader, `defines` is put before its text ("#define A 1\n"). Throw
+// Failure(NOOK_ERROR_GL) with the shader's name and the compiler's words; the whole log goes to the host's
+// log.
+Object compute_program(Device& device, const char* path, const char* defines);
+// One vertex shader whose output `varying` is captured.
+Object feedback_program(Device& device, const char* path, const char* defines, const char* varying);
+
+GLint uniform_location(const Device& device, const Object& program, const char* name);
+
+}  // namespace nook::gl

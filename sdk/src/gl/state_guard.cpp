@@ -1,0 +1,179 @@
+#include "gl/state_guard.h"
+
+namespace nook::gl {
+namespace {
+
+GLint integer(const Functions& gl, GLenum name) {
+  GLint value = 0;
+  gl.GetIntegerv(name, &value);
+  return value;
+}
+
+void set_enabled(const Functions& gl, GLenum capability, GLboolean enabled) {
+  enabled ? gl.Enable(capability) : gl.Disable(capability);
+}
+
+BufferRange indexed_range(const Functions& gl, GLenum binding, GLenum start, GLenum size, GLuint index) {
+  BufferRange range;
+  gl.GetIntegeri_v(binding, index, &range.buffer);
+  gl.GetInteger64i_v(start, index, &range.offset);
+  gl.GetInteger64i_v(size, index, &range.size);
+  return range;
+}
+
+void bind_range(const Functions& gl, GLenum target, GLuint index, const BufferRange& range) {
+  if (range.buffer == 0 || range.size == 0)
+    gl.BindBufferBase(target, index, range.buffer);
+  else
+    gl.BindBufferRange(target, index, range.buffer, range.offset, range.size);
+}
+
+bool has_feedback_objects(const Functions& gl) {
+  return gl.BindTransformFeedback != nullptr;
+}
+
+// ---- One query and one restore for each item of the list; a restore of a fresh SavedState is the reset ----
+
+void query_program(const Functions& gl, SavedState& s) {
+  s.program = integer(gl, GL_CURRENT_PROGRAM);
+}
+void restore_program(const Functions& gl, const SavedState& s) {
+  // A program that the host deleted while it was current went away when Nook bound its own.
+  const bool gone = s.program != 0 && !gl.IsProgram(s.program);
+  gl.UseProgram(gone ? 0 : s.program);
+}
+
+void query_array_buffer(const Functions& gl, SavedState& s) {
+  s.array_buffer = integer(gl, GL_ARRAY_BUFFER_BINDING);
+}
+void restore_array_buffer(const Functions& gl, const SavedState& s) {
+  gl.BindBuffer(GL_ARRAY_BUFFER, s.array_buffer);
+}
+
+void query_vertex_array(const Functions& gl, SavedState& s) {
+  s.vertex_array = integer(gl, GL_VERTEX_ARRAY_BINDING);
+}
+void restore_vertex_array(const Functions& gl, const SavedState& s) {
+  gl.BindVertexArray(s.vertex_array);
+}
+
+void query_active_texture(const Functions& gl, SavedState& s) {
+  s.active_texture = integer(gl, GL_ACTIVE_TEXTURE);
+}
+void restore_active_texture(const Functions& gl, const SavedState& s) {
+  gl.ActiveTexture(s.active_texture);
+}
+
+// The next item is about unit 0 whatever unit is active, and leaves the choice of the unit to the item above.
+void query_texture_unit_0(const Functions& gl, SavedState& s) {
+  gl.ActiveTexture(GL_TEXTURE0);
+  s.texture_unit_0 = integer(gl, GL_TEXTURE_BINDING_BUFFER);
+  gl.ActiveTexture(s.active_texture);
+}
+void restore_texture_unit_0(const Functions& gl, const SavedState& s) {
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_BUFFER, s.texture_unit_0);
+  gl.ActiveTexture(s.active_texture);
+}
+
+void query_draw_framebuffer(const Functions& gl, SavedState& s) {
+  s.draw_framebuffer = integer(gl, GL_DRAW_FRAMEBUFFER_BINDING);
+}
+void restore_draw_framebuffer(const Functions& gl, const SavedState& s) {
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, s.draw_framebuffer);
+}
+
+void query_renderbuffer(const Functions& gl, SavedState& s) {
+  s.renderbuffer = integer(gl, GL_RENDERBUFFER_BINDING);
+}
+void restore_renderbuffer(const Functions& gl, const SavedState& s) {
+  gl.BindRenderbuffer(GL_RENDERBUFFER, s.renderbuffer);
+}
+
+void query_rasterizer_discard(const Functions& gl, SavedState& s) {
+  s.rasterizer_discard = gl.IsEnabled(GL_RASTERIZER_DISCARD);
+}
+void restore_rasterizer_discard(const Functions& gl, const SavedState& s) {
+  set_enabled(gl, GL_RASTERIZER_DISCARD, s.rasterizer_discard);
+}
+
+void query_primitive_restart(const Functions& gl, SavedState& s) {
+  s.primitive_restart = gl.IsEnabled(GL_PRIMITIVE_RESTART);
+}
+void restore_primitive_restart(const Functions& gl, const SavedState& s) {
+  set_enabled(gl, GL_PRIMITIVE_RESTART, s.primitive_restart);
+}
+
+void query_transform_feedback(const Functions& gl, SavedState& s) {
+  if (has_feedback_objects(gl)) s.transform_feedback = integer(gl, GL_TRANSFORM_FEEDBACK_BINDING);
+}
+void restore_transform_feedback(const Functions& gl, const SavedState& s) {
+  if (has_feedback_objects(gl)) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, s.transform_feedback);
+}
+
+// With transform-feedback objects the indexed binding belongs to Nook's own object, and only the generic one
+// is shared.
+void query_feedback_buffer(const Functions& gl, SavedState& s) {
+  s.feedback_buffer.generic = integer(gl, GL_TRANSFORM_FEEDBACK_BUFFER_BINDING);
+  if (!has_feedback_objects(gl))
+    s.feedback_buffer.range =
+        indexed_range(gl, GL_TRANSFORM_FEEDBACK_BUFFER_BINDING, GL_TRANSFORM_FEEDBACK_BUFFER_START,
+                      GL_TRANSFORM_FEEDBACK_BUFFER_SIZE, 0);
+}
+void restore_feedback_buffer(const Functions& gl, const SavedState& s) {
+  if (!has_feedback_objects(gl)) bind_range(gl, GL_TRANSFORM_FEEDBACK_BUFFER, 0, s.feedback_buffer.range);
+  gl.BindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, s.feedback_buffer.generic);
+}
+
+void query_storage_buffer(const Functions& gl, SavedState& s) {
+  s.storage_buffer = integer(gl, GL_SHADER_STORAGE_BUFFER_BINDING);
+}
+// Binding the ranges changes the generic binding too, so the ranges come first.
+void restore_storage_buffer(const Functions&, const SavedState&) {}
+
+void query_storage_ranges(const Functions& gl, SavedState& s) {
+  for (GLuint i = 0; i < storage_binding_count; ++i)
+    s.storage_ranges[i] = indexed_range(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
+                                        GL_SHADER_STORAGE_BUFFER_SIZE, i);
+}
+void restore_storage_ranges(const Functions& gl, const SavedState& s) {
+  for (GLuint i = 0; i < storage_binding_count; ++i)
+    bind_range(gl, GL_SHADER_STORAGE_BUFFER, i, s.storage_ranges[i]);
+  gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, s.storage_buffer);
+}
+
+bool touched(const Functions& gl, unsigned tiers) {
+  return tiers & (gl.tier == 43 ? tier_43 : tier_33);
+}
+
+void query_all(const Functions& gl, SavedState& state) {
+#define NOOK_X(name, tiers, what, note) \
+  if (touched(gl, tiers)) query_##name(gl, state);
+  NOOK_GL_TOUCHED_STATE(NOOK_X)
+#undef NOOK_X
+}
+
+void restore_all(const Functions& gl, const SavedState& state) {
+#define NOOK_X(name, tiers, what, note) \
+  if (touched(gl, tiers)) restore_##name(gl, state);
+  NOOK_GL_TOUCHED_STATE(NOOK_X)
+#undef NOOK_X
+}
+
+}  // namespace
+
+StateGuard::StateGuard(const Functions& gl, nook_gl_state_mode mode) : gl_(gl), mode_(mode) {
+  if (mode == NOOK_GL_STATE_PRESERVE) query_all(gl, saved_);
+}
+
+StateGuard::~StateGuard() {
+  if (mode_ != NOOK_GL_STATE_HOST) {
+    restore_all(gl_, saved_);
+  } else if (gl_.tier == 33) {
+    // These two would make the host's next draw vanish or tear.
+    gl_.Disable(GL_RASTERIZER_DISCARD);
+    gl_.Disable(GL_PRIMITIVE_RESTART);
+  }
+}
+
+}  // namespace nook::gl

@@ -1,0 +1,25 @@
+// What the compute passes share: where an instance's data lies. Positions are relative to the instance's origin, so that a
+// scene far from the world's origin keeps its digits.
+
+layout(std430, binding = 0) readonly buffer NookRecords {
+  uvec4 nook_record[];  // two for each instance, see NookRecord
+};
+layout(std430, binding = 1) readonly buffer NookBones {
+  vec4 nook_bone[];  // three rows of each 3x4 matrix
+};
+
+struct NookRecord {
+  uint first_bone;
+  uint first_sphere;
+  uint place;  // of the instance in its chunk
+  uint first_caster, caster_count;  // in nook_caster
+  uint first_exact, exact_count;    // in nook_caster
+};
+
+NookRecord nook_read_record(uint instance) {
+  uvec4 a = nook_record[2u * instance], b = nook_record[2u * instance + 1u];
+  return NookRecord(a.x, a.y, a.z, b.x, b.y, b.z, b.w);
+}
+
+// The smallest radius that counts, metres; min_sphere_radius of sdk/src/character/shadow_kernels.h.
+const float nook_min_sphere_radius = 1e-6;
