@@ -1,0 +1,172 @@
+// Creation: what is missing is named; what is only optional is done without.
+#include <cstring>
+
+#include "crowd.h"
+#include "gl/functions.h"
+#include "test_context.h"
+#include "traced_loader.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+nook_gl_desc desc_of(Trace& trace, int tier) {
+  nook_gl_desc desc;
+  NOOK_OK_OR_FAIL(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.get_proc = Trace::loader;
+  desc.get_proc_user = &trace;
+  desc.max_tier = tier;
+  return desc;
+}
+
+bool message_has(const std::string& part) {
+  return std::strstr(nook_last_message(), part.c_str()) != nullptr;
+}
+
+std::vector<std::string> required_33() {
+  return {
+#define NOOK_X(name) "gl" #name,
+      NOOK_GL_FUNCTIONS_33(NOOK_X)
+#undef NOOK_X
+  };
+}
+std::vector<std::string> required_43() {
+  return {
+#define NOOK_X(name) "gl" #name,
+      NOOK_GL_FUNCTIONS_43(NOOK_X)
+#undef NOOK_X
+  };
+}
+std::vector<std::string> optional() {
+  return {
+#define NOOK_X(name) "gl" #name,
+      NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
+#undef NOOK_X
+  };
+}
+
+}  // namespace
+
+TEST_CASE("the best tier is taken unless a lower one is asked for") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  const int best = tiers_of(context).front();
+  for (const int wanted : {0, 33, 43}) {
+    nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, wanted);
+    nook_gl_info info{};
+    info.struct_size = sizeof info;
+    NOOK_OK_OR_FAIL(nook_gl_get_info(gl, &info));
+    CHECK(info.tier == (wanted == 33 ? 33 : best));
+    CHECK(info.version == context.version());
+    CHECK(info.renderer == context.renderer());
+    nook_gl_destroy(&gl);
+    CHECK(gl == nullptr);
+  }
+}
+
+TEST_CASE("each required function that the loader lacks is named") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  for (const int tier : tiers_of(context)) {
+    std::vector<std::string> names = required_33();
+    if (tier == 43)
+      for (const std::string& name : required_43()) names.push_back(name);
+    for (const std::string& name : names) {
+      Trace trace(context);
+      trace.hidden.insert(name);
+      const nook_gl_desc desc = desc_of(trace, tier);
+      nook_gl gl = reinterpret_cast<nook_gl>(&trace);
+      INFO(name);
+      CHECK(nook_gl_create(host.handle, &desc, &gl) == NOOK_ERROR_UNSUPPORTED);
+      CHECK(gl == nullptr);
+      CHECK(message_has("nook_gl_create: required function \"" + name + "\""));
+    }
+  }
+}
+
+TEST_CASE("a context that is too old is refused with its version") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  Trace trace(context);
+  trace.limits[GL_MAJOR_VERSION] = 3;
+  trace.limits[GL_MINOR_VERSION] = 2;
+  const nook_gl_desc desc = desc_of(trace, 0);
+  nook_gl gl = nullptr;
+  CHECK(nook_gl_create(host.handle, &desc, &gl) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(message_has("the current context has OpenGL 3.2, need 3.3"));
+}
+
+TEST_CASE("a shader that does not compile is named, and nothing is left behind") {
+  NOOK_NEED_CONTEXT(context);
+  for (const int tier : tiers_of(context)) {
+    CountedContext host;
+    Trace trace(context);
+    trace.shaders_fail = true;
+    const nook_gl_desc desc = desc_of(trace, tier);
+    const long long bytes = host.bytes;
+    nook_gl gl = nullptr;
+    CHECK(nook_gl_create(host.handle, &desc, &gl) == NOOK_ERROR_GL);
+    CHECK(message_has(tier == 43 ? "compiling character/spheres.comp failed"
+                                 : "compiling character/vertices.vert failed"));
+    CHECK(host.bytes == bytes);
+    CHECK(trace.calls("glCreateShader") == trace.calls("glDeleteShader"));
+    CHECK(trace.calls("glCreateProgram") == trace.calls("glDeleteProgram"));
+  }
+}
+
+TEST_CASE("the lower tier asks for nothing of the higher one") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  Trace trace(context);
+  nook_gl gl = create_gl(host.handle, Trace::loader, &trace, 33);
+  for (const std::string& name : required_43()) CHECK(trace.asked.count(name) == 0);
+  nook_gl_destroy(&gl);
+}
+
+TEST_CASE("without the optional functions everything still agrees") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(3));
+  for (const int tier : tiers_of(context)) {
+    Trace trace(context);
+    for (const std::string& name : optional()) trace.hidden.insert(name);
+    nook_gl gl = create_gl(host.handle, Trace::loader, &trace, tier);
+    Crowd crowd(host.handle, {model}, {5}, {});
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    const std::vector<float> gpu = gpu_ao(gl, crowd, model, 1);
+    NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
+    CHECK(largest_difference(gpu, cpu_ao(crowd, model, 1)) < 2e-3f);
+    nook_gl_destroy(&gl);
+  }
+  nook_character_model_destroy(&model);
+}
+
+TEST_CASE("bad descriptors are refused with their field") {
+  CountedContext host;
+  nook_gl_desc good;
+  NOOK_OK_OR_FAIL(nook_gl_desc_init(&good, sizeof good, NOOK_VERSION));
+  CHECK(good.state_mode == NOOK_GL_STATE_PRESERVE);
+  CHECK(good.max_tier == 0);
+  good.get_proc = [](void*, const char*) -> void* { return nullptr; };
+  nook_gl gl = nullptr;
+
+  nook_gl_desc desc = good;
+  desc.get_proc = nullptr;
+  CHECK(nook_gl_create(host.handle, &desc, &gl) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("desc.get_proc is NULL"));
+  desc = good;
+  desc.max_tier = 40;
+  CHECK(nook_gl_create(host.handle, &desc, &gl) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("desc.max_tier is unknown (got 40"));
+  desc = good;
+  desc.state_mode = 3;
+  CHECK(nook_gl_create(host.handle, &desc, &gl) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("desc.state_mode is unknown (got 3"));
+  CHECK(nook_gl_create(nullptr, &good, &gl) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_create(host.handle, nullptr, &gl) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_create(host.handle, &good, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_create(host.handle, &good, &gl) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(nook_gl_desc_init(nullptr, sizeof good, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_desc_init(&desc, 8, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
+}

@@ -1,0 +1,171 @@
+#include "crowd.h"
+
+#include <cstdlib>
+
+#include "character/model_file.h"
+
+namespace nook::test {
+namespace {
+
+void* counted_allocate(void* user, std::size_t size, std::size_t alignment) {
+  auto& context = *static_cast<CountedContext*>(user);
+  if (context.refuse_after == 0) return nullptr;
+  if (context.refuse_after > 0) --context.refuse_after;
+  ++context.allocations;
+  context.bytes += static_cast<long long>(size);
+  return ::operator new(size, std::align_val_t(alignment));
+}
+
+void counted_release(void* user, void* memory, std::size_t size, std::size_t alignment) {
+  static_cast<CountedContext*>(user)->bytes -= static_cast<long long>(size);
+  ::operator delete(memory, std::align_val_t(alignment));
+}
+
+void keep_log(void* user, nook_log_severity, const char* text) {
+  static_cast<CountedContext*>(user)->log.emplace_back(text);
+}
+
+Mat3x4 turned(Vec3 axis, float angle, float scale, Vec3 move) {
+  const float c = std::cos(angle), s = std::sin(angle), t = 1 - c;
+  const Vec3 a = axis;
+  const float r[9] = {t * a.x * a.x + c,       t * a.x * a.y - s * a.z, t * a.x * a.z + s * a.y,
+                      t * a.x * a.y + s * a.z, t * a.y * a.y + c,       t * a.y * a.z - s * a.x,
+                      t * a.x * a.z - s * a.y, t * a.y * a.z + s * a.x, t * a.z * a.z + c};
+  return {{scale * r[0], scale * r[1], scale * r[2], move.x, scale * r[3], scale * r[4], scale * r[5], move.y,
+           scale * r[6], scale * r[7], scale * r[8], move.z}};
+}
+
+}  // namespace
+
+CountedContext::CountedContext() {
+  nook_context_desc desc;
+  NOOK_OK_OR_FAIL(nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.allocator = {this, counted_allocate, counted_release};
+  desc.log = keep_log;
+  desc.log_user = this;
+  NOOK_OK_OR_FAIL(nook_context_create(&desc, &handle));
+}
+
+CountedContext::~CountedContext() {
+  nook_context_destroy(&handle);
+}
+
+std::vector<Mat3x4> random_pose(Numbers& numbers, std::size_t bones, Vec3 at, float scale) {
+  std::vector<Mat3x4> pose(bones);
+  for (Mat3x4& bone : pose)
+    bone = turned(numbers.direction(), numbers.between(-0.6f, 0.6f), scale, at + numbers.place(0.1f) * scale);
+  return pose;
+}
+
+nook_character_model load_model(nook_context context, const CharacterModel& model) {
+  const std::vector<std::byte> bytes = write_character_model(model);
+  nook_character_model loaded = nullptr;
+  NOOK_OK_OR_FAIL(nook_character_model_load(context, bytes.data(), bytes.size(), &loaded));
+  return loaded;
+}
+
+Crowd::Crowd(nook_context context, const std::vector<nook_character_model>& models,
+             const std::vector<std::uint32_t>& bone_counts, const CrowdOptions& crowd_options)
+    : options(crowd_options), models_(models), bone_counts_(bone_counts) {
+  nook_scene_desc desc;
+  NOOK_OK_OR_FAIL(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.combine = options.combine;
+  desc.cutoff_error = options.cutoff_error;
+  desc.lod_error = options.lod_error;
+  desc.lod_max_interval = options.lod_max_interval;
+  desc.lod_distance = 1;
+  NOOK_OK_OR_FAIL(nook_scene_create(context, &desc, &scene));
+  for (std::size_t i = 0; i < options.instances; ++i) add(i);
+  if (options.links)
+    for (std::size_t i = 1; i < ids.size(); ++i) NOOK_OK_OR_FAIL(nook_scene_link(scene, ids[i], ids[i - 1]));
+  if (options.nearest) NOOK_OK_OR_FAIL(nook_scene_link_nearest(scene, 3, 3.0f * options.spacing));
+  if (options.occluders)
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 at = options.offset + Vec3{0.9f * static_cast<float>(i), 0.3f, 0.5f};
+      const float centre[3] = {at.x, at.y, at.z};
+      nook_occluder_id occluder = 0;
+      NOOK_OK_OR_FAIL(nook_scene_add_occluder(scene, centre, 0.2f + 0.1f * static_cast<float>(i), &occluder));
+    }
+  if (options.camera) {
+    const float eye[3] = {options.offset.x, options.offset.y, options.offset.z};
+    NOOK_OK_OR_FAIL(nook_scene_set_camera(scene, eye));
+  }
+}
+
+nook_instance_id Crowd::add(std::size_t index) {
+  nook_instance_id id = 0;
+  NOOK_OK_OR_FAIL(nook_scene_add_instance(scene, models_[index % models_.size()], &id));
+  ids.push_back(id);
+  const float plane[4] = {0, 1, 0, options.offset.y - 0.6f * options.scale};
+  if (options.ground && index % 3 != 2) NOOK_OK_OR_FAIL(nook_scene_set_ground(scene, id, plane));
+  pose_one(index, 0);
+  return id;
+}
+
+void Crowd::pose(std::uint32_t frame) {
+  for (std::size_t i = 0; i < ids.size(); ++i) pose_one(i, frame);
+}
+
+void Crowd::pose_one(std::size_t index, std::uint32_t frame) {
+  Numbers numbers(static_cast<std::uint32_t>(index * 977 + frame * 31 + 5));
+  const std::uint32_t side = 1 + static_cast<std::uint32_t>(std::sqrt(static_cast<float>(options.instances)));
+  const Vec3 at =
+      options.offset + Vec3{static_cast<float>(index % side), 0, static_cast<float>(index / side)} *
+                           (options.spacing * options.scale);
+  const std::vector<Mat3x4> bones =
+      random_pose(numbers, bone_counts_[index % bone_counts_.size()], at, options.scale);
+  NOOK_OK_OR_FAIL(
+      nook_scene_set_pose(scene, ids[index], bones.data()->m, static_cast<std::uint32_t>(bones.size())));
+}
+
+nook_scene_stats stats_of(const Crowd& crowd) {
+  nook_scene_stats stats{};
+  stats.struct_size = sizeof stats;
+  NOOK_OK_OR_FAIL(nook_scene_get_stats(crowd.scene, &stats));
+  return stats;
+}
+
+std::uint32_t file_vertices(nook_character_model model) {
+  nook_character_model_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_character_model_get_info(model, &info));
+  return info.file_vertex_count;
+}
+
+std::vector<float> cpu_ao(const Crowd& crowd, nook_character_model model, std::size_t index) {
+  std::vector<float> ao(file_vertices(model), -1.0f);
+  NOOK_OK_OR_FAIL(
+      nook_scene_read_ao(crowd.scene, crowd.ids[index], ao.data(), static_cast<std::uint32_t>(ao.size()), 0));
+  return ao;
+}
+
+std::vector<float> gpu_ao(nook_gl gl, const Crowd& crowd, nook_character_model model, std::size_t index) {
+  std::vector<float> ao(file_vertices(model), -1.0f);
+  NOOK_OK_OR_FAIL(nook_gl_scene_read_ao(gl, crowd.scene, crowd.ids[index], ao.data(),
+                                        static_cast<std::uint32_t>(ao.size())));
+  return ao;
+}
+
+float largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  float largest = a.size() == b.size() ? 0.0f : INFINITY;
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
+    const float difference = std::abs(a[i] - b[i]);
+    if (!(difference <= largest)) largest = difference;  // a NaN stays
+  }
+  return largest;
+}
+
+nook_gl create_gl(nook_context context, nook_gl_proc_fn loader, void* user, int tier,
+                  nook_gl_state_mode mode) {
+  nook_gl_desc desc;
+  NOOK_OK_OR_FAIL(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.get_proc = loader;
+  desc.get_proc_user = user;
+  desc.max_tier = tier;
+  desc.state_mode = mode;
+  nook_gl gl = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_create(context, &desc, &gl));
+  return gl;
+}
+
+}  // namespace nook::test

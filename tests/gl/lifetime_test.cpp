@@ -1,0 +1,158 @@
+// Any order of destruction is defined, and nothing is left behind in OpenGL.
+#include "crowd.h"
+#include "test_context.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+// Names are small numbers handed out from 1 on, on every driver that the tests run on.
+int living_objects(const GladGLContext& gl) {
+  int count = 0;
+  for (GLuint name = 1; name < 2000; ++name) {
+    count += gl.IsBuffer(name) + gl.IsTexture(name) + gl.IsProgram(name) + gl.IsShader(name) +
+             gl.IsVertexArray(name) + gl.IsFramebuffer(name) + gl.IsRenderbuffer(name);
+    if (gl.IsTransformFeedback) count += gl.IsTransformFeedback(name);
+  }
+  return count;
+}
+
+std::uint64_t buffer_bytes(nook_gl gl) {
+  nook_gl_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_gl_get_info(gl, &info));
+  return info.buffer_bytes;
+}
+
+}  // namespace
+
+TEST_CASE("destroying everything in any order leaves no OpenGL object and no memory") {
+  NOOK_NEED_CONTEXT(context);
+  for (const int tier : tiers_of(context)) {
+    const int before = living_objects(context.gl());
+    // Each digit is what goes next: 0 gl, 1 scene, 2 model, 3 context.
+    for (const char* order : {"0123", "1023", "3210", "2310", "1320", "3102"}) {
+      INFO("tier " << tier << ", order " << order);
+      CountedContext host;
+      nook_character_model model = load_model(host.handle, sample_model(5));
+      auto crowd = std::make_unique<Crowd>(host.handle, std::vector{model}, std::vector<std::uint32_t>{5},
+                                           CrowdOptions{});
+      nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
+      NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd->scene));
+      CHECK(living_objects(context.gl()) > before);
+      for (const char* step = order; *step; ++step) {
+        if (*step == '0') nook_gl_destroy(&gl);
+        if (*step == '1') crowd.reset();
+        if (*step == '2') nook_character_model_destroy(&model);
+        if (*step == '3') nook_context_destroy(&host.handle);
+      }
+      CHECK(living_objects(context.gl()) == before);
+      CHECK(host.bytes == 0);
+    }
+  }
+  CHECK(context.gl().GetError() == GL_NO_ERROR);
+  CHECK(take_debug_messages().empty());
+}
+
+TEST_CASE("a destroyed scene's objects go with the next update, a released one's at once") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(6));
+  for (const int tier : tiers_of(context)) {
+    nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
+    Crowd stays(host.handle, {model}, {5}, {});
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, stays.scene));
+    const std::uint64_t one_scene = buffer_bytes(gl);
+    {
+      Crowd goes(host.handle, {model}, {5}, {});
+      NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, goes.scene));
+      CHECK(buffer_bytes(gl) > one_scene);
+      NOOK_OK_OR_FAIL(nook_gl_scene_release(gl, goes.scene));
+      CHECK(buffer_bytes(gl) == one_scene);
+      NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, goes.scene));
+      CHECK(buffer_bytes(gl) > one_scene);
+    }
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, stays.scene));
+    CHECK(buffer_bytes(gl) == one_scene);
+    nook_gl_destroy(&gl);
+  }
+  nook_character_model_destroy(&model);
+}
+
+TEST_CASE("after the OpenGL context is lost nothing calls OpenGL, and destroy works") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(7));
+  Crowd crowd(host.handle, {model}, {5}, {});
+  for (const int tier : tiers_of(context)) {
+    nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    // Without a current context any OpenGL call would crash or be caught by the next check.
+    context.clear_current();
+    CHECK(nook_gl_context_lost(gl) == NOOK_OK);
+    CHECK(buffer_bytes(gl) == 0);
+    CHECK(nook_gl_scene_update(gl, crowd.scene) == NOOK_ERROR_GL);
+    CHECK(nook_gl_scene_prepare(gl, crowd.scene) == NOOK_ERROR_GL);
+    CHECK(nook_gl_scene_release(gl, crowd.scene) == NOOK_ERROR_GL);
+    nook_gl_destroy(&gl);
+    context.make_current();
+    // The scene goes on with a new one, whose AO is the CPU's.
+    gl = create_gl(host.handle, platform::Context::loader, &context, tier);
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    const std::vector<float> gpu = gpu_ao(gl, crowd, model, 2);
+    NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
+    CHECK(largest_difference(gpu, cpu_ao(crowd, model, 2)) < 2e-3f);
+    nook_gl_destroy(&gl);
+  }
+  nook_character_model_destroy(&model);
+}
+
+TEST_CASE("views are refused where there is none, and hold 1 before the first update") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(8));
+  Crowd crowd(host.handle, {model}, {5}, {});
+  nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
+  nook_gl_ao_view view{};
+  view.struct_size = sizeof view;
+  CHECK(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], &view) == NOOK_ERROR_INVALID_HANDLE);
+  CHECK(nook_gl_scene_ao_buffer(gl, crowd.scene, 12345, &view) == NOOK_ERROR_INVALID_HANDLE);
+  NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
+  NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], &view));
+  CHECK(view.count == file_vertices(model));
+  CHECK(view.stride == 4);
+  CHECK(context.gl().IsBuffer(view.buffer));
+  for (const float ao : gpu_ao(gl, crowd, model, 0)) CHECK(ao == 1.0f);
+  float one = 0;
+  CHECK(nook_gl_scene_read_ao(gl, crowd.scene, crowd.ids[0], &one, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  view.struct_size = 8;
+  CHECK(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], &view) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_gl_destroy(&gl);
+  nook_character_model_destroy(&model);
+}
+
+TEST_CASE("an empty scene is updated, and again after its last instance left") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(9));
+  for (const int tier : tiers_of(context)) {
+    CrowdOptions options;
+    options.instances = 0;
+    Crowd crowd(host.handle, {model}, {5}, options);
+    nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    const std::uint64_t empty = buffer_bytes(gl);
+    const nook_instance_id id = crowd.add(0);
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    CHECK(buffer_bytes(gl) > empty);
+    NOOK_OK_OR_FAIL(nook_scene_remove_instance(crowd.scene, id));
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    nook_gl_info info{};
+    info.struct_size = sizeof info;
+    NOOK_OK_OR_FAIL(nook_gl_get_info(gl, &info));
+    CHECK(info.ao_bytes == 0);
+    nook_gl_destroy(&gl);
+  }
+  nook_character_model_destroy(&model);
+}

@@ -1,0 +1,152 @@
+// What an update may not do: allocate host memory, read back, wait, or query state outside PRESERVE.
+#include "crowd.h"
+#include "test_context.h"
+#include "traced_loader.h"
+
+using namespace nook;
+using namespace nook::test;
+
+TEST_CASE("an update allocates nothing, reads nothing back and queries only to preserve") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(11));
+  for (const int tier : tiers_of(context))
+    for (const nook_gl_state_mode mode :
+         {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_DEFAULTS, NOOK_GL_STATE_HOST}) {
+      INFO("tier " << tier << ", mode " << mode);
+      Trace trace(context);
+      CrowdOptions options;
+      options.camera = true;
+      options.lod_max_interval = 3;
+      Crowd crowd(host.handle, {model}, {5}, options);
+      nook_gl gl = create_gl(host.handle, Trace::loader, &trace, tier, mode);
+      NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
+      NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+      trace.reset();
+      const long allocations = host.allocations;
+      for (std::uint32_t frame = 1; frame < 8; ++frame) {
+        crowd.pose(frame);
+        NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+      }
+      CHECK(host.allocations == allocations);
+      CHECK(trace.calls_that_begin(tier == 43 ? "glDispatchCompute" : "glDrawElementsInstanced") > 0);
+      CHECK(trace.calls_that_begin("glGetBufferSubData") == 0);
+      CHECK(trace.calls_that_begin("glGetError") == 0);
+      CHECK(trace.calls_that_begin("glGen") == 0);
+      CHECK_FALSE(trace.mapped_for_reading());
+      const int queries = trace.calls_that_begin("glGet") + trace.calls_that_begin("glIs");
+      if (mode == NOOK_GL_STATE_PRESERVE)
+        CHECK(queries > 0);
+      else
+        CHECK(queries == 0);
+      nook_gl_destroy(&gl);
+    }
+  nook_character_model_destroy(&model);
+}
+
+TEST_CASE("the first update after a prepare allocates nothing") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(12));
+  for (const int tier : tiers_of(context)) {
+    Crowd crowd(host.handle, {model}, {5}, {});
+    nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
+    NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
+    const long allocations = host.allocations;
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    CHECK(host.allocations == allocations);
+    nook_gl_destroy(&gl);
+  }
+  nook_character_model_destroy(&model);
+}
+
+TEST_CASE("every allocation that is refused gives one error and leaves everything usable") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(13));
+  for (const int tier : tiers_of(context)) {
+    Crowd crowd(host.handle, {model}, {5}, {});
+    nook_gl_desc desc;
+    NOOK_OK_OR_FAIL(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    desc.get_proc = platform::Context::loader;
+    desc.get_proc_user = &context;
+    desc.max_tier = tier;
+    const long long bytes = host.bytes;
+    int refusals = 0;
+    for (long n = 0;; ++n) {
+      host.refuse_after = n;
+      nook_gl gl = nullptr;
+      nook_result result = nook_gl_create(host.handle, &desc, &gl);
+      if (result == NOOK_OK) result = nook_gl_scene_update(gl, crowd.scene);
+      host.refuse_after = -1;
+      if (result == NOOK_OK) {
+        nook_gl_destroy(&gl);
+        break;
+      }
+      ++refusals;
+      INFO("allocation " << n);
+      REQUIRE(result == NOOK_ERROR_OUT_OF_MEMORY);
+      if (gl) {
+        NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+        const std::vector<float> gpu = gpu_ao(gl, crowd, model, 1);
+        NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
+        CHECK(largest_difference(gpu, cpu_ao(crowd, model, 1)) < 2e-3f);
+      }
+      nook_gl_destroy(&gl);
+      CHECK(host.bytes == bytes);
+    }
+    // The object, its texts, a model, a chunk and the placements are separate allocations.
+    CHECK(refusals >= 5);
+  }
+  nook_character_model_destroy(&model);
+}
+
+TEST_CASE("an update that OpenGL gives no memory fails, and the next one makes up for it") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(14));
+  for (const int tier : tiers_of(context)) {
+    Trace trace(context);
+    CrowdOptions options;
+    options.camera = true;
+    options.lod_max_interval = 50;  // so that most instances are not due again in the next frame
+    options.links = options.nearest = false;
+    Crowd crowd(host.handle, {model}, {5}, options);
+    nook_gl gl = create_gl(host.handle, Trace::loader, &trace, tier);
+    NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
+    trace.mapping_fails = true;
+    CHECK(nook_gl_scene_update(gl, crowd.scene) == NOOK_ERROR_GL);
+    CHECK_FALSE(context.gl().IsEnabled(GL_RASTERIZER_DISCARD));
+    trace.mapping_fails = false;
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    std::vector<std::vector<float>> gpu;
+    for (std::size_t i = 0; i < crowd.ids.size(); ++i) gpu.push_back(gpu_ao(gl, crowd, model, i));
+    NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
+    for (std::size_t i = 0; i < crowd.ids.size(); ++i)
+      CHECK(largest_difference(gpu[i], cpu_ao(crowd, model, i)) < 2e-3f);
+    nook_gl_destroy(&gl);
+  }
+  nook_character_model_destroy(&model);
+}
+
+TEST_CASE("a crowd beyond the limits of the context is refused, and evaluated once it fits") {
+  NOOK_NEED_CONTEXT(context);
+  if (tiers_of(context).front() < 43) return;
+  CountedContext host;
+  Trace trace(context);
+  trace.limits[GL_MAX_SHADER_STORAGE_BLOCK_SIZE] = 1 << 24;
+  // 60,000 spheres of 16 bytes: seventeen instances fit in 16 MiB, eighteen do not.
+  nook_character_model model = load_model(host.handle, sample_model(15, {2, 60000, 4, 10, 0, 2}));
+  CrowdOptions options;
+  options.instances = 18;
+  options.links = options.nearest = false;
+  Crowd crowd(host.handle, {model}, {2}, options);
+  nook_gl gl = create_gl(host.handle, Trace::loader, &trace, 43);
+  CHECK(nook_gl_scene_update(gl, crowd.scene) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(std::string(nook_last_message()).find("the scene has 1080000 proxy spheres") != std::string::npos);
+  nook_gl_scene_release(gl, crowd.scene);
+  NOOK_OK_OR_FAIL(nook_scene_remove_instance(crowd.scene, crowd.ids.back()));
+  NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+  nook_gl_destroy(&gl);
+  nook_character_model_destroy(&model);
+}

@@ -1,0 +1,44 @@
+// The host's OpenGL state, made as odd as it can be, and read back to be compared.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "platform/platform.h"
+
+namespace nook::test {
+
+// By name of the item in gl/touched_state.h, or for state that Nook must never touch by OpenGL's own name.
+using StateValues = std::map<std::string, std::vector<std::int64_t>>;
+
+class Poison {
+ public:
+  // Sets every item of the list of this tier, and much beside it, to odd values.
+  Poison(platform::Context& context, int tier);
+  // Puts OpenGL's defaults back.
+  ~Poison();
+  Poison(const Poison&) = delete;
+  Poison& operator=(const Poison&) = delete;
+
+  // The items of the list, and the state beside it.
+  StateValues touched() const;
+  StateValues untouched() const;
+  // What OpenGL starts with, for the items of the list.
+  StateValues defaults() const;
+  // Pretends the host never changed anything: the state of the list at its defaults.
+  void reset_touched();
+
+ private:
+  platform::Context& context_;
+  const GladGLContext& gl_;
+  int tier_;
+  struct Objects;
+  std::unique_ptr<Objects> objects_;
+};
+
+}  // namespace nook::test

@@ -1,0 +1,91 @@
+#include "test_context.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace nook::test {
+namespace {
+
+struct Driver {
+  std::unique_ptr<platform::Context> context;
+  std::vector<std::string> messages;
+  std::string failure;
+};
+
+void GLAD_API_PTR keep_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* text,
+                               const void* user) {
+  // Performance hints and notes are not faults.
+  if (type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR ||
+      severity == GL_DEBUG_SEVERITY_HIGH)
+    static_cast<std::vector<std::string>*>(const_cast<void*>(user))->push_back(text);
+}
+
+const char* variable(const char* name, const char* otherwise) {
+  const char* value = std::getenv(name);
+  return value && *value ? value : otherwise;
+}
+
+void create(Driver& driver) {
+  platform::ContextRequest request;
+  request.kind = variable("NOOK_TEST_CONTEXT", "egl");
+  request.width = request.height = 64;
+  request.debug = true;
+  const char* version = variable("NOOK_TEST_VERSION", "4.5");
+  request.major = version[0] - '0';
+  request.minor = version[2] - '0';
+  try {
+    driver.context = platform::create_context(request);
+  } catch (const std::exception& e) {
+    driver.failure = e.what();
+    return;
+  }
+  std::printf("OpenGL %s on %s\n", driver.context->version().c_str(), driver.context->renderer().c_str());
+  const GladGLContext& gl = driver.context->gl();
+  if (gl.DebugMessageCallback) {
+    gl.Enable(GL_DEBUG_OUTPUT);
+    gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    gl.DebugMessageCallback(keep_message, &driver.messages);
+  }
+  const int wanted = 10 * request.major + request.minor;
+  if (wanted == 33 && version_of(*driver.context) != 33)
+    driver.failure = "asked for OpenGL 3.3 alone and got " + driver.context->version();
+}
+
+Driver& driver() {
+  // Left to the end of the process: the driver library may be unloaded before a destructor would run.
+  static Driver* const made = [] {
+    auto* d = new Driver;
+    create(*d);
+    return d;
+  }();
+  return *made;
+}
+
+}  // namespace
+
+platform::Context* test_context() {
+  Driver& d = driver();
+  if (d.failure.empty()) return d.context.get();
+  std::printf("NO OPENGL CONTEXT, TEST SKIPPED: %s\n", d.failure.c_str());
+  if (std::strcmp(variable("NOOK_REQUIRE_GL", "0"), "1") == 0)
+    FAIL("an OpenGL context is required: " << d.failure);
+  return nullptr;
+}
+
+int version_of(const platform::Context& context) {
+  GLint major = 0, minor = 0;
+  context.gl().GetIntegerv(GL_MAJOR_VERSION, &major);
+  context.gl().GetIntegerv(GL_MINOR_VERSION, &minor);
+  return 10 * major + minor;
+}
+
+std::vector<int> tiers_of(const platform::Context& context) {
+  return version_of(context) >= 43 ? std::vector<int>{43, 33} : std::vector<int>{33};
+}
+
+std::vector<std::string> take_debug_messages() {
+  return std::exchange(driver().messages, {});
+}
+
+}  // namespace nook::test

@@ -1,0 +1,34 @@
+// The OpenGL context of the tests: one for the process, its kind and version from the environment.
+//   NOOK_TEST_CONTEXT  egl (default), osmesa or window
+//   NOOK_TEST_VERSION  the highest version to ask for, 3.3 or 4.5 (default)
+//   NOOK_REQUIRE_GL=1  a context that cannot be had is a failure
+#pragma once
+
+#include <glad/gl.h>
+
+#include <string>
+#include <vector>
+
+#include "catch.h"
+#include "platform/platform.h"
+
+namespace nook::test {
+
+// NULL, said aloud, where there is none; fails the test case then if a context is required.
+platform::Context* test_context();
+
+// 10 * major + minor.
+int version_of(const platform::Context& context);
+// The tiers that this context has, best first.
+std::vector<int> tiers_of(const platform::Context& context);
+
+// Errors and warnings that the driver reported through KHR_debug since the last call, in a debug context.
+std::vector<std::string> take_debug_messages();
+
+}  // namespace nook::test
+
+// Begins every test case that needs OpenGL.
+#define NOOK_NEED_CONTEXT(context)                                         \
+  platform::Context* const context##_or_none = nook::test::test_context(); \
+  if (!context##_or_none) return;                                          \
+  platform::Context& context = *context##_or_none

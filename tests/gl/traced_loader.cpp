@@ -1,0 +1,111 @@
+#include "traced_loader.h"
+
+#include <array>
+#include <cstring>
+
+#include "gl/functions.h"
+
+namespace nook::test {
+namespace {
+
+enum Id {
+#define NOOK_X(name) id_##name,
+  NOOK_GL_FUNCTIONS_33(NOOK_X) NOOK_GL_FUNCTIONS_43(NOOK_X) NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
+#undef NOOK_X
+      id_count
+};
+
+constexpr const char* names[] = {
+#define NOOK_X(name) "gl" #name,
+    NOOK_GL_FUNCTIONS_33(NOOK_X) NOOK_GL_FUNCTIONS_43(NOOK_X) NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
+#undef NOOK_X
+};
+
+struct Counts {
+  std::array<int, id_count> calls{};
+  bool mapped_for_reading = false;
+  const Trace* trace = nullptr;
+};
+Counts counts;
+
+template <Id id, class F>
+struct Traced;
+template <Id id, class R, class... A>
+struct Traced<id, R(GLAD_API_PTR*)(A...)> {
+  inline static R(GLAD_API_PTR* real)(A...) = nullptr;
+  static R GLAD_API_PTR call(A... a) {
+    ++counts.calls[id];
+    if constexpr (id == id_MapBufferRange) {
+      const auto access = std::get<3>(std::tuple(a...));
+      counts.mapped_for_reading |= (access & GL_MAP_READ_BIT) != 0;
+      if (counts.trace->mapping_fails) return nullptr;
+    }
+    if constexpr (id == id_GetShaderiv) {
+      if (counts.trace->shaders_fail) {
+        *std::get<2>(std::tuple(a...)) = GL_FALSE;
+        return;
+      }
+    }
+    if constexpr (id == id_GetIntegerv) {
+      const auto [name, out] = std::tuple(a...);
+      const auto limit = counts.trace->limits.find(name);
+      if (limit != counts.trace->limits.end()) {
+        *out = limit->second;
+        return;
+      }
+    }
+    return real(a...);
+  }
+};
+
+}  // namespace
+
+Trace::Trace(platform::Context& context) : context_(context) {
+  counts = {};
+  counts.trace = this;
+}
+
+Trace::~Trace() {
+  counts.trace = nullptr;
+}
+
+void* Trace::loader(void* user, const char* name) {
+  Trace& trace = *static_cast<Trace*>(user);
+  trace.asked.insert(name);
+  if (trace.hidden.contains(name)) return nullptr;
+  void* const real = trace.context_.proc(name);
+  if (!real) return nullptr;
+#define NOOK_X(function)                                                 \
+  if (std::strcmp(name, "gl" #function) == 0) {                          \
+    using T = Traced<id_##function, decltype(gl::Functions::function)>;  \
+    T::real = reinterpret_cast<decltype(gl::Functions::function)>(real); \
+    return reinterpret_cast<void*>(&T::call);                            \
+  }
+  NOOK_GL_FUNCTIONS_33(NOOK_X)
+  NOOK_GL_FUNCTIONS_43(NOOK_X)
+  NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
+#undef NOOK_X
+  return real;
+}
+
+void Trace::reset() {
+  counts.calls = {};
+  counts.mapped_for_reading = false;
+}
+
+int Trace::calls(const std::string& name) const {
+  return calls_that_begin(name);
+}
+
+int Trace::calls_that_begin(const std::string& prefix) const {
+  int sum = 0;
+  for (int i = 0; i < id_count; ++i)
+    if (std::string(names[i]).starts_with(prefix)) sum += counts.calls[i];
+  return sum;
+}
+
+bool Trace::mapped_for_reading() const {
+  return counts.mapped_for_reading;
+}
+
+}  // namespace nook::test

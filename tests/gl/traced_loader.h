@@ -1,0 +1,39 @@
+// A loader that stands between Nook and the driver: counts every call by name, hides functions, and lowers
+// limits.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "platform/platform.h"
+
+namespace nook::test {
+
+// The counts are of the process, since OpenGL functions carry no user pointer; one Trace is alive at a time.
+class Trace {
+ public:
+  explicit Trace(platform::Context& context);
+  ~Trace();
+  Trace(const Trace&) = delete;
+  Trace& operator=(const Trace&) = delete;
+
+  // For nook_gl_desc.get_proc, with the Trace as user.
+  static void* loader(void* user, const char* name);
+
+  std::set<std::string> hidden;    // these names are answered with NULL
+  std::map<unsigned, int> limits;  // what glGetIntegerv answers for these names
+  bool shaders_fail = false;       // glGetShaderiv says so
+  bool mapping_fails = false;      // glMapBufferRange answers NULL
+
+  void reset();
+  int calls(const std::string& name) const;  // "glMapBufferRange"
+  int calls_that_begin(const std::string& prefix) const;
+  bool mapped_for_reading() const;
+  std::set<std::string> asked;  // every name that the loader was asked for
+
+ private:
+  platform::Context& context_;
+};
+
+}  // namespace nook::test
