@@ -14,12 +14,12 @@ glm::mat4 clip_from_world(const Camera& camera, float aspect) {
 
 Camera orbit(float radius_m, float turn) {
   const float angle = turn * glm::two_pi<float>() + 0.5f;
-  const float distance_m = 0.95f * radius_m + 4.0f;
+  const float distance_m = 0.85f * radius_m + 3.5f;
   Camera camera;
-  camera.eye_ws = {distance_m * std::sin(angle), 1.7f + 0.22f * distance_m, distance_m * std::cos(angle)};
-  // Nearer than the middle, so that the front rows fill the picture.
-  camera.target_ws = 0.3f * radius_m * glm::vec3(std::sin(angle), 0, std::cos(angle)) + glm::vec3(0, 0.7f, 0);
-  camera.fov_rad = 0.55f;
+  camera.eye_ws = {distance_m * std::sin(angle), 1.4f + 0.2f * distance_m, distance_m * std::cos(angle)};
+  // A little nearer than the middle, so that the front rows are not cut off.
+  camera.target_ws = 0.02f * radius_m * glm::vec3(std::sin(angle), 0, std::cos(angle)) + glm::vec3(0, 0.3f, 0);
+  camera.fov_rad = 0.5f;
   return camera;
 }
 

@@ -8,10 +8,12 @@ namespace {
 
 constexpr std::uint32_t kRestPose = ~0u;
 
-bool is_still(std::string name) {
+// T- and A-poses show nothing, and who sits needs a chair that this sample does not have.
+bool is_unfit(std::string name) {
   std::erase_if(name, [](unsigned char c) { return !std::isalnum(c); });
   for (char& c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return name.find("tpose") != std::string::npos || name.find("apose") != std::string::npos;
+  return name.find("tpose") != std::string::npos || name.find("apose") != std::string::npos ||
+         name.starts_with("sit");
 }
 
 }  // namespace
@@ -49,7 +51,7 @@ void Hero::read() {
   for (std::uint32_t i = 0; i < info_.clip_count; ++i) {
     Clip clip{i, nook_bake_character_clip_name(handle(), i), 0};
     bake_check(nook_bake_character_clip_duration(handle(), i, &clip.duration_s));
-    if (!is_still(clip.name)) clips_.push_back(clip);
+    if (!is_unfit(clip.name)) clips_.push_back(clip);
   }
   if (clips_.empty()) clips_.push_back({kRestPose, "rest pose", 1.0f});
 }

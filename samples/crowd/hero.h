@@ -31,7 +31,7 @@ class Hero {
   nook_bake_character handle() const { return character_.get(); }
   std::uint32_t vertex_count() const { return info_.file_vertex_count; }
   std::uint32_t bone_count() const { return info_.bone_count; }
-  // Clips that show motion; never empty, the rest pose stands in.
+  // Clips fit for a crowd that stands and moves; never empty, the rest pose stands in.
   const std::vector<Clip>& clips() const { return clips_; }
   // phase in [0, 1) runs once through the clip.
   Bones pose(std::size_t clip, float phase) const;

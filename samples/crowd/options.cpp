@@ -28,6 +28,8 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
       "Draws a crowd of animated characters with Nook's ambient occlusion and compares it with ray tracing.");
   std::string size = "1280x720", tier = "best";
   o.cache = CROWD_CACHE;
+  // A later option wins, so that a script's own values can be overridden.
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("hero", o.hero_glb, "a rigged .glb or .gltf; without it, the built-in character")
       ->check(CLI::ExistingFile);
   app.add_option("model", o.hero_nook, "its baked .nook; without it, one is baked (draft preset) and cached")
@@ -37,8 +39,9 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--characters", o.characters, "number of characters")->check(CLI::Range(1, 10000));
   app.add_option("--neighbours", o.neighbours, "nearest neighbours that darken each character")
       ->check(CLI::Range(0, 16));
-  app.add_option("--frames", o.frames, "pictures to draw (window: 0 runs until it is closed)")
-      ->check(CLI::Range(0, 100000));
+  CLI::Option* const frames =
+      app.add_option("--frames", o.frames, "pictures to draw (window: 0 runs until it is closed)")
+          ->check(CLI::Range(0, 100000));
   app.add_option("--size", size, "pixels of a picture, WIDTHxHEIGHT");
   app.add_option("--out", o.out, "folder of the pictures");
   app.add_option("--report", o.report, "JSON with times and errors (default: report.json in --out)");
@@ -52,6 +55,8 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
     app.parse(argc, argv);
     for (const std::string& fault : {parse_size(size, o), parse_tier(tier, o)})
       if (!fault.empty()) throw CLI::ValidationError("--size", fault);
+    // A window stays open until it is closed, unless pictures are asked for.
+    if (o.context == "window" && frames->count() == 0) o.frames = 0;
     if (o.report.empty()) o.report = o.out / "report.json";
     return true;
   } catch (const CLI::ParseError& e) {

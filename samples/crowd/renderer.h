@@ -27,10 +27,10 @@ struct DrawnInstance {
 };
 
 struct Look {
-  float key_strength = 0.55f;
+  float key_strength = 0.5f;
   float ao_strength = 1.0f;
-  glm::vec3 ground_albedo{0.42f, 0.42f, 0.43f};
-  glm::vec3 background{0.56f, 0.62f, 0.70f};
+  glm::vec3 ground_albedo{0.36f, 0.36f, 0.37f};
+  glm::vec3 background{0.38f, 0.43f, 0.50f};
   float fog_start_m = 22;
 };
 

@@ -76,7 +76,7 @@ float key_visibility(vec3 n) {
 void main() {
   vec3 n = normalize(surface_normal_ws);
   vec3 sky = vec3(0.80, 0.87, 1.00), bounce = vec3(0.46, 0.43, 0.40);
-  vec3 ambient = mix(bounce, sky, 0.5 + 0.5 * n.y) * 0.72;
+  vec3 ambient = mix(bounce, sky, 0.5 + 0.5 * n.y) * 0.58;
   float ao = mix(1.0, surface_ao, ao_strength);
   float key = max(dot(n, to_key_ws), 0.0);
   if (key > 0.0 && key_strength > 0.0) key *= key_visibility(n);
