@@ -51,7 +51,8 @@ std::vector<std::vector<float>> traced_ao(const Hero& hero, const std::vector<Bo
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (!is_near(poses[i])) continue;
     body_of[i] = std::uint32_t(bodies.size());
-    hero.skin(poses[i], bodies.emplace_back().positions, bodies.back().normals);
+    Body& body = bodies.emplace_back();
+    hero.skin(poses[i], body.positions, body.normals);
   }
   std::vector<nook_bake_occluder_mesh> meshes;
   for (const Body& body : bodies)
