@@ -10,6 +10,7 @@ namespace nook::cli {
 
 void add_bake_character(CLI::App& bake);
 void add_evaluate_character(CLI::App& evaluate);
+void add_evaluate_casters(CLI::App& evaluate);
 void add_inspect(CLI::App& tool);
 
 }  // namespace nook::cli

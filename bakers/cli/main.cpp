@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
       tool.add_subcommand("evaluate", "measure .nook files against ray tracing")->require_subcommand(1);
   nook::cli::add_bake_character(*bake);
   nook::cli::add_evaluate_character(*evaluate);
+  nook::cli::add_evaluate_casters(*evaluate);
   nook::cli::add_inspect(tool);
   try {
     tool.parse(argc, argv);
