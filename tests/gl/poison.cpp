@@ -91,7 +91,7 @@ GLuint make_program(const GladGLContext& gl) {
 }  // namespace
 
 Poison::Poison(platform::Context& context, int tier)
-    : context_(context), gl_(context.gl()), tier_(tier), objects_(std::make_unique<Objects>()) {
+    : gl_(context.gl()), tier_(tier), objects_(std::make_unique<Objects>()) {
   const GladGLContext& gl = gl_;
   Objects& o = *objects_;
   gl.GenBuffers(4, o.buffers);

@@ -34,7 +34,6 @@ class Poison {
   void reset_touched();
 
  private:
-  platform::Context& context_;
   const GladGLContext& gl_;
   int tier_;
   struct Objects;

@@ -3,6 +3,7 @@
  * Needs OpenGL 3.3 core or newer; includes no OpenGL header. Two tiers:
  *   43  OpenGL 4.3: spheres, shadows and vertices in compute shaders;
  *   33  OpenGL 3.3: shadows at key points on the CPU (through the context's parallel_for), vertices by transform feedback.
+ *       Faster than 43 on software renderers such as Mesa's llvmpipe; ask for it with max_tier.
  *
  * In an engine: create one nook_gl for each OpenGL context that shares nothing; once a frame, after the poses are set, call
  * nook_gl_scene_update; for each character bind the view of nook_gl_scene_ao_buffer as a vertex attribute and multiply
