@@ -19,7 +19,7 @@ bool is_unfit(std::string name) {
 }  // namespace
 
 void bake_check(nook_result result) {
-  if (result != NOOK_OK) throw std::runtime_error(nook_bake_last_message());
+  if (result != NOOK_OK) throw BakeError(result, nook_bake_last_message());
 }
 
 Hero::Hero(std::span<const unsigned char> glb_bytes) {

@@ -12,7 +12,16 @@
 
 namespace crowd {
 
-// Throws the last message of the bakers' library where a call failed.
+class BakeError : public std::runtime_error {
+ public:
+  BakeError(nook_result result, const char* text) : std::runtime_error(text), result_(result) {}
+  nook_result result() const { return result_; }
+
+ private:
+  nook_result result_;
+};
+
+// Throws BakeError with the last message of the bakers' library where a call failed.
 void bake_check(nook_result result);
 
 using Bones = std::vector<float>;  // 12 floats a bone, rows of a 3x4 matrix

@@ -116,6 +116,10 @@ void run(const Options& o) {
               std::filesystem::absolute(o.report).c_str());
 }
 
+int exit_code_of(nook_result result) {
+  return result == NOOK_ERROR_BAD_FILE || result == NOOK_ERROR_FILE_VERSION ? 3 : 1;
+}
+
 }  // namespace
 }  // namespace crowd
 
@@ -128,7 +132,10 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const nook::Error& e) {
     std::fprintf(stderr, "%s\n", e.what());
-    return e.result() == NOOK_ERROR_BAD_FILE || e.result() == NOOK_ERROR_FILE_VERSION ? 3 : 1;
+    return crowd::exit_code_of(e.result());
+  } catch (const crowd::BakeError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return crowd::exit_code_of(e.result());
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 1;
