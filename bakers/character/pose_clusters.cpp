@@ -9,6 +9,7 @@
 
 #include "character/peers_features.h"
 #include "character/peers_k_means.h"
+#include "character/peers_pose_space.h"
 #include "character/peers_validation.h"
 
 namespace nook::bake {
@@ -17,19 +18,21 @@ namespace {
 using Eigen::Index;
 
 constexpr std::array<Index, 6> cluster_counts{1, 2, 4, 8, 16, 32};
-constexpr std::array<Index, 7> ranks{2, 4, 8, 16, 32, 64, 128};
+constexpr std::array<Index, 8> ranks{2, 4, 8, 16, 32, 64, 128, 192};
 constexpr std::array ridges{1e-4, 1e-3, 1e-2, 3e-2,
                             1e-1, 3e-1, 1.0};  // times the mean variance of a basis direction
-constexpr std::array widths{
-    0.1, 0.3, 1.0};  // of the blend: its variance over the poses' mean squared distance to a centre
+// Of the blend: its variance over the poses' mean squared distance to a centre.
+constexpr std::array widths{0.1, 0.3, 1.0, 3.0};
+constexpr double first_width = 0.3;
 constexpr std::size_t voting_vertices = 256;
 constexpr double size_slack = 0.005;
 constexpr float least_weight = 1e-3f;  // a cluster below it neither sees a pose nor answers for it
 
 struct Settings {
+  FeatureKind kind = FeatureKind::axis_angle;
   bool by_moved_share = false;  // metric: features times the root of the share of vertices that they move
   Index clusters = 1, rank = ranks.back();
-  double ridge = ridges.back(), width = 1;
+  double ridge = ridges.back(), width = first_width;
 };
 
 // Blend weights of poses x clusters: Gaussians of the distance to the centres, normalised.
@@ -133,65 +136,85 @@ ErrorGrid validate_fold(const PeerMatrix& features, const PeerMatrix& targets, c
   return errors;
 }
 
-PeerMatrix metric_features(const PoseFeatures& features, const SkinnedMesh& mesh, std::span<const Pose> poses,
-                           bool by_moved_share) {
-  PeerMatrix x = features.of(poses);
-  if (by_moved_share) x = (x.array().rowwise() * features.moved_share(mesh).array()).matrix();
-  return x;
+std::size_t stored_numbers(const PoseSpace& space, Index clusters, Index rank, std::size_t vertices) {
+  return space.stored_numbers() + std::size_t(clusters) * (std::size_t(rank + 1) * vertices +
+                                                           std::size_t((rank + 2) * space.dimensions()));
 }
 
-std::size_t stored_numbers(Index clusters, Index rank, Index features, std::size_t vertices) {
-  return std::size_t(clusters) * (std::size_t(rank + 1) * vertices + std::size_t((rank + 2) * features));
-}
+// Tries settings on all folds and remembers what they cost.
+class Search {
+ public:
+  Search(std::span<const Pose> poses, const AoTargets& targets, std::uint64_t seed)
+      : folds_(validation_folds(poses.size())),
+        voting_(target_columns(targets, sample_vertices(targets.vertex_count, voting_vertices))),
+        vertices_(targets.vertex_count),
+        seed_(seed) {}
 
+  // Every rank and ridge at once.
+  void measure(const PoseSpace& space, const PeerMatrix& x, Settings settings) {
+    // Below a few poses a cluster, its linear model says nothing.
+    if (settings.clusters > 1 && settings.clusters * 8 > x.rows()) return;
+    std::vector<ErrorGrid> partial(folds_.size());
+    tbb::parallel_for(std::size_t(0), folds_.size(), [&](std::size_t f) {
+      partial[f] = validate_fold(x, voting_, folds_[f], settings.clusters, settings.width, seed_);
+    });
+    ErrorGrid sum = ErrorGrid::Zero();
+    for (const ErrorGrid& p : partial) sum += p;
+    for (std::size_t r = 0; r < ranks.size(); ++r)
+      for (std::size_t g = 0; g < ridges.size(); ++g) {
+        settings.rank = std::min(ranks[r], x.cols());
+        settings.ridge = ridges[g];
+        tried_.push_back(settings);
+        errors_.push_back(
+            {sum(Index(r), Index(g)), stored_numbers(space, settings.clusters, settings.rank, vertices_)});
+      }
+  }
+
+  Settings best(double slack) const { return tried_[smallest_near_best(errors_, slack)]; }
+
+ private:
+  std::vector<ValidationFold> folds_;
+  PeerMatrix voting_;
+  std::size_t vertices_;
+  std::uint64_t seed_;
+  std::vector<Settings> tried_;
+  std::vector<SizedError> errors_;
+};
+
+// One after the other: the space of poses, the number of clusters, the width of their blend.
 Settings choose_settings(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
                          std::uint64_t seed) {
-  const PoseFeatures features(mesh, FeatureKind::axis_angle);
-  const std::vector<ValidationFold> folds = validation_folds(poses.size());
-  const PeerMatrix voting = target_columns(targets, sample_vertices(targets.vertex_count, voting_vertices));
-  std::vector<Settings> tried;
-  std::vector<SizedError> errors;
-  for (bool by_moved_share : {false, true}) {
-    const PeerMatrix x = metric_features(features, mesh, poses, by_moved_share);
-    for (Index clusters : cluster_counts) {
-      // Below a few poses a cluster, its linear model says nothing.
-      if (std::size_t(clusters) * 8 > poses.size() && clusters > 1) continue;
-      const std::size_t width_count = clusters == 1 ? 1 : widths.size();
-      std::vector<ErrorGrid> partial(width_count * folds.size());
-      tbb::parallel_for(std::size_t(0), partial.size(), [&](std::size_t i) {
-        partial[i] =
-            validate_fold(x, voting, folds[i % folds.size()], clusters, widths[i / folds.size()], seed);
-      });
-      for (std::size_t i = 0; i < width_count; ++i) {
-        ErrorGrid sum = ErrorGrid::Zero();
-        for (std::size_t f = 0; f < folds.size(); ++f) sum += partial[i * folds.size() + f];
-        for (std::size_t r = 0; r < ranks.size(); ++r)
-          for (std::size_t g = 0; g < ridges.size(); ++g) {
-            tried.push_back({by_moved_share, clusters, std::min(ranks[r], x.cols()), ridges[g], widths[i]});
-            errors.push_back({sum(Index(r), Index(g)),
-                              stored_numbers(clusters, tried.back().rank, x.cols(), targets.vertex_count)});
-          }
-      }
+  Search search(poses, targets, seed);
+  for (FeatureKind kind : {FeatureKind::axis_angle, FeatureKind::matrix})
+    for (bool by_moved_share : {false, true}) {
+      const PoseSpace space(mesh, kind, by_moved_share, poses, ranks.back());
+      const PeerMatrix x = space.of(poses);
+      for (Index clusters : {1, 8}) search.measure(space, x, {kind, by_moved_share, clusters});
     }
-  }
-  return tried[smallest_near_best(errors, size_slack)];
+  const Settings first = search.best(0);
+  const PoseSpace space(mesh, first.kind, first.by_moved_share, poses, ranks.back());
+  const PeerMatrix x = space.of(poses);
+  for (Index clusters : cluster_counts)
+    if (clusters != 1 && clusters != 8)
+      search.measure(space, x, {first.kind, first.by_moved_share, clusters});
+  // A single cluster has nothing to blend with; several may still win with another width.
+  const Index clusters = std::max<Index>(search.best(0).clusters, 2);
+  for (double width : widths)
+    if (width != first_width)
+      search.measure(space, x,
+                     {first.kind, first.by_moved_share, clusters, ranks.back(), ridges.back(), width});
+  return search.best(size_slack);
 }
 
 class PoseClusters final : public PoseRegression {
  public:
-  PoseClusters(const SkinnedMesh& mesh, const Settings& settings)
-      : settings_(settings), features_(mesh, FeatureKind::axis_angle), metric_(features_.moved_share(mesh)) {
-    settings_.rank = std::min(settings_.rank, features_.count());
-    if (!settings.by_moved_share) metric_.setOnes();
-  }
-
-  void fit(std::span<const Pose> poses, const AoTargets& targets, std::uint64_t seed) {
-    vertices_ = targets.vertex_count;
-    const PeerMatrix x = (features_.of(poses).array().rowwise() * metric_.array()).matrix();
-    if (x.cols() == 0) {
-      mean_only_ = target_columns(targets, 0, vertices_).colwise().mean();
-      return;
-    }
+  PoseClusters(const SkinnedMesh& mesh, const Settings& settings, std::span<const Pose> poses,
+               const AoTargets& targets, std::uint64_t seed)
+      : settings_(settings),
+        space_(mesh, settings.kind, settings.by_moved_share, poses, ranks.back()),
+        vertices_(targets.vertex_count) {
+    settings_.rank = std::min(settings_.rank, space_.dimensions());
+    const PeerMatrix x = space_.of(poses);
     const PoseGroups groups = k_means(x, std::min(settings_.clusters, x.rows()), seed);
     centres_ = groups.centre;
     variance_ = settings_.width * groups.mean_squared_distance;
@@ -201,8 +224,7 @@ class PoseClusters final : public PoseRegression {
   }
 
   std::vector<float> predict(const Pose& pose) const override {
-    if (clusters_.empty()) return {mean_only_.data(), mean_only_.data() + mean_only_.size()};
-    const PeerMatrix x = (features_.of(pose).array() * metric_.array()).matrix();
+    const PeerMatrix x = space_.of(pose);
     const PeerMatrix w = blend_weights(x, centres_, variance_);
     Eigen::RowVectorXf ao = Eigen::RowVectorXf::Zero(Index(vertices_));
     for (std::size_t k = 0; k < clusters_.size(); ++k) {
@@ -215,14 +237,13 @@ class PoseClusters final : public PoseRegression {
     return {ao.data(), ao.data() + ao.size()};
   }
   std::size_t model_bytes() const override {
-    if (clusters_.empty()) return 2 * vertices_;
-    return 2 * stored_numbers(Index(clusters_.size()), clusters_.front().basis.cols(), features_.count(),
-                              vertices_);
+    return 2 * stored_numbers(space_, Index(clusters_.size()), settings_.rank, vertices_);
   }
   std::string description() const override {
     char text[160];
-    std::snprintf(text, sizeof text, "%td clusters, rank %td, ridge %g, blend width %g%s", settings_.clusters,
-                  settings_.rank, settings_.ridge, settings_.width,
+    std::snprintf(text, sizeof text, "%s, %td clusters, rank %td, ridge %g, blend width %g%s",
+                  settings_.kind == FeatureKind::axis_angle ? "axis-angle" : "rotation matrices",
+                  settings_.clusters, settings_.rank, settings_.ridge, settings_.width,
                   settings_.by_moved_share ? ", joints weighted by the share of vertices they move" : "");
     return text;
   }
@@ -269,24 +290,36 @@ class PoseClusters final : public PoseRegression {
   }
 
   Settings settings_;
-  PoseFeatures features_;
-  Eigen::RowVectorXf metric_, mean_only_;
+  PoseSpace space_;
   PeerMatrix centres_;
   double variance_ = 1;
-  std::size_t vertices_ = 0;
+  std::size_t vertices_;
   std::vector<Cluster> clusters_;
+};
+
+// Where no joint can turn.
+class MeanAo final : public PoseRegression {
+ public:
+  explicit MeanAo(const AoTargets& targets)
+      : mean_(target_columns(targets, 0, targets.vertex_count).colwise().mean()) {}
+  std::vector<float> predict(const Pose&) const override {
+    return {mean_.data(), mean_.data() + mean_.size()};
+  }
+  std::size_t model_bytes() const override { return 2 * std::size_t(mean_.size()); }
+  std::string description() const override { return "the mean: no joint can turn"; }
+
+ private:
+  Eigen::RowVectorXf mean_;
 };
 
 }  // namespace
 
 std::unique_ptr<PoseRegression> fit_pose_clusters(const SkinnedMesh& mesh, std::span<const Pose> poses,
                                                   const AoTargets& targets, std::uint64_t seed) {
-  Settings settings;
-  const bool comparable = PoseFeatures(mesh, FeatureKind::axis_angle).count() > 0 && poses.size() > 1;
-  if (comparable) settings = choose_settings(mesh, poses, targets, seed);
-  auto model = std::make_unique<PoseClusters>(mesh, settings);
-  model->fit(poses, targets, seed);
-  return model;
+  if (PoseFeatures(mesh, FeatureKind::axis_angle).count() == 0 || poses.size() < 2)
+    return std::make_unique<MeanAo>(targets);
+  return std::make_unique<PoseClusters>(mesh, choose_settings(mesh, poses, targets, seed), poses, targets,
+                                        seed);
 }
 
 }  // namespace nook::bake
