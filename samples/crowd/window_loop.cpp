@@ -1,0 +1,157 @@
+#include "window_loop.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <glad/gl.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "frames.h"
+
+namespace crowd {
+namespace {
+
+struct Controls {
+  bool ao = true, self = true, neighbours = true, ground = true, playing = true;
+  float intensity = 1.0f, key = 0.5f;
+  int link_count = 4;
+  int tier = 0;  // 33, 43 or 0 for the best
+  float turn = 0, height = 0.35f, distance_m = 8;
+
+  std::uint32_t terms() const {
+    std::uint32_t bits = 0;
+    if (self) bits |= NOOK_TERM_SELF;
+    if (neighbours) bits |= NOOK_TERM_LINKS;
+    if (ground) bits |= NOOK_TERM_GROUND;
+    return bits;
+  }
+};
+
+class Gui {
+ public:
+  explicit Gui(GLFWwindow* window) {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    ImGui_ImplOpenGL3_Init("#version 330");
+  }
+  ~Gui() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+  }
+  Gui(const Gui&) = delete;
+  Gui& operator=(const Gui&) = delete;
+
+  void begin() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+  }
+  void draw() {
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  }
+};
+
+// True if the tier was changed.
+bool show_controls(Controls& c, const CrowdScene& scene, double update_ms) {
+  ImGui::Begin("Nook");
+  ImGui::Checkbox("ambient occlusion", &c.ao);
+  ImGui::SliderFloat("intensity", &c.intensity, 0, 1);
+  ImGui::Checkbox("self", &c.self);
+  ImGui::SameLine();
+  ImGui::Checkbox("neighbours", &c.neighbours);
+  ImGui::SameLine();
+  ImGui::Checkbox("ground", &c.ground);
+  ImGui::SliderInt("nearest neighbours", &c.link_count, 0, 16);
+  ImGui::SliderFloat("key light", &c.key, 0, 1);
+  ImGui::Checkbox("play", &c.playing);
+  const int tier = scene.gl_info().tier;
+  ImGui::Text("OpenGL tier:");
+  const int before = c.tier;
+  for (const int choice : {33, 43}) {
+    ImGui::SameLine();
+    if (ImGui::RadioButton(choice == 33 ? "3.3" : "4.3", tier == choice)) c.tier = choice;
+  }
+  ImGui::Text("update %.2f ms, frame %.1f ms, %u links", update_ms, 1000 / double(ImGui::GetIO().Framerate),
+              scene.stats().links);
+  ImGui::End();
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!io.WantCaptureMouse) {
+    if (ImGui::IsMouseDragging(ImGuiMouseButton_Left)) {
+      c.turn -= 0.005f * io.MouseDelta.x;
+      c.height = std::clamp(c.height + 0.005f * io.MouseDelta.y, 0.02f, 1.5f);
+    }
+    c.distance_m = std::clamp(c.distance_m * std::pow(0.9f, io.MouseWheel), 1.5f, 200.0f);
+  }
+  return c.tier != before;
+}
+
+Camera camera_of(const Controls& c) {
+  Camera camera;
+  camera.eye_ws =
+      camera.target_ws + c.distance_m * glm::vec3(std::sin(c.turn) * std::cos(c.height), std::sin(c.height),
+                                                  std::cos(c.turn) * std::cos(c.height));
+  return camera;
+}
+
+}  // namespace
+
+void run_window(platform::Context& context, const Hero& hero, std::span<const unsigned char> model,
+                const std::vector<Placement>& places, Renderer& renderer, const Options& options) {
+  using Clock = std::chrono::steady_clock;
+  const GladGLContext& gl = context.gl();
+  Gui gui(context.window());
+  Controls controls;
+  controls.link_count = int(options.neighbours);
+  controls.tier = options.tier;
+  const float radius_m = crowd_radius_m(places);
+  controls.distance_m = radius_m + 4;
+  std::unique_ptr<CrowdScene> scene;
+  bool tier_changed = true;
+  int linked = -1;
+  double time_s = 0, update_ms = 0;
+  auto last = Clock::now();
+  while (!context.should_close()) {
+    if (tier_changed) {
+      scene.reset();
+      const CrowdSceneRequest request{std::uint32_t(places.size()), std::uint32_t(controls.link_count),
+                                      controls.tier, NOOK_COMBINE_COMPOSED};
+      scene = std::make_unique<CrowdScene>(context, model, request);
+      linked = controls.link_count;
+    }
+    if (linked != controls.link_count) scene->link_nearest(std::uint32_t(linked = controls.link_count));
+    const auto now = Clock::now();
+    if (controls.playing) time_s += std::chrono::duration<double>(now - last).count();
+    last = now;
+    const std::vector<Bones> poses = pose_crowd(hero, places, float(time_s));
+    scene->set_poses(poses);
+    const auto before = Clock::now();
+    scene->update(controls.terms());
+    update_ms = std::chrono::duration<double, std::milli>(Clock::now() - before).count();
+    std::vector<DrawnInstance> drawn(poses.size());
+    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {&poses[i], scene->ao(i), albedo_of(i)};
+    Look look;
+    look.ao_strength = controls.ao ? controls.intensity : 0;
+    look.key_strength = controls.key;
+    look.fog_start_m = 1.2f * radius_m + 8;
+    int width = 0, height = 0;
+    context.size(&width, &height);
+    context.framebuffer();
+    gl.Viewport(0, 0, std::max(width, 1), std::max(height, 1));
+    gl.Enable(GL_FRAMEBUFFER_SRGB);
+    renderer.draw(drawn, camera_of(controls), look, glm::vec3(0), radius_m + 1);
+    gl.Disable(GL_FRAMEBUFFER_SRGB);  // ImGui's colours are encoded already
+    gui.begin();
+    tier_changed = show_controls(controls, *scene, update_ms);
+    gui.draw();
+    context.present();
+  }
+}
+
+}  // namespace crowd
