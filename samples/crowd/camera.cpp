@@ -18,7 +18,8 @@ Camera orbit(float radius_m, float turn) {
   Camera camera;
   camera.eye_ws = {distance_m * std::sin(angle), 1.4f + 0.2f * distance_m, distance_m * std::cos(angle)};
   // A little nearer than the middle, so that the front rows are not cut off.
-  camera.target_ws = 0.02f * radius_m * glm::vec3(std::sin(angle), 0, std::cos(angle)) + glm::vec3(0, 0.3f, 0);
+  camera.target_ws =
+      0.02f * radius_m * glm::vec3(std::sin(angle), 0, std::cos(angle)) + glm::vec3(0, 0.3f, 0);
   camera.fov_rad = 0.5f;
   return camera;
 }
