@@ -198,7 +198,9 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   const std::vector<InitialSphere> spheres = initial_spheres(mesh, set.vertex_weight, settings.spheres);
   Candidates candidates;
   candidates.count = std::min<std::size_t>(40, key_points.size());
-  candidates.key_point = nearest_key_points(mesh, feature_normal, key_points, candidates.count);
+  NearKeyPoints near = nearest_key_points(mesh, feature_normal, key_points, candidates.count);
+  candidates.key_point = std::move(near.key_point);
+  candidates.nearness = std::move(near.nearness);
   step(2);
 
   Fit fit(set, area, settings, candidates, initial_state(settings.kernel, spheres, key_points), report);

@@ -10,6 +10,9 @@ namespace {
 // by it stays below the step of an 8-bit image.
 constexpr float least_alpha = 1e-3f;
 
+// Entries below this, unless they are anchors, are dropped: each costs two bytes and moves AO by less than 1e-3.
+constexpr float dropped_alpha = 4e-3f;
+
 void set_surface_frames(CharacterModel& model, const SkinnedMesh& mesh, std::span<const float> vertex_area,
                         std::span<const Vec3> vertex_normal) {
   std::vector<float> total(model.key_points.size(), 0.0f);
@@ -62,6 +65,8 @@ CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh, std:
   model.influence.assign(linear.key_point.begin(), linear.key_point.end());
   model.alpha.assign(linear.alpha.begin(), linear.alpha.end());
   model.bias.assign(linear.bias.begin(), linear.bias.end());
+  for (std::size_t s = 0; s < model.alpha.size(); ++s)
+    if (model.alpha[s] < dropped_alpha && (linear.floor.empty() || linear.floor[s] == 0)) model.alpha[s] = 0;
   for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
     float* alpha = &model.alpha[i * model.influences];
     float* largest = std::max_element(alpha, alpha + model.influences);

@@ -26,7 +26,8 @@ struct TrainingSet {
 struct LinearLayerFit {
   std::size_t entries = 0;
   std::vector<std::uint16_t> key_point;  // vertices x entries
-  std::vector<float> alpha;              // the same, >= 0
+  std::vector<float> alpha;              // the same, >= floor
+  std::vector<float> floor;              // the same, >= 0: the least weight of an entry; empty: all 0
   std::vector<float> bias;               // a value a vertex
 
   std::size_t vertex_count() const { return bias.size(); }

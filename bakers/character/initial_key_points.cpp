@@ -72,10 +72,11 @@ FitState initial_state(const Kernel& kernel, std::span<const InitialSphere> sphe
   return state;
 }
 
-std::vector<std::uint16_t> nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> normal,
+NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> normal,
                                               std::span<const KeyPoint> key_points, std::size_t count) {
   count = std::min(count, key_points.size());
-  std::vector<std::uint16_t> nearest(mesh.vertex_count() * count);
+  NearKeyPoints nearest{std::vector<std::uint16_t>(mesh.vertex_count() * count),
+                        std::vector<float>(mesh.vertex_count() * count)};
   // A turn of the normal by 90 degrees or a full change of bone counts like this many metres, in a body about 1.7 m tall.
   constexpr float normal_metres = 0.04f, weight_metres = 0.15f;
   constexpr std::size_t block = 256;
@@ -97,7 +98,12 @@ std::vector<std::uint16_t> nearest_key_points(const SkinnedMesh& mesh, std::span
       }
       for (int s = 0; s < SkinWeights::max_bones; ++s) dense[own.bone[s]] = 0;
       std::partial_sort(distance.begin(), distance.begin() + std::ptrdiff_t(count), distance.end());
-      for (std::size_t c = 0; c < count; ++c) nearest[i * count + c] = distance[c].second;
+      // Falls to a half at the distance of the third, so that weights change smoothly where clusters meet.
+      const float reach2 = std::max(distance[std::min<std::size_t>(2, count - 1)].first, 1e-8f);
+      for (std::size_t c = 0; c < count; ++c) {
+        nearest.key_point[i * count + c] = distance[c].second;
+        nearest.nearness[i * count + c] = 1 / (1 + distance[c].first / reach2 + 1e-6f);
+      }
     }
   });
   return nearest;

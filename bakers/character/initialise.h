@@ -48,8 +48,12 @@ std::vector<KeyPoint> key_points_of_clusters(const SkinnedMesh& mesh, std::span<
 FitState initial_state(const Kernel& kernel, std::span<const InitialSphere> spheres,
                        std::span<const KeyPoint> key_points);
 
-// For each vertex the key points nearest to it in position, normal and skin weights.
-std::vector<std::uint16_t> nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> normal,
+// For each vertex the `count` key points nearest to it in position, normal and skin weights, with their nearness.
+struct NearKeyPoints {
+  std::vector<std::uint16_t> key_point;  // vertices x count, nearest first
+  std::vector<float> nearness;           // the same: 1 at distance 0, falling with the squared distance
+};
+NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> normal,
                                               std::span<const KeyPoint> key_points, std::size_t count);
 
 }  // namespace nook::bake

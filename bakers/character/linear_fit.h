@@ -13,12 +13,18 @@ namespace nook::bake {
 struct Candidates {
   std::size_t count = 0;
   std::vector<std::uint16_t> key_point;
+  std::vector<float> nearness;  // the same shape, > 0, falling; empty: all alike
 };
 
 struct LinearFitSettings {
   std::size_t entries = 7;        // at most this many key points a vertex
   double ridge = 1e-4;            // on alpha, relative to the mean variance of the shadows
   double least_gain = 1e-3;       // an entry must lower the vertex's squared error by this share of its variance
+  // The first `anchors` candidates of a vertex, the key points nearest to it, always take part, with weights of at least
+  // anchor_floor in all, by nearness. Added casters are interpolated by the same weights: where a vertex has little
+  // shadow of its own, its fitted weights alone would be noise, and the added darkness blotches.
+  std::size_t anchors = 3;
+  double anchor_floor = 0.06;
 };
 
 // Solves for alpha and bias of every vertex over the fitted poses of the set. The Gram matrix of the shadows is shared by all

@@ -119,7 +119,9 @@ void fit_mini_batches(FitState& state, const TrainingSet& set, const MiniBatchSe
     adam_keys.step(all.subspan(split), slope.subspan(split), key_point_rate, 10, rate, step + 1);
     adam_alpha.step(state.linear.alpha, gradient_alpha, &alpha_rate, 1, rate, step + 1);
     adam_bias.step(state.linear.bias, gradient_bias, &bias_rate, 1, rate, step + 1);
-    for (float& a : state.linear.alpha) a = std::max(0.0f, a - rate * settings.alpha_decay);
+    for (std::size_t s = 0; s < state.linear.alpha.size(); ++s)
+      state.linear.alpha[s] = std::max(state.linear.floor.empty() ? 0.0f : state.linear.floor[s],
+                                       state.linear.alpha[s] - rate * settings.alpha_decay);
     if (progress && !progress(step + 1)) break;
   }
 }

@@ -90,6 +90,7 @@ TEST_CASE("a planted linear layer is recovered") {
   LinearFitSettings settings;
   settings.entries = 3;
   settings.ridge = 1e-9;
+  settings.anchor_floor = 0;
   const LinearLayerFit fit = fit_linear_layer(shadow, padded, set, candidates, settings);
   for (std::size_t i = 0; i < vertices; ++i) {
     std::vector<float> alpha(6, 0.0f);
