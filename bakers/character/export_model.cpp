@@ -83,7 +83,7 @@ CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh, std:
   }
   model.bounding_centre = 0.5f * (low + high);
   for (Vec3 p : mesh.position) model.bounding_radius = std::max(model.bounding_radius, length(p - model.bounding_centre));
-  // The bone that carries most of the body's subtree yet has the weight of the middle: the nearest skin weight to the centre.
+  // The bone that follows the body as a whole: the strongest one at the vertex nearest to the middle of the bounding box.
   float nearest = INFINITY;
   for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
     const float d = length(mesh.position[i] - model.bounding_centre);

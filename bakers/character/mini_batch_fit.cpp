@@ -34,7 +34,8 @@ class Adam {
   std::vector<float> first_, second_;
 };
 
-// Learning rates in the parameters' own units, found on the Rocketbox body: metres, log radius, unit normals, weight roots.
+// Learning rates in the parameters' own units: metres, log radius, unit normals, weight roots. A step moves each by about this
+// much; they were chosen by scale, not searched.
 constexpr float sphere_rate[4] = {2e-3f, 2e-3f, 2e-3f, 1e-2f};
 constexpr float key_point_rate[10] = {2e-3f, 2e-3f, 2e-3f, 2e-2f, 2e-2f, 2e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f};
 constexpr float alpha_rate = 5e-3f;
