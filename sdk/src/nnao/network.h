@@ -1,0 +1,71 @@
+// The networks of the screen-space pass, as plain data. View space is OpenGL's: x right, y up, the camera
+// looks along -z. D. Holden, J. Saito, T. Komura: Neural Network Ambient Occlusion, 2016.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace nook::nnao {
+
+enum class NetworkForm : std::uint32_t {
+  paper = 0,    // filters over a grid of taps, then three small layers
+  horizon = 1,  // what is learned along each direction, then over the directions
+};
+
+// PReLU(x) = positive_slope max(x, 0) + negative_slope min(x, 0), one pair of slopes a unit (equation 1).
+template <int inputs, int units>
+struct Dense {
+  std::array<float, std::size_t(inputs) * units> weights{};  // weights[input * units + unit]
+  std::array<float, units> bias{};
+  std::array<float, units> negative_slope{};
+  std::array<float, units> positive_slope{};
+};
+
+// The paper's network. Tap (column, row) of a grid_size x grid_size grid lies at the view-space offset
+//   r (2 (column + 0.5) / grid_size - 1, 2 (row + 0.5) / grid_size - 1, 0)
+// from the pixel's position p; it is projected to the screen, where the buffers give position p_t and normal
+// n_t. Its input is
+//   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
+// The normalisation by mean and deviation is folded into filters and bias. Of a subset of n taps the sum over
+// taps is scaled by grid_size^2 / n.
+struct PaperNetwork {
+  static constexpr int grid_size = 31;
+  static constexpr int tap_inputs = 4;
+  static constexpr int units = 4;
+
+  std::vector<float> filters;  // grid_size^2 x tap_inputs x units, row by row
+  std::array<float, units> bias{};
+  std::array<float, units> negative_slope{};
+  std::array<float, units> positive_slope{};
+  Dense<units, units> layer_1;
+  Dense<units, units> layer_2;
+  Dense<units, 1> layer_3;
+};
+
+// Nook's network: the taps lie along `directions` half-lines on the screen, `steps` on each. With v = p_t -
+// p, the direction to the viewer o = -p / |p| (orthographic: +z) and the tap's distance d = |v| / r, a tap's
+// input is
+//   (dot(v, n) / |v|, dot(v, o) / |v|, min(d, 2)),
+// and its hidden units are tap(input) clamp(2 - d, 0, 1), 0 where there is no surface. Over the steps of a
+// direction their maximum and their mean, with the direction's own (dot(n, t), dot(n, o)), t the unit vector
+// across o in the plane of the direction, go through `direction`; the mean over directions, with dot(n, o),
+// through `join` and `out`.
+struct HorizonNetwork {
+  static constexpr int tap_inputs = 3;
+  static constexpr int units = 8;
+
+  Dense<tap_inputs, units> tap;
+  Dense<2 * units + 2, units> direction;
+  Dense<units + 1, units> join;
+  Dense<units, 1> out;
+};
+
+// AO is the network's output clamped to [0, 1]; 1 is open.
+struct Network {
+  NetworkForm form = NetworkForm::paper;
+  PaperNetwork paper;      // where form says so
+  HorizonNetwork horizon;  // where form says so
+};
+
+}  // namespace nook::nnao
