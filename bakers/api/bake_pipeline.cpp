@@ -38,6 +38,7 @@ std::string report_text(const ImportedCharacter& character, const Recipe& recipe
   j["mse_initial"] = report.mse_initial;
   j["mse_train"] = report.mse_train;
   j["mse_held_out"] = report.mse_held_out;
+  j["mse_held_out_file"] = report.mse_held_out_file;
   j["peak_bytes"] = peak_bytes();
   Json names = Json::array();
   for (std::size_t clip : recipe.clips) names.push_back(character.clips[clip].name);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "character/blend_fit.h"
 #include "character/block_descent.h"
 #include "character/caster_fit.h"
 #include "character/export_model.h"
@@ -12,6 +13,7 @@
 #include "character/levels.h"
 #include "character/linear_fit.h"
 #include "character/mini_batch_fit.h"
+#include "character/model_file.h"
 #include "core/failure.h"
 #include "import/skinning.h"
 
@@ -91,11 +93,16 @@ class Fit {
     state_.linear = fit_linear_layer(shadows, state_.structure.padded_count(), set_, candidates_, linear_);
   }
 
+  double held_out_mse(const FitState& state) const {
+    const std::size_t first = set_.held_out ? set_.fitted() : 0;
+    return measure_fit(state, set_, first, set_.poses.size(), area_).mse;
+  }
+
   // Adds a point to the curve and keeps the state if it is the best yet. Returns whether it improved by a share.
   bool measure(double least_gain = 0) {
     const std::size_t fitted = set_.fitted();
     const double train = measure_fit(state_, set_, 0, fitted, area_).mse;
-    const double held = set_.held_out ? measure_fit(state_, set_, fitted, set_.poses.size(), area_).mse : train;
+    const double held = set_.held_out ? held_out_mse(state_) : train;
     report_.curve.push_back({watch_.seconds(), train, held});
     const bool gained = best_.parameters.empty() || held < best_held_ * (1 - least_gain);
     if (best_.parameters.empty() || held < best_held_) {
@@ -216,6 +223,8 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   std::vector<float> static_ao;
   for (std::uint16_t v : rest_ao.row(0)) static_ao.push_back(float(v) * AoTargets::scale);
   BakeResult result{export_model(fit.best(), mesh, area, normal, static_ao), std::move(report)};
+  fit_blend_weights(result.model, mesh, set.poses);
+  result.report.mse_held_out_file = fit.held_out_mse(state_of_model(quantise(result.model)));
   CasterFitSettings casters;
   casters.seed = settings.seed;
   fit_caster_weights(result.model, mesh, set.poses, casters, stage_progress(BakeStage::casters));

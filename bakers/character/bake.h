@@ -44,7 +44,8 @@ struct BakeReport {
   double seconds_raytrace = 0, seconds_fit = 0;
   std::size_t iterations = 0, train_poses = 0;
   double mse_initial = 0, mse_train = 0, mse_held_out = 0;  // over all vertices, clamped predictions
-  double noise_floor_mse = 0;                               // of the training targets' rays
+  double mse_held_out_file = 0;  // of the model as its file holds it: what quantisation costs
+  double noise_floor_mse = 0;    // of the training targets' rays
   std::vector<CurvePoint> curve;
 };
 

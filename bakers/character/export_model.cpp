@@ -6,40 +6,66 @@
 namespace nook::bake {
 namespace {
 
-// The smallest weight that a vertex keeps, so that added casters reach vertices that no self-shadow does: its own darkening
-// by it stays below the step of an 8-bit image.
+// The smallest weight that a vertex keeps, so that added casters reach vertices that no self-shadow does: its
+// own darkening by it stays below the step of an 8-bit image.
 constexpr float least_alpha = 1e-3f;
 
-// Entries below this, unless they are anchors, are dropped: each costs two bytes and moves AO by less than 1e-3.
+// Entries below this, unless they are anchors, are dropped: each costs two bytes and moves AO by less than
+// 1e-3.
 constexpr float dropped_alpha = 4e-3f;
 
+// Of the entries of a vertex, the one whose surface frame is nearest in place and direction.
+std::size_t nearest_key_point(const CharacterModel& model, std::size_t vertex, Vec3 position, Vec3 normal) {
+  constexpr float metres_of_a_normal = 0.1f;
+  std::size_t nearest = 0;
+  float least = INFINITY;
+  for (std::size_t s = vertex * model.influences; s < (vertex + 1) * model.influences; ++s) {
+    if (model.alpha[s] == 0) continue;
+    const KeyPoint& p = model.key_points[model.influence[s]];
+    const Vec3 d = p.surface_position - position, turn = (p.surface_normal - normal) * metres_of_a_normal;
+    const float distance = dot(d, d) + dot(turn, turn);
+    if (distance < least) {
+      least = distance;
+      nearest = model.influence[s];
+    }
+  }
+  return nearest;
+}
+
+// Where added casters are felt: the mean of the vertices nearest to a key point among those that use it, by
+// k-means. A mean of all of them would be a place inside the body and a blurred direction.
 void set_surface_frames(CharacterModel& model, const SkinnedMesh& mesh, std::span<const float> vertex_area,
                         std::span<const Vec3> vertex_normal) {
-  std::vector<float> total(model.key_points.size(), 0.0f);
-  std::vector<Vec3> position(total.size()), normal(total.size());
-  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-    float sum = 0;
-    for (std::size_t s = 0; s < model.influences; ++s) sum += model.alpha[i * model.influences + s];
-    for (std::size_t s = 0; s < model.influences; ++s) {
-      const float w = model.alpha[i * model.influences + s] / sum * (vertex_area[i] + 1e-9f);
-      const std::size_t k = model.influence[i * model.influences + s];
+  for (KeyPoint& p : model.key_points) {
+    p.surface_position = p.position;
+    p.surface_normal = p.normal;
+  }
+  constexpr int rounds = 6;  // the error against ray tracing stands still after 4
+  for (int r = 0; r < rounds; ++r) {
+    std::vector<float> total(model.key_points.size(), 0.0f);
+    std::vector<Vec3> position(total.size()), normal(total.size());
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+      const std::size_t k = nearest_key_point(model, i, mesh.position[i], vertex_normal[i]);
+      const float w = vertex_area[i] + 1e-9f;
       total[k] += w;
       position[k] += w * mesh.position[i];
       normal[k] += w * vertex_normal[i];
     }
-  }
-  for (std::size_t k = 0; k < total.size(); ++k) {
-    KeyPoint& p = model.key_points[k];
-    p.surface_position = total[k] > 0 ? position[k] * (1 / total[k]) : p.position;
-    const Vec3 n = normalised(normal[k]);
-    p.surface_normal = dot(n, n) > 0 ? n : p.normal;
+    for (std::size_t k = 0; k < total.size(); ++k) {
+      if (total[k] == 0) continue;
+      KeyPoint& p = model.key_points[k];
+      p.surface_position = position[k] * (1 / total[k]);
+      const Vec3 n = normalised(normal[k]);
+      if (dot(n, n) > 0) p.surface_normal = n;
+    }
   }
 }
 
 }  // namespace
 
-CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh, std::span<const float> vertex_area,
-                            std::span<const Vec3> vertex_normal, std::span<const float> static_ao) {
+CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh,
+                            std::span<const float> vertex_area, std::span<const Vec3> vertex_normal,
+                            std::span<const float> static_ao) {
   const LayerStructure& structure = state.structure;
   CharacterModel model;
   model.kernel = structure.kernel;
@@ -82,8 +108,10 @@ CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh, std:
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   model.bounding_centre = 0.5f * (low + high);
-  for (Vec3 p : mesh.position) model.bounding_radius = std::max(model.bounding_radius, length(p - model.bounding_centre));
-  // The bone that follows the body as a whole: the strongest one at the vertex nearest to the middle of the bounding box.
+  for (Vec3 p : mesh.position)
+    model.bounding_radius = std::max(model.bounding_radius, length(p - model.bounding_centre));
+  // The bone that follows the body as a whole: the strongest one at the vertex nearest to the middle of the
+  // bounding box.
   float nearest = INFINITY;
   for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
     const float d = length(mesh.position[i] - model.bounding_centre);

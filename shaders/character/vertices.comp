@@ -9,7 +9,7 @@ layout(std430, binding = 5) readonly buffer NookShadows {
 };
 layout(std430, binding = 6) readonly buffer NookLinear {
   // Welded vertex of each file vertex, then for each welded vertex: bias, two key points in a word for each pair of
-  // influences, and the alphas; each of these as an array over the welded vertices.
+  // influences, the alphas and the blend weights; each of these as an array over the welded vertices.
   uint nook_linear[];
 };
 layout(std430, binding = 7) writeonly buffer NookAo {
@@ -29,17 +29,17 @@ void main() {
   uint first_key_point = record.place * nook_shadow_stride;
   uint word = nook_file_vertex_count + nook_linear[file_vertex];
   float bias = nook_self != 0 ? uintBitsToFloat(nook_linear[word]) : 0.0;
-  float alpha_sum = 0.0;
-  vec2 blended = vec2(0.0);
+  vec2 sum = vec2(0.0);
   for (uint i = 0u; i < nook_influence_pairs; ++i) {
     uint pair = nook_linear[word + (1u + i) * nook_vertex_count];
-    uint alphas = word + (1u + nook_influence_pairs + 2u * i) * nook_vertex_count;
-    float first = uintBitsToFloat(nook_linear[alphas]);
-    float second = uintBitsToFloat(nook_linear[alphas + nook_vertex_count]);
-    blended += first * nook_shadow[first_key_point + (pair & 0xffffu)] +
-               second * nook_shadow[first_key_point + (pair >> 16)];
-    alpha_sum += first + second;
+    uint alpha = word + (1u + nook_influence_pairs + 2u * i) * nook_vertex_count;
+    uint blend = alpha + 2u * nook_influence_pairs * nook_vertex_count;
+    vec2 first = vec2(uintBitsToFloat(nook_linear[alpha]), uintBitsToFloat(nook_linear[blend]));
+    vec2 second = vec2(uintBitsToFloat(nook_linear[alpha + nook_vertex_count]),
+                       uintBitsToFloat(nook_linear[blend + nook_vertex_count]));
+    sum += first * nook_shadow[first_key_point + (pair & 0xffffu)] +
+           second * nook_shadow[first_key_point + (pair >> 16)];
   }
   nook_ao[record.place * nook_file_vertex_count + file_vertex] =
-      nook_combine(blended.x, blended.y, alpha_sum, bias);
+      nook_combine(sum.x, sum.y, bias);
 }

@@ -32,7 +32,7 @@ TEST_CASE("an init function writes exactly the caller's size") {
   REQUIRE(nook_scene_desc_init(exact.desc(), sizeof(nook_scene_desc), NOOK_VERSION) == NOOK_OK);
   CHECK(exact.bytes[sizeof(nook_scene_desc)] == 0xa5);
   CHECK(exact.desc()->struct_size == sizeof(nook_scene_desc));
-  CHECK(exact.desc()->ground_radius == 100);
+  CHECK(exact.desc()->ground_radius == 10'000);
 
   // A newer header of the same version: what the library does not know is 0.
   Roomy<nook_scene_desc> larger;

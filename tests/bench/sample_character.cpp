@@ -58,6 +58,7 @@ void add_linear_layer(CharacterModel& model, Draw& draw) {
       std::swap(near[s], near[s + draw.below(10 - s)]);
       model.influence.push_back(near[s]);
       model.alpha.push_back(draw.between(0.05f, 0.2f));
+      model.blend.push_back(1.0f / influences);
     }
     model.bias.push_back(draw.between(-0.05f, 0.1f));
   }

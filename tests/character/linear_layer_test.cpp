@@ -28,6 +28,7 @@ CharacterModel random_model(std::uint32_t vertices) {
       const bool used = (s * 3) % influences < v % (influences + 1);
       model.influence.push_back(static_cast<std::uint16_t>(unit(random) * key_points * 0.999f));
       model.alpha.push_back(used ? 0.05f + 0.3f * unit(random) : 0.0f);
+      model.blend.push_back(used ? 0.4f * unit(random) - 0.1f : 0.0f);
     }
     model.bias.push_back(0.2f * unit(random) - 0.1f);
   }
@@ -49,14 +50,13 @@ struct Inputs {
 };
 
 double truth(const CharacterModel& model, const Inputs& in, std::uint32_t v, bool added) {
-  double shaded = model.bias[v], weighted = 0, alpha_sum = 0;
+  double shaded = model.bias[v], dark = 0;
   for (std::uint32_t e = v * influences; e < (v + 1) * influences; ++e) {
     shaded += double(model.alpha[e]) * in.shadow[model.influence[e]];
-    weighted += double(model.alpha[e]) * in.occlusion[model.influence[e]];
-    alpha_sum += model.alpha[e];
+    dark += double(model.blend[e]) * in.occlusion[model.influence[e]];
   }
   const double self = std::clamp(1 - shaded, 0.0, 1.0);
-  return added && alpha_sum > 0 ? self * (1 - weighted / alpha_sum) : self;
+  return added ? self * std::clamp(1 - dark, 0.0, 1.0) : self;
 }
 
 std::vector<float> vertex_ao(const ShadowKernels& kernels, const LinearLayer& layer, const float* shadow,
@@ -106,6 +106,7 @@ TEST_CASE("vertices that share key points share a block") {
     for (std::uint32_t s = 0; s < influences; ++s) {
       model.influence.push_back(static_cast<std::uint16_t>(v % 50 * influences + s));
       model.alpha.push_back(0.1f);
+      model.blend.push_back(1.0f / influences);
     }
     model.bias.push_back(0);
     model.file_to_welded.push_back(v);

@@ -61,11 +61,15 @@ inline CharacterModel sample_model(std::uint32_t seed = 1, SampleSize size = {})
   }
   model.influences = size.influences;
   for (std::uint32_t v = 0; v < size.vertices; ++v) {
-    const std::uint32_t used = 1 + numbers.below(size.influences);
+    const std::uint32_t used = 1 + numbers.below(size.influences), first = numbers.below(size.key_points);
     for (std::uint32_t e = 0; e < size.influences; ++e) {
-      model.influence.push_back(static_cast<std::uint16_t>(e < used ? numbers.below(size.key_points) : 0));
+      model.influence.push_back(static_cast<std::uint16_t>(e < used ? (first + e) % size.key_points : 0));
       model.alpha.push_back(e < used ? numbers.between(0.001f, 0.6f) : 0.0f);
+      model.blend.push_back(e < used ? numbers.between(-0.1f, 0.3f) : 0.0f);
     }
+    float blend_sum = 0;
+    for (std::uint32_t e = 1; e < used; ++e) blend_sum += model.blend[model.blend.size() - size.influences + e];
+    model.blend[model.blend.size() - size.influences] = 1 - blend_sum;
     model.bias.push_back(numbers.between(-0.1f, 0.2f));
     model.static_ao.push_back(numbers.between(0, 1));
     model.file_to_welded.push_back(v);
@@ -90,6 +94,7 @@ inline CharacterModel single_model(Vec3 sphere_centre, float sphere_radius, floa
   model.influences = 1;
   model.influence = {0};
   model.alpha = {alpha};
+  model.blend = {1};
   model.bias = {bias};
   model.file_to_welded = {0};
   model.primitives = {{0, 1}};

@@ -85,7 +85,7 @@ typedef struct nook_scene_desc {
                                    (distance to the camera / lod_distance) is used. >= 0, default 0: full detail */
   float lod_distance;           /* metres, > 0, default 10 */
   uint32_t lod_max_interval;    /* frames; a distant instance is updated at least this often. >= 1, default 1: always */
-  float ground_radius;          /* metres, radius of the sphere that stands for a ground plane. > 0, default 100 */
+  float ground_radius;          /* metres, radius of the sphere that stands for a ground plane. > 0, default 10,000 */
   uint32_t reserved;            /* 0 */
 } nook_scene_desc;
 

@@ -8,10 +8,10 @@
 namespace nook {
 namespace {
 
-// The most that spheres of total sum(weight * radius^2) = strength can darken any point that is at least
-// `gap` from their centres: a form factor is at most (radius / distance)^2, and 1 - exp(-x) <= x.
-float composed_bound(float strength, float gap) {
-  return gap > 0 ? strength / (gap * gap) : INFINITY;
+// The most that spheres of total sum(weight * radius^2) = strength can darken any vertex whose key points are
+// at least `gap` from their centres: a form factor is at most (radius / distance)^2, and 1 - exp(-x) <= x.
+float composed_bound(const LoadedModel& receiver, float strength, float gap) {
+  return gap > 0 ? receiver.linear.max_blend_gain() * strength / (gap * gap) : INFINITY;
 }
 
 // No term of the paper's form exceeds this at `delta` radii: solid angle of slide 18 or the fall-off of the
@@ -56,9 +56,10 @@ bool matters(const Scene& scene, const Instance& receiver, const Instance& caste
   if (scene.settings.cutoff_error <= 0) return true;
   const float gap =
       length(caster.bound.centre - receiver.bound.centre) - caster.bound.radius - receiver.bound.radius;
-  const float bound = scene.settings.combine == NOOK_COMBINE_COMPOSED
-                          ? composed_bound(caster.model->caster_strength * caster.scale * caster.scale, gap)
-                          : paper_bound(*receiver.model, receiver.level, caster, gap);
+  const float bound =
+      scene.settings.combine == NOOK_COMBINE_COMPOSED
+          ? composed_bound(*receiver.model, caster.model->caster_strength * caster.scale * caster.scale, gap)
+          : paper_bound(*receiver.model, receiver.level, caster, gap);
   return !(bound < scene.settings.cutoff_error);
 }
 
@@ -66,7 +67,7 @@ bool matters(const Scene& scene, const Instance& receiver, const Sphere& sphere)
   if (scene.settings.cutoff_error <= 0) return true;
   const float gap = length(sphere.centre - receiver.bound.centre) - receiver.bound.radius;
   const float bound = scene.settings.combine == NOOK_COMBINE_COMPOSED
-                          ? composed_bound(sphere.radius * sphere.radius, gap)
+                          ? composed_bound(*receiver.model, sphere.radius * sphere.radius, gap)
                           : paper_bound(*receiver.model, sphere.radius, gap);
   return !(bound < scene.settings.cutoff_error);
 }

@@ -197,12 +197,9 @@ void read_ao(const Scene& scene, const Instance& instance, float* out, std::size
   }
   for (std::uint32_t block = 0; block < view.block_count; block += chunk_blocks) {
     const std::uint32_t first_slot = block * linear_block_vertices;
-    const LinearView chunk{view.blocks + block,
-                           std::min(chunk_blocks, view.block_count - block),
-                           view.key_point,
-                           view.alpha,
-                           view.open_bias + first_slot,
-                           view.inverse_alpha_sum + first_slot};
+    const LinearView chunk{view.blocks + block, std::min(chunk_blocks, view.block_count - block),
+                           view.key_point,      view.alpha,
+                           view.blend,          view.open_bias + first_slot};
     scene.kernels->linear_layer(chunk, points.shadow, added, ao.data());
     const std::uint32_t end = first_slot + chunk.block_count * linear_block_vertices;
     for (std::uint32_t slot = first_slot; slot < end; ++slot)

@@ -1,6 +1,7 @@
 #include "character/linear_layer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "character/linear_layer_order.h"
@@ -11,9 +12,10 @@ namespace {
 
 void check_influences(const CharacterModel& model) {
   const std::size_t entries = model.vertex_count() * model.influences;
-  if (model.alpha.size() != entries || model.influence.size() != entries)
-    throw Failure(NOOK_ERROR_BAD_FILE, "linear layer has %zu indices and %zu weights (need %zu of each)",
-                  model.influence.size(), model.alpha.size(), entries);
+  if (model.alpha.size() != entries || model.blend.size() != entries || model.influence.size() != entries)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "linear layer has %zu indices, %zu alphas and %zu blend weights (need %zu of each)",
+                  model.influence.size(), model.alpha.size(), model.blend.size(), entries);
   for (std::size_t e = 0; e < entries; ++e)
     if (model.alpha[e] != 0 && model.influence[e] >= model.key_points.size())
       throw Failure(NOOK_ERROR_BAD_FILE,
@@ -60,7 +62,6 @@ struct Columns {
 LinearLayer::LinearLayer(const CharacterModel& model, std::pmr::memory_resource* memory)
     : blocks_(block_count_of(model.vertex_count()), memory),
       open_bias_(blocks_.size() * linear_block_vertices, memory),
-      inverse_alpha_sum_(blocks_.size() * linear_block_vertices, memory),
       welded_to_slot_(model.vertex_count(), memory),
       file_to_slot_(model.file_to_welded.size(), memory) {
   check_influences(model);
@@ -72,19 +73,22 @@ LinearLayer::LinearLayer(const CharacterModel& model, std::pmr::memory_resource*
   key_point_ = AlignedArray<std::uint16_t>(columns.key_point.size(), memory);
   std::copy(columns.key_point.begin(), columns.key_point.end(), key_point_.begin());
   alpha_ = AlignedArray<float>(columns.key_point.size() * linear_block_vertices, memory);
+  blend_ = AlignedArray<float>(columns.key_point.size() * linear_block_vertices, memory);
 
   for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
     const std::size_t vertex = order[slot];
     welded_to_slot_[vertex] = slot;
-    float alpha_sum = 0;
+    float gain = 0;
     for (std::size_t e = vertex * model.influences; e < (vertex + 1) * model.influences; ++e) {
       if (model.alpha[e] == 0) continue;
       const std::size_t column = columns.find(slot / linear_block_vertices, model.influence[e]);
-      alpha_[column * linear_block_vertices + slot % linear_block_vertices] += model.alpha[e];
-      alpha_sum += model.alpha[e];
+      const std::size_t place = column * linear_block_vertices + slot % linear_block_vertices;
+      alpha_[place] += model.alpha[e];
+      blend_[place] += model.blend[e];
+      gain += std::abs(model.blend[e]);
     }
     open_bias_[slot] = 1 - model.bias[vertex];
-    inverse_alpha_sum_[slot] = alpha_sum > 0 ? 1 / alpha_sum : 0;
+    max_blend_gain_ = std::max(max_blend_gain_, gain);
   }
   for (std::size_t i = 0; i < file_to_slot_.size(); ++i) {
     if (model.file_to_welded[i] >= order.size())
@@ -95,7 +99,7 @@ LinearLayer::LinearLayer(const CharacterModel& model, std::pmr::memory_resource*
   }
   view_ = {blocks_.data(),    static_cast<std::uint32_t>(blocks_.size()),
            key_point_.data(), alpha_.data(),
-           open_bias_.data(), inverse_alpha_sum_.data()};
+           blend_.data(),     open_bias_.data()};
 }
 
 }  // namespace nook

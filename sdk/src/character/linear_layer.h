@@ -19,6 +19,8 @@ class LinearLayer {
                        std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
   const LinearView& view() const { return view_; }
+  // The largest sum of a vertex's blend weights without their signs: what an error at key points can grow to.
+  float max_blend_gain() const { return max_blend_gain_; }
   // Length of the ao array that ShadowKernels::linear_layer fills.
   std::uint32_t padded_slots() const { return view_.block_count * linear_block_vertices; }
   // The indices that ShadowKernels::scatter needs to write welded vertices, or vertices in the file's order.
@@ -29,11 +31,12 @@ class LinearLayer {
   AlignedArray<LinearBlock> blocks_;
   AlignedArray<std::uint16_t> key_point_;
   AlignedArray<float> alpha_;
+  AlignedArray<float> blend_;
   AlignedArray<float> open_bias_;
-  AlignedArray<float> inverse_alpha_sum_;
   AlignedArray<std::uint32_t> welded_to_slot_;
   AlignedArray<std::uint32_t> file_to_slot_;
   LinearView view_;
+  float max_blend_gain_ = 0;
 };
 
 }  // namespace nook

@@ -28,7 +28,7 @@ struct KeyPoint {
   static constexpr int max_bones = 4;
   Vec3 position;          // fitted: where self-shadow is evaluated
   Vec3 normal;            // fitted, unit length
-  Vec3 surface_position;  // mean of the vertices that use it: where added casters are felt
+  Vec3 surface_position;  // mean of the vertices nearest to it: where added casters are felt
   Vec3 surface_normal;    // their mean normal, unit length
   std::array<std::uint16_t, max_bones> bone{};
   std::array<float, max_bones> weight{};  // non-negative, sum 1
@@ -67,7 +67,7 @@ struct CharacterLevel {
 struct CharacterModel {
   explicit CharacterModel(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : bone_names(memory), spheres(memory), key_points(memory), influence(memory), alpha(memory), bias(memory),
-        static_ao(memory), file_to_welded(memory), primitives(memory), levels(memory), recipe(memory) {}
+        blend(memory), static_ao(memory), file_to_welded(memory), primitives(memory), levels(memory), recipe(memory) {}
 
   static constexpr std::uint32_t max_influences = 8;
 
@@ -81,6 +81,10 @@ struct CharacterModel {
   std::pmr::vector<std::uint16_t> influence;  // key-point indices
   std::pmr::vector<float> alpha;              // >= 0; at least one entry per vertex is > 0
   std::pmr::vector<float> bias;
+  // How what other casters take away is blended from the same key points: AO is also multiplied by
+  // 1 - sum_s blend[i * influences + s] * occlusion[influence[...]]. Those of a vertex sum to 1, some may be negative;
+  // 0 where alpha is 0.
+  std::pmr::vector<float> blend;
   std::pmr::vector<float> static_ao;          // AO of the rest pose per welded vertex, what a static bake gives; may be empty
 
   std::pmr::vector<std::uint32_t> file_to_welded;  // for each vertex in file order, its welded vertex

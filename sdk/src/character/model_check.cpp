@@ -13,6 +13,7 @@ constexpr float max_metres = 1e6f;
 // A gamma-norm beyond this is the maximum norm to float precision.
 constexpr float max_gamma = 64;
 constexpr float max_coefficient = 1e4f;  // of alpha, bias and caster weight: far above anything a fit gives
+constexpr float max_blend = 16;          // far above what a file can hold
 constexpr std::size_t max_indexed = 65536;  // what 16-bit indices reach
 
 bool within(float value, float low, float high) {
@@ -95,17 +96,26 @@ void check_linear_layer(const CharacterModel& model, const Check& check) {
   const std::size_t vertices = model.vertex_count(), entries = vertices * model.influences;
   check.sized("influences", model.influence.size(), entries);
   check.sized("alphas", model.alpha.size(), entries);
+  check.sized("blend weights", model.blend.size(), entries);
   if (!model.static_ao.empty()) check.sized("static AO", model.static_ao.size(), vertices);
   for (std::size_t i = 0; i < vertices; ++i) {
-    float sum = 0;
+    float sum = 0, blend_sum = 0;
     for (std::size_t e = i * model.influences; e < (i + 1) * model.influences; ++e) {
       check.that(model.influence[e] < model.key_points.size(), "key point of vertex", i, model.influence[e],
                  "less than the number of key points");
       check.that(within(model.alpha[e], 0, max_coefficient), "alpha of vertex", i, model.alpha[e],
                  "0 to 1e4");
+      check.that(within(model.blend[e], -max_blend, max_blend), "blend weight of vertex", i, model.blend[e],
+                 "-16 to 16");
       sum += model.alpha[e];
+      blend_sum += model.blend[e];
     }
     check.that(sum > 0, "sum of alphas of vertex", i, sum, "more than 0");
+    for (std::size_t e = i * model.influences; e < (i + 1) * model.influences; ++e)
+      check.that(model.alpha[e] > 0 || model.blend[e] == 0, "blend weight of vertex", i, model.blend[e],
+                 "0 where alpha is 0");
+    // Eight additions of numbers up to 16.
+    check.that(within(blend_sum, 1 - 1e-4f, 1 + 1e-4f), "sum of blend weights of vertex", i, blend_sum, "1");
     check.that(within(std::abs(model.bias[i]), 0, max_coefficient), "bias of vertex", i, model.bias[i],
                "-1e4 to 1e4");
     if (!model.static_ao.empty())

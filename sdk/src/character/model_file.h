@@ -1,4 +1,4 @@
-// Character models as .nook files. Version 1 of the kind "CHAR" has the sections
+// Character models as .nook files. Version 2 of the kind "CHAR" has the sections
 //   HEAD kernel, bounds   BONE names   SPHR proxy spheres   KEYP key points   LINR linear layer
 //   STAO static AO, one byte a welded vertex (may be missing)   FMAP file order   PRIM primitives
 //   LODS levels of detail (may be missing)   RECP recipe
@@ -15,7 +15,7 @@
 
 namespace nook {
 
-inline constexpr ContainerKind character_kind{four_letters("CHAR"), "character model", 1, 1};
+inline constexpr ContainerKind character_kind{four_letters("CHAR"), "character model", 2, 2};
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the model fails check_model.
 std::vector<std::byte> write_character_model(const CharacterModel& model);

@@ -11,7 +11,7 @@
 
 namespace nook {
 
-// Bits of each field of version 1.
+// Bits of each field of version 2.
 struct CharacterBits {
   static constexpr int sphere_centre = 16;  // a coordinate in the box of all centres: 30 micrometres in 2 m
   static constexpr int sphere_radius = 16;
@@ -23,11 +23,16 @@ struct CharacterBits {
   static constexpr int bone_count = 2;
   static constexpr int bone_weight = 8;  // in 1/256, so that the sum of a key point's weights is exactly 1
   static constexpr int entry_count = 3;
-  static constexpr int alpha = 8;  // square-root companded
+  static constexpr int reference = 2;  // which of the vertices before shares key points
+  static constexpr int alpha = 7;      // square-root companded
   static constexpr int bias = 8;
+  static constexpr int blend = 5;
   static constexpr int level_scale = 8;
   static constexpr int level_offset = 8;
 };
+
+// Vertices before a vertex that it may share key points with.
+inline constexpr std::size_t max_references = std::size_t{1} << CharacterBits::reference;
 
 // Bytes that a bone's name may take over from the one before it, so that a small file cannot fill the memory
 // with names.
@@ -106,6 +111,16 @@ inline std::uint32_t encode_alpha(float alpha, float max_alpha) {
   const std::uint32_t last = Range::last_code(CharacterBits::alpha);
   const double code = std::round(last * std::sqrt(std::max(0.0, double(alpha) / max_alpha)));
   return static_cast<std::uint32_t>(std::min(std::max(code, 1.0), double(last)));
+}
+
+// Blend weights in sixteenths from -8 / 16 on, so that those of a vertex sum to exactly 1 and one of them need not be written.
+inline constexpr int blend_one = 16, blend_low = -8;
+inline float decode_blend(std::uint32_t code) {
+  return static_cast<float>(static_cast<int>(code) + blend_low) / blend_one;
+}
+inline std::uint32_t encode_blend(float weight) {
+  const double last = Range::last_code(CharacterBits::blend);
+  return static_cast<std::uint32_t>(std::min(std::max(std::round(double(weight) * blend_one) - blend_low, 0.0), last));
 }
 
 }  // namespace nook

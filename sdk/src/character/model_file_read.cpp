@@ -106,18 +106,38 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
   model.influences = influences;
   model.influence.assign(std::size_t(vertices) * influences, 0);
   model.alpha.assign(std::size_t(vertices) * influences, 0.0f);
+  model.blend.assign(std::size_t(vertices) * influences, 0.0f);
   model.bias.reserve(vertices);
+  std::array<std::uint32_t, max_references> counts{};  // of the vertices before
   for (std::uint32_t i = 0; i < vertices; ++i) {
     const std::uint32_t count = in.bits(Bits::entry_count) + 1;
     if (count > influences)
       throw Failure(NOOK_ERROR_BAD_FILE,
                     "vertex %u has too many influences (got %u, need at most %u); bake the file again", i,
                     count, influences);
-    for (std::uint32_t e = 0; e < count; ++e) {
-      const std::size_t at = std::size_t(i) * influences + e;
-      model.influence[at] = static_cast<std::uint16_t>(in.bits(key_point_bits));
-      model.alpha[at] = decode_alpha(in.bits(Bits::alpha), max_alpha);
+    const std::size_t first = std::size_t(i) * influences;
+    std::uint32_t e = 0;
+    if (i > 0) {
+      const std::uint32_t back = in.bits(Bits::reference) + 1;
+      if (back > i)
+        throw Failure(NOOK_ERROR_BAD_FILE,
+                      "vertex %u refers to a vertex before the first one; bake the file again", i);
+      const std::uint16_t* const other = &model.influence[std::size_t(i - back) * influences];
+      for (std::uint32_t o = 0; o < counts[(i - back) % max_references]; ++o) {
+        if (!in.bits(1)) continue;
+        if (e == count)
+          throw Failure(NOOK_ERROR_BAD_FILE,
+                        "vertex %u takes over more key points than it has (%u); bake the file again", i,
+                        count);
+        model.influence[first + e++] = other[o];
+      }
     }
+    counts[i % max_references] = count;
+    for (; e < count; ++e) model.influence[first + e] = static_cast<std::uint16_t>(in.bits(key_point_bits));
+    for (e = 0; e < count; ++e) model.alpha[first + e] = decode_alpha(in.bits(Bits::alpha), max_alpha);
+    float left = 1;  // sixteenths, so exact
+    for (e = 1; e < count; ++e) left -= model.blend[first + e] = decode_blend(in.bits(Bits::blend));
+    model.blend[first] = left;
     model.bias.push_back(bias.decode(in.bits(Bits::bias), Bits::bias));
   }
   in.check_end();

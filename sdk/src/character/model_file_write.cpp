@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "character/model_check.h"
 #include "character/model_file.h"
@@ -91,6 +93,76 @@ ByteWriter write_key_points(const CharacterModel& model) {
   return out;
 }
 
+// What is written of a vertex: its entries with alpha above 0.
+struct CodedEntry {
+  std::uint16_t key_point = 0;
+  std::uint32_t alpha = 0, blend = 0;  // codes
+};
+struct CodedEntries {
+  std::array<CodedEntry, CharacterModel::max_influences> entry{};
+  std::uint32_t count = 0;
+};
+
+// The largest alpha first, each passing its rounding error on to the next, whose steps are finer: the sum of
+// alphas, which matters most because neighbouring key points have like shadows, stays right.
+CodedEntries code_entries(const CharacterModel& model, std::size_t vertex, float max_alpha) {
+  const float* const alpha = model.alpha.data() + vertex * model.influences;
+  std::array<std::uint32_t, CharacterModel::max_influences> order{};
+  CodedEntries out;
+  for (std::uint32_t e = 0; e < model.influences; ++e)
+    if (alpha[e] > 0) order[out.count++] = e;
+  std::stable_sort(order.begin(), order.begin() + out.count,
+                   [&](std::uint32_t a, std::uint32_t b) { return alpha[a] > alpha[b]; });
+  double error = 0;
+  for (std::uint32_t e = 0; e < out.count; ++e) {
+    const double wanted = alpha[order[e]] + error;
+    const std::uint32_t code = encode_alpha(static_cast<float>(wanted), max_alpha);
+    const std::size_t place = vertex * model.influences + order[e];
+    out.entry[e] = {model.influence[place], code, encode_blend(model.blend[place])};
+    error = wanted - decode_alpha(code, max_alpha);
+  }
+  return out;
+}
+
+// Moves the entries whose key points `other` has to the front, in the other's order, and returns their
+// number; bit e of kept says that the other's entry e is among them.
+std::uint32_t gather_shared(CodedEntries& own, const CodedEntries& other, std::uint32_t& kept) {
+  std::uint32_t shared = 0;
+  kept = 0;
+  for (std::uint32_t e = 0; e < other.count; ++e)
+    for (std::uint32_t s = shared; s < own.count; ++s) {
+      if (own.entry[s].key_point != other.entry[e].key_point) continue;
+      std::swap(own.entry[s], own.entry[shared++]);
+      kept |= 1u << e;
+      break;
+    }
+  return shared;
+}
+
+// Vertices that follow each other are mostly neighbours and share key points: a vertex names one of the few
+// before it, says which of that one's key points it keeps, and writes only the others as numbers.
+void write_key_points_of(ByteWriter& out, CodedEntries& own, std::span<const CodedEntries> before,
+                         int key_point_bits) {
+  std::uint32_t shared = 0, kept = 0;
+  if (!before.empty()) {
+    std::uint32_t reference = 0, most = 0;
+    for (std::uint32_t r = 0; r < before.size(); ++r) {
+      const std::uint32_t found = gather_shared(own, before[before.size() - 1 - r], kept);
+      if (found > most) {
+        most = found;
+        reference = r;
+      }
+    }
+    const CodedEntries& other = before[before.size() - 1 - reference];
+    shared = gather_shared(own, other, kept);
+    out.bits(reference, Bits::reference);
+    out.bits(kept, static_cast<int>(other.count));
+  }
+  std::sort(own.entry.begin() + shared, own.entry.begin() + own.count,
+            [](const CodedEntry& a, const CodedEntry& b) { return a.key_point < b.key_point; });
+  for (std::uint32_t e = shared; e < own.count; ++e) out.bits(own.entry[e].key_point, key_point_bits);
+}
+
 ByteWriter write_linear_layer(const CharacterModel& model) {
   const float max_alpha = *std::ranges::max_element(model.alpha);
   Range bias{model.bias.front(), model.bias.front()};
@@ -101,29 +173,17 @@ ByteWriter write_linear_layer(const CharacterModel& model) {
   out.f32(max_alpha);
   write_range(out, bias);
 
+  std::vector<CodedEntries> vertices;
   for (std::size_t i = 0; i < model.vertex_count(); ++i) {
-    const float* alpha = model.alpha.data() + i * model.influences;
-    const std::uint16_t* key_point = model.influence.data() + i * model.influences;
-    std::array<std::uint32_t, CharacterModel::max_influences> used{}, code{};
-    std::uint32_t count = 0;
-    for (std::uint32_t e = 0; e < model.influences; ++e)
-      if (alpha[e] > 0) used[count++] = e;
-    // The largest first, each passing its rounding error on to the next, whose steps are finer: the sum of
-    // alphas, which matters most because neighbouring key points have like shadows, stays right.
-    std::array<std::uint32_t, CharacterModel::max_influences> order = used;
-    std::stable_sort(order.begin(), order.begin() + count,
-                     [&](std::uint32_t a, std::uint32_t b) { return alpha[a] > alpha[b]; });
-    double error = 0;
-    for (std::uint32_t e = 0; e < count; ++e) {
-      const double wanted = alpha[order[e]] + error;
-      code[order[e]] = encode_alpha(static_cast<float>(wanted), max_alpha);
-      error = wanted - decode_alpha(code[order[e]], max_alpha);
-    }
-    out.bits(count - 1, Bits::entry_count);
-    for (std::uint32_t e = 0; e < count; ++e) {
-      out.bits(key_point[used[e]], index_bits(model.key_points.size()));
-      out.bits(code[used[e]], Bits::alpha);
-    }
+    vertices.push_back(code_entries(model, i, max_alpha));
+    CodedEntries& own = vertices.back();
+    out.bits(own.count - 1, Bits::entry_count);
+    const std::size_t first = i - std::min(i, max_references);
+    write_key_points_of(out, own, std::span(vertices).subspan(first, i - first),
+                        index_bits(model.key_points.size()));
+    for (std::uint32_t e = 0; e < own.count; ++e) out.bits(own.entry[e].alpha, Bits::alpha);
+    // The first one is what is missing to 1.
+    for (std::uint32_t e = 1; e < own.count; ++e) out.bits(own.entry[e].blend, Bits::blend);
     out.bits(bias.encode(model.bias[i], Bits::bias), Bits::bias);
   }
   return out;

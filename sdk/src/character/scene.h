@@ -110,7 +110,7 @@ struct SceneSettings {
   float lod_error = 0;               // AO, rms at lod_distance
   float lod_distance = 10;           // metres
   std::uint32_t lod_max_interval = 1;
-  float ground_radius = 100;  // metres
+  float ground_radius = 10'000;  // metres
 };
 
 struct Scene {

@@ -93,7 +93,7 @@ struct RestKeyPointView {
 // 16 vertices of the linear layer as a small dense matrix, one column for each key point that any of them
 // uses: a column is one broadcast and one multiply-add for all 16, while looking key points up vertex by
 // vertex costs a load for each. Column c of the block is key_point[first_column + c]; the alphas of its 16
-// vertices are at alpha[16 (first_column + c)].
+// vertices are at alpha[16 (first_column + c)], their blend weights at blend[16 (first_column + c)].
 struct LinearBlock {
   std::uint32_t first_column = 0;
   std::uint32_t columns = 0;
@@ -106,8 +106,8 @@ struct LinearView {
   std::uint32_t block_count = 0;
   const std::uint16_t* key_point = nullptr;
   const float* alpha = nullptr;
-  const float* open_bias = nullptr;          // 1 - bias, per slot
-  const float* inverse_alpha_sum = nullptr;  // per slot
+  const float* blend = nullptr;      // blend weights, laid out as alpha
+  const float* open_bias = nullptr;  // 1 - bias, per slot
 };
 
 struct ShadowKernels {
@@ -132,7 +132,7 @@ struct ShadowKernels {
   void (*composed_occlusion)(const float* depth, const float* open, std::uint32_t padded_count,
                              float* occlusion);
 
-  // ao[slot] = clamp(1 - (sum alpha * shadow + bias), 0, 1) * (1 - sum(alpha * occlusion) / sum alpha) in the
+  // ao[slot] = clamp(1 - (sum alpha * shadow + bias), 0, 1) * clamp(1 - sum blend * occlusion, 0, 1) in the
   // layer's slot order, 16 entries a block. occlusion NULL: self only. Whatever the inputs, ao is a number in
   // [0, 1].
   void (*linear_layer)(const LinearView& layer, const float* shadow, const float* occlusion, float* ao);

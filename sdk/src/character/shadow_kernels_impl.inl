@@ -183,14 +183,14 @@ void linear_blocks(const LinearView& layer, const float* shadow, const float* oc
       for (std::uint32_t p = 0; p < parts; ++p) {
         const Float alpha = load(layer.alpha + c * linear_block_vertices + p * width);
         shaded[p] = fma(alpha, gamma, shaded[p]);
-        if constexpr (Added) added[p] = fma(alpha, dark, added[p]);
+        if constexpr (Added)
+          added[p] = fma(load(layer.blend + c * linear_block_vertices + p * width), dark, added[p]);
       }
     }
     for (std::uint32_t p = 0; p < parts; ++p) {
       const std::uint32_t slot = b * linear_block_vertices + p * width;
       Float open = clamped_open(load(layer.open_bias + slot) - shaded[p]);
-      if constexpr (Added)
-        open = open * clamped_open(broadcast(1.0f) - added[p] * load(layer.inverse_alpha_sum + slot));
+      if constexpr (Added) open = open * clamped_open(broadcast(1.0f) - added[p]);
       store(ao + slot, open);
     }
   }

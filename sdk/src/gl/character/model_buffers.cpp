@@ -83,7 +83,7 @@ std::array<LevelRange, CharacterModel::max_levels + 1> ranges_of(const Character
 Words pack_linear(const ModelBuffers& sizes, std::pmr::memory_resource* memory) {
   const CharacterModel& model = sizes.model->model;
   const std::size_t vertices = sizes.vertices(), pairs = sizes.influence_pairs();
-  Words out(sizes.file_vertices() + vertices * (1 + 3 * pairs), 0, memory);
+  Words out(sizes.file_vertices() + vertices * (1 + 5 * pairs), 0, memory);
   std::memcpy(out.data(), model.file_to_welded.data(), sizes.file_vertices() * sizeof(std::uint32_t));
   std::uint32_t* const per_vertex = out.data() + sizes.file_vertices();
   for (std::size_t v = 0; v < vertices; ++v) {
@@ -92,14 +92,17 @@ Words pack_linear(const ModelBuffers& sizes, std::pmr::memory_resource* memory) 
       const std::size_t entry = v * model.influences + e;
       per_vertex[(1 + e / 2) * vertices + v] |= std::uint32_t{model.influence[entry]} << (16 * (e % 2));
       per_vertex[(1 + pairs + e) * vertices + v] = std::bit_cast<std::uint32_t>(model.alpha[entry]);
+      per_vertex[(1 + 3 * pairs + e) * vertices + v] = std::bit_cast<std::uint32_t>(model.blend[entry]);
     }
   }
   return out;
 }
 
-// A vertex's attributes lie together: bias, then for each four influences the key points as 16-bit numbers
-// and the alphas.
-constexpr std::size_t quad_bytes = 4 * sizeof(std::uint16_t) + 4 * sizeof(float);
+// A vertex's attributes lie together: bias, then for each four influences the key points as 16-bit numbers,
+// the alphas and the blend weights.
+constexpr std::size_t alpha_offset = 4 * sizeof(std::uint16_t);
+constexpr std::size_t blend_offset = alpha_offset + 4 * sizeof(float);
+constexpr std::size_t quad_bytes = blend_offset + 4 * sizeof(float);
 
 std::pmr::vector<std::byte> pack_attributes(const ModelBuffers& sizes, std::pmr::memory_resource* memory) {
   const CharacterModel& model = sizes.model->model;
@@ -112,8 +115,8 @@ std::pmr::vector<std::byte> pack_attributes(const ModelBuffers& sizes, std::pmr:
       const std::size_t entry = v * model.influences + e;
       std::byte* const quad = vertex + sizeof(float) + e / 4 * quad_bytes;
       std::memcpy(quad + e % 4 * sizeof(std::uint16_t), &model.influence[entry], sizeof(std::uint16_t));
-      std::memcpy(quad + 4 * sizeof(std::uint16_t) + e % 4 * sizeof(float), &model.alpha[entry],
-                  sizeof(float));
+      std::memcpy(quad + alpha_offset + e % 4 * sizeof(float), &model.alpha[entry], sizeof(float));
+      std::memcpy(quad + blend_offset + e % 4 * sizeof(float), &model.blend[entry], sizeof(float));
     }
   }
   return out;
@@ -127,10 +130,11 @@ void point_attributes(const Device& device, std::uint32_t quads) {
   gl.VertexAttribPointer(0, 1, GL_FLOAT, GL_FALSE, stride, at(0));
   for (GLuint q = 0; q < quads; ++q) {
     const std::size_t quad = sizeof(float) + q * quad_bytes;
-    gl.EnableVertexAttribArray(1 + 2 * q);
-    gl.VertexAttribIPointer(1 + 2 * q, 4, GL_UNSIGNED_SHORT, stride, at(quad));
-    gl.EnableVertexAttribArray(2 + 2 * q);
-    gl.VertexAttribPointer(2 + 2 * q, 4, GL_FLOAT, GL_FALSE, stride, at(quad + 4 * sizeof(std::uint16_t)));
+    const GLuint first = 1 + 3 * q;
+    for (GLuint slot = first; slot < first + 3; ++slot) gl.EnableVertexAttribArray(slot);
+    gl.VertexAttribIPointer(first, 4, GL_UNSIGNED_SHORT, stride, at(quad));
+    gl.VertexAttribPointer(first + 1, 4, GL_FLOAT, GL_FALSE, stride, at(quad + alpha_offset));
+    gl.VertexAttribPointer(first + 2, 4, GL_FLOAT, GL_FALSE, stride, at(quad + blend_offset));
   }
 }
 
