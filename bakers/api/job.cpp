@@ -13,7 +13,7 @@ using namespace nook::bake;
 namespace {
 
 constexpr std::size_t first_job_desc = offsetof(nook_bake_job_desc, progress_user) + sizeof(void*);
-constexpr std::size_t first_progress = sizeof(nook_bake_progress);
+constexpr std::size_t first_progress = offsetof(nook_bake_progress, total) + sizeof(std::uint64_t);
 
 nook_bake_job_desc default_job_desc() {
   nook_bake_job_desc desc{};
