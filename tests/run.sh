@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds everything and runs all tests from a fresh checkout: the plain build, then the library under the address and
-# undefined-behaviour sanitizers, then its threads under the thread sanitizer. NOOK_BUILD_DIR says where (default: build).
+# Builds everything and runs all tests from a fresh checkout: the plain build, then the library and the bakers under the
+# address and undefined-behaviour sanitizers, then the library's threads under the thread sanitizer. NOOK_BUILD_DIR says
+# where (default: build).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${NOOK_BUILD_DIR:-$root/build}
@@ -25,8 +26,8 @@ configure "$build"
 ninja -C "$build"
 ctest --test-dir "$build" --output-on-failure -j "$jobs"
 
-echo "== library under address and undefined-behaviour sanitizers"
-configure "$build-asan" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DNOOK_SANITIZE=ON -DNOOK_BAKERS=OFF -DNOOK_SAMPLES=OFF
+echo "== library and bakers under address and undefined-behaviour sanitizers"
+configure "$build-asan" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DNOOK_SANITIZE=ON -DNOOK_TOOL=OFF -DNOOK_SAMPLES=OFF
 ninja -C "$build-asan"
 ctest --test-dir "$build-asan" --output-on-failure -j "$jobs"
 

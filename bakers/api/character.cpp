@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/descriptors.h"
 #include "api/entry.h"
 #include "api/handles.h"
 #include "api/mesh_arrays.h"
 #include "api/pose_arrays.h"
 #include "character/auto_poses.h"
 #include "character/pose_sets.h"
+#include "core/descriptors.h"
 #include "import/skinning.h"
 
 using namespace nook;
@@ -34,7 +34,7 @@ void hand_out(ImportedCharacter imported, nook_bake_character* out) {
 }
 
 const ImportedCharacter& get(nook_bake_character character) {
-  api::need(character, "character");
+  need(character, "character");
   return *character->character;
 }
 
@@ -58,9 +58,9 @@ void write_vertices(const SkinnedMesh& mesh, const std::vector<Vec3>& position, 
 
 nook_result nook_bake_import_gltf(const char* path, nook_bake_character* out) {
   return api::enter("nook_bake_import_gltf", [&] {
-    api::need(out, "out");
+    need(out, "out");
     *out = nullptr;
-    api::need(path, "path");
+    need(path, "path");
     try {
       hand_out(import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path))), out);
     } catch (const Failure& failure) {
@@ -73,25 +73,25 @@ nook_result nook_bake_import_gltf(const char* path, nook_bake_character* out) {
 
 nook_result nook_bake_import_gltf_bytes(const void* bytes, size_t size, nook_bake_character* out) {
   return api::enter("nook_bake_import_gltf_bytes", [&] {
-    api::need(out, "out");
+    need(out, "out");
     *out = nullptr;
-    api::need(bytes, "bytes");
+    need(bytes, "bytes");
     hand_out(import_gltf(std::span(static_cast<const std::byte*>(bytes), size)), out);
   });
 }
 
 nook_result nook_bake_mesh_desc_init(nook_bake_mesh_desc* desc, size_t size, uint32_t header_version) {
   return api::enter("nook_bake_mesh_desc_init", [&] {
-    api::init_descriptor(desc, size, header_version, first_mesh_desc, default_mesh_desc());
+    init_descriptor(desc, size, header_version, first_mesh_desc, default_mesh_desc());
   });
 }
 
 nook_result nook_bake_character_create(const nook_bake_mesh_desc* desc, nook_bake_character* out) {
   return api::enter("nook_bake_character_create", [&] {
-    api::need(out, "out");
+    need(out, "out");
     *out = nullptr;
-    hand_out(api::character_of_arrays(api::read_descriptor(desc, "nook_bake_mesh_desc_init", first_mesh_desc,
-                                                           default_mesh_desc())),
+    hand_out(api::character_of_arrays(
+                 read_descriptor(desc, "nook_bake_mesh_desc_init", first_mesh_desc, default_mesh_desc())),
              out);
   });
 }
@@ -121,7 +121,7 @@ nook_result nook_bake_character_get_info(nook_bake_character character, nook_bak
     const float bounds[] = {low.x, low.y, low.z, high.x, high.y, high.z};
     std::copy_n(bounds, 3, answer.bounds_low);
     std::copy_n(bounds + 3, 3, answer.bounds_high);
-    api::write_info(info, first_info, answer);
+    write_info(info, first_info, answer);
   });
 }
 
@@ -161,7 +161,7 @@ nook_result nook_bake_character_get_primitive(nook_bake_character character, uin
                                               nook_bake_primitive* out) {
   return api::enter("nook_bake_character_get_primitive", [&] {
     const std::vector<Primitive>& primitives = get(character).mesh.primitives;
-    api::need(out, "out");
+    need(out, "out");
     need_index("primitive", primitive, primitives.size());
     *out = {primitives[primitive].first_vertex, primitives[primitive].vertex_count};
   });
@@ -170,7 +170,7 @@ nook_result nook_bake_character_get_primitive(nook_bake_character character, uin
 nook_result nook_bake_character_clip_duration(nook_bake_character character, uint32_t clip, float* seconds) {
   return api::enter("nook_bake_character_clip_duration", [&] {
     const ImportedCharacter& c = get(character);
-    api::need(seconds, "seconds");
+    need(seconds, "seconds");
     need_index("clip", clip, c.clips.size());
     *seconds = c.clips[clip].duration_s;
   });
@@ -180,7 +180,7 @@ nook_result nook_bake_character_sample_clip(nook_bake_character character, uint3
                                             float* bones_3x4, uint32_t bone_count) {
   return api::enter("nook_bake_character_sample_clip", [&] {
     const ImportedCharacter& c = get(character);
-    api::need(bones_3x4, "bones_3x4");
+    need(bones_3x4, "bones_3x4");
     need_index("clip", clip, c.clips.size());
     api::need_count("bone_count", bone_count, c.mesh.bones.size());
     if (!std::isfinite(time_s))
@@ -193,7 +193,7 @@ nook_result nook_bake_character_auto_poses(nook_bake_character character, uint64
                                            float* bones_3x4, uint32_t bone_count) {
   return api::enter("nook_bake_character_auto_poses", [&] {
     const SkinnedMesh& mesh = get(character).mesh;
-    api::need(bones_3x4, "bones_3x4");
+    need(bones_3x4, "bones_3x4");
     api::need_count("bone_count", bone_count, mesh.bones.size());
     const std::vector<Pose> poses = auto_poses(mesh, vertex_areas(mesh, mesh.position), pose_count, seed);
     for (std::size_t p = 0; p < poses.size(); ++p)
@@ -206,7 +206,7 @@ nook_result nook_bake_character_single_joint_poses(nook_bake_character character
                                                    float* bones_3x4, uint32_t bone_count) {
   return api::enter("nook_bake_character_single_joint_poses", [&] {
     const SkinnedMesh& mesh = get(character).mesh;
-    api::need(pose_count, "pose_count");
+    need(pose_count, "pose_count");
     api::need_count("bone_count", bone_count, mesh.bones.size());
     if (steps < 1 || steps > 64)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "steps is out of range (got %u, need 1 to 64)", steps);
@@ -236,7 +236,7 @@ nook_result nook_bake_character_read_triangles(nook_bake_character character, ui
                                                uint32_t index_count) {
   return api::enter("nook_bake_character_read_triangles", [&] {
     const SkinnedMesh& mesh = get(character).mesh;
-    api::need(indices, "indices");
+    need(indices, "indices");
     api::need_count("index_count", index_count, 3 * mesh.triangle.size());
     std::vector<std::uint32_t> file_of_welded(mesh.vertex_count());
     for (std::size_t f = mesh.file_to_welded.size(); f-- > 0;)
@@ -250,8 +250,8 @@ nook_result nook_bake_character_read_skin(nook_bake_character character, uint16_
                                           uint32_t vertex_count) {
   return api::enter("nook_bake_character_read_skin", [&] {
     const SkinnedMesh& mesh = get(character).mesh;
-    api::need(joints, "joints");
-    api::need(weights, "weights");
+    need(joints, "joints");
+    need(weights, "weights");
     api::need_count("vertex_count", vertex_count, mesh.file_to_welded.size());
     for (std::uint32_t welded : mesh.file_to_welded) {
       const SkinWeights& w = mesh.weights[welded];
@@ -269,7 +269,7 @@ nook_result nook_bake_character_skin(nook_bake_character character, const float*
                                      uint32_t vertex_count) {
   return api::enter("nook_bake_character_skin", [&] {
     const SkinnedMesh& mesh = get(character).mesh;
-    api::need(bones_3x4, "bones_3x4");
+    need(bones_3x4, "bones_3x4");
     api::need_count("bone_count", bone_count, mesh.bones.size());
     api::need_count("vertex_count", vertex_count, mesh.file_to_welded.size());
     std::vector<Vec3> posed;

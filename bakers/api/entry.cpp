@@ -6,20 +6,11 @@
 #include <new>
 #include <stdexcept>
 
-#include "api/descriptors.h"
-
 namespace nook::bake::api {
 namespace {
 
 // Plain bytes, so that nothing has to be destroyed when a thread ends or the library is unloaded.
 thread_local char last_message[640] = "";
-
-unsigned major_of(std::uint32_t version) {
-  return version >> 22;
-}
-unsigned minor_of(std::uint32_t version) {
-  return version >> 12 & 1023;
-}
 
 Outcome make_outcome(nook_result result, const char* text) noexcept {
   Outcome outcome;
@@ -51,15 +42,6 @@ Outcome outcome_of(const std::exception_ptr& exception) noexcept {
 nook_result fail(const char* function, const Outcome& outcome) noexcept {
   std::snprintf(last_message, sizeof last_message, "%s: %s", function, outcome.text);
   return outcome.result;
-}
-
-void check_version(std::uint32_t version) {
-  if (major_of(version) != NOOK_VERSION_MAJOR || minor_of(version) > NOOK_VERSION_MINOR)
-    throw Failure(NOOK_ERROR_VERSION,
-                  "the caller's headers do not fit this library (got version %u.%u, need %d.%d or older of "
-                  "the same major "
-                  "version); pass NOOK_VERSION, or update the library",
-                  major_of(version), minor_of(version), NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR);
 }
 
 }  // namespace nook::bake::api

@@ -1,11 +1,11 @@
 // Bake jobs: descriptor to recipe, and the life of a job.
 #include <nook/nook_bake.h>
 
-#include "api/descriptors.h"
 #include "api/entry.h"
 #include "api/handles.h"
 #include "api/job_recipe.h"
 #include "api/pose_arrays.h"
+#include "core/descriptors.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -13,7 +13,7 @@ using namespace nook::bake;
 namespace {
 
 constexpr std::size_t first_job_desc = offsetof(nook_bake_job_desc, progress_user) + sizeof(void*);
-constexpr std::size_t first_progress = sizeof(nook_bake_progress);
+constexpr std::size_t first_progress = offsetof(nook_bake_progress, total) + sizeof(std::uint64_t);
 
 nook_bake_job_desc default_job_desc() {
   nook_bake_job_desc desc{};
@@ -46,26 +46,25 @@ nook_bake_progress public_progress(const JobProgress& p) {
 }
 
 const BakeJob& get(nook_bake_job job) {
-  api::need(job, "job");
+  need(job, "job");
   return job->job;
 }
 
 }  // namespace
 
 nook_result nook_bake_job_desc_init(nook_bake_job_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_bake_job_desc_init", [&] {
-    api::init_descriptor(desc, size, header_version, first_job_desc, default_job_desc());
-  });
+  return api::enter("nook_bake_job_desc_init",
+                    [&] { init_descriptor(desc, size, header_version, first_job_desc, default_job_desc()); });
 }
 
 nook_result nook_bake_job_start(nook_bake_character character, const nook_bake_job_desc* desc,
                                 nook_bake_job* out) {
   return api::enter("nook_bake_job_start", [&] {
-    api::need(out, "out");
+    need(out, "out");
     *out = nullptr;
-    api::need(character, "character");
+    need(character, "character");
     const nook_bake_job_desc settings =
-        api::read_descriptor(desc, "nook_bake_job_desc_init", first_job_desc, default_job_desc());
+        read_descriptor(desc, "nook_bake_job_desc_init", first_job_desc, default_job_desc());
     const ImportedCharacter& imported = *character->character;
     Recipe recipe = api::recipe_of(settings, imported);
     std::vector<Pose> extra =
@@ -83,12 +82,12 @@ nook_result nook_bake_job_start(nook_bake_character character, const nook_bake_j
 
 nook_result nook_bake_job_poll(nook_bake_job job, nook_bake_progress* progress) {
   return api::enter("nook_bake_job_poll",
-                    [&] { api::write_info(progress, first_progress, public_progress(get(job).progress())); });
+                    [&] { write_info(progress, first_progress, public_progress(get(job).progress())); });
 }
 
 nook_result nook_bake_job_cancel(nook_bake_job job) {
   return api::enter("nook_bake_job_cancel", [&] {
-    api::need(job, "job");
+    need(job, "job");
     job->job.cancel();
   });
 }
@@ -102,8 +101,8 @@ nook_result nook_bake_job_wait(nook_bake_job job) {
 
 nook_result nook_bake_job_get_model(nook_bake_job job, const void** bytes, size_t* size) {
   return api::enter("nook_bake_job_get_model", [&] {
-    api::need(bytes, "bytes");
-    api::need(size, "size");
+    need(bytes, "bytes");
+    need(size, "size");
     const BakedFile& file = get(job).file();
     *bytes = file.model.data();
     *size = file.model.size();
@@ -112,7 +111,7 @@ nook_result nook_bake_job_get_model(nook_bake_job job, const void** bytes, size_
 
 nook_result nook_bake_job_get_report(nook_bake_job job, const char** json) {
   return api::enter("nook_bake_job_get_report", [&] {
-    api::need(json, "json");
+    need(json, "json");
     *json = get(job).file().report.c_str();
   });
 }

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "api/descriptors.h"
 #include "api/entry.h"
 #include "api/pose_arrays.h"
 #include "api/worker_arena.h"
+#include "core/descriptors.h"
 #include "raytrace/ambient_occlusion.h"
 
 using namespace nook;
@@ -35,8 +35,8 @@ bool is_finite(Vec3 v) {
 
 void add_mesh(const nook_bake_occluder_mesh& mesh, std::uint32_t number, TriangleSoup& soup) {
   if (mesh.index_count == 0) return;
-  api::need(mesh.positions, "desc.meshes[i].positions");
-  api::need(mesh.indices, "desc.meshes[i].indices");
+  need(mesh.positions, "desc.meshes[i].positions");
+  need(mesh.indices, "desc.meshes[i].indices");
   if (mesh.index_count % 3)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.meshes[%u].index_count is not a multiple of 3 (got %u)",
                   number, mesh.index_count);
@@ -71,17 +71,17 @@ std::vector<Vec3> read_points(const char* name, const float* xyz, std::uint32_t 
 
 nook_result nook_bake_trace_desc_init(nook_bake_trace_desc* desc, size_t size, uint32_t header_version) {
   return api::enter("nook_bake_trace_desc_init", [&] {
-    api::init_descriptor(desc, size, header_version, first_trace_desc, default_trace_desc());
+    init_descriptor(desc, size, header_version, first_trace_desc, default_trace_desc());
   });
 }
 
 nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float* ao, uint32_t count) {
   return api::enter("nook_bake_trace_ao", [&] {
     const nook_bake_trace_desc d =
-        api::read_descriptor(desc, "nook_bake_trace_desc_init", first_trace_desc, default_trace_desc());
-    api::need(ao, "ao");
+        read_descriptor(desc, "nook_bake_trace_desc_init", first_trace_desc, default_trace_desc());
+    need(ao, "ao");
     api::need_count("count", count, d.point_count);
-    if (d.mesh_count) api::need(d.meshes, "desc.meshes");
+    if (d.mesh_count) need(d.meshes, "desc.meshes");
     if (d.rays < 1 || d.rays > most_rays)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.rays is out of range (got %u, need 1 to %u)", d.rays,
                     most_rays);
@@ -96,8 +96,8 @@ nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float* ao, uint
                     "desc.origin_offset is out of range (got %g, need metres, 0 or above)",
                     double(d.origin_offset));
     if (d.point_count == 0) return;
-    api::need(d.positions, "desc.positions");
-    api::need(d.normals, "desc.normals");
+    need(d.positions, "desc.positions");
+    need(d.normals, "desc.normals");
     TriangleSoup soup;
     for (std::uint32_t m = 0; m < d.mesh_count; ++m) add_mesh(d.meshes[m], m, soup);
     const std::vector<Vec3> position = read_points("desc.positions", d.positions, d.point_count);

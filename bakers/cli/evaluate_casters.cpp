@@ -1,22 +1,14 @@
 // nook evaluate casters: how much a lone neighbour darkens, by each form and by ray tracing.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 
-#include "api/worker_arena.h"
 #include "character/casters.h"
-#include "character/model_file.h"
 #include "character/pose_sets.h"
 #include "cli/commands.h"
-#include "cli/common_options.h"
-#include "cli/input_file.h"
+#include "cli/evaluation.h"
 #include "cli/interrupt.h"
-#include "cli/output_file.h"
 #include "cli/progress_bar.h"
-#include "cli/table.h"
-#include "import/gltf.h"
 
 namespace nook::cli {
 namespace {
@@ -24,20 +16,14 @@ namespace {
 using namespace bake;
 using Json = nlohmann::ordered_json;
 
-struct Options {
-  CommonOptions common;
-  std::filesystem::path character, model;
+struct Options : EvaluationOptions {
   CasterStudy study;
   std::size_t poses = 4;
 };
 
 Json evaluate(const Options& options) {
-  const ImportedCharacter character =
-      naming_file(options.character, [&] { return import_gltf(options.character); });
-  const std::vector<std::byte> bytes = read_file(options.model);
-  const CharacterModel model = naming_file(options.model, [&] { return read_character_model(bytes); });
-  if (model.bone_count() != character.mesh.bones.size() || model.vertex_count() != character.mesh.vertex_count())
-    throw ToolError(exit_bad_input, options.model.string() + ": the model was not baked from this character");
+  const BakedCharacter baked = read_baked_character(options);
+  const ImportedCharacter& character = baked.character;
   // Poses spread over the motion clips; the rest pose where there are none.
   const std::vector<std::size_t> clips = motion_clips(character);
   std::vector<Pose> poses;
@@ -50,7 +36,7 @@ Json evaluate(const Options& options) {
   study.seed = options.common.seed;
   ProgressBar bar(options.common.quiet);
   const std::vector<CasterRow> rows =
-      measure_casters(character.mesh, model, poses, study, [&](std::size_t done, std::size_t total) {
+      measure_casters(character.mesh, baked.model, poses, study, [&](std::size_t done, std::size_t total) {
         bar.show("ray tracing neighbours", "pairs", done, total);
         return !interrupted();
       });
@@ -66,33 +52,28 @@ Json evaluate(const Options& options) {
   return report;
 }
 
-void run(const Options& options) {
-  std::optional<OutputFile> report_file;
-  if (!options.common.report.empty()) report_file.emplace(options.common.report);
-  Json report;
-  run_with_threads(options.common.threads, [&] { report = evaluate(options); });
-  if (report_file) report_file->commit(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (!options.common.quiet) std::fputs(table_text(report["rows"]).c_str(), stdout);
-}
-
 }  // namespace
 
 void add_evaluate_casters(CLI::App& evaluate_command) {
-  CLI::App* command = evaluate_command.add_subcommand(
-      "casters",
-      "a lone neighbour at 1, 2, 3, 5 and 10 m: mean darkening of the body by each form and by ray tracing, over several "
-      "bearings and poses");
+  CLI::App* command =
+      evaluate_command.add_subcommand("casters",
+                                      "a lone neighbour at 1, 2, 3, 5 and 10 m: mean darkening of the body "
+                                      "by each form and by ray tracing, over several "
+                                      "bearings and poses");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("input", o.character, "the character it was baked from, .glb or .gltf")->required();
-  command->add_option("model", o.model, "the .nook file")->required();
-  command->add_option("--rays", o.study.rays, "rays a vertex")->check(CLI::Range(1, 65536))->capture_default_str();
+  add_evaluated_files(*command, o);
+  command->add_option("--rays", o.study.rays, "rays a vertex")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
   command->add_option("--bearings", o.study.bearings, "directions of the neighbour")
       ->check(CLI::Range(1, 360))
       ->capture_default_str();
-  command->add_option("--poses", o.poses, "poses, spread over the clips")->check(CLI::Range(1, 1000))->capture_default_str();
+  command->add_option("--poses", o.poses, "poses, spread over the clips")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_evaluation(options->common, [&] { return evaluate(*options); }); });
 }
 
 }  // namespace nook::cli

@@ -8,20 +8,17 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "api/worker_arena.h"
 #include "character/linear_pose.h"
 #include "character/model_file.h"
 #include "character/pose_clusters.h"
 #include "character/recipe.h"
 #include "cli/commands.h"
-#include "cli/common_options.h"
 #include "cli/evaluated_poses.h"
+#include "cli/evaluation.h"
 #include "cli/evaluation_pictures.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
-#include "cli/output_file.h"
 #include "cli/progress_bar.h"
-#include "cli/table.h"
 #include "import/skinning.h"
 
 namespace nook::cli {
@@ -30,9 +27,7 @@ namespace {
 using namespace bake;
 using Json = nlohmann::ordered_json;
 
-struct Options {
-  CommonOptions common;
-  std::filesystem::path character, model;
+struct Options : EvaluationOptions {
   PoseChoice poses;
   std::uint32_t rays = 256;
   bool peers = false;
@@ -58,20 +53,6 @@ class Tracing {
  private:
   ProgressBar bar_;
 };
-
-void require_same_character(const ImportedCharacter& character, const CharacterModel& model,
-                            const std::filesystem::path& path) {
-  const SkinnedMesh& mesh = character.mesh;
-  const auto differ = [&](const char* what, std::size_t got, std::size_t needed) {
-    if (got != needed)
-      throw ToolError(exit_bad_input, path.string() + ": the model was not baked from this character (" +
-                                          what + ": got " + std::to_string(got) + ", need " +
-                                          std::to_string(needed) + "); bake it again");
-  };
-  differ("bones", model.bone_count(), mesh.bones.size());
-  differ("vertices", model.vertex_count(), mesh.vertex_count());
-  differ("file vertices", model.file_to_welded.size(), mesh.file_to_welded.size());
-}
 
 std::optional<Recipe> recipe_of(const ImportedCharacter& character, const CharacterModel& model,
                                 const Options& options) {
@@ -138,18 +119,16 @@ void add_peers(Json& row, const Options& options, const ImportedCharacter& chara
 }
 
 Json evaluate(const Options& options) {
-  const ImportedCharacter character =
-      naming_file(options.character, [&] { return import_gltf(options.character); });
-  const std::vector<std::byte> bytes = read_file(options.model);
-  const CharacterModel model = naming_file(options.model, [&] { return read_character_model(bytes); });
-  require_same_character(character, model, options.model);
+  const BakedCharacter baked = read_baked_character(options);
+  const ImportedCharacter& character = baked.character;
+  const CharacterModel& model = baked.model;
   const std::optional<Recipe> recipe = recipe_of(character, model, options);
   const EvaluatedPoses measured = choose_poses(character, recipe ? &*recipe : nullptr, options.poses);
 
   Tracing tracing(options.common.quiet);
   const CharacterEvaluation evaluation = evaluate_character(
       character.mesh, model, measured.poses, options.rays, ray_seed(options), tracing.showing("ray tracing"));
-  Json row = model_row(options, measured, character, model, bytes, evaluation);
+  Json row = model_row(options, measured, character, model, baked.model_bytes, evaluation);
   if (options.peers) add_peers(row, options, character, recipe ? &*recipe : nullptr, measured.poses, tracing);
   if (!options.images.empty())
     write_pictures(options.images, character.mesh, model, measured.poses, options.image_count,
@@ -159,20 +138,6 @@ Json evaluate(const Options& options) {
   report["clips"] = measured.clips;
   report["seed"] = options.common.seed;
   return report;
-}
-
-void run(const Options& options) {
-  std::optional<OutputFile> report_file;
-  if (!options.common.report.empty()) report_file.emplace(options.common.report);
-  Json report;
-  try {
-    run_with_threads(options.common.threads, [&] { report = evaluate(options); });
-  } catch (const Failure& failure) {
-    if (failure.code() == NOOK_ERROR_CANCELLED) throw ToolError(exit_other, "stopped; nothing was written");
-    throw;
-  }
-  if (report_file) report_file->commit(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (!options.common.quiet) std::fputs(table_text(report["rows"]).c_str(), stdout);
 }
 
 }  // namespace
@@ -186,8 +151,7 @@ void add_evaluate_character(CLI::App& evaluate_command) {
                                       "mse_oracle the best that any static bake could do");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("input", o.character, "the character it was baked from, .glb or .gltf")->required();
-  command->add_option("model", o.model, "the .nook file")->required();
+  add_evaluated_files(*command, o);
   command
       ->add_option_function<std::string>(
           "--poses", [&o](const std::string& name) { o.poses.training = name == "training"; },
@@ -214,7 +178,7 @@ void add_evaluate_character(CLI::App& evaluate_command) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_evaluation(options->common, [&] { return evaluate(*options); }); });
 }
 
 }  // namespace nook::cli

@@ -1,5 +1,7 @@
 // Sizes and offsets of the public structs on 64-bit systems: what a host was compiled with stays true.
+#include <nook/nook_bake.h>
 #include <nook/nook_character.h>
+#include <nook/nook_gl.h>
 
 #include <cstddef>
 
@@ -56,6 +58,117 @@ NOOK_AT(nook_scene_stats, instances_updated, 8);
 NOOK_AT(nook_scene_stats, links, 12);
 NOOK_AT(nook_scene_stats, links_culled, 16);
 NOOK_AT(nook_scene_stats, evaluations, 24);
+
+NOOK_SIZE(nook_gl_desc, 40);
+NOOK_AT(nook_gl_desc, struct_size, 0);
+NOOK_AT(nook_gl_desc, header_version, 4);
+NOOK_AT(nook_gl_desc, next, 8);
+NOOK_AT(nook_gl_desc, get_proc, 16);
+NOOK_AT(nook_gl_desc, get_proc_user, 24);
+NOOK_AT(nook_gl_desc, max_tier, 32);
+NOOK_AT(nook_gl_desc, state_mode, 36);
+
+NOOK_SIZE(nook_gl_info, 40);
+NOOK_AT(nook_gl_info, struct_size, 0);
+NOOK_AT(nook_gl_info, tier, 4);
+NOOK_AT(nook_gl_info, version, 8);
+NOOK_AT(nook_gl_info, renderer, 16);
+NOOK_AT(nook_gl_info, buffer_bytes, 24);
+NOOK_AT(nook_gl_info, ao_bytes, 32);
+
+NOOK_SIZE(nook_gl_ao_view, 24);
+NOOK_AT(nook_gl_ao_view, struct_size, 0);
+NOOK_AT(nook_gl_ao_view, buffer, 4);
+NOOK_AT(nook_gl_ao_view, offset, 8);
+NOOK_AT(nook_gl_ao_view, stride, 16);
+NOOK_AT(nook_gl_ao_view, count, 20);
+
+NOOK_SIZE(nook_bake_primitive, 8);
+NOOK_AT(nook_bake_primitive, first_vertex, 0);
+NOOK_AT(nook_bake_primitive, vertex_count, 4);
+
+NOOK_SIZE(nook_bake_mesh_desc, 104);
+NOOK_AT(nook_bake_mesh_desc, struct_size, 0);
+NOOK_AT(nook_bake_mesh_desc, header_version, 4);
+NOOK_AT(nook_bake_mesh_desc, next, 8);
+NOOK_AT(nook_bake_mesh_desc, positions, 16);
+NOOK_AT(nook_bake_mesh_desc, indices, 24);
+NOOK_AT(nook_bake_mesh_desc, joints, 32);
+NOOK_AT(nook_bake_mesh_desc, weights, 40);
+NOOK_AT(nook_bake_mesh_desc, vertex_count, 48);
+NOOK_AT(nook_bake_mesh_desc, index_count, 52);
+NOOK_AT(nook_bake_mesh_desc, influences, 56);
+NOOK_AT(nook_bake_mesh_desc, bone_count, 60);
+NOOK_AT(nook_bake_mesh_desc, bone_names, 64);
+NOOK_AT(nook_bake_mesh_desc, bone_parents, 72);
+NOOK_AT(nook_bake_mesh_desc, bone_frames_3x4, 80);
+NOOK_AT(nook_bake_mesh_desc, primitives, 88);
+NOOK_AT(nook_bake_mesh_desc, primitive_count, 96);
+
+NOOK_SIZE(nook_bake_character_info, 56);
+NOOK_AT(nook_bake_character_info, struct_size, 0);
+NOOK_AT(nook_bake_character_info, vertex_count, 4);
+NOOK_AT(nook_bake_character_info, file_vertex_count, 8);
+NOOK_AT(nook_bake_character_info, triangle_count, 12);
+NOOK_AT(nook_bake_character_info, bone_count, 16);
+NOOK_AT(nook_bake_character_info, clip_count, 20);
+NOOK_AT(nook_bake_character_info, primitive_count, 24);
+NOOK_AT(nook_bake_character_info, warning_count, 28);
+NOOK_AT(nook_bake_character_info, bounds_low, 32);
+NOOK_AT(nook_bake_character_info, bounds_high, 44);
+
+NOOK_SIZE(nook_bake_progress, 24);
+NOOK_AT(nook_bake_progress, struct_size, 0);
+NOOK_AT(nook_bake_progress, stage, 4);
+NOOK_AT(nook_bake_progress, done, 8);
+NOOK_AT(nook_bake_progress, total, 16);
+
+NOOK_SIZE(nook_bake_job_desc, 128);
+NOOK_AT(nook_bake_job_desc, struct_size, 0);
+NOOK_AT(nook_bake_job_desc, header_version, 4);
+NOOK_AT(nook_bake_job_desc, next, 8);
+NOOK_AT(nook_bake_job_desc, preset, 16);
+NOOK_AT(nook_bake_job_desc, spheres, 20);
+NOOK_AT(nook_bake_job_desc, key_points, 24);
+NOOK_AT(nook_bake_job_desc, rays, 28);
+NOOK_AT(nook_bake_job_desc, steps, 32);
+NOOK_AT(nook_bake_job_desc, pose_mode, 36);
+NOOK_AT(nook_bake_job_desc, auto_pose_count, 40);
+NOOK_AT(nook_bake_job_desc, samples_per_clip, 44);
+NOOK_AT(nook_bake_job_desc, clip_count, 48);
+NOOK_AT(nook_bake_job_desc, clip_names, 56);
+NOOK_AT(nook_bake_job_desc, clip_split, 64);
+NOOK_AT(nook_bake_job_desc, extra_pose_count, 68);
+NOOK_AT(nook_bake_job_desc, extra_poses_3x4, 72);
+NOOK_AT(nook_bake_job_desc, seed, 80);
+NOOK_AT(nook_bake_job_desc, threads, 88);
+NOOK_AT(nook_bake_job_desc, kernel, 92);
+NOOK_AT(nook_bake_job_desc, fit, 96);
+NOOK_AT(nook_bake_job_desc, gamma, 100);
+NOOK_AT(nook_bake_job_desc, time_limit_s, 104);
+NOOK_AT(nook_bake_job_desc, progress, 112);
+NOOK_AT(nook_bake_job_desc, progress_user, 120);
+
+NOOK_SIZE(nook_bake_occluder_mesh, 24);
+NOOK_AT(nook_bake_occluder_mesh, positions, 0);
+NOOK_AT(nook_bake_occluder_mesh, indices, 8);
+NOOK_AT(nook_bake_occluder_mesh, vertex_count, 16);
+NOOK_AT(nook_bake_occluder_mesh, index_count, 20);
+
+NOOK_SIZE(nook_bake_trace_desc, 72);
+NOOK_AT(nook_bake_trace_desc, struct_size, 0);
+NOOK_AT(nook_bake_trace_desc, header_version, 4);
+NOOK_AT(nook_bake_trace_desc, next, 8);
+NOOK_AT(nook_bake_trace_desc, meshes, 16);
+NOOK_AT(nook_bake_trace_desc, positions, 24);
+NOOK_AT(nook_bake_trace_desc, normals, 32);
+NOOK_AT(nook_bake_trace_desc, mesh_count, 40);
+NOOK_AT(nook_bake_trace_desc, point_count, 44);
+NOOK_AT(nook_bake_trace_desc, rays, 48);
+NOOK_AT(nook_bake_trace_desc, threads, 52);
+NOOK_AT(nook_bake_trace_desc, seed, 56);
+NOOK_AT(nook_bake_trace_desc, radius, 64);
+NOOK_AT(nook_bake_trace_desc, origin_offset, 68);
 
 #include "host.h"
 

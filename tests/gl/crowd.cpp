@@ -155,6 +155,19 @@ float largest_difference(const std::vector<float>& a, const std::vector<float>& 
   return largest;
 }
 
+float difference_to_cpu(nook_gl gl, const Crowd& crowd, nook_character_model model, std::size_t index) {
+  const std::vector<float> gpu = gpu_ao(gl, crowd, model, index);
+  NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
+  return largest_difference(gpu, cpu_ao(crowd, model, index));
+}
+
+nook_gl_info info_of(nook_gl gl) {
+  nook_gl_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_gl_get_info(gl, &info));
+  return info;
+}
+
 nook_gl create_gl(nook_context context, nook_gl_proc_fn loader, void* user, int tier,
                   nook_gl_state_mode mode) {
   nook_gl_desc desc;

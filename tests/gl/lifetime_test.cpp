@@ -18,13 +18,6 @@ int living_objects(const GladGLContext& gl) {
   return count;
 }
 
-std::uint64_t buffer_bytes(nook_gl gl) {
-  nook_gl_info info{};
-  info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_get_info(gl, &info));
-  return info.buffer_bytes;
-}
-
 }  // namespace
 
 TEST_CASE("destroying everything in any order leaves no OpenGL object and no memory") {
@@ -63,18 +56,18 @@ TEST_CASE("a destroyed scene's objects go with the next update, a released one's
     nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
     Crowd stays(host.handle, {model}, {5}, {});
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, stays.scene));
-    const std::uint64_t one_scene = buffer_bytes(gl);
+    const std::uint64_t one_scene = info_of(gl).buffer_bytes;
     {
       Crowd goes(host.handle, {model}, {5}, {});
       NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, goes.scene));
-      CHECK(buffer_bytes(gl) > one_scene);
+      CHECK(info_of(gl).buffer_bytes > one_scene);
       NOOK_OK_OR_FAIL(nook_gl_scene_release(gl, goes.scene));
-      CHECK(buffer_bytes(gl) == one_scene);
+      CHECK(info_of(gl).buffer_bytes == one_scene);
       NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, goes.scene));
-      CHECK(buffer_bytes(gl) > one_scene);
+      CHECK(info_of(gl).buffer_bytes > one_scene);
     }
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, stays.scene));
-    CHECK(buffer_bytes(gl) == one_scene);
+    CHECK(info_of(gl).buffer_bytes == one_scene);
     nook_gl_destroy(&gl);
   }
   nook_character_model_destroy(&model);
@@ -91,7 +84,7 @@ TEST_CASE("after the OpenGL context is lost nothing calls OpenGL, and destroy wo
     // Without a current context any OpenGL call would crash or be caught by the next check.
     context.clear_current();
     CHECK(nook_gl_context_lost(gl) == NOOK_OK);
-    CHECK(buffer_bytes(gl) == 0);
+    CHECK(info_of(gl).buffer_bytes == 0);
     CHECK(nook_gl_scene_update(gl, crowd.scene) == NOOK_ERROR_GL);
     CHECK(nook_gl_scene_prepare(gl, crowd.scene) == NOOK_ERROR_GL);
     CHECK(nook_gl_scene_release(gl, crowd.scene) == NOOK_ERROR_GL);
@@ -100,9 +93,7 @@ TEST_CASE("after the OpenGL context is lost nothing calls OpenGL, and destroy wo
     // The scene goes on with a new one, whose AO is the CPU's.
     gl = create_gl(host.handle, platform::Context::loader, &context, tier);
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
-    const std::vector<float> gpu = gpu_ao(gl, crowd, model, 2);
-    NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
-    CHECK(largest_difference(gpu, cpu_ao(crowd, model, 2)) < 2e-3f);
+    CHECK(difference_to_cpu(gl, crowd, model, 2) < promised_difference);
     nook_gl_destroy(&gl);
   }
   nook_character_model_destroy(&model);
@@ -142,16 +133,13 @@ TEST_CASE("an empty scene is updated, and again after its last instance left") {
     Crowd crowd(host.handle, {model}, {5}, options);
     nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
-    const std::uint64_t empty = buffer_bytes(gl);
+    const std::uint64_t empty = info_of(gl).buffer_bytes;
     const nook_instance_id id = crowd.add(0);
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
-    CHECK(buffer_bytes(gl) > empty);
+    CHECK(info_of(gl).buffer_bytes > empty);
     NOOK_OK_OR_FAIL(nook_scene_remove_instance(crowd.scene, id));
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
-    nook_gl_info info{};
-    info.struct_size = sizeof info;
-    NOOK_OK_OR_FAIL(nook_gl_get_info(gl, &info));
-    CHECK(info.ao_bytes == 0);
+    CHECK(info_of(gl).ao_bytes == 0);
     nook_gl_destroy(&gl);
   }
   nook_character_model_destroy(&model);

@@ -15,6 +15,11 @@ namespace {
 
 using Values = std::vector<std::int64_t>;
 
+// Off by default; each would spoil a draw.
+constexpr GLenum poisoned_capabilities[] = {GL_BLEND,          GL_SCISSOR_TEST, GL_CULL_FACE,
+                                            GL_DEPTH_TEST,     GL_STENCIL_TEST, GL_FRAMEBUFFER_SRGB,
+                                            GL_SAMPLE_COVERAGE};
+
 Values integers(const GladGLContext& gl, GLenum name, int count = 1) {
   std::vector<GLint> values(16, 0);
   gl.GetIntegerv(name, values.data());
@@ -114,9 +119,7 @@ Poison::Poison(platform::Context& context, int tier)
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, o.buffers[2]);
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl.PixelStorei(GL_UNPACK_SKIP_ROWS, 3);
-  for (const GLenum capability : {GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST,
-                                  GL_FRAMEBUFFER_SRGB, GL_SAMPLE_COVERAGE})
-    gl.Enable(capability);
+  for (const GLenum capability : poisoned_capabilities) gl.Enable(capability);
   gl.ColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_FALSE);
   gl.DepthMask(GL_FALSE);
   gl.Viewport(3, 4, 5, 6);
@@ -189,9 +192,7 @@ Poison::~Poison() {
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, 0);
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   gl.PixelStorei(GL_UNPACK_SKIP_ROWS, 0);
-  for (const GLenum capability : {GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST,
-                                  GL_FRAMEBUFFER_SRGB, GL_SAMPLE_COVERAGE})
-    gl.Disable(capability);
+  for (const GLenum capability : poisoned_capabilities) gl.Disable(capability);
   gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl.DepthMask(GL_TRUE);
   gl.PrimitiveRestartIndex(0);

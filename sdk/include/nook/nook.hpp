@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "nook_character.h"
+#include "nook_gl.h"
 
 namespace nook {
 // A namespace within, so that these names never meet the library's own at link time. Write nook::Scene all
@@ -59,6 +60,13 @@ inline nook_context_desc context_desc() {
 inline nook_scene_desc scene_desc() {
   nook_scene_desc desc;
   check(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+// get_proc is left to the caller.
+inline nook_gl_desc gl_desc() {
+  nook_gl_desc desc;
+  check(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
   return desc;
 }
 
@@ -157,6 +165,41 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
   static nook_scene create(const Context& context, const nook_scene_desc& desc) {
     nook_scene handle = nullptr;
     check(nook_scene_create(context.get(), &desc, &handle));
+    return handle;
+  }
+};
+
+// What nook_gl.h says of the context thread holds for every function here, and for the destructor.
+class Gl : public Unique<nook_gl, nook_gl_destroy> {
+ public:
+  Gl(const Context& context, const nook_gl_desc& desc) : Unique(create(context, desc)) {}
+
+  void context_lost() { check(nook_gl_context_lost(get())); }
+  nook_gl_info info() const {
+    nook_gl_info info{};
+    info.struct_size = sizeof info;
+    check(nook_gl_get_info(get(), &info));
+    return info;
+  }
+  void prepare(const Scene& scene) { check(nook_gl_scene_prepare(get(), scene.get())); }
+  // Instead of scene.update().
+  void update(Scene& scene) { check(nook_gl_scene_update(get(), scene.get())); }
+  nook_gl_ao_view ao_buffer(const Scene& scene, nook_instance_id id) const {
+    nook_gl_ao_view view{};
+    view.struct_size = sizeof view;
+    check(nook_gl_scene_ao_buffer(get(), scene.get(), id, &view));
+    return view;
+  }
+  // Waits for the GPU.
+  void read_ao(const Scene& scene, nook_instance_id id, float* out, std::uint32_t count) const {
+    check(nook_gl_scene_read_ao(get(), scene.get(), id, out, count));
+  }
+  void release(const Scene& scene) { check(nook_gl_scene_release(get(), scene.get())); }
+
+ private:
+  static nook_gl create(const Context& context, const nook_gl_desc& desc) {
+    nook_gl handle = nullptr;
+    check(nook_gl_create(context.get(), &desc, &handle));
     return handle;
   }
 };

@@ -154,8 +154,8 @@ NOOK_API nook_result nook_scene_set_terms(nook_scene scene, uint32_t terms);
 NOOK_API nook_result nook_scene_update(nook_scene scene);
 
 /* Writes the AO of the last nook_scene_update in the imported file's vertex order, all primitives in a row; 1 for an instance
- * that none has seen yet. stride is in bytes (0: sizeof(float)); count must be the model's file_vertex_count. No allocation. Any thread while no other call changes the
- * scene. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+ * that none has seen yet. stride is in bytes (0: sizeof(float)); count must be the model's file_vertex_count. No allocation.
+ * Any thread while no other call changes the scene. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, float* out, uint32_t count,
                                         size_t stride);
 

@@ -1,19 +1,19 @@
 #include <algorithm>
 
-#include "api/descriptors.h"
 #include "api/entry.h"
 #include "api/handles.h"
 #include "character/model_file.h"
+#include "core/descriptors.h"
 
 using namespace nook;
 
 nook_result nook_character_model_load(nook_context context, const void* bytes, size_t size,
                                       nook_character_model* out) {
   return api::enter("nook_character_model_load", [&] {
-    api::need(out, "out");
+    need(out, "out");
     *out = nullptr;
-    api::need(context, "context");
-    api::need(bytes, "bytes");
+    need(context, "context");
+    need(bytes, "bytes");
     const auto shared = Ref<nook_context_s>::share(context);
     CharacterModel model =
         read_character_model({static_cast<const std::byte*>(bytes), size}, context->memory());
@@ -33,7 +33,7 @@ void nook_character_model_destroy(nook_character_model* model) {
 
 nook_result nook_character_model_get_info(nook_character_model model, nook_character_model_info* info) {
   return api::enter("nook_character_model_get_info", [&] {
-    api::need(model, "model");
+    need(model, "model");
     const CharacterModel& m = model->model;
     nook_character_model_info answer{};
     answer.bone_count = static_cast<uint32_t>(m.bone_count());
@@ -45,7 +45,7 @@ nook_result nook_character_model_get_info(nook_character_model model, nook_chara
     answer.lod_count = static_cast<uint32_t>(1 + m.levels.size());
     answer.bounding_radius = m.bounding_radius;
     answer.gamma = m.kernel.gamma;
-    api::write_info(info, offsetof(nook_character_model_info, gamma) + sizeof info->gamma, answer);
+    write_info(info, offsetof(nook_character_model_info, gamma) + sizeof info->gamma, answer);
   });
 }
 
@@ -56,9 +56,9 @@ const char* nook_character_model_bone_name(nook_character_model model, uint32_t 
 nook_result nook_character_model_primitive(nook_character_model model, uint32_t primitive,
                                            uint32_t* first_vertex, uint32_t* vertex_count) {
   return api::enter("nook_character_model_primitive", [&] {
-    api::need(model, "model");
-    api::need(first_vertex, "first_vertex");
-    api::need(vertex_count, "vertex_count");
+    need(model, "model");
+    need(first_vertex, "first_vertex");
+    need(vertex_count, "vertex_count");
     const auto& primitives = model->model.primitives;
     if (primitive >= primitives.size())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "primitive is out of range (got %u, need less than %zu)",
@@ -70,8 +70,8 @@ nook_result nook_character_model_primitive(nook_character_model model, uint32_t 
 
 nook_result nook_character_model_static_ao(nook_character_model model, float* out, uint32_t count) {
   return api::enter("nook_character_model_static_ao", [&] {
-    api::need(model, "model");
-    api::need(out, "out");
+    need(model, "model");
+    need(out, "out");
     const CharacterModel& m = model->model;
     if (count != m.file_to_welded.size())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

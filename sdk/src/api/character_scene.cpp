@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "api/descriptors.h"
 #include "api/entry.h"
 #include "api/handles.h"
+#include "core/descriptors.h"
 
 using namespace nook;
 
@@ -59,13 +59,13 @@ SceneSettings settings_of(const nook_scene_desc& desc) {
 template <class Body>
 nook_result with_scene(const char* function, nook_scene scene, Body&& body) noexcept {
   return api::enter(function, [&] {
-    api::need(scene, "scene");
+    need(scene, "scene");
     body(scene->scene);
   });
 }
 
 Sphere sphere_of(const float* centre_ws, float radius) {
-  api::need(centre_ws, "centre_ws");
+  need(centre_ws, "centre_ws");
   return {{centre_ws[0], centre_ws[1], centre_ws[2]}, radius};
 }
 
@@ -73,17 +73,17 @@ Sphere sphere_of(const float* centre_ws, float radius) {
 
 nook_result nook_scene_desc_init(nook_scene_desc* desc, size_t size, uint32_t header_version) {
   return api::enter("nook_scene_desc_init", [&] {
-    api::init_descriptor(desc, size, header_version, first_scene_desc, default_scene_desc());
+    init_descriptor(desc, size, header_version, first_scene_desc, default_scene_desc());
   });
 }
 
 nook_result nook_scene_create(nook_context context, const nook_scene_desc* desc, nook_scene* out) {
   return api::enter("nook_scene_create", [&] {
-    api::need(out, "out");
+    need(out, "out");
     *out = nullptr;
-    api::need(context, "context");
-    const SceneSettings settings = settings_of(
-        api::read_descriptor(desc, "nook_scene_desc_init", first_scene_desc, default_scene_desc()));
+    need(context, "context");
+    const SceneSettings settings =
+        settings_of(read_descriptor(desc, "nook_scene_desc_init", first_scene_desc, default_scene_desc()));
     *out =
         Owned<nook_scene_s>::make(context->memory(), Ref<nook_context_s>::share(context), context, settings)
             .detach();
@@ -99,9 +99,9 @@ void nook_scene_destroy(nook_scene* scene) {
 
 nook_result nook_scene_add_instance(nook_scene scene, nook_character_model model, nook_instance_id* out) {
   return with_scene("nook_scene_add_instance", scene, [&](Scene& s) {
-    api::need(out, "out");
+    need(out, "out");
     *out = 0;
-    api::need(model, "model");
+    need(model, "model");
     *out = add_instance(s, Ref<const LoadedModel>::share(model));
   });
 }
@@ -113,7 +113,7 @@ nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_id instan
 nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance, const float* bones_3x4,
                                 uint32_t bone_count) {
   return with_scene("nook_scene_set_pose", scene, [&](Scene& s) {
-    api::need(bones_3x4, "bones_3x4");
+    need(bones_3x4, "bones_3x4");
     static_assert(sizeof(Mat3x4) == 12 * sizeof(float) && alignof(Mat3x4) == alignof(float));
     set_pose(s, instance, {reinterpret_cast<const Mat3x4*>(bones_3x4), bone_count});
   });
@@ -142,7 +142,7 @@ nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance, c
 nook_result nook_scene_add_occluder(nook_scene scene, const float centre_ws[3], float radius,
                                     nook_occluder_id* out) {
   return with_scene("nook_scene_add_occluder", scene, [&](Scene& s) {
-    api::need(out, "out");
+    need(out, "out");
     *out = 0;
     *out = add_occluder(s, sphere_of(centre_ws, radius));
   });
@@ -187,7 +187,7 @@ nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, floa
                                size_t stride) {
   return with_scene("nook_scene_read_ao", scene, [&](const Scene& s) {
     const Instance& found = instance_of(s, instance);
-    api::need(out, "out");
+    need(out, "out");
     const std::size_t file_vertices = found.model->model.file_to_welded.size();
     if (count != file_vertices)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -201,6 +201,6 @@ nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, floa
 
 nook_result nook_scene_get_stats(nook_scene scene, nook_scene_stats* stats) {
   return with_scene("nook_scene_get_stats", scene, [&](const Scene& s) {
-    api::write_info(stats, offsetof(nook_scene_stats, evaluations) + sizeof stats->evaluations, s.stats);
+    write_info(stats, offsetof(nook_scene_stats, evaluations) + sizeof stats->evaluations, s.stats);
   });
 }

@@ -1,8 +1,8 @@
 #include <cstdio>
 
-#include "api/descriptors.h"
 #include "api/entry.h"
 #include "api/handles.h"
+#include "core/descriptors.h"
 
 namespace nook::api {
 namespace {
@@ -18,27 +18,11 @@ nook_context_desc default_context_desc() {
 }
 constexpr std::size_t first_context_desc = offsetof(nook_context_desc, parallel_for_user) + sizeof(void*);
 
-unsigned major_of(std::uint32_t version) {
-  return version >> 22;
-}
-unsigned minor_of(std::uint32_t version) {
-  return version >> 12 & 1023;
-}
-
 }  // namespace
 
 nook_result fail(const char* function, nook_result code, const char* text) noexcept {
   std::snprintf(last_message, sizeof last_message, "%s: %s", function, text);
   return code;
-}
-
-void check_version(std::uint32_t version) {
-  if (major_of(version) != NOOK_VERSION_MAJOR || minor_of(version) > NOOK_VERSION_MINOR)
-    throw Failure(NOOK_ERROR_VERSION,
-                  "the caller's headers do not fit this library (got version %u.%u, need %d.%d or older of "
-                  "the same major "
-                  "version); pass NOOK_VERSION, or update the library",
-                  major_of(version), minor_of(version), NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR);
 }
 
 }  // namespace nook::api
@@ -77,16 +61,16 @@ const char* nook_result_name(nook_result result) {
 
 nook_result nook_context_desc_init(nook_context_desc* desc, size_t size, uint32_t header_version) {
   return api::enter("nook_context_desc_init", [&] {
-    api::init_descriptor(desc, size, header_version, api::first_context_desc, api::default_context_desc());
+    init_descriptor(desc, size, header_version, api::first_context_desc, api::default_context_desc());
   });
 }
 
 nook_result nook_context_create(const nook_context_desc* desc, nook_context* out) {
   return api::enter("nook_context_create", [&] {
-    api::need(out, "out");
+    need(out, "out");
     *out = nullptr;
-    const nook_context_desc settings = api::read_descriptor(
-        desc, "nook_context_desc_init", api::first_context_desc, api::default_context_desc());
+    const nook_context_desc settings =
+        read_descriptor(desc, "nook_context_desc_init", api::first_context_desc, api::default_context_desc());
     if (!settings.allocator.allocate != !settings.allocator.release)
       throw Failure(
           NOOK_ERROR_INVALID_ARGUMENT,

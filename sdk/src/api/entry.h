@@ -35,10 +35,4 @@ nook_result enter(const char* function, Body&& body) noexcept {
   }
 }
 
-// Throws unless the pointer is there.
-inline void need(const void* pointer, const char* name) {
-  if (!pointer)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is NULL; a valid pointer or handle is needed", name);
-}
-
 }  // namespace nook::api

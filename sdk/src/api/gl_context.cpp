@@ -1,6 +1,6 @@
-#include "api/descriptors.h"
 #include "api/entry.h"
 #include "api/gl_handle.h"
+#include "core/descriptors.h"
 
 using namespace nook;
 
@@ -17,7 +17,7 @@ constexpr std::size_t first_gl_desc = offsetof(nook_gl_desc, state_mode) + sizeo
 constexpr std::size_t first_gl_info = offsetof(nook_gl_info, ao_bytes) + sizeof(std::uint64_t);
 
 void check(const nook_gl_desc& desc) {
-  api::need(reinterpret_cast<const void*>(desc.get_proc), "desc.get_proc");
+  need(reinterpret_cast<const void*>(desc.get_proc), "desc.get_proc");
   if (desc.max_tier != 0 && desc.max_tier != 33 && desc.max_tier != 43)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.max_tier is unknown (got %d, need 0, 33 or 43)",
                   desc.max_tier);
@@ -44,18 +44,16 @@ nook_gl_s::nook_gl_s(nook_context_s* made_by, const nook_gl_desc& desc)
 }
 
 nook_result nook_gl_desc_init(nook_gl_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_gl_desc_init", [&] {
-    api::init_descriptor(desc, size, header_version, first_gl_desc, default_gl_desc());
-  });
+  return api::enter("nook_gl_desc_init",
+                    [&] { init_descriptor(desc, size, header_version, first_gl_desc, default_gl_desc()); });
 }
 
 nook_result nook_gl_create(nook_context context, const nook_gl_desc* desc, nook_gl* out) {
   return api::enter("nook_gl_create", [&] {
-    api::need(out, "out");
+    need(out, "out");
     *out = nullptr;
-    api::need(context, "context");
-    const nook_gl_desc known =
-        api::read_descriptor(desc, "nook_gl_desc_init", first_gl_desc, default_gl_desc());
+    need(context, "context");
+    const nook_gl_desc known = read_descriptor(desc, "nook_gl_desc_init", first_gl_desc, default_gl_desc());
     check(known);
     *out = Owned<nook_gl_s>::make(context->memory(), Ref<nook_context_s>::share(context), context, known)
                .detach();
@@ -70,7 +68,7 @@ void nook_gl_destroy(nook_gl* gl) {
 
 nook_result nook_gl_context_lost(nook_gl gl) {
   return api::enter("nook_gl_context_lost", [&] {
-    api::need(gl, "gl");
+    need(gl, "gl");
     gl->device.lost = true;
     gl->characters.reset();
   });
@@ -78,13 +76,13 @@ nook_result nook_gl_context_lost(nook_gl gl) {
 
 nook_result nook_gl_get_info(nook_gl gl, nook_gl_info* info) {
   return api::enter("nook_gl_get_info", [&] {
-    api::need(gl, "gl");
+    need(gl, "gl");
     nook_gl_info known{};
     known.tier = gl->device.gl.tier;
     known.version = gl->version.c_str();
     known.renderer = gl->renderer.c_str();
     known.buffer_bytes = gl->device.buffer_bytes;
     known.ao_bytes = gl->device.ao_bytes;
-    api::write_info(info, first_gl_info, known);
+    write_info(info, first_gl_info, known);
   });
 }

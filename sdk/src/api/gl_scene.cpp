@@ -1,6 +1,6 @@
-#include "api/descriptors.h"
 #include "api/entry.h"
 #include "api/gl_handle.h"
+#include "core/descriptors.h"
 
 using namespace nook;
 
@@ -12,8 +12,8 @@ constexpr std::size_t first_ao_view = offsetof(nook_gl_ao_view, count) + sizeof(
 template <class Body>
 nook_result with_scene(const char* function, nook_gl gl, nook_scene scene, Body&& body) noexcept {
   return api::enter(function, [&] {
-    api::need(gl, "gl");
-    api::need(scene, "scene");
+    need(gl, "gl");
+    need(scene, "scene");
     gl->device.need_alive();
     body();
   });
@@ -44,14 +44,14 @@ nook_result nook_gl_scene_ao_buffer(nook_gl gl, nook_scene scene, nook_instance_
     known.offset = place.offset;
     known.stride = sizeof(float);
     known.count = place.count;
-    api::write_info(view, first_ao_view, known);
+    write_info(view, first_ao_view, known);
   });
 }
 
 nook_result nook_gl_scene_read_ao(nook_gl gl, nook_scene scene, nook_instance_id instance, float* out,
                                   uint32_t count) {
   return with_scene("nook_gl_scene_read_ao", gl, scene, [&] {
-    api::need(out, "out");
+    need(out, "out");
     const gl::AoPlace place = gl->characters->ao_place(scene->scene, instance);
     if (count != place.count)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -33,33 +33,6 @@ TEST_CASE("every function can be called from C") {
   CHECK(call_every_function() == 0);
 }
 
-TEST_CASE("descriptors know their version and size") {
-  nook_bake_mesh_desc desc;
-  CHECK(nook_bake_mesh_desc_init(nullptr, sizeof desc, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("nook_bake_mesh_desc_init: desc is NULL"));
-  CHECK(nook_bake_mesh_desc_init(&desc, 8, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("size is out of range"));
-  CHECK(nook_bake_mesh_desc_init(&desc, sizeof desc, NOOK_VERSION + (1u << 22)) == NOOK_ERROR_VERSION);
-  CHECK(nook_bake_job_desc_init(nullptr, 0, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_trace_desc_init(nullptr, 0, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
-
-  // A caller with a newer header has a larger struct: what this library does not know is zeroed, and must
-  // stay zero.
-  struct Newer {
-    nook_bake_job_desc known;
-    std::uint64_t more;
-  } newer;
-  std::memset(static_cast<void*>(&newer), 0xff, sizeof newer);
-  REQUIRE(nook_bake_job_desc_init(&newer.known, sizeof newer, NOOK_VERSION) == NOOK_OK);
-  CHECK(newer.more == 0);
-  CHECK(newer.known.struct_size == sizeof newer);
-  newer.more = 1;
-  const Character character = tube_character();
-  nook_bake_job job = nullptr;
-  CHECK(nook_bake_job_start(character.get(), &newer.known, &job) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("fields that this library does not know"));
-}
-
 TEST_CASE("a character from memory is what was given") {
   const Character character = tube_character();
   REQUIRE(character);

@@ -123,6 +123,35 @@ TEST_CASE("pictures of the error") {
     CHECK(read_text(baked.folder.path(name)).substr(1, 3) == "PNG");
 }
 
+TEST_CASE("a neighbour darkens less the farther it is, by each form and by ray tracing") {
+  const Baked baked;
+  const auto rows_with = [&](const char* threads) {
+    const ToolRun run =
+        baked.folder.run({"evaluate", "casters", baked.glb, baked.model, "--report", baked.report, "--rays",
+                          "64", "--bearings", "2", "--poses", "2", "--threads", threads});
+    INFO(run.error);
+    REQUIRE(run.exit_code == 0);
+    CHECK(has(run.out, "darkening_traced"));
+    return Json::parse(read_text(baked.report)).at("rows");
+  };
+  const Json rows = rows_with("1");
+  CHECK(rows == rows_with("2"));
+  REQUIRE(rows.size() == 10);  // five distances, two forms
+  for (std::size_t i = 0; i < rows.size(); i += 2) {
+    const Json &composed = rows[i], &paper = rows[i + 1];
+    CHECK(composed.at("form") == "composed");
+    CHECK(paper.at("form") == "paper");
+    CHECK(composed.at("darkening_traced") == paper.at("darkening_traced"));
+    CHECK(composed.at("darkening").get<double>() > 0);
+    if (i == 0) continue;
+    CHECK(composed.at("distance_m") > rows[i - 2].at("distance_m"));
+    for (const std::size_t form : {i, i + 1})
+      CHECK(rows[form].at("darkening") < rows[form - 2].at("darkening"));
+  }
+  // Between 1 m and 10 m a body's solid angle falls by two orders of magnitude; rays resolve one of them.
+  CHECK(rows[8].at("darkening_traced").get<double>() < 0.1 * rows[0].at("darkening_traced").get<double>());
+}
+
 TEST_CASE("a model of another character is refused") {
   const Baked baked;
   SECTION("other clips") {
@@ -144,6 +173,13 @@ TEST_CASE("a model of another character is refused") {
         baked.folder.run({"evaluate", "character", baked.glb, baked.folder.path("none.nook")});
     CHECK(run.exit_code == 3);
     CHECK(has(run.error, "none.nook: cannot be read"));
+  }
+  SECTION("a report that cannot be written, before any ray is traced") {
+    const ToolRun run = baked.folder.run(
+        {"evaluate", "casters", baked.glb, baked.model, "--report", baked.folder.path("no folder/r.json")});
+    CHECK(run.exit_code != 0);
+    CHECK(has(run.error, "no folder/r.json"));
+    CHECK_FALSE(has(run.error, "ray tracing"));
   }
   CHECK(baked.folder.names() == Names{"hero.glb", "hero.nook"});  // no report of what failed
 }

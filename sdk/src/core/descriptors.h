@@ -1,16 +1,17 @@
-// Structs that grow: a caller compiled with an older or newer header passes more or fewer bytes than the
-// library knows.
+// Structs of the C interfaces, which grow: a caller compiled with an older or newer header passes more or
+// fewer bytes than the library knows.
 #pragma once
 
 #include <nook/nook.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
-#include "api/entry.h"
+#include "core/failure.h"
 
-namespace nook::api {
+namespace nook {
 
 // Throws VERSION unless headers of `version` fit this library: the same major version, and no newer minor
 // one.
@@ -70,4 +71,4 @@ void write_info(Info* info, std::size_t first_size, Info value) {
   std::memcpy(static_cast<void*>(info), &value, std::min(size, sizeof value));
 }
 
-}  // namespace nook::api
+}  // namespace nook

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Writes docs/api/*.md, one page for each public C header, from the header's comments.
+
+With --check nothing is written; pages that differ from what the headers give are named, and the exit code is 1.
+"""
+import itertools
+import pathlib
+import re
+import sys
+import textwrap
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+HEADERS = sorted((ROOT / "sdk/include/nook").glob("*.h"))
+PAGES = ROOT / "docs/api"
+NAME = re.compile(r"\b((?:nook|NOOK)_\w+)(?:\(\))?")
+# First sentences that say nothing of what a function is for.
+CONTRACT = re.compile(r"(Any thread|One at a time|Context thread|On failure|Errors)\b")
+
+
+class Item:
+    """A section title, or declarations that share one comment."""
+
+    def __init__(self, comment, code):
+        self.comment = comment
+        self.code = [re.sub(r"^NOOK_API ", "", line) for line in code]
+        if code and any(line.startswith("NOOK_API ") for line in code):
+            # Parameters stay below the parenthesis.
+            self.code = [line[len("NOOK_API "):] if line.startswith(" " * 20) else line for line in self.code]
+        self.names = declared_names("\n".join(code))
+
+    def title(self):
+        if len(self.names) > 1 and self.names[0].isupper():
+            return f"{self.names[0]} to {self.names[-1]}"
+        return ", ".join(self.names)
+
+    def anchor(self):
+        """The anchor that Markdown renderers derive from the title."""
+        return re.sub(r"[^\w -]", "", self.title().lower()).replace(" ", "-")
+
+    def summary(self):
+        sentence = re.split(r"(?<=[\w)]\.)\s", " ".join(self.comment).strip())[0]
+        return "" if CONTRACT.match(sentence) else sentence.rstrip(".")
+
+
+def declared_names(code):
+    """What a block of declarations is called: functions and types, or constants where nothing else has a name."""
+    code = re.sub(r"/\*.*?\*/", "", code, flags=re.S)
+    functions = re.findall(r"^NOOK_API [^;(]*?(nook_\w+)\(", code, re.M)
+    types = re.findall(r"^typedef [^;{]*\(\*(nook_\w+)\)", code, re.M)
+    types += re.findall(r"^typedef [^;{(]*?(nook_\w+);", code, re.M)
+    types += re.findall(r"^\} (nook_\w+);", code, re.M)
+    macros = re.findall(r"^#define (\w+)", code, re.M)
+    return functions + types + macros or re.findall(r"\bNOOK_\w+", code)
+
+
+def comment_lines(lines):
+    text = "\n".join(lines).strip()[2:-2]
+    return [re.sub(r"^ ?\* ?", "", line).rstrip() if i else line.strip() for i, line in enumerate(text.split("\n"))]
+
+
+def parse(text):
+    """The comment at the top, then sections (strings) and items in the header's order."""
+    blocks, comment, code, depth = [], [], [], 0
+
+    def close():
+        nonlocal comment, code
+        if code:
+            blocks.append(Item(comment, code))
+        comment, code = [], []
+
+    lines = iter(text.split("\n"))
+    for line in lines:
+        # Depth 1 is the include guard; below it is plumbing for compilers.
+        if re.match(r"#\s*if", line):
+            depth += 1
+        elif re.match(r"#\s*endif", line):
+            depth -= 1
+        elif depth > 1 or re.match(r"#include|#define \w+$", line):
+            continue
+        elif line.startswith("/*"):
+            found = [line]
+            while not found[-1].rstrip().endswith("*/"):
+                found.append(next(lines))
+            close()
+            comment = comment_lines(found)
+            section = re.match(r"-+ (.*?) -+$", comment[0])
+            if section or not blocks:
+                blocks.append(section.group(1) if section else comment)
+                comment = []
+        elif line.strip():
+            code.append(line)
+        elif code and code[-1].endswith((";", "}")) or code and code[0].startswith("#define"):
+            close()
+    close()
+    return blocks
+
+
+def escape(text):
+    """Text that Markdown shows as it is."""
+    return re.sub(r"([*<\[])", r"\\\1", text)
+
+
+def prose(lines, link):
+    """Comment lines as Markdown; what is indented in the comment keeps its lines."""
+    out = []
+    for indented, run in itertools.groupby(lines, key=lambda line: line.startswith("  ")):
+        if indented:
+            out += ["", "```text", textwrap.dedent("\n".join(run)), "```", ""]
+        else:
+            out += [NAME.sub(link, escape(line)) for line in run]
+    return "\n".join(out).strip()
+
+
+def page(name, blocks, places):
+    def link_from(item):
+        def link(match):
+            target = places.get(match.group(1))
+            if not target or item and match.group(1) in item.names:
+                return f"`{match.group(0)}`"
+            where = "" if target[0] == name else f"{target[0]}.md"
+            return f"[`{match.group(0)}`]({where}#{target[1]})"
+
+        return link
+
+    out = [f"# {name}.h", "", f"Made from `sdk/include/nook/{name}.h` by `docs/generate_api.py`.", "",
+           prose(blocks[0], link_from(None)), ""]
+    for block in blocks[1:]:
+        if isinstance(block, str):
+            out += ["", f"**{block}**", ""]
+            continue
+        summary = block.summary()
+        out.append(f"- [{block.title()}](#{block.anchor()})" + (f": {escape(summary)}" if summary else ""))
+    for block in blocks[1:]:
+        if isinstance(block, str):
+            out += ["", f"## {block}"]
+            continue
+        out += ["", f"### {block.title()}", ""]
+        if block.comment:
+            out += [prose(block.comment, link_from(block)), ""]
+        out += ["```c", *block.code, "```"]
+    return re.sub(r"\n{3,}", "\n\n", "\n".join(out)) + "\n"
+
+
+def main():
+    parsed = {header.stem: parse(header.read_text(encoding="utf-8")) for header in HEADERS}
+    places = {}
+    for name, blocks in parsed.items():
+        for item in (block for block in blocks if isinstance(block, Item)):
+            constants = re.findall(r"\bNOOK_\w+(?= = )", "\n".join(item.code))
+            for word in item.names + constants:
+                places.setdefault(word, (name, item.anchor()))
+    pages = {PAGES / f"{name}.md": page(name, blocks, places) for name, blocks in parsed.items()}
+
+    if "--check" in sys.argv[1:]:
+        found = {path: path.read_text(encoding="utf-8") for path in PAGES.glob("*.md")}
+        stale = [path for path in sorted(pages.keys() | found.keys()) if pages.get(path) != found.get(path)]
+        for path in stale:
+            print(f"{path.relative_to(ROOT)} is not what its header gives; run python3 docs/generate_api.py")
+        return 1 if stale else 0
+    PAGES.mkdir(exist_ok=True)
+    for path, text in pages.items():
+        path.write_text(text, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

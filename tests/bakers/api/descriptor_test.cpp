@@ -1,0 +1,67 @@
+// The structs of nook_bake.h as callers of older and newer headers pass them.
+#include <nook/nook_bake.h>
+
+#include "abi/growing_struct.h"
+#include "handles.h"
+
+using namespace nook::test;
+
+TEST_CASE("init functions fill what fits into the caller's struct, of every release") {
+  check_init(nook_bake_mesh_desc_init, 100);
+  check_init(nook_bake_job_desc_init, 128);
+  check_init(nook_bake_trace_desc_init, 72);
+
+  nook_bake_mesh_desc desc;
+  CHECK(nook_bake_mesh_desc_init(nullptr, sizeof desc, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("nook_bake_mesh_desc_init: desc is NULL"));
+  CHECK(nook_bake_mesh_desc_init(&desc, 8, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("size is out of range (got 8, need at least 100)"));
+}
+
+TEST_CASE("descriptors of every release are read, and what a newer one adds is refused unless 0") {
+  tube t;
+  make_tube(&t);
+  check_use(describe_tube(&t), 100, [](const nook_bake_mesh_desc* desc) {
+    nook_bake_character character = nullptr;
+    const nook_result result = nook_bake_character_create(desc, &character);
+    nook_bake_character_destroy(&character);
+    return result;
+  });
+
+  const Character character = tube_character();
+  nook_bake_job_desc job_desc;
+  REQUIRE(nook_bake_job_desc_init(&job_desc, sizeof job_desc, NOOK_VERSION) == NOOK_OK);
+  job_desc.preset = NOOK_BAKE_PRESET_DRAFT;
+  check_use(job_desc, 128, [&](const nook_bake_job_desc* desc) {
+    nook_bake_job job = nullptr;
+    const nook_result result = nook_bake_job_start(character.get(), desc, &job);
+    nook_bake_job_destroy(&job);  // cancels: only what start says matters here
+    return result;
+  });
+
+  const float at[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+  nook_bake_trace_desc trace_desc;
+  REQUIRE(nook_bake_trace_desc_init(&trace_desc, sizeof trace_desc, NOOK_VERSION) == NOOK_OK);
+  trace_desc.positions = at;
+  trace_desc.normals = up;
+  trace_desc.point_count = 1;
+  check_use(trace_desc, 72, [](const nook_bake_trace_desc* desc) {
+    float ao = 0;
+    return nook_bake_trace_ao(desc, &ao, 1);
+  });
+}
+
+TEST_CASE("answers are cut to the caller's struct") {
+  const Character character = tube_character();
+  check_info<nook_bake_character_info>(56, [&](nook_bake_character_info* info) {
+    return nook_bake_character_get_info(character.get(), info);
+  });
+
+  nook_bake_job_desc desc;
+  REQUIRE(nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  nook_bake_job handle = nullptr;
+  REQUIRE(nook_bake_job_start(character.get(), &desc, &handle) == NOOK_OK);
+  const Job job(handle);
+  check_info<nook_bake_progress>(
+      24, [&](nook_bake_progress* progress) { return nook_bake_job_poll(job.get(), progress); });
+}

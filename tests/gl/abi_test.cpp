@@ -1,0 +1,36 @@
+// nook_gl.h as a C program calls it, and as callers of older and newer headers do.
+#include "abi/growing_struct.h"
+#include "character/model_file.h"
+#include "crowd.h"
+#include "test_context.h"
+
+using namespace nook;
+using namespace nook::test;
+
+extern "C" int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_proc, void* user);
+
+std::vector<std::byte> nook_test_model_bytes() {
+  return write_character_model(sample_model(3));
+}
+
+TEST_CASE("a C program calls every function of nook_gl.h") {
+  NOOK_NEED_CONTEXT(context);
+  const std::vector<std::byte> bytes = nook_test_model_bytes();
+  CHECK(nook_gl_call_everything(bytes.data(), bytes.size(), platform::Context::loader, &context) == 0);
+  CHECK(context.gl().GetError() == GL_NO_ERROR);
+}
+
+TEST_CASE("answers about OpenGL are cut to the caller's struct") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(3));
+  Crowd crowd(host.handle, {model}, {5}, {});
+  nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
+  NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
+  check_info<nook_gl_info>(40, [&](nook_gl_info* info) { return nook_gl_get_info(gl, info); });
+  check_info<nook_gl_ao_view>(24, [&](nook_gl_ao_view* view) {
+    return nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], view);
+  });
+  nook_gl_destroy(&gl);
+  nook_character_model_destroy(&model);
+}

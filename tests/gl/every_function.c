@@ -1,0 +1,79 @@
+/* Every function of nook_gl.h, called from C in the order a host would; returns the number of failed
+ * expectations and prints each. The OpenGL context is current; bytes: a character model. */
+#include <nook/nook_gl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_proc, void* user);
+
+static int failures;
+static void expect(int condition, const char* what, int line) {
+  if (condition) return;
+  ++failures;
+  printf("every_function.c:%d: %s: %s\n", line, what, nook_last_message());
+}
+#define EXPECT(condition) expect((condition), #condition, __LINE__)
+#define EXPECT_OK(call) expect((call) == NOOK_OK, #call, __LINE__)
+
+static void read_ao(nook_gl gl, nook_scene scene, nook_instance_id instance, uint32_t count) {
+  float* ao = (float*)malloc(count * sizeof(float));
+  uint32_t i;
+  for (i = 0; i < count; ++i) ao[i] = -1;
+  EXPECT_OK(nook_gl_scene_read_ao(gl, scene, instance, ao, count));
+  for (i = 0; i < count; ++i) EXPECT(ao[i] >= 0 && ao[i] <= 1);
+  free(ao);
+}
+
+int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_proc, void* user) {
+  nook_context_desc context_desc;
+  nook_scene_desc scene_desc;
+  nook_gl_desc desc;
+  nook_gl_info info;
+  nook_gl_ao_view view;
+  nook_context context = NULL;
+  nook_character_model model = NULL;
+  nook_scene scene = NULL;
+  nook_instance_id instance = 0;
+  nook_gl gl = NULL;
+
+  failures = 0;
+  EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  EXPECT_OK(nook_context_create(&context_desc, &context));
+  EXPECT_OK(nook_character_model_load(context, bytes, size, &model));
+  EXPECT_OK(nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION));
+  EXPECT_OK(nook_scene_create(context, &scene_desc, &scene));
+  EXPECT_OK(nook_scene_add_instance(scene, model, &instance));
+
+  EXPECT_OK(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.get_proc = get_proc;
+  desc.get_proc_user = user;
+  EXPECT_OK(nook_gl_create(context, &desc, &gl));
+  memset(&view, 0, sizeof view);
+  view.struct_size = sizeof view;
+  EXPECT(nook_gl_scene_ao_buffer(gl, scene, instance, &view) == NOOK_ERROR_INVALID_HANDLE);
+  EXPECT_OK(nook_gl_scene_prepare(gl, scene));
+  EXPECT_OK(nook_gl_scene_ao_buffer(gl, scene, instance, &view));
+  EXPECT(view.buffer != 0 && view.stride == sizeof(float) && view.count > 0);
+  EXPECT_OK(nook_gl_scene_update(gl, scene));
+  read_ao(gl, scene, instance, view.count);
+  memset(&info, 0, sizeof info);
+  info.struct_size = sizeof info;
+  EXPECT_OK(nook_gl_get_info(gl, &info));
+  EXPECT((info.tier == 33 || info.tier == 43) && info.version && info.renderer);
+  EXPECT(info.ao_bytes >= view.count * sizeof(float) && info.buffer_bytes > info.ao_bytes);
+  EXPECT_OK(nook_gl_scene_release(gl, scene));
+  EXPECT(nook_gl_scene_ao_buffer(gl, scene, instance, &view) == NOOK_ERROR_INVALID_HANDLE);
+  EXPECT_OK(nook_gl_get_info(gl, &info));
+  EXPECT(info.ao_bytes == 0);
+  /* Everything is released, so that saying that the context is gone leaves nothing in OpenGL but programs. */
+  EXPECT_OK(nook_gl_context_lost(gl));
+  EXPECT(nook_gl_scene_update(gl, scene) == NOOK_ERROR_GL);
+  EXPECT(strncmp(nook_last_message(), "nook_gl_scene_update: ", 22) == 0);
+  nook_gl_destroy(&gl);
+  nook_scene_destroy(&scene);
+  nook_character_model_destroy(&model);
+  nook_context_destroy(&context);
+  EXPECT(!gl && !scene && !model && !context);
+  return failures;
+}
