@@ -68,8 +68,7 @@ struct LimbPlan {
   Vec3 clavicle, hand;
 };
 
-LimbPlan plan_limbs(Random& random) {
-  LimbPlan plan;
+void plan_arm(LimbPlan& plan, Random& random) {
   // Arms: hanging, reaching forwards, raised to the side or overhead. Elevation from straight down, azimuth from the front.
   const float kind = random.uniform();
   float elevation, azimuth;
@@ -91,6 +90,11 @@ LimbPlan plan_limbs(Random& random) {
                         std::sin(elevation) * std::cos(azimuth)};
   plan.arm_twist = 25 * degree * random.normal();
   plan.elbow_lean = 0.5f * random.normal3();
+}
+
+LimbPlan plan_limbs(Random& random) {
+  LimbPlan plan;
+  plan_arm(plan, random);
   // Legs: standing, striding, crouching or sitting, kicked back.
   const float stance = random.uniform();
   if (stance < 0.35f) {
@@ -179,6 +183,34 @@ class Rig {
                                 return j.role == JointRole::neck || j.role == JointRole::head;
                               })));
     find_curl_axes();
+    find_palms();
+  }
+
+  // Lets a hand reach for a place on the body or for the other hand: what hands come near is what shadows of hands and on hands
+  // depend on, and arms that swing freely are seldom there. Of some arms the one that comes nearest is taken.
+  void reach(BodyPlan& plan, Random& random, std::span<const Vec3> vertices) const {
+    constexpr int tries = 24;
+    const int side = random.chance(0.5f) ? 1 : 0;
+    if (palm_[side].bone < 0) return;
+    const bool other_hand = palm_[1 - side].bone >= 0 && random.chance(0.3f);
+    const std::size_t vertex = std::min(std::size_t(random.uniform() * float(vertices.size())), vertices.size() - 1);
+    const Place target = other_hand ? palm_[1 - side] : Place{std::int32_t(mesh_.weights[vertex].bone[0]), vertices[vertex]};
+    // A hand cannot reach for its own arm.
+    if (joints_[std::size_t(target.bone)].side == palm_side(side) && is_arm(joints_[std::size_t(target.bone)].role)) return;
+    const Random noise = random;  // what a pose draws must not differ between the tries
+    float nearest = INFINITY;
+    LimbPlan best = plan.limb[side];
+    for (int t = 0; t < tries; ++t) {
+      if (t > 0) plan_arm(plan.limb[side], random);
+      Random own = noise;
+      const Pose candidate = pose(plan, own);
+      const float distance = length(place_in(candidate, palm_[side]) - place_in(candidate, target));
+      if (distance < nearest) {
+        nearest = distance;
+        best = plan.limb[side];
+      }
+    }
+    plan.limb[side] = best;
   }
 
   Pose pose(const BodyPlan& plan, Random& random) const {
@@ -197,6 +229,35 @@ class Rig {
   }
 
  private:
+  // A point of the body, rest space; bone -1: there is none.
+  struct Place {
+    std::int32_t bone = -1;
+    Vec3 point;
+  };
+  static Vec3 place_in(const Pose& pose, const Place& place) {
+    return transform_point(pose[std::size_t(place.bone)], place.point);
+  }
+  static Side palm_side(int side) { return side ? Side::right : Side::left; }
+  static bool is_arm(JointRole role) {
+    return role == JointRole::upper_arm || role == JointRole::forearm || role == JointRole::hand ||
+           role == JointRole::finger || role == JointRole::thumb;
+  }
+
+  // The middle of the knuckles, or the wrist where there are none.
+  void find_palms() {
+    for (std::size_t hand = 0; hand < joints_.size(); ++hand) {
+      if (joints_[hand].role != JointRole::hand || joints_[hand].side == Side::none) continue;
+      Vec3 sum = joint_origin(mesh_.bones[hand]);
+      float count = 1;
+      for (std::size_t b = hand + 1; b < joints_.size(); ++b) {
+        if (joints_[b].role != JointRole::finger || joints_[b].segment != 0 || !is_below(b, hand)) continue;
+        if (count++ == 1) sum = {};
+        sum += joint_origin(mesh_.bones[b]);
+      }
+      palm_[joints_[hand].side == Side::right] = {std::int32_t(hand), sum * (1 / std::max(1.0f, count - 1))};
+    }
+  }
+
   Vec3 direction_of(std::size_t bone) const {
     const std::int32_t next = joints_[bone].continuation;
     return next < 0 ? Vec3{} : normalised(joint_origin(mesh_.bones[std::size_t(next)]) - joint_origin(mesh_.bones[bone]));
@@ -345,6 +406,7 @@ class Rig {
   BodyFrame frame_;
   std::vector<char> posable_;
   std::vector<Vec3> curl_axis_;
+  Place palm_[2];  // left, right
   std::size_t spine_count_ = 1, neck_count_ = 1;
 };
 
@@ -359,10 +421,12 @@ std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> ver
     Random random(mix_bits(seed ^ mix_bits(i)));
     // Of a few tries the first that keeps out of itself, or the best: limbs that touch are wanted, limbs inside are not.
     constexpr int tries = 12;
-    constexpr float allowed = 0.25f;
+    constexpr float allowed = 0.25f, reaching = 0.4f;
     float best = 0;
     for (int attempt = 0; attempt < tries; ++attempt) {
-      Pose pose = rig.pose(plan_body(random), random);
+      BodyPlan plan = plan_body(random);
+      if (random.chance(reaching)) rig.reach(plan, random, mesh.position);
+      Pose pose = rig.pose(plan, random);
       const float depth = collision.depth(pose);
       if (attempt == 0 || depth < best) {
         best = depth;

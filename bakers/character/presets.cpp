@@ -12,21 +12,22 @@ PresetValues preset_values(Preset preset, FitMethod fit) {
   switch (preset) {
     case Preset::draft:
       v.settings.rays = 16;
-      v.settings.steps = paper ? 3 : 700;
-      v.auto_poses = 150;
-      v.clip_poses = 150;
+      v.settings.steps = paper ? 3 : 1500;
+      v.auto_poses = 300;
+      v.clip_poses = 200;
       v.single_joint_steps = 3;
       break;
     case Preset::standard:
-      v.settings.rays = 32;
-      v.settings.steps = paper ? 20 : 12000;
-      v.auto_poses = 900;
+      // Few rays on many poses: the noise of a target averages out over the poses, what no pose shows is never learned.
+      v.settings.rays = 16;
+      v.settings.steps = paper ? 20 : 20000;
+      v.auto_poses = 2700;
       v.clip_poses = 1100;
       break;
     case Preset::production:
-      v.settings.rays = 64;
+      v.settings.rays = 32;
       v.settings.steps = paper ? 100 : 60000;
-      v.auto_poses = 4000;
+      v.auto_poses = 10000;
       v.clip_poses = 4000;
       break;
   }

@@ -27,7 +27,7 @@ void write_comparison_sheet(const Stage& stage, CrowdScene& scene, const std::ve
                             const ComparisonRequest& request);
 
 // double_shadowing.png: gamma 1 against the model's, self and linked in one norm, beside the default and
-// rays.
+// rays; no ground.
 void write_double_shadowing_sheet(platform::Context& context, const Stage& stage, CrowdScene& scene,
                                   const std::vector<Bones>& poses, const ComparisonRequest& request);
 

@@ -61,7 +61,7 @@ std::vector<std::vector<float>> traced_ao(const Hero& hero, const std::vector<Bo
   constexpr float g = kGroundHalfSize_m;
   const float ground[12] = {-g, 0, -g, g, 0, -g, -g, 0, g, g, 0, g};
   const std::uint32_t ground_triangles[6] = {0, 2, 1, 1, 2, 3};
-  meshes.push_back({ground, ground_triangles, 4, 6});
+  if (request.ground) meshes.push_back({ground, ground_triangles, 4, 6});
 
   std::vector<float> positions, normals;
   for (const std::uint32_t r : receivers) {

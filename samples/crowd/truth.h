@@ -11,9 +11,10 @@ namespace crowd {
 struct TraceRequest {
   std::uint32_t rays = 64;  // a vertex
   std::uint64_t seed = 1;
+  bool ground = true;
 };
 
-// AO of the receivers' vertices, one array for each, against all bodies near them and the ground plane y = 0.
+// AO of the receivers' vertices, one array for each, against all bodies near them and, if asked for, the ground plane y = 0.
 std::vector<std::vector<float>> traced_ao(const Hero& hero, const std::vector<Bones>& poses,
                                           std::span<const std::uint32_t> receivers,
                                           const TraceRequest& request);
