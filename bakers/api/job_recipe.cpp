@@ -111,10 +111,11 @@ void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
   settings.fit = fit_of(desc.fit);
   if (desc.steps) settings.steps = desc.steps;
   settings.seed = desc.seed;
-  if (desc.gamma != 0) {
+  settings.learn_gamma = desc.gamma == NOOK_BAKE_GAMMA_LEARNED;
+  if (desc.gamma != 0 && !settings.learn_gamma) {
     if (!(desc.gamma >= 1 && desc.gamma <= 8))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.gamma is out of range (got %g, need 1 to 8, or 0 for the preset's)",
+                    "desc.gamma is out of range (got %g, need 1 to 8, NOOK_BAKE_GAMMA_LEARNED, or 0 for 1.5)",
                     double(desc.gamma));
     settings.kernel.gamma = desc.gamma;
   }

@@ -165,6 +165,38 @@ void fit_by_blocks(Fit& fit, const TrainingSet& set, const BakeSettings& setting
   }
 }
 
+void fit_both_layers(Fit& fit, const TrainingSet& set, const BakeSettings& settings, BakeReport& report,
+                     const BakeProgress& progress) {
+  if (settings.fit == FitMethod::nook)
+    fit_by_mini_batches(fit, set, settings, report, progress);
+  else
+    fit_by_blocks(fit, set, settings, report, progress);
+}
+
+// The exponent whose short fit has the least error on held-out poses. Both layers adapt to the exponent, so that the error is
+// flat near its least value and a coarse grid does.
+float learned_gamma(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings,
+                    const Candidates& candidates, const FitState& initial, const BakeProgress& progress) {
+  BakeSettings brief = settings;
+  brief.steps = std::max<std::size_t>(1, settings.steps / 20);
+  float best = settings.kernel.gamma;
+  double least = INFINITY;
+  for (const float gamma : {1.0f, 1.25f, 1.5f, 1.75f, 2.0f, 2.5f}) {
+    BakeReport report;
+    FitState state = initial;
+    state.structure.kernel.gamma = gamma;
+    Fit fit(set, area, brief, candidates, std::move(state), report);
+    fit.solve_linear();
+    fit.measure();
+    fit_both_layers(fit, set, brief, report, progress);
+    if (report.mse_held_out < least) {
+      least = report.mse_held_out;
+      best = gamma;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& settings,
@@ -210,14 +242,14 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   candidates.nearness = std::move(near.nearness);
   step(2);
 
-  Fit fit(set, area, settings, candidates, initial_state(settings.kernel, spheres, key_points), report);
+  FitState initial = initial_state(settings.kernel, spheres, key_points);
+  if (settings.learn_gamma)
+    initial.structure.kernel.gamma = learned_gamma(set, area, settings, candidates, initial, progress);
+  Fit fit(set, area, settings, candidates, std::move(initial), report);
   fit.solve_linear();
   fit.measure();
   report.mse_initial = report.curve.back().mse_train;
-  if (settings.fit == FitMethod::nook)
-    fit_by_mini_batches(fit, set, settings, report, progress);
-  else
-    fit_by_blocks(fit, set, settings, report, progress);
+  fit_both_layers(fit, set, settings, report, progress);
   report.seconds_fit = fit.seconds();
 
   std::vector<float> static_ao;

@@ -27,6 +27,7 @@ struct BakeSettings {
   double time_limit_s = 0;     // of the fit; 0: none. A fit that it ends is not reproducible bit for bit
   std::uint64_t seed = 1;
   Kernel kernel;
+  bool learn_gamma = false;    // chooses kernel.gamma by held-out error of short fits
   FitMethod fit = FitMethod::nook;
 };
 

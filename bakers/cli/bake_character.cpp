@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -30,6 +31,11 @@ struct Options {
   float gamma = 0;
   double time_limit_s = 0;
 };
+
+// The option's check lets only numbers in range and the word pass.
+float gamma_of(const std::string& text) {
+  return text == "learned" ? NOOK_BAKE_GAMMA_LEARNED : std::strtof(text.c_str(), nullptr);
+}
 
 void require(nook_result result) {
   if (result == NOOK_OK) return;
@@ -202,7 +208,12 @@ void add_bake_character(CLI::App& bake) {
          "shadow of a sphere: nook (default), paper (Le et al. 2019) or rational");
   choice("--fit", o.fit, {{"nook", NOOK_BAKE_FIT_NOOK}, {"paper", NOOK_BAKE_FIT_PAPER}},
          "nook (mini-batches, default) or paper (block coordinate descent with L-BFGS)");
-  command->add_option("--gamma", o.gamma, "exponent of the shadow norm")->check(CLI::Range(1.0, 8.0));
+  command
+      ->add_option_function<std::string>(
+          "--gamma", [&o](const std::string& text) { o.gamma = gamma_of(text); },
+          "exponent of the shadow norm, 1 to 8 (default 1.5), or learned: the best of several short fits")
+      ->type_name("G|learned")
+      ->check(CLI::Range(1.0, 8.0) | CLI::IsMember({"learned"}));
   command
       ->add_option("--time-limit", o.time_limit_s,
                    "end the fit after so many seconds; such a bake is not reproducible bit for bit")

@@ -198,6 +198,10 @@ typedef struct nook_bake_progress {
  * nook_bake_job_destroy has returned. It must not wait for or destroy its own job. */
 typedef int32_t (*nook_bake_progress_fn)(void* user, const nook_bake_progress* progress);
 
+/* Tries several exponents in short fits and takes the one with the least error on held-out poses. The runtime has fast paths
+ * for 1, 1.5 and 2; others cost about twice the time. */
+#define NOOK_BAKE_GAMMA_LEARNED (-1.0f)
+
 typedef struct nook_bake_job_desc {
   uint32_t struct_size;              /* set by nook_bake_job_desc_init */
   uint32_t header_version;           /* set by nook_bake_job_desc_init */
@@ -219,7 +223,7 @@ typedef struct nook_bake_job_desc {
   uint32_t threads;                  /* default 0: all cores */
   nook_bake_kernel kernel;           /* default NOOK */
   nook_bake_fit fit;                 /* default NOOK */
-  float gamma;                       /* exponent of the shadow norm, 1 to 8; default 0: the preset's */
+  float gamma;                       /* exponent of the shadow norm, 1 to 8, or NOOK_BAKE_GAMMA_LEARNED; default 0: 1.5 */
   double time_limit_s;               /* of the fit; default 0: none. A fit that it ends is not reproducible bit for bit */
   nook_bake_progress_fn progress;    /* NULL: poll instead */
   void* progress_user;

@@ -218,6 +218,10 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
     desc.gamma = 0.5f;
     expected = "desc.gamma is out of range (got 0.5";
   }
+  SECTION("gamma below what stands for learned") {
+    desc.gamma = -2;
+    expected = "desc.gamma is out of range (got -2";
+  }
   SECTION("gamma that is no number") {
     desc.gamma = std::nanf("");
     expected = "desc.gamma is out of range";

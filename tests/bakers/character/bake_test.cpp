@@ -72,6 +72,22 @@ TEST_CASE("the same seed gives the same model on any number of threads") {
   CHECK(one != write_character_model(bake_character(mesh, poses, settings).model));
 }
 
+TEST_CASE("a learned gamma fits as well as the best fixed one") {
+  const SkinnedMesh mesh = bending_tube(16, 10);
+  const std::vector<Pose> poses = tube_poses(mesh, 80);
+  BakeSettings settings = small_settings();
+  double least = 1;
+  for (const float gamma : {1.0f, 1.5f, 2.0f, 2.5f}) {
+    settings.kernel.gamma = gamma;
+    least = std::min(least, bake_character(mesh, poses, settings).report.mse_held_out);
+  }
+  settings.learn_gamma = true;
+  const BakeResult learned = bake_character(mesh, poses, settings);
+  INFO("gamma " << learned.model.kernel.gamma << " error " << learned.report.mse_held_out << " least " << least);
+  // Its choice rests on fits of a twentieth of the steps, and the error is flat near its least value.
+  CHECK(learned.report.mse_held_out < 1.1 * least);
+}
+
 TEST_CASE("a known model is recovered from its own AO") {
   const SkinnedMesh mesh = bending_tube(16, 10);
   BakeSettings settings = small_settings();

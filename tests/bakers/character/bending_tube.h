@@ -1,6 +1,7 @@
 // A small skinned body for the bakers' tests: a closed tube along x with two bones, the joint in its middle.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
