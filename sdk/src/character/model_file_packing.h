@@ -23,7 +23,7 @@ struct CharacterBits {
   static constexpr int bone_count = 2;
   static constexpr int bone_weight = 8;  // in 1/256, so that the sum of a key point's weights is exactly 1
   static constexpr int entry_count = 3;
-  static constexpr int reference = 2;  // which of the vertices before shares key points
+  static constexpr int reference = 5;  // which of the vertices before shares key points
   static constexpr int alpha = 7;      // square-root companded
   static constexpr int bias = 8;
   static constexpr int blend = 5;
