@@ -47,11 +47,13 @@ void follow(nook_bake_job job, bool quiet) {
 }
 
 std::filesystem::path cached_path(const BakeRequest& request) {
-  // The version is part of the name, so that another build's model is never taken for this one's.
-  char name[96];
-  std::snprintf(name, sizeof name, "draft_%016llx_gamma%g_%08x.nook",
+  // The time of the program is part of the name, so that another build's model is never taken for this one's.
+  std::error_code unknown;
+  const auto built = std::filesystem::last_write_time("/proc/self/exe", unknown).time_since_epoch().count();
+  char name[112];
+  std::snprintf(name, sizeof name, "draft_%016llx_gamma%g_%08x_%016llx.nook",
                 static_cast<unsigned long long>(request.source_hash), double(request.gamma),
-                nook_bake_version());
+                nook_bake_version(), static_cast<unsigned long long>(built));
   return request.cache / name;
 }
 
