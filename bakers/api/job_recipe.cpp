@@ -115,7 +115,7 @@ void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
   if (desc.gamma != 0 && !settings.learn_gamma) {
     if (!(desc.gamma >= 1 && desc.gamma <= 8))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.gamma is out of range (got %g, need 1 to 8, NOOK_BAKE_GAMMA_LEARNED, or 0 for 1.5)",
+                    "desc.gamma is out of range (got %g, need 1 to 8, NOOK_BAKE_GAMMA_LEARNED, or 0 for 1)",
                     double(desc.gamma));
     settings.kernel.gamma = desc.gamma;
   }

@@ -211,7 +211,7 @@ void add_bake_character(CLI::App& bake) {
   command
       ->add_option_function<std::string>(
           "--gamma", [&o](const std::string& text) { o.gamma = gamma_of(text); },
-          "exponent of the shadow norm, 1 to 8 (default 1.5), or learned: the best of several short fits")
+          "exponent of the shadow norm, 1 to 8 (default 1), or learned: the best of several short fits")
       ->type_name("G|learned")
       ->check(CLI::Range(1.0, 8.0) | CLI::IsMember({"learned"}));
   command

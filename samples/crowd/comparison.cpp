@@ -105,7 +105,7 @@ void write_double_shadowing_sheet(platform::Context& context, const Stage& stage
   // Without the ground, whose darkening would drown what overlapping spheres do.
   const Values truth =
       traced_ao(stage.hero, poses, painter.group().members, {kPictureRays, request.seed, false});
-  for (const auto model : {request.gamma_1_model, request.model}) {
+  for (const auto model : {request.model, request.gamma_2_model}) {
     CrowdScene one_norm(context, model,
                         {std::uint32_t(poses.size()), request.neighbours, request.tier, NOOK_COMBINE_PAPER});
     one_norm.set_poses(poses);
@@ -115,10 +115,10 @@ void write_double_shadowing_sheet(platform::Context& context, const Stage& stage
     one_norm.update(NOOK_TERM_SELF | NOOK_TERM_LINKS);
     painter.add(gamma_label(gamma, "self + neighbours in one norm"), one_norm);
     if (model.data() == request.model.data()) {
-      scene.update(NOOK_TERM_SELF | NOOK_TERM_LINKS);
-      painter.add(gamma_label(gamma, "composed (default)"), scene);
-    } else {
       painter.add("ray traced, no ground", truth);
+    } else {
+      scene.update(NOOK_TERM_SELF | NOOK_TERM_LINKS);
+      painter.add(gamma_label(scene.model().info().gamma, "composed (default)"), scene);
     }
   }
   painter.write(request.out / "double_shadowing.png", 3);

@@ -14,7 +14,7 @@ struct ComparisonRequest {
   int tier = 0;
   std::uint64_t seed = 1;
   std::filesystem::path out;
-  std::span<const unsigned char> gamma_1_model;  // the same character fitted with gamma 1
+  std::span<const unsigned char> gamma_2_model;  // the same character fitted with gamma 2, the seed's
   std::span<const unsigned char> model;
 };
 
@@ -26,7 +26,7 @@ void measure_errors(const Stage& stage, CrowdScene& scene, const std::vector<Bon
 void write_comparison_sheet(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
                             const ComparisonRequest& request);
 
-// double_shadowing.png: gamma 1 against the model's, self and linked in one norm, beside the default and
+// double_shadowing.png: the model's gamma against 2, self and linked in one norm, beside the default and
 // rays; no ground.
 void write_double_shadowing_sheet(platform::Context& context, const Stage& stage, CrowdScene& scene,
                                   const std::vector<Bones>& poses, const ComparisonRequest& request);

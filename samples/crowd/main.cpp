@@ -73,9 +73,9 @@ void compare_with_rays(platform::Context& context, const Stage& stage, CrowdScen
   line.show("comparing", "parts", 1, 3);
   write_comparison_sheet(stage, scene, poses, request);
   line.show("comparing", "parts", 2, 3);
-  const std::vector<unsigned char> gamma_1 =
-      cached_model(stage.hero, {character.source_hash, o.cache, 1.0f, o.quiet});
-  request.gamma_1_model = gamma_1;
+  const std::vector<unsigned char> gamma_2 =
+      cached_model(stage.hero, {character.source_hash, o.cache, 2.0f, o.quiet});
+  request.gamma_2_model = gamma_2;
   write_double_shadowing_sheet(context, stage, scene, poses, request);
   line.show("comparing", "parts", 3, 3);
 }

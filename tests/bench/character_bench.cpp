@@ -132,7 +132,7 @@ class Character {
 void shadow_norm(benchmark::State& state, const ShadowKernels* kernels, Kernel kernel) {
   Character character(*kernels);
   Stopwatch simd, plain;
-  const bool comparable = kernel.form == KernelForm::nook && (kernel.gamma == 1.5f || kernel.gamma == 2);
+  const bool comparable = kernel.form == KernelForm::nook && (kernel.gamma == 1 || kernel.gamma == 1.5f || kernel.gamma == 2);
   for (auto _ : state) {
     simd.run([&] { character.norm_sum(kernel); });
     character.clear();

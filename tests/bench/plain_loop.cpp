@@ -5,7 +5,7 @@
 namespace nook::bench {
 namespace {
 
-template <bool ThreeHalves>
+template <int twice_gamma>
 void loop(const SphereSoa& spheres, const KeyPointSoa& points, float* sum) {
   for (std::uint32_t k = 0; k < points.padded_count; ++k) {
     const float px = points.x[k], py = points.y[k], pz = points.z[k];
@@ -19,7 +19,7 @@ void loop(const SphereSoa& spheres, const KeyPointSoa& points, float* sum) {
       const float s = 0.5f * (xi + std::sqrt(xi * xi + 1));
       const float t = 1 / std::sqrt(delta2 + nook_kernel_core);
       const float y = s * t * t * t;
-      total += ThreeHalves ? y * std::sqrt(y) : y * y;
+      total += twice_gamma == 2 ? y : twice_gamma == 3 ? y * std::sqrt(y) : y * y;
     }
     sum[k] = total;
   }
@@ -28,10 +28,12 @@ void loop(const SphereSoa& spheres, const KeyPointSoa& points, float* sum) {
 }  // namespace
 
 void plain_norm_sum(const SphereSoa& spheres, const KeyPointSoa& points, float gamma, float* sum) {
-  if (gamma == 1.5f)
-    loop<true>(spheres, points, sum);
+  if (gamma == 1)
+    loop<2>(spheres, points, sum);
+  else if (gamma == 1.5f)
+    loop<3>(spheres, points, sum);
   else
-    loop<false>(spheres, points, sum);
+    loop<4>(spheres, points, sum);
 }
 
 }  // namespace nook::bench

@@ -6,7 +6,7 @@
 
 namespace nook::bench {
 
-// The nook form; gamma is 1.5 or 2.
+// The nook form; gamma is 1, 1.5 or 2.
 void plain_norm_sum(const SphereSoa& spheres, const KeyPointSoa& points, float gamma, float* sum);
 
 }  // namespace nook::bench

@@ -69,7 +69,7 @@ void add_linear_layer(CharacterModel& model, Draw& draw) {
 CharacterModel sample_model() {
   Draw draw(1);
   CharacterModel model;
-  model.kernel = {KernelForm::nook, 1.5f};
+  model.kernel = {};  // as shipped
   for (std::size_t b = 0; b < bones; ++b)
     model.bone_names.push_back(std::pmr::string("bone_" + std::to_string(b)));
   for (std::size_t i = 0; i < spheres; ++i)

@@ -223,7 +223,7 @@ typedef struct nook_bake_job_desc {
   uint32_t threads;                  /* default 0: all cores */
   nook_bake_kernel kernel;           /* default NOOK */
   nook_bake_fit fit;                 /* default NOOK */
-  float gamma;                       /* exponent of the shadow norm, 1 to 8, or NOOK_BAKE_GAMMA_LEARNED; default 0: 1.5 */
+  float gamma;                       /* exponent of the shadow norm, 1 to 8, or NOOK_BAKE_GAMMA_LEARNED; default 0: 1 */
   double time_limit_s;               /* of the fit; default 0: none. A fit that it ends is not reproducible bit for bit */
   nook_bake_progress_fn progress;    /* NULL: poll instead */
   void* progress_user;

@@ -24,7 +24,9 @@ inline constexpr int kernel_form_count = 3;
 
 struct Kernel {
   KernelForm form = KernelForm::nook;
-  float gamma = 1.5f;  // exponent of the norm over spheres, >= 1; slide 20
+  // Exponent of the norm over spheres, >= 1; slide 20. The seed's larger ones keep spheres of neighbours from darkening twice;
+  // in the composed form these have a term of their own, and the plain sum fits self-shadow best.
+  float gamma = 1;
 };
 
 // Visibility of slide 18: 0 for a sphere far below the horizon, 1/2 on it, 1 far above.
