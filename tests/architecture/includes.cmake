@@ -19,6 +19,7 @@ endfunction()
 
 forbid(sdk/src/core "\"(character|nnao|probe|material|gl|api)/|nook_gl|glad" "core knows no other room and no GL")
 forbid(sdk/src/character "\"(nnao|probe|material|gl|api)/|nook_gl|glad" "a system room knows core only")
+forbid(sdk/src/nnao "\"(character|probe|material|gl|api)/|nook_gl|glad" "a system room knows core only")
 forbid(sdk/src/gl "\"api/" "gl does not know the api")
 forbid(sdk/src "tbb/|embree|Eigen|tiny_gltf|OpenImageIO|nlohmann|LBFGS|CLI/" "the runtime depends on nothing")
 forbid(bakers "\"gl/|nook_gl|glad" "bakers know no GL")
