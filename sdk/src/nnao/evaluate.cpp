@@ -30,11 +30,11 @@ struct Centre {
   PixelRadius radius;
 };
 
-Centre centre_of(const View& view, const Sampling& sampling, std::uint32_t x, std::uint32_t y) {
+Centre centre_of(const View& view, Vec3 normal, const Sampling& sampling, std::uint32_t x, std::uint32_t y) {
   Centre centre;
   const float depth = view.depth[view.at(x, y)];
   centre.position = view_position(view.rays, float(x) + 0.5f, float(y) + 0.5f, depth);
-  centre.normal = view.normal[view.at(x, y)];
+  centre.normal = normal;
   centre.viewer = to_viewer(view.rays, centre.position);
   centre.scale = pixel_scale(view.rays, depth);
   centre.radius = pixel_radius(sampling, centre.scale);
@@ -46,10 +46,10 @@ Vec3 texel_position(const View& view, TappedTexel texel) {
                        view.depth[view.at(texel.x, texel.y)]);
 }
 
-float evaluate_paper(const PaperNetwork& network, const View& view, const Sampling& sampling, std::uint32_t x,
-                     std::uint32_t y, TapNoise noise) {
+float evaluate_paper(const PaperNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
+                     std::uint32_t x, std::uint32_t y, TapNoise noise) {
   constexpr int units = PaperNetwork::units, inputs = PaperNetwork::tap_inputs;
-  const Centre centre = centre_of(view, sampling, x, y);
+  const Centre centre = centre_of(view, normal, sampling, x, y);
   std::array<float, units> sum{};
   for (std::uint32_t tap = 0; tap < sampling.taps; ++tap) {
     const std::uint32_t cell = paper_tap_cell(tap, sampling.taps, noise);
@@ -68,10 +68,10 @@ float evaluate_paper(const PaperNetwork& network, const View& view, const Sampli
   return through(network.layer_3, through(network.layer_2, through(network.layer_1, sum)))[0];
 }
 
-float evaluate_horizon(const HorizonNetwork& network, const View& view, const Sampling& sampling,
+float evaluate_horizon(const HorizonNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
                        std::uint32_t x, std::uint32_t y, TapNoise noise) {
   constexpr int units = HorizonNetwork::units;
-  const Centre centre = centre_of(view, sampling, x, y);
+  const Centre centre = centre_of(view, normal, sampling, x, y);
   const TapGrid grid = horizon_grid(sampling.taps);
   std::array<float, units + 1> joined{};
   for (std::uint32_t d = 0; d < grid.directions; ++d) {
@@ -152,16 +152,19 @@ bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 no
   return true;
 }
 
-float evaluate_unclamped(const Network& network, const View& view, const Sampling& sampling, std::uint32_t x,
-                         std::uint32_t y, TapNoise noise) {
-  return network.form == NetworkForm::paper ? evaluate_paper(network.paper, view, sampling, x, y, noise)
-                                            : evaluate_horizon(network.horizon, view, sampling, x, y, noise);
+float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
+                         std::uint32_t x, std::uint32_t y, TapNoise noise) {
+  return network.form == NetworkForm::paper
+             ? evaluate_paper(network.paper, view, normal, sampling, x, y, noise)
+             : evaluate_horizon(network.horizon, view, normal, sampling, x, y, noise);
 }
 
 float evaluate_pixel(const Network& network, const View& view, const Sampling& sampling, std::uint32_t x,
                      std::uint32_t y) {
   if (!view.has_surface(x, y)) return 1;
-  return std::clamp(evaluate_unclamped(network, view, sampling, x, y, tap_noise(x, y)), 0.0f, 1.0f);
+  return std::clamp(
+      evaluate_unclamped(network, view, view.normal[view.at(x, y)], sampling, x, y, tap_noise(x, y)), 0.0f,
+      1.0f);
 }
 
 void evaluate(const Network& network, const View& view, const Sampling& sampling, std::span<float> ao) {

@@ -89,9 +89,10 @@ inline Vec3 across_viewer(Vec3 viewer, float cosine, float sine) {
   return normalised(along - dot(along, viewer) * viewer);
 }
 
-// The network's output, not clamped, with the noise given; the pixel must have a surface. For training.
-float evaluate_unclamped(const Network& network, const View& view, const Sampling& sampling, std::uint32_t x,
-                         std::uint32_t y, TapNoise noise);
+// The network's output, not clamped, with the pixel's normal and noise given; the pixel must have a surface.
+// The horizon form needs no other normal of the view. For training.
+float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
+                         std::uint32_t x, std::uint32_t y, TapNoise noise);
 
 // AO of one pixel in [0, 1]; exactly 1 where there is no surface.
 float evaluate_pixel(const Network& network, const View& view, const Sampling& sampling, std::uint32_t x,

@@ -3,40 +3,13 @@
 #include <cmath>
 
 #include "core/half.h"
+#include "nnao/layers.h"
 
 namespace nook::nnao {
 namespace {
 
 constexpr std::size_t filter_count = std::size_t(PaperNetwork::grid_size) * PaperNetwork::grid_size *
                                      PaperNetwork::tap_inputs * PaperNetwork::units;
-
-// Visits every span of numbers of the form's layers, in the order of the file.
-template <class Layer, class Visit>
-void visit_layer(Layer& layer, Visit&& visit) {
-  visit(std::span(layer.weights));
-  visit(std::span(layer.bias));
-  visit(std::span(layer.negative_slope));
-  visit(std::span(layer.positive_slope));
-}
-
-template <class AnyNetwork, class Visit>
-void visit_layers(AnyNetwork& network, Visit&& visit) {
-  if (network.form == NetworkForm::paper) {
-    auto& paper = network.paper;
-    visit(std::span(paper.bias));
-    visit(std::span(paper.negative_slope));
-    visit(std::span(paper.positive_slope));
-    visit_layer(paper.layer_1, visit);
-    visit_layer(paper.layer_2, visit);
-    visit_layer(paper.layer_3, visit);
-  } else {
-    auto& horizon = network.horizon;
-    visit_layer(horizon.tap, visit);
-    visit_layer(horizon.direction, visit);
-    visit_layer(horizon.join, visit);
-    visit_layer(horizon.out, visit);
-  }
-}
 
 float checked(float value, const char* what, nook_result code) {
   if (!(std::abs(value) <= max_parameter))
