@@ -43,7 +43,7 @@ void walk(platform::Context& context, int tier, nook_gl_state_mode mode,
        }},
   };
   for (const Step& step : steps) {
-    Poison poison(context, tier);
+    Poison poison(context, users_of_tier(tier));
     check(step.name, poison, step.call);
     CHECK(context.gl().GetError() == GL_NO_ERROR);
   }
@@ -52,7 +52,7 @@ void walk(platform::Context& context, int tier, nook_gl_state_mode mode,
   NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
   CHECK(largest_difference(gpu, cpu_ao(crowd, model, 0)) < 2e-3f);
   for (const char* name : {"release", "destroy"}) {
-    Poison poison(context, tier);
+    Poison poison(context, users_of_tier(tier));
     check(name, poison, [&] {
       if (std::string(name) == "release")
         NOOK_OK_OR_FAIL(nook_gl_scene_release(gl, crowd.scene));
