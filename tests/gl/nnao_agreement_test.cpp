@@ -39,16 +39,10 @@ std::vector<float> reference(const nnao::Network& network, const Picture& pictur
   return ao;
 }
 
-struct Fixture {
-  explicit Fixture(platform::Context& made_in)
-      : context(made_in),
-        gl(create_gl(host.handle, platform::Context::loader, &context, 0)),
-        textures(context.gl()) {}
+struct Fixture : NnaoFixture {
+  using NnaoFixture::NnaoFixture;
   ~Fixture() {
     for (auto& [form_and_taps, pass] : passes) nook_nnao_destroy(&pass);
-    nook_gl_destroy(&gl);
-    CHECK(context.gl().GetError() == GL_NO_ERROR);
-    for (const std::string& message : take_debug_messages()) FAIL_CHECK(message);
   }
 
   // Kept, because Mesa compiles the network anew for each.
@@ -87,10 +81,6 @@ struct Fixture {
     if (width > 16) CHECK(spread(wanted) > 0.1f);
   }
 
-  platform::Context& context;
-  CountedContext host;
-  nook_gl gl;
-  Textures textures;
   std::map<std::pair<nnao::NetworkForm, std::uint32_t>, nook_nnao> passes;
 };
 
@@ -106,7 +96,8 @@ TEST_CASE("nnao: the pass agrees with the reference under every projection") {
 TEST_CASE("nnao: the pass agrees with the reference on linear depth") {
   NOOK_NEED_CONTEXT(context);
   Fixture fixture(context);
-  for (const Camera& camera : cameras(80.0f / 45)) fixture.compare(camera, {}, 80, 45, true);
+  const std::vector<Camera> all = cameras(80.0f / 45);
+  for (const std::size_t camera : {0u, 2u, 6u, 9u}) fixture.compare(all[camera], {}, 80, 45, true);
 }
 
 TEST_CASE("nnao: the pass agrees with the reference for every number of taps") {

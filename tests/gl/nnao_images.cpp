@@ -5,6 +5,7 @@
 
 #include "network_sample.h"
 #include "nnao/network_file.h"
+#include "test_context.h"
 
 namespace nook::test {
 namespace {
@@ -119,8 +120,8 @@ Picture look(const Camera& camera, const std::vector<Surface>& scene, std::uint3
       Vec3 normal{0, 0, 1};
       for (const Surface& surface : scene) {
         const float t = distance_along(surface, origin, direction);
-        // The sky begins where the far planes of most cameras are.
-        if (t >= nearest || t > 12) continue;
+        // The wall ends at the sky.
+        if (t >= nearest || t > 7) continue;
         nearest = t;
         normal = surface.ball ? normalised(origin + direction * t - surface.normal_or_centre)
                               : surface.normal_or_centre;
@@ -214,6 +215,26 @@ std::vector<float> read_texture(const GladGLContext& gl, GLuint texture, int wid
   gl.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
   gl.DeleteFramebuffers(1, &framebuffer);
   return out;
+}
+
+NnaoFixture::NnaoFixture(platform::Context& made_in, nook_gl_state_mode mode)
+    : context(made_in),
+      gl(create_gl(host.handle, platform::Context::loader, &context, 0, mode)),
+      textures(context.gl()) {}
+
+NnaoFixture::~NnaoFixture() {
+  nook_gl_destroy(&gl);
+  CHECK(context.gl().GetError() == GL_NO_ERROR);
+  for (const std::string& message : take_debug_messages()) FAIL_CHECK(message);
+}
+
+GLuint NnaoFixture::depth_of(const Camera& camera, const Picture& picture) {
+  return textures.floats(GL_DEPTH_COMPONENT32F, 1, int(picture.width), int(picture.height),
+                         stored_depth(camera, picture));
+}
+
+GLuint NnaoFixture::normals_of(const Picture& picture) {
+  return textures.floats(GL_RGB32F, 3, int(picture.width), int(picture.height), flat(picture.normal));
 }
 
 nnao::Network mild_network(nnao::NetworkForm form, std::uint32_t seed) {

@@ -80,6 +80,21 @@ std::vector<float> placed(const std::vector<float>& image, int channels, const P
 std::vector<float> read_texture(const GladGLContext& gl, GLuint texture, int width, int height,
                                 int channels = 1);
 
+// A nook_gl, and the promise that no OpenGL error and no complaint of the driver is left at the end.
+struct NnaoFixture {
+  explicit NnaoFixture(platform::Context& made_in, nook_gl_state_mode mode = NOOK_GL_STATE_PRESERVE);
+  ~NnaoFixture();
+
+  // Hardware depth of a picture, in 32-bit floats.
+  GLuint depth_of(const Camera& camera, const Picture& picture);
+  GLuint normals_of(const Picture& picture);
+
+  platform::Context& context;
+  CountedContext host;
+  nook_gl gl;
+  Textures textures;
+};
+
 // The network's output stays well inside [0, 1], so that no difference is clamped away.
 nnao::Network mild_network(nnao::NetworkForm form, std::uint32_t seed = 1);
 
