@@ -145,7 +145,7 @@ TEST_CASE("nnao: a part of an image is the same picture, and nothing outside it 
       return read_texture(fixture.context.gl(), target, at.width, at.height);
     };
     const std::vector<float> alone = draw({int(picture.width), int(picture.height), 0, 0});
-    CHECK(draw(place) == placed(alone, 1, picture, place, 0.7f));
+    CHECK((draw(place) == placed(alone, 1, picture, place, 0.7f)));
     nook_nnao_destroy(&pass);
   }
 }

@@ -157,7 +157,7 @@ TEST_CASE("nnao: normals in other encodings and spaces are the same normals") {
   nook_nnao_frame_desc frame = output.frame();
   frame.normal_texture = output.normals_of(output.picture);
   const std::vector<float> wanted = output.draw(frame);
-  CHECK(wanted != output.plain);
+  CHECK((wanted != output.plain));
 
   std::vector<float> encoded, turned;
   for (const Vec3 n : output.picture.normal) {
@@ -182,7 +182,7 @@ TEST_CASE("nnao: normals in other encodings and spaces are the same normals") {
   // Where nothing was drawn, the normal is rebuilt.
   frame.normal_texture = output.textures.floats(GL_RGB32F, 3, width, height,
                                                 std::vector<float>(std::size_t(width) * height * 3));
-  CHECK(output.draw(frame) == output.plain);
+  CHECK((output.draw(frame) == output.plain));
 }
 
 TEST_CASE("nnao: depth in 24 bits and in a colour texture is depth as well") {
@@ -193,7 +193,7 @@ TEST_CASE("nnao: depth in 24 bits and in a colour texture is depth as well") {
   frame.normal_texture = output.normals_of(output.picture);
   const std::vector<float> wanted = output.draw(frame);
   frame.depth_texture = output.textures.floats(GL_R32F, 1, width, height, stored);
-  CHECK(output.draw(frame) == wanted);
+  CHECK((output.draw(frame) == wanted));
   frame.depth_texture = output.textures.floats(GL_DEPTH_COMPONENT24, 1, width, height, stored);
   // At 12 m a step of 24 bits is 0.04 mm.
   CHECK(difference(output.draw(frame), wanted, 2.5f * step).beyond < 0.01f);
@@ -218,7 +218,7 @@ TEST_CASE("nnao: sizes change from frame to frame as if the pass were made for e
       fitting.taps = 16;
       nook_nnao fresh = create_pass(fixture.gl, fitting, network);
       NOOK_OK_OR_FAIL(nook_nnao_render(fresh, &frame));
-      CHECK(own_ao(context.gl(), pass, w, h) == own_ao(context.gl(), fresh, w, h));
+      CHECK((own_ao(context.gl(), pass, w, h) == own_ao(context.gl(), fresh, w, h)));
       nook_nnao_destroy(&fresh);
     }
     nook_nnao_destroy(&pass);

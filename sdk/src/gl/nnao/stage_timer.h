@@ -18,7 +18,8 @@ class StageTimer {
   // A frame begins, goes on through its stages and ends with the last of them.
   void begin_frame();
   void end_stage();
-  // Of the newest frame that is finished; nothing before the first. The query buffer binding must be 0.
+  // Of the newest frame that is finished; nothing before the first. Binds the query
+  // buffer.
   std::optional<Milliseconds> newest() const;
 
  private:
