@@ -1,5 +1,7 @@
 // The horizon form; network.h defines it. Eight units are two vec4.
 uniform vec4 nook_network[81];  // tap, direction, join, out, in the order of network.h
+// Directions. Not a constant: compilers would unroll them all, into more code than caches hold.
+uniform int nook_tap_groups;
 
 // Where each layer begins, and its bias, of two vec4, after which negative and positive slopes follow.
 const int nook_tap_layer = 0, nook_tap_bias = 6;
@@ -76,15 +78,15 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
   vec2 noise = nook_tap_noise(texel);
   vec3 viewer = nook_to_viewer(position);
   nook_units sum = nook_units(vec4(0.0), vec4(0.0));
-  for (int i = 0; i < NOOK_DIRECTIONS; ++i) {
-    float angle = nook_direction_angle(i, NOOK_DIRECTIONS, noise);
+  for (int i = 0; i < nook_tap_groups; ++i) {
+    float angle = nook_direction_angle(i, nook_tap_groups, noise);
     nook_units x = nook_direction_units(texel, vec2(cos(angle), sin(angle)), noise, position, normal, viewer, scale,
                                         radius);
     sum = nook_units(sum.low + x.low, sum.high + x.high);
   }
   nook_units joined = nook_bias(nook_join_bias);
-  nook_add(joined, sum.low / float(NOOK_DIRECTIONS), nook_join_layer);
-  nook_add(joined, sum.high / float(NOOK_DIRECTIONS), nook_join_layer + 8);
+  nook_add(joined, sum.low / float(nook_tap_groups), nook_join_layer);
+  nook_add(joined, sum.high / float(nook_tap_groups), nook_join_layer + 8);
   nook_add(joined, dot(normal, viewer), nook_join_layer + 16);
   joined = nook_prelu(joined, nook_join_bias);
   vec4 last = nook_network[nook_out_layer + 2];  // bias, negative slope, positive slope

@@ -2,27 +2,36 @@
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
 uniform samplerBuffer nook_filters;  // for each cell of the grid four texels, one an input, of four units
 uniform vec4 nook_network[19];       // the other layers, in the order of network.h
+// Of NOOK_STEPS taps each. Not a constant: compilers would unroll them all, into more code than caches hold.
+uniform int nook_tap_groups;
 
 vec4 nook_prelu(vec4 x, int slopes) {
   return max(x, 0.0) * nook_network[slopes + 1] + min(x, 0.0) * nook_network[slopes];
 }
 
+// What one tap adds to the four sums.
+vec4 nook_tap_sum(ivec2 texel, int cell, int taps, vec2 noise, vec3 position, vec3 normal, vec2 scale, float radius) {
+  ivec2 at = nook_tapped_texel(texel, nook_paper_tap(cell, taps, noise, radius, scale));
+  float depth = nook_surface_depth(at);
+  if (depth == nook_no_surface) return vec4(0.0);
+  vec3 v = nook_position(nook_surface_rays, at, depth) - position;
+  float weight = 1.0 - length(v) / radius;
+  if (!(weight > 0.0)) return vec4(0.0);
+  vec4 x = vec4(nook_surface_normal(at) - normal, v.z / radius) * weight;
+  return texelFetch(nook_filters, 4 * cell) * x.x + texelFetch(nook_filters, 4 * cell + 1) * x.y +
+         texelFetch(nook_filters, 4 * cell + 2) * x.z + texelFetch(nook_filters, 4 * cell + 3) * x.w;
+}
+
 vec4 nook_paper_sum(ivec2 texel, vec3 position, vec3 normal, vec2 scale, float radius) {
   vec2 noise = nook_tap_noise(texel);
+  int taps = nook_tap_groups * NOOK_STEPS;
   vec4 sum = vec4(0.0);
-  for (int tap = 0; tap < NOOK_TAPS; ++tap) {
-    int cell = nook_paper_tap_cell(tap, NOOK_TAPS, noise);
-    ivec2 at = nook_tapped_texel(texel, nook_paper_tap(cell, NOOK_TAPS, noise, radius, scale));
-    float depth = nook_surface_depth(at);
-    if (depth == nook_no_surface) continue;
-    vec3 v = nook_position(nook_surface_rays, at, depth) - position;
-    float weight = 1.0 - length(v) / radius;
-    if (!(weight > 0.0)) continue;
-    vec4 x = vec4(nook_surface_normal(at) - normal, v.z / radius) * weight;
-    sum += texelFetch(nook_filters, 4 * cell) * x.x + texelFetch(nook_filters, 4 * cell + 1) * x.y +
-           texelFetch(nook_filters, 4 * cell + 2) * x.z + texelFetch(nook_filters, 4 * cell + 3) * x.w;
-  }
-  return sum * (float(nook_grid_cells) / float(NOOK_TAPS));
+  for (int group = 0; group < nook_tap_groups; ++group)
+    for (int i = 0; i < NOOK_STEPS; ++i) {
+      int cell = nook_paper_tap_cell(group * NOOK_STEPS + i, taps, noise);
+      sum += nook_tap_sum(texel, cell, taps, noise, position, normal, scale, radius);
+    }
+  return sum * (float(nook_grid_cells) / float(taps));
 }
 
 vec4 nook_paper_layer(vec4 x, int first) {

@@ -1,6 +1,4 @@
 // The pass gives the AO of the CPU reference: every projection, both forms, odd sizes, parts of an image.
-#include <map>
-
 #include "nnao_images.h"
 #include "test_context.h"
 
@@ -41,18 +39,6 @@ std::vector<float> reference(const nnao::Network& network, const Picture& pictur
 
 struct Fixture : NnaoFixture {
   using NnaoFixture::NnaoFixture;
-  ~Fixture() {
-    for (auto& [form_and_taps, pass] : passes) nook_nnao_destroy(&pass);
-  }
-
-  // Kept, because Mesa compiles the network anew for each.
-  nook_nnao pass_of(const nnao::Network& network, std::uint32_t taps) {
-    nook_nnao& pass = passes[{network.form, taps}];
-    nook_nnao_desc desc = pass_desc(80, 48);
-    desc.taps = int(taps);
-    if (!pass) pass = create_pass(gl, desc, network);
-    return pass;
-  }
 
   // Raw AO of a picture by the pass against the reference.
   void compare(const Camera& camera, const Setting& setting, std::uint32_t width, std::uint32_t height,
@@ -60,7 +46,7 @@ struct Fixture : NnaoFixture {
     const nnao::Network network = mild_network(setting.form);
     const Picture picture = look(camera, still_life(), width, height);
     const int w = int(width), h = int(height);
-    nook_nnao pass = pass_of(network, setting.taps);
+    nook_nnao pass = pass_of(int(setting.taps), 0, 1, &network);
     const GLuint depth = linear_depth
                              ? textures.floats(GL_R32F, 1, w, h, picture.depth)
                              : textures.floats(GL_DEPTH_COMPONENT32F, 1, w, h, stored_depth(camera, picture));
@@ -80,8 +66,6 @@ struct Fixture : NnaoFixture {
     CHECK(found.mean < 0.5f * bound);
     if (width > 16) CHECK(spread(wanted) > 0.1f);
   }
-
-  std::map<std::pair<nnao::NetworkForm, std::uint32_t>, nook_nnao> passes;
 };
 
 }  // namespace
@@ -123,11 +107,9 @@ TEST_CASE("nnao: a part of an image is the same picture, and nothing outside it 
   const Camera camera = plain_camera(1.5f);
   const Picture picture = look(camera, still_life(), 45, 30);
   const Place place{64, 50, 7, 11};
+  const nnao::Network network = mild_network(nnao::NetworkForm::horizon);
   for (const int half : {0, 1}) {
-    nook_nnao_desc desc = pass_desc(place.width, place.height);
-    desc.taps = 16;
-    desc.half_resolution = half;
-    nook_nnao pass = create_pass(fixture.gl, desc, mild_network(nnao::NetworkForm::horizon));
+    nook_nnao pass = fixture.pass_of(16, half, 1, &network);
     const auto draw = [&](const Place& at) {
       const GLuint depth = fixture.textures.floats(
           GL_DEPTH_COMPONENT32F, 1, at.width, at.height,
@@ -146,7 +128,6 @@ TEST_CASE("nnao: a part of an image is the same picture, and nothing outside it 
     };
     const std::vector<float> alone = draw({int(picture.width), int(picture.height), 0, 0});
     CHECK((draw(place) == placed(alone, 1, picture, place, 0.7f)));
-    nook_nnao_destroy(&pass);
   }
 }
 
@@ -157,10 +138,7 @@ TEST_CASE("nnao: half resolution is the reference on every second pixel") {
     for (const auto& [width, height] : {std::pair{72, 48}, {73, 47}}) {
       const nnao::Network network = mild_network(nnao::NetworkForm::horizon);
       const Picture picture = look(camera, still_life(), std::uint32_t(width), std::uint32_t(height));
-      nook_nnao_desc desc = pass_desc(width, height);
-      desc.taps = 32;
-      desc.half_resolution = 1;
-      nook_nnao pass = create_pass(fixture.gl, desc, network);
+      nook_nnao pass = fixture.pass_of(32, 1, 1, &network);
       const GLuint depth =
           fixture.textures.floats(GL_DEPTH_COMPONENT32F, 1, width, height, stored_depth(camera, picture));
       const GLuint normal = fixture.textures.floats(GL_RGB32F, 3, width, height, flat(picture.normal));
@@ -181,6 +159,5 @@ TEST_CASE("nnao: half resolution is the reference on every second pixel") {
                        << found.mean);
       CHECK(found.beyond <= flipped);
       CHECK(found.mean < bound);
-      nook_nnao_destroy(&pass);
     }
 }

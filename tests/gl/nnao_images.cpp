@@ -223,6 +223,7 @@ NnaoFixture::NnaoFixture(platform::Context& made_in, nook_gl_state_mode mode)
       textures(context.gl()) {}
 
 NnaoFixture::~NnaoFixture() {
+  for (auto& [key, pass] : passes) nook_nnao_destroy(&pass);
   nook_gl_destroy(&gl);
   CHECK(context.gl().GetError() == GL_NO_ERROR);
   for (const std::string& message : take_debug_messages()) FAIL_CHECK(message);
@@ -235,6 +236,16 @@ GLuint NnaoFixture::depth_of(const Camera& camera, const Picture& picture) {
 
 GLuint NnaoFixture::normals_of(const Picture& picture) {
   return textures.floats(GL_RGB32F, 3, int(picture.width), int(picture.height), flat(picture.normal));
+}
+
+nook_nnao NnaoFixture::pass_of(int taps, int half, int blur, const nnao::Network* network) {
+  nook_nnao& pass = passes[{taps, half, blur, network ? 1 + int(network->form) : 0}];
+  if (pass) return pass;
+  nook_nnao_desc desc = pass_desc(192, 128);
+  desc.taps = taps;
+  desc.half_resolution = half;
+  desc.blur = blur;
+  return pass = network ? create_pass(gl, desc, *network) : create_pass(gl, desc);
 }
 
 nnao::Network mild_network(nnao::NetworkForm form, std::uint32_t seed) {

@@ -5,6 +5,8 @@
 #include <glad/gl.h>
 #include <nook/nook_nnao.h>
 
+#include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -88,11 +90,15 @@ struct NnaoFixture {
   // Hardware depth of a picture, in 32-bit floats.
   GLuint depth_of(const Camera& camera, const Picture& picture);
   GLuint normals_of(const Picture& picture);
+  // For frames up to 192 x 128; kept, because Mesa compiles the shaders anew for each. network null: the
+  // embedded one; a fixture knows one network of each form.
+  nook_nnao pass_of(int taps, int half, int blur, const nnao::Network* network);
 
   platform::Context& context;
   CountedContext host;
   nook_gl gl;
   Textures textures;
+  std::map<std::array<int, 4>, nook_nnao> passes;
 };
 
 // The network's output stays well inside [0, 1], so that no difference is clamped away.

@@ -23,30 +23,23 @@ struct Drawing {
 std::vector<float> draw(NnaoFixture& fixture, const Camera& camera, const Picture& picture,
                         const Drawing& drawing, const nnao::Network* network) {
   const int w = int(picture.width), h = int(picture.height);
-  nook_nnao_desc desc = pass_desc(w, h);
-  desc.half_resolution = drawing.half;
-  desc.blur = drawing.blur;
-  desc.taps = drawing.taps;
-  nook_nnao pass = network ? create_pass(fixture.gl, desc, *network) : create_pass(fixture.gl, desc);
+  nook_nnao pass = fixture.pass_of(drawing.taps, drawing.half, drawing.blur, network);
   nook_nnao_frame_desc frame = frame_desc(camera, w, h, fixture.depth_of(camera, picture),
                                           drawing.normals ? fixture.normals_of(picture) : 0, drawing.radius);
   frame.view = drawing.view;
   NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
-  std::vector<float> ao = own_ao(fixture.context.gl(), pass, w, h);
-  nook_nnao_destroy(&pass);
-  return ao;
+  return own_ao(fixture.context.gl(), pass, w, h);
 }
 
 std::vector<float> rebuilt_normals(NnaoFixture& fixture, const Camera& camera, const Picture& picture) {
   const int w = int(picture.width), h = int(picture.height);
-  nook_nnao pass = create_pass(fixture.gl, pass_desc(w, h));
+  nook_nnao pass = fixture.pass_of(16, 0, 1, nullptr);
   nook_nnao_frame_desc frame = frame_desc(camera, w, h, fixture.depth_of(camera, picture), 0, 0.5f);
   frame.target = NOOK_NNAO_TARGET_TEXTURE;
   frame.target_name =
       fixture.textures.floats(GL_RGBA32F, 4, w, h, std::vector<float>(std::size_t(w) * h * 4));
   frame.view = NOOK_NNAO_VIEW_NORMALS;
   NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
-  nook_nnao_destroy(&pass);
   return read_texture(fixture.context.gl(), frame.target_name, w, h, 4);
 }
 

@@ -52,6 +52,8 @@ using Check = std::function<void(const char*, Poison&, const std::function<void(
 void walk(platform::Context& context, nook_gl_state_mode mode, const Check& check) {
   for (const nnao::NetworkForm form : {nnao::NetworkForm::horizon, nnao::NetworkForm::paper})
     for (const int half : {0, 1}) {
+      // The state is the same for both forms but for the filters' texture.
+      if (mode != NOOK_GL_STATE_PRESERVE && half == int(form == nnao::NetworkForm::paper)) continue;
       Stage stage(context, mode);
       const nnao::Network network = mild_network(form);
       nook_nnao_desc desc = pass_desc(width, height);

@@ -84,17 +84,19 @@ NnaoPass::Stage NnaoPass::make_stage(const char* fragment_path, const char* defi
 void NnaoPass::make_programs(const nnao::Network& network) {
   const bool horizon = network.form == nnao::NetworkForm::horizon;
   const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
-  char defines[200];
+  char defines[100];
   std::snprintf(defines, sizeof defines,
-                "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_TAPS %d\n"
-                "#define NOOK_DIRECTIONS %u\n#define NOOK_STEPS %u\n",
-                half(), horizon, desc_.taps, grid.directions, grid.steps);
+                "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_STEPS %u\n", half(), horizon,
+                grid.steps);
   normals_ = make_stage("nnao/normals.frag", defines);
   occlusion_ = make_stage("nnao/occlusion.frag", defines);
   blur_ = make_stage("nnao/blur.frag", defines);
   resolve_ = make_stage("nnao/resolve.frag", defines);
-  const std::pmr::vector<float> constants = network_constants(network, device_.memory);
+  // Both forms take their taps in as many groups of as many.
   device_.gl.UseProgram(occlusion_.program.name());
+  device_.gl.Uniform1i(uniform_location(device_, occlusion_.program, "nook_tap_groups"),
+                       static_cast<GLint>(grid.directions));
+  const std::pmr::vector<float> constants = network_constants(network, device_.memory);
   device_.gl.Uniform4fv(uniform_location(device_, occlusion_.program, "nook_network"),
                         static_cast<GLsizei>(constants.size() / 4), constants.data());
 }
