@@ -24,7 +24,10 @@ vec3 nook_slope(ivec2 pixel, ivec2 axis, float depth, vec3 position) {
   float linear = nook_screen_linear(depth);
   float before_error = nook_side_error(linear, before, nook_screen_depth(pixel - 2 * axis));
   float after_error = nook_side_error(linear, after, nook_screen_depth(pixel + 2 * axis));
-  if (before == nook_no_surface && after == nook_no_surface)
+  // Farther off than this many pixels are wide: an edge. With edges on both sides, as on a wire, the slope cannot be known;
+  // a flat one keeps the normal from turning sideways.
+  float width = abs(dot(nook_screen_rays.xz, vec2(axis))) * (nook_orthographic ? 1.0 : linear);
+  if (min(before_error, after_error) > 8.0 * width)
     return nook_position(nook_screen_rays, pixel + axis, depth) - position;
   if (before_error < after_error) return position - nook_position(nook_screen_rays, pixel - axis, before);
   return nook_position(nook_screen_rays, pixel + axis, after) - position;

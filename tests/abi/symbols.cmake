@@ -20,7 +20,7 @@ foreach(line ${lines})
   endif()
 endforeach()
 
-foreach(header nook.h nook_character.h)
+foreach(header nook.h nook_character.h nook_gl.h nook_nnao.h)
   file(READ ${HEADERS}/${header} text)
   string(REGEX MATCHALL "NOOK_API [^;(]*nook_[a-z_0-9]+\\(" declarations "${text}")
   foreach(declaration ${declarations})

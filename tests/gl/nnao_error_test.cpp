@@ -42,6 +42,9 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
   const GLuint half_float = textures.floats(GL_R16F, 1, width, height, ones);
   const GLuint colour = textures.floats(GL_RGBA8, 4, width, height, ones);
   const GLuint integer = textures.make(GL_RGBA8UI, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE, width, height, nullptr);
+  const GLuint later = textures.floats(GL_R32F, 1, width, height, ones);
+  gl.BindTexture(GL_TEXTURE_2D, later);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 1);
   GLuint layered = 0, framebuffers[3] = {};
   gl.GenTextures(1, &layered);
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, layered);
@@ -80,6 +83,7 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
       {[&](Frame& f) { f.depth_texture = 54321; },
        "frame.depth_texture is no texture of this OpenGL context (got 54321"},
       {[&](Frame& f) { f.depth_texture = layered; }, "frame.depth_texture is a texture of another kind"},
+      {[&](Frame& f) { f.depth_texture = later; }, "frame.depth_texture begins at another level"},
       {[&](Frame& f) { f.depth_texture = small; }, "frame.depth_texture has another size (got 8 x 8"},
       {[&](Frame& f) { f.depth_texture = byte; },
        "frame.depth_texture has a format that does not fit (got 0x8229, need a depth format or GL_R32F"},

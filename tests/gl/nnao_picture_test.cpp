@@ -214,6 +214,20 @@ TEST_CASE("nnao: normals rebuilt from depth are the plane's, and do not lean ove
   }
 }
 
+TEST_CASE("nnao: a wire one pixel wide faces the viewer") {
+  NOOK_NEED_CONTEXT(context);
+  NnaoFixture fixture(context);
+  for (const Camera& camera : {cameras(16.0f / 9)[0], cameras(16.0f / 9)[6]}) {
+    Picture picture = look(camera, {plane_through({0, 0, -5}, {0, 0, 1})}, width, height);
+    std::vector<std::size_t> wire;
+    for (int y = 5; y < height - 5; ++y) wire.push_back(std::size_t(y) * width + 40);
+    for (const std::size_t pixel : wire) picture.depth[pixel] = 2;
+    const std::vector<float> shown = rebuilt_normals(fixture, camera, picture);
+    // All of these depths are those of planes at right angles to the camera's axis.
+    for (std::size_t i = 0; i < picture.depth.size(); ++i) REQUIRE(degrees_off(shown, picture, i) < 0.5f);
+  }
+}
+
 TEST_CASE("nnao: half resolution is near full resolution") {
   NOOK_NEED_CONTEXT(context);
   NnaoFixture fixture(context);

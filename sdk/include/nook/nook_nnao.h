@@ -108,9 +108,10 @@ enum {
 };
 typedef int32_t nook_nnao_view;
 
-/* One frame. Textures are 2D, single-sampled, of width x height texels, level 0; none of their parameters is read or
- * changed. Textures and targets are asked for size and format when any name, kind or size here differs from the last
- * call's: after a texture was made anew under its old name, say so with nook_nnao_recheck. */
+/* One frame. Textures are 2D, single-sampled, of width x height texels, level 0. They are read through samplers of the
+ * pass: none of their parameters changes, and filters, wrapping and compare modes do not matter. Textures and targets are
+ * asked for size and format when any name, kind or size here differs from the last call's: after a texture was made anew
+ * under its old name, say so with nook_nnao_recheck. */
 typedef struct nook_nnao_frame_desc {
   uint32_t struct_size;            /* set by nook_nnao_frame_desc_init */
   uint32_t header_version;         /* set by nook_nnao_frame_desc_init */

@@ -39,6 +39,12 @@ void bind_checked(const Device& device, const HostImages& images, std::uint32_t 
         "frame.%s is a texture of another kind (got %u, need a 2D texture without layers or samples)", field,
         name);
   }
+  GLint base_level = 0;
+  gl.GetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, &base_level);
+  if (base_level != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.%s begins at another level (its GL_TEXTURE_BASE_LEVEL is %d, need 0)", field,
+                  base_level);
   const GLint width = level_value(gl, GL_TEXTURE_WIDTH), height = level_value(gl, GL_TEXTURE_HEIGHT);
   if (width != images.width || height != images.height)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
