@@ -81,7 +81,7 @@ typedef int32_t nook_nnao_clip;
 enum {
   NOOK_NNAO_LAYER_NONE = 0,     /* s */
   NOOK_NNAO_LAYER_MIN = 1,      /* min(s, c): where both see the same occlusion it darkens once */
-  NOOK_NNAO_LAYER_REMAINDER = 2,/* min(s, c) / c: for an image that c has darkened already; the product is min(s, c) */
+  NOOK_NNAO_LAYER_REMAINDER = 2, /* min(s, c) / c: for an image that c has darkened already; the product is min(s, c) */
   NOOK_NNAO_LAYER_REPLACE = 3   /* (1 - w) s + w c: where w is 1 the layer alone counts */
 };
 typedef int32_t nook_nnao_layer;
@@ -103,7 +103,7 @@ typedef int32_t nook_nnao_blend;
 enum {
   NOOK_NNAO_VIEW_AO = 0,     /* the result */
   NOOK_NNAO_VIEW_RAW = 1,    /* without blur, intensity, power and layer */
-  NOOK_NNAO_VIEW_BLURRED = 2,/* without intensity, power and layer */
+  NOOK_NNAO_VIEW_BLURRED = 2, /* without intensity, power and layer */
   NOOK_NNAO_VIEW_NORMALS = 3 /* normals as used, (n + 1) / 2 in red, green and blue; not with NOOK_NNAO_TARGET_OWN */
 };
 typedef int32_t nook_nnao_view;

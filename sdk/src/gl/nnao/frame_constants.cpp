@@ -1,5 +1,7 @@
 #include "gl/nnao/frame_constants.h"
 
+#include <algorithm>
+
 #include "nnao/evaluate.h"
 
 namespace nook::gl {
