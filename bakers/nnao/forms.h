@@ -14,6 +14,12 @@ std::size_t horizon_parameter_count();
 void start_horizon(std::span<float> parameters, float mean_ao, Random& random);
 void export_horizon(std::span<const float> parameters, nook::nnao::HorizonNetwork& network);
 
+// One minibatch, a multiple of 16 points: the gradient of the mean loss over them; random draws come from
+// step_seed. Returns the loss.
+double horizon_step_gradient(const Dataset& data, const TrainingSettings& settings,
+                             std::span<const float> parameters, std::span<const std::uint32_t> points,
+                             std::uint64_t step_seed, std::span<float> gradient);
+
 // The filters, one unit after the other (unit, cell, input), then the rest in the order of nnao/layers.h.
 std::size_t paper_parameter_count();
 void start_paper(std::span<float> parameters, float mean_ao, Random& random);
@@ -26,7 +32,7 @@ PaperNormalisation paper_normalisation(const Dataset& data);
 void export_paper(std::span<const float> parameters, const PaperNormalisation& normalisation,
                   nook::nnao::PaperNetwork& network);
 
-// As horizon_step_gradient.
+// As horizon_step_gradient, of any number of points.
 double paper_step_gradient(const Dataset& data, const PaperNormalisation& normalisation,
                            const TrainingSettings& settings, std::span<const float> parameters,
                            std::span<const std::uint32_t> points, std::uint64_t step_seed,

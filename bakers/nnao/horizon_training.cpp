@@ -17,7 +17,7 @@ float error_of(float output, float ao) {
   return std::clamp(output, 0.0f, 1.0f) - ao;
 }
 
-// Sixteen points under two noise values each. Sets the loss summed over lanes and adds the gradient.
+// Sixteen points under two noise values each. Returns the loss summed over lanes and sets the gradient.
 double block_gradient(const Dataset& data, const TrainingSettings& settings, const float* parameters,
                       std::span<const std::uint32_t> points, TapGrid grid, std::uint64_t seed,
                       float* gradient) {

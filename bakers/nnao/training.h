@@ -4,7 +4,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "nnao/adam.h"
@@ -64,11 +63,5 @@ Network network_of(const TrainingState& state, const Dataset& data, const Traini
 // false; the state is then that of the last whole epoch.
 Network train(const Dataset& data, const TrainingSettings& settings, TrainingState& state,
               const OnTraining& progress = {}, const OnEpoch& epoch_done = {});
-
-// One minibatch: the gradient of the mean loss over these points; random draws come from step_seed. Returns
-// the loss.
-double horizon_step_gradient(const Dataset& data, const TrainingSettings& settings,
-                             std::span<const float> parameters, std::span<const std::uint32_t> points,
-                             std::uint64_t step_seed, std::span<float> gradient);
 
 }  // namespace nook::bake::nnao
