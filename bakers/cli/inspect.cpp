@@ -11,6 +11,8 @@
 #include "cli/input_file.h"
 #include "cli/output_file.h"
 #include "cli/table.h"
+#include "nnao/layers.h"
+#include "nnao/network_file.h"
 
 namespace nook::cli {
 namespace {
@@ -51,11 +53,27 @@ Json describe_character(std::span<const std::byte> bytes) {
   return row;
 }
 
+Json describe_network(std::span<const std::byte> bytes) {
+  const nook::nnao::Network network = nook::nnao::read_network(bytes);
+  Json row;
+  row["kind"] = "screen-space network";
+  row["format_version"] = Container(bytes, nook::nnao::network_kind).version();
+  row["bytes"] = bytes.size();
+  std::size_t parameters = network.paper.filters.size();
+  nook::nnao::visit_layers(network, [&](std::span<const float> values) { parameters += values.size(); });
+  row["parameters"] = parameters;
+  const Json recipe = Json::parse(network.recipe, nullptr, false);
+  if (recipe.is_object())
+    for (const auto& item : recipe.items()) row["recipe_" + item.key()] = item.value();
+  return row;
+}
+
 void run(const Options& options) {
   const std::vector<std::byte> bytes = read_file(options.input);
   std::optional<OutputFile> report;
   if (!options.common.report.empty()) report.emplace(options.common.report);
   const Json row = naming_file(options.input, [&] {
+    if (bytes.size() >= 16 && container_kind(bytes) == nook::nnao::network_kind.kind) return describe_network(bytes);
     if (bytes.size() >= 16 && container_kind(bytes) != character_kind.kind && container_kind(bytes) != 0)
       throw Failure(NOOK_ERROR_BAD_FILE,
                     "a .nook file of a kind that this version cannot inspect; use a newer one");

@@ -1,6 +1,5 @@
 #include "raytrace/ambient_occlusion.h"
 
-#include <pmmintrin.h>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -8,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 
 #include "core/failure.h"
@@ -17,36 +15,6 @@
 
 namespace nook::bake {
 namespace {
-
-// Embree wants denormals flushed on every thread that traces; the caller's mode comes back afterwards.
-class FlushDenormals {
- public:
-  FlushDenormals() : saved_(_mm_getcsr()) {
-    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-  }
-  ~FlushDenormals() { _mm_setcsr(saved_); }
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  unsigned saved_;
-};
-
-void build_scene(RTCDevice device, RTCScene scene, std::span<const Vec3> positions,
-                 std::span<const std::array<std::uint32_t, 3>> triangles) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3),
-                                           positions.size());
-  std::memcpy(vertices, positions.data(), positions.size_bytes());
-  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                          3 * sizeof(std::uint32_t), triangles.size());
-  std::memcpy(indices, triangles.data(), triangles.size_bytes());
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-}
 
 struct Frame {
   Vec3 x, y, z;
@@ -109,19 +77,17 @@ float ray_origin_offset(std::span<const Vec3> rest_positions) {
 }
 
 std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers, const AoSettings& settings) {
-  const EmbreeDevice device;
-  const EmbreeScene scene(device.get());
-  {
-    const FlushDenormals flush;
-    build_scene(device.get(), scene.get(), occluders.position, occluders.triangle);
-  }
+  return trace_ao(RayScene(occluders), receivers, settings);
+}
+
+std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings) {
   const HemispherePatterns patterns(settings.rays, settings.seed);
   std::vector<float> ao(receivers.position.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ao.size(), 256), [&](const auto& range) {
     const FlushDenormals flush;
     for (std::size_t i = range.begin(); i < range.end(); ++i)
-      ao[i] = trace_point(scene.get(), receivers.position[i], receivers.normal[i], patterns, settings.radius,
-                          settings.origin_offset, mix_bits(settings.seed ^ mix_bits(i)));
+      ao[i] = trace_point(scene.get(), receivers.position[i], receivers.normal[i], patterns,
+                          receivers.radius.empty() ? settings.radius : receivers.radius[i], settings.origin_offset, mix_bits(settings.seed ^ mix_bits(i)));
   });
   return ao;
 }

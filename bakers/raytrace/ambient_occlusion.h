@@ -12,19 +12,15 @@
 #include "core/vec.h"
 #include "import/skinned_mesh.h"
 #include "raytrace/hemisphere.h"
+#include "raytrace/ray_scene.h"
 
 namespace nook::bake {
-
-// Occluders, world space, metres.
-struct TriangleSoup {
-  std::vector<Vec3> position;
-  std::vector<std::array<std::uint32_t, 3>> triangle;
-};
 
 // Points whose AO is wanted, world space; normals are unit length.
 struct Receivers {
   std::span<const Vec3> position;
   std::span<const Vec3> normal;
+  std::span<const float> radius = {};  // metres, in place of the settings' radius; empty: that one for all
 };
 
 struct AoSettings {
@@ -36,6 +32,7 @@ struct AoSettings {
 
 // AO of every receiver against one soup; threads work on blocks of receivers, the result does not depend on their number.
 std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers, const AoSettings& settings);
+std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings);
 
 // Returns false to stop; called from any worker thread, one call at a time.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;

@@ -47,4 +47,15 @@ inline void occluded16(RTCScene scene, const int* valid, RTCRay16& rays) {
 #endif
 }
 
+// The nearest hit of a ray; both triangle sides count.
+inline void intersect1(RTCScene scene, RTCRayHit& ray) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcIntersect1(scene, &ray, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &ray);
+#endif
+}
+
 }  // namespace nook::bake

@@ -45,16 +45,6 @@ void add_triangles(RTCDevice device, RTCScene scene, std::span<const std::array<
   rtcCommitScene(scene);
 }
 
-void intersect1(RTCScene scene, RTCRayHit& ray) {
-#if RTC_VERSION_MAJOR >= 4
-  rtcIntersect1(scene, &ray, nullptr);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(scene, &context, &ray);
-#endif
-}
-
 RTCRayHit parallel_ray(Vec3 origin, float direction_z) {
   RTCRayHit ray{};
   ray.ray.org_x = origin.x;

@@ -2,6 +2,7 @@
 #include <nook/nook_bake.h>
 #include <nook/nook_character.h>
 #include <nook/nook_gl.h>
+#include <nook/nook_nnao.h>
 
 #include <cstddef>
 
@@ -169,6 +170,55 @@ NOOK_AT(nook_bake_trace_desc, threads, 52);
 NOOK_AT(nook_bake_trace_desc, seed, 56);
 NOOK_AT(nook_bake_trace_desc, radius, 64);
 NOOK_AT(nook_bake_trace_desc, origin_offset, 68);
+NOOK_SIZE(nook_nnao_desc, 64);
+NOOK_AT(nook_nnao_desc, struct_size, 0);
+NOOK_AT(nook_nnao_desc, header_version, 4);
+NOOK_AT(nook_nnao_desc, next, 8);
+NOOK_AT(nook_nnao_desc, max_width, 16);
+NOOK_AT(nook_nnao_desc, max_height, 20);
+NOOK_AT(nook_nnao_desc, taps, 24);
+NOOK_AT(nook_nnao_desc, half_resolution, 28);
+NOOK_AT(nook_nnao_desc, blur, 32);
+NOOK_AT(nook_nnao_desc, blur_sharpness, 36);
+NOOK_AT(nook_nnao_desc, timers, 40);
+NOOK_AT(nook_nnao_desc, reserved, 44);
+NOOK_AT(nook_nnao_desc, network, 48);
+NOOK_AT(nook_nnao_desc, network_size, 56);
+
+NOOK_SIZE(nook_nnao_frame_desc, 208);
+NOOK_AT(nook_nnao_frame_desc, width, 16);
+NOOK_AT(nook_nnao_frame_desc, height, 20);
+NOOK_AT(nook_nnao_frame_desc, viewport, 24);
+NOOK_AT(nook_nnao_frame_desc, depth_texture, 40);
+NOOK_AT(nook_nnao_frame_desc, depth_kind, 44);
+NOOK_AT(nook_nnao_frame_desc, sky_depth, 48);
+NOOK_AT(nook_nnao_frame_desc, normal_texture, 52);
+NOOK_AT(nook_nnao_frame_desc, normal_scale, 56);
+NOOK_AT(nook_nnao_frame_desc, normal_bias, 60);
+NOOK_AT(nook_nnao_frame_desc, normal_matrix, 64);
+NOOK_AT(nook_nnao_frame_desc, projection, 100);
+NOOK_AT(nook_nnao_frame_desc, clip, 164);
+NOOK_AT(nook_nnao_frame_desc, radius, 168);
+NOOK_AT(nook_nnao_frame_desc, max_radius_px, 172);
+NOOK_AT(nook_nnao_frame_desc, intensity, 176);
+NOOK_AT(nook_nnao_frame_desc, power, 180);
+NOOK_AT(nook_nnao_frame_desc, layer, 184);
+NOOK_AT(nook_nnao_frame_desc, layer_texture, 188);
+NOOK_AT(nook_nnao_frame_desc, target, 192);
+NOOK_AT(nook_nnao_frame_desc, target_name, 196);
+NOOK_AT(nook_nnao_frame_desc, blend, 200);
+NOOK_AT(nook_nnao_frame_desc, view, 204);
+
+NOOK_SIZE(nook_nnao_info, 24);
+NOOK_AT(nook_nnao_info, texture, 4);
+NOOK_AT(nook_nnao_info, texture_bytes, 8);
+NOOK_AT(nook_nnao_info, taps, 16);
+NOOK_AT(nook_nnao_info, horizon_form, 20);
+
+NOOK_SIZE(nook_nnao_timings, 28);
+NOOK_AT(nook_nnao_timings, valid, 4);
+NOOK_AT(nook_nnao_timings, normals, 8);
+NOOK_AT(nook_nnao_timings, total, 24);
 
 #include "host.h"
 

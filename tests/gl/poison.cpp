@@ -1,13 +1,15 @@
 #include "poison.h"
 
-#include "gl/touched_state.h"
+#include <iterator>
+
+#include "gl/state_guard.h"
 
 namespace nook::test {
 
 struct Poison::Objects {
   GLuint buffers[4] = {};
-  GLuint texture = 0, texture_2d = 0, sampler = 0, framebuffer = 0, renderbuffer = 0, vertex_array = 0,
-         program = 0;
+  GLuint texture = 0, other_texture = 0, texture_2d = 0, sampler = 0, framebuffer = 0, renderbuffer = 0,
+         vertex_array = 0, program = 0;
   GLuint feedback = 0;
 };
 
@@ -15,10 +17,8 @@ namespace {
 
 using Values = std::vector<std::int64_t>;
 
-// Off by default; each would spoil a draw.
-constexpr GLenum poisoned_capabilities[] = {GL_BLEND,          GL_SCISSOR_TEST, GL_CULL_FACE,
-                                            GL_DEPTH_TEST,     GL_STENCIL_TEST, GL_FRAMEBUFFER_SRGB,
-                                            GL_SAMPLE_COVERAGE};
+// Some that the screen-space pass uses, some that nobody does.
+constexpr GLenum odd_units[] = {GL_TEXTURE0, GL_TEXTURE1, GL_TEXTURE2, GL_TEXTURE3, GL_TEXTURE7};
 
 Values integers(const GladGLContext& gl, GLenum name, int count = 1) {
   std::vector<GLint> values(16, 0);
@@ -44,13 +44,50 @@ struct Readers {
   Values array_buffer() const { return integers(gl, GL_ARRAY_BUFFER_BINDING); }
   Values vertex_array() const { return integers(gl, GL_VERTEX_ARRAY_BINDING); }
   Values active_texture() const { return integers(gl, GL_ACTIVE_TEXTURE); }
-  Values texture_unit_0() const {
+  Values of_unit(GLuint unit, GLenum binding) const {
     const Values active = integers(gl, GL_ACTIVE_TEXTURE);
-    gl.ActiveTexture(GL_TEXTURE0);
-    const Values bound = integers(gl, GL_TEXTURE_BINDING_BUFFER);
+    gl.ActiveTexture(GL_TEXTURE0 + unit);
+    const Values bound = integers(gl, binding);
     gl.ActiveTexture(static_cast<GLenum>(active[0]));
     return bound;
   }
+  Values of_units(GLenum binding) const {
+    Values values;
+    for (GLuint unit = 0; unit < gl::texture_unit_count; ++unit) values.push_back(of_unit(unit, binding)[0]);
+    return values;
+  }
+  int version() const {
+    return static_cast<int>(10 * integers(gl, GL_MAJOR_VERSION)[0] + integers(gl, GL_MINOR_VERSION)[0]);
+  }
+  Values texture_unit_0() const { return of_unit(0, GL_TEXTURE_BINDING_BUFFER); }
+  Values texture_2d() const { return of_units(GL_TEXTURE_BINDING_2D); }
+  Values samplers() const { return of_units(GL_SAMPLER_BINDING); }
+  Values filter_texture() const { return of_unit(gl::filter_unit, GL_TEXTURE_BINDING_BUFFER); }
+  Values pixel_unpack_buffer() const { return integers(gl, GL_PIXEL_UNPACK_BUFFER_BINDING); }
+  Values viewport() const { return integers(gl, GL_VIEWPORT, 4); }
+  Values blend() const {
+    Values values{gl.IsEnabledi(GL_BLEND, 0)};
+    for (const GLenum name : {GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA, GL_BLEND_DST_ALPHA,
+                              GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA})
+      values.push_back(integers(gl, name)[0]);
+    return values;
+  }
+  Values color_mask() const { return color_mask_of(0); }
+  Values color_mask_of(GLuint buffer) const {
+    GLboolean mask[4] = {};
+    gl.GetBooleani_v(GL_COLOR_WRITEMASK, buffer, mask);
+    return {mask[0], mask[1], mask[2], mask[3]};
+  }
+  Values polygon_mode() const { return integers(gl, GL_POLYGON_MODE); }
+  Values scissor_test() const { return {gl.IsEnabled(GL_SCISSOR_TEST)}; }
+  Values framebuffer_srgb() const { return {gl.IsEnabled(GL_FRAMEBUFFER_SRGB)}; }
+  Values fragment_tests() const {
+    Values values;
+    for (const GLenum test : gl::fragment_tests) values.push_back(gl.IsEnabled(test));
+    return values;
+  }
+  Values dither() const { return {gl.IsEnabled(GL_DITHER)}; }
+  Values query_buffer() const { return version() >= 44 ? integers(gl, GL_QUERY_BUFFER_BINDING) : Values{0}; }
   Values draw_framebuffer() const { return integers(gl, GL_DRAW_FRAMEBUFFER_BINDING); }
   Values renderbuffer() const { return integers(gl, GL_RENDERBUFFER_BINDING); }
   Values rasterizer_discard() const { return {gl.IsEnabled(GL_RASTERIZER_DISCARD)}; }
@@ -66,20 +103,19 @@ struct Readers {
       values.push_back(v);
     return values;
   }
-  Values storage_buffer() const { return integers(gl, GL_SHADER_STORAGE_BUFFER_BINDING); }
+  bool storage() const { return version() >= 43; }
+  Values storage_buffer() const {
+    return storage() ? integers(gl, GL_SHADER_STORAGE_BUFFER_BINDING) : Values{0};
+  }
   Values storage_ranges() const {
     Values values;
-    for (GLuint i = 0; i < gl::storage_binding_count; ++i)
+    for (GLuint i = 0; storage() && i < gl::storage_binding_count; ++i)
       for (const std::int64_t v : indexed(gl, GL_SHADER_STORAGE_BUFFER_BINDING,
                                           GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE, i))
         values.push_back(v);
     return values;
   }
 };
-
-bool in_tier(unsigned tiers, int tier) {
-  return tiers & (tier == 43 ? gl::tier_43 : gl::tier_33);
-}
 
 GLuint make_program(const GladGLContext& gl) {
   const GLuint shader = gl.CreateShader(GL_VERTEX_SHADER);
@@ -95,8 +131,12 @@ GLuint make_program(const GladGLContext& gl) {
 
 }  // namespace
 
-Poison::Poison(platform::Context& context, int tier)
-    : gl_(context.gl()), tier_(tier), objects_(std::make_unique<Objects>()) {
+unsigned users_of_tier(int tier) {
+  return tier == 43 ? gl::tier_43 : gl::tier_33;
+}
+
+Poison::Poison(platform::Context& context, unsigned users)
+    : gl_(context.gl()), users_(users), objects_(std::make_unique<Objects>()) {
   const GladGLContext& gl = gl_;
   Objects& o = *objects_;
   gl.GenBuffers(4, o.buffers);
@@ -107,24 +147,27 @@ Poison::Poison(platform::Context& context, int tier)
   // Beside the list.
   gl.GenTextures(1, &o.texture_2d);
   gl.GenSamplers(1, &o.sampler);
-  for (const GLenum unit : {GL_TEXTURE0, GL_TEXTURE3}) {
+  for (const GLenum unit : odd_units) {
     gl.ActiveTexture(unit);
     gl.BindTexture(GL_TEXTURE_2D, o.texture_2d);
     gl.BindSampler(unit - GL_TEXTURE0, o.sampler);
   }
-  gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, o.buffers[0]);
   gl.BindBuffer(GL_PIXEL_PACK_BUFFER, o.buffers[1]);
   gl.BindBuffer(GL_COPY_READ_BUFFER, o.buffers[1]);
   gl.BindBuffer(GL_COPY_WRITE_BUFFER, o.buffers[2]);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, o.buffers[2]);
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl.PixelStorei(GL_UNPACK_SKIP_ROWS, 3);
-  for (const GLenum capability : poisoned_capabilities) gl.Enable(capability);
-  gl.ColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_FALSE);
   gl.DepthMask(GL_FALSE);
-  gl.Viewport(3, 4, 5, 6);
+  gl.StencilMask(5);
+  gl.DepthFunc(GL_NEVER);
+  gl.StencilFunc(GL_NEVER, 1, 3);
+  gl.LogicOp(GL_CLEAR);
+  gl.SampleCoverage(0.25f, GL_TRUE);
+  gl.BlendColor(0.1f, 0.2f, 0.3f, 0.4f);
   gl.Scissor(1, 2, 0, 0);
   gl.PrimitiveRestartIndex(1);
+  if (gl.ClipControl) gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
 
   // The list.
   o.program = make_program(gl);
@@ -136,7 +179,22 @@ Poison::Poison(platform::Context& context, int tier)
   gl.GenTextures(1, &o.texture);
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_BUFFER, o.texture);
+  gl.GenTextures(1, &o.other_texture);
+  gl.ActiveTexture(GL_TEXTURE0 + gl::filter_unit);
+  gl.BindTexture(GL_TEXTURE_BUFFER, o.other_texture);
   gl.ActiveTexture(GL_TEXTURE5);
+  gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, o.buffers[0]);
+  gl.Viewport(3, 4, 5, 6);
+  gl.Enable(GL_BLEND);
+  gl.BlendFuncSeparate(GL_DST_COLOR, GL_ONE, GL_CONSTANT_ALPHA, GL_ZERO);
+  gl.BlendEquationSeparate(GL_MIN, GL_FUNC_SUBTRACT);
+  gl.ColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_FALSE);
+  gl.PolygonMode(GL_FRONT_AND_BACK, GL_POINT);
+  gl.Enable(GL_SCISSOR_TEST);
+  gl.Enable(GL_FRAMEBUFFER_SRGB);
+  for (const GLenum test : gl::fragment_tests) gl.Enable(test);
+  gl.Disable(GL_DITHER);
+  if (gl.VERSION_4_4) gl.BindBuffer(GL_QUERY_BUFFER, o.buffers[2]);
   gl.GenFramebuffers(1, &o.framebuffer);
   gl.GenRenderbuffers(1, &o.renderbuffer);
   gl.BindFramebuffer(GL_FRAMEBUFFER, o.framebuffer);  // incomplete
@@ -149,7 +207,7 @@ Poison::Poison(platform::Context& context, int tier)
   }
   gl.BindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, o.buffers[2], 16, 64);
   gl.BindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, o.buffers[3]);
-  if (tier == 43) {
+  if (gl.VERSION_4_3) {
     for (GLuint i = 0; i < gl::storage_binding_count; i += 2)
       gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, i, o.buffers[i % 4], 256 * (i + 1), 512);
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, o.buffers[2]);
@@ -171,7 +229,23 @@ void Poison::reset_touched() {
   if (gl.BindTransformFeedback) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, 0);
   gl.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
   gl.BindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, 0);
-  if (tier_ == 43)
+  for (GLuint unit = 0; unit < gl::texture_unit_count; ++unit) {
+    gl.ActiveTexture(GL_TEXTURE0 + unit);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    gl.BindTexture(GL_TEXTURE_BUFFER, 0);
+    gl.BindSampler(unit, 0);
+  }
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  gl.BlendFunc(GL_ONE, GL_ZERO);
+  gl.BlendEquation(GL_FUNC_ADD);
+  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  for (const GLenum capability : {GL_BLEND, GL_SCISSOR_TEST, GL_FRAMEBUFFER_SRGB}) gl.Disable(capability);
+  for (const GLenum test : gl::fragment_tests) gl.Disable(test);
+  gl.Enable(GL_DITHER);
+  if (gl.VERSION_4_4) gl.BindBuffer(GL_QUERY_BUFFER, 0);
+  if (gl.VERSION_4_3)
     for (GLuint i = 0; i < gl::storage_binding_count; ++i) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, i, 0);
 }
 
@@ -180,24 +254,31 @@ Poison::~Poison() {
   Objects& o = *objects_;
   reset_touched();
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-  for (const GLenum unit : {GL_TEXTURE0, GL_TEXTURE3}) {
+  for (const GLenum unit : odd_units) {
     gl.ActiveTexture(unit);
     gl.BindTexture(GL_TEXTURE_2D, 0);
     gl.BindSampler(unit - GL_TEXTURE0, 0);
   }
   gl.ActiveTexture(GL_TEXTURE0);
-  for (const GLenum target :
-       {GL_PIXEL_UNPACK_BUFFER, GL_PIXEL_PACK_BUFFER, GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER})
+  for (const GLenum target : {GL_PIXEL_PACK_BUFFER, GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER})
     gl.BindBuffer(target, 0);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, 0);
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   gl.PixelStorei(GL_UNPACK_SKIP_ROWS, 0);
-  for (const GLenum capability : poisoned_capabilities) gl.Disable(capability);
-  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl.DepthMask(GL_TRUE);
+  gl.StencilMask(~0u);
+  gl.DepthFunc(GL_LESS);
+  gl.StencilFunc(GL_ALWAYS, 0, ~0u);
+  gl.LogicOp(GL_COPY);
+  gl.SampleCoverage(1, GL_FALSE);
+  gl.BlendColor(0, 0, 0, 0);
+  gl.Viewport(0, 0, 64, 64);
+  gl.Scissor(0, 0, 64, 64);
+  if (gl.ClipControl) gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
   gl.PrimitiveRestartIndex(0);
   gl.DeleteBuffers(4, o.buffers);
   gl.DeleteTextures(1, &o.texture);
+  gl.DeleteTextures(1, &o.other_texture);
   gl.DeleteTextures(1, &o.texture_2d);
   gl.DeleteSamplers(1, &o.sampler);
   gl.DeleteFramebuffers(1, &o.framebuffer);
@@ -210,40 +291,65 @@ Poison::~Poison() {
 StateValues Poison::touched() const {
   const Readers read{gl_};
   StateValues values;
-#define NOOK_X(name, tiers, what, note) \
-  if (in_tier(gl::tiers, tier_)) values[#name] = read.name();
+  using namespace gl;
+#define NOOK_X(name, item_users, what, note) \
+  if (users_ & (item_users)) values[#name] = read.name();
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
   return values;
 }
 
 StateValues Poison::defaults() const {
+  const StateValues other_than_0 = {
+      {"active_texture", {GL_TEXTURE0}},
+      {"blend", {GL_FALSE, GL_ONE, GL_ZERO, GL_ONE, GL_ZERO, GL_FUNC_ADD, GL_FUNC_ADD}},
+      {"color_mask", {GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE}},
+      {"polygon_mode", {GL_FILL}},
+      {"dither", {GL_TRUE}}};
   StateValues values = touched();
-  for (auto& [name, numbers] : values)
-    for (std::int64_t& number : numbers) number = name == "active_texture" ? GL_TEXTURE0 : 0;
+  // It has no default; the pass says what it leaves.
+  values.erase("viewport");
+  for (auto& [name, numbers] : values) {
+    const auto known = other_than_0.find(name);
+    numbers = known != other_than_0.end() ? known->second : Values(numbers.size(), 0);
+  }
   return values;
 }
 
 StateValues Poison::untouched() const {
-  const GladGLContext& gl = gl_;
   StateValues values;
   const auto keep = [&](const char* name, Values numbers) { values[name] = std::move(numbers); };
-#define NOOK_INTEGERS(name, count) keep(#name, integers(gl, name, count))
+  using namespace gl;
+  const Readers read{gl_};
+#define NOOK_X(name, item_users, what, note) \
+  if (!(users_ & (item_users))) keep(#name, read.name());
+  NOOK_GL_TOUCHED_STATE(NOOK_X)
+#undef NOOK_X
+  // Further viewports and draw buffers are the host's, whoever asks for the first.
+  if (gl_.VERSION_4_1) {
+    GLfloat box[4] = {};
+    gl_.GetFloati_v(GL_VIEWPORT, 1, box);
+    keep("viewport 1", Values(box, box + 4));
+    keep("scissor test 1", {gl_.IsEnabledi(GL_SCISSOR_TEST, 1)});
+  }
+  keep("blend 1", {gl_.IsEnabledi(GL_BLEND, 1)});
+  keep("color mask 1", read.color_mask_of(1));
+  if (gl_.VERSION_4_0)
+    for (const GLenum name : {GL_BLEND_SRC_RGB, GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB}) {
+      GLint value = 0;
+      gl_.GetIntegeri_v(name, 1, &value);
+      keep(("blend 1 " + std::to_string(name)).c_str(), {value});
+    }
+#define NOOK_INTEGERS(name, count) keep(#name, integers(gl_, name, count))
   NOOK_INTEGERS(GL_READ_FRAMEBUFFER_BINDING, 1);
-  NOOK_INTEGERS(GL_VIEWPORT, 4);
   NOOK_INTEGERS(GL_SCISSOR_BOX, 4);
-  NOOK_INTEGERS(GL_COLOR_WRITEMASK, 4);
   NOOK_INTEGERS(GL_DEPTH_WRITEMASK, 1);
-  NOOK_INTEGERS(GL_BLEND, 1);
-  NOOK_INTEGERS(GL_SCISSOR_TEST, 1);
-  NOOK_INTEGERS(GL_CULL_FACE, 1);
-  NOOK_INTEGERS(GL_DEPTH_TEST, 1);
-  NOOK_INTEGERS(GL_STENCIL_TEST, 1);
-  NOOK_INTEGERS(GL_FRAMEBUFFER_SRGB, 1);
-  NOOK_INTEGERS(GL_SAMPLE_COVERAGE, 1);
-  NOOK_INTEGERS(GL_POLYGON_MODE, 2);
+  NOOK_INTEGERS(GL_DEPTH_FUNC, 1);
+  NOOK_INTEGERS(GL_STENCIL_WRITEMASK, 1);
+  NOOK_INTEGERS(GL_STENCIL_FUNC, 1);
+  NOOK_INTEGERS(GL_LOGIC_OP_MODE, 1);
+  NOOK_INTEGERS(GL_PACK_ALIGNMENT, 1);
   NOOK_INTEGERS(GL_PRIMITIVE_RESTART_INDEX, 1);
-  NOOK_INTEGERS(GL_PIXEL_UNPACK_BUFFER_BINDING, 1);
   NOOK_INTEGERS(GL_PIXEL_PACK_BUFFER_BINDING, 1);
   NOOK_INTEGERS(GL_UNPACK_ALIGNMENT, 1);
   NOOK_INTEGERS(GL_UNPACK_SKIP_ROWS, 1);
@@ -251,20 +357,23 @@ StateValues Poison::untouched() const {
   NOOK_INTEGERS(GL_COPY_READ_BUFFER, 1);
   NOOK_INTEGERS(GL_COPY_WRITE_BUFFER, 1);
 #undef NOOK_INTEGERS
-  const Values active = integers(gl, GL_ACTIVE_TEXTURE);
+  const Values active = integers(gl_, GL_ACTIVE_TEXTURE);
   for (GLenum unit = 0; unit < 16; ++unit) {
-    gl.ActiveTexture(GL_TEXTURE0 + unit);
+    gl_.ActiveTexture(GL_TEXTURE0 + unit);
     const std::string prefix = "unit " + std::to_string(unit) + " ";
-    keep((prefix + "2D").c_str(), integers(gl, GL_TEXTURE_BINDING_2D));
-    keep((prefix + "sampler").c_str(), integers(gl, GL_SAMPLER_BINDING));
-    if (unit > 0) keep((prefix + "buffer").c_str(), integers(gl, GL_TEXTURE_BINDING_BUFFER));
+    if (unit >= gl::texture_unit_count) {
+      keep((prefix + "2D").c_str(), integers(gl_, GL_TEXTURE_BINDING_2D));
+      keep((prefix + "sampler").c_str(), integers(gl_, GL_SAMPLER_BINDING));
+    }
+    if (unit != 0 && unit != gl::filter_unit)
+      keep((prefix + "buffer").c_str(), integers(gl_, GL_TEXTURE_BINDING_BUFFER));
   }
-  gl.ActiveTexture(static_cast<GLenum>(active[0]));
+  gl_.ActiveTexture(static_cast<GLenum>(active[0]));
   // Its element buffer belongs to the host's vertex array, whatever is bound now.
-  const Values vertex_array = integers(gl, GL_VERTEX_ARRAY_BINDING);
-  gl.BindVertexArray(objects_->vertex_array);
-  keep("element buffer of the host's vertex array", integers(gl, GL_ELEMENT_ARRAY_BUFFER_BINDING));
-  gl.BindVertexArray(static_cast<GLuint>(vertex_array[0]));
+  const Values vertex_array = integers(gl_, GL_VERTEX_ARRAY_BINDING);
+  gl_.BindVertexArray(objects_->vertex_array);
+  keep("element buffer of the host's vertex array", integers(gl_, GL_ELEMENT_ARRAY_BUFFER_BINDING));
+  gl_.BindVertexArray(static_cast<GLuint>(vertex_array[0]));
   return values;
 }
 

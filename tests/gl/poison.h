@@ -18,26 +18,30 @@ using StateValues = std::map<std::string, std::vector<std::int64_t>>;
 
 class Poison {
  public:
-  // Sets every item of the list of this tier, and much beside it, to odd values.
-  Poison(platform::Context& context, int tier);
+  // Sets every item of the list, and much beside it, to odd values; `users` are those of touched_state.h that
+  // may touch their items.
+  Poison(platform::Context& context, unsigned users);
   // Puts OpenGL's defaults back.
   ~Poison();
   Poison(const Poison&) = delete;
   Poison& operator=(const Poison&) = delete;
 
-  // The items of the list, and the state beside it.
+  // The users' items of the list; the other items, and the state beside the list.
   StateValues touched() const;
   StateValues untouched() const;
-  // What OpenGL starts with, for the items of the list.
+  // What OpenGL starts with, for the users' items.
   StateValues defaults() const;
   // Pretends the host never changed anything: the state of the list at its defaults.
   void reset_touched();
 
  private:
   const GladGLContext& gl_;
-  int tier_;
+  unsigned users_;
   struct Objects;
   std::unique_ptr<Objects> objects_;
 };
+
+// The users of evaluating characters on a tier.
+unsigned users_of_tier(int tier);
 
 }  // namespace nook::test

@@ -3,30 +3,41 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "catch.h"
 #include "gl/touched_state.h"
 
 namespace {
 
+std::string names_of(unsigned users) {
+  const std::pair<unsigned, const char*> all[] = {{nook::gl::tier_33, "33"},
+                                                  {nook::gl::tier_43, "43"},
+                                                  {nook::gl::screen, "nnao"},
+                                                  {nook::gl::screen_timers, "nook_nnao_get_timings"}};
+  std::string names;
+  for (const auto& [user, name] : all)
+    if (users & user) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
+}
+
 std::string table() {
+  using namespace nook::gl;
   std::ostringstream out;
   out << "# OpenGL state that Nook touches\n\n"
          "Made from `sdk/src/gl/touched_state.h` by the test `state_table_test`; run `NOOK_BLESS=1 "
          "nook_gl_tests` to "
          "write it anew.\n\n"
-         "| state | tier | what for, and the default that `NOOK_GL_STATE_DEFAULTS` leaves |\n|---|---|---|\n";
-#define NOOK_X(name, tiers, what, note)                     \
-  out << "| " << what << " | "                              \
-      << (nook::gl::tiers == nook::gl::tier_any  ? "33, 43" \
-          : nook::gl::tiers == nook::gl::tier_33 ? "33"     \
-                                                 : "43")    \
-      << " | " << note << " |\n";
+         "| state | who | what for, and the default that `NOOK_GL_STATE_DEFAULTS` leaves |\n|---|---|---|\n";
+#define NOOK_X(name, users, what, note) \
+  out << "| " << what << " | " << names_of(users) << " | " << note << " |\n";
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
-  out << "\nNothing else changes: no parameter of a host's texture or sampler, no pixel-store value, no "
-         "viewport, mask, "
-         "blend or depth state.\n"
+  out << "\nWho: 33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions, nnao is "
+         "nook_nnao_create and nook_nnao_render.\n"
+         "Nothing else changes: no parameter of a host's texture or sampler, no pixel-store value, no depth, "
+         "stencil or scissor "
+         "parameter; further viewports (from OpenGL 4.1 on) and draw buffers (from 4.0 on) keep theirs.\n"
          "`NOOK_GL_STATE_PRESERVE` reads these once a call and puts them back; `NOOK_GL_STATE_DEFAULTS` and "
          "`NOOK_GL_STATE_HOST` read nothing.\n"
          "At each call no transform feedback without pause, no conditional rendering and no query that "

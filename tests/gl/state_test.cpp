@@ -43,14 +43,14 @@ void walk(platform::Context& context, int tier, nook_gl_state_mode mode,
        }},
   };
   for (const Step& step : steps) {
-    Poison poison(context, tier);
+    Poison poison(context, users_of_tier(tier));
     check(step.name, poison, step.call);
     CHECK(context.gl().GetError() == GL_NO_ERROR);
   }
   // The AO is right in spite of the poison.
   CHECK(difference_to_cpu(gl, crowd, model, 0) < promised_difference);
   for (const char* name : {"release", "destroy"}) {
-    Poison poison(context, tier);
+    Poison poison(context, users_of_tier(tier));
     check(name, poison, [&] {
       if (std::string(name) == "release")
         NOOK_OK_OR_FAIL(nook_gl_scene_release(gl, crowd.scene));

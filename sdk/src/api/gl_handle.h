@@ -12,12 +12,17 @@
 struct nook_gl_s : nook::RefCounted {
   nook_gl_s(nook_context_s* made_by, const nook_gl_desc& desc);
 
-  // Runs body with the OpenGL state kept as promised at creation.
+  // Runs body with the OpenGL state of these users, see touched_state.h, kept as promised at creation.
+  template <class Body>
+  void guarded(unsigned users, Body&& body) {
+    device.need_alive();
+    const nook::gl::StateGuard guard(device.gl, device.state_mode, users);
+    body();
+  }
+  // Of evaluating characters.
   template <class Body>
   void guarded(Body&& body) {
-    device.need_alive();
-    const nook::gl::StateGuard guard(device.gl, device.state_mode);
-    body();
+    guarded(nook::gl::character_users(device.gl), std::forward<Body>(body));
   }
 
   nook::gl::Device device;

@@ -48,6 +48,12 @@ Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier) {
     load_optional(gl.BindTransformFeedback, get_proc, user, "glBindTransformFeedback");
     load_optional(gl.DeleteTransformFeedbacks, get_proc, user, "glDeleteTransformFeedbacks");
     load_optional(gl.GenTransformFeedbacks, get_proc, user, "glGenTransformFeedbacks");
+    load_optional(gl.BlendEquationSeparatei, get_proc, user, "glBlendEquationSeparatei");
+    load_optional(gl.BlendFuncSeparatei, get_proc, user, "glBlendFuncSeparatei");
+  }
+  if (gl.version >= 41) {
+    load_optional(gl.GetFloati_v, get_proc, user, "glGetFloati_v");
+    load_optional(gl.ViewportIndexedf, get_proc, user, "glViewportIndexedf");
   }
   if (gl.version >= 43) load_optional(gl.ObjectLabel, get_proc, user, "glObjectLabel");
   return gl;

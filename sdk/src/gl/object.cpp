@@ -72,6 +72,12 @@ Object Object::make(Device& device, Kind kind) {
     case Kind::texture:
       gl.GenTextures(1, &name);
       break;
+    case Kind::sampler:
+      gl.GenSamplers(1, &name);
+      break;
+    case Kind::query:
+      gl.GenQueries(1, &name);
+      break;
     case Kind::vertex_array:
       gl.GenVertexArrays(1, &name);
       break;
@@ -99,6 +105,12 @@ Object::~Object() {
       break;
     case Kind::texture:
       gl.DeleteTextures(1, &name_);
+      break;
+    case Kind::sampler:
+      gl.DeleteSamplers(1, &name_);
+      break;
+    case Kind::query:
+      gl.DeleteQueries(1, &name_);
       break;
     case Kind::vertex_array:
       gl.DeleteVertexArrays(1, &name_);

@@ -45,7 +45,17 @@ class Buffer {
 // Any other kind of object; one owner type, since they differ only in the call that deletes them.
 class Object {
  public:
-  enum class Kind { framebuffer, renderbuffer, texture, vertex_array, transform_feedback, program, shader };
+  enum class Kind {
+    framebuffer,
+    renderbuffer,
+    texture,
+    sampler,
+    query,
+    vertex_array,
+    transform_feedback,
+    program,
+    shader
+  };
 
   Object() = default;
   // Takes over a name.

@@ -1,6 +1,7 @@
 #include "gl/program.h"
 
 #include <cstring>
+#include <initializer_list>
 
 #include "core/failure.h"
 #include "gl/embedded_shaders.h"
@@ -40,10 +41,10 @@ Object compile(Device& device, GLenum stage, const char* path, const char* versi
   return shader;
 }
 
-Object link(Device& device, const Object& shader, const char* path, const char* varying) {
+Object link(Device& device, std::initializer_list<GLuint> shaders, const char* path, const char* varying) {
   const Functions& gl = device.gl;
   Object program = Object::make(device, Object::Kind::program);
-  gl.AttachShader(program.name(), shader.name());
+  for (const GLuint shader : shaders) gl.AttachShader(program.name(), shader);
   if (varying) gl.TransformFeedbackVaryings(program.name(), 1, &varying, GL_INTERLEAVED_ATTRIBS);
   gl.LinkProgram(program.name());
   GLint linked = GL_FALSE;
@@ -53,7 +54,7 @@ Object link(Device& device, const Object& shader, const char* path, const char* 
     gl.GetProgramInfoLog(program.name(), sizeof log.text, nullptr, log.text);
     fail(device, "linking", path, log);
   }
-  gl.DetachShader(program.name(), shader.name());
+  for (const GLuint shader : shaders) gl.DetachShader(program.name(), shader);
   device.label(GL_PROGRAM, program.name(), path);
   return program;
 }
@@ -62,12 +63,19 @@ Object link(Device& device, const Object& shader, const char* path, const char* 
 
 Object compute_program(Device& device, const char* path, const char* defines) {
   const Object shader = compile(device, GL_COMPUTE_SHADER, path, "#version 430 core\n", defines);
-  return link(device, shader, path, nullptr);
+  return link(device, {shader.name()}, path, nullptr);
 }
 
 Object feedback_program(Device& device, const char* path, const char* defines, const char* varying) {
   const Object shader = compile(device, GL_VERTEX_SHADER, path, "#version 330 core\n", defines);
-  return link(device, shader, path, varying);
+  return link(device, {shader.name()}, path, varying);
+}
+
+Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines) {
+  const char* const version = "#version 330 core\n";
+  const Object vertex = compile(device, GL_VERTEX_SHADER, vertex_path, version, "");
+  const Object fragment = compile(device, GL_FRAGMENT_SHADER, fragment_path, version, defines);
+  return link(device, {vertex.name(), fragment.name()}, fragment_path, nullptr);
 }
 
 GLint uniform_location(const Device& device, const Object& program, const char* name) {

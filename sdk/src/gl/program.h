@@ -11,6 +11,8 @@ namespace nook::gl {
 Object compute_program(Device& device, const char* path, const char* defines);
 // One vertex shader whose output `varying` is captured.
 Object feedback_program(Device& device, const char* path, const char* defines, const char* varying);
+// A vertex and a fragment shader.
+Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines);
 
 GLint uniform_location(const Device& device, const Object& program, const char* name);
 

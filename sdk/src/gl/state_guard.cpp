@@ -32,7 +32,7 @@ bool has_feedback_objects(const Functions& gl) {
   return gl.BindTransformFeedback != nullptr;
 }
 
-// ---- One query and one restore for each item of the list; a restore of a fresh SavedState is the reset ----
+}  // namespace
 
 void query_program(const Functions& gl, SavedState& s) {
   s.program = integer(gl, GL_CURRENT_PROGRAM);
@@ -142,34 +142,33 @@ void restore_storage_ranges(const Functions& gl, const SavedState& s) {
   gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, s.storage_buffer);
 }
 
-bool touched(const Functions& gl, unsigned tiers) {
-  return tiers & (gl.tier == 43 ? tier_43 : tier_33);
-}
+namespace {
 
-void query_all(const Functions& gl, SavedState& state) {
-#define NOOK_X(name, tiers, what, note) \
-  if (touched(gl, tiers)) query_##name(gl, state);
+void query_all(const Functions& gl, unsigned users, SavedState& state) {
+#define NOOK_X(name, item_users, what, note) \
+  if (users & (item_users)) query_##name(gl, state);
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
 }
 
-void restore_all(const Functions& gl, const SavedState& state) {
-#define NOOK_X(name, tiers, what, note) \
-  if (touched(gl, tiers)) restore_##name(gl, state);
+void restore_all(const Functions& gl, unsigned users, const SavedState& state) {
+#define NOOK_X(name, item_users, what, note) \
+  if (users & (item_users)) restore_##name(gl, state);
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
 }
 
 }  // namespace
 
-StateGuard::StateGuard(const Functions& gl, nook_gl_state_mode mode) : gl_(gl), mode_(mode) {
-  if (mode == NOOK_GL_STATE_PRESERVE) query_all(gl, saved_);
+StateGuard::StateGuard(const Functions& gl, nook_gl_state_mode mode, unsigned users)
+    : gl_(gl), mode_(mode), users_(users) {
+  if (mode == NOOK_GL_STATE_PRESERVE) query_all(gl, users, saved_);
 }
 
 StateGuard::~StateGuard() {
   if (mode_ != NOOK_GL_STATE_HOST) {
-    restore_all(gl_, saved_);
-  } else if (gl_.tier == 33) {
+    restore_all(gl_, users_, saved_);
+  } else if (users_ & tier_33) {
     // These two would make the host's next draw vanish or tear.
     gl_.Disable(GL_RASTERIZER_DISCARD);
     gl_.Disable(GL_PRIMITIVE_RESTART);

@@ -4,6 +4,9 @@
 
 #include <nook/nook_gl.h>
 
+#include <cstddef>
+#include <iterator>
+
 #include "gl/functions.h"
 #include "gl/touched_state.h"
 
@@ -13,6 +16,31 @@ struct BufferRange {
   GLint buffer = 0;
   GLint64 offset = 0;  // bytes
   GLint64 size = 0;    // bytes; 0: the whole buffer
+};
+
+// The capabilities of the item fragment_tests.
+inline constexpr GLenum fragment_tests[] = {GL_DEPTH_TEST,
+                                            GL_STENCIL_TEST,
+                                            GL_CULL_FACE,
+                                            GL_COLOR_LOGIC_OP,
+                                            GL_SAMPLE_COVERAGE,
+                                            GL_SAMPLE_MASK,
+                                            GL_SAMPLE_ALPHA_TO_COVERAGE,
+                                            GL_CLIP_DISTANCE0,
+                                            GL_CLIP_DISTANCE1,
+                                            GL_CLIP_DISTANCE2,
+                                            GL_CLIP_DISTANCE3,
+                                            GL_CLIP_DISTANCE4,
+                                            GL_CLIP_DISTANCE5,
+                                            GL_CLIP_DISTANCE6,
+                                            GL_CLIP_DISTANCE7};
+inline constexpr std::size_t fragment_test_count = std::size(fragment_tests);
+
+// Every member begins with OpenGL's default.
+struct BlendState {
+  GLboolean enabled = GL_FALSE;
+  GLint source_rgb = GL_ONE, destination_rgb = GL_ZERO, source_alpha = GL_ONE, destination_alpha = GL_ZERO;
+  GLint equation_rgb = GL_FUNC_ADD, equation_alpha = GL_FUNC_ADD;
 };
 
 struct SavedState {
@@ -32,13 +60,37 @@ struct SavedState {
   } feedback_buffer;
   GLint storage_buffer = 0;
   BufferRange storage_ranges[storage_binding_count];
+  GLint texture_2d[texture_unit_count] = {};
+  GLint samplers[texture_unit_count] = {};
+  GLint filter_texture = 0;
+  GLint pixel_unpack_buffer = 0;
+  struct {
+    bool known = false;  // there is no default
+    GLfloat box[4] = {};
+  } viewport;
+  BlendState blend;
+  GLboolean color_mask[4] = {GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE};
+  GLint polygon_mode = GL_FILL;
+  GLboolean scissor_test = GL_FALSE;
+  GLboolean framebuffer_srgb = GL_FALSE;
+  GLboolean fragment_tests[fragment_test_count] = {};
+  GLboolean dither = GL_TRUE;
+  GLint query_buffer = 0;
 };
+
+// Draw buffer 0 and viewport 0 alone where OpenGL has more of them; otherwise all at once.
+void set_blend(const Functions& gl, const BlendState& blend);
+void set_viewport(const Functions& gl, const GLfloat (&box)[4]);
+void set_scissor_test(const Functions& gl, bool enabled);
+// Blend, masks, tests and capabilities such that one triangle fills its viewport and nothing else happens.
+void set_plain_drawing(const Functions& gl);
 
 // Until its end the passes may leave any of the touched state changed. Transform feedback must be ended by
 // then.
 class StateGuard {
  public:
-  StateGuard(const Functions& gl, nook_gl_state_mode mode);
+  // users: whose items of the list these are.
+  StateGuard(const Functions& gl, nook_gl_state_mode mode, unsigned users);
   ~StateGuard();
   StateGuard(const StateGuard&) = delete;
   StateGuard& operator=(const StateGuard&) = delete;
@@ -46,7 +98,20 @@ class StateGuard {
  private:
   const Functions& gl_;
   nook_gl_state_mode mode_;
+  unsigned users_;
   SavedState saved_;
 };
+
+// The items that evaluating characters touches.
+inline unsigned character_users(const Functions& gl) {
+  return gl.tier == 43 ? tier_43 : tier_33;
+}
+
+// One query and one restore for each item of the list; a restore of a fresh SavedState is the reset.
+#define NOOK_X(name, users, what, note)                  \
+  void query_##name(const Functions& gl, SavedState& s); \
+  void restore_##name(const Functions& gl, const SavedState& s);
+NOOK_GL_TOUCHED_STATE(NOOK_X)
+#undef NOOK_X
 
 }  // namespace nook::gl

@@ -4,32 +4,63 @@
 
 namespace nook::gl {
 
+// Who touches an item: the characters' tiers, the screen-space pass, the reading of its timers.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
-  tier_any = 3,
+  screen = 4,
+  screen_timers = 8,
+  characters = tier_33 | tier_43,
+  everyone = characters | screen,
+  draws = tier_33 | screen,
 };
 
-// X(name, tiers, state as OpenGL calls it, what for and its default). An item needs a member of SavedState
-// and a query, a restore and a reset of that name in state_guard.cpp.
-#define NOOK_GL_TOUCHED_STATE(X)                                                                        \
-  X(program, tier_any, "GL_CURRENT_PROGRAM", "runs the passes; default 0")                              \
-  X(array_buffer, tier_any, "GL_ARRAY_BUFFER_BINDING", "every upload goes through it; default 0")       \
-  X(vertex_array, tier_33, "GL_VERTEX_ARRAY_BINDING", "inputs of the vertex pass; default 0")           \
-  X(active_texture, tier_33, "GL_ACTIVE_TEXTURE", "selects unit 0; default GL_TEXTURE0")                \
-  X(texture_unit_0, tier_33, "GL_TEXTURE_BINDING_BUFFER of unit 0", "shadows at key points; default 0") \
-  X(draw_framebuffer, tier_33, "GL_DRAW_FRAMEBUFFER_BINDING",                                           \
-    "a draw needs a complete framebuffer; default 0")                                                   \
-  X(renderbuffer, tier_33, "GL_RENDERBUFFER_BINDING", "in nook_gl_create only; default 0")              \
-  X(rasterizer_discard, tier_33, "GL_RASTERIZER_DISCARD", "nothing is drawn; default disabled")         \
-  X(primitive_restart, tier_33, "GL_PRIMITIVE_RESTART", "every index is a vertex; default disabled")    \
-  X(transform_feedback, tier_33, "GL_TRANSFORM_FEEDBACK_BINDING", "from OpenGL 4.0 on; default 0")      \
-  X(feedback_buffer, tier_33, "GL_TRANSFORM_FEEDBACK_BUFFER_BINDING and its range, index 0",            \
-    "AO; default 0")                                                                                    \
-  X(storage_buffer, tier_43, "GL_SHADER_STORAGE_BUFFER_BINDING", "binding a range sets it; default 0")  \
-  X(storage_ranges, tier_43, "GL_SHADER_STORAGE_BUFFER_BINDING and its range, index 0 to 7",            \
+// X(name, users, state as OpenGL calls it, what for and its default). An item needs a member of SavedState
+// and a query, a restore and a reset of that name in state_guard.cpp or state_guard_draw.cpp.
+#define NOOK_GL_TOUCHED_STATE(X)                                                                            \
+  X(program, everyone, "GL_CURRENT_PROGRAM", "runs the passes; default 0")                                  \
+  X(array_buffer, everyone, "GL_ARRAY_BUFFER_BINDING", "every upload goes through it; default 0")           \
+  X(vertex_array, draws, "GL_VERTEX_ARRAY_BINDING", "inputs of the vertex pass, or none; default 0")        \
+  X(active_texture, draws, "GL_ACTIVE_TEXTURE", "selects units; default GL_TEXTURE0")                       \
+  X(texture_unit_0, tier_33, "GL_TEXTURE_BINDING_BUFFER of unit 0", "shadows at key points; default 0")     \
+  X(texture_2d, screen, "GL_TEXTURE_BINDING_2D of units 0 to 3", "inputs of the stages; default 0")         \
+  X(samplers, screen, "GL_SAMPLER_BINDING of units 0 to 3",                                                 \
+    "so that no parameter of a texture counts; default 0")                                                  \
+  X(filter_texture, screen, "GL_TEXTURE_BINDING_BUFFER of unit 2",                                          \
+    "filters of the paper's network; default 0")                                                            \
+  X(pixel_unpack_buffer, screen, "GL_PIXEL_UNPACK_BUFFER_BINDING", "in nook_nnao_create only; default 0")   \
+  X(draw_framebuffer, draws, "GL_DRAW_FRAMEBUFFER_BINDING",                                                 \
+    "a draw needs a complete framebuffer; default 0")                                                       \
+  X(renderbuffer, tier_33, "GL_RENDERBUFFER_BINDING", "in nook_gl_create only; default 0")                  \
+  X(viewport, screen, "GL_VIEWPORT, of index 0 from OpenGL 4.1 on",                                         \
+    "the stages' size; left at the frame's viewport in place of a default")                                 \
+  X(blend, screen,                                                                                          \
+    "GL_BLEND, GL_BLEND_SRC/DST_RGB/ALPHA, GL_BLEND_EQUATION_RGB/ALPHA, of draw buffer 0 from OpenGL 4.0 "  \
+    "on",                                                                                                   \
+    "multiplies into a target; default disabled, GL_ONE, GL_ZERO, GL_FUNC_ADD")                             \
+  X(color_mask, screen, "GL_COLOR_WRITEMASK of draw buffer 0", "all four; default all GL_TRUE")             \
+  X(polygon_mode, screen, "GL_POLYGON_MODE", "one triangle is filled; default GL_FILL")                     \
+  X(scissor_test, screen, "GL_SCISSOR_TEST, of index 0 from OpenGL 4.1 on", "off; default disabled")        \
+  X(framebuffer_srgb, screen, "GL_FRAMEBUFFER_SRGB", "on for the host's targets; default disabled")         \
+  X(fragment_tests, screen,                                                                                 \
+    "GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_COLOR_LOGIC_OP, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, " \
+    "GL_SAMPLE_ALPHA_TO_COVERAGE, GL_CLIP_DISTANCE0 to GL_CLIP_DISTANCE7",                                  \
+    "off; default disabled")                                                                                \
+  X(dither, screen, "GL_DITHER", "off; default enabled")                                                    \
+  X(rasterizer_discard, draws, "GL_RASTERIZER_DISCARD",                                                     \
+    "on in tier 33, where nothing is drawn, off in the screen-space pass; default disabled")                \
+  X(primitive_restart, draws, "GL_PRIMITIVE_RESTART", "every index is a vertex; default disabled")          \
+  X(transform_feedback, tier_33, "GL_TRANSFORM_FEEDBACK_BINDING", "from OpenGL 4.0 on; default 0")          \
+  X(feedback_buffer, tier_33, "GL_TRANSFORM_FEEDBACK_BUFFER_BINDING and its range, index 0",                \
+    "AO; default 0")                                                                                        \
+  X(query_buffer, screen_timers, "GL_QUERY_BUFFER_BINDING",                                                 \
+    "from OpenGL 4.4 on, in nook_nnao_get_timings only; default 0")                                         \
+  X(storage_buffer, tier_43, "GL_SHADER_STORAGE_BUFFER_BINDING", "binding a range sets it; default 0")      \
+  X(storage_ranges, tier_43, "GL_SHADER_STORAGE_BUFFER_BINDING and its range, index 0 to 7",                \
     "passes; default 0")
 
 inline constexpr int storage_binding_count = 8;
+inline constexpr int texture_unit_count = 4;  // of the screen-space pass
+inline constexpr int filter_unit = 2;
 
 }  // namespace nook::gl

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory_resource>
+#include <string>
 #include <vector>
 
 namespace nook::nnao {
@@ -28,13 +31,13 @@ struct Dense {
 // n_t. Its input is
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
 // The normalisation by mean and deviation is folded into filters and bias. Of a subset of n taps the sum over
-// taps is scaled by grid_size^2 / n.
+// taps is scaled by grid_size^2 / n. taps.h says where taps lie.
 struct PaperNetwork {
   static constexpr int grid_size = 31;
   static constexpr int tap_inputs = 4;
   static constexpr int units = 4;
 
-  std::vector<float> filters;  // grid_size^2 x tap_inputs x units, row by row
+  std::pmr::vector<float> filters;  // grid_size^2 x tap_inputs x units, row by row
   std::array<float, units> bias{};
   std::array<float, units> negative_slope{};
   std::array<float, units> positive_slope{};
@@ -63,9 +66,13 @@ struct HorizonNetwork {
 
 // AO is the network's output clamped to [0, 1]; 1 is open.
 struct Network {
+  explicit Network(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : paper{std::pmr::vector<float>(memory), {}, {}, {}, {}, {}, {}}, recipe(memory) {}
+
   NetworkForm form = NetworkForm::paper;
-  PaperNetwork paper;      // where form says so
-  HorizonNetwork horizon;  // where form says so
+  PaperNetwork paper;       // where form says so
+  HorizonNetwork horizon;   // where form says so
+  std::pmr::string recipe;  // how it was trained, JSON
 };
 
 }  // namespace nook::nnao

@@ -1,0 +1,35 @@
+// What training needs of each form: its numbers in a row, where they start, their gradient over a minibatch,
+// and the way into a network.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "nnao/training.h"
+
+namespace nook::bake::nnao {
+
+// In the order of nnao/layers.h.
+std::size_t horizon_parameter_count();
+void start_horizon(std::span<float> parameters, float mean_ao, Random& random);
+void export_horizon(std::span<const float> parameters, nook::nnao::HorizonNetwork& network);
+
+// The filters, one unit after the other (unit, cell, input), then the rest in the order of nnao/layers.h.
+std::size_t paper_parameter_count();
+void start_paper(std::span<float> parameters, float mean_ao, Random& random);
+
+// Mean and inverse deviation of each input of the grid; an input that never changes has inverse deviation 0.
+struct PaperNormalisation {
+  std::vector<float> mean, inverse_deviation;
+};
+PaperNormalisation paper_normalisation(const Dataset& data);
+void export_paper(std::span<const float> parameters, const PaperNormalisation& normalisation,
+                  nook::nnao::PaperNetwork& network);
+
+// As horizon_step_gradient.
+double paper_step_gradient(const Dataset& data, const PaperNormalisation& normalisation,
+                           const TrainingSettings& settings, std::span<const float> parameters,
+                           std::span<const std::uint32_t> points, std::uint64_t step_seed,
+                           std::span<float> gradient);
+
+}  // namespace nook::bake::nnao

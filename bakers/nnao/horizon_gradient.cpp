@@ -1,0 +1,136 @@
+#include "nnao/horizon_gradient.h"
+
+namespace nook::bake::nnao {
+namespace {
+
+constexpr int units = HorizonNetwork::units, tap_inputs = HorizonNetwork::tap_inputs;
+constexpr int pooled_inputs = 2 * units + 2;
+
+// Where each layer begins among the parameters.
+constexpr int tap_layer = 0;
+constexpr int direction_layer = tap_layer + LayerOrder<tap_inputs, units>::count;
+constexpr int join_layer = direction_layer + LayerOrder<pooled_inputs, units>::count;
+constexpr int out_layer = join_layer + LayerOrder<units + 1, units>::count;
+static_assert(out_layer + LayerOrder<units, 1>::count == sizeof(HorizonNetwork) / sizeof(float));
+
+typedef int LaneInts __attribute__((vector_size(4 * lane_count)));
+
+}  // namespace
+
+HorizonBatch::HorizonBatch(TapGrid tap_grid)
+    : grid(tap_grid),
+      tap(lane_array(std::size_t(grid.directions) * grid.steps * tap_inputs)),
+      weight(lane_array(std::size_t(grid.directions) * grid.steps)),
+      direction(lane_array(2 * std::size_t(grid.directions))) {}
+
+HorizonTrace::HorizonTrace(TapGrid grid)
+    : pooled(lane_array(std::size_t(grid.directions) * pooled_inputs)),
+      direction_before(lane_array(std::size_t(grid.directions) * units)),
+      most_step(std::size_t(grid.directions) * units * lane_count) {}
+
+void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNoise noise) {
+  using namespace nook::nnao;
+  const float depth = view.depth[view.at(point.x, point.y)];
+  const Vec3 position = view_position(view.rays, float(point.x) + 0.5f, float(point.y) + 0.5f, depth);
+  const Vec3 viewer = to_viewer(view.rays, position);
+  const PixelScale scale = pixel_scale(view.rays, depth);
+  const float radius_px = point.radius * std::abs(scale.y);
+  facing[lane] = dot(point.normal, viewer);
+  for (std::uint32_t d = 0; d < grid.directions; ++d) {
+    const float angle = direction_angle(d, grid.directions, noise);
+    const float cosine = std::cos(angle), sine = std::sin(angle);
+    direction[2 * d][lane] = dot(point.normal, across_viewer(viewer, cosine, sine));
+    direction[2 * d + 1][lane] = facing[lane];
+    for (std::uint32_t s = 0; s < grid.steps; ++s) {
+      const std::size_t t = std::size_t(d) * grid.steps + s;
+      const float distance_px = step_distance_px(s, grid.steps, noise, radius_px);
+      const TappedTexel texel =
+          tapped_texel(view, point.x, point.y, horizon_tap(cosine, sine, distance_px, scale));
+      HorizonTapInput input;
+      const bool surface =
+          horizon_tap_input(view, texel, position, point.normal, viewer, point.radius, input);
+      weight[t][lane] = surface ? input.weight : 0;
+      for (int i = 0; i < tap_inputs; ++i)
+        tap[t * tap_inputs + std::size_t(i)][lane] = surface ? input.value[std::size_t(i)] : 0;
+    }
+  }
+}
+
+NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace,
+                                 Lanes& output) {
+  const auto [directions, steps] = batch.grid;
+  for (int u = 0; u <= units; ++u) trace.joined[u] = Lanes{};
+  for (std::uint32_t d = 0; d < directions; ++d) {
+    Lanes* const pooled = &trace.pooled[d * pooled_inputs];
+    LaneInts most_step[units] = {};
+    for (std::uint32_t s = 0; s < steps; ++s) {
+      const std::size_t t = std::size_t(d) * steps + s;
+      Lanes before[units], hidden[units];
+      forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], before, hidden);
+      for (int u = 0; u < units; ++u) {
+        const Lanes h = hidden[u] * batch.weight[t];
+        const LaneInts here = LaneInts{} + int(s);
+        if (s == 0) {
+          pooled[u] = h;
+          pooled[units + u] = h;
+        } else {
+          most_step[u] = h > pooled[u] ? here : most_step[u];
+          pooled[u] = h > pooled[u] ? h : pooled[u];
+          pooled[units + u] += h;
+        }
+      }
+    }
+    for (int u = 0; u < units; ++u) {
+      pooled[units + u] *= 1 / float(steps);
+      __builtin_memcpy(&trace.most_step[(d * units + std::size_t(u)) * lane_count], &most_step[u],
+                       sizeof(LaneInts));
+    }
+    pooled[2 * units] = batch.direction[2 * d];
+    pooled[2 * units + 1] = batch.direction[2 * d + 1];
+    Lanes out[units];
+    forward<pooled_inputs, units>(parameters + direction_layer, pooled, &trace.direction_before[d * units],
+                                  out);
+    for (int u = 0; u < units; ++u) trace.joined[u] += out[u] * (1 / float(directions));
+  }
+  trace.joined[units] = batch.facing;
+  forward<units + 1, units>(parameters + join_layer, trace.joined, trace.join_before, trace.join_output);
+  forward<units, 1>(parameters + out_layer, trace.join_output, trace.out_before, &output);
+}
+
+NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& batch,
+                                  const HorizonTrace& trace, const Lanes& output_gradient, Lanes* gradient) {
+  const auto [directions, steps] = batch.grid;
+  Lanes g_join[units], g_joined[units + 1];
+  backward<units, 1>(parameters + out_layer, trace.join_output, trace.out_before, &output_gradient,
+                     gradient + out_layer, g_join);
+  backward<units + 1, units>(parameters + join_layer, trace.joined, trace.join_before, g_join,
+                             gradient + join_layer, g_joined);
+  for (int u = 0; u < units; ++u) g_joined[u] *= 1 / float(directions);
+  // The tap layer's gradient is summed here: the loop over taps is where the time goes.
+  Lanes g_tap_layer[LayerOrder<tap_inputs, units>::count] = {};
+  for (std::uint32_t d = 0; d < directions; ++d) {
+    Lanes g_pooled[pooled_inputs];
+    backward<pooled_inputs, units>(parameters + direction_layer, &trace.pooled[d * pooled_inputs],
+                                   &trace.direction_before[d * units], g_joined, gradient + direction_layer,
+                                   g_pooled);
+    for (int u = 0; u < units; ++u) g_pooled[units + u] *= 1 / float(steps);
+    LaneInts most_step[units];
+    for (int u = 0; u < units; ++u)
+      __builtin_memcpy(&most_step[u], &trace.most_step[(d * units + std::size_t(u)) * lane_count],
+                       sizeof(LaneInts));
+    for (std::uint32_t s = 0; s < steps; ++s) {
+      const std::size_t t = std::size_t(d) * steps + s;
+      Lanes before[units], hidden[units], g_hidden[units];
+      forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], before, hidden);
+      const LaneInts here = LaneInts{} + int(s);
+      for (int u = 0; u < units; ++u)
+        g_hidden[u] = batch.weight[t] *
+                      (most_step[u] == here ? g_pooled[u] + g_pooled[units + u] : g_pooled[units + u]);
+      backward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], before, g_hidden,
+                                  g_tap_layer, static_cast<Lanes*>(nullptr));
+    }
+  }
+  for (int i = 0; i < LayerOrder<tap_inputs, units>::count; ++i) gradient[tap_layer + i] += g_tap_layer[i];
+}
+
+}  // namespace nook::bake::nnao

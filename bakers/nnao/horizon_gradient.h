@@ -1,0 +1,48 @@
+// The horizon form on sixteen samples at once, with its gradient. nnao/network.h defines it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "nnao/dataset.h"
+#include "nnao/lanes.h"
+#include "nnao/taps.h"
+
+namespace nook::bake::nnao {
+
+using nook::nnao::HorizonNetwork;
+using nook::nnao::TapGrid;
+using nook::nnao::TapNoise;
+
+// Inputs of sixteen samples with the same number of taps.
+struct HorizonBatch {
+  explicit HorizonBatch(TapGrid tap_grid);
+
+  TapGrid grid;
+  LaneArray tap;        // tap_inputs a tap, direction by direction
+  LaneArray weight;     // one a tap, 0 without a surface
+  LaneArray direction;  // dot(n, t), dot(n, o) of each direction
+  Lanes facing{};       // dot(n, o)
+
+  void set(int lane, const View& view, const DataPoint& point, TapNoise noise);
+};
+
+// What the forward pass leaves for the backward one.
+struct HorizonTrace {
+  explicit HorizonTrace(TapGrid grid);
+
+  LaneArray pooled, direction_before;
+  std::vector<int> most_step;  // the step of each direction's maximum, by unit and lane
+  Lanes joined[HorizonNetwork::units + 1], join_before[HorizonNetwork::units],
+      join_output[HorizonNetwork::units], out_before[1];
+};
+
+// parameters: in the order of layers.h. Returns the network's output, not
+// clamped.
+void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace, Lanes& output);
+
+// Adds, for each parameter and lane, the gradient of the output times output_gradient.
+void horizon_backward(const float* parameters, const HorizonBatch& batch, const HorizonTrace& trace,
+                      const Lanes& output_gradient, Lanes* gradient);
+
+}  // namespace nook::bake::nnao

@@ -1,0 +1,123 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/failure.h"
+#include "nnao/forms.h"
+#include "nnao/horizon_gradient.h"
+#include "nnao/layers.h"
+
+namespace nook::bake::nnao {
+namespace {
+
+// AO is clamped where it is written; the gradient passes through, so that no sample that lies outside is
+// lost.
+float error_of(float output, float ao) {
+  return std::clamp(output, 0.0f, 1.0f) - ao;
+}
+
+// Sixteen points under two noise values each. Sets the loss summed over lanes and adds the gradient.
+double block_gradient(const Dataset& data, const TrainingSettings& settings, const float* parameters,
+                      std::span<const std::uint32_t> points, TapGrid grid, std::uint64_t seed,
+                      float* gradient) {
+  Random random(seed);
+  HorizonBatch one(grid), two(grid);
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const DataPoint& point = data.training[points[std::size_t(lane)]];
+    const View view = data.views[point.view].view();
+    const std::uint32_t rank = random.below(16), other = (rank + 1 + random.below(15)) % 16;
+    one.set(lane, view, point, nook::nnao::tap_noise_of_rank(rank));
+    two.set(lane, view, point, nook::nnao::tap_noise_of_rank(other));
+  }
+  HorizonTrace trace_one(grid), trace_two(grid);
+  Lanes output_one, output_two, g_one, g_two;
+  horizon_forward(parameters, one, trace_one, output_one);
+  horizon_forward(parameters, two, trace_two, output_two);
+  const float w = settings.unblurred_weight;
+  double loss = 0;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const float ao = data.training[points[std::size_t(lane)]].ao;
+    const float e_one = error_of(output_one[lane], ao), e_two = error_of(output_two[lane], ao);
+    loss += double((1 - w) * e_one * e_two + 0.5f * w * (e_one * e_one + e_two * e_two));
+    g_one[lane] = (1 - w) * e_two + w * e_one;
+    g_two[lane] = (1 - w) * e_one + w * e_two;
+  }
+  LaneArray sums = lane_array(horizon_parameter_count());
+  horizon_backward(parameters, one, trace_one, g_one, sums.data());
+  horizon_backward(parameters, two, trace_two, g_two, sums.data());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    float sum = 0;
+    for (int lane = 0; lane < lane_count; ++lane) sum += sums[i][lane];
+    gradient[i] = sum;
+  }
+  return loss;
+}
+
+template <int inputs, int units>
+float* start_layer(float* layer, float bias, Random& random) {
+  using Order = LayerOrder<inputs, units>;
+  // Glorot's bounds.
+  const float reach = std::sqrt(6.0f / float(inputs + units));
+  for (int i = 0; i < inputs * units; ++i) layer[i] = random.between(-reach, reach);
+  for (int u = 0; u < units; ++u) {
+    layer[Order::bias + u] = bias;
+    layer[Order::negative + u] = 0.25f;
+    layer[Order::positive + u] = 1;
+  }
+  return layer + Order::count;
+}
+
+}  // namespace
+
+std::size_t horizon_parameter_count() {
+  return sizeof(HorizonNetwork) / sizeof(float);
+}
+
+void start_horizon(std::span<float> parameters, float mean_ao, Random& random) {
+  constexpr int units = HorizonNetwork::units;
+  float* next = start_layer<HorizonNetwork::tap_inputs, units>(parameters.data(), 0, random);
+  next = start_layer<2 * units + 2, units>(next, 0, random);
+  next = start_layer<units + 1, units>(next, 0, random);
+  start_layer<units, 1>(next, mean_ao, random);
+}
+
+void export_horizon(std::span<const float> parameters, HorizonNetwork& network) {
+  Network wrapper;
+  wrapper.form = NetworkForm::horizon;
+  const float* next = parameters.data();
+  nook::nnao::visit_layers(wrapper, [&](std::span<float> values) {
+    std::copy_n(next, values.size(), values.begin());
+    next += values.size();
+  });
+  network = wrapper.horizon;
+}
+
+double horizon_step_gradient(const Dataset& data, const TrainingSettings& settings,
+                             std::span<const float> parameters, std::span<const std::uint32_t> points,
+                             std::uint64_t step_seed, std::span<float> gradient) {
+  if (points.empty() || points.size() % lane_count != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the minibatch has no whole blocks (got %zu points, need a multiple of %d)", points.size(),
+                  lane_count);
+  // 16, 32 and 64 taps, and 16 steps as 128 and 256 taps have: the number of directions only changes the
+  // noise.
+  constexpr TapGrid grids[] = {{4, 4}, {8, 4}, {8, 8}, {4, 16}};
+  const TapGrid grid = grids[Random(step_seed).below(4)];
+  const std::size_t blocks = points.size() / lane_count, count = horizon_parameter_count();
+  std::vector<float> parts(blocks * count);
+  std::vector<double> losses(blocks);
+  tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t b) {
+    losses[b] = block_gradient(data, settings, parameters.data(), points.subspan(b * lane_count, lane_count),
+                               grid, mix_bits(step_seed ^ (b + 1)), &parts[b * count]);
+  });
+  const float scale = 1 / float(points.size());
+  std::ranges::fill(gradient, 0.0f);
+  for (std::size_t b = 0; b < blocks; ++b)
+    for (std::size_t i = 0; i < count; ++i) gradient[i] += scale * parts[b * count + i];
+  double loss = 0;
+  for (const double part : losses) loss += part;
+  return loss * double(scale);
+}
+
+}  // namespace nook::bake::nnao

@@ -1,0 +1,57 @@
+// The layers of network.h forwards and backwards, on one sample (float) or sixteen side by side (Lanes).
+#pragma once
+
+#include "character/clones.h"
+#include "core/aligned_array.h"
+
+namespace nook::bake::nnao {
+
+inline constexpr int lane_count = 16;
+typedef float Lanes __attribute__((vector_size(4 * lane_count)));
+// Not std::vector: its allocator may not know the alignment that the widest instructions need.
+using LaneArray = AlignedArray<Lanes>;
+inline LaneArray lane_array(std::size_t count) {
+  return {count, std::pmr::new_delete_resource()};
+}
+
+// The numbers of a Dense layer in the order of layers.h.
+template <int inputs, int units>
+struct LayerOrder {
+  static constexpr int weights = 0, bias = inputs * units, negative = bias + units,
+                       positive = negative + units, count = positive + units;
+};
+
+// before: ahead of the PReLU.
+template <int inputs, int units, class Number>
+NOOK_INLINE void forward(const float* layer, const Number* input, Number* before, Number* output) {
+  using Order = LayerOrder<inputs, units>;
+  for (int u = 0; u < units; ++u) {
+    Number sum = Number{} + layer[Order::bias + u];
+    for (int i = 0; i < inputs; ++i) sum += layer[i * units + u] * input[i];
+    before[u] = sum;
+    output[u] = sum > 0 ? layer[Order::positive + u] * sum : layer[Order::negative + u] * sum;
+  }
+}
+
+// Adds to `gradient`, one Number a number of the layer, and sets the gradient of the inputs where wanted.
+template <int inputs, int units, class Number>
+NOOK_INLINE void backward(const float* layer, const Number* input, const Number* before,
+                          const Number* output_gradient, Number* gradient, Number* input_gradient) {
+  using Order = LayerOrder<inputs, units>;
+  const Number zero{};
+  if (input_gradient)
+    for (int i = 0; i < inputs; ++i) input_gradient[i] = zero;
+  for (int u = 0; u < units; ++u) {
+    const Number g_out = output_gradient[u], x = before[u];
+    gradient[Order::negative + u] += x > 0 ? zero : g_out * x;
+    gradient[Order::positive + u] += x > 0 ? g_out * x : zero;
+    const Number g = x > 0 ? layer[Order::positive + u] * g_out : layer[Order::negative + u] * g_out;
+    gradient[Order::bias + u] += g;
+    for (int i = 0; i < inputs; ++i) {
+      gradient[i * units + u] += g * input[i];
+      if (input_gradient) input_gradient[i] += layer[i * units + u] * g;
+    }
+  }
+}
+
+}  // namespace nook::bake::nnao

@@ -1,0 +1,124 @@
+#include "nnao/solids.h"
+
+#include <numbers>
+
+namespace nook::bake::nnao {
+namespace {
+
+constexpr float turn = 2 * std::numbers::pi_v<float>;
+
+// A net of rings x sides quads over a point function of (ring, side); sides close on themselves.
+template <class Point>
+void add_net(TriangleSoup& soup, int rings, int sides, const Point& point) {
+  const auto first = std::uint32_t(soup.position.size());
+  for (int r = 0; r <= rings; ++r)
+    for (int s = 0; s < sides; ++s) soup.position.push_back(point(r, s));
+  for (int r = 0; r < rings; ++r)
+    for (int s = 0; s < sides; ++s) {
+      const auto at = [&](int ring, int side) { return first + std::uint32_t(ring * sides + side % sides); };
+      soup.triangle.push_back({at(r, s), at(r, s + 1), at(r + 1, s + 1)});
+      soup.triangle.push_back({at(r, s), at(r + 1, s + 1), at(r + 1, s)});
+    }
+}
+
+}  // namespace
+
+void add_triangle(TriangleSoup& soup, Vec3 a, Vec3 b, Vec3 c) {
+  const auto first = std::uint32_t(soup.position.size());
+  soup.position.insert(soup.position.end(), {a, b, c});
+  soup.triangle.push_back({first, first + 1, first + 2});
+}
+
+void add_quad(TriangleSoup& soup, Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const auto first = std::uint32_t(soup.position.size());
+  soup.position.insert(soup.position.end(), {a, b, c, d});
+  soup.triangle.push_back({first, first + 1, first + 2});
+  soup.triangle.push_back({first, first + 2, first + 3});
+}
+
+void add_box(TriangleSoup& soup, const Mat3x4& frame, Vec3 half) {
+  const auto corner = [&](int x, int y, int z) {
+    return transform_point(frame, {float(x) * half.x, float(y) * half.y, float(z) * half.z});
+  };
+  for (const int side : {-1, 1}) {
+    add_quad(soup, corner(side, -1, -1), corner(side, 1, -1), corner(side, 1, 1), corner(side, -1, 1));
+    add_quad(soup, corner(-1, side, -1), corner(1, side, -1), corner(1, side, 1), corner(-1, side, 1));
+    add_quad(soup, corner(-1, -1, side), corner(1, -1, side), corner(1, 1, side), corner(-1, 1, side));
+  }
+}
+
+void add_block(TriangleSoup& soup, Vec3 low, Vec3 high) {
+  Mat3x4 frame;
+  const Vec3 middle = 0.5f * (low + high);
+  frame.m[3] = middle.x;
+  frame.m[7] = middle.y;
+  frame.m[11] = middle.z;
+  add_box(soup, frame, high - middle);
+}
+
+void axes_across(Vec3 direction, Vec3& u, Vec3& v) {
+  const Vec3 d = normalised(direction);
+  u = normalised(cross(d, std::abs(d.y) < 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0}));
+  v = cross(d, u);
+}
+
+void add_cylinder(TriangleSoup& soup, Vec3 from, Vec3 to, float radius_from, float radius_to, int sides) {
+  Vec3 u, v;
+  axes_across(to - from, u, v);
+  add_net(soup, 3, sides, [&](int ring, int side) {
+    const float angle = turn * float(side) / float(sides);
+    const float radius = ring == 1 ? radius_from : ring == 2 ? radius_to : 0;
+    return (ring < 2 ? from : to) + radius * (std::cos(angle) * u + std::sin(angle) * v);
+  });
+}
+
+void add_capsule(TriangleSoup& soup, Vec3 from, Vec3 to, float radius, int sides) {
+  constexpr int rings = 9;
+  Vec3 u, v;
+  axes_across(to - from, u, v);
+  const Vec3 axis = normalised(to - from);
+  add_net(soup, rings, sides, [&](int ring, int side) {
+    // Rings 0 to 4 round the first end, 5 to 9 the other.
+    const float latitude = 0.25f * turn * (ring < 5 ? float(ring - 4) / 4 : float(ring - 5) / 4);
+    const float angle = turn * float(side) / float(sides);
+    return (ring < 5 ? from : to) +
+           radius *
+               (std::sin(latitude) * axis + std::cos(latitude) * (std::cos(angle) * u + std::sin(angle) * v));
+  });
+}
+
+void add_ellipsoid(TriangleSoup& soup, const Mat3x4& frame, Vec3 half, int sides) {
+  const int rings = sides / 2;
+  add_net(soup, rings, sides, [&](int ring, int side) {
+    const float latitude = 0.5f * turn * (float(ring) / float(rings) - 0.5f);
+    const float angle = turn * float(side) / float(sides);
+    return transform_point(frame, {half.x * std::cos(latitude) * std::cos(angle), half.y * std::sin(latitude),
+                                   half.z * std::cos(latitude) * std::sin(angle)});
+  });
+}
+
+void add_torus(TriangleSoup& soup, const Mat3x4& frame, float radius, float tube_radius, int sides) {
+  add_net(soup, sides, 10, [&](int ring, int side) {
+    const float angle = turn * float(ring) / float(sides), round = turn * float(side) / 10;
+    const float out = radius + tube_radius * std::cos(round);
+    return transform_point(frame,
+                           {out * std::cos(angle), tube_radius * std::sin(round), out * std::sin(angle)});
+  });
+}
+
+Mat3x4 standing_frame(Vec3 origin, float angle) {
+  const float c = std::cos(angle), s = std::sin(angle);
+  return {{c, 0, s, origin.x, 0, 1, 0, origin.y, -s, 0, c, origin.z}};
+}
+
+Mat3x4 tumbled_frame(Vec3 origin, Random& random) {
+  // A uniform unit quaternion (Shoemake 1992).
+  const float u = random.unit(), a = turn * random.unit(), b = turn * random.unit();
+  const float x = std::sqrt(1 - u) * std::sin(a), y = std::sqrt(1 - u) * std::cos(a);
+  const float z = std::sqrt(u) * std::sin(b), w = std::sqrt(u) * std::cos(b);
+  return {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), origin.x, 2 * (x * y + z * w),
+           1 - 2 * (x * x + z * z), 2 * (y * z - x * w), origin.y, 2 * (x * z - y * w), 2 * (y * z + x * w),
+           1 - 2 * (x * x + y * y), origin.z}};
+}
+
+}  // namespace nook::bake::nnao

@@ -1,0 +1,46 @@
+#include "raytrace/ray_scene.h"
+
+#include <cstring>
+#include <limits>
+
+namespace nook::bake {
+
+void build_scene(RTCDevice device, RTCScene scene, std::span<const Vec3> positions,
+                 std::span<const std::array<std::uint32_t, 3>> triangles) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                           sizeof(Vec3), positions.size());
+  std::memcpy(vertices, positions.data(), positions.size_bytes());
+  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                          3 * sizeof(std::uint32_t), triangles.size());
+  std::memcpy(indices, triangles.data(), triangles.size_bytes());
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+}
+
+RayScene::RayScene(const TriangleSoup& soup) : scene_(device_.get()) {
+  const FlushDenormals flush;
+  build_scene(device_.get(), scene_.get(), soup.position, soup.triangle);
+}
+
+RayHit RayScene::nearest(Vec3 origin, Vec3 direction) const {
+  alignas(16) RTCRayHit ray{};
+  ray.ray.org_x = origin.x;
+  ray.ray.org_y = origin.y;
+  ray.ray.org_z = origin.z;
+  ray.ray.dir_x = direction.x;
+  ray.ray.dir_y = direction.y;
+  ray.ray.dir_z = direction.z;
+  ray.ray.tfar = std::numeric_limits<float>::infinity();
+  ray.ray.mask = ~0u;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  intersect1(scene_.get(), ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {std::numeric_limits<float>::infinity(), {}};
+  const Vec3 normal = normalised({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z});
+  return {ray.ray.tfar, dot(normal, direction) > 0 ? -normal : normal};
+}
+
+}  // namespace nook::bake

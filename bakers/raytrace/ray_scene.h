@@ -1,0 +1,58 @@
+// Triangles that rays can be traced against, and the camera rays of a picture.
+#pragma once
+
+#include <pmmintrin.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "raytrace/embree.h"
+
+namespace nook::bake {
+
+// Occluders, world space, metres.
+struct TriangleSoup {
+  std::vector<Vec3> position;
+  std::vector<std::array<std::uint32_t, 3>> triangle;
+};
+
+// Embree wants denormals flushed on every thread that traces; the caller's mode comes back afterwards.
+class FlushDenormals {
+ public:
+  FlushDenormals() : saved_(_mm_getcsr()) {
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  }
+  ~FlushDenormals() { _mm_setcsr(saved_); }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned saved_;
+};
+
+void build_scene(RTCDevice device, RTCScene scene, std::span<const Vec3> positions,
+                 std::span<const std::array<std::uint32_t, 3>> triangles);
+
+// What a ray meets first.
+struct RayHit {
+  float distance = 0;  // in lengths of the ray's direction; infinite: nothing
+  Vec3 normal;         // geometric, unit length, against the ray
+};
+
+// A soup with its BVH; any thread may trace.
+class RayScene {
+ public:
+  explicit RayScene(const TriangleSoup& soup);
+  RTCScene get() const { return scene_.get(); }
+  RayHit nearest(Vec3 origin, Vec3 direction) const;
+
+ private:
+  EmbreeDevice device_;
+  EmbreeScene scene_;
+};
+
+}  // namespace nook::bake

@@ -1,0 +1,37 @@
+// IEEE half floats, by integer arithmetic: the same bits on every machine.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace nook {
+
+// To the nearest half, ties to even; beyond 65504 infinity.
+constexpr std::uint16_t to_half(float value) {
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+  const std::uint32_t sign = bits >> 16 & 0x8000u, magnitude = bits & 0x7fffffffu;
+  if (magnitude > 0x7f800000u) return std::uint16_t(sign | 0x7e00u);
+  if (magnitude >= 0x47800000u) return std::uint16_t(sign | 0x7c00u);
+  if (magnitude < 0x33000000u) return std::uint16_t(sign);
+  const std::uint32_t exponent = magnitude >> 23;
+  std::uint32_t mantissa = magnitude, dropped = 13;
+  if (exponent >= 113) {
+    mantissa -= 112u << 23;
+  } else {
+    mantissa = (magnitude & 0x7fffffu) | 0x800000u;
+    dropped = 126 - exponent;
+  }
+  const std::uint32_t kept = mantissa >> dropped, rest = mantissa & ((1u << dropped) - 1),
+                      half = 1u << (dropped - 1);
+  return std::uint16_t(sign | (kept + (rest > half || (rest == half && (kept & 1u)))));
+}
+
+constexpr float from_half(std::uint16_t half) {
+  const std::uint32_t sign = std::uint32_t(half & 0x8000u) << 16, magnitude = half & 0x7fffu;
+  if (magnitude >= 0x7c00u) return std::bit_cast<float>(sign | 0x7f800000u | (magnitude & 0x3ffu) << 13);
+  if (magnitude >= 0x400u) return std::bit_cast<float>(sign | ((magnitude << 13) + (112u << 23)));
+  const float value = float(magnitude) * 0x1p-24f;
+  return sign ? -value : value;
+}
+
+}  // namespace nook

@@ -1,0 +1,198 @@
+#include "gl/nnao/host_images.h"
+
+#include "core/failure.h"
+
+namespace nook::gl {
+namespace {
+
+// After a bind that OpenGL refused: takes away the error it left. An error of the host's own goes to the log.
+void clear_refusal(const Device& device) {
+  for (int i = 0; i < 16; ++i) {
+    const GLenum error = device.gl.GetError();
+    if (error == GL_NO_ERROR) return;
+    if (error != GL_INVALID_OPERATION)
+      device.context.log(NOOK_LOG_WARNING, "nook_nnao: the host left the OpenGL error 0x%04x", error);
+  }
+}
+
+GLint level_value(const Functions& gl, GLenum what) {
+  GLint value = 0;
+  gl.GetTexLevelParameteriv(GL_TEXTURE_2D, 0, what, &value);
+  return value;
+}
+
+// Leaves the texture bound to unit 0.
+void bind_checked(const Device& device, const HostImages& images, std::uint32_t name, const char* field) {
+  const Functions& gl = device.gl;
+  if (!gl.IsTexture(name))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.%s is no texture of this OpenGL context (got %u, need the name of a 2D texture)",
+                  field, name);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, name);
+  GLint bound = 0;
+  gl.GetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+  if (static_cast<std::uint32_t>(bound) != name) {
+    clear_refusal(device);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "frame.%s is a texture of another kind (got %u, need a 2D texture without layers or samples)", field,
+        name);
+  }
+  GLint base_level = 0;
+  gl.GetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, &base_level);
+  if (base_level != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.%s begins at another level (its GL_TEXTURE_BASE_LEVEL is %d, need 0)", field,
+                  base_level);
+  const GLint width = level_value(gl, GL_TEXTURE_WIDTH), height = level_value(gl, GL_TEXTURE_HEIGHT);
+  if (width != images.width || height != images.height)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.%s has another size (got %d x %d, need frame.width x frame.height, %d x %d)", field,
+                  width, height, images.width, images.height);
+}
+
+bool is_float_or_normalised(GLint type) {
+  return type == GL_FLOAT || type == GL_UNSIGNED_NORMALIZED || type == GL_SIGNED_NORMALIZED;
+}
+
+[[noreturn]] void refuse_format(const Functions& gl, const char* field, const char* need) {
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.%s has a format that does not fit (got 0x%04x, need %s)",
+                field, static_cast<unsigned>(level_value(gl, GL_TEXTURE_INTERNAL_FORMAT)), need);
+}
+
+void check_depth(const Functions& gl, const HostImages& images) {
+  const bool depth_format = level_value(gl, GL_TEXTURE_DEPTH_SIZE) > 0;
+  const GLint red_bits = level_value(gl, GL_TEXTURE_RED_SIZE);
+  const bool red_float = red_bits > 0 && level_value(gl, GL_TEXTURE_RED_TYPE) == GL_FLOAT;
+  if (images.depth_kind == NOOK_NNAO_DEPTH_LINEAR) {
+    if (!red_float)
+      refuse_format(gl, "depth_texture", "red in floats, such as GL_R32F, for NOOK_NNAO_DEPTH_LINEAR");
+  } else if (!depth_format && !(red_float && red_bits >= 32)) {
+    refuse_format(gl, "depth_texture", "a depth format or GL_R32F for NOOK_NNAO_DEPTH_HARDWARE");
+  }
+  if (!depth_format || gl.version < 43) return;
+  GLint mode = GL_DEPTH_COMPONENT;
+  gl.GetTexParameteriv(GL_TEXTURE_2D, GL_DEPTH_STENCIL_TEXTURE_MODE, &mode);
+  if (mode != GL_DEPTH_COMPONENT)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.depth_texture shows its stencil (GL_DEPTH_STENCIL_TEXTURE_MODE is 0x%04x, need "
+                  "GL_DEPTH_COMPONENT)",
+                  static_cast<unsigned>(mode));
+}
+
+void check_normal(const Functions& gl) {
+  for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE})
+    if (!is_float_or_normalised(level_value(gl, channel)))
+      refuse_format(gl, "normal_texture", "red, green and blue in floats or normalised integers");
+}
+
+void check_layer(const Functions& gl, nook_nnao_layer layer) {
+  if (!is_float_or_normalised(level_value(gl, GL_TEXTURE_RED_TYPE)))
+    refuse_format(gl, "layer_texture", "red in floats or normalised integers");
+  if (layer == NOOK_NNAO_LAYER_REPLACE && !is_float_or_normalised(level_value(gl, GL_TEXTURE_GREEN_TYPE)))
+    refuse_format(gl, "layer_texture", "red and green for NOOK_NNAO_LAYER_REPLACE");
+}
+
+void check_complete(const Functions& gl, const HostImages& images) {
+  const GLenum status = gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "frame.target_name cannot be drawn into (got %u, its framebuffer has the status 0x%04x, need "
+        "GL_FRAMEBUFFER_COMPLETE)",
+        images.target_name, status);
+}
+
+// An input that is the target, or a part of it.
+void check_apart(const HostImages& images, std::uint32_t target, const char* target_field) {
+  const struct {
+    std::uint32_t name;
+    const char* field;
+  } inputs[] = {{images.depth, "depth_texture"},
+                {images.normal, "normal_texture"},
+                {images.layer_texture, "layer_texture"}};
+  for (const auto& input : inputs)
+    if (input.name != 0 && input.name == target)
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "frame.%s is %s as well (got %u for both); a texture cannot be read and drawn into at once",
+          input.field, target_field, target);
+}
+
+std::uint32_t attached_texture(const Functions& gl, GLenum attachment) {
+  GLint kind = GL_NONE, name = 0;
+  gl.GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment,
+                                         GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &kind);
+  if (kind != GL_TEXTURE) return 0;
+  gl.GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment,
+                                         GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &name);
+  return static_cast<std::uint32_t>(name);
+}
+
+void check_framebuffer(const Device& device, const HostImages& images) {
+  const Functions& gl = device.gl;
+  if (images.target_name != 0 && !gl.IsFramebuffer(images.target_name))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.target_name is no framebuffer of this OpenGL context (got %u, need a name or 0)",
+                  images.target_name);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, images.target_name);
+  check_complete(gl, images);
+  GLint buffer = GL_NONE;
+  gl.GetIntegerv(GL_DRAW_BUFFER0, &buffer);
+  if (buffer == GL_NONE)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "frame.target_name draws into nothing (its first draw buffer is GL_NONE); call glDrawBuffer");
+  if (images.target_name == 0) return;
+  check_apart(images, attached_texture(gl, static_cast<GLenum>(buffer)), "attached to frame.target_name");
+  // With its depth attached, the depth texture would be read while it is drawn into, which OpenGL leaves
+  // undefined.
+  check_apart(images, attached_texture(gl, GL_DEPTH_ATTACHMENT), "attached to frame.target_name");
+}
+
+void check_target_texture(const Device& device, const HostImages& images, std::uint32_t own_texture) {
+  if (images.target_name == own_texture)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.target_name is the pass's own texture (got %u); use NOOK_NNAO_TARGET_OWN",
+                  own_texture);
+  check_apart(images, images.target_name, "frame.target_name");
+  bind_checked(device, images, images.target_name, "target_name");
+  if (!is_float_or_normalised(level_value(device.gl, GL_TEXTURE_RED_TYPE)))
+    refuse_format(device.gl, "target_name", "a colour format in floats or normalised integers");
+}
+
+}  // namespace
+
+HostImages images_of(const nook_nnao_frame_desc& frame) {
+  HostImages images;
+  images.width = frame.width;
+  images.height = frame.height;
+  images.depth_kind = frame.depth_kind;
+  images.layer = frame.layer;
+  images.target = frame.target;
+  images.depth = frame.depth_texture;
+  images.normal = frame.normal_texture;
+  if (frame.layer != NOOK_NNAO_LAYER_NONE) images.layer_texture = frame.layer_texture;
+  if (frame.target != NOOK_NNAO_TARGET_OWN) images.target_name = frame.target_name;
+  return images;
+}
+
+void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture) {
+  const Functions& gl = device.gl;
+  check_apart(images, own_texture, "the pass's own texture");
+  bind_checked(device, images, images.depth, "depth_texture");
+  check_depth(gl, images);
+  if (images.normal) {
+    bind_checked(device, images, images.normal, "normal_texture");
+    check_normal(gl);
+  }
+  if (images.layer_texture) {
+    bind_checked(device, images, images.layer_texture, "layer_texture");
+    check_layer(gl, images.layer);
+  }
+  if (images.target == NOOK_NNAO_TARGET_TEXTURE) check_target_texture(device, images, own_texture);
+  if (images.target == NOOK_NNAO_TARGET_FRAMEBUFFER) check_framebuffer(device, images);
+}
+
+}  // namespace nook::gl

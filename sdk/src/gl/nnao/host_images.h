@@ -1,0 +1,27 @@
+// The host's textures and target of a frame, checked before anything is drawn.
+#pragma once
+
+#include <nook/nook_nnao.h>
+
+#include "gl/device.h"
+
+namespace nook::gl {
+
+// What was asked of OpenGL once and is taken for granted while it stays the same.
+struct HostImages {
+  int width = 0, height = 0;
+  nook_nnao_depth_kind depth_kind = 0;
+  nook_nnao_layer layer = 0;
+  nook_nnao_target target = 0;
+  std::uint32_t depth = 0, normal = 0, layer_texture = 0, target_name = 0;
+
+  bool operator==(const HostImages&) const = default;
+};
+HostImages images_of(const nook_nnao_frame_desc& frame);
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless every image exists, has the size and a format that fits,
+// and no input is the target. own_texture: the pass's. Binds 2D textures to unit 0 and the draw framebuffer;
+// leaves no OpenGL error.
+void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture);
+
+}  // namespace nook::gl

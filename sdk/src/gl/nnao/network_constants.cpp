@@ -1,0 +1,45 @@
+#include "gl/nnao/network_constants.h"
+
+namespace nook::gl {
+namespace {
+
+using Floats = std::pmr::vector<float>;
+
+template <std::size_t count>
+void add(Floats& out, const std::array<float, count>& values) {
+  out.insert(out.end(), values.begin(), values.end());
+}
+
+// Layers of one unit end with their three numbers and a zero, so that each begins at a vec4.
+template <int inputs, int units>
+void add(Floats& out, const nnao::Dense<inputs, units>& layer) {
+  add(out, layer.weights);
+  add(out, layer.bias);
+  add(out, layer.negative_slope);
+  add(out, layer.positive_slope);
+  if constexpr (units == 1) out.push_back(0);
+}
+
+}  // namespace
+
+std::pmr::vector<float> network_constants(const nnao::Network& network, std::pmr::memory_resource* memory) {
+  Floats out(memory);
+  if (network.form == nnao::NetworkForm::horizon) {
+    const nnao::HorizonNetwork& horizon = network.horizon;
+    add(out, horizon.tap);
+    add(out, horizon.direction);
+    add(out, horizon.join);
+    add(out, horizon.out);
+  } else {
+    const nnao::PaperNetwork& paper = network.paper;
+    add(out, paper.bias);
+    add(out, paper.negative_slope);
+    add(out, paper.positive_slope);
+    add(out, paper.layer_1);
+    add(out, paper.layer_2);
+    add(out, paper.layer_3);
+  }
+  return out;
+}
+
+}  // namespace nook::gl

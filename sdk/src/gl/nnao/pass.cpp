@@ -1,0 +1,139 @@
+#include "gl/nnao/pass.h"
+
+#include "core/failure.h"
+#include "gl/state_guard.h"
+
+namespace nook::gl {
+namespace {
+
+// Texture units; make_stage tells the shaders.
+enum Unit : GLuint { unit_depth = 0, unit_surface = 1, unit_ao = 2, unit_layer = 3 };
+static_assert(unit_layer < texture_unit_count);
+
+constexpr int blur_reach = 3;  // texels
+
+// AO times what is there; alpha stays.
+constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE, GL_FUNC_ADD, GL_FUNC_ADD};
+
+}  // namespace
+
+bool NnaoPass::blurs(const nook_nnao_frame_desc& frame) const {
+  return desc_.blur && frame.view != NOOK_NNAO_VIEW_RAW;
+}
+
+void NnaoPass::check(const nook_nnao_frame_desc& frame) {
+  const HostImages images = images_of(frame);
+  if (checked_ == images) return;
+  checked_.reset();
+  check_images(device_, images, own_.texture());
+  if (images.target == NOOK_NNAO_TARGET_TEXTURE) {
+    const Functions& gl = device_.gl;
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target_framebuffer_.name());
+    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, images.target_name, 0);
+    const GLenum status = gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "frame.target_name cannot be drawn into (got %u with the framebuffer status 0x%04x, need a "
+          "colour format that OpenGL renders to)",
+          images.target_name, status);
+  }
+  checked_ = images;
+}
+
+void NnaoPass::bind_texture(GLuint unit, GLuint texture) const {
+  device_.gl.ActiveTexture(GL_TEXTURE0 + unit);
+  device_.gl.BindTexture(GL_TEXTURE_2D, texture);
+}
+
+void NnaoPass::draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
+                    const Viewport& viewport) const {
+  const Functions& gl = device_.gl;
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
+  gl.UseProgram(stage.program.name());
+  gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void NnaoPass::draw_blur(const FrameConstants& constants, const Viewport& surface, GLuint texture,
+                         bool vertical, const RenderTexture& into) const {
+  const Functions& gl = device_.gl;
+  bind_texture(unit_ao, texture);
+  gl.UseProgram(blur_.program.name());
+  gl.Uniform2i(blur_.blur_axis, !vertical, vertical);
+  gl.Uniform1i(blur_.blur_reach, blur_reach);
+  draw(blur_, constants, into.framebuffer(), surface);
+}
+
+void NnaoPass::draw_resolve(const nook_nnao_frame_desc& frame, const FrameConstants& constants,
+                            const RenderTexture& ao) {
+  const Functions& gl = device_.gl;
+  const bool to_texture = frame.target == NOOK_NNAO_TARGET_TEXTURE;
+  GLuint framebuffer = own_.framebuffer();
+  bind_texture(unit_depth, frame.depth_texture);
+  bind_texture(unit_ao, ao.texture());
+  bind_texture(unit_layer, frame.layer != NOOK_NNAO_LAYER_NONE ? frame.layer_texture : 0);
+  gl.UseProgram(resolve_.program.name());
+  gl.Uniform2i(resolve_.blur_axis, 0, 1);
+  gl.Uniform1i(resolve_.blur_reach, blurs(frame) ? blur_reach : 0);
+  if (frame.target != NOOK_NNAO_TARGET_OWN) {
+    framebuffer = to_texture ? target_framebuffer_.name() : frame.target_name;
+    gl.Enable(GL_FRAMEBUFFER_SRGB);
+    if (frame.blend == NOOK_NNAO_MULTIPLY) set_blend(gl, multiplying);
+  }
+  if (to_texture) {
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, frame.target_name, 0);
+  }
+  draw(resolve_, constants, framebuffer, viewport_of(frame));
+  // Kept attached, a texture that the host deletes would live on.
+  if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+}
+
+void NnaoPass::render(const nook_nnao_frame_desc& frame) {
+  check(frame);
+  const Functions& gl = device_.gl;
+  const FrameConstants constants = frame_constants(frame, desc_);
+  const Viewport viewport = viewport_of(frame);
+  const Viewport surface{0, 0, surface_length(viewport.width, half()),
+                         surface_length(viewport.height, half())};
+  if (timer_) timer_->begin_frame();
+  set_plain_drawing(gl);
+  gl.BindVertexArray(vertex_array_.name());
+  for (GLuint unit = 0; unit < texture_unit_count; ++unit) gl.BindSampler(unit, sampler_.name());
+
+  bind_texture(unit_ao, 0);
+  bind_texture(unit_layer, 0);
+  bind_texture(unit_depth, frame.depth_texture);
+  bind_texture(unit_surface, frame.normal_texture);
+  draw(normals_, constants, surface_.framebuffer(), surface);
+  end_stage();
+
+  bind_texture(unit_surface, surface_.texture());
+  if (filter_texture_.name()) {
+    gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
+    gl.BindTexture(GL_TEXTURE_BUFFER, filter_texture_.name());
+  }
+  // At full resolution the result takes the own texture's place last, so AO lies in the other one before.
+  const RenderTexture& first = half() || !blurs(frame) ? ao_[0] : own_;
+  const RenderTexture& second = half() ? ao_[1] : ao_[0];
+  draw(occlusion_, constants, first.framebuffer(), surface);
+  end_stage();
+
+  const RenderTexture* result = &first;
+  if (blurs(frame)) {
+    draw_blur(constants, surface, first.texture(), false, second);
+    result = &second;
+    if (half()) {
+      draw_blur(constants, surface, second.texture(), true, first);
+      result = &first;
+    }
+  }
+  end_stage();
+  draw_resolve(frame, constants, *result);
+  end_stage();
+}
+
+}  // namespace nook::gl

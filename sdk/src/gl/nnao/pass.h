@@ -1,0 +1,72 @@
+// The screen-space pass on the GPU: normals, the network, the blur, and what the host asked for.
+//
+//   full resolution  host depth -> normals -> AO -> blur along x -> blur along y and resolve
+//   half resolution  host depth -> depth and normals -> AO -> blur along x -> along y -> upsample and resolve
+#pragma once
+
+#include <nook/nook_nnao.h>
+
+#include <optional>
+
+#include "gl/nnao/frame_constants.h"
+#include "gl/nnao/host_images.h"
+#include "gl/nnao/render_texture.h"
+#include "gl/nnao/stage_timer.h"
+#include "nnao/network.h"
+
+namespace nook::gl {
+
+// Of all textures of a pass.
+std::uint64_t texture_bytes(const nook_nnao_desc& desc);
+
+// Every call may change any of the touched state; the caller holds a StateGuard.
+class NnaoPass {
+ public:
+  // Throws Failure.
+  NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network);
+
+  // A frame that check_frame let pass. Throws Failure before anything is drawn.
+  void render(const nook_nnao_frame_desc& frame);
+  void recheck() { checked_.reset(); }
+
+  GLuint ao_texture() const { return own_.texture(); }
+  const std::optional<StageTimer>& timer() const { return timer_; }
+
+ private:
+  struct Stage {
+    Object program;
+    GLint frame = -1, blur_axis = -1, blur_reach = -1;
+  };
+  Stage make_stage(const char* fragment_path, const char* defines) const;
+  void make_programs(const nnao::Network& network);
+  void make_textures();
+  void upload_filters(const nnao::Network& network);
+
+  void check(const nook_nnao_frame_desc& frame);
+  bool blurs(const nook_nnao_frame_desc& frame) const;
+  bool half() const { return desc_.half_resolution != 0; }
+  void bind_texture(GLuint unit, GLuint texture) const;
+  void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
+            const Viewport& viewport) const;
+  void draw_blur(const FrameConstants& constants, const Viewport& surface, GLuint texture, bool vertical,
+                 const RenderTexture& into) const;
+  void draw_resolve(const nook_nnao_frame_desc& frame, const FrameConstants& constants,
+                    const RenderTexture& ao);
+  void end_stage() {
+    if (timer_) timer_->end_stage();
+  }
+
+  Device& device_;
+  nook_nnao_desc desc_;  // network and next are gone
+  Stage normals_, occlusion_, blur_, resolve_;
+  RenderTexture surface_;  // normals, and at half resolution depth
+  RenderTexture ao_[2];    // of the surface; at full resolution the second is not used, own_ takes its part
+  RenderTexture own_;
+  Object sampler_, vertex_array_, target_framebuffer_;
+  Buffer filters_;  // of the paper's form
+  Object filter_texture_;
+  std::optional<StageTimer> timer_;
+  std::optional<HostImages> checked_;
+};
+
+}  // namespace nook::gl

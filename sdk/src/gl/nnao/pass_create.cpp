@@ -1,0 +1,127 @@
+#include <cstdio>
+
+#include "core/failure.h"
+#include "gl/nnao/network_constants.h"
+#include "gl/nnao/pass.h"
+#include "gl/program.h"
+#include "gl/state_guard.h"
+#include "nnao/taps.h"
+
+namespace nook::gl {
+namespace {
+
+struct TexturePlan {
+  TextureFormat format;
+  int width, height;
+  const char* label;
+};
+
+// surface, AO, AO at half resolution, own.
+struct PassPlan {
+  TexturePlan textures[4];
+};
+
+PassPlan plan_of(const nook_nnao_desc& desc) {
+  const bool half = desc.half_resolution != 0;
+  const int width = surface_length(desc.max_width, half), height = surface_length(desc.max_height, half);
+  return {{{half ? TextureFormat::surface : TextureFormat::normal, width, height, "nook: surface"},
+           {TextureFormat::ao, width, height, "nook: AO of the surface"},
+           {TextureFormat::ao, half ? width : 0, half ? height : 0, "nook: blurred AO of the surface"},
+           {TextureFormat::ao, desc.max_width, desc.max_height, "nook: screen-space AO"}}};
+}
+
+}  // namespace
+
+std::uint64_t texture_bytes(const nook_nnao_desc& desc) {
+  std::uint64_t bytes = 0;
+  for (const TexturePlan& texture : plan_of(desc).textures)
+    bytes += std::uint64_t(texture.width) * std::uint64_t(texture.height) * bytes_per_texel(texture.format);
+  return bytes;
+}
+
+NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network)
+    : device_(device), desc_(desc) {
+  desc_.network = desc_.next = nullptr;
+  GLint largest = 0;
+  device.gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (desc.max_width > largest || desc.max_height > largest)
+    throw Failure(
+        NOOK_ERROR_UNSUPPORTED,
+        "desc.max_width x desc.max_height is larger than this OpenGL's textures (got %d x %d, need at "
+        "most %d x %d)",
+        desc.max_width, desc.max_height, largest, largest);
+  make_programs(network);
+  make_textures();
+  if (network.form == nnao::NetworkForm::paper) upload_filters(network);
+  sampler_ = Object::make(device, Object::Kind::sampler);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    device.gl.SamplerParameteri(sampler_.name(), filter, GL_NEAREST);
+  vertex_array_ = Object::make(device, Object::Kind::vertex_array);
+  target_framebuffer_ = Object::make(device, Object::Kind::framebuffer);
+  if (desc.timers) timer_.emplace(device);
+  device.check("making the screen-space pass");
+}
+
+NnaoPass::Stage NnaoPass::make_stage(const char* fragment_path, const char* defines) const {
+  const Functions& gl = device_.gl;
+  Stage stage;
+  stage.program = draw_program(device_, "nnao/screen.vert", fragment_path, defines);
+  stage.frame = uniform_location(device_, stage.program, "nook_frame");
+  stage.blur_axis = uniform_location(device_, stage.program, "nook_blur_axis");
+  stage.blur_reach = uniform_location(device_, stage.program, "nook_blur_reach");
+  gl.UseProgram(stage.program.name());
+  const struct {
+    const char* name;
+    GLint unit;
+  } samplers[] = {{"nook_depth", 0}, {"nook_surface", 1}, {"nook_host_normal", 1},
+                  {"nook_ao", 2},    {"nook_filters", 2}, {"nook_layer", 3}};
+  // Where a stage has no such sampler the location is -1, which OpenGL ignores.
+  for (const auto& sampler : samplers)
+    gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
+  return stage;
+}
+
+void NnaoPass::make_programs(const nnao::Network& network) {
+  const bool horizon = network.form == nnao::NetworkForm::horizon;
+  const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
+  char defines[100];
+  std::snprintf(defines, sizeof defines,
+                "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_STEPS %u\n", half(), horizon,
+                grid.steps);
+  normals_ = make_stage("nnao/normals.frag", defines);
+  occlusion_ = make_stage("nnao/occlusion.frag", defines);
+  blur_ = make_stage("nnao/blur.frag", defines);
+  resolve_ = make_stage("nnao/resolve.frag", defines);
+  // Both forms take their taps in as many groups of as many.
+  device_.gl.UseProgram(occlusion_.program.name());
+  device_.gl.Uniform1i(uniform_location(device_, occlusion_.program, "nook_tap_groups"),
+                       static_cast<GLint>(grid.directions));
+  const std::pmr::vector<float> constants = network_constants(network, device_.memory);
+  device_.gl.Uniform4fv(uniform_location(device_, occlusion_.program, "nook_network"),
+                        static_cast<GLsizei>(constants.size() / 4), constants.data());
+}
+
+void NnaoPass::make_textures() {
+  const PassPlan plan = plan_of(desc_);
+  RenderTexture* const textures[] = {&surface_, &ao_[0], &ao_[1], &own_};
+  for (std::size_t i = 0; i < std::size(textures); ++i) {
+    const TexturePlan& texture = plan.textures[i];
+    if (texture.width > 0)
+      *textures[i] = RenderTexture(device_, texture.format, texture.width, texture.height, texture.label);
+  }
+  set_plain_drawing(device_.gl);
+  const GLfloat open[4] = {1, 1, 1, 1};
+  device_.gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, own_.framebuffer());
+  device_.gl.ClearBufferfv(GL_COLOR, 0, open);
+}
+
+void NnaoPass::upload_filters(const nnao::Network& network) {
+  const auto& filters = network.paper.filters;
+  filters_ = Buffer(device_, "nook: filters", filters.size() * sizeof(float), filters.data(), GL_STATIC_DRAW);
+  filter_texture_ = Object::make(device_, Object::Kind::texture);
+  device_.gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
+  device_.gl.BindTexture(GL_TEXTURE_BUFFER, filter_texture_.name());
+  device_.gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, filters_.name());
+}
+
+}  // namespace nook::gl

@@ -1,0 +1,58 @@
+#include "gl/nnao/render_texture.h"
+
+#include "core/failure.h"
+
+namespace nook::gl {
+namespace {
+
+struct Layout {
+  GLint internal_format;
+  GLenum format, type;
+  std::uint64_t bytes;
+};
+
+constexpr Layout layout_of(TextureFormat format) {
+  switch (format) {
+    case TextureFormat::normal:
+      return {GL_RG16, GL_RG, GL_UNSIGNED_SHORT, 4};
+    case TextureFormat::surface:
+      return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
+    default:
+      return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
+  }
+}
+
+}  // namespace
+
+std::uint64_t bytes_per_texel(TextureFormat format) {
+  return layout_of(format).bytes;
+}
+
+RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, int height, const char* label)
+    : texture_(Object::make(device, Object::Kind::texture)),
+      framebuffer_(Object::make(device, Object::Kind::framebuffer)) {
+  const Functions& gl = device.gl;
+  const Layout layout = layout_of(format);
+  const GLint filter = format == TextureFormat::ao ? GL_LINEAR : GL_NEAREST;
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, texture_.name());
+  // Otherwise the null pointer would be an offset into the host's buffer.
+  gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, layout.internal_format, width, height, 0, layout.format, layout.type,
+                nullptr);
+  device.check("allocating a texture");
+  device.label(GL_TEXTURE, texture_.name(), label);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
+  gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.name(), 0);
+  const GLenum status = gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw Failure(NOOK_ERROR_GL, "a framebuffer with the texture of \"%s\" is not complete (status 0x%04x)",
+                  label, status);
+}
+
+}  // namespace nook::gl

@@ -1,0 +1,29 @@
+// Textures that the screen-space pass draws into.
+#pragma once
+
+#include "gl/object.h"
+
+namespace nook::gl {
+
+enum class TextureFormat {
+  ao,      // GL_R8
+  normal,  // GL_RG16
+  surface  // GL_RG32UI
+};
+std::uint64_t bytes_per_texel(TextureFormat format);
+
+// A texture without mipmaps and a framebuffer that draws into it.
+class RenderTexture {
+ public:
+  RenderTexture() = default;
+  // Binds unit 0, the draw framebuffer and the pixel unpack buffer. Contents are undefined. Throws Failure.
+  RenderTexture(Device& device, TextureFormat format, int width, int height, const char* label);
+
+  GLuint texture() const { return texture_.name(); }
+  GLuint framebuffer() const { return framebuffer_.name(); }
+
+ private:
+  Object texture_, framebuffer_;
+};
+
+}  // namespace nook::gl

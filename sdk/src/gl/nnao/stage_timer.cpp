@@ -1,0 +1,51 @@
+#include "gl/nnao/stage_timer.h"
+
+#include <algorithm>
+
+namespace nook::gl {
+
+StageTimer::StageTimer(Device& device) : device_(device) {
+  for (auto& frame : marks_)
+    for (Object& mark : frame) mark = Object::make(device, Object::Kind::query);
+}
+
+void StageTimer::mark(int stage) {
+  // Time stamps rather than spans: the host may be timing something of its own.
+  device_.gl.QueryCounter(marks_[frames_ % kept_frames][std::size_t(stage)].name(), GL_TIMESTAMP);
+}
+
+void StageTimer::begin_frame() {
+  ++frames_;
+  stage_ = 0;
+  mark(0);
+}
+
+void StageTimer::end_stage() {
+  mark(++stage_);
+}
+
+std::optional<StageTimer::Milliseconds> StageTimer::newest() const {
+  const Functions& gl = device_.gl;
+  // Otherwise the answers would go into the host's buffer.
+  if (gl.version >= 44) gl.BindBuffer(GL_QUERY_BUFFER, 0);
+  const std::uint64_t oldest = frames_ > kept_frames ? frames_ - kept_frames : 0;
+  for (std::uint64_t frame = frames_; frame > oldest; --frame) {
+    const auto& marks = marks_[frame % kept_frames];
+    GLint finished = 0;
+    gl.GetQueryObjectiv(marks.back().name(), GL_QUERY_RESULT_AVAILABLE, &finished);
+    if (!finished) continue;
+    Milliseconds stages{};
+    GLuint64 before = 0;
+    gl.GetQueryObjectui64v(marks[0].name(), GL_QUERY_RESULT, &before);
+    for (std::size_t i = 0; i < stage_count; ++i) {
+      GLuint64 after = 0;
+      gl.GetQueryObjectui64v(marks[i + 1].name(), GL_QUERY_RESULT, &after);
+      stages[i] = after > before ? float(double(after - before) * 1e-6) : 0;
+      before = std::max(before, after);
+    }
+    return stages;
+  }
+  return std::nullopt;
+}
+
+}  // namespace nook::gl

@@ -1,0 +1,35 @@
+// GPU time of the stages of a frame, read back frames later and never waited for.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "gl/object.h"
+
+namespace nook::gl {
+
+class StageTimer {
+ public:
+  static constexpr int stage_count = 4;
+  using Milliseconds = std::array<float, stage_count>;
+
+  explicit StageTimer(Device& device);
+
+  // A frame begins, goes on through its stages and ends with the last of them.
+  void begin_frame();
+  void end_stage();
+  // Of the newest frame that is finished; nothing before the first. Binds the query
+  // buffer.
+  std::optional<Milliseconds> newest() const;
+
+ private:
+  static constexpr int kept_frames = 4;
+  void mark(int stage);
+
+  Device& device_;
+  std::array<std::array<Object, stage_count + 1>, kept_frames> marks_;
+  std::uint64_t frames_ = 0;  // begun
+  int stage_ = 0;
+};
+
+}  // namespace nook::gl

@@ -1,0 +1,194 @@
+#include "nnao/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "core/failure.h"
+
+namespace nook::nnao {
+namespace {
+
+float prelu(float x, float negative_slope, float positive_slope) {
+  return x > 0 ? positive_slope * x : negative_slope * x;
+}
+
+template <int inputs, int units>
+std::array<float, units> through(const Dense<inputs, units>& layer,
+                                 std::type_identity_t<const std::array<float, inputs>&> input) {
+  std::array<float, units> out = layer.bias;
+  for (int i = 0; i < inputs; ++i)
+    for (int u = 0; u < units; ++u) out[u] += layer.weights[i * units + u] * input[i];
+  for (int u = 0; u < units; ++u) out[u] = prelu(out[u], layer.negative_slope[u], layer.positive_slope[u]);
+  return out;
+}
+
+// What both forms need to know of the pixel itself.
+struct Centre {
+  Vec3 position, normal, viewer;
+  PixelScale scale;
+  PixelRadius radius;
+};
+
+Centre centre_of(const View& view, Vec3 normal, const Sampling& sampling, std::uint32_t x, std::uint32_t y) {
+  Centre centre;
+  const float depth = view.depth[view.at(x, y)];
+  centre.position = view_position(view.rays, float(x) + 0.5f, float(y) + 0.5f, depth);
+  centre.normal = normal;
+  centre.viewer = to_viewer(view.rays, centre.position);
+  centre.scale = pixel_scale(view.rays, depth);
+  centre.radius = pixel_radius(sampling, centre.scale);
+  return centre;
+}
+
+Vec3 texel_position(const View& view, TappedTexel texel) {
+  return view_position(view.rays, float(texel.x) + 0.5f, float(texel.y) + 0.5f,
+                       view.depth[view.at(texel.x, texel.y)]);
+}
+
+float evaluate_paper(const PaperNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
+                     std::uint32_t x, std::uint32_t y, TapNoise noise) {
+  constexpr int units = PaperNetwork::units, inputs = PaperNetwork::tap_inputs;
+  const Centre centre = centre_of(view, normal, sampling, x, y);
+  std::array<float, units> sum{};
+  for (std::uint32_t tap = 0; tap < sampling.taps; ++tap) {
+    const std::uint32_t cell = paper_tap_cell(tap, sampling.taps, noise);
+    const TapOffset offset = paper_tap(cell, sampling.taps, noise, centre.radius.metres, centre.scale);
+    std::array<float, inputs> input;
+    if (!paper_tap_input(view, tapped_texel(view, x, y, offset), centre.position, centre.normal,
+                         centre.radius.metres, input))
+      continue;
+    const float* filter = &network.filters[std::size_t(cell) * inputs * units];
+    for (int i = 0; i < inputs; ++i)
+      for (int u = 0; u < units; ++u) sum[u] += filter[i * units + u] * input[i];
+  }
+  const float scale = float(PaperNetwork::grid_size * PaperNetwork::grid_size) / float(sampling.taps);
+  for (int u = 0; u < units; ++u)
+    sum[u] = prelu(network.bias[u] + scale * sum[u], network.negative_slope[u], network.positive_slope[u]);
+  return through(network.layer_3, through(network.layer_2, through(network.layer_1, sum)))[0];
+}
+
+float evaluate_horizon(const HorizonNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
+                       std::uint32_t x, std::uint32_t y, TapNoise noise) {
+  constexpr int units = HorizonNetwork::units;
+  const Centre centre = centre_of(view, normal, sampling, x, y);
+  const TapGrid grid = horizon_grid(sampling.taps);
+  std::array<float, units + 1> joined{};
+  for (std::uint32_t d = 0; d < grid.directions; ++d) {
+    const float angle = direction_angle(d, grid.directions, noise);
+    const float cosine = std::cos(angle), sine = std::sin(angle);
+    std::array<float, 2 * units + 2> pooled{};
+    // Where no step has a surface both stay 0.
+    float* const most = pooled.data();
+    float* const mean = pooled.data() + units;
+    for (std::uint32_t s = 0; s < grid.steps; ++s) {
+      const float distance_px = step_distance_px(s, grid.steps, noise, centre.radius.px);
+      const TappedTexel texel =
+          tapped_texel(view, x, y, horizon_tap(cosine, sine, distance_px, centre.scale));
+      HorizonTapInput input;
+      std::array<float, units> hidden{};
+      if (horizon_tap_input(view, texel, centre.position, centre.normal, centre.viewer, centre.radius.metres,
+                            input)) {
+        hidden = through(network.tap, input.value);
+        for (float& h : hidden) h *= input.weight;
+      }
+      for (int u = 0; u < units; ++u) {
+        most[u] = s == 0 ? hidden[u] : std::max(most[u], hidden[u]);
+        mean[u] += hidden[u] / float(grid.steps);
+      }
+    }
+    pooled[2 * units] = dot(centre.normal, across_viewer(centre.viewer, cosine, sine));
+    pooled[2 * units + 1] = dot(centre.normal, centre.viewer);
+    const auto out = through(network.direction, pooled);
+    for (int u = 0; u < units; ++u) joined[u] += out[u] / float(grid.directions);
+  }
+  joined[units] = dot(centre.normal, centre.viewer);
+  return through(network.out, through(network.join, joined))[0];
+}
+
+}  // namespace
+
+ScreenRays screen_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height) {
+  ScreenRays rays;
+  // Column-major: clip.x = m[0] x + m[8] z + m[12] w; clip.w = -z or 1.
+  rays.orthographic = projection[11] == 0;
+  const float shift_x = rays.orthographic ? -projection[12] : projection[8];
+  const float shift_y = rays.orthographic ? -projection[13] : projection[9];
+  rays.x_scale = 2 / (float(width) * projection[0]);
+  rays.y_scale = 2 / (float(height) * projection[5]);
+  rays.x_offset = (shift_x - 1) / projection[0];
+  rays.y_offset = (shift_y - 1) / projection[5];
+  return rays;
+}
+
+TappedTexel tapped_texel(const View& view, std::uint32_t x, std::uint32_t y, TapOffset offset) {
+  const float column = std::floor(float(x) + 0.5f + offset.x_px),
+              row = std::floor(float(y) + 0.5f + offset.y_px);
+  if (!(column >= 0 && column < float(view.width) && row >= 0 && row < float(view.height))) return {};
+  const TappedTexel texel{true, std::uint32_t(column), std::uint32_t(row)};
+  return view.has_surface(texel.x, texel.y) ? texel : TappedTexel{};
+}
+
+bool horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal, Vec3 viewer,
+                       float radius, HorizonTapInput& input) {
+  if (!texel.surface) return false;
+  const Vec3 v = texel_position(view, texel) - position;
+  const float away = length(v), distance = away / radius;
+  // The pixel itself tells nothing.
+  if (!(distance < 2) || !(away > 0)) return false;
+  input.value = {dot(v, normal) / away, dot(v, viewer) / away, distance};
+  input.weight = std::min(2 - distance, 1.0f);
+  return true;
+}
+
+bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal, float radius,
+                     std::array<float, PaperNetwork::tap_inputs>& input) {
+  if (!texel.surface) return false;
+  const Vec3 v = texel_position(view, texel) - position;
+  const float weight = 1 - length(v) / radius;
+  if (!(weight > 0)) return false;
+  const Vec3 turn = view.normal[view.at(texel.x, texel.y)] - normal;
+  input = {turn.x * weight, turn.y * weight, turn.z * weight, v.z / radius * weight};
+  return true;
+}
+
+float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
+                         std::uint32_t x, std::uint32_t y, TapNoise noise) {
+  return network.form == NetworkForm::paper
+             ? evaluate_paper(network.paper, view, normal, sampling, x, y, noise)
+             : evaluate_horizon(network.horizon, view, normal, sampling, x, y, noise);
+}
+
+float evaluate_pixel(const Network& network, const View& view, const Sampling& sampling, std::uint32_t x,
+                     std::uint32_t y) {
+  if (!view.has_surface(x, y)) return 1;
+  return std::clamp(
+      evaluate_unclamped(network, view, view.normal[view.at(x, y)], sampling, x, y, tap_noise(x, y)), 0.0f,
+      1.0f);
+}
+
+void evaluate(const Network& network, const View& view, const Sampling& sampling, std::span<float> ao) {
+  const std::size_t pixels = std::size_t(view.width) * view.height;
+  if (view.depth.size() != pixels || view.normal.size() != pixels || ao.size() != pixels)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "depths, normals and AO must have one entry a pixel (got %zu, %zu and %zu, need %zu)",
+                  view.depth.size(), view.normal.size(), ao.size(), pixels);
+  if (!(sampling.radius > 0) || !std::isfinite(sampling.radius) || !(sampling.max_radius_px >= 1))
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the radius is out of range (got %g m and at most %g px, need more than 0 m and at least 1 px)",
+        double(sampling.radius), double(sampling.max_radius_px));
+  constexpr std::uint32_t cells = PaperNetwork::grid_size * PaperNetwork::grid_size;
+  if (network.form == NetworkForm::paper ? sampling.taps < 1 || sampling.taps > cells
+                                         : horizon_grid(sampling.taps).steps == 0)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the number of taps does not fit the network (got %u, need 16, 32, 64, 128 or 256, or 1 to %u "
+        "for the paper's form)",
+        sampling.taps, cells);
+  for (std::uint32_t y = 0; y < view.height; ++y)
+    for (std::uint32_t x = 0; x < view.width; ++x)
+      ao[view.at(x, y)] = evaluate_pixel(network, view, sampling, x, y);
+}
+
+}  // namespace nook::nnao

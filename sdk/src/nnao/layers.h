@@ -1,0 +1,39 @@
+// The numbers of a network's small layers in the one order that files and training share: the order of
+// network.h, in each layer weights, bias, negative slopes, positive slopes.
+#pragma once
+
+#include <span>
+
+#include "nnao/network.h"
+
+namespace nook::nnao {
+
+template <class Layer, class Visit>
+void visit_layer(Layer& layer, Visit&& visit) {
+  visit(std::span(layer.weights));
+  visit(std::span(layer.bias));
+  visit(std::span(layer.negative_slope));
+  visit(std::span(layer.positive_slope));
+}
+
+// visit(span) for every array of the network's form, the paper's filters left out.
+template <class AnyNetwork, class Visit>
+void visit_layers(AnyNetwork& network, Visit&& visit) {
+  if (network.form == NetworkForm::paper) {
+    auto& paper = network.paper;
+    visit(std::span(paper.bias));
+    visit(std::span(paper.negative_slope));
+    visit(std::span(paper.positive_slope));
+    visit_layer(paper.layer_1, visit);
+    visit_layer(paper.layer_2, visit);
+    visit_layer(paper.layer_3, visit);
+  } else {
+    auto& horizon = network.horizon;
+    visit_layer(horizon.tap, visit);
+    visit_layer(horizon.direction, visit);
+    visit_layer(horizon.join, visit);
+    visit_layer(horizon.out, visit);
+  }
+}
+
+}  // namespace nook::nnao

@@ -1,0 +1,33 @@
+// Networks as .nook files. Version 1 of the kind "NNAO" has the sections
+//   HEAD u8 form, then the form's fixed sizes (u16: paper grid_size, tap_inputs, units; horizon tap_inputs,
+//   units) FILT the paper's filters, half floats (paper form only) LAYR the layers in the order of network.h,
+//   32-bit floats: weights, bias, negative slopes, positive slopes RECP recipe
+#pragma once
+
+#include <cstddef>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "core/container.h"
+#include "nnao/network.h"
+
+namespace nook::nnao {
+
+inline constexpr ContainerKind network_kind{four_letters("NNAO"), "screen-space network", 1, 1};
+
+// No number of a network is larger than this, so that no sum of the evaluation overflows.
+inline constexpr float max_parameter = 1e4f;
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) where a number is not finite or too large.
+std::vector<std::byte> write_network(const Network& network);
+
+// Safe on hostile bytes, also with a right checksum: throws Failure(NOOK_ERROR_BAD_FILE or
+// NOOK_ERROR_FILE_VERSION), and allocates no more than the filters and the recipe.
+Network read_network(std::span<const std::byte> bytes,
+                     std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+// The file that is compiled into the library: nnao/default_horizon.nook.
+std::span<const std::byte> default_network_file();
+
+}  // namespace nook::nnao

@@ -1,0 +1,41 @@
+// Half of a separable bilateral blur: along one axis.
+uniform sampler2D nook_ao;
+uniform ivec2 nook_blur_axis;
+uniform int nook_blur_reach;  // texels; 0: none
+
+// A box of 4 between the pixels, then (1, 2, 1) / 4: any noise with a period of 4 pixels averages out exactly.
+const float nook_blur_weights[4] = float[4](1.0, 0.875, 0.5, 0.125);
+
+// How much a texel at `offset` from the pixel has to do with the pixel's surface: 0 off its plane, or round a corner. Within a
+// quarter of the radius a little is left, for pixels whose normal nobody shares.
+float nook_same_surface(ivec2 at, float depth, vec3 position, vec3 normal, float radius) {
+  vec3 offset = nook_position(nook_surface_rays, at, depth) - position;
+  float turn = max(dot(nook_surface_normal(at), normal), 0.0);
+  turn *= turn;
+  turn *= turn;
+  float off_plane = abs(dot(offset, normal)) * nook_blur_sharpness / radius;
+  float near = 0.02 * max(1.0 - 4.0 * length(offset) / radius, 0.0);
+  return max(max(1.0 - off_plane, 0.0) * turn * turn, near);
+}
+
+float nook_blurred(ivec2 texel) {
+  float centre = texelFetch(nook_ao, texel, 0).r;
+  float depth = nook_surface_depth(texel);
+  if (depth == nook_no_surface || nook_blur_reach == 0) return centre;
+  vec3 position = nook_position(nook_surface_rays, texel, depth);
+  vec3 normal = nook_surface_normal(texel);
+  float radius = nook_pixel_radius(nook_pixel_scale(depth)).x;
+  float sum = 0.0, weights = 0.0;
+  for (int i = 1; i <= nook_blur_reach; ++i)
+    for (int side = -1; side <= 1; side += 2) {
+      ivec2 at = texel + side * i * nook_blur_axis;
+      float at_depth = nook_surface_depth(at);
+      if (at_depth == nook_no_surface) continue;
+      float weight = nook_blur_weights[i] * nook_same_surface(at, at_depth, position, normal, radius);
+      sum += weight * texelFetch(nook_ao, at, 0).r;
+      weights += weight;
+    }
+  // A surface of one pixel, seen from the side or with a normal that went wrong, follows its neighbourhood.
+  float own = clamp(2.0 * weights - 0.12, 0.005, 1.0);
+  return (sum + own * centre) / (weights + own);
+}

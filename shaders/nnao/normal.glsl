@@ -1,0 +1,54 @@
+// The normal of a pixel: the host's, or rebuilt from depth.
+#include "nnao/depth.glsl"
+
+uniform sampler2D nook_host_normal;
+
+// Over a plane this is linear in pixels.
+float nook_screen_linear(float depth) {
+  return nook_orthographic ? depth : 1.0 / depth;
+}
+
+// How badly the line through the two pixels on one side misses the pixel itself; with one of them alone, how far that one
+// is off.
+float nook_side_error(float linear, float near, float far) {
+  if (near == nook_no_surface) return nook_no_surface;
+  float guess = nook_screen_linear(near);
+  if (far != nook_no_surface) guess = 2.0 * guess - nook_screen_linear(far);
+  return abs(guess - linear);
+}
+
+// The way from a pixel to its neighbour, taken on the side that continues the pixel's own surface, so that no normal leans
+// over an edge.
+vec3 nook_slope(ivec2 pixel, ivec2 axis, float depth, vec3 position) {
+  float before = nook_screen_depth(pixel - axis), after = nook_screen_depth(pixel + axis);
+  float linear = nook_screen_linear(depth);
+  float before_error = nook_side_error(linear, before, nook_screen_depth(pixel - 2 * axis));
+  float after_error = nook_side_error(linear, after, nook_screen_depth(pixel + 2 * axis));
+  // Farther off than this many pixels are wide: an edge. With edges on both sides, as on a wire, the slope cannot be known;
+  // a flat one keeps the normal from turning sideways.
+  float width = abs(dot(nook_screen_rays.xz, vec2(axis))) * (nook_orthographic ? 1.0 : linear);
+  if (min(before_error, after_error) > 8.0 * width)
+    return nook_position(nook_screen_rays, pixel + axis, depth) - position;
+  if (before_error < after_error) return position - nook_position(nook_screen_rays, pixel - axis, before);
+  return nook_position(nook_screen_rays, pixel + axis, after) - position;
+}
+
+vec3 nook_rebuilt_normal(ivec2 pixel, float depth, vec3 position) {
+  vec3 viewer = nook_to_viewer(position);
+  vec3 n = cross(nook_slope(pixel, ivec2(1, 0), depth, position), nook_slope(pixel, ivec2(0, 1), depth, position));
+  float size = length(n);
+  if (!(size > 0.0)) return viewer;
+  n /= size;
+  return dot(n, viewer) < 0.0 ? -n : n;
+}
+
+vec3 nook_pixel_normal(ivec2 pixel, float depth) {
+  if (nook_has_normals) {
+    vec3 stored = texelFetch(nook_host_normal, pixel + nook_origin, 0).xyz;
+    vec3 n = nook_normal_matrix * (stored * nook_normal_scale + nook_normal_bias);
+    float size = length(n);
+    // Nothing was drawn there, or no normal.
+    if (size > 1.0e-3 && size < 1.0e6) return n / size;
+  }
+  return nook_rebuilt_normal(pixel, depth, nook_position(nook_screen_rays, pixel, depth));
+}

@@ -1,0 +1,49 @@
+// The paper's network; network.h defines it. A tap's input is
+//   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
+uniform samplerBuffer nook_filters;  // for each cell of the grid four texels, one an input, of four units
+uniform vec4 nook_network[19];       // the other layers, in the order of network.h
+// Of NOOK_STEPS taps each. Not a constant: compilers would unroll them all, into more code than caches hold.
+uniform int nook_tap_groups;
+
+vec4 nook_prelu(vec4 x, int slopes) {
+  return max(x, 0.0) * nook_network[slopes + 1] + min(x, 0.0) * nook_network[slopes];
+}
+
+// What one tap adds to the four sums.
+vec4 nook_tap_sum(ivec2 texel, int cell, int taps, vec2 noise, vec3 position, vec3 normal, vec2 scale, float radius) {
+  ivec2 at = nook_tapped_texel(texel, nook_paper_tap(cell, taps, noise, radius, scale));
+  float depth = nook_surface_depth(at);
+  if (depth == nook_no_surface) return vec4(0.0);
+  vec3 v = nook_position(nook_surface_rays, at, depth) - position;
+  float weight = 1.0 - length(v) / radius;
+  if (!(weight > 0.0)) return vec4(0.0);
+  vec4 x = vec4(nook_surface_normal(at) - normal, v.z / radius) * weight;
+  return texelFetch(nook_filters, 4 * cell) * x.x + texelFetch(nook_filters, 4 * cell + 1) * x.y +
+         texelFetch(nook_filters, 4 * cell + 2) * x.z + texelFetch(nook_filters, 4 * cell + 3) * x.w;
+}
+
+vec4 nook_paper_sum(ivec2 texel, vec3 position, vec3 normal, vec2 scale, float radius) {
+  vec2 noise = nook_tap_noise(texel);
+  int taps = nook_tap_groups * NOOK_STEPS;
+  vec4 sum = vec4(0.0);
+  for (int group = 0; group < nook_tap_groups; ++group)
+    for (int i = 0; i < NOOK_STEPS; ++i) {
+      int cell = nook_paper_tap_cell(group * NOOK_STEPS + i, taps, noise);
+      sum += nook_tap_sum(texel, cell, taps, noise, position, normal, scale, radius);
+    }
+  return sum * (float(nook_grid_cells) / float(taps));
+}
+
+vec4 nook_paper_layer(vec4 x, int first) {
+  vec4 sum = nook_network[first + 4] + x.x * nook_network[first] + x.y * nook_network[first + 1] +
+             x.z * nook_network[first + 2] + x.w * nook_network[first + 3];
+  return nook_prelu(sum, first + 5);
+}
+
+float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 radius) {
+  vec4 x = nook_prelu(nook_paper_sum(texel, position, normal, scale, radius.x) + nook_network[0], 1);
+  x = nook_paper_layer(nook_paper_layer(x, 3), 10);
+  vec4 last = nook_network[18];  // bias, negative slope, positive slope
+  float y = dot(x, nook_network[17]) + last.x;
+  return max(y, 0.0) * last.z + min(y, 0.0) * last.y;
+}

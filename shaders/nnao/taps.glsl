@@ -1,0 +1,43 @@
+// Where the taps of a pixel lie; the same as sdk/src/nnao/taps.h.
+
+// rotation, offset: each takes 16 values over 4 x 4 pixels.
+vec2 nook_tap_noise(ivec2 texel) {
+  uvec2 at = uvec2(texel);
+  uint across = at.x ^ at.y;
+  uint rank = (across & 1u) << 3 | (at.y & 1u) << 2 | (across & 2u) | (at.y & 2u) >> 1;
+  uint reversed = (rank & 1u) << 3 | (rank & 2u) << 1 | (rank & 4u) >> 1 | (rank & 8u) >> 3;
+  return (vec2(rank, reversed) + 0.5) / 16.0;
+}
+
+// Radians in the view-space x-y plane.
+float nook_direction_angle(int direction, int directions, vec2 noise) {
+  return 6.2831853 * (float(direction) + noise.x) / float(directions);
+}
+
+// Texels along the screen's y axis.
+float nook_step_distance(int tap_step, int steps, vec2 noise, float radius_px) {
+  float share = (float(tap_step) + noise.y) / float(steps);
+  return max(float(tap_step) + 1.0, radius_px * share * sqrt(share));
+}
+
+vec2 nook_horizon_tap(vec2 direction, float distance_px, vec2 scale) {
+  return direction * scale * (distance_px / abs(scale.y));
+}
+
+const int nook_grid_size = 31;
+const int nook_grid_cells = nook_grid_size * nook_grid_size;
+
+int nook_paper_tap_cell(int tap, int taps, vec2 noise) {
+  return min(int((float(tap) + noise.x) * (float(nook_grid_cells) / float(taps))), nook_grid_cells - 1);
+}
+
+// scale: texels per metre.
+vec2 nook_paper_tap(int cell, int taps, vec2 noise, float radius, vec2 scale) {
+  vec2 place = vec2(cell % nook_grid_size, cell / nook_grid_size) + 0.5;
+  if (taps < nook_grid_cells) place += vec2(noise.y, fract(4.0 * noise.x)) - 0.5;
+  return radius * (2.0 * place / float(nook_grid_size) - 1.0) * scale;
+}
+
+ivec2 nook_tapped_texel(ivec2 texel, vec2 offset) {
+  return ivec2(floor(vec2(texel) + 0.5 + offset));
+}

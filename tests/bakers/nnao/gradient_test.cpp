@@ -1,0 +1,168 @@
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "catch.h"
+#include "nnao/evaluate.h"
+#include "nnao/forms.h"
+#include "nnao/horizon_gradient.h"
+#include "small_dataset.h"
+
+using namespace nook;
+using namespace nook::bake::nnao;
+
+namespace {
+
+// Relative error of a gradient against central differences, in the square mean over the chosen parameters. A
+// step of 1e-3 leaves about 1e-3 of rounding in float, and a kink of a PReLU within the step about as much.
+template <class Loss>
+double gradient_error(std::vector<float> parameters, const std::vector<float>& gradient,
+                      const std::vector<std::size_t>& chosen, const Loss& loss) {
+  constexpr float step = 1e-3f;
+  double error = 0, size = 0;
+  for (const std::size_t i : chosen) {
+    const float kept = parameters[i];
+    parameters[i] = kept + step;
+    const double above = loss(parameters);
+    parameters[i] = kept - step;
+    const double below = loss(parameters);
+    parameters[i] = kept;
+    const double difference = (above - below) / (2 * double(step));
+    error += (difference - double(gradient[i])) * (difference - double(gradient[i]));
+    size += difference * difference;
+  }
+  return std::sqrt(error / size);
+}
+
+std::vector<std::uint32_t> first_points(std::size_t count) {
+  std::vector<std::uint32_t> points(count);
+  std::iota(points.begin(), points.end(), 100u);
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("sixteen lanes say what the reference says") {
+  const Dataset data = test::small_dataset();
+  TrainingState state = start_training(data, {});
+  Network network;
+  network.form = NetworkForm::horizon;
+  export_horizon(state.parameter, network.horizon);
+  for (const TapGrid grid : {TapGrid{4, 4}, TapGrid{8, 8}}) {
+    HorizonBatch batch(grid);
+    HorizonTrace trace(grid);
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const DataPoint& point = data.training[std::size_t(lane) * 37];
+      batch.set(lane, data.views[point.view].view(), point,
+                nook::nnao::tap_noise_of_rank(std::uint32_t(lane)));
+    }
+    Lanes output;
+    horizon_forward(state.parameter.data(), batch, trace, output);
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const DataPoint& point = data.training[std::size_t(lane) * 37];
+      const float reference =
+          nook::nnao::evaluate_unclamped(network, data.views[point.view].view(), point.normal,
+                                         {point.radius, 1000, grid.directions * grid.steps}, point.x, point.y,
+                                         nook::nnao::tap_noise_of_rank(std::uint32_t(lane)));
+      // The order of a few hundred sums differs.
+      CHECK(std::abs(output[lane] - reference) < 1e-4f);
+    }
+  }
+}
+
+TEST_CASE("the gradient of the horizon form agrees with finite differences, in every parameter") {
+  const Dataset data = test::small_dataset();
+  const TrainingState state = start_training(data, {});
+  const TapGrid grid{8, 4};
+  HorizonBatch batch(grid);
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const DataPoint& point = data.training[std::size_t(lane) * 61];
+    batch.set(lane, data.views[point.view].view(), point, nook::nnao::tap_noise_of_rank(std::uint32_t(lane)));
+  }
+  Lanes weights;
+  for (int lane = 0; lane < lane_count; ++lane) weights[lane] = 0.5f + 0.1f * float(lane);
+  const auto loss = [&](const std::vector<float>& parameters) {
+    HorizonTrace trace(grid);
+    Lanes output;
+    horizon_forward(parameters.data(), batch, trace, output);
+    double sum = 0;
+    for (int lane = 0; lane < lane_count; ++lane) sum += double(weights[lane]) * double(output[lane]);
+    return sum;
+  };
+  HorizonTrace trace(grid);
+  Lanes output;
+  horizon_forward(state.parameter.data(), batch, trace, output);
+  LaneArray lanes = lane_array(state.parameter.size());
+  horizon_backward(state.parameter.data(), batch, trace, weights, lanes.data());
+  std::vector<float> gradient;
+  for (const Lanes& g : lanes) {
+    gradient.push_back(0);
+    for (int lane = 0; lane < lane_count; ++lane) gradient.back() += g[lane];
+  }
+  std::vector<std::size_t> all(gradient.size());
+  std::iota(all.begin(), all.end(), std::size_t(0));
+  CHECK(gradient_error(state.parameter, gradient, all, loss) < 0.01);
+}
+
+TEST_CASE("the gradient of the pair loss agrees with finite differences") {
+  const Dataset data = test::small_dataset();
+  TrainingSettings settings;
+  TrainingState state = start_training(data, settings);
+  // Small outputs about 0.5: where AO is clamped the gradient is not the loss's, on purpose.
+  const std::size_t out = state.parameter.size() - 11;
+  for (std::size_t i = out; i < out + 8; ++i) state.parameter[i] *= 0.1f;
+  state.parameter[out + 8] = 0.5f;
+  const std::vector<std::uint32_t> points = first_points(32);
+  std::vector<float> gradient(state.parameter.size()), unused(state.parameter.size());
+  horizon_step_gradient(data, settings, state.parameter, points, 7, gradient);
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < gradient.size(); i += 7) chosen.push_back(i);
+  const auto loss = [&](const std::vector<float>& parameters) {
+    return horizon_step_gradient(data, settings, parameters, points, 7, unused);
+  };
+  CHECK(gradient_error(state.parameter, gradient, chosen, loss) < 0.02);
+}
+
+TEST_CASE("the gradient of the paper's cost agrees with finite differences") {
+  const Dataset data = test::small_dataset();
+  TrainingSettings settings;
+  settings.form = NetworkForm::paper;
+  const TrainingState state = start_training(data, settings);
+  const PaperNormalisation normalisation = paper_normalisation(data);
+  const std::vector<std::uint32_t> points = first_points(16);
+  std::vector<float> gradient(state.parameter.size()), unused(state.parameter.size());
+  // With dropout: the seed fixes what is dropped.
+  paper_step_gradient(data, normalisation, settings, state.parameter, points, 3, gradient);
+  const auto loss = [&](const std::vector<float>& parameters) {
+    return paper_step_gradient(data, normalisation, settings, parameters, points, 3, unused);
+  };
+  std::vector<std::size_t> small_layers, some_filters;
+  for (std::size_t i = 31 * 31 * 4 * 4; i < gradient.size(); ++i) small_layers.push_back(i);
+  for (std::size_t i = 1500; i < 31 * 31 * 4 * 4; i += 211) some_filters.push_back(i);
+  CHECK(gradient_error(state.parameter, gradient, small_layers, loss) < 0.02);
+  CHECK(gradient_error(state.parameter, gradient, some_filters, loss) < 0.02);
+}
+
+TEST_CASE("folding the normalisation into the filters changes no output") {
+  const Dataset data = test::small_dataset();
+  TrainingSettings settings;
+  settings.form = NetworkForm::paper;
+  settings.dropout = 0;
+  settings.gamma = 0;
+  const TrainingState state = start_training(data, settings);
+  const PaperNormalisation normalisation = paper_normalisation(data);
+  Network network;
+  network.form = NetworkForm::paper;
+  export_paper(state.parameter, normalisation, network.paper);
+  std::vector<float> unused(state.parameter.size());
+  for (std::uint32_t p = 5; p < 400; p += 40) {
+    const DataPoint& point = data.training[p];
+    const std::array<std::uint32_t, 1> one{p};
+    const double loss = paper_step_gradient(data, normalisation, settings, state.parameter, one, 1, unused);
+    const double folded =
+        double(nook::nnao::evaluate_unclamped(network, data.views[point.view].view(), point.normal,
+                                              {point.radius, 1000, 961}, point.x, point.y, {}));
+    // Sums of 3,844 floats, in another order.
+    CHECK(std::abs(std::sqrt(loss) - std::abs(folded - double(point.ao))) < 1e-3);
+  }
+}

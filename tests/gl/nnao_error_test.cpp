@@ -1,0 +1,239 @@
+// Bad input: a message that names the field, what came and what is needed; no OpenGL error, nothing drawn.
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "nnao/network_file.h"
+#include "nnao_images.h"
+#include "test_context.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+constexpr int width = 20, height = 12;
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(),
+                infinity = std::numeric_limits<float>::infinity();
+
+bool message_has(const std::string& part) {
+  INFO(nook_last_message());
+  return std::strstr(nook_last_message(), part.c_str()) != nullptr;
+}
+
+struct Case {
+  std::function<void(nook_nnao_frame_desc&)> spoil;
+  const char* message;
+};
+
+}  // namespace
+
+TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
+  NOOK_NEED_CONTEXT(context);
+  NnaoFixture fixture(context);
+  const GladGLContext& gl = context.gl();
+  const Camera camera = plain_camera(float(width) / height);
+  const Picture picture = look(camera, still_life(), width, height);
+  Textures& textures = fixture.textures;
+  const std::vector<float> ones(width * height * 4, 1.0f);
+  const GLuint depth = fixture.depth_of(camera, picture), normal = fixture.normals_of(picture);
+  const GLuint small = textures.floats(GL_R32F, 1, 8, 8, ones);
+  const GLuint byte = textures.floats(GL_R8, 1, width, height, ones);
+  const GLuint half_float = textures.floats(GL_R16F, 1, width, height, ones);
+  const GLuint colour = textures.floats(GL_RGBA8, 4, width, height, ones);
+  const GLuint integer = textures.make(GL_RGBA8UI, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE, width, height, nullptr);
+  const GLuint later = textures.floats(GL_R32F, 1, width, height, ones);
+  gl.BindTexture(GL_TEXTURE_2D, later);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 1);
+  GLuint layered = 0, framebuffers[3] = {};
+  gl.GenTextures(1, &layered);
+  gl.BindTexture(GL_TEXTURE_2D_ARRAY, layered);
+  gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32F, width, height, 2, 0, GL_RED, GL_FLOAT, nullptr);
+  gl.BindTexture(GL_TEXTURE_2D_ARRAY, 0);
+  gl.GenFramebuffers(3, framebuffers);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffers[0]);  // complete, with the depth that is read
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour, 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffers[1]);  // not complete
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffers[2]);  // complete, but draws nothing
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour, 0);
+  gl.DrawBuffer(GL_NONE);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  nook_nnao pass = create_pass(fixture.gl, pass_desc(width, height));
+  const GLuint own = info_of(pass).texture;
+
+  using Frame = nook_nnao_frame_desc;
+  const auto to = [](Frame& f, nook_nnao_target target, GLuint name) {
+    f.target = target;
+    f.target_name = name;
+  };
+  const Case cases[] = {
+      {[&](Frame& f) { f.width = width + 1; },
+       "frame.width and frame.height are out of range (got 21 x 12, need 1 x 1 to"},
+      {[&](Frame& f) { f.height = 0; }, "(got 20 x 0"},
+      {[&](Frame& f) { f.width = 16; },
+       "frame.depth_texture has another size (got 20 x 12, need frame.width x frame.height, 16 x 12)"},
+      {[&](Frame& f) { f.viewport[2] = 21, f.viewport[3] = 12; },
+       "frame.viewport does not lie in the frame (got x 0, y 0, 21 x 12"},
+      {[&](Frame& f) { f.viewport[0] = -1, f.viewport[2] = f.viewport[3] = 4; }, "frame.viewport"},
+      {[&](Frame& f) { f.viewport[0] = 3; }, "frame.viewport"},
+      {[&](Frame& f) { f.viewport[0] = 2147483647, f.viewport[2] = f.viewport[3] = 2147483647; },
+       "frame.viewport"},
+      {[&](Frame& f) { f.depth_texture = 0; }, "frame.depth_texture is 0"},
+      {[&](Frame& f) { f.depth_texture = 54321; },
+       "frame.depth_texture is no texture of this OpenGL context (got 54321"},
+      {[&](Frame& f) { f.depth_texture = layered; }, "frame.depth_texture is a texture of another kind"},
+      {[&](Frame& f) { f.depth_texture = later; }, "frame.depth_texture begins at another level"},
+      {[&](Frame& f) { f.depth_texture = small; }, "frame.depth_texture has another size (got 8 x 8"},
+      {[&](Frame& f) { f.depth_texture = byte; },
+       "frame.depth_texture has a format that does not fit (got 0x8229, need a depth format or GL_R32F"},
+      {[&](Frame& f) { f.depth_texture = half_float; }, "frame.depth_texture has a format that does not fit"},
+      {[&](Frame& f) { f.depth_kind = NOOK_NNAO_DEPTH_LINEAR; }, "need red in floats, such as GL_R32F"},
+      {[&](Frame& f) { f.depth_kind = 2; }, "frame.depth_kind is unknown (got 2"},
+      {[&](Frame& f) { f.clip = -1; }, "frame.clip is unknown"},
+      {[&](Frame& f) { f.normal_texture = integer; }, "frame.normal_texture has a format that does not fit"},
+      {[&](Frame& f) { f.normal_texture = byte; }, "frame.normal_texture has a format that does not fit"},
+      {[&](Frame& f) { f.normal_scale = 0; }, "frame.normal_scale is out of range (got 0"},
+      {[&](Frame& f) { f.normal_bias = not_a_number; }, "frame.normal_bias"},
+      {[&](Frame& f) { std::memset(f.normal_matrix, 0, sizeof f.normal_matrix); },
+       "frame.normal_matrix cannot be inverted"},
+      {[&](Frame& f) { f.projection[8] = not_a_number; }, "frame.projection[8] is not finite (got nan"},
+      {[&](Frame& f) { f.projection[0] = infinity; }, "frame.projection[0] is not finite"},
+      {[&](Frame& f) { f.projection[5] = 0; }, "singular"},
+      {[&](Frame& f) { f.projection[14] = 0; },
+       "frame.projection is singular: depth does not depend on the distance"},
+      {[&](Frame& f) { f.projection[11] = 1; }, "looks along -z"},
+      {[&](Frame& f) { std::memset(f.projection, 0, sizeof f.projection); }, "frame.projection"},
+      {[&](Frame& f) { f.projection[1] = 0.3f; }, "frame.projection[1] is 0.3, need 0"},
+      {[&](Frame& f) { f.projection[2] = 0.1f; }, "with an oblique clip plane give linear depth"},
+      {[&](Frame& f) { f.projection[12] = 2; }, "frame.projection[12] is 2, need 0"},
+      {[&](Frame& f) { f.radius = 0; }, "frame.radius is out of range (got 0, need more than 0 metres)"},
+      {[&](Frame& f) { f.radius = -1; }, "frame.radius is out of range (got -1"},
+      {[&](Frame& f) { f.radius = not_a_number; }, "frame.radius"},
+      {[&](Frame& f) { f.max_radius_px = 0.5f; }, "frame.max_radius_px"},
+      {[&](Frame& f) { f.intensity = 17; }, "frame.intensity"},
+      {[&](Frame& f) { f.power = 0; }, "frame.power"},
+      {[&](Frame& f) { f.sky_depth = -2; }, "frame.sky_depth"},
+      {[&](Frame& f) { f.layer = 4; }, "frame.layer is unknown"},
+      {[&](Frame& f) { f.layer = NOOK_NNAO_LAYER_MIN; }, "frame.layer_texture is 0"},
+      {[&](Frame& f) { f.layer = NOOK_NNAO_LAYER_MIN, f.layer_texture = integer; },
+       "frame.layer_texture has a format"},
+      {[&](Frame& f) { f.layer = NOOK_NNAO_LAYER_REPLACE, f.layer_texture = byte; },
+       "need red and green for NOOK_NNAO_LAYER_REPLACE"},
+      {[&](Frame& f) { f.layer = NOOK_NNAO_LAYER_MIN, f.layer_texture = own; },
+       "frame.layer_texture is the pass's own texture as well"},
+      {[&](Frame& f) { f.blend = NOOK_NNAO_MULTIPLY; }, "frame.blend 1 needs a target of the host"},
+      {[&](Frame& f) { f.view = NOOK_NNAO_VIEW_NORMALS; }, "frame.view 3 needs a target of the host"},
+      {[&](Frame& f) { f.view = 9; }, "frame.view is unknown"},
+      {[&](Frame& f) { to(f, 3, colour); }, "frame.target is unknown"},
+      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, 0); }, "frame.target_name is 0"},
+      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, own); }, "use NOOK_NNAO_TARGET_OWN"},
+      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, depth); },
+       "frame.depth_texture is frame.target_name as well"},
+      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, normal); },
+       "frame.normal_texture is frame.target_name as well"},
+      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, small); }, "frame.target_name has another size"},
+      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, integer); },
+       "frame.target_name has a format that does not fit"},
+      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_FRAMEBUFFER, 777); },
+       "frame.target_name is no framebuffer of this OpenGL context (got 777"},
+      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_FRAMEBUFFER, framebuffers[0]); },
+       "frame.depth_texture is attached to frame.target_name as well"},
+      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_FRAMEBUFFER, framebuffers[1]); },
+       "frame.target_name cannot be drawn into"},
+      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_FRAMEBUFFER, framebuffers[2]); },
+       "frame.target_name draws into nothing"},
+      {[&](Frame& f) { f.struct_size = 20; }, "desc.struct_size is too small"},
+      {[&](Frame& f) { f.next = &f; }, "desc.next is not NULL"},
+  };
+  for (const Case& bad : cases) {
+    nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.5f);
+    bad.spoil(frame);
+    INFO(bad.message);
+    CHECK(nook_nnao_render(pass, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("nook_nnao_render: "));
+    CHECK(message_has(bad.message));
+    REQUIRE(gl.GetError() == GL_NO_ERROR);
+    // What the driver says about the refused bind is not the host's to see as an error, only a debug message.
+    take_debug_messages();
+  }
+  // Nothing was drawn so far: AO is 1 everywhere, colours are as they were.
+  for (const float value : own_ao(gl, pass, width, height)) REQUIRE(value == 1);
+  CHECK((read_texture(gl, colour, width, height, 4) == ones));
+  // A good frame still works.
+  const nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.5f);
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  nook_nnao_destroy(&pass);
+  gl.DeleteTextures(1, &layered);
+  gl.DeleteFramebuffers(3, framebuffers);
+}
+
+TEST_CASE("nnao: a bad description of a pass is refused with its field") {
+  NOOK_NEED_CONTEXT(context);
+  NnaoFixture fixture(context);
+  const std::vector<std::byte> network = nnao::write_network(mild_network(nnao::NetworkForm::paper));
+  using Desc = nook_nnao_desc;
+  const struct {
+    std::function<void(Desc&)> spoil;
+    const char* message;
+    nook_result result = NOOK_ERROR_INVALID_ARGUMENT;
+  } cases[] = {
+      {[](Desc& d) { d.max_width = 0; }, "desc.max_width and desc.max_height are out of range (got 0 x 12"},
+      {[](Desc& d) { d.max_height = 20000; }, "desc.max_width and desc.max_height are out of range"},
+      {[](Desc& d) { d.taps = 48; }, "desc.taps is unknown (got 48, need 16, 32, 64, 128 or 256)"},
+      {[](Desc& d) { d.taps = -16; }, "desc.taps is unknown"},
+      {[](Desc& d) { d.half_resolution = 2; }, "desc.half_resolution is neither on nor off (got 2"},
+      {[](Desc& d) { d.blur = -1; }, "desc.blur"},
+      {[](Desc& d) { d.timers = 5; }, "desc.timers"},
+      {[](Desc& d) { d.reserved = 1; }, "desc.reserved"},
+      {[](Desc& d) { d.blur_sharpness = 0; }, "desc.blur_sharpness is out of range (got 0"},
+      {[](Desc& d) { d.blur_sharpness = not_a_number; }, "desc.blur_sharpness"},
+      {[](Desc& d) { d.network_size = 10; }, "desc.network is NULL with desc.network_size 10"},
+      {[&](Desc& d) { d.network = network.data(), d.network_size = network.size() - 1; },
+       "nook_nnao_create: ", NOOK_ERROR_BAD_FILE},
+      {[&](Desc& d) { d.network = network.data(), d.network_size = 3; },
+       "nook_nnao_create: ", NOOK_ERROR_BAD_FILE},
+  };
+  for (const auto& bad : cases) {
+    nook_nnao_desc desc = pass_desc(width, height);
+    bad.spoil(desc);
+    nook_nnao pass = reinterpret_cast<nook_nnao>(&desc);
+    INFO(bad.message);
+    CHECK(nook_nnao_create(fixture.gl, &desc, &pass) == bad.result);
+    CHECK(pass == nullptr);
+    CHECK(message_has(bad.message));
+    std::uint64_t bytes = 7;
+    if (bad.result == NOOK_ERROR_INVALID_ARGUMENT) {
+      CHECK(nook_nnao_memory(&desc, &bytes) == NOOK_ERROR_INVALID_ARGUMENT);
+      CHECK(bytes == 7);
+    }
+  }
+  nook_nnao_desc desc = pass_desc(width, height);
+  nook_nnao pass = nullptr;
+  CHECK(nook_nnao_create(nullptr, &desc, &pass) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_create(fixture.gl, nullptr, &pass) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_create(fixture.gl, &desc, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_render(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_recheck(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_get_info(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_get_timings(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_nnao_destroy(nullptr);
+}
+
+TEST_CASE("nnao: a texture made anew under its name is seen after a recheck") {
+  NOOK_NEED_CONTEXT(context);
+  NnaoFixture fixture(context);
+  const Camera camera = plain_camera(float(width) / height);
+  const GLuint depth = fixture.depth_of(camera, look(camera, still_life(), width, height));
+  nook_nnao pass = create_pass(fixture.gl, pass_desc(width, height));
+  const nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, 0, 0.5f);
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  const GladGLContext& gl = context.gl();
+  gl.BindTexture(GL_TEXTURE_2D, depth);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, 4, 4, 0, GL_RED, GL_UNSIGNED_BYTE, nullptr);
+  gl.BindTexture(GL_TEXTURE_2D, 0);
+  NOOK_OK_OR_FAIL(nook_nnao_recheck(pass));
+  CHECK(nook_nnao_render(pass, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("frame.depth_texture has another size (got 4 x 4"));
+  nook_nnao_destroy(&pass);
+}

@@ -1,0 +1,221 @@
+// The promise of nook_gl_state_mode for the screen-space pass, and what a frame may not do.
+#include <functional>
+
+#include "gl/touched_state.h"
+#include "nnao_images.h"
+#include "poison.h"
+#include "test_context.h"
+#include "traced_loader.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+constexpr int width = 33, height = 21;
+
+// Everything the pass can be asked for, over images that are made once.
+struct Stage {
+  Stage(platform::Context& made_in, nook_gl_state_mode mode) : fixture(made_in, mode) {
+    const Picture picture = look(camera, still_life(), width, height);
+    depth = fixture.depth_of(camera, picture);
+    normal = fixture.normals_of(picture);
+    colour =
+        fixture.textures.floats(GL_RGBA16F, 4, width, height, std::vector<float>(width * height * 4, 1.0f));
+    layer = fixture.textures.floats(GL_R8, 1, width, height, std::vector<float>(width * height, 1.0f));
+    const GladGLContext& gl = fixture.context.gl();
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour, 0);
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  }
+  ~Stage() { fixture.context.gl().DeleteFramebuffers(1, &framebuffer); }
+
+  nook_nnao_frame_desc frame() const { return frame_desc(camera, width, height, depth, normal, 0.5f); }
+  nook_nnao_frame_desc multiplied(nook_nnao_target target, GLuint name) const {
+    nook_nnao_frame_desc f = frame();
+    f.layer = NOOK_NNAO_LAYER_MIN;
+    f.layer_texture = layer;
+    f.target = target;
+    f.target_name = name;
+    f.blend = NOOK_NNAO_MULTIPLY;
+    return f;
+  }
+
+  Camera camera = plain_camera(float(width) / height);
+  NnaoFixture fixture;
+  GLuint depth = 0, normal = 0, colour = 0, layer = 0, framebuffer = 0;
+};
+
+using Check = std::function<void(const char*, Poison&, const std::function<void()>&)>;
+
+void walk(platform::Context& context, nook_gl_state_mode mode, const Check& check) {
+  for (const nnao::NetworkForm form : {nnao::NetworkForm::horizon, nnao::NetworkForm::paper})
+    for (const int half : {0, 1}) {
+      // The state is the same for both forms but for the filters' texture.
+      if (mode != NOOK_GL_STATE_PRESERVE && half == int(form == nnao::NetworkForm::paper)) continue;
+      Stage stage(context, mode);
+      const nnao::Network network = mild_network(form);
+      nook_nnao_desc desc = pass_desc(width, height);
+      desc.taps = 16;
+      desc.half_resolution = half;
+      desc.timers = 1;
+      nook_nnao calm = create_pass(stage.fixture.gl, desc, network);
+      const nook_nnao_frame_desc frame = stage.frame();
+      NOOK_OK_OR_FAIL(nook_nnao_render(calm, &frame));
+      const std::vector<float> wanted = own_ao(context.gl(), calm, width, height);
+      nook_nnao_destroy(&calm);
+
+      nook_nnao pass = nullptr;
+      nook_nnao_timings timings{};
+      timings.struct_size = sizeof timings;
+      const auto render = [&](const nook_nnao_frame_desc& of) {
+        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &of));
+      };
+      const std::pair<const char*, std::function<void()>> steps[] = {
+          {"create", [&] { pass = create_pass(stage.fixture.gl, desc, network); }},
+          {"framebuffer", [&] { render(stage.multiplied(NOOK_NNAO_TARGET_FRAMEBUFFER, stage.framebuffer)); }},
+          {"texture", [&] { render(stage.multiplied(NOOK_NNAO_TARGET_TEXTURE, stage.colour)); }},
+          {"first frame", [&] { render(frame); }},
+          {"later frame", [&] { render(frame); }},
+          {"refused frame",
+           [&] {
+             nook_nnao_frame_desc bad = frame;
+             bad.depth_texture = stage.layer;
+             CHECK(nook_nnao_render(pass, &bad) == NOOK_ERROR_INVALID_ARGUMENT);
+           }},
+      };
+      for (const auto& [name, call] : steps) {
+        Poison poison(context, gl::screen);
+        INFO("form " << int(form) << ", half " << half);
+        check(name, poison, call);
+        CHECK(context.gl().GetError() == GL_NO_ERROR);
+      }
+      CHECK((own_ao(context.gl(), pass, width, height) == wanted));
+      {
+        Poison poison(context, gl::screen_timers);
+        check("timings", poison, [&] { NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings)); });
+      }
+      {
+        Poison poison(context, gl::screen);
+        check("destroy", poison, [&] { nook_nnao_destroy(&pass); });
+      }
+      CHECK(context.gl().GetError() == GL_NO_ERROR);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("nnao: PRESERVE puts all state back") {
+  NOOK_NEED_CONTEXT(context);
+  walk(context, NOOK_GL_STATE_PRESERVE,
+       [&](const char* step, Poison& poison, const std::function<void()>& call) {
+         INFO(step);
+         const StateValues touched = poison.touched(), untouched = poison.untouched();
+         call();
+         CHECK(poison.touched() == touched);
+         CHECK(poison.untouched() == untouched);
+       });
+}
+
+TEST_CASE("nnao: DEFAULTS leaves the defaults, and the viewport of the frame") {
+  NOOK_NEED_CONTEXT(context);
+  walk(context, NOOK_GL_STATE_DEFAULTS,
+       [&](const char* step, Poison& poison, const std::function<void()>& call) {
+         INFO(step);
+         poison.reset_touched();
+         const StateValues untouched = poison.untouched();
+         call();
+         StateValues touched = poison.touched();
+         if (std::string(step) == "later frame")
+           CHECK(touched["viewport"] == std::vector<std::int64_t>{0, 0, width, height});
+         touched.erase("viewport");
+         CHECK(touched == poison.defaults());
+         CHECK(poison.untouched() == untouched);
+       });
+}
+
+TEST_CASE("nnao: HOST touches only what the list names, and works whatever it finds") {
+  NOOK_NEED_CONTEXT(context);
+  walk(context, NOOK_GL_STATE_HOST, [&](const char* step, Poison& poison, const std::function<void()>& call) {
+    INFO(step);
+    const StateValues untouched = poison.untouched();
+    call();
+    CHECK(poison.untouched() == untouched);
+  });
+}
+
+TEST_CASE("nnao: no parameter of the host's textures and samplers changes") {
+  NOOK_NEED_CONTEXT(context);
+  Stage stage(context, NOOK_GL_STATE_PRESERVE);
+  const GladGLContext& gl = context.gl();
+  const auto parameters = [&] {
+    std::vector<GLint> values;
+    for (const GLuint texture : {stage.depth, stage.normal, stage.colour, stage.layer}) {
+      gl.BindTexture(GL_TEXTURE_2D, texture);
+      for (const GLenum name :
+           {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER, GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T,
+            GL_TEXTURE_BASE_LEVEL, GL_TEXTURE_MAX_LEVEL, GL_TEXTURE_COMPARE_MODE, GL_TEXTURE_SWIZZLE_R}) {
+        values.push_back(0);
+        gl.GetTexParameteriv(GL_TEXTURE_2D, name, &values.back());
+      }
+    }
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    return values;
+  };
+  // A shadow map's compare mode does not disturb the pass, which reads through samplers of its own.
+  nook_nnao pass = create_pass(stage.fixture.gl, pass_desc(width, height));
+  nook_nnao_frame_desc frame = stage.frame();
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  const std::vector<float> wanted = own_ao(gl, pass, width, height);
+  gl.BindTexture(GL_TEXTURE_2D, stage.depth);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  const std::vector<GLint> before = parameters();
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  CHECK(parameters() == before);
+  CHECK((own_ao(gl, pass, width, height) == wanted));
+  nook_nnao_destroy(&pass);
+}
+
+TEST_CASE("nnao: a frame allocates nothing, reads nothing back and asks OpenGL only to preserve") {
+  NOOK_NEED_CONTEXT(context);
+  for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_HOST})
+    for (const int half : {0, 1}) {
+      Stage stage(context, mode);
+      Trace trace(context);
+      nook_gl gl = create_gl(stage.fixture.host.handle, Trace::loader, &trace, 0, mode);
+      nook_nnao_desc desc = pass_desc(width, height);
+      desc.half_resolution = half;
+      desc.timers = 1;
+      nook_nnao pass = create_pass(gl, desc);
+      nook_nnao_frame_desc frame = stage.frame();
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+      nook_nnao_timings timings{};
+      timings.struct_size = sizeof timings;
+      trace.reset();
+      const long allocations = stage.fixture.host.allocations;
+      for (int i = 0; i < 6; ++i) {
+        frame.viewport[2] = width - i;
+        frame.viewport[3] = height - i;
+        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+      }
+      CHECK(stage.fixture.host.allocations == allocations);
+      // Normals, AO, blur along x, at half resolution along y, resolve.
+      CHECK(trace.calls("glDrawArrays") == 6 * (half ? 5 : 4));
+      for (const char* forbidden : {"glGen", "glTexImage", "glBufferData", "glGetBufferSubData", "glGetError",
+                                    "glGetTexLevel", "glGetFramebuffer", "glCheckFramebuffer", "glGetQuery"})
+        CHECK(trace.calls_that_begin(forbidden) == 0);
+      const int asked = trace.calls_that_begin("glGet") + trace.calls_that_begin("glIs");
+      if (mode == NOOK_GL_STATE_PRESERVE)
+        CHECK(asked > 0);
+      else
+        CHECK(asked == 0);
+      // Finished stages are found without waiting; whether one is finished by now is the driver's affair.
+      NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings));
+      context.gl().Finish();
+      NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings));
+      CHECK(timings.valid == 1);
+      nook_nnao_destroy(&pass);
+      nook_gl_destroy(&gl);
+    }
+}

@@ -1,0 +1,213 @@
+#include "nnao/evaluate.h"
+
+#include <limits>
+#include <vector>
+
+#include "catch.h"
+#include "core/failure.h"
+#include "network_sample.h"
+#include "nnao/network_file.h"
+
+using namespace nook;
+using namespace nook::nnao;
+
+namespace {
+
+constexpr float sky = std::numeric_limits<float>::infinity();
+
+// A G-buffer that owns its pixels.
+struct Picture {
+  std::uint32_t width, height;
+  ScreenRays rays;
+  std::vector<float> depth;
+  std::vector<Vec3> normal;
+
+  View view() const { return {width, height, rays, depth, normal}; }
+};
+
+// 90 degrees across the height, or 4 m for an orthographic one.
+ScreenRays test_rays(std::uint32_t width, std::uint32_t height, bool orthographic) {
+  const float aspect = float(width) / float(height);
+  const float perspective[16] = {1 / aspect, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0, 0, -0.2f, 0};
+  const float parallel[16] = {0.5f / aspect, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, -0.1f, 0, 0, 0, 0, 1};
+  return screen_rays(orthographic ? parallel : perspective, width, height);
+}
+
+// The plane through `point` with normal `normal`, both in view space.
+Picture plane(Vec3 point, Vec3 normal, bool orthographic) {
+  Picture picture{96, 64, test_rays(96, 64, orthographic), {}, {}};
+  for (std::uint32_t y = 0; y < picture.height; ++y)
+    for (std::uint32_t x = 0; x < picture.width; ++x) {
+      const Vec3 at_1 = view_position(picture.rays, float(x) + 0.5f, float(y) + 0.5f, 1);
+      float depth;
+      if (orthographic)
+        depth = -(point.z - (normal.x * (at_1.x - point.x) + normal.y * (at_1.y - point.y)) / normal.z);
+      else
+        depth = dot(point, normal) / dot(at_1, normal);
+      picture.depth.push_back(depth > 0 ? depth : sky);
+      picture.normal.push_back(normal);
+    }
+  return picture;
+}
+
+float unclamped(const Network& network, const View& view, const Sampling& sampling, std::uint32_t x,
+                std::uint32_t y, TapNoise noise) {
+  return evaluate_unclamped(network, view, view.normal[view.at(x, y)], sampling, x, y, noise);
+}
+
+}  // namespace
+
+TEST_CASE("positions and scales agree with the projection matrix, off-centre and orthographic too") {
+  for (const bool orthographic : {false, true}) {
+    const float p[16] = {1.2f,
+                         0,
+                         0,
+                         orthographic ? 0.0f : 0.0f,
+                         0,
+                         -1.7f,
+                         0,
+                         0,
+                         orthographic ? 0 : 0.3f,
+                         orthographic ? 0 : -0.2f,
+                         -1.01f,
+                         orthographic ? 0.0f : -1.0f,
+                         orthographic ? 0.1f : 0,
+                         orthographic ? -0.4f : 0,
+                         -0.2f,
+                         orthographic ? 1.0f : 0.0f};
+    const ScreenRays rays = screen_rays(p, 640, 360);
+    REQUIRE(rays.orthographic == orthographic);
+    const Vec3 v{0.4f, -0.7f, -3.1f};
+    const float w = orthographic ? 1 : 3.1f;
+    const float px = ((p[0] * v.x + p[8] * v.z + p[12]) / w + 1) * 320;
+    const float py = ((p[5] * v.y + p[9] * v.z + p[13]) / w + 1) * 180;
+    // Rounding of a few float operations on numbers up to 640.
+    CHECK(length(view_position(rays, px, py, 3.1f) - v) < 1e-5f);
+    // Some hundreds of pixels a metre, to float's precision.
+    CHECK(std::abs(pixel_scale(rays, 3.1f).x - p[0] * 320 / w) < 1e-3f);
+    CHECK(std::abs(pixel_scale(rays, 3.1f).y - p[5] * 180 / w) < 1e-3f);
+  }
+}
+
+TEST_CASE("sky is exactly 1 and gives its neighbours nothing") {
+  const Picture open = plane({0, 0, -3}, {0, 0, 1}, true);
+  Picture holed = open;
+  holed.depth[32 * 96 + 10] = sky;
+  holed.depth[32 * 96 + 11] = std::numeric_limits<float>::quiet_NaN();
+  for (const NetworkForm form : {NetworkForm::paper, NetworkForm::horizon}) {
+    const Network network = test::sample_network(form);
+    const Sampling sampling{0.5f, 256, 64};
+    CHECK(evaluate_pixel(network, holed.view(), sampling, 10, 32) == 1);
+    CHECK(evaluate_pixel(network, holed.view(), sampling, 11, 32) == 1);
+    const float far = unclamped(network, holed.view(), sampling, 60, 32, {});
+    CHECK(far == unclamped(network, open.view(), sampling, 60, 32, {}));
+    CHECK(std::isfinite(unclamped(network, holed.view(), sampling, 12, 32, {})));
+  }
+}
+
+TEST_CASE("on a plane that faces the viewer each form has a value that a hand computes") {
+  const Picture picture = plane({0, 0, -3}, {0, 0, 1}, true);
+  const Sampling sampling{0.5f, 256, 64};
+
+  // Normals agree and depths do not differ: every input of the paper's form is 0, the biases alone speak.
+  Network network = test::sample_network(NetworkForm::paper);
+  const auto layer = [](const auto& dense, const auto& input) {
+    std::vector<double> out(dense.bias.begin(), dense.bias.end());
+    for (std::size_t u = 0; u < out.size(); ++u) {
+      for (std::size_t i = 0; i < input.size(); ++i)
+        out[u] += double(dense.weights[i * out.size() + u]) * input[i];
+      out[u] *= double(out[u] > 0 ? dense.positive_slope[u] : dense.negative_slope[u]);
+    }
+    return out;
+  };
+  std::vector<double> hidden(4);
+  for (std::size_t u = 0; u < 4; ++u) {
+    const float b = network.paper.bias[u];
+    hidden[u] = double(b * (b > 0 ? network.paper.positive_slope[u] : network.paper.negative_slope[u]));
+  }
+  const double paper =
+      layer(network.paper.layer_3, layer(network.paper.layer_2, layer(network.paper.layer_1, hidden)))[0];
+  CHECK(std::abs(unclamped(network, picture.view(), sampling, 48, 32, {}) - paper) < 1e-5);
+
+  // Every tap of the horizon form sees (0, 0, d) with d known from the texel; the plane has no other input.
+  network = test::sample_network(NetworkForm::horizon);
+  const TapNoise noise = tap_noise(48, 32);
+  std::vector<double> joined(9);
+  for (std::uint32_t d = 0; d < 8; ++d) {
+    const float angle = direction_angle(d, 8, noise);
+    std::vector<double> pooled(18);
+    for (std::uint32_t s = 0; s < 8; ++s) {
+      // 64 pixels are 4 m, so the radius is 8 pixels.
+      const float distance = step_distance_px(s, 8, noise, 8);
+      const double x = std::floor(48.5f + distance * std::cos(angle)) - 48;
+      const double y = std::floor(32.5f + distance * std::sin(angle)) - 32;
+      const double away = std::hypot(x, y) / 8, weight = std::clamp(2 - away, 0.0, 1.0);
+      const auto units = layer(network.horizon.tap, std::vector<double>{0, 0, away});
+      for (std::size_t u = 0; u < 8; ++u) {
+        const double h = units[u] * weight;
+        pooled[u] = s == 0 ? h : std::max(pooled[u], h);
+        pooled[8 + u] += h / 8;
+      }
+    }
+    pooled[17] = 1;  // the normal is the direction to the viewer
+    const auto out = layer(network.horizon.direction, pooled);
+    for (std::size_t u = 0; u < 8; ++u) joined[u] += out[u] / 8;
+  }
+  joined[8] = 1;
+  const double horizon = layer(network.horizon.out, layer(network.horizon.join, joined))[0];
+  // Sums of some hundred products in float.
+  CHECK(std::abs(unclamped(network, picture.view(), sampling, 48, 32, noise) - horizon) < 1e-4);
+}
+
+TEST_CASE("the embedded network leaves open planes open and darkens a corner") {
+  const Network network = read_network(default_network_file());
+  for (const std::uint32_t taps : horizon_tap_counts)
+    for (const Vec3 tilt : {Vec3{0, 0, 1}, Vec3{0.3f, 0.5f, 1}, Vec3{-1, 0.2f, 1}}) {
+      const Picture picture = plane({0, 0, -3}, normalised(tilt), false);
+      const float ao = evaluate_pixel(network, picture.view(), {0.6f, 256, taps}, 48, 32);
+      // 1 by ray tracing; the network was trained to a root mean square error of 0.06.
+      CHECK(ao > 0.94f);
+    }
+  // A floor that meets a wall: half of the hemisphere at the wall's foot is hidden within any radius.
+  Picture corner = plane({0, -0.5f, 0}, {0, 1, 0}, true);
+  for (std::uint32_t y = 0; y < corner.height; ++y)
+    for (std::uint32_t x = 0; x < corner.width; ++x) {
+      // Seen at 45 degrees from above: the floor below the middle row, the wall above, both receding from it.
+      const Vec3 at = view_position(corner.rays, float(x) + 0.5f, float(y) + 0.5f, 1);
+      const bool wall = at.y > 0;
+      corner.depth[corner.view().at(x, y)] = 5 - std::abs(at.y);
+      corner.normal[corner.view().at(x, y)] = normalised(wall ? Vec3{0, -1, 1} : Vec3{0, 1, 1});
+    }
+  for (const std::uint32_t taps : horizon_tap_counts) {
+    const float ao = evaluate_pixel(network, corner.view(), {1, 256, taps}, 48, 31);
+    CHECK(std::abs(ao - 0.5f) < 0.12f);
+  }
+}
+
+TEST_CASE("a clamped radius is a smaller radius") {
+  const Picture picture = plane({0, 0, -2}, normalised({0.2f, 0.6f, 1}), false);
+  for (const NetworkForm form : {NetworkForm::paper, NetworkForm::horizon}) {
+    const Network network = test::sample_network(form);
+    const PixelScale scale = pixel_scale(picture.rays, picture.depth[32 * 96 + 48]);
+    const Sampling clamped{5, 12, 64}, small{12 / std::abs(scale.y), 256, 64};
+    // The two radii differ by a rounding.
+    CHECK(std::abs(unclamped(network, picture.view(), clamped, 48, 32, {}) -
+                   unclamped(network, picture.view(), small, 48, 32, {})) < 1e-5f);
+  }
+}
+
+TEST_CASE("evaluate refuses what it cannot evaluate") {
+  const Picture picture = plane({0, 0, -3}, {0, 0, 1}, true);
+  std::vector<float> ao(picture.depth.size());
+  const Network horizon = test::sample_network(NetworkForm::horizon);
+  evaluate(horizon, picture.view(), {0.5f, 256, 16}, ao);
+  for (const float value : ao) CHECK((value >= 0 && value <= 1));
+  CHECK_THROWS_AS(evaluate(horizon, picture.view(), {0.5f, 256, 48}, ao), Failure);
+  CHECK_THROWS_AS(evaluate(horizon, picture.view(), {0, 256, 64}, ao), Failure);
+  CHECK_THROWS_AS(evaluate(horizon, picture.view(), {NAN, 256, 64}, ao), Failure);
+  CHECK_THROWS_AS(evaluate(horizon, picture.view(), {1, 0, 64}, ao), Failure);
+  CHECK_THROWS_AS(evaluate(test::sample_network(NetworkForm::paper), picture.view(), {1, 256, 962}, ao),
+                  Failure);
+  ao.pop_back();
+  CHECK_THROWS_AS(evaluate(horizon, picture.view(), {0.5f, 256, 16}, ao), Failure);
+}

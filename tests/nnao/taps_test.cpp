@@ -1,0 +1,66 @@
+#include "nnao/taps.h"
+
+#include <set>
+
+#include "catch.h"
+
+using namespace nook::nnao;
+
+TEST_CASE("a block of 4 x 4 pixels, wherever it begins, sees every noise value once") {
+  for (std::uint32_t corner = 0; corner < 16; ++corner) {
+    std::set<float> rotations, offsets;
+    for (std::uint32_t i = 0; i < 16; ++i) {
+      const TapNoise noise = tap_noise(corner % 4 + i % 4, corner / 4 + i / 4);
+      rotations.insert(noise.rotation);
+      offsets.insert(noise.offset);
+    }
+    CHECK(rotations.size() == 16);
+    CHECK(offsets.size() == 16);
+    CHECK(*rotations.begin() == 0.5f / 16);
+    CHECK(*offsets.rbegin() == 15.5f / 16);
+  }
+}
+
+TEST_CASE("steps grow, never share a pixel and stay within the radius") {
+  for (const std::uint32_t taps : horizon_tap_counts) {
+    const TapGrid grid = horizon_grid(taps);
+    REQUIRE(grid.directions * grid.steps == taps);
+    for (std::uint32_t rank = 0; rank < 16; ++rank)
+      for (const float radius_px : {0.5f, 3.0f, 40.0f, 300.0f}) {
+        float before = 0;
+        for (std::uint32_t s = 0; s < grid.steps; ++s) {
+          const float distance = step_distance_px(s, grid.steps, tap_noise_of_rank(rank), radius_px);
+          CHECK(distance >= before + (radius_px < 1 ? 1 : 0));
+          CHECK(distance >= float(s + 1));
+          CHECK(distance <= std::max(radius_px, float(s + 1)));
+          before = distance;
+        }
+      }
+  }
+  CHECK(horizon_grid(48).steps == 0);
+}
+
+TEST_CASE("a direction keeps its angle in view space where pixels are not square or the screen is flipped") {
+  const TapOffset tap = horizon_tap(0.6f, 0.8f, 10, {20, -10});
+  // Back in metres: along (0.6, 0.8).
+  CHECK(std::abs(tap.x_px / 20 / (tap.y_px / -10) - 0.75f) < 1e-5f);
+  CHECK(std::abs(tap.y_px - -8) < 1e-5f);
+}
+
+TEST_CASE("a subset of the grid is one cell of every stratum; the whole grid is itself") {
+  constexpr std::uint32_t cells = 961;
+  for (const std::uint32_t taps : {16u, 64u, 100u, 256u})
+    for (std::uint32_t rank = 0; rank < 16; ++rank)
+      for (std::uint32_t t = 0; t < taps; ++t) {
+        const std::uint32_t cell = paper_tap_cell(t, taps, tap_noise_of_rank(rank));
+        // One more or less, for the stratum's ends lie between cells.
+        CHECK(double(cell) >= double(t) * cells / taps - 1);
+        CHECK(double(cell) < double(t + 1) * cells / taps + 1);
+      }
+  for (std::uint32_t t = 0; t < cells; ++t) CHECK(paper_tap_cell(t, cells, tap_noise_of_rank(5)) == t);
+  const TapOffset centre = paper_tap(480, cells, {}, 2, {10, 10});
+  CHECK(std::abs(centre.x_px) < 1e-4f);
+  const TapOffset corner = paper_tap(0, cells, {}, 2, {10, 10});
+  // Half a cell inside of the corner of a square of 4 m, 10 pixels a metre.
+  CHECK(std::abs(corner.x_px + 20 * 30.0f / 31) < 1e-4f);
+}
