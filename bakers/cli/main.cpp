@@ -25,6 +25,7 @@ int run(int argc, char** argv) {
   nook::cli::add_bake_character(*bake);
   nook::cli::add_evaluate_character(*evaluate);
   nook::cli::add_evaluate_casters(*evaluate);
+  nook::cli::add_evaluate_nnao(*evaluate);
   CLI::App* train = tool.add_subcommand("train", "train networks")->require_subcommand(1);
   nook::cli::add_train_nnao(*train);
   nook::cli::add_inspect(tool);

@@ -6,38 +6,11 @@
 
 #include "core/failure.h"
 #include "import/accessor.h"
+#include "import/primitive_triangles.h"
 #include "import/validate.h"
 
 namespace nook::bake {
 namespace {
-
-constexpr std::size_t max_triangles = std::size_t{1} << 25;  // bounds memory on hostile input
-
-int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
-  const auto found = primitive.attributes.find(name);
-  return found == primitive.attributes.end() ? -1 : found->second;
-}
-
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-
-// glTF 2.0, section 3.7.2.1: how strips and fans turn into triangles that all face the same way.
-void append_triangles(const std::vector<std::uint32_t>& index, int mode, const std::string& what,
-                      Triangles& out) {
-  const std::size_t n = index.size();
-  if (mode == TINYGLTF_MODE_TRIANGLES) {
-    if (n % 3 != 0)
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s: a triangle list of %zu indices (need three a triangle)",
-                    what.c_str(), n);
-    for (std::size_t i = 0; i + 2 < n; i += 3) out.push_back({index[i], index[i + 1], index[i + 2]});
-    return;
-  }
-  for (std::size_t i = 0; i + 2 < n; ++i) {
-    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
-      out.push_back({index[i], index[i + 1 + i % 2], index[i + 2 - i % 2]});
-    else
-      out.push_back({index[i + 1], index[i + 2], index[0]});
-  }
-}
 
 // The joints and weights of one primitive: JOINTS_0, JOINTS_1 and so on.
 struct Influences {
@@ -109,9 +82,7 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
 void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                       const std::string& what, const std::string& mesh_name, const MeshBinding& binding,
                       bool is_skinned, FileMesh& out, MeshRepairs& repairs) {
-  const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-  if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
-      mode != TINYGLTF_MODE_TRIANGLE_FAN) {
+  if (!has_triangles(primitive)) {
     ++repairs.not_triangles;
     return;
   }
@@ -122,20 +93,8 @@ void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   if (position.count > max_file_vertices - first)
     throw Failure(NOOK_ERROR_BAD_FILE, "too many vertices (need at most %zu)", max_file_vertices);
 
-  std::vector<std::uint32_t> index;
-  if (primitive.indices >= 0) {
-    index = read_integers(model, primitive.indices, 1, what + ".indices").value;
-    for (const std::uint32_t i : index)
-      if (i >= position.count)
-        throw Failure(NOOK_ERROR_BAD_FILE, "%s has index %u (it has %zu vertices)", what.c_str(), i,
-                      position.count);
-  } else {
-    for (std::uint32_t i = 0; i < position.count; ++i) index.push_back(i);
-  }
   const std::size_t first_triangle = out.triangle.size();
-  if (index.size() > max_triangles - std::min(first_triangle, max_triangles))
-    throw Failure(NOOK_ERROR_BAD_FILE, "too many triangles (need at most %zu)", max_triangles);
-  append_triangles(index, mode, what, out.triangle);
+  append_triangles(model, primitive, position.count, what, out.triangle);
   const bool is_mirrored = determinant(binding.rest_from_mesh) < 0;
   for (std::size_t t = first_triangle; t < out.triangle.size(); ++t) {
     for (std::uint32_t& i : out.triangle[t]) i += static_cast<std::uint32_t>(first);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "api/descriptors.h"
+#include "core/descriptors.h"
 #include "api/entry.h"
 #include "api/gl_handle.h"
 #include "gl/nnao/pass.h"
@@ -58,7 +58,7 @@ void check_switch(const char* field, std::int32_t value) {
 }
 
 nook_nnao_desc checked(const nook_nnao_desc* given) {
-  const nook_nnao_desc desc = api::read_descriptor(given, "nook_nnao_desc_init", first_desc, default_desc());
+  const nook_nnao_desc desc = read_descriptor(given, "nook_nnao_desc_init", first_desc, default_desc());
   constexpr int largest = 16384;
   if (desc.max_width < 1 || desc.max_height < 1 || desc.max_width > largest || desc.max_height > largest)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -92,7 +92,7 @@ std::span<const std::byte> network_bytes(const nook_nnao_desc& desc) {
 template <class Body>
 nook_result with_pass(const char* function, nook_nnao pass, Body&& body) noexcept {
   return api::enter(function, [&] {
-    api::need(pass, "pass");
+    need(pass, "pass");
     body();
   });
 }
@@ -101,21 +101,21 @@ nook_result with_pass(const char* function, nook_nnao pass, Body&& body) noexcep
 
 nook_result nook_nnao_desc_init(nook_nnao_desc* desc, size_t size, uint32_t header_version) {
   return api::enter("nook_nnao_desc_init",
-                    [&] { api::init_descriptor(desc, size, header_version, first_desc, default_desc()); });
+                    [&] { init_descriptor(desc, size, header_version, first_desc, default_desc()); });
 }
 
 nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes) {
   return api::enter("nook_nnao_memory", [&] {
-    api::need(bytes, "bytes");
+    need(bytes, "bytes");
     *bytes = gl::texture_bytes(checked(desc));
   });
 }
 
 nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, nook_nnao* out) {
   return api::enter("nook_nnao_create", [&] {
-    api::need(out, "out");
+    need(out, "out");
     *out = nullptr;
-    api::need(gl, "gl");
+    need(gl, "gl");
     gl->device.need_alive();
     const nook_nnao_desc known = checked(desc);
     const nnao::Network network = nnao::read_network(network_bytes(known), gl->device.memory);
@@ -132,13 +132,13 @@ void nook_nnao_destroy(nook_nnao* pass) {
 
 nook_result nook_nnao_frame_desc_init(nook_nnao_frame_desc* desc, size_t size, uint32_t header_version) {
   return api::enter("nook_nnao_frame_desc_init",
-                    [&] { api::init_descriptor(desc, size, header_version, first_frame, default_frame()); });
+                    [&] { init_descriptor(desc, size, header_version, first_frame, default_frame()); });
 }
 
 nook_result nook_nnao_render(nook_nnao pass, const nook_nnao_frame_desc* frame) {
   return with_pass("nook_nnao_render", pass, [&] {
     const nook_nnao_frame_desc known =
-        api::read_descriptor(frame, "nook_nnao_frame_desc_init", first_frame, default_frame());
+        read_descriptor(frame, "nook_nnao_frame_desc_init", first_frame, default_frame());
     gl::check_frame(known, pass->desc);
     pass->gl->guarded(gl::screen, [&] { pass->pass->render(known); });
   });
@@ -155,7 +155,7 @@ nook_result nook_nnao_get_info(nook_nnao pass, nook_nnao_info* info) {
     known.texture_bytes = gl::texture_bytes(pass->desc);
     known.taps = pass->desc.taps;
     known.horizon_form = pass->horizon_form;
-    api::write_info(info, first_info, known);
+    write_info(info, first_info, known);
   });
 }
 
@@ -173,6 +173,6 @@ nook_result nook_nnao_get_timings(nook_nnao pass, nook_nnao_timings* timings) {
       known.resolve = (*stages)[3];
       known.total = known.normals + known.occlusion + known.blur + known.resolve;
     }
-    api::write_info(timings, first_timings, known);
+    write_info(timings, first_timings, known);
   });
 }

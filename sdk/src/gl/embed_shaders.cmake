@@ -1,7 +1,12 @@
-# cmake -DSHADERS=dir -DOUTPUT=file.cpp -P embed_shaders.cmake
+# cmake -DSHADERS=dir -DOUTPUT=file.cpp [-DHEADER=path -DNAMESPACE=name] -P embed_shaders.cmake
 # Turns every *.vert, *.frag and *.comp file below SHADERS into one C++ source. A line `#include "path"` (relative to SHADERS) is
 # replaced by that file's text, once per shader; the host needs no files at run time.
 cmake_minimum_required(VERSION 3.25)
+
+if(NOT HEADER)
+  set(HEADER gl/embedded_shaders.h)
+  set(NAMESPACE nook::gl)
+endif()
 
 function(nook_expand path included out)
   file(READ "${SHADERS}/${path}" text)
@@ -32,7 +37,7 @@ endfunction()
 
 file(GLOB_RECURSE paths RELATIVE "${SHADERS}" "${SHADERS}/*.vert" "${SHADERS}/*.frag" "${SHADERS}/*.comp")
 list(SORT paths)
-set(source "// Made from shaders/ at build; do not edit.\n#include \"gl/embedded_shaders.h\"\n\nnamespace nook::gl {\nnamespace {\n")
+set(source "// Made from shaders at build; do not edit.\n#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\nnamespace {\n")
 set(table "")
 set(number 0)
 foreach(path IN LISTS paths)
@@ -47,5 +52,5 @@ foreach(path IN LISTS paths)
 endforeach()
 string(APPEND source "constexpr EmbeddedShader shaders[] = {\n${table}};\n}  // namespace\n\n"
        "const EmbeddedShader* embedded_shaders_begin() { return shaders; }\n"
-       "const EmbeddedShader* embedded_shaders_end() { return shaders + ${number}; }\n\n}  // namespace nook::gl\n")
+       "const EmbeddedShader* embedded_shaders_end() { return shaders + ${number}; }\n\n}  // namespace ${NAMESPACE}\n")
 file(WRITE "${OUTPUT}" "${source}")

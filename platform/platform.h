@@ -1,6 +1,6 @@
-// OpenGL contexts and pictures for samples and tests. One context is current per thread; a context is used on
-// the thread that made it. Every function that fails throws std::runtime_error with a text that says what to
-// do.
+// OpenGL contexts and pictures for the tool, the samples and the tests. One context is current per thread; a
+// context is used on the thread that made it. Every function that fails throws std::runtime_error with a text
+// that says what to do.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,19 @@
+#version 330 core
+// SSAO+. D. Filion, R. McNaughton, StarCraft II effects and techniques, SIGGRAPH 2008 courses: points in the hemisphere round
+// the normal; how much each occludes falls with how far the surface lies in front of it.
+#include "peer.glsl"
+#include "ball.glsl"
+
+uniform float bias;  // in radii
+
+float peer_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noise) {
+  float closed = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    vec3 offset = ball_point(i, steps, noise);
+    vec3 point = position + radius.x * (dot(offset, normal) < 0.0 ? -offset : offset);
+    if (point.z > -1.0e-3) continue;
+    float in_front = (-point.z - depth_at(pixel_of(point))) / radius.x;
+    if (in_front > bias) closed += in_front > 1.0 ? 1.0 / (in_front * in_front) : 1.0;
+  }
+  return 1.0 - closed / float(steps);
+}

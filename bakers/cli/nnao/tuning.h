@@ -1,0 +1,27 @@
+// The grid search that gives each peer its radius, contrast and shape.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "cli/nnao/measured_view.h"
+#include "cli/nnao/peers.h"
+#include "platform/platform.h"
+
+namespace nook::cli {
+
+struct TunedPeer {
+  PeerMethod method;
+  double mse;  // blurred, mean over the views
+};
+
+// Each method of peer_methods() from its present tuning: one parameter after the other takes its best value,
+// until a round changes nothing. progress counts methods; false stops, which throws Failure(CANCELLED).
+std::vector<TunedPeer> tune_peers(platform::Context& context, std::span<const MeasuredView> views,
+                                  const std::function<bool(std::size_t, std::size_t)>& progress);
+
+// A line of peer_tuning.inl.
+std::string tuning_line(const PeerMethod& method);
+
+}  // namespace nook::cli

@@ -1,0 +1,28 @@
+// How far an AO image is from the truth.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace nook::bake::nnao {
+
+// Sums over pixels with a surface, of any number of images.
+class ImageError {
+ public:
+  // Row by row, as many values as pixels; a pixel counts where its depth is finite.
+  void add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth,
+           std::uint32_t width);
+
+  double mse() const;
+  // Structural similarity (Wang et al. 2004) of values in [0, 1]: Gaussian windows of 11 x 11 pixels,
+  // standard deviation 1.5; the mean over windows round a pixel that counts.
+  double ssim() const;
+  // Pearson's correlation; 0 where either image is constant.
+  double correlation() const;
+
+ private:
+  double count_ = 0, squared_error_ = 0, ssim_ = 0;
+  double a_ = 0, b_ = 0, aa_ = 0, bb_ = 0, ab_ = 0;
+};
+
+}  // namespace nook::bake::nnao
