@@ -94,6 +94,7 @@ std::vector<std::size_t> chosen_clips(const nook_bake_job_desc& desc, const Impo
   }
   clips = motion_clips(character);
   if (desc.clip_split == NOOK_BAKE_SPLIT_HALF) return split_clips(clips).fitted;
+  if (desc.clip_split == NOOK_BAKE_SPLIT_FAMILIES) return split_families(character, clips).fitted;
   if (desc.clip_split != NOOK_BAKE_SPLIT_ALL) unknown("desc.clip_split", desc.clip_split);
   return clips;
 }

@@ -65,6 +65,20 @@ ClipSplit split_clips(std::span<const std::size_t> clips) {
   return split;
 }
 
+ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips) {
+  const auto family = [&](std::size_t clip) {
+    const std::string_view name = character.clips[clip].name;
+    return name.substr(0, name.find('_'));
+  };
+  ClipSplit split;
+  std::size_t families = 0;
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    families += i > 0 && family(clips[i]) != family(clips[i - 1]);
+    (families % 2 == 0 ? split.fitted : split.measured).push_back(clips[i]);
+  }
+  return split;
+}
+
 std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh) {
   const std::size_t bones = mesh.bones.size(), vertices = mesh.vertex_count();
   std::vector<std::size_t> moved(bones, 0);

@@ -31,6 +31,9 @@ struct ClipSplit {
   std::vector<std::size_t> fitted, measured;
 };
 ClipSplit split_clips(std::span<const std::size_t> clips);
+// The same with families, so that no two parts of one motion are on both sides: clips whose names are alike up to the first
+// underscore. The clips are in byte order of their names.
+ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips);
 
 // Joints that move some but not all vertices.
 std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh);

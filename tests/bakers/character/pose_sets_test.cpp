@@ -1,0 +1,49 @@
+// Which clips are fitted and which are kept for measuring.
+#include "character/pose_sets.h"
+
+#include "catch.h"
+
+using namespace nook::bake;
+
+namespace {
+
+ImportedCharacter with_clips(std::initializer_list<const char*> names) {
+  ImportedCharacter character;
+  for (const char* name : names) {
+    Clip clip;
+    clip.name = name;
+    character.clips.push_back(clip);
+  }
+  return character;
+}
+
+std::vector<std::string> names_of(const ImportedCharacter& character, const std::vector<std::size_t>& clips) {
+  std::vector<std::string> names;
+  for (const std::size_t c : clips) names.push_back(character.clips[c].name);
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("motion clips come in byte order of their names, without T- and A-poses") {
+  const ImportedCharacter character = with_clips({"Walk", "T-Pose", "idle", "A_Pose", "Jump"});
+  CHECK(names_of(character, motion_clips(character)) == Names{"Jump", "Walk", "idle"});
+}
+
+TEST_CASE("half of the clips are fitted, the first included") {
+  const ImportedCharacter character = with_clips({"a", "b", "c", "d", "e"});
+  const ClipSplit split = split_clips(motion_clips(character));
+  CHECK(names_of(character, split.fitted) == Names{"a", "c", "e"});
+  CHECK(names_of(character, split.measured) == Names{"b", "d"});
+}
+
+TEST_CASE("a family of clips stays on one side") {
+  const ImportedCharacter character = with_clips(
+      {"Crouch_Idle", "Crouch_Walk", "Dance", "Jump_Land", "Jump_Start", "Roll", "Sit_Enter", "Sit_Exit"});
+  const ClipSplit split = split_families(character, motion_clips(character));
+  CHECK(names_of(character, split.fitted) ==
+        Names{"Crouch_Idle", "Crouch_Walk", "Jump_Land", "Jump_Start", "Sit_Enter", "Sit_Exit"});
+  CHECK(names_of(character, split.measured) == Names{"Dance", "Roll"});
+}
