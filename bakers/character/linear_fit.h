@@ -21,8 +21,7 @@ struct LinearFitSettings {
   double ridge = 1e-4;            // on alpha, relative to the mean variance of the shadows
   double least_gain = 1e-3;       // an entry must lower the vertex's squared error by this share of its variance
   // The first `anchors` candidates of a vertex, the key points nearest to it, always take part, with weights of at least
-  // anchor_floor in all, by nearness. Added casters are interpolated by the same weights: where a vertex has little
-  // shadow of its own, its fitted weights alone would be noise, and the added darkness blotches.
+  // anchor_floor in all, by nearness: what other casters take away is blended from the same entries, and needs near ones.
   std::size_t anchors = 3;
   double anchor_floor = 0.06;
 };

@@ -17,8 +17,8 @@ class Adam {
  public:
   explicit Adam(std::size_t count) : first_(count, 0.0f), second_(count, 0.0f) {}
 
-  void step(std::span<float> value, std::span<const float> gradient, const float* rate, std::size_t rate_period,
-            float scale, std::size_t t) {
+  void step(std::span<float> value, std::span<const float> gradient, const float* rate,
+            std::size_t rate_period, float scale, std::size_t t) {
     const float correction1 = 1 / (1 - std::pow(beta1, float(t)));
     const float correction2 = 1 / (1 - std::pow(beta2, float(t)));
     for (std::size_t i = 0; i < value.size(); ++i) {
@@ -34,8 +34,8 @@ class Adam {
   std::vector<float> first_, second_;
 };
 
-// Learning rates in the parameters' own units: metres, log radius, unit normals, weight roots. A step moves each by about this
-// much; they were chosen by scale, not searched.
+// Learning rates in the parameters' own units: metres, log radius, unit normals, weight roots. A step moves
+// each by about this much; they were chosen by scale, not searched.
 constexpr float sphere_rate[4] = {2e-3f, 2e-3f, 2e-3f, 1e-2f};
 constexpr float key_point_rate[10] = {2e-3f, 2e-3f, 2e-3f, 2e-2f, 2e-2f, 2e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f};
 constexpr float alpha_rate = 5e-3f;
@@ -77,7 +77,8 @@ void fit_mini_batches(FitState& state, const TrainingSet& set, const MiniBatchSe
   std::vector<float> shadow(padded * lanes), gradient_shadow(padded * lanes);
   std::vector<std::vector<float>> part_gradient_shadow(vertex_parts, std::vector<float>(padded * lanes));
   std::vector<std::vector<float>> lane_gradient(lanes, std::vector<float>(parameter_count));
-  std::vector<float> gradient(parameter_count), gradient_alpha(state.linear.alpha.size()), gradient_bias(vertices);
+  std::vector<float> gradient(parameter_count), gradient_alpha(state.linear.alpha.size()),
+      gradient_bias(vertices);
   Adam adam_spheres(4 * structure.sphere_count()), adam_keys(10 * structure.key_point_count());
   Adam adam_alpha(state.linear.alpha.size()), adam_bias(vertices);
   PoseOrder order(set.fitted(), settings.seed);
@@ -93,9 +94,9 @@ void fit_mini_batches(FitState& state, const TrainingSet& set, const MiniBatchSe
     tbb::parallel_for(std::size_t(0), vertex_parts, [&](std::size_t part) {
       std::vector<float>& out = part_gradient_shadow[part];
       std::fill(out.begin(), out.end(), 0.0f);
-      linear_layer_gradient(state.linear, set.vertex_weight, target, shadow.data(), vertices * part / vertex_parts,
-                            vertices * (part + 1) / vertex_parts, out.data(), gradient_alpha.data(),
-                            gradient_bias.data());
+      linear_layer_gradient(state.linear, set.vertex_weight, target, shadow.data(),
+                            vertices * part / vertex_parts, vertices * (part + 1) / vertex_parts, out.data(),
+                            gradient_alpha.data(), gradient_bias.data());
     });
     std::fill(gradient_shadow.begin(), gradient_shadow.end(), 0.0f);
     for (const std::vector<float>& part : part_gradient_shadow)
@@ -121,8 +122,8 @@ void fit_mini_batches(FitState& state, const TrainingSet& set, const MiniBatchSe
     adam_alpha.step(state.linear.alpha, gradient_alpha, &alpha_rate, 1, rate, step + 1);
     adam_bias.step(state.linear.bias, gradient_bias, &bias_rate, 1, rate, step + 1);
     for (std::size_t s = 0; s < state.linear.alpha.size(); ++s)
-      state.linear.alpha[s] = std::max(state.linear.floor.empty() ? 0.0f : state.linear.floor[s],
-                                       state.linear.alpha[s] - rate * settings.alpha_decay);
+      state.linear.alpha[s] =
+          std::max(state.linear.floor.empty() ? 0.0f : state.linear.floor[s], state.linear.alpha[s]);
     if (progress && !progress(step + 1)) break;
   }
 }

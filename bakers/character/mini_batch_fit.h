@@ -14,7 +14,6 @@ struct MiniBatchSettings {
   float rate = 1;                    // scales all learning rates
   float final_rate = 0.02f;          // share of the rate at the last step (cosine decay)
   float warmup = 0.02f;              // share of the steps with a rising rate
-  float alpha_decay = 0;             // pull of alpha towards 0 a step, times the rate
 };
 
 // Called now and then with the number of finished steps; false stops the fit after that step.
