@@ -186,10 +186,11 @@ Json tune(const Options& options) {
         return !interrupted();
       });
   const auto context = make_context();
-  const std::vector<TunedPeer> tuned = tune_peers(*context, views, [&](std::size_t done, std::size_t total) {
-    bar.show("tuning", "methods", done, total);
-    return !interrupted();
-  });
+  const std::vector<TunedPeer> tuned =
+      tune_peers(*context, views, peer_methods(), [&](std::size_t done, std::size_t total) {
+        bar.show("tuning", "methods", done, total);
+        return !interrupted();
+      });
   Json report;
   report["rows"] = Json::array();
   for (const TunedPeer& t : tuned) {

@@ -5,14 +5,17 @@
 
 uniform float bias;  // of the tangent angle, radians
 
+// Sine of the tangent plane's rise along a direction of the screen, biased.
+float tangent_sine(vec3 normal, vec2 direction) {
+  return sin(min(atan(-dot(normal.xy, direction), max(normal.z, 1.0e-3)) + bias, 0.5 * pi));
+}
+
 float peer_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noise) {
   float closed = 0.0;
   for (int i = 0; i < groups; ++i) {
     float angle = 2.0 * pi * (float(i) + noise.x) / float(groups);
     vec2 direction = vec2(cos(angle), sin(angle));
-    // The tangent plane rises by this much along the direction.
-    float tangent = atan(-dot(normal.xy, direction), max(normal.z, 1.0e-3)) + bias;
-    float highest = sin(min(tangent, 0.5 * pi));
+    float highest = -1.0;
     for (int k = 0; k < steps; ++k) {
       float distance_px = max(float(k) + 1.0, radius.y * (float(k) + noise.y) / float(steps));
       ivec2 at = stepped(direction, distance_px);
@@ -20,8 +23,10 @@ float peer_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noise) 
       if (depth == no_surface) continue;
       vec3 v = position_at(at, depth) - position;
       float away = length(v), sine = v.z / away;
-      if (!(away < radius.x) || sine <= highest) continue;
-      closed += (1.0 - away * away / (radius.x * radius.x)) * (sine - highest);
+      // Along the texel's own direction: a plane must not rise over itself.
+      float lowest = max(highest, tangent_sine(normal, normalize(v.xy)));
+      if (!(away < radius.x) || sine <= lowest) continue;
+      closed += (1.0 - away * away / (radius.x * radius.x)) * (sine - lowest);
       highest = sine;
     }
   }
