@@ -88,7 +88,7 @@ std::vector<PeerTuning> other_shapes(Peer peer, const PeerTuning& tuning) {
 
 TunedPeer tune(Search& search, const PeerMethod& start) {
   TunedPeer best{start, search.mse(start)};
-  constexpr int max_rounds = 3;
+  constexpr int max_rounds = 2;
   for (int round = 0; round < max_rounds; ++round) {
     bool better = search.improve(best, other_radii_and_powers(best.method.tuning));
     better |= search.improve(best, other_shapes(start.peer, best.method.tuning));
