@@ -65,7 +65,8 @@ Camera slid_by_one_pixel(Camera camera) {
 }
 
 TrainingScene scene_to_look_at(TriangleSoup soup) {
-  // Where the surface is, by area: vertices crowd in the smallest things.
+  // Vertices crowd in the smallest things, area in backdrops; half of the points by each finds what lies
+  // between.
   std::vector<double> area_below;
   double area = 0;
   for (const auto& t : soup.triangle) {
@@ -78,13 +79,11 @@ TrainingScene scene_to_look_at(TriangleSoup soup) {
   for (int i = 0; i < points; ++i) {
     const double at = area * double(random.unit());
     const auto found = std::upper_bound(area_below.begin(), area_below.end(), at) - area_below.begin();
-    const auto& t = soup.triangle[std::min(std::size_t(found), soup.triangle.size() - 1)];
-    float u = random.unit(), v = random.unit();
-    if (u + v > 1) {
-      u = 1 - u;
-      v = 1 - v;
-    }
-    const Vec3 p = (1 - u - v) * soup.position[t[0]] + u * soup.position[t[1]] + v * soup.position[t[2]];
+    const bool by_area = i % 2 == 0;
+    const auto triangle = std::min(std::size_t(found), soup.triangle.size() - 1);
+    const auto some = random.below(std::uint32_t(soup.triangle.size()));
+    const auto& t = soup.triangle[by_area ? triangle : some];
+    const Vec3 p = (1.0f / 3) * (soup.position[t[0]] + soup.position[t[1]] + soup.position[t[2]]);
     axis[0].push_back(p.x);
     axis[1].push_back(p.y);
     axis[2].push_back(p.z);
@@ -94,10 +93,9 @@ TrainingScene scene_to_look_at(TriangleSoup soup) {
     const auto low = std::size_t(from * (points - 1)), high = std::size_t(to * (points - 1));
     return Box{{axis[0][low], axis[1][low], axis[2][low]}, {axis[0][high], axis[1][high], axis[2][high]}};
   };
-  // Single far triangles (a sky, a ground) must not decide.
   TrainingScene scene;
-  scene.cameras = part(0.05f, 0.95f);
-  scene.subject = part(0.2f, 0.8f);
+  scene.cameras = part(0.1f, 0.9f);
+  scene.subject = part(0.3f, 0.7f);
   scene.soup = std::move(soup);
   return scene;
 }
