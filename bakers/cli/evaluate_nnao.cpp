@@ -36,7 +36,8 @@ struct Options {
   std::vector<GivenCamera> cameras;
   std::uint32_t placed_cameras = 3;
   float max_radius_px = 0;
-  bool thin = false, tune = false;
+  bool thin = false;
+  std::string tune;  // a peer's name, or all; empty: no tuning
 };
 
 GivenCamera parse_camera(const std::string& text) {
@@ -186,10 +187,14 @@ Json tune(const Options& options) {
         return !interrupted();
       });
   const auto context = make_context();
-  const std::vector<TunedPeer> tuned = tune_peers(*context, views, [&](std::size_t done, std::size_t total) {
-    bar.show("tuning", "methods", done, total);
-    return !interrupted();
-  });
+  std::vector<PeerMethod> methods;
+  for (const PeerMethod& method : peer_methods())
+    if (options.tune == "all" || options.tune == peer_name(method.peer)) methods.push_back(method);
+  const std::vector<TunedPeer> tuned =
+      tune_peers(*context, views, methods, [&](std::size_t done, std::size_t total) {
+        bar.show("tuning", "methods", done, total);
+        return !interrupted();
+      });
   Json report;
   report["rows"] = Json::array();
   for (const TunedPeer& t : tuned) {
@@ -206,10 +211,10 @@ Json tune(const Options& options) {
 }
 
 void run(Options& options) {
-  if (int(!options.scene.empty()) + int(options.thin) + int(options.tune) != 1)
+  if (int(!options.scene.empty()) + int(options.thin) + int(!options.tune.empty()) != 1)
     throw ToolError(exit_bad_arguments, "evaluate nnao: need one of SCENE, --thin and --tune");
   options.truth.seed = options.common.seed;
-  run_evaluation(options.common, [&] { return options.tune ? tune(options) : evaluate(options); });
+  run_evaluation(options.common, [&] { return !options.tune.empty() ? tune(options) : evaluate(options); });
 }
 
 }  // namespace
@@ -223,7 +228,12 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
   Options& o = *options;
   command->add_option("scene", o.scene, "a scene in metres, y up, .glb or .gltf");
   command->add_flag("--thin", o.thin, "a built-in scene of thin things instead");
-  command->add_flag("--tune", o.tune, "tune the peers on training scenes and print their table instead");
+  std::vector<std::string> peers{"all"};
+  for (const Peer peer : all_peers) peers.push_back(peer_name(peer));
+  command
+      ->add_option("--tune", o.tune,
+                   "tune one peer, or all, on training scenes and print their table instead")
+      ->check(CLI::IsMember(peers));
   command
       ->add_option_function<std::vector<std::string>>(
           "--camera",

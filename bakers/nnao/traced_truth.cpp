@@ -65,26 +65,37 @@ Camera slid_by_one_pixel(Camera camera) {
 }
 
 TrainingScene scene_to_look_at(TriangleSoup soup) {
-  TrainingScene scene;
-  // Few triangles may span a scene; their vertices still bound it.
+  // Vertices crowd in the smallest things, area in backdrops; half of the points by each finds what lies
+  // between.
+  std::vector<double> area_below;
+  double area = 0;
+  for (const auto& t : soup.triangle) {
+    const Vec3 a = soup.position[t[0]], b = soup.position[t[1]], c = soup.position[t[2]];
+    area_below.push_back(area += double(length(cross(b - a, c - a))));
+  }
   std::vector<float> axis[3];
-  for (const Vec3 p : soup.position) {
+  Random random(1);
+  constexpr int points = 4000;
+  for (int i = 0; i < points; ++i) {
+    const double at = area * double(random.unit());
+    const auto found = std::upper_bound(area_below.begin(), area_below.end(), at) - area_below.begin();
+    const bool by_area = i % 2 == 0;
+    const auto triangle = std::min(std::size_t(found), soup.triangle.size() - 1);
+    const auto some = random.below(std::uint32_t(soup.triangle.size()));
+    const auto& t = soup.triangle[by_area ? triangle : some];
+    const Vec3 p = (1.0f / 3) * (soup.position[t[0]] + soup.position[t[1]] + soup.position[t[2]]);
     axis[0].push_back(p.x);
     axis[1].push_back(p.y);
     axis[2].push_back(p.z);
   }
+  for (std::vector<float>& values : axis) std::sort(values.begin(), values.end());
   const auto part = [&](float from, float to) {
-    const auto at = [&](std::vector<float>& values, float share) {
-      const auto nth = values.begin() + std::ptrdiff_t(share * float(values.size() - 1));
-      std::nth_element(values.begin(), nth, values.end());
-      return *nth;
-    };
-    return Box{{at(axis[0], from), at(axis[1], from), at(axis[2], from)},
-               {at(axis[0], to), at(axis[1], to), at(axis[2], to)}};
+    const auto low = std::size_t(from * (points - 1)), high = std::size_t(to * (points - 1));
+    return Box{{axis[0][low], axis[1][low], axis[2][low]}, {axis[0][high], axis[1][high], axis[2][high]}};
   };
-  // Single far vertices (a sky, a ground) must not decide.
-  scene.cameras = part(0.02f, 0.98f);
-  scene.subject = part(0.1f, 0.9f);
+  TrainingScene scene;
+  scene.cameras = part(0.1f, 0.9f);
+  scene.subject = part(0.3f, 0.7f);
   scene.soup = std::move(soup);
   return scene;
 }

@@ -15,7 +15,7 @@ namespace {
 using bake::nnao::ImageError;
 
 constexpr int network_taps[] = {16, 32, 64, 128, 256};
-constexpr int frames = 3;  // timed, of each view
+constexpr int frames = 2;  // timed, of each view
 
 struct Method {
   std::string name;

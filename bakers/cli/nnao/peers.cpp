@@ -3,7 +3,7 @@
 namespace nook::cli {
 namespace {
 
-// Made by `nook evaluate nnao --tune`, seed 1.
+// Made by `nook evaluate nnao --tune all`, seed 1.
 constexpr PeerMethod methods[] = {
 #include "cli/nnao/peer_tuning.inl"
 };

@@ -33,7 +33,7 @@ struct PeerGrid {
 };
 PeerGrid peer_grid(Peer peer, int taps);
 
-// Every row of the comparison, with the tuning that `nook evaluate nnao --tune` prints.
+// Every row of the comparison, with the tuning that `nook evaluate nnao --tune all` prints.
 std::span<const PeerMethod> peer_methods();
 
 // Texture fetches a pixel: the pixel's depth and normal, one depth a tap; the blur's are blur_fetches more.

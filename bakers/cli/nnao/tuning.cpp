@@ -11,8 +11,8 @@
 namespace nook::cli {
 namespace {
 
-constexpr float radius_scales[] = {0.5f, 0.63f, 0.8f, 1.0f, 1.26f, 1.6f, 2.0f};
-constexpr float powers[] = {0.5f, 0.63f, 0.8f, 1.0f, 1.26f, 1.6f, 2.0f, 2.5f};
+constexpr float radius_scales[] = {0.63f, 0.8f, 1.0f, 1.26f, 1.6f, 2.0f, 2.5f};
+constexpr float powers[] = {0.63f, 0.8f, 1.0f, 1.26f, 1.6f, 2.0f, 2.5f, 3.2f};
 
 std::vector<float> shapes_of(Peer peer) {
   switch (peer) {
@@ -53,14 +53,11 @@ struct Search {
     return sum / count;
   }
 
-  // Whether another value of one parameter is better than the one in `best`.
-  template <class Value>
-  bool improve(TunedPeer& best, Value PeerTuning::*parameter, const std::vector<Value>& values) {
+  // Whether a candidate is better than `best`, which then is the best of them.
+  bool improve(TunedPeer& best, const std::vector<PeerTuning>& candidates) {
     bool better = false;
-    for (const Value value : values) {
-      PeerMethod tried = best.method;
-      if (tried.tuning.*parameter == value) continue;
-      tried.tuning.*parameter = value;
+    for (const PeerTuning& candidate : candidates) {
+      const PeerMethod tried{best.method.peer, best.method.taps, candidate};
       const double tried_mse = mse(tried);
       if (!(tried_mse < best.mse)) continue;
       best = {tried, tried_mse};
@@ -70,16 +67,31 @@ struct Search {
   }
 };
 
+// A larger radius and less contrast darken alike, so that one alone would stop at once.
+std::vector<PeerTuning> other_radii_and_powers(const PeerTuning& tuning) {
+  std::vector<PeerTuning> candidates;
+  for (const float radius_scale : radius_scales)
+    for (const float power : powers)
+      candidates.push_back({radius_scale, power, tuning.shape, tuning.equal_weights});
+  return candidates;
+}
+
+std::vector<PeerTuning> other_shapes(Peer peer, const PeerTuning& tuning) {
+  std::vector<PeerTuning> candidates;
+  for (const float shape : shapes_of(peer)) {
+    candidates.push_back({tuning.radius_scale, tuning.power, shape, tuning.equal_weights});
+    if (peer == Peer::bitmask)
+      candidates.push_back({tuning.radius_scale, tuning.power, shape, !tuning.equal_weights});
+  }
+  return candidates;
+}
+
 TunedPeer tune(Search& search, const PeerMethod& start) {
   TunedPeer best{start, search.mse(start)};
-  constexpr int max_rounds = 4;
+  constexpr int max_rounds = 2;
   for (int round = 0; round < max_rounds; ++round) {
-    bool better = search.improve(best, &PeerTuning::power, {std::begin(powers), std::end(powers)});
-    better |=
-        search.improve(best, &PeerTuning::radius_scale, {std::begin(radius_scales), std::end(radius_scales)});
-    better |= search.improve(best, &PeerTuning::shape, shapes_of(start.peer));
-    if (start.peer == Peer::bitmask)
-      better |= search.improve(best, &PeerTuning::equal_weights, std::vector<bool>{false, true});
+    bool better = search.improve(best, other_radii_and_powers(best.method.tuning));
+    better |= search.improve(best, other_shapes(start.peer, best.method.tuning));
     if (!better) break;
   }
   return best;
@@ -88,6 +100,7 @@ TunedPeer tune(Search& search, const PeerMethod& start) {
 }  // namespace
 
 std::vector<TunedPeer> tune_peers(platform::Context& context, std::span<const MeasuredView> views,
+                                  std::span<const PeerMethod> methods,
                                   const std::function<bool(std::size_t, std::size_t)>& progress) {
   const GladGLContext& gl = context.gl();
   Search search{gl,
@@ -96,9 +109,9 @@ std::vector<TunedPeer> tune_peers(platform::Context& context, std::span<const Me
                 PeerPass(gl, int(views.front().view.camera.width), int(views.front().view.camera.height))};
   for (const MeasuredView& view : views) search.images.emplace_back(gl, view.view);
   std::vector<TunedPeer> tuned;
-  for (const PeerMethod& method : peer_methods()) {
+  for (const PeerMethod& method : methods) {
     tuned.push_back(tune(search, method));
-    if (!progress(tuned.size(), peer_methods().size()))
+    if (!progress(tuned.size(), methods.size()))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while tuning");
   }
   return tuned;

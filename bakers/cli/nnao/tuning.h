@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cli/nnao/measured_view.h"
@@ -16,9 +17,11 @@ struct TunedPeer {
   double mse;  // blurred, mean over the views
 };
 
-// Each method of peer_methods() from its present tuning: one parameter after the other takes its best value,
-// until a round changes nothing. progress counts methods; false stops, which throws Failure(CANCELLED).
+// Each method from its present tuning: radius and contrast together over their grid, then
+// the shape, until a round changes nothing. progress counts methods; false stops, which throws
+// Failure(CANCELLED).
 std::vector<TunedPeer> tune_peers(platform::Context& context, std::span<const MeasuredView> views,
+                                  std::span<const PeerMethod> methods,
                                   const std::function<bool(std::size_t, std::size_t)>& progress);
 
 // A line of peer_tuning.inl.
