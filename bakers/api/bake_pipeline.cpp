@@ -35,6 +35,7 @@ std::string report_text(const ImportedCharacter& character, const Recipe& recipe
   j["train_poses"] = report.train_poses;
   j["rays"] = recipe.settings.rays;
   j["noise_floor_mse"] = report.noise_floor_mse;
+  j["noise_floor_held_out_mse"] = report.noise_floor_held_out_mse;
   j["mse_initial"] = report.mse_initial;
   j["mse_train"] = report.mse_train;
   j["mse_held_out"] = report.mse_held_out;

@@ -38,15 +38,19 @@ using BakeProgress = std::function<bool(BakeStage stage, std::size_t done, std::
 
 struct CurvePoint {
   double seconds = 0;  // since the fit began
-  double mse_train = 0, mse_held_out = 0;
+  double mse_train = 0, mse_held_out = 0;  // on all poses, with the noise of their few rays in it
 };
 
 struct BakeReport {
   double seconds_raytrace = 0, seconds_fit = 0;
   std::size_t iterations = 0, train_poses = 0;
-  double mse_initial = 0, mse_train = 0, mse_held_out = 0;  // over all vertices, clamped predictions
+  // Over all vertices, clamped predictions. On a spread of the fitted poses traced anew with many rays, before and after the fit:
+  double mse_initial = 0, mse_train = 0;
+  double noise_floor_mse = 0;  // of those rays
+  // On the held-out poses, with the noise of their few rays in it; what the fit is stopped by:
+  double mse_held_out = 0;
   double mse_held_out_file = 0;  // of the model as its file holds it: what quantisation costs
-  double noise_floor_mse = 0;    // of the training targets' rays
+  double noise_floor_held_out_mse = 0;
   std::vector<CurvePoint> curve;
 };
 
