@@ -16,6 +16,6 @@
     {Peer::bitmask, 4, {2.00f, 2.50f, 0.30f, true}},
     {Peer::bitmask, 8, {2.00f, 2.50f, 0.30f, true}},
     {Peer::bitmask, 18, {2.00f, 1.60f, 0.30f, true}},
-    {Peer::bitmask, 16, {1.60f, 1.26f, 0.35f, true}},
+    {Peer::bitmask, 16, {2.00f, 1.60f, 0.20f, true}},
     {Peer::bitmask, 32, {2.00f, 1.60f, 0.20f, true}},
     {Peer::bitmask, 64, {1.26f, 1.26f, 0.20f, true}},

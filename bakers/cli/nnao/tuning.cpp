@@ -86,8 +86,17 @@ std::vector<PeerTuning> other_shapes(Peer peer, const PeerTuning& tuning) {
   return candidates;
 }
 
-TunedPeer tune(Search& search, const PeerMethod& start) {
+// What other numbers of taps of the same peer take: the search ends in the nearest of several valleys.
+std::vector<PeerTuning> tunings_of(Peer peer, std::span<const PeerMethod> methods) {
+  std::vector<PeerTuning> candidates;
+  for (const PeerMethod& method : methods)
+    if (method.peer == peer) candidates.push_back(method.tuning);
+  return candidates;
+}
+
+TunedPeer tune(Search& search, const PeerMethod& start, std::span<const PeerMethod> methods) {
   TunedPeer best{start, search.mse(start)};
+  search.improve(best, tunings_of(start.peer, methods));
   constexpr int max_rounds = 2;
   for (int round = 0; round < max_rounds; ++round) {
     bool better = search.improve(best, other_radii_and_powers(best.method.tuning));
@@ -110,7 +119,7 @@ std::vector<TunedPeer> tune_peers(platform::Context& context, std::span<const Me
   for (const MeasuredView& view : views) search.images.emplace_back(gl, view.view);
   std::vector<TunedPeer> tuned;
   for (const PeerMethod& method : methods) {
-    tuned.push_back(tune(search, method));
+    tuned.push_back(tune(search, method, methods));
     if (!progress(tuned.size(), methods.size()))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while tuning");
   }

@@ -17,7 +17,7 @@ struct TunedPeer {
   double mse;  // blurred, mean over the views
 };
 
-// Each method from its present tuning: radius and contrast together over their grid, then
+// Each method from the best of its peer's present tunings: radius and contrast together over their grid, then
 // the shape, until a round changes nothing. progress counts methods; false stops, which throws
 // Failure(CANCELLED).
 std::vector<TunedPeer> tune_peers(platform::Context& context, std::span<const MeasuredView> views,
