@@ -90,13 +90,15 @@ void write_comparison_sheet(const Stage& stage, CrowdScene& scene, const std::ve
   const Values truth = traced_ao(stage.hero, poses, members, {kPictureRays, request.seed});
   painter.add("no AO", Values{});
   painter.add("static AO, baked in the rest pose", Values(members.size(), scene.model().static_ao()));
+  if (stage.screen_space) painter.add_screen_space_alone("screen-space AO (NNAO) alone");
   scene.update(NOOK_TERM_SELF);
   painter.add("Nook, self only", scene);
   scene.update(NOOK_TERM_ALL);
   painter.add("Nook, self + neighbours + ground", scene);
+  if (stage.screen_space) painter.add_with_screen_space("the same, screen-space AO on the floor", scene);
   painter.add("ray traced", truth);
   painter.add("error of Nook x 4, dark is wrong", differences(read_all(scene, members), truth));
-  painter.write(request.out / "sheet.png", 3);
+  painter.write(request.out / "sheet.png", stage.screen_space ? 4 : 3);
 }
 
 void write_double_shadowing_sheet(platform::Context& context, const Stage& stage, CrowdScene& scene,

@@ -66,17 +66,30 @@ void SheetPainter::add(const std::string& label, const std::vector<std::vector<f
     gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
     gl.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * sizeof(float)), values.data(), GL_STREAM_DRAW);
   }
-  add_panel(label, sources);
+  add_panel(label, sources, ScreenSpace::kOff);
   gl.DeleteBuffers(1, &buffer);
 }
 
-void SheetPainter::add(const std::string& label, const CrowdScene& scene) {
+std::vector<AoSource> SheetPainter::sources_of(const CrowdScene& scene) const {
   std::vector<AoSource> sources;
   for (const std::uint32_t member : group_.members) sources.push_back(scene.ao(member));
-  add_panel(label, sources);
+  return sources;
 }
 
-void SheetPainter::add_panel(const std::string& label, std::span<const AoSource> sources) {
+void SheetPainter::add(const std::string& label, const CrowdScene& scene) {
+  add_panel(label, sources_of(scene), ScreenSpace::kOff);
+}
+
+void SheetPainter::add_with_screen_space(const std::string& label, const CrowdScene& scene) {
+  add_panel(label, sources_of(scene), ScreenSpace::kBesideCharacters);
+}
+
+void SheetPainter::add_screen_space_alone(const std::string& label) {
+  add_panel(label, std::vector<AoSource>(group_.members.size()), ScreenSpace::kAlone);
+}
+
+void SheetPainter::add_panel(const std::string& label, std::span<const AoSource> sources,
+                             ScreenSpace screen_space) {
   Look look;
   look.key_strength = 0.16f;  // mostly ambient light, in which AO is what there is to see
   look.ground_albedo = glm::vec3(0.5f);
@@ -85,6 +98,10 @@ void SheetPainter::add_panel(const std::string& label, std::span<const AoSource>
   std::vector<DrawnInstance> drawn;
   for (std::size_t i = 0; i < sources.size(); ++i)
     drawn.push_back({&poses_[group_.members[i]], sources[i], glm::vec3(0.72f)});
+  if (screen_space != ScreenSpace::kOff)
+    look.screen_ao = stage_.screen_space->draw(
+        stage_.renderer, drawn, group_.camera,
+        screen_space == ScreenSpace::kAlone ? NOOK_NNAO_LAYER_NONE : NOOK_NNAO_LAYER_REPLACE);
   stage_.target.bind();
   stage_.renderer.draw(drawn, group_.camera, look, group_.camera.target_ws, 6.0f);
   panels_.push_back(stage_.target.read());

@@ -29,10 +29,16 @@ class SheetPainter {
   void add(const std::string& label, const std::vector<std::vector<float>>& ao);
   // From Nook's own buffers, as a host draws it.
   void add(const std::string& label, const CrowdScene& scene);
+  // The same with the stage's screen-space AO where no character is.
+  void add_with_screen_space(const std::string& label, const CrowdScene& scene);
+  // The stage's screen-space AO alone, on characters as well.
+  void add_screen_space_alone(const std::string& label);
   void write(const std::filesystem::path& path, int columns) const;
 
  private:
-  void add_panel(const std::string& label, std::span<const AoSource> sources);
+  enum class ScreenSpace { kOff, kBesideCharacters, kAlone };
+  std::vector<AoSource> sources_of(const CrowdScene& scene) const;
+  void add_panel(const std::string& label, std::span<const AoSource> sources, ScreenSpace screen_space);
 
   const Stage& stage_;
   const std::vector<Bones>& poses_;
