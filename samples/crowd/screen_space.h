@@ -33,8 +33,9 @@ class ScreenSpaceAo {
   int height_px() const { return height_px_; }
   const ScreenSpaceQuality& quality() const { return quality_; }
 
-  // NOOK_NNAO_LAYER_REPLACE: characters keep the AO of their vertices, which counts what the pass would count
-  // again. NOOK_NNAO_LAYER_NONE: the pass alone, on characters as well. Leaves another framebuffer bound.
+  // NOOK_NNAO_LAYER_REPLACE: 1 on characters, whose vertices have AO that counts what the pass would count
+  // again; the lighting multiplies the two. NOOK_NNAO_LAYER_NONE: on characters as well. Leaves another
+  // framebuffer bound.
   ScreenAo draw(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
                 nook_nnao_layer layer = NOOK_NNAO_LAYER_REPLACE);
 

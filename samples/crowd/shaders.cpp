@@ -50,13 +50,12 @@ void main() {
 
 const char* const kSurfaceFragment = R"(#version 330 core
 in vec3 surface_normal_ws;
-in float surface_ao;
 uniform float layer_weight;
 layout(location = 0) out vec4 normal_ws;
 layout(location = 1) out vec2 layer;
 void main() {
   normal_ws = vec4(0.5 * normalize(surface_normal_ws) + 0.5, 1.0);
-  layer = vec2(surface_ao, layer_weight);
+  layer = vec2(1.0, layer_weight);
 }
 )";
 
@@ -106,7 +105,7 @@ void main() {
   vec3 n = normalize(surface_normal_ws);
   vec3 sky = vec3(0.80, 0.87, 1.00), bounce = vec3(0.46, 0.43, 0.40);
   vec3 ambient = mix(bounce, sky, 0.5 + 0.5 * n.y) * 0.58;
-  float ao = mix(1.0, use_screen_ao ? fetch_screen_ao() : surface_ao, ao_strength);
+  float ao = mix(1.0, use_screen_ao ? surface_ao * fetch_screen_ao() : surface_ao, ao_strength);
   float key = max(dot(n, to_key_ws), 0.0);
   if (key > 0.0 && key_strength > 0.0) key *= key_visibility(n);
   vec3 light = ambient * ao + key * key_strength * vec3(1.0, 0.95, 0.86);

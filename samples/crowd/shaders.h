@@ -7,12 +7,11 @@ namespace crowd {
 extern const char* const kCharacterVertex;
 // One big quad on y = 0, made from gl_VertexID.
 extern const char* const kGroundVertex;
-// Ahead of the lighting, for the screen-space pass: world normals as (n + 1) / 2, and its layer: AO of the
-// vertices and a weight.
+// Ahead of the lighting, for the screen-space pass: world normals as (n + 1) / 2, and its layer, which is 1
+// everywhere with a weight that is 1 on characters alone.
 extern const char* const kSurfaceFragment;
 // Hemisphere ambient times AO, and a key light with a soft shadow map. Writes linear light to an sRGB target.
-// AO is that of the vertices, or where use_screen_ao is set that of the screen-space pass, which has combined
-// the two.
+// AO is that of the vertices, where use_screen_ao is set times that of the screen-space pass.
 extern const char* const kLitFragment;
 // Depth from the key light; draws characters only.
 extern const char* const kShadowFragment;
