@@ -172,6 +172,9 @@ void Renderer::set_look(const GpuProgram& program, const Camera& camera, const L
   gl_.BindTexture(GL_TEXTURE_2D, look.screen_ao.depth);
   gl_.Uniform1i(program.uniform("screen_depth"), 3);
   gl_.Uniform1i(program.uniform("use_screen_ao"), look.screen_ao.texture != 0);
+  gl_.ActiveTexture(GL_TEXTURE4);
+  gl_.BindTexture(GL_TEXTURE_2D, look.floor_ao.texture);
+  gl_.Uniform1i(program.uniform("floor_ao"), 4);
   gl_.UniformMatrix4fv(program.uniform("shadow_from_world"), 1, GL_FALSE, glm::value_ptr(shadow_from_world_));
   gl_.Uniform3fv(program.uniform("to_key_ws"), 1, glm::value_ptr(to_key_ws_));
   gl_.Uniform3fv(program.uniform("eye_ws"), 1, glm::value_ptr(camera.eye_ws));
@@ -198,6 +201,9 @@ void Renderer::draw(std::span<const DrawnInstance> instances, const Camera& came
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   const glm::mat4 view = clip_from_world(camera, float(viewport[2]) / float(viewport[3]));
   set_look(ground_, camera, look);
+  gl_.Uniform1i(ground_.uniform("use_floor_ao"), look.floor_ao.texture != 0);
+  gl_.Uniform2fv(ground_.uniform("floor_first_m"), 1, glm::value_ptr(look.floor_ao.first_m));
+  gl_.Uniform2fv(ground_.uniform("floor_extent_m"), 1, glm::value_ptr(look.floor_ao.extent_m));
   draw_ground(ground_, look.ground_albedo, view);
   set_look(character_, camera, look);
   draw_characters(character_, instances, view);

@@ -32,6 +32,12 @@ struct ScreenAo {
   GLuint depth = 0;  // single-sampled, of the viewport's size
 };
 
+// AO of a square of the ground that was made elsewhere, 1 on its rim; 0: none.
+struct FloorAo {
+  GLuint texture = 0;                 // linear filter, clamped to its edge
+  glm::vec2 first_m{0}, extent_m{1};  // x and z of the texture's corner, its sides
+};
+
 struct Look {
   float key_strength = 0.5f;
   float ao_strength = 1.0f;
@@ -39,6 +45,7 @@ struct Look {
   glm::vec3 background{0.38f, 0.43f, 0.50f};
   float fog_start_m = 22;
   ScreenAo screen_ao;
+  FloorAo floor_ao;
 };
 
 class Renderer {

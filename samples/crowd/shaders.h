@@ -11,7 +11,8 @@ extern const char* const kGroundVertex;
 // everywhere with a weight that is 1 on characters alone.
 extern const char* const kSurfaceFragment;
 // Hemisphere ambient times AO, and a key light with a soft shadow map. Writes linear light to an sRGB target.
-// AO is that of the vertices, where use_screen_ao is set times that of the screen-space pass.
+// AO is that of the vertices, where use_screen_ao is set times that of the screen-space pass, and on the
+// ground where use_floor_ao is set times that of a texture laid on it.
 extern const char* const kLitFragment;
 // Depth from the key light; draws characters only.
 extern const char* const kShadowFragment;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kGroupDistance_m = 4.6f;  // from the camera to the group
 constexpr int kBearings = 24;
+constexpr float kReach_m = 1.2f;  // from a root to fingers and toes
 
 // How much stands between a camera at this bearing and the group.
 float obstruction(const std::vector<Placement>& places, const Placement& focus, float bearing_rad) {
@@ -50,6 +51,40 @@ Group choose_group(const std::vector<Placement>& places, std::size_t count) {
            0.6f * kGroupDistance_m;
   });
   return group;
+}
+
+FloorPatch floor_under(const Group& group, const std::vector<Placement>& places, float margin_m,
+                       std::uint32_t side) {
+  glm::vec2 low(INFINITY), high(-INFINITY);
+  for (const std::uint32_t member : group.members) {
+    const glm::vec2 at(places[member].x_m, places[member].z_m);
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  const float reach_m = margin_m + kReach_m;
+  const float size_m = std::max(high.x - low.x, high.y - low.y) + 2 * reach_m;
+  return {low.x - reach_m, low.y - reach_m, size_m, side};
+}
+
+void SheetPainter::add(const std::string& label, const std::vector<std::vector<float>>& ao,
+                       const FloorPatch& patch, const std::vector<float>& floor_ao) {
+  const GladGLContext& gl = stage_.context.gl();
+  // Texel centres lie on the patch's points: the texture is wider by half a texel on each side.
+  const float texel_m = patch.size_m / float(patch.side - 1);
+  floor_.first_m = glm::vec2(patch.low_x_m, patch.low_z_m) - 0.5f * texel_m;
+  floor_.extent_m = glm::vec2(patch.size_m + texel_m);
+  gl.GenTextures(1, &floor_.texture);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, floor_.texture);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    gl.TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    gl.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R16F, GLsizei(patch.side), GLsizei(patch.side), 0, GL_RED, GL_FLOAT,
+                floor_ao.data());
+  add(label, ao);
+  gl.DeleteTextures(1, &floor_.texture);
+  floor_ = {};
 }
 
 void SheetPainter::add(const std::string& label, const std::vector<std::vector<float>>& ao) {
@@ -95,6 +130,7 @@ void SheetPainter::add_panel(const std::string& label, std::span<const AoSource>
   look.ground_albedo = glm::vec3(0.5f);
   look.background = glm::vec3(0.62f);
   look.fog_start_m = 14;
+  look.floor_ao = floor_;
   std::vector<DrawnInstance> drawn;
   for (std::size_t i = 0; i < sources.size(); ++i)
     drawn.push_back({&poses_[group_.members[i]], sources[i], glm::vec3(0.72f)});
