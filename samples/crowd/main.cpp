@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "baked_hero.h"
 #include "comparison.h"
@@ -117,10 +117,10 @@ void run(const Options& o) {
 #endif
   std::filesystem::create_directories(o.out);
   RenderTarget target(*context, o.width_px, o.height_px);
-  std::optional<ScreenSpaceAo> screen_space;
-  if (o.screen_space) screen_space.emplace(*context, scene.gl(), o.width_px, o.height_px);
-  const Stage stage{*context, character.hero, places,
-                    renderer, target,         screen_space ? &*screen_space : nullptr};
+  std::unique_ptr<ScreenSpaceAo> screen_space;
+  if (o.screen_space)
+    screen_space = std::make_unique<ScreenSpaceAo>(*context, scene.gl(), o.width_px, o.height_px);
+  const Stage stage{*context, character.hero, places, renderer, target, screen_space.get()};
   ProgressLine line(o.quiet);
   const FrameTimes ms = draw_frames(stage, scene, {o.frames, o.out}, [&](std::uint32_t done) {
     line.show("drawing", "frames", done, o.frames);

@@ -1,4 +1,4 @@
-// Nook's screen-space AO under the crowd: depth and normals drawn ahead of the lighting, and the pass over
+// Nook's screen-space AO for the crowd: depth and normals drawn ahead of the lighting, and the pass over
 // them.
 #pragma once
 
@@ -23,7 +23,7 @@ class ScreenSpaceAo {
  public:
   static constexpr float kRadius_m = 0.5f;
 
-  // gl must be of the same OpenGL context, and outlive this except for its destructor.
+  // gl must be of the same OpenGL context; draw needs it, the destructor does not.
   ScreenSpaceAo(const platform::Context& context, nook_gl gl, int width_px, int height_px);
   ~ScreenSpaceAo();
   ScreenSpaceAo(const ScreenSpaceAo&) = delete;
@@ -33,9 +33,9 @@ class ScreenSpaceAo {
   int height_px() const { return height_px_; }
   const ScreenSpaceQuality& quality() const { return quality_; }
 
-  // NOOK_NNAO_LAYER_REPLACE: 1 on characters, whose vertices have AO that counts what the pass would count
-  // again; the lighting multiplies the two. NOOK_NNAO_LAYER_NONE: on characters as well. Leaves another
-  // framebuffer bound.
+  // NOOK_NNAO_LAYER_REPLACE: 1 on characters, whose vertices have AO that counts already what the pass would
+  // count again; the lighting multiplies the two. NOOK_NNAO_LAYER_NONE: on characters as well. Leaves
+  // another framebuffer bound.
   ScreenAo draw(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
                 nook_nnao_layer layer = NOOK_NNAO_LAYER_REPLACE);
 

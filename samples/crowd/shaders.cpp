@@ -91,8 +91,8 @@ float key_visibility(vec3 n) {
     for (int x = -1; x <= 1; ++x) sum += texture(shadow_map, vec3(uvz.xy + vec2(x, y) * texel, uvz.z - 0.0008));
   return sum / 9.0;
 }
-// The picture is multisampled and AO is not: on an edge the texel may be another surface's. Of it and the four beside it,
-// that nearest in depth.
+// The picture is multisampled and AO is not: on an edge the texel may be another surface's. Of it and the
+// four beside it, that nearest in depth.
 float fetch_screen_ao() {
   const ivec2 steps[5] = ivec2[5](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
   ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(screen_depth, 0) - 1, best = pixel;
