@@ -6,10 +6,17 @@
 
 namespace crowd {
 
-glm::mat4 clip_from_world(const Camera& camera, float aspect) {
+glm::mat4 view_from_world(const Camera& camera) {
+  return glm::lookAt(camera.eye_ws, camera.target_ws, glm::vec3(0, 1, 0));
+}
+
+glm::mat4 clip_from_view(const Camera& camera, float aspect) {
   const float distance_m = glm::length(camera.eye_ws - camera.target_ws);
-  return glm::perspective(camera.fov_rad, aspect, 0.1f, 60.0f + 4 * distance_m) *
-         glm::lookAt(camera.eye_ws, camera.target_ws, glm::vec3(0, 1, 0));
+  return glm::perspective(camera.fov_rad, aspect, 0.1f, 60.0f + 4 * distance_m);
+}
+
+glm::mat4 clip_from_world(const Camera& camera, float aspect) {
+  return clip_from_view(camera, aspect) * view_from_world(camera);
 }
 
 Camera orbit(float radius_m, float turn) {

@@ -11,6 +11,8 @@ struct Camera {
   float fov_rad = 0.6f;  // vertical
 };
 
+glm::mat4 view_from_world(const Camera& camera);
+glm::mat4 clip_from_view(const Camera& camera, float aspect);
 glm::mat4 clip_from_world(const Camera& camera, float aspect);
 // turn in [0, 1) goes once round a crowd whose members stand within radius_m of the origin.
 Camera orbit(float radius_m, float turn);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t kRays = 64;          // of the report
 constexpr std::uint32_t kPictureRays = 256;  // of the sheets, where noise would be seen
+constexpr std::uint32_t kFloorSide = 320;    // points of the floor, about 2 cm apart
 constexpr std::size_t kSampled = 12;
 constexpr float kNear_m = 1.0f;
 
@@ -90,13 +91,22 @@ void write_comparison_sheet(const Stage& stage, CrowdScene& scene, const std::ve
   const Values truth = traced_ao(stage.hero, poses, members, {kPictureRays, request.seed});
   painter.add("no AO", Values{});
   painter.add("static AO, baked in the rest pose", Values(members.size(), scene.model().static_ao()));
+  if (stage.screen_space) painter.add_screen_space_alone("screen-space AO (NNAO) alone");
   scene.update(NOOK_TERM_SELF);
   painter.add("Nook, self only", scene);
   scene.update(NOOK_TERM_ALL);
   painter.add("Nook, self + neighbours + ground", scene);
-  painter.add("ray traced", truth);
+  if (stage.screen_space) painter.add_with_screen_space("the same, screen-space AO on the floor", scene);
+  if (stage.screen_space) {
+    constexpr float radius_m = ScreenSpaceAo::kRadius_m;
+    const FloorPatch patch = floor_under(painter.group(), stage.places, radius_m, kFloorSide);
+    painter.add("ray traced, the floor to 0.5 m like screen-space AO", truth, patch,
+                traced_floor_ao(stage.hero, poses, members, patch, radius_m, {kPictureRays, request.seed}));
+  } else {
+    painter.add("ray traced", truth);
+  }
   painter.add("error of Nook x 4, dark is wrong", differences(read_all(scene, members), truth));
-  painter.write(request.out / "sheet.png", 3);
+  painter.write(request.out / "sheet.png", stage.screen_space ? 4 : 3);
 }
 
 void write_double_shadowing_sheet(platform::Context& context, const Stage& stage, CrowdScene& scene,

@@ -22,7 +22,8 @@ struct ComparisonRequest {
 void measure_errors(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
                     const ComparisonRequest& request, nlohmann::ordered_json& report);
 
-// sheet.png: no AO, static, self, all, ray traced, difference.
+// sheet.png: no AO, static, screen-space AO alone, self, all, all with screen-space AO on the floor, ray
+// traced, difference. Only where its label says so has the floor AO.
 void write_comparison_sheet(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
                             const ComparisonRequest& request);
 

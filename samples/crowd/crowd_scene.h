@@ -33,6 +33,7 @@ class CrowdScene {
 
   void link_nearest(std::uint32_t neighbours);
   nook_gl_info gl_info() const;
+  nook_gl gl() const { return gl_.get(); }
   nook_scene_stats stats() const { return scene_.stats(); }
   const nook::CharacterModel& model() const { return model_; }
 

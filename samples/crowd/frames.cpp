@@ -69,9 +69,15 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
     now.scene_update = watch.lap_ms();
     std::vector<DrawnInstance> drawn(poses.size());
     for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {&poses[i], scene.ao(i), albedo_of(i)};
+    const Camera camera = orbit(radius_m, float(frame) / float(std::max(request.frames, 24u)));
+    if (stage.screen_space) {
+      watch.lap_ms();
+      look.screen_ao = stage.screen_space->draw(stage.renderer, drawn, camera);
+      gl.Finish();
+      now.screen_space = watch.lap_ms();
+    }
     stage.target.bind();
-    stage.renderer.draw(drawn, orbit(radius_m, float(frame) / float(std::max(request.frames, 24u))), look,
-                        glm::vec3(0), radius_m + 1);
+    stage.renderer.draw(drawn, camera, look, glm::vec3(0), radius_m + 1);
     gl.Finish();
     now.draw = watch.lap_ms();
     const platform::Image picture = stage.target.read();
@@ -84,11 +90,13 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
     if (frame == 0 && request.frames > 1) continue;
     sum.pose += now.pose;
     sum.scene_update += now.scene_update;
+    sum.screen_space += now.screen_space;
     sum.draw += now.draw;
     sum.read += now.read;
   }
   const double measured = request.frames > 1 ? request.frames - 1 : std::max(request.frames, 1u);
-  return {sum.pose / measured, sum.scene_update / measured, sum.draw / measured, sum.read / measured};
+  return {sum.pose / measured, sum.scene_update / measured, sum.screen_space / measured, sum.draw / measured,
+          sum.read / measured};
 }
 
 }  // namespace crowd

@@ -8,6 +8,7 @@
 #include "crowd_scene.h"
 #include "layout.h"
 #include "render_target.h"
+#include "screen_space.h"
 
 namespace crowd {
 
@@ -18,11 +19,12 @@ struct Stage {
   const std::vector<Placement>& places;
   Renderer& renderer;
   RenderTarget& target;
+  ScreenSpaceAo* screen_space;  // null: none
 };
 
 // Milliseconds by the wall clock, each stage waited for: means over the frames after the first.
 struct FrameTimes {
-  double pose = 0, scene_update = 0, draw = 0, read = 0;
+  double pose = 0, scene_update = 0, screen_space = 0, draw = 0, read = 0;
 };
 
 struct FrameRequest {

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "baked_hero.h"
@@ -64,6 +65,12 @@ nlohmann::ordered_json describe(const platform::Context& context, const CrowdSce
           {"gamma", model.gamma}};
 }
 
+nlohmann::ordered_json describe(const ScreenSpaceQuality& quality) {
+  return {{"taps", quality.taps},
+          {"half_resolution", quality.half_resolution},
+          {"radius_m", ScreenSpaceAo::kRadius_m}};
+}
+
 void compare_with_rays(platform::Context& context, const Stage& stage, CrowdScene& scene, const Options& o,
                        const Character& character, nlohmann::ordered_json& report, ProgressLine& line) {
   const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
@@ -110,14 +117,22 @@ void run(const Options& o) {
 #endif
   std::filesystem::create_directories(o.out);
   RenderTarget target(*context, o.width_px, o.height_px);
-  const Stage stage{*context, character.hero, places, renderer, target};
+  std::unique_ptr<ScreenSpaceAo> screen_space;
+  if (o.screen_space)
+    screen_space = std::make_unique<ScreenSpaceAo>(*context, scene.gl(), o.width_px, o.height_px);
+  const Stage stage{*context, character.hero, places, renderer, target, screen_space.get()};
   ProgressLine line(o.quiet);
   const FrameTimes ms = draw_frames(stage, scene, {o.frames, o.out}, [&](std::uint32_t done) {
     line.show("drawing", "frames", done, o.frames);
   });
   nlohmann::ordered_json report = describe(*context, scene, o);
   report["links"] = scene.stats().links;
-  report["ms"] = {{"pose", ms.pose}, {"scene_update", ms.scene_update}, {"draw", ms.draw}, {"read", ms.read}};
+  report["ms"] = {{"pose", ms.pose},
+                  {"scene_update", ms.scene_update},
+                  {"screen_space", ms.screen_space},
+                  {"draw", ms.draw},
+                  {"read", ms.read}};
+  report["screen_space"] = screen_space ? describe(screen_space->quality()) : nlohmann::ordered_json();
   report["rows"] = nlohmann::ordered_json::array();
   if (o.sheets) compare_with_rays(*context, stage, scene, o, character, report, line);
   const std::string text = report.dump(2) + "\n";

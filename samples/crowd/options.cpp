@@ -26,7 +26,7 @@ std::string parse_tier(const std::string& text, Options& o) {
 bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   CLI::App app(
       "Draws a crowd of animated characters with Nook's ambient occlusion and compares it with ray tracing.");
-  std::string size = "1280x720", tier = "best";
+  std::string size = "1280x720", tier = "best", screen_space = "on";
   o.cache = CROWD_CACHE;
   // A later option wins, so that a script's own values can be overridden.
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
@@ -47,6 +47,9 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--report", o.report, "JSON with times and errors (default: report.json in --out)");
   app.add_option("--tier", tier, "highest OpenGL tier: 33, 43 or best")
       ->check(CLI::IsMember({"33", "43", "best"}));
+  app.add_option("--screen-space", screen_space,
+                 "on: screen-space AO on the floor, beside the characters' own")
+      ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--seed", o.seed, "of the places, the clips and the rays");
   app.add_option("--cache", o.cache, "folder where baked characters are kept");
   app.add_flag("!--no-sheets", o.sheets, "draw frames only: no comparison sheets, no ray tracing");
@@ -55,6 +58,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
     app.parse(argc, argv);
     for (const std::string& fault : {parse_size(size, o), parse_tier(tier, o)})
       if (!fault.empty()) throw CLI::ValidationError("--size", fault);
+    o.screen_space = screen_space == "on";
     // A window stays open until it is closed, unless pictures are asked for.
     if (o.context == "window" && frames->count() == 0) o.frames = 0;
     if (o.report.empty()) o.report = o.out / "report.json";

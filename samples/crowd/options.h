@@ -15,7 +15,7 @@ struct Options {
   int tier = 0;  // 33, 43 or 0 for the best there is
   std::filesystem::path out = "out/crowd", report;
   std::filesystem::path cache;
-  bool sheets = true, quiet = false;
+  bool screen_space = true, sheets = true, quiet = false;
 };
 
 // Fills options; returns false with *exit_code set where the program should end at once.

@@ -41,6 +41,8 @@ Renderer::Renderer(const GladGLContext& gl, const Hero& hero)
     : gl_(gl),
       character_(gl, kCharacterVertex, kLitFragment),
       ground_(gl, kGroundVertex, kLitFragment),
+      character_surface_(gl, kCharacterVertex, kSurfaceFragment),
+      ground_surface_(gl, kGroundVertex, kSurfaceFragment),
       shadow_(gl, kCharacterVertex, kShadowFragment),
       index_count_(GLsizei(hero.triangles.size())),
       bone_texels_(3 * std::size_t(hero.bone_count())),
@@ -131,6 +133,26 @@ void Renderer::draw_characters(const GpuProgram& program, std::span<const DrawnI
   }
 }
 
+void Renderer::draw_ground(const GpuProgram& program, const glm::vec3& albedo, const glm::mat4& view) {
+  program.use();
+  gl_.UniformMatrix4fv(program.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(view));
+  gl_.Uniform3fv(program.uniform("instance_albedo"), 1, glm::value_ptr(albedo));
+  gl_.Uniform1f(program.uniform("ground_half_size_m"), 400.0f);
+  gl_.BindVertexArray(arrays_[1]);
+  gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void Renderer::draw_surfaces(std::span<const DrawnInstance> instances, const Camera& camera, float aspect) {
+  gl_.Enable(GL_DEPTH_TEST);
+  const glm::mat4 view = clip_from_world(camera, aspect);
+  ground_surface_.use();
+  gl_.Uniform1f(ground_surface_.uniform("layer_weight"), 0);
+  draw_ground(ground_surface_, glm::vec3(0), view);
+  character_surface_.use();
+  gl_.Uniform1f(character_surface_.uniform("layer_weight"), 1);
+  draw_characters(character_surface_, instances, view);
+}
+
 void Renderer::draw_shadow_map(std::span<const DrawnInstance> instances) {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, shadow_framebuffer_);
   gl_.Viewport(0, 0, kShadowSize_px, kShadowSize_px);
@@ -143,6 +165,16 @@ void Renderer::set_look(const GpuProgram& program, const Camera& camera, const L
   gl_.ActiveTexture(GL_TEXTURE1);
   gl_.BindTexture(GL_TEXTURE_2D, shadow_texture_);
   gl_.Uniform1i(program.uniform("shadow_map"), 1);
+  gl_.ActiveTexture(GL_TEXTURE2);
+  gl_.BindTexture(GL_TEXTURE_2D, look.screen_ao.texture);
+  gl_.Uniform1i(program.uniform("screen_ao"), 2);
+  gl_.ActiveTexture(GL_TEXTURE3);
+  gl_.BindTexture(GL_TEXTURE_2D, look.screen_ao.depth);
+  gl_.Uniform1i(program.uniform("screen_depth"), 3);
+  gl_.Uniform1i(program.uniform("use_screen_ao"), look.screen_ao.texture != 0);
+  gl_.ActiveTexture(GL_TEXTURE4);
+  gl_.BindTexture(GL_TEXTURE_2D, look.floor_ao.texture);
+  gl_.Uniform1i(program.uniform("floor_ao"), 4);
   gl_.UniformMatrix4fv(program.uniform("shadow_from_world"), 1, GL_FALSE, glm::value_ptr(shadow_from_world_));
   gl_.Uniform3fv(program.uniform("to_key_ws"), 1, glm::value_ptr(to_key_ws_));
   gl_.Uniform3fv(program.uniform("eye_ws"), 1, glm::value_ptr(camera.eye_ws));
@@ -169,11 +201,10 @@ void Renderer::draw(std::span<const DrawnInstance> instances, const Camera& came
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   const glm::mat4 view = clip_from_world(camera, float(viewport[2]) / float(viewport[3]));
   set_look(ground_, camera, look);
-  gl_.UniformMatrix4fv(ground_.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(view));
-  gl_.Uniform3fv(ground_.uniform("instance_albedo"), 1, glm::value_ptr(look.ground_albedo));
-  gl_.Uniform1f(ground_.uniform("ground_half_size_m"), 400.0f);
-  gl_.BindVertexArray(arrays_[1]);
-  gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  gl_.Uniform1i(ground_.uniform("use_floor_ao"), look.floor_ao.texture != 0);
+  gl_.Uniform2fv(ground_.uniform("floor_first_m"), 1, glm::value_ptr(look.floor_ao.first_m));
+  gl_.Uniform2fv(ground_.uniform("floor_extent_m"), 1, glm::value_ptr(look.floor_ao.extent_m));
+  draw_ground(ground_, look.ground_albedo, view);
   set_look(character_, camera, look);
   draw_characters(character_, instances, view);
 }

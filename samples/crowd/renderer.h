@@ -26,12 +26,26 @@ struct DrawnInstance {
   glm::vec3 albedo{0.6f};
 };
 
+// What the screen-space pass made of the same instances through the same camera; 0: no such pass.
+struct ScreenAo {
+  GLuint texture = 0;
+  GLuint depth = 0;  // single-sampled, of the viewport's size
+};
+
+// AO of a square of the ground that was made elsewhere, 1 on its rim; 0: none.
+struct FloorAo {
+  GLuint texture = 0;                 // linear filter, clamped to its edge
+  glm::vec2 first_m{0}, extent_m{1};  // x and z of the texture's corner, its sides
+};
+
 struct Look {
   float key_strength = 0.5f;
   float ao_strength = 1.0f;
   glm::vec3 ground_albedo{0.36f, 0.36f, 0.37f};
   glm::vec3 background{0.38f, 0.43f, 0.50f};
   float fog_start_m = 22;
+  ScreenAo screen_ao;
+  FloorAo floor_ao;
 };
 
 class Renderer {
@@ -41,6 +55,9 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
+  // Depth, normals and the layer of the screen-space pass (kSurfaceFragment) into the framebuffer that is
+  // bound, cleared and has its viewport set.
+  void draw_surfaces(std::span<const DrawnInstance> instances, const Camera& camera, float aspect);
   // Draws into the framebuffer that is bound, whose viewport is set; the shadow map covers shadow_radius_m
   // round the origin of shadow_centre_ws.
   void draw(std::span<const DrawnInstance> instances, const Camera& camera, const Look& look,
@@ -50,11 +67,12 @@ class Renderer {
   void upload_bones(std::span<const DrawnInstance> instances);
   void draw_characters(const GpuProgram& program, std::span<const DrawnInstance> instances,
                        const glm::mat4& view);
+  void draw_ground(const GpuProgram& program, const glm::vec3& albedo, const glm::mat4& view);
   void draw_shadow_map(std::span<const DrawnInstance> instances);
   void set_look(const GpuProgram& program, const Camera& camera, const Look& look);
 
   const GladGLContext& gl_;
-  GpuProgram character_, ground_, shadow_;
+  GpuProgram character_, ground_, character_surface_, ground_surface_, shadow_;
   GLsizei index_count_;
   std::size_t bone_texels_;
   GLuint arrays_[2] = {};   // character, ground

@@ -48,6 +48,17 @@ void main() {
 }
 )";
 
+const char* const kSurfaceFragment = R"(#version 330 core
+in vec3 surface_normal_ws;
+uniform float layer_weight;
+layout(location = 0) out vec4 normal_ws;
+layout(location = 1) out vec2 layer;
+void main() {
+  normal_ws = vec4(0.5 * normalize(surface_normal_ws) + 0.5, 1.0);
+  layer = vec2(1.0, layer_weight);
+}
+)";
+
 const char* const kLitFragment = R"(#version 330 core
 in vec3 surface_position_ws;
 in vec3 surface_normal_ws;
@@ -58,6 +69,13 @@ uniform mat4 shadow_from_world;
 uniform vec3 to_key_ws;
 uniform float key_strength;
 uniform float ao_strength;
+uniform bool use_screen_ao;
+uniform sampler2D screen_ao;
+uniform sampler2D screen_depth;
+uniform bool use_floor_ao;
+uniform sampler2D floor_ao;
+uniform vec2 floor_first_m;
+uniform vec2 floor_extent_m;
 uniform vec3 eye_ws;
 uniform vec3 background;
 uniform float fog_start_m;
@@ -73,11 +91,28 @@ float key_visibility(vec3 n) {
     for (int x = -1; x <= 1; ++x) sum += texture(shadow_map, vec3(uvz.xy + vec2(x, y) * texel, uvz.z - 0.0008));
   return sum / 9.0;
 }
+// The picture is multisampled and AO is not: on an edge the texel may be another surface's. Of it and the
+// four beside it, that nearest in depth.
+float fetch_screen_ao() {
+  const ivec2 steps[5] = ivec2[5](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
+  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(screen_depth, 0) - 1, best = pixel;
+  float least = 2.0;
+  for (int i = 0; i < 5; ++i) {
+    ivec2 candidate = clamp(pixel + steps[i], ivec2(0), last);
+    float off = abs(texelFetch(screen_depth, candidate, 0).r - gl_FragCoord.z);
+    if (off < least) best = candidate;
+    least = min(least, off);
+  }
+  return texelFetch(screen_ao, best, 0).r;
+}
 void main() {
   vec3 n = normalize(surface_normal_ws);
   vec3 sky = vec3(0.80, 0.87, 1.00), bounce = vec3(0.46, 0.43, 0.40);
   vec3 ambient = mix(bounce, sky, 0.5 + 0.5 * n.y) * 0.58;
-  float ao = mix(1.0, surface_ao, ao_strength);
+  float ao = surface_ao;
+  if (use_screen_ao) ao *= fetch_screen_ao();
+  if (use_floor_ao) ao *= texture(floor_ao, (surface_position_ws.xz - floor_first_m) / floor_extent_m).r;
+  ao = mix(1.0, ao, ao_strength);
   float key = max(dot(n, to_key_ws), 0.0);
   if (key > 0.0 && key_strength > 0.0) key *= key_visibility(n);
   vec3 light = ambient * ao + key * key_strength * vec3(1.0, 0.95, 0.86);

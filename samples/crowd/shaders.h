@@ -7,7 +7,12 @@ namespace crowd {
 extern const char* const kCharacterVertex;
 // One big quad on y = 0, made from gl_VertexID.
 extern const char* const kGroundVertex;
+// Ahead of the lighting, for the screen-space pass: world normals as (n + 1) / 2, and its layer, which is 1
+// everywhere with a weight that is 1 on characters alone.
+extern const char* const kSurfaceFragment;
 // Hemisphere ambient times AO, and a key light with a soft shadow map. Writes linear light to an sRGB target.
+// AO is that of the vertices, where use_screen_ao is set times that of the screen-space pass, and on the
+// ground where use_floor_ao is set times that of a texture laid on it.
 extern const char* const kLitFragment;
 // Depth from the key light; draws characters only.
 extern const char* const kShadowFragment;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kGroupDistance_m = 4.6f;  // from the camera to the group
 constexpr int kBearings = 24;
+constexpr float kReach_m = 1.2f;  // from a root to fingers and toes
 
 // How much stands between a camera at this bearing and the group.
 float obstruction(const std::vector<Placement>& places, const Placement& focus, float bearing_rad) {
@@ -52,6 +53,40 @@ Group choose_group(const std::vector<Placement>& places, std::size_t count) {
   return group;
 }
 
+FloorPatch floor_under(const Group& group, const std::vector<Placement>& places, float margin_m,
+                       std::uint32_t side) {
+  glm::vec2 low(INFINITY), high(-INFINITY);
+  for (const std::uint32_t member : group.members) {
+    const glm::vec2 at(places[member].x_m, places[member].z_m);
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  const float reach_m = margin_m + kReach_m;
+  const float size_m = std::max(high.x - low.x, high.y - low.y) + 2 * reach_m;
+  return {low.x - reach_m, low.y - reach_m, size_m, side};
+}
+
+void SheetPainter::add(const std::string& label, const std::vector<std::vector<float>>& ao,
+                       const FloorPatch& patch, const std::vector<float>& floor_ao) {
+  const GladGLContext& gl = stage_.context.gl();
+  // Texel centres lie on the patch's points: the texture is wider by half a texel on each side.
+  const float texel_m = patch.size_m / float(patch.side - 1);
+  floor_.first_m = glm::vec2(patch.low_x_m, patch.low_z_m) - 0.5f * texel_m;
+  floor_.extent_m = glm::vec2(patch.size_m + texel_m);
+  gl.GenTextures(1, &floor_.texture);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, floor_.texture);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    gl.TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    gl.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R16F, GLsizei(patch.side), GLsizei(patch.side), 0, GL_RED, GL_FLOAT,
+                floor_ao.data());
+  add(label, ao);
+  gl.DeleteTextures(1, &floor_.texture);
+  floor_ = {};
+}
+
 void SheetPainter::add(const std::string& label, const std::vector<std::vector<float>>& ao) {
   const GladGLContext& gl = stage_.context.gl();
   std::vector<float> values;
@@ -66,25 +101,43 @@ void SheetPainter::add(const std::string& label, const std::vector<std::vector<f
     gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
     gl.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * sizeof(float)), values.data(), GL_STREAM_DRAW);
   }
-  add_panel(label, sources);
+  add_panel(label, sources, ScreenSpace::kOff);
   gl.DeleteBuffers(1, &buffer);
 }
 
-void SheetPainter::add(const std::string& label, const CrowdScene& scene) {
+std::vector<AoSource> SheetPainter::sources_of(const CrowdScene& scene) const {
   std::vector<AoSource> sources;
   for (const std::uint32_t member : group_.members) sources.push_back(scene.ao(member));
-  add_panel(label, sources);
+  return sources;
 }
 
-void SheetPainter::add_panel(const std::string& label, std::span<const AoSource> sources) {
+void SheetPainter::add(const std::string& label, const CrowdScene& scene) {
+  add_panel(label, sources_of(scene), ScreenSpace::kOff);
+}
+
+void SheetPainter::add_with_screen_space(const std::string& label, const CrowdScene& scene) {
+  add_panel(label, sources_of(scene), ScreenSpace::kBesideCharacters);
+}
+
+void SheetPainter::add_screen_space_alone(const std::string& label) {
+  add_panel(label, std::vector<AoSource>(group_.members.size()), ScreenSpace::kAlone);
+}
+
+void SheetPainter::add_panel(const std::string& label, std::span<const AoSource> sources,
+                             ScreenSpace screen_space) {
   Look look;
   look.key_strength = 0.16f;  // mostly ambient light, in which AO is what there is to see
   look.ground_albedo = glm::vec3(0.5f);
   look.background = glm::vec3(0.62f);
   look.fog_start_m = 14;
+  look.floor_ao = floor_;
   std::vector<DrawnInstance> drawn;
   for (std::size_t i = 0; i < sources.size(); ++i)
     drawn.push_back({&poses_[group_.members[i]], sources[i], glm::vec3(0.72f)});
+  if (screen_space != ScreenSpace::kOff)
+    look.screen_ao = stage_.screen_space->draw(
+        stage_.renderer, drawn, group_.camera,
+        screen_space == ScreenSpace::kAlone ? NOOK_NNAO_LAYER_NONE : NOOK_NNAO_LAYER_REPLACE);
   stage_.target.bind();
   stage_.renderer.draw(drawn, group_.camera, look, group_.camera.target_ws, 6.0f);
   panels_.push_back(stage_.target.read());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frames.h"
+#include "truth.h"
 
 namespace crowd {
 
@@ -19,6 +20,10 @@ struct Group {
 // The members nearest to the busiest place, seen from where the fewest others stand in the way.
 Group choose_group(const std::vector<Placement>& places, std::size_t count);
 
+// A square that holds all floor within margin_m of the members' bodies, a point every side-th part.
+FloorPatch floor_under(const Group& group, const std::vector<Placement>& places, float margin_m,
+                       std::uint32_t side);
+
 class SheetPainter {
  public:
   SheetPainter(const Stage& stage, const std::vector<Bones>& poses, Group group)
@@ -29,10 +34,21 @@ class SheetPainter {
   void add(const std::string& label, const std::vector<std::vector<float>>& ao);
   // From Nook's own buffers, as a host draws it.
   void add(const std::string& label, const CrowdScene& scene);
+  // The same with the stage's screen-space AO where no character is.
+  void add_with_screen_space(const std::string& label, const CrowdScene& scene);
+  // The stage's screen-space AO alone, on characters as well.
+  void add_screen_space_alone(const std::string& label);
+  // One value a vertex and member, one a point of the floor.
+  void add(const std::string& label, const std::vector<std::vector<float>>& ao, const FloorPatch& patch,
+           const std::vector<float>& floor_ao);
   void write(const std::filesystem::path& path, int columns) const;
 
  private:
-  void add_panel(const std::string& label, std::span<const AoSource> sources);
+  enum class ScreenSpace { kOff, kBesideCharacters, kAlone };
+  std::vector<AoSource> sources_of(const CrowdScene& scene) const;
+  void add_panel(const std::string& label, std::span<const AoSource> sources, ScreenSpace screen_space);
+
+  FloorAo floor_;
 
   const Stage& stage_;
   const std::vector<Bones>& poses_;

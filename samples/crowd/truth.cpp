@@ -1,6 +1,7 @@
 #include "truth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 
 namespace crowd {
@@ -36,7 +37,50 @@ std::vector<double> vertex_areas(const Hero& hero, const std::vector<float>& pos
   return areas;
 }
 
+std::vector<nook_bake_occluder_mesh> meshes_of(const Hero& hero, const std::vector<Body>& bodies) {
+  std::vector<nook_bake_occluder_mesh> meshes;
+  for (const Body& body : bodies)
+    meshes.push_back({body.positions.data(), hero.triangles.data(), hero.vertex_count(),
+                      std::uint32_t(hero.triangles.size())});
+  return meshes;
+}
+
+std::vector<float> trace(const std::vector<nook_bake_occluder_mesh>& meshes,
+                         const std::vector<float>& positions, const std::vector<float>& normals,
+                         float radius_m, const TraceRequest& request) {
+  std::vector<float> ao(positions.size() / 3);
+  nook_bake_trace_desc desc;
+  bake_check(nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.meshes = meshes.data();
+  desc.mesh_count = std::uint32_t(meshes.size());
+  desc.positions = positions.data();
+  desc.normals = normals.data();
+  desc.point_count = std::uint32_t(ao.size());
+  desc.rays = request.rays;
+  desc.radius = radius_m;
+  desc.seed = request.seed;
+  bake_check(nook_bake_trace_ao(&desc, ao.data(), desc.point_count));
+  return ao;
+}
+
 }  // namespace
+
+std::vector<float> traced_floor_ao(const Hero& hero, const std::vector<Bones>& poses,
+                                   std::span<const std::uint32_t> casters, const FloorPatch& patch,
+                                   float radius_m, const TraceRequest& request) {
+  std::vector<Body> bodies(casters.size());
+  for (std::size_t i = 0; i < casters.size(); ++i)
+    hero.skin(poses[casters[i]], bodies[i].positions, bodies[i].normals);
+  std::vector<float> positions, normals;
+  const float step_m = patch.size_m / float(patch.side - 1);
+  for (std::uint32_t z = 0; z < patch.side; ++z)
+    for (std::uint32_t x = 0; x < patch.side; ++x) {
+      positions.insert(positions.end(),
+                       {patch.low_x_m + float(x) * step_m, 0, patch.low_z_m + float(z) * step_m});
+      normals.insert(normals.end(), {0, 1, 0});
+    }
+  return trace(meshes_of(hero, bodies), positions, normals, radius_m, request);
+}
 
 std::vector<std::vector<float>> traced_ao(const Hero& hero, const std::vector<Bones>& poses,
                                           std::span<const std::uint32_t> receivers,
@@ -54,10 +98,7 @@ std::vector<std::vector<float>> traced_ao(const Hero& hero, const std::vector<Bo
     Body& body = bodies.emplace_back();
     hero.skin(poses[i], body.positions, body.normals);
   }
-  std::vector<nook_bake_occluder_mesh> meshes;
-  for (const Body& body : bodies)
-    meshes.push_back({body.positions.data(), hero.triangles.data(), hero.vertex_count(),
-                      std::uint32_t(hero.triangles.size())});
+  std::vector<nook_bake_occluder_mesh> meshes = meshes_of(hero, bodies);
   constexpr float g = kGroundHalfSize_m;
   const float ground[12] = {-g, 0, -g, g, 0, -g, -g, 0, g, g, 0, g};
   const std::uint32_t ground_triangles[6] = {0, 2, 1, 1, 2, 3};
@@ -69,18 +110,7 @@ std::vector<std::vector<float>> traced_ao(const Hero& hero, const std::vector<Bo
     positions.insert(positions.end(), body.positions.begin(), body.positions.end());
     normals.insert(normals.end(), body.normals.begin(), body.normals.end());
   }
-  std::vector<float> ao(positions.size() / 3);
-  nook_bake_trace_desc desc;
-  bake_check(nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  desc.meshes = meshes.data();
-  desc.mesh_count = std::uint32_t(meshes.size());
-  desc.positions = positions.data();
-  desc.normals = normals.data();
-  desc.point_count = std::uint32_t(ao.size());
-  desc.rays = request.rays;
-  desc.seed = request.seed;
-  bake_check(nook_bake_trace_ao(&desc, ao.data(), desc.point_count));
-
+  const std::vector<float> ao = trace(meshes, positions, normals, INFINITY, request);
   std::vector<std::vector<float>> split;
   for (std::size_t r = 0; r < receivers.size(); ++r) {
     const auto first = ao.begin() + std::ptrdiff_t(r * hero.vertex_count());

@@ -14,10 +14,23 @@ struct TraceRequest {
   bool ground = true;
 };
 
-// AO of the receivers' vertices, one array for each, against all bodies near them and, if asked for, the ground plane y = 0.
+// AO of the receivers' vertices, one array for each, against all bodies near them and, if asked for, the
+// ground plane y = 0.
 std::vector<std::vector<float>> traced_ao(const Hero& hero, const std::vector<Bones>& poses,
                                           std::span<const std::uint32_t> receivers,
                                           const TraceRequest& request);
+
+// A square of the ground plane y = 0 with side x side points; the first lies at the low corner, x runs
+// fastest.
+struct FloorPatch {
+  float low_x_m = 0, low_z_m = 0, size_m = 1;
+  std::uint32_t side = 2;
+};
+
+// AO of the patch against the given bodies alone, with rays of radius_m.
+std::vector<float> traced_floor_ao(const Hero& hero, const std::vector<Bones>& poses,
+                                   std::span<const std::uint32_t> casters, const FloorPatch& patch,
+                                   float radius_m, const TraceRequest& request);
 
 struct Errors {
   double mse = 0;       // mean over vertices

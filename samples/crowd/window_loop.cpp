@@ -16,7 +16,7 @@ namespace crowd {
 namespace {
 
 struct Controls {
-  bool ao = true, self = true, neighbours = true, ground = true, playing = true;
+  bool ao = true, self = true, neighbours = true, ground = true, screen_space = true, playing = true;
   float intensity = 1.0f, key = 0.5f;
   int link_count = 4;
   int tier = 0;  // 33, 43 or 0 for the best
@@ -68,6 +68,7 @@ bool show_controls(Controls& c, const CrowdScene& scene, double update_ms) {
   ImGui::Checkbox("neighbours", &c.neighbours);
   ImGui::SameLine();
   ImGui::Checkbox("ground", &c.ground);
+  ImGui::Checkbox("screen-space AO on the floor", &c.screen_space);
   ImGui::SliderInt("nearest neighbours", &c.link_count, 0, 16);
   ImGui::SliderFloat("key light", &c.key, 0, 1);
   ImGui::Checkbox("play", &c.playing);
@@ -110,15 +111,18 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
   Controls controls;
   controls.link_count = int(options.neighbours);
   controls.tier = options.tier;
+  controls.screen_space = options.screen_space;
   const float radius_m = crowd_radius_m(places);
   controls.distance_m = radius_m + 4;
   std::unique_ptr<CrowdScene> scene;
+  std::unique_ptr<ScreenSpaceAo> screen_space;
   bool tier_changed = true;
   int linked = -1;
   double time_s = 0, update_ms = 0;
   auto last = Clock::now();
   while (!context.should_close()) {
     if (tier_changed) {
+      screen_space.reset();
       scene.reset();
       const CrowdSceneRequest request{std::uint32_t(places.size()), std::uint32_t(controls.link_count),
                                       controls.tier, NOOK_COMBINE_COMPOSED};
@@ -142,10 +146,20 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
     look.fog_start_m = 1.2f * radius_m + 8;
     int width = 0, height = 0;
     context.size(&width, &height);
+    width = std::max(width, 1);
+    height = std::max(height, 1);
+    const Camera camera = camera_of(controls);
+    if (controls.screen_space) {
+      if (!screen_space || screen_space->width_px() != width || screen_space->height_px() != height) {
+        screen_space.reset();  // frees its memory first
+        screen_space = std::make_unique<ScreenSpaceAo>(context, scene->gl(), width, height);
+      }
+      look.screen_ao = screen_space->draw(renderer, drawn, camera);
+    }
     context.framebuffer();
-    gl.Viewport(0, 0, std::max(width, 1), std::max(height, 1));
+    gl.Viewport(0, 0, width, height);
     gl.Enable(GL_FRAMEBUFFER_SRGB);
-    renderer.draw(drawn, camera_of(controls), look, glm::vec3(0), radius_m + 1);
+    renderer.draw(drawn, camera, look, glm::vec3(0), radius_m + 1);
     gl.Disable(GL_FRAMEBUFFER_SRGB);  // ImGui's colours are encoded already
     gui.begin();
     tier_changed = show_controls(controls, *scene, update_ms);

@@ -35,7 +35,8 @@ TEST_CASE("a small crowd is drawn, and the more casters count the nearer it is t
   const auto report = nlohmann::json::parse(std::ifstream(out / "report.json"));
   CHECK(report["characters"] == 12);
   CHECK(report["links"] > 0);
-  for (const char* stage : {"pose", "scene_update", "draw", "read"}) CHECK(report["ms"][stage] > 0);
+  for (const char* stage : {"pose", "scene_update", "screen_space", "draw", "read"})
+    CHECK(report["ms"][stage] > 0);
   const double all = mse_of(report, "all");
   CHECK(all > 0);
   CHECK(all < mse_of(report, "self_ground"));
@@ -47,6 +48,7 @@ TEST_CASE("a small crowd is drawn, and the more casters count the nearer it is t
 TEST_CASE("bad arguments end with code 2, a bad character with 3") {
   CHECK(run("--size 3 2> /dev/null") == 2);
   CHECK(run("--tier 40 2> /dev/null") == 2);
+  CHECK(run("--screen-space maybe 2> /dev/null") == 2);
   CHECK(run("no_such_file.glb 2> /dev/null") == 2);
   const std::filesystem::path broken = std::filesystem::temp_directory_path() / "crowd_test_broken.glb";
   std::ofstream(broken) << "not a character";

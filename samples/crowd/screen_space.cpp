@@ -1,0 +1,99 @@
+#include "screen_space.h"
+
+#include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
+#include <stdexcept>
+
+namespace crowd {
+namespace {
+
+void make_texture(const GladGLContext& gl, GLuint name, GLenum attachment, GLenum internal_format,
+                  GLenum format, GLenum type, int width, int height) {
+  gl.BindTexture(GL_TEXTURE_2D, name);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GLint(internal_format), width, height, 0, format, type, nullptr);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    gl.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, name, 0);
+}
+
+nook_nnao create_pass(nook_gl gl, int width, int height, const ScreenSpaceQuality& quality) {
+  nook_nnao_desc desc;
+  nook::check(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.max_width = width;
+  desc.max_height = height;
+  desc.taps = quality.taps;
+  desc.half_resolution = quality.half_resolution;
+  nook_nnao pass = nullptr;
+  nook::check(nook_nnao_create(gl, &desc, &pass));
+  return pass;
+}
+
+}  // namespace
+
+ScreenSpaceQuality quality_for(const std::string& gl_renderer) {
+  for (const char* software : {"llvmpipe", "softpipe", "SwiftShader"})
+    if (gl_renderer.find(software) != std::string::npos) return {16, true};
+  return {};
+}
+
+ScreenSpaceAo::ScreenSpaceAo(const platform::Context& context, nook_gl gl, int width_px, int height_px)
+    : gl_(context.gl()),
+      width_px_(width_px),
+      height_px_(height_px),
+      quality_(quality_for(context.renderer())),
+      pass_(create_pass(gl, width_px, height_px, quality_)) {
+  gl_.GenTextures(kTextures, textures_);
+  gl_.GenFramebuffers(1, &framebuffer_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  make_texture(gl_, textures_[kDepth], GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT,
+               GL_UNSIGNED_INT, width_px, height_px);
+  make_texture(gl_, textures_[kNormals], GL_COLOR_ATTACHMENT0, GL_RGB10_A2, GL_RGBA,
+               GL_UNSIGNED_INT_2_10_10_10_REV, width_px, height_px);
+  make_texture(gl_, textures_[kLayer], GL_COLOR_ATTACHMENT1, GL_RG8, GL_RG, GL_UNSIGNED_BYTE, width_px,
+               height_px);
+  const GLenum buffers[2] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl_.DrawBuffers(2, buffers);
+  const bool complete = gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  if (!complete) throw std::runtime_error("crowd: this OpenGL cannot draw normals beside depth");
+}
+
+ScreenSpaceAo::~ScreenSpaceAo() {
+  gl_.DeleteFramebuffers(1, &framebuffer_);
+  gl_.DeleteTextures(kTextures, textures_);
+}
+
+ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> instances,
+                             const Camera& camera, nook_nnao_layer layer) {
+  const float aspect = float(width_px_) / float(height_px_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  gl_.Viewport(0, 0, width_px_, height_px_);
+  const float facing[4] = {0.5f, 0.5f, 1, 1}, open[4] = {1, 0, 0, 0}, far_plane = 1;
+  gl_.ClearBufferfv(GL_COLOR, 0, facing);
+  gl_.ClearBufferfv(GL_COLOR, 1, open);
+  gl_.ClearBufferfv(GL_DEPTH, 0, &far_plane);
+  renderer.draw_surfaces(instances, camera, aspect);
+  nook_nnao_frame_desc frame;
+  nook::check(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+  frame.width = width_px_;
+  frame.height = height_px_;
+  frame.depth_texture = textures_[kDepth];
+  frame.normal_texture = textures_[kNormals];
+  frame.normal_scale = 2;
+  frame.normal_bias = -1;
+  const glm::mat3 vs_from_ws(view_from_world(camera));
+  const glm::mat4 projection = clip_from_view(camera, aspect);
+  std::copy_n(glm::value_ptr(vs_from_ws), 9, frame.normal_matrix);
+  std::copy_n(glm::value_ptr(projection), 16, frame.projection);
+  frame.radius = kRadius_m;
+  frame.layer = layer;
+  frame.layer_texture = textures_[kLayer];
+  nook::check(nook_nnao_render(pass_.get(), &frame));
+  nook_nnao_info info{};
+  info.struct_size = sizeof info;
+  nook::check(nook_nnao_get_info(pass_.get(), &info));
+  return {info.texture, textures_[kDepth]};
+}
+
+}  // namespace crowd
