@@ -49,6 +49,11 @@ std::string gamma_label(float gamma, const char* rest) {
   return text;
 }
 
+std::string screen_space_label(const ScreenSpaceQuality& quality) {
+  return "screen-space AO (NNAO) alone, " + std::to_string(quality.taps) + " taps" +
+         (quality.half_resolution ? ", half resolution" : "");
+}
+
 }  // namespace
 
 void measure_errors(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
@@ -91,7 +96,7 @@ void write_comparison_sheet(const Stage& stage, CrowdScene& scene, const std::ve
   const Values truth = traced_ao(stage.hero, poses, members, {kPictureRays, request.seed});
   painter.add("no AO", Values{});
   painter.add("static AO, baked in the rest pose", Values(members.size(), scene.model().static_ao()));
-  if (stage.screen_space) painter.add_screen_space_alone("screen-space AO (NNAO) alone");
+  if (stage.screen_space) painter.add_screen_space_alone(screen_space_label(stage.screen_space->quality()));
   scene.update(NOOK_TERM_SELF);
   painter.add("Nook, self only", scene);
   scene.update(NOOK_TERM_ALL);
