@@ -10,7 +10,7 @@
 namespace crowd {
 namespace {
 
-constexpr std::uint32_t kRays = 64;          // of the report
+constexpr std::uint32_t kRays = 128;         // of the report
 constexpr std::uint32_t kPictureRays = 256;  // of the sheets, where noise would be seen
 constexpr std::uint32_t kFloorSide = 320;    // points of the floor, about 2 cm apart
 constexpr std::size_t kSampled = 12;
