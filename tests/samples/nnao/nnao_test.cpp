@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,14 @@ int run(const std::string& arguments) {
   return WEXITSTATUS(status);
 }
 
+// Of its own for each case: they run side by side.
 struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / "nook_nnao_sample_test";
-  Folder() { std::filesystem::create_directories(path); }
+  std::filesystem::path path;
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "nook_nnao_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary directory");
+    path = name;
+  }
   ~Folder() { std::filesystem::remove_all(path); }
 };
 
