@@ -3,7 +3,8 @@
 namespace nook::cli {
 namespace {
 
-// Made by `nook evaluate nnao --tune all`, seed 1.
+// Found by `nook evaluate nnao --tune PEER`, seed 1, in several runs while the peers' shaders took their shape;
+// `--tune all` searches anew, from these.
 constexpr PeerMethod methods[] = {
 #include "cli/nnao/peer_tuning.inl"
 };
