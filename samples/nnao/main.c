@@ -143,17 +143,24 @@ static nook_result start_pass(Pass* p) {
   return r;
 }
 
-/* ---- 2. Each frame, once depth is drawn; *ao is the texture that the lighting reads ---- */
+/* ---- 2. Each frame, once depth is drawn ---- */
+static nook_result describe_frame(const Engine* e, float radius_m, nook_nnao_frame_desc* frame) {
+  nook_result r = nook_nnao_frame_desc_init(frame, sizeof *frame, NOOK_VERSION);
+  if (r) return r;
+  frame->width = width;
+  frame->height = height;
+  frame->depth_texture = e->depth;
+  memcpy(frame->projection, e->projection, sizeof frame->projection);
+  frame->radius = radius_m;
+  return NOOK_OK;
+}
+
+/* *ao is the texture that the lighting reads. */
 static nook_result run_pass(Pass* p, const Engine* e, float radius_m, GLuint* ao) {
   nook_nnao_frame_desc frame;
   nook_nnao_info info = {0};
-  nook_result r = nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION);
+  nook_result r = describe_frame(e, radius_m, &frame);
   if (r) return r;
-  frame.width = width;
-  frame.height = height;
-  frame.depth_texture = e->depth;
-  memcpy(frame.projection, e->projection, sizeof frame.projection);
-  frame.radius = radius_m;
   r = nook_nnao_render(p->nnao, &frame);
   info.struct_size = sizeof info;
   if (!r) r = nook_nnao_get_info(p->nnao, &info);
@@ -164,13 +171,8 @@ static nook_result run_pass(Pass* p, const Engine* e, float radius_m, GLuint* ao
 /* The AO alone, written over the colours: what NOOK_NNAO_TARGET_TEXTURE is for. */
 static nook_result show_ao(Pass* p, const Engine* e, float radius_m) {
   nook_nnao_frame_desc frame;
-  nook_result r = nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION);
+  nook_result r = describe_frame(e, radius_m, &frame);
   if (r) return r;
-  frame.width = width;
-  frame.height = height;
-  frame.depth_texture = e->depth;
-  memcpy(frame.projection, e->projection, sizeof frame.projection);
-  frame.radius = radius_m;
   frame.target = NOOK_NNAO_TARGET_TEXTURE;
   frame.target_name = e->colour;
   return nook_nnao_render(p->nnao, &frame);
