@@ -1,17 +1,9 @@
 #include "gl/state_guard.h"
 
+#include "gl/state_access.h"
+
 namespace nook::gl {
 namespace {
-
-GLint integer(const Functions& gl, GLenum name) {
-  GLint value = 0;
-  gl.GetIntegerv(name, &value);
-  return value;
-}
-
-void set_enabled(const Functions& gl, GLenum capability, GLboolean enabled) {
-  enabled ? gl.Enable(capability) : gl.Disable(capability);
-}
 
 BufferRange indexed_range(const Functions& gl, GLenum binding, GLenum start, GLenum size, GLuint index) {
   BufferRange range;

@@ -1,19 +1,12 @@
 // Saving and restoring what the screen-space pass draws with.
 #include "gl/state_guard.h"
 
+#include "gl/state_access.h"
+
 namespace nook::gl {
 namespace {
 
-GLint integer(const Functions& gl, GLenum name) {
-  GLint value = 0;
-  gl.GetIntegerv(name, &value);
-  return value;
-}
-
 // With an index, only that of draw buffer 0 or viewport 0 changes.
-void set_enabled(const Functions& gl, GLenum capability, bool enabled) {
-  enabled ? gl.Enable(capability) : gl.Disable(capability);
-}
 void set_enabled_0(const Functions& gl, GLenum capability, bool enabled) {
   enabled ? gl.Enablei(capability, 0) : gl.Disablei(capability, 0);
 }
