@@ -200,7 +200,7 @@ typedef struct nook_bake_progress {
 typedef int32_t (*nook_bake_progress_fn)(void* user, const nook_bake_progress* progress);
 
 /* Tries several exponents in short fits and takes the one with the least error on held-out poses. The runtime has fast paths
- * for 1, 1.5 and 2; others cost about twice the time. */
+ * for 1, 1.5 and 2; others take two to four times as long. */
 #define NOOK_BAKE_GAMMA_LEARNED (-1.0f)
 
 typedef struct nook_bake_job_desc {
