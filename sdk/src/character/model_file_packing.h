@@ -102,7 +102,7 @@ Vec3 read_normal(ByteReader& in, int bits);
 std::array<std::uint32_t, KeyPoint::max_bones> weight_codes(
     const std::array<float, KeyPoint::max_bones>& weight);
 
-// alpha = max_alpha * (code / 255)^2: fine steps where alpha is small. Code 0 is kept for "no entry".
+// alpha = max_alpha * (code / last code)^2: fine steps where alpha is small. Code 0 is kept for "no entry".
 inline float decode_alpha(std::uint32_t code, float max_alpha) {
   const double share = code / double(Range::last_code(CharacterBits::alpha));
   return static_cast<float>(max_alpha * share * share);

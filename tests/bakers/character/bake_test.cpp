@@ -52,7 +52,7 @@ TEST_CASE("a baked model follows poses that it has not seen") {
   CHECK(e.model.mse < 0.2 * e.static_bake.mse);  // the issue asks it of real bodies; a tube is easier
   CHECK(e.model.mse < e.oracle.mse);
 
-  // What ships loses little by its 8-bit weights.
+  // What ships loses little by its small integers.
   const CharacterEvaluation shipped = evaluate_character(mesh, quantise(baked.model), unseen, 256, 5);
   CHECK(shipped.model.mse < 1.05 * e.model.mse + 1e-5);
 }
