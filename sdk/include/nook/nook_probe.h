@@ -123,7 +123,8 @@ NOOK_API void nook_probe_fit_destroy(nook_probe_fit* fit);
 /* Samples of uniformly distributed directions have weight 1 (weights NULL); drawn with probability density p over the
  * domain, whose area is a, 1 / (a p): for a sampler by luminance bright directions weigh little. Samples whose direction is not
  * unit to 1e-3, or outside the hemisphere, whose direction, radiance or weight is not finite, or whose weight is negative,
- * are skipped and counted; radiance and weights above 1e18 count as infinite. No allocation. One at a time.
+ * are skipped and counted; radiance and weights above 1e18 count as infinite. Running averages want directions in random
+ * order: rows of an image, one after the other, leave them with the last ones. No allocation. One at a time.
  * Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float* directions, const float* radiance,
                                                 const float* weights, size_t count);
