@@ -78,6 +78,16 @@ typedef void (*nook_log_fn)(void* user, nook_log_severity severity, const char* 
 typedef void (*nook_job_fn)(void* body_user, uint32_t index);
 typedef void (*nook_parallel_for_fn)(void* user, uint32_t count, nook_job_fn body, void* body_user);
 
+/* Instruction sets of the CPU kernels. */
+enum {
+  NOOK_ISA_AUTO = 0, /* the best this processor has */
+  NOOK_ISA_SCALAR = 1,
+  NOOK_ISA_SSE2 = 2,
+  NOOK_ISA_AVX2 = 3,
+  NOOK_ISA_AVX512 = 4
+};
+typedef int32_t nook_isa;
+
 typedef struct nook_context_s* nook_context;
 
 typedef struct nook_context_desc {

@@ -64,15 +64,6 @@ enum {
 };
 typedef int32_t nook_combine;
 
-enum {
-  NOOK_ISA_AUTO = 0, /* the best this processor has */
-  NOOK_ISA_SCALAR = 1,
-  NOOK_ISA_SSE2 = 2,
-  NOOK_ISA_AVX2 = 3,
-  NOOK_ISA_AVX512 = 4
-};
-typedef int32_t nook_isa;
-
 typedef struct nook_scene_desc {
   uint32_t struct_size;         /* set by nook_scene_desc_init */
   uint32_t header_version;      /* set by nook_scene_desc_init */

@@ -10,11 +10,10 @@
 #include <cstdint>
 
 #include "character/kernel.h"
+#include "core/isa.h"
 #include "core/vec.h"
 
 namespace nook {
-
-enum class Isa : std::uint8_t { scalar = 0, sse2 = 1, avx2 = 2, avx512 = 3 };
 
 // Key points come in groups of this many: arrays that run over key points hold padded_key_points(count)
 // entries, and the padding must hold finite numbers (pose_key_points fills it).

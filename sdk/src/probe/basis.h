@@ -1,0 +1,65 @@
+// The functions that a probe is made of. One interface for all kinds: values at a direction, the integral of
+// each function, and the Gram matrix of all, over the sphere or a hemisphere. Fits know no more than that.
+#pragma once
+
+#include <nook/nook_probe.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace nook::probe {
+
+inline constexpr std::uint32_t max_functions = NOOK_PROBE_MAX_FUNCTIONS;
+inline constexpr float max_sharpness = 1e4f;
+inline constexpr std::uint32_t max_order = 4;
+inline constexpr std::uint32_t dice_vertices = 12;
+
+enum class BasisKind : std::uint8_t { gaussians = 0, harmonics = 1, dice = 2 };
+enum class Domain : std::uint8_t { sphere = 0, hemisphere = 1 };
+
+// Plain data; comparable, so that two fits can be asked whether they merge.
+struct Basis {
+  BasisKind kind = BasisKind::gaussians;
+  Domain domain = Domain::sphere;
+  bool ambient = false;                          // Gaussians: the last function is a lobe of sharpness 0
+  std::uint32_t order = 0;                       // harmonics: the highest band
+  std::uint32_t count = 0;                       // functions
+  Vec3 up{0, 0, 1};                              // the hemisphere's axis
+  std::array<Vec3, max_functions> axis{};        // Gaussians and dice
+  std::array<float, max_functions> sharpness{};  // Gaussians
+
+  bool operator==(const Basis&) const = default;
+};
+
+// Lobes with these axes, and one of sharpness 0 after them if ambient. Throws INVALID_ARGUMENT for what
+// check_basis refuses.
+Basis gaussian_basis(std::span<const Vec3> axes, std::span<const float> sharpnesses, bool ambient,
+                     Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
+// The default set: a Vogel spiral of `lobes`, all of even_sharpness.
+Basis vogel_basis(std::uint32_t lobes, bool ambient = false, Domain domain = Domain::sphere,
+                  Vec3 up = {0, 0, 1});
+Basis harmonic_basis(std::uint32_t order, Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
+Basis dice_basis(Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
+
+// Half as much as there are lobes on the sphere, which overlaps neighbours alike at every count: 6 for 12.
+float even_sharpness(std::uint32_t lobes, Domain domain);
+
+// Throws Failure(code): a count, axis or sharpness out of its range, or two lobes that no fit can tell apart,
+// which it names.
+void check_basis(const Basis& basis, nook_result code);
+
+// values[i] = B_i(direction), count of them; direction unit.
+void evaluate_basis(const Basis& basis, Vec3 direction, float* values);
+void evaluate_basis(const Basis& basis, const double direction[3], double* values);
+
+double domain_area(Domain domain);
+
+// integral[i] of B_i, and gram[i * count + k] of B_i B_k, over the domain.
+std::vector<double> basis_integrals(const Basis& basis);
+std::vector<double> basis_gram(const Basis& basis);
+
+}  // namespace nook::probe

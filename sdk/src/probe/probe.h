@@ -1,0 +1,54 @@
+// Probes as plain data: one, or a grid of them that share their functions.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/spherical_gaussian.h"
+#include "core/vec.h"
+#include "probe/basis.h"
+
+namespace nook::probe {
+
+inline constexpr std::uint32_t max_probes = 1u << 20;
+// No coefficient is larger, so that no sum of an evaluation overflows.
+inline constexpr float max_coefficient = 1e18f;
+
+struct Grid {
+  std::array<std::uint32_t, 3> counts{1, 1, 1};  // along x, y, z
+  Vec3 origin_ws;                                // metres, of the first probe
+  Vec3 spacing_ws{1, 1, 1};                      // metres between neighbours
+
+  std::size_t size() const { return std::size_t(counts[0]) * counts[1] * counts[2]; }
+  bool operator==(const Grid&) const = default;
+};
+
+struct Probes {
+  explicit Probes(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : coefficients(memory), recipe(memory) {}
+
+  Basis basis;
+  Grid grid;
+  std::pmr::vector<Vec3> coefficients;  // probe by probe (x fastest, then y, z), basis.count of RGB each
+  std::pmr::string recipe;              // how they were baked, JSON; may be empty
+
+  std::span<const Vec3> of(std::size_t index) const {
+    return std::span(coefficients).subspan(index * basis.count, basis.count);
+  }
+};
+
+// Throws Failure(code) for a grid, a basis or a coefficient out of its range.
+void check_probes(const Probes& probes, nook_result code);
+
+// The coefficients at a point: trilinear weights between the grid's probes, clamped at its ends.
+void interpolate(const Probes& probes, Vec3 position_ws, std::span<Vec3> coefficients);
+
+// Gaussians only: function i as a lobe with coefficient i.
+void to_lobes(const Basis& basis, std::span<const Vec3> coefficients, std::span<SphericalGaussian> lobes);
+
+}  // namespace nook::probe

@@ -1,0 +1,33 @@
+// Probes as .nook files. Version 1 of the kind "PROB" has the sections
+//   HEAD u8 kind, u8 domain, u8 ambient, u8 order, u8 functions, u8 packing; up 3 f32; counts 3 u32;
+//   origin_ws
+//        and spacing_ws 3 f32 each
+//   LOBE Gaussians only: for each function axis 3 f32 and sharpness f32
+//   COEF coefficients, probe by probe, packed as HEAD says: 3 f32, 3 half floats, or one RGB9E5 word
+//   RECP recipe, JSON; may be empty
+#pragma once
+
+#include <cstddef>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "core/container.h"
+#include "probe/packing.h"
+#include "probe/probe.h"
+
+namespace nook::probe {
+
+inline constexpr ContainerKind probe_kind{four_letters("PROB"), "light probe", 1, 1};
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for what check_probes refuses, and for coefficients that the
+// packing cannot hold.
+std::vector<std::byte> write_probes(const Probes& probes, Packing packing);
+
+// Safe on hostile bytes, also with a right checksum: throws Failure(NOOK_ERROR_BAD_FILE or
+// NOOK_ERROR_FILE_VERSION), and allocates no more than the coefficients and the recipe.
+Probes read_probes(std::span<const std::byte> bytes,
+                   std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+Packing packing_of(std::span<const std::byte> bytes);
+
+}  // namespace nook::probe
