@@ -88,8 +88,8 @@ float LightSampler::texel_density(std::size_t texel) const {
   return uniform_ + per_luminance_ * luminance(environment_->texel(texel));
 }
 
-LightSample LightSampler::sample(float choice, float alias, float u, float v) const {
-  std::size_t texel = std::min(std::size_t(double(choice) * double(keep_.size())), keep_.size() - 1);
+LightSample LightSampler::sample(double choice, float alias, float u, float v) const {
+  std::size_t texel = std::min(std::size_t(choice * double(keep_.size())), keep_.size() - 1);
   if (alias >= keep_[texel]) texel = other_[texel];
   const auto row = std::uint32_t(texel / environment_->width());
   const auto column = std::uint32_t(texel % environment_->width());

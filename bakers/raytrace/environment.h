@@ -54,8 +54,8 @@ class LightSampler {
   // The environment must outlive the sampler. uniform_share in [0, 1]; a black map is sampled uniformly.
   explicit LightSampler(const Environment& environment, float uniform_share = 0);
 
-  // Four numbers in [0, 1).
-  LightSample sample(float choice, float alias, float u, float v) const;
+  // Four numbers in [0, 1); choice in double, which reaches every texel of large maps.
+  LightSample sample(double choice, float alias, float u, float v) const;
   float density(Vec3 direction) const { return texel_density(environment_->texel_at(direction)); }
 
  private:

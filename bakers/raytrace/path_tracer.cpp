@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "core/failure.h"
+#include "core/spherical_gaussian.h"
 
 namespace nook::bake {
 namespace {
@@ -18,9 +19,6 @@ constexpr float pi = std::numbers::pi_v<float>;
 constexpr std::uint32_t certain_bounces = 3;   // before Russian roulette begins
 constexpr float most_likely_survival = 0.95f;  // ends paths between white walls
 
-constexpr Vec3 times(Vec3 a, Vec3 b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
 float largest(Vec3 v) {
   return std::max({v.x, v.y, v.z});
 }
@@ -31,7 +29,8 @@ bool is_black(Vec3 v) {
 // Light of the environment at a surface, by a direction that the light chose, weighed by the balance
 // heuristic (Veach 1997) against the cosine's choice of the same direction.
 Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, PathRandom& random) {
-  const float choice = random.next(), alias = random.next(), u = random.next(), v = random.next();
+  const double choice = random.next_double();
+  const float alias = random.next(), u = random.next(), v = random.next();
   const LightSample light = scene.light().sample(choice, alias, u, v);
   const float cosine = dot(light.direction, normal);
   if (cosine <= 0 || is_black(light.radiance) || scene.rays().occluded(origin, light.direction)) return {};
@@ -44,20 +43,20 @@ Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 dir
   Vec3 irradiance, share{1, 1, 1};
   for (std::uint32_t bounce = 0;; ++bounce) {
     const Vec3 origin = position + settings.origin_offset * normal;
-    irradiance += times(share, light_by_luminance(scene, origin, normal, random));
+    irradiance += by_channel(share, light_by_luminance(scene, origin, normal, random));
     const RayHit hit = scene.rays().nearest(origin, direction);
     if (std::isinf(hit.distance)) {
       const float density = std::max(dot(direction, normal), 0.0f) / pi;
       if (density > 0)
-        irradiance += times(share, scene.environment().radiance(direction)) *
+        irradiance += by_channel(share, scene.environment().radiance(direction)) *
                       (pi * density / (density + scene.light().density(direction)));
       return irradiance;
     }
     const Surface& surface = scene.surface(hit.triangle);
-    irradiance += pi * times(share, surface.emission);
+    irradiance += pi * by_channel(share, surface.emission);
     // A cosine-weighted direction carries pi times its radiance, and a diffuse surface sends irradiance *
     // base colour / pi.
-    share = times(share, surface.base_colour);
+    share = by_channel(share, surface.base_colour);
     if (bounce >= settings.max_bounces || is_black(share)) return irradiance;
     if (bounce >= certain_bounces) {
       const float survival = std::min(largest(share), most_likely_survival);
@@ -85,7 +84,7 @@ Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const Pa
   const Vec3 onward = to_world(turned_frame(hit.normal, 1, 0), cosine_direction(u, v));
   const Vec3 irradiance =
       irradiance_path(scene, origin + hit.distance * direction, hit.normal, onward, rest, random);
-  return surface.emission + times(surface.base_colour, irradiance) * (1 / pi);
+  return surface.emission + by_channel(surface.base_colour, irradiance) * (1 / pi);
 }
 
 std::vector<Vec3> trace_irradiance(const LitScene& scene, const Receivers& receivers,

@@ -20,6 +20,7 @@ class PathRandom {
  public:
   explicit PathRandom(std::uint64_t key) : state_(mix_bits(key)) {}
   float next() { return unit_float(mix_bits(state_++)); }
+  double next_double() { return double(mix_bits(state_++) >> 11) * 0x1p-53; }
 
  private:
   std::uint64_t state_;

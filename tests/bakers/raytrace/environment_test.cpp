@@ -65,7 +65,7 @@ TEST_CASE("samples by luminance integrate any function of the map without bias")
     for (int i = 0; i < count; ++i) {
       const auto next = [&] { return unit_float(mix_bits(key++)); };
       const float choice = next(), alias = next(), u = next(), v = next();
-      const LightSample s = sampler.sample(choice, alias, u, v);
+      const LightSample s = sampler.sample(double(choice), alias, u, v);
       REQUIRE(s.density > 0);
       CHECK(s.radiance == map.radiance(s.direction));
       mean += s.radiance * (1 / (s.density * count));
@@ -85,7 +85,7 @@ TEST_CASE("samples by luminance integrate any function of the map without bias")
 TEST_CASE("a black map is sampled uniformly") {
   const Environment black(4, 2, std::vector<float>(24, 0.0f));
   const LightSampler sampler(black);
-  CHECK(std::abs(double(sampler.sample(0.3f, 0.4f, 0.5f, 0.6f).density) - 1 / (4 * pi)) < 1e-8);
+  CHECK(std::abs(double(sampler.sample(0.3, 0.4f, 0.5f, 0.6f).density) - 1 / (4 * pi)) < 1e-8);
 }
 
 TEST_CASE("maps that hold no light are refused") {
