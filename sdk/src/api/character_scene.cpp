@@ -209,8 +209,8 @@ nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, co
   return with_scene("nook_scene_set_light", scene, [&](Scene& s) {
     if (!lobes) lobe_count = 0;
     if (lobe_count > max_light_lobes)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is too large (got %u, need at most %u)", lobe_count,
-                    max_light_lobes);
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is too large (got %u, need at most %u)",
+                    lobe_count, max_light_lobes);
     std::array<SphericalGaussian, max_light_lobes> light;
     for (uint32_t i = 0; i < lobe_count; ++i)
       light[i] = {{lobes[i].axis[0], lobes[i].axis[1], lobes[i].axis[2]},

@@ -39,7 +39,8 @@ struct Colour {
   F r, g, b;
 };
 
-// Sharpness of the lobe that stands for the clamped cosine; cosine_lobe_sharpness of core/spherical_gaussian.h.
+// Sharpness of the lobe that stands for the clamped cosine; cosine_lobe_sharpness of
+// core/spherical_gaussian.h.
 inline constexpr float directional_cosine = 2.133f;
 // k = concentration sqrt(height) (1 - f^2) / f: a far sphere is a lobe of its solid angle, one that fills the
 // hemisphere is the hemisphere. Measured against rays in a crowd: what casters and the ground take depends on
@@ -50,8 +51,8 @@ inline constexpr float smallest_share = 1e-4f;
 // Nothing dims its receiver by more than this times its share: a bound on the effect of one bright lobe.
 inline constexpr float largest_ratio = 8.0f;
 
-// (1 - e^(-2 v)) / v as 1 / (v + v / (e^(2 v) - 1)) with the exponential's series: relative error below 0.006,
-// for v from 0 to 1e6.
+// (1 - e^(-2 v)) / v as 1 / (v + v / (e^(2 v) - 1)) with the exponential's series: relative error below
+// 0.006, for v from 0 to 1e6.
 template <class F>
 F lobe_norm(F v) {
   const F q = fma(fma(fma(fma(F(0.26666667f), v, F(0.66666667f)), v, F(1.3333333f)), v, F(2.0f)), v, F(2.0f));
@@ -106,8 +107,8 @@ Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Di
   const F k = F(concentration) * sqrt(max(cosine, F(0.0f))) * max(F(1.0f) - f * f, F(0.0f)) / f;
   const F along = k * inverse_distance;
   const F up = fma(along, lift, F(directional_cosine));
-  const Colour<F> behind = mean_radiance(light, Direction<F>{fma(o.x, along, n.x * up), fma(o.y, along, n.y * up),
-                                                             fma(o.z, along, n.z * up)});
+  const Colour<F> behind = mean_radiance(
+      light, Direction<F>{fma(o.x, along, n.x * up), fma(o.y, along, n.y * up), fma(o.z, along, n.z * up)});
   const auto ratio = [](F mean, F scale) { return min(max(mean * scale, F(0.0f)), F(largest_ratio)); };
   return {ratio(behind.r, inverse.r), ratio(behind.g, inverse.g), ratio(behind.b, inverse.b)};
 }

@@ -26,8 +26,8 @@ void check_lobe(const SphericalGaussian& lobe, std::size_t index) {
   for (const float channel : {lobe.amplitude.x, lobe.amplitude.y, lobe.amplitude.z})
     if (!(std::abs(channel) <= max_amplitude))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "the amplitude of lobe %zu is out of range (got %g, need at most 1e18 in magnitude)", index,
-                    double(channel));
+                    "the amplitude of lobe %zu is out of range (got %g, need at most 1e18 in magnitude)",
+                    index, double(channel));
 }
 
 Vec3 darkest_of(std::span<const SphericalGaussian> lobes) {
@@ -59,20 +59,19 @@ void fill(float* const* lanes, std::uint32_t count, float value) {
 void colour_shadow(const Instance& instance, InstanceLight& light) {
   const PointLanes& points = instance.arrays.points;
   const float gamma = instance.model->model.kernel.gamma;
-  const CharacterLevel* level =
-      instance.level ? &instance.model->model.levels[instance.level - 1] : nullptr;
+  const CharacterLevel* level = instance.level ? &instance.model->model.levels[instance.level - 1] : nullptr;
   for (std::uint32_t k = 0; k < points.count; ++k) {
     const std::uint32_t source = level ? level->source[k] : k;
     // At a coarser level the roots have been taken in place.
-    const float sum = level && gamma != 1 ? std::pow(points.norm_sum[source], gamma) : points.norm_sum[source];
+    const float sum =
+        level && gamma != 1 ? std::pow(points.norm_sum[source], gamma) : points.norm_sum[source];
     const float scale = sum > 0 ? points.shadow[k] / sum : 0;
     for (int c = 0; c < 3; ++c) light.shadow[c][k] = light.sum[c][source] * scale;
   }
 }
 
 void spread_added(const Instance& instance, InstanceLight& light) {
-  const CharacterLevel* level =
-      instance.level ? &instance.model->model.levels[instance.level - 1] : nullptr;
+  const CharacterLevel* level = instance.level ? &instance.model->model.levels[instance.level - 1] : nullptr;
   for (std::uint32_t k = 0; k < instance.arrays.points.count; ++k)
     for (int c = 0; c < 3; ++c) light.added[c][k] = light.sum[c][level ? level->source[k] : k];
 }
@@ -83,8 +82,8 @@ void evaluate_composed(const Scene& scene, const Instance& instance, const Point
   fill(light.sum, points.padded_count, 0.0f);
   fill(light.open, points.padded_count, 1.0f);
   for (const std::uint32_t caster : instance.casters)
-    scene.kernels->directional_depth(spheres_of(scene.instances[caster], instance.level), surface, light.view(),
-                                     light.sum);
+    scene.kernels->directional_depth(spheres_of(scene.instances[caster], instance.level), surface,
+                                     light.view(), light.sum);
   for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
     scene.kernels->directional_open(spheres, surface, light.view(), light.open);
   });
@@ -100,7 +99,8 @@ void join_paper_norm(const Scene& scene, const Instance& instance, const PointLa
     scene.kernels->directional_norm_sum(spheres, fitted_points(points), instance.model->model.kernel,
                                         light.view(), light.sum);
   };
-  for (const std::uint32_t caster : instance.casters) join(spheres_of(scene.instances[caster], instance.level));
+  for (const std::uint32_t caster : instance.casters)
+    join(spheres_of(scene.instances[caster], instance.level));
   for_free_spheres(scene, instance, join);
 }
 
@@ -109,8 +109,8 @@ void join_paper_norm(const Scene& scene, const Instance& instance, const PointLa
 void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes) {
   Instance& instance = instance_of(scene, id);
   if (lobes.size() > max_light_lobes)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is too large (got %zu, need at most %u)", lobes.size(),
-                  max_light_lobes);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is too large (got %zu, need at most %u)",
+                  lobes.size(), max_light_lobes);
   for (std::size_t i = 0; i < lobes.size(); ++i) check_lobe(lobes[i], i);
   InstanceLight& light = instance.light;
   if (!lobes.empty() && light.lobes.size() == 0) allocate(light, instance.arrays.points, scene.memory);

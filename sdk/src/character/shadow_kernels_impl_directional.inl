@@ -30,8 +30,8 @@ void store_colour(float* const* rgb, std::uint32_t k, const Colour<Float>& colou
 }
 
 template <KernelForm Form, NormPower P>
-void directional_norm(const SphereSoa& spheres, const KeyPointSoa& points, float gamma, const LightView& light,
-                      float* const* rgb) {
+void directional_norm(const SphereSoa& spheres, const KeyPointSoa& points, float gamma,
+                      const LightView& light, float* const* rgb) {
   const Float exponent = broadcast(gamma);
   for (std::uint32_t k = 0; k < points.padded_count; k += width) {
     const Points<Float> p = load_points<Float>(points, k);
