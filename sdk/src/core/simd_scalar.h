@@ -60,6 +60,10 @@ T power(T base, T exponent) {
   return std::pow(base, exponent);
 }
 template <std::floating_point T>
+constexpr T sum(T a) {
+  return a;
+}
+template <std::floating_point T>
 T exponential(T a) {
   return std::exp(a);
 }

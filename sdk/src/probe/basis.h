@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -59,7 +60,9 @@ void evaluate_basis(const Basis& basis, const double direction[3], double* value
 double domain_area(Domain domain);
 
 // integral[i] of B_i, and gram[i * count + k] of B_i B_k, over the domain.
-std::vector<double> basis_integrals(const Basis& basis);
-std::vector<double> basis_gram(const Basis& basis);
+std::pmr::vector<double> basis_integrals(
+    const Basis& basis, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+std::pmr::vector<double> basis_gram(const Basis& basis,
+                                    std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 }  // namespace nook::probe

@@ -1,5 +1,14 @@
 // Least-squares fits of a basis to samples of radiance, while they arrive; nook_probe.h says what each method
 // is. One contract for all: add samples, read coefficients at any time, merge.
+//
+// The running averages' fast step is recursive least squares whose Gram matrix is not summed from the samples
+// but known: the true one times the weight so far. With a the domain's area, G the Gram matrix, K = a G^-1 B
+// the dual functions at the sample, p = dot(K, B), w its weight, W the weight with it:
+//   b += w / (W + w p) K (v - R).
+// G^-1 is made once, the step costs one product with it, and no sample can make it overshoot: the residual
+// there shrinks by W / (W + w p). Its errors, asymptotically those of batch least squares, are measured in
+// docs/probes.md. The plain step, as published, divides by each function's own square alone: where functions
+// overlap, its slowest direction forgets the start with a power of n below 1/2.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -12,10 +21,9 @@
 #include "core/aligned_array.h"
 #include "core/vec.h"
 #include "probe/basis.h"
+#include "probe/fit_kernels.h"
 
 namespace nook::probe {
-
-struct FitKernels;
 
 enum class FitMethod : std::uint8_t {
   naive = 0,
@@ -31,12 +39,10 @@ enum class Step : std::uint8_t { fast = 0, plain = 1 };
 
 struct FitSettings {
   FitMethod method = FitMethod::running_average;
-  Denominator denominator = Denominator::lockstep;  // running averages
-  Step step = Step::fast;                           // running averages
-  float growing_samples = 0;                        // sample k weighs 1 - exp(-k / this); 0: 1
+  Step step = Step::fast;                           // running averages, but the original form
+  Denominator denominator = Denominator::lockstep;  // of the plain step
+  float growing_samples = 0;                        // sample k weighs 1 - exp(-k / this) more; 0: as it is
   nook_isa isa = NOOK_ISA_AUTO;
-
-  bool operator==(const FitSettings&) const = default;
 };
 
 constexpr bool is_running(FitMethod method) {
@@ -44,41 +50,68 @@ constexpr bool is_running(FitMethod method) {
          method == FitMethod::running_average_non_negative;
 }
 
-// What happened to the samples.
+// What became of the samples.
 struct SampleCounts {
   std::uint64_t used = 0;
   std::uint64_t bad_direction = 0;
   std::uint64_t bad_radiance = 0;
   std::uint64_t bad_weight = 0;
-  double weight = 0;               // of those used
-  double radiance[3] = {0, 0, 0};  // their weighted sum
+  double weight = 0;            // of those used
+  double radiance[3]{0, 0, 0};  // their weighted sum
 
   std::uint64_t skipped() const { return bad_direction + bad_radiance + bad_weight; }
 };
 
 class Fit {
  public:
-  // Throws what check_basis throws, and UNSUPPORTED for an instruction set that is not there.
-  Fit(const Basis& basis, const FitSettings& settings, std::pmr::memory_resource* memory);
+  // Throws what check_basis throws, also where functions depend on each other only together, and UNSUPPORTED
+  // for an instruction set that is not there.
+  Fit(const Basis& basis, const FitSettings& settings,
+      std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-  // directions and radiance: three floats an entry; weights null: all 1. Allocates nothing.
+  // directions and radiance: three floats an entry; weights null: all 1. Allocates nothing. How samples are
+  // cut into calls does not matter, to the bit.
   void add_samples(const float* directions, const float* radiance, const float* weights, std::size_t count);
-  // Throw INVALID_ARGUMENT for a fit of another basis, or (merge) of other settings.
-  void seed(const Fit& short_run);
+  // The start of a running average without samples; with the fast step it weighs as much as the samples of
+  // short_run. Both throw INVALID_ARGUMENT for a fit of another basis, merge also for other settings.
+  void seed(Fit& short_run);
   void merge(const Fit& other);
   void reset();
 
   // One coefficient for each function; 0 before the first sample. Allocates nothing.
-  void read(std::span<Vec3> coefficients) const;
+  void read(std::span<Vec3> coefficients);
 
   const Basis& basis() const { return basis_; }
   const FitSettings& settings() const { return settings_; }
   const SampleCounts& counts() const { return counts_; }
+  const char* instruction_set() const { return kernels_->name; }
 
  private:
+  void prepare_gram(std::pmr::memory_resource* memory);
+  std::uint32_t filter(const float* directions, const float* radiance, const float* weights,
+                       std::uint32_t count, Sample* samples);
+  void fit_samples(const Sample* samples, std::uint32_t count);
+  void step(const Sample* samples, const float* values, std::uint32_t count);
+  void settle();  // changes of the running average go to double
+  void solve_moments(double* coefficients);
+  void solve_samples(double* coefficients);
+  void make_non_negative(double* coefficients);
+
   Basis basis_;
   FitSettings settings_;
   SampleCounts counts_;
+  const FitKernels* kernels_;
+  std::uint32_t padded_;
+  double prior_weight_ = 0;      // of a seed
+  std::uint32_t unsettled_ = 0;  // samples since settle
+  LobeSoa lobes_;
+  RunningView running_;
+  AlignedArray<float> floats_;    // what lobes_ and running_ point to
+  AlignedArray<double> gram_;     // of the domain, count x count
+  AlignedArray<double> factor_;   // its Cholesky factor
+  AlignedArray<double> row_sum_;  // of gram_; the naive form's denominators
+  AlignedArray<double> sums_;     // 3 x padded moments, or coefficients; count x padded Gram of the samples
+  AlignedArray<double> scratch_;  // for solving
 };
 
 }  // namespace nook::probe

@@ -17,7 +17,7 @@ namespace nook::probe {
 
 inline constexpr std::uint32_t max_probes = 1u << 20;
 // No coefficient is larger, so that no sum of an evaluation overflows.
-inline constexpr float max_coefficient = 1e18f;
+inline constexpr float max_coefficient = 1e22f;
 
 struct Grid {
   std::array<std::uint32_t, 3> counts{1, 1, 1};  // along x, y, z

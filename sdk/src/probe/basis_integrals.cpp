@@ -1,0 +1,119 @@
+// Integrals of a basis over its domain: closed forms where there are, one-dimensional quadrature for lobes
+// cut by the horizon, a product rule for the smooth functions of the others.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/spherical_gaussian.h"
+#include "probe/axes.h"
+#include "probe/basis.h"
+#include "probe/quadrature.h"
+
+namespace nook::probe {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+using Rule = GaussLegendre<64>;
+
+// Integral of e^(sharpness (t - 1)) over t in [1 - depth, 1], times 2 pi: a lobe over a cap round its axis.
+double cap_integral(double sharpness, double depth) {
+  return 2 * pi * (sharpness < 1e-15 ? depth : -std::expm1(-sharpness * depth) / sharpness);
+}
+
+// Integral of a lobe over the hemisphere whose axis is at `cosine` from the lobe's. The circle at angle a
+// round the lobe's axis is whole up to a = |90 degrees - tilt|, then cut by the horizon, then gone (or the
+// other way round for a lobe below it).
+double hemisphere_integral(const Rule& rule, double sharpness, double cosine) {
+  const double tilt = std::acos(std::clamp(cosine, -1.0, 1.0));
+  const double first = std::abs(pi / 2 - tilt), last = pi - first;
+  const double to_first = 1 - std::cos(first), to_last = 1 - std::cos(last);
+  const double whole = cosine > 0 ? cap_integral(sharpness, to_first)
+                                  : cap_integral(sharpness, 2) - cap_integral(sharpness, to_last);
+  // Beyond this angle nothing is left of the lobe.
+  const double depth = sharpness > 20 ? 40 / sharpness : 2;
+  const double end = std::min(last, std::acos(1 - depth));
+  if (!(end > first)) return whole;
+  const double cotangent = cosine / std::max(std::sqrt(1 - cosine * cosine), 1e-300);
+  // angle = first + (end - first) (1 - cos u) / 2: the arc grows and ends like a root, which this makes
+  // smooth.
+  const double cut = rule(0, pi, [&](double u) {
+    const double angle = first + (end - first) * (1 - std::cos(u)) / 2;
+    const double half_arc = std::acos(std::clamp(-cotangent / std::tan(angle), -1.0, 1.0));
+    return 2 * half_arc * std::sin(angle) * std::exp(-sharpness * (1 - std::cos(angle))) * std::sin(u);
+  });
+  return whole + cut * (end - first) / 2;
+}
+
+double gaussian_inner(const Rule& rule, const Basis& basis, std::uint32_t i, std::uint32_t k) {
+  const double a = basis.sharpness[i], b = basis.sharpness[k];
+  const double apart = one_minus_cosine(basis.axis[i], basis.axis[k]);
+  if (basis.domain == Domain::sphere) return gaussian_product_integral(a, b, apart);
+  const ProductShape<double> shape = gaussian_product_shape(a, b, apart);
+  const double along = a * double(dot(basis.axis[i], basis.up)) + b * double(dot(basis.axis[k], basis.up));
+  return shape.scale *
+         hemisphere_integral(rule, shape.sharpness, shape.sharpness > 0 ? along / shape.sharpness : 1);
+}
+
+// visit(values, weight) at the points of a product rule over the domain, exact for polynomials of degree
+// 127.
+template <class Visit>
+void over_domain(const Rule& rule, const Basis& basis, Visit&& visit) {
+  constexpr int azimuths = 128;
+  const Frame frame = frame_round(basis.domain == Domain::sphere ? Vec3{0, 0, 1} : basis.up);
+  const double lowest = basis.domain == Domain::sphere ? -1 : 0;
+  std::array<double, max_functions> values;
+  for (std::size_t i = 0; i < rule.node.size(); ++i) {
+    const double z = lowest + (1 - lowest) * (rule.node[i] + 1) / 2, r = std::sqrt(1 - z * z);
+    const double weight = rule.weight[i] * (1 - lowest) / 2 * 2 * pi / azimuths;
+    for (int k = 0; k < azimuths; ++k) {
+      const double x = r * std::cos(2 * pi * k / azimuths), y = r * std::sin(2 * pi * k / azimuths);
+      const double direction[3] = {frame.x.x * x + frame.y.x * y + frame.z.x * z,
+                                   frame.x.y * x + frame.y.y * y + frame.z.y * z,
+                                   frame.x.z * x + frame.y.z * y + frame.z.z * z};
+      evaluate_basis(basis, direction, values.data());
+      visit(values.data(), weight);
+    }
+  }
+}
+
+}  // namespace
+
+std::pmr::vector<double> basis_integrals(const Basis& basis, std::pmr::memory_resource* memory) {
+  const Rule rule;
+  std::pmr::vector<double> integrals(basis.count, memory);
+  if (basis.kind == BasisKind::gaussians) {
+    for (std::uint32_t i = 0; i < basis.count; ++i) {
+      const double sharpness = basis.sharpness[i];
+      integrals[i] = basis.domain == Domain::sphere
+                         ? gaussian_integral(sharpness)
+                         : hemisphere_integral(rule, sharpness, double(dot(basis.axis[i], basis.up)));
+    }
+    return integrals;
+  }
+  over_domain(rule, basis, [&](const double* values, double weight) {
+    for (std::uint32_t i = 0; i < basis.count; ++i) integrals[i] += weight * values[i];
+  });
+  return integrals;
+}
+
+std::pmr::vector<double> basis_gram(const Basis& basis, std::pmr::memory_resource* memory) {
+  const Rule rule;
+  const std::size_t n = basis.count;
+  std::pmr::vector<double> gram(n * n, memory);
+  if (basis.kind == BasisKind::gaussians) {
+    for (std::uint32_t i = 0; i < n; ++i)
+      for (std::uint32_t k = 0; k <= i; ++k)
+        gram[i * n + k] = gram[k * n + i] = gaussian_inner(rule, basis, i, k);
+    return gram;
+  }
+  over_domain(rule, basis, [&](const double* values, double weight) {
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k <= i; ++k) gram[i * n + k] += weight * values[i] * values[k];
+  });
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < i; ++k) gram[k * n + i] = gram[i * n + k];
+  return gram;
+}
+
+}  // namespace nook::probe

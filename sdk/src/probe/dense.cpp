@@ -1,0 +1,118 @@
+#include "probe/dense.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "probe/basis.h"
+
+namespace nook::probe {
+
+std::uint32_t cholesky(double* a, std::uint32_t n, double relative) {
+  for (std::size_t i = 0; i < n; ++i) {
+    double* row = a + i * n;
+    const double diagonal = row[i];
+    for (std::size_t k = 0; k <= i; ++k) {
+      const double* other = a + k * n;
+      double sum = row[k];
+      for (std::size_t j = 0; j < k; ++j) sum -= row[j] * other[j];
+      if (k < i)
+        row[k] = sum / other[k];
+      else if (!(sum > relative * diagonal))
+        return std::uint32_t(i);
+      else
+        row[i] = std::sqrt(sum);
+    }
+  }
+  return n;
+}
+
+void cholesky_solve(const double* l, std::uint32_t n, double* x, std::uint32_t stride) {
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = x[i * stride];
+    for (std::size_t k = 0; k < i; ++k) sum -= l[i * n + k] * x[k * stride];
+    x[i * stride] = sum / l[i * n + i];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    double sum = x[i * stride];
+    for (std::size_t k = i + 1; k < n; ++k) sum -= l[k * n + i] * x[k * stride];
+    x[i * stride] = sum / l[i * n + i];
+  }
+}
+
+namespace {
+
+// Solves for the variables of `set` alone; the others are 0. Keeps the set independent: a variable that
+// depends on the ones before it leaves. Returns the set's new size.
+std::uint32_t solve_subset(const double* g, const double* b, std::uint32_t n, std::uint32_t* set,
+                           std::uint32_t size, double* answer, double* scratch) {
+  for (;;) {
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t k = 0; k <= i; ++k) scratch[i * size + k] = g[std::size_t(set[i]) * n + set[k]];
+      answer[i] = b[set[i]];
+    }
+    const std::uint32_t dependent = cholesky(scratch, size, 1e-12);
+    if (dependent == size) break;
+    for (std::uint32_t i = dependent; i + 1 < size; ++i) set[i] = set[i + 1];
+    --size;
+  }
+  cholesky_solve(scratch, size, answer, 1);
+  return size;
+}
+
+}  // namespace
+
+void non_negative_solve(const double* g, const double* b, std::uint32_t n, double* x, double* scratch) {
+  double* answer = scratch + std::size_t(n) * n;
+  double* slope = answer + n;
+  std::array<std::uint32_t, max_functions> set;
+  std::array<bool, max_functions> used{};
+  std::uint32_t size = 0;
+  double largest = 0;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    x[i] = 0;
+    largest = std::fmax(largest, std::abs(b[i]));
+  }
+  // Each round lowers the error, so that no set comes twice; the bound is for rounding alone.
+  for (std::uint32_t round = 0; round < 8 * n; ++round) {
+    std::uint32_t best = n;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      slope[i] = b[i];
+      for (std::uint32_t k = 0; k < n; ++k) slope[i] -= g[std::size_t(i) * n + k] * x[k];
+      if (!used[i] && slope[i] > 1e-12 * largest && (best == n || slope[i] > slope[best])) best = i;
+    }
+    if (best == n) return;
+    set[size++] = best;
+    used[best] = true;
+    for (;;) {
+      // A variable that is a mixture of those in use stays at 0 and is not tried again.
+      size = solve_subset(g, b, n, set.data(), size, answer, scratch);
+      // The step towards the answer that keeps all variables non-negative.
+      double step = 1;
+      std::uint32_t blocking = size;
+      for (std::uint32_t i = 0; i < size; ++i) {
+        if (answer[i] > 0) continue;
+        const double limit = x[set[i]] / (x[set[i]] - answer[i]);
+        if (blocking < size && limit >= step) continue;
+        step = limit;
+        blocking = i;
+      }
+      for (std::uint32_t i = 0; i < size; ++i) x[set[i]] += step * (answer[i] - x[set[i]]);
+      if (blocking == size) break;
+      std::uint32_t kept = 0;
+      for (std::uint32_t i = 0; i < size; ++i) {
+        const std::uint32_t variable = set[i];
+        if (i == blocking || !(x[variable] > 0)) {
+          x[variable] = 0;
+          used[variable] = false;
+        } else {
+          set[kept++] = variable;
+        }
+      }
+      size = kept;
+      if (size == 0) break;
+    }
+  }
+}
+
+}  // namespace nook::probe

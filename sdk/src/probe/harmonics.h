@@ -1,0 +1,53 @@
+// Real spherical harmonics of bands 0 to 4, orthonormal over the sphere, band by band from m = -l to l, no
+// Condon-Shortley phase (P.-P. Sloan, Stupid Spherical Harmonics Tricks, 2008).
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+namespace nook::probe {
+
+constexpr std::uint32_t harmonic_count(std::uint32_t order) {
+  return (order + 1) * (order + 1);
+}
+
+// values: (order + 1)^2; (x, y, z) unit.
+template <std::floating_point T>
+constexpr void evaluate_harmonics(std::uint32_t order, T x, T y, T z, T* values) {
+  values[0] = T(0.28209479177387814);
+  if (order < 1) return;
+  values[1] = T(0.4886025119029199) * y;
+  values[2] = T(0.4886025119029199) * z;
+  values[3] = T(0.4886025119029199) * x;
+  if (order < 2) return;
+  const T xx = x * x, yy = y * y, zz = z * z;
+  values[4] = T(1.0925484305920792) * x * y;
+  values[5] = T(1.0925484305920792) * y * z;
+  values[6] = T(0.31539156525252005) * (3 * zz - 1);
+  values[7] = T(1.0925484305920792) * x * z;
+  values[8] = T(0.5462742152960396) * (xx - yy);
+  if (order < 3) return;
+  values[9] = T(0.5900435899266435) * y * (3 * xx - yy);
+  values[10] = T(2.890611442640554) * x * y * z;
+  values[11] = T(0.4570457994644658) * y * (5 * zz - 1);
+  values[12] = T(0.3731763325901154) * z * (5 * zz - 3);
+  values[13] = T(0.4570457994644658) * x * (5 * zz - 1);
+  values[14] = T(1.445305721320277) * z * (xx - yy);
+  values[15] = T(0.5900435899266435) * x * (xx - 3 * yy);
+  if (order < 4) return;
+  values[16] = T(2.5033429417967046) * x * y * (xx - yy);
+  values[17] = T(1.7701307697799304) * y * z * (3 * xx - yy);
+  values[18] = T(0.9461746957575601) * x * y * (7 * zz - 1);
+  values[19] = T(0.6690465435572892) * y * z * (7 * zz - 3);
+  values[20] = T(0.10578554691520431) * (35 * zz * zz - 30 * zz + 3);
+  values[21] = T(0.6690465435572892) * x * z * (7 * zz - 3);
+  values[22] = T(0.47308734787878004) * (xx - yy) * (7 * zz - 1);
+  values[23] = T(1.7701307697799304) * x * z * (xx - 3 * yy);
+  values[24] = T(0.6258357354491761) * (xx * (xx - 3 * yy) - yy * (3 * xx - yy));
+}
+
+// The clamped cosine's factor of each band: irradiance = sum over bands of factor times that band's radiance.
+inline constexpr double cosine_band[5] = {3.141592653589793, 2.0943951023931953, 0.7853981633974483, 0,
+                                          -0.13089969389957473};
+
+}  // namespace nook::probe

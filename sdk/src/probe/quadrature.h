@@ -1,0 +1,42 @@
+// Numerical integrals in double precision.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace nook::probe {
+
+// Gauss-Legendre on [-1, 1], exact for polynomials of degree 2 N - 1.
+template <int N>
+struct GaussLegendre {
+  std::array<double, N> node{}, weight{};
+
+  GaussLegendre() {
+    for (int i = 0; i < N; ++i) {
+      double x = std::cos(std::numbers::pi * (i + 0.75) / (N + 0.5)), slope = 1;
+      for (int step = 0; step < 8; ++step) {
+        double p = 1, before = 0;
+        for (int n = 0; n < N; ++n) {
+          const double next = ((2 * n + 1) * x * p - n * before) / (n + 1);
+          before = p;
+          p = next;
+        }
+        slope = N * (x * p - before) / (x * x - 1);
+        x -= p / slope;
+      }
+      node[std::size_t(i)] = x;
+      weight[std::size_t(i)] = 2 / ((1 - x * x) * slope * slope);
+    }
+  }
+
+  template <class Function>
+  double operator()(double from, double to, Function&& f) const {
+    const double middle = (from + to) / 2, half = (to - from) / 2;
+    double sum = 0;
+    for (int i = 0; i < N; ++i) sum += weight[std::size_t(i)] * f(middle + half * node[std::size_t(i)]);
+    return sum * half;
+  }
+};
+
+}  // namespace nook::probe
