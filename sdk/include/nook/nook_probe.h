@@ -59,14 +59,17 @@ typedef int32_t nook_probe_domain;
 /* ---- Fits ---- */
 
 enum {
-  NOOK_PROBE_NAIVE = 0,                        /* m_i / sum_k G_ik: constant light comes back, nothing else does */
+  NOOK_PROBE_NAIVE = 0,                        /* m_i / sum_k G_ik, of harmonics m_i / G_ii: constant light comes back, the
+                                                  rest is blurred */
   NOOK_PROBE_RUNNING_AVERAGE = 1,              /* corrected form; a fit after every sample */
-  NOOK_PROBE_RUNNING_AVERAGE_ORIGINAL = 2,     /* the first published form: b_i += (a / n) B_i (v - R) / integral of B_i.
-                                                  For comparison; it does not converge to least squares */
-  NOOK_PROBE_RUNNING_AVERAGE_NON_NEGATIVE = 3, /* no coefficient below 0 at any time */
-  NOOK_PROBE_MOMENTS = 4,                      /* merges exactly, integral by integral */
+  NOOK_PROBE_RUNNING_AVERAGE_ORIGINAL = 2,     /* the first published form: b_i += (1 / n) B_i (v - R) / mean of B_i. For
+                                                  comparison: it tends to the same with about half the step, far slower.
+                                                  Not with harmonics */
+  NOOK_PROBE_RUNNING_AVERAGE_NON_NEGATIVE = 3, /* no coefficient below 0 at any time. Not with harmonics */
+  NOOK_PROBE_MOMENTS = 4,                      /* the Gram matrix is known; merges exactly */
   NOOK_PROBE_LEAST_SQUARES = 5,                /* the most accurate at any number of samples; merges exactly */
-  NOOK_PROBE_NON_NEGATIVE_LEAST_SQUARES = 6    /* merges exactly; for tiny strong sources, whose fit rings */
+  NOOK_PROBE_NON_NEGATIVE_LEAST_SQUARES = 6    /* merges exactly; for tiny strong sources, whose fit rings. Not with
+                                                  harmonics */
 };
 typedef int32_t nook_probe_method;
 
@@ -77,8 +80,10 @@ enum {
 typedef int32_t nook_probe_denominator;
 
 enum {
-  NOOK_PROBE_STEP_FAST = 0, /* converges within a small factor of batch least squares; see docs/probes.md */
-  NOOK_PROBE_STEP_PLAIN = 1 /* 1 / n, as published */
+  NOOK_PROBE_STEP_FAST = 0, /* recursive least squares with the known Gram matrix: with K = a G^-1 B(w), p = dot(K, B(w)),
+                               b += K (v - R) / (n + p). Its error tends to that of batch least squares. Non-negative: the
+                               answer is the non-negative coefficients nearest to b in the mean square */
+  NOOK_PROBE_STEP_PLAIN = 1 /* as published and above, 1 / n; non-negative: clamped after each sample */
 };
 typedef int32_t nook_probe_step;
 
@@ -97,10 +102,10 @@ typedef struct nook_probe_fit_desc {
   const float* sharpnesses;           /* lobe_count values above 0 to 10,000, copied; NULL (default): `sharpness` for all */
   int32_t ambient;                    /* 1: a constant term follows the lobes. Default 0 */
   uint32_t order;                     /* harmonics: the highest band, 1 to 4; default 2 */
-  nook_probe_denominator denominator; /* running averages; default NOOK_PROBE_DENOMINATOR_LOCKSTEP */
+  nook_probe_denominator denominator; /* of the plain step; default NOOK_PROBE_DENOMINATOR_LOCKSTEP */
   nook_probe_step step;               /* running averages; default NOOK_PROBE_STEP_FAST */
-  float growing_samples;              /* above 0: sample k weighs 1 - exp(-k / this) more, against noise of the first
-                                         samples' radiance; >= 0, default 0: all alike */
+  float growing_samples;              /* above 0: sample k, from 1, weighs 1 - exp(-k / this) times as much, against noise
+                                         in the first samples' radiance; >= 0, default 0: all alike */
   nook_isa isa;                       /* default NOOK_ISA_AUTO; a better one than the processor has: UNSUPPORTED */
   uint32_t reserved;                  /* 0 */
 } nook_probe_fit_desc;
@@ -118,13 +123,14 @@ NOOK_API void nook_probe_fit_destroy(nook_probe_fit* fit);
 /* Samples of uniformly distributed directions have weight 1 (weights NULL); drawn with probability density p over the
  * domain, whose area is a, 1 / (a p): for a sampler by luminance bright directions weigh little. Samples whose direction is not
  * unit to 1e-3, or outside the hemisphere, whose direction, radiance or weight is not finite, or whose weight is negative,
- * are skipped and counted; radiance above 1e18 in magnitude counts as infinite. No allocation. One at a time.
+ * are skipped and counted; radiance and weights above 1e18 count as infinite. No allocation. One at a time.
  * Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float* directions, const float* radiance,
                                                 const float* weights, size_t count);
 
 /* The coefficients of `short_run`, of the same basis, become the start of a running average that has no samples yet, instead
- * of 0. Forms that solve ignore it. One at a time (for both). Errors: INVALID_ARGUMENT. */
+ * of 0; with the fast step they go on counting as much as the samples of short_run. Forms that solve ignore it.
+ * One at a time (for both). Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_seed(nook_probe_fit fit, nook_probe_fit short_run);
 
 /* Adds to `fit` what `other`, made with an equal descriptor, has seen, e.g. on another thread. Forms that solve end with
@@ -174,7 +180,7 @@ typedef struct nook_probe_desc {
 NOOK_API nook_result nook_probe_desc_init(nook_probe_desc* desc, size_t size, uint32_t header_version);
 
 /* A probe or grid from coefficients, such as nook_probe_fit_read's. On failure *out is NULL. Any thread.
- * Errors: INVALID_ARGUMENT (also: a coefficient is not finite or above 1e18 in magnitude), OUT_OF_MEMORY. */
+ * Errors: INVALID_ARGUMENT (also: a coefficient is not finite or above 1e22 in magnitude), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_create(nook_context context, const nook_probe_desc* desc, nook_probe* out);
 
 /* Loads a probe or a grid from the bytes of a .nook file, which may be freed afterwards. Everything is validated; safe on
@@ -194,7 +200,7 @@ enum {
 typedef int32_t nook_probe_packing;
 
 /* Writes the .nook file of a probe to bytes. *size: the buffer's size on entry, the file's afterwards; bytes NULL: the size
- * alone. The host writes the file. Any thread. Errors: INVALID_ARGUMENT (also: the buffer is too small, *size then says how
+ * alone. The host writes the file. Allocates with malloc. Any thread. Errors: INVALID_ARGUMENT (also: the buffer is too small, *size then says how
  * much is needed), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_save(nook_probe probe, nook_probe_packing packing, void* bytes, size_t* size);
 
@@ -224,20 +230,23 @@ NOOK_API nook_result nook_probe_read_lobes(nook_probe probe, const float* positi
                                            uint32_t function_count);
 
 enum {
-  NOOK_PROBE_IRRADIANCE_FITTED = 0,       /* S. Hill's fit of a lobe under the clamped cosine, a series below its range */
-  NOOK_PROBE_IRRADIANCE_INNER_PRODUCT = 1 /* the clamped cosine as a lobe; cheaper, and not 0 behind sharp lights */
+  NOOK_PROBE_IRRADIANCE_FITTED = 0,        /* S. Hill's fit of a lobe under the clamped cosine: within 1.6 % of what a light
+                                              gives straight on; below sharpness 3, its range, the bands */
+  NOOK_PROBE_IRRADIANCE_INNER_PRODUCT = 1, /* the clamped cosine as a lobe; cheaper, and never 0 behind a light */
+  NOOK_PROBE_IRRADIANCE_BANDS = 2          /* the clamped cosine in spherical harmonics to band 4: within 0.2 % up to
+                                              sharpness 6, 1 % at 16; the fit above */
 };
 typedef int32_t nook_probe_irradiance_form;
 
 /* Radiance from `count` unit directions, and irradiance on `count` unit normals, at a point as nook_probe_read_lobes has it.
- * `form` matters to lobes alone; harmonics are convolved exactly, ambient dice to 1e-3 of their largest value. A hemisphere's
- * functions go on below it, but nothing was fitted there. No allocation. Any thread. Errors: INVALID_ARGUMENT. */
+ * `form` matters to lobes alone; harmonics and ambient dice are convolved exactly. A hemisphere's functions go on below it,
+ * but nothing was fitted there. No allocation. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_radiance(nook_probe probe, const float* position_ws, const float* directions,
                                          float* radiance, size_t count);
 NOOK_API nook_result nook_probe_irradiance(nook_probe probe, const float* position_ws, nook_probe_irradiance_form form,
                                            const float* normals, float* irradiance, size_t count);
 
-/* ---- Arithmetic of lobes. No allocation. Any thread. Errors: INVALID_ARGUMENT ---- */
+/* ---- Arithmetic of at most NOOK_PROBE_MAX_FUNCTIONS lobes. No allocation. Any thread. Errors: INVALID_ARGUMENT ---- */
 
 NOOK_API nook_result nook_probe_lobes_radiance(const nook_probe_lobe* lobes, uint32_t lobe_count, const float* directions,
                                                float* radiance, size_t count);
@@ -247,7 +256,7 @@ NOOK_API nook_result nook_probe_lobes_irradiance(const nook_probe_lobe* lobes, u
 
 enum {
   NOOK_PROBE_SPECULAR_ISOTROPIC = 0,  /* the reflected lobe is a spherical Gaussian (Wang et al. 2009) */
-  NOOK_PROBE_SPECULAR_ANISOTROPIC = 1 /* an anisotropic one (Xu et al. 2013), which stretches at grazing views */
+  NOOK_PROBE_SPECULAR_ANISOTROPIC = 1 /* an anisotropic one (after Xu et al. 2013), which stretches at grazing views */
 };
 typedef int32_t nook_probe_specular_form;
 
@@ -256,7 +265,7 @@ typedef struct nook_probe_surface {
   float view[3];      /* unit, from the surface to the eye */
   float tangent[3];   /* unit, across the normal; only read where alpha_x and alpha_y differ */
   float alpha_x;      /* GGX width along the tangent, roughness squared; 0.001 to 1 */
-  float alpha_y;      /* across it; both differ with NOOK_PROBE_SPECULAR_ANISOTROPIC only */
+  float alpha_y;      /* across it; the isotropic form takes their geometric mean */
   float reflectance;  /* at normal incidence, 0 to 1 (Schlick) */
 } nook_probe_surface;
 
@@ -267,7 +276,8 @@ NOOK_API nook_result nook_probe_lobes_specular(const nook_probe_lobe* lobes, uin
                                                float* rgb, size_t count);
 
 /* The integral over the sphere; of the product of two; the product, which is one lobe again; and a lobe that stands for a
- * convolved with b round a's axis, with the integral that the true one has. Amplitudes multiply by channel. */
+ * convolved with b, round a's axis, with the integral and the mean cosine that the convolution has. Amplitudes multiply by
+ * channel. */
 NOOK_API nook_result nook_probe_lobe_integral(const nook_probe_lobe* lobe, float rgb[3]);
 NOOK_API nook_result nook_probe_lobe_product_integral(const nook_probe_lobe* a, const nook_probe_lobe* b, float rgb[3]);
 NOOK_API nook_result nook_probe_lobe_product(const nook_probe_lobe* a, const nook_probe_lobe* b, nook_probe_lobe* out);

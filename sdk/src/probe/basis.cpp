@@ -26,6 +26,12 @@ void check_direction(Vec3 direction, const char* what, std::uint32_t index, nook
                   double(direction.x), double(direction.y), double(direction.z));
 }
 
+void check_up(Vec3 up, nook_result code) {
+  if (!(std::abs(dot(up, up) - 1) <= 2e-3f))
+    throw Failure(code, "up, the hemisphere's axis, is not a unit vector (got %g, %g, %g); normalise it",
+                  double(up.x), double(up.y), double(up.z));
+}
+
 void check_different(const Basis& basis, nook_result code) {
   const auto inner = [&](std::uint32_t i, std::uint32_t k) {
     return gaussian_product_integral(double(basis.sharpness[i]), double(basis.sharpness[k]),
@@ -46,9 +52,12 @@ void check_gaussians(const Basis& basis, nook_result code) {
   if (basis.count > max_functions || lobes < 1)
     throw Failure(code, "the number of lobes is out of range (got %u, need 1 to %u with the ambient term)",
                   lobes, max_functions);
-  for (std::uint32_t i = 0; i < lobes; ++i) {
+  for (std::uint32_t i = 0; i < basis.count; ++i) {
     check_direction(basis.axis[i], "the axis of lobe", i, code);
-    if (!(basis.sharpness[i] > 0 && basis.sharpness[i] <= max_sharpness))
+    if (i == lobes && basis.sharpness[i] != 0)
+      throw Failure(code, "the ambient term, lobe %u, has a sharpness (got %g, need 0)", i,
+                    double(basis.sharpness[i]));
+    if (i < lobes && !(basis.sharpness[i] > 0 && basis.sharpness[i] <= max_sharpness))
       throw Failure(code, "the sharpness of lobe %u is out of range (got %g, need above 0 to %g)", i,
                     double(basis.sharpness[i]), double(max_sharpness));
   }
@@ -145,7 +154,7 @@ Basis dice_basis(Domain domain, Vec3 up) {
 }
 
 void check_basis(const Basis& basis, nook_result code) {
-  if (basis.domain == Domain::hemisphere) check_direction(basis.up, "the hemisphere's axis", 0, code);
+  check_up(basis.up, code);
   if (basis.kind == BasisKind::gaussians) check_gaussians(basis, code);
   if (basis.kind == BasisKind::harmonics && (basis.order < 1 || basis.order > max_order))
     throw Failure(code, "the order of the harmonics is out of range (got %u, need 1 to %u)", basis.order,

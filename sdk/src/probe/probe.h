@@ -42,7 +42,8 @@ struct Probes {
   }
 };
 
-// Throws Failure(code) for a grid, a basis or a coefficient out of its range.
+// Both throw Failure(code): a grid, a basis or a coefficient out of its range.
+void check_grid(const Grid& grid, nook_result code);
 void check_probes(const Probes& probes, nook_result code);
 
 // The coefficients at a point: trilinear weights between the grid's probes, clamped at its ends.

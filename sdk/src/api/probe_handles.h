@@ -1,0 +1,26 @@
+// The objects behind the probes' public handles.
+#pragma once
+
+#include <nook/nook_probe.h>
+
+#include <utility>
+
+#include "api/handles.h"
+#include "core/ref.h"
+#include "probe/fit.h"
+#include "probe/probe.h"
+
+struct nook_probe_fit_s : nook::RefCounted {
+  nook_probe_fit_s(nook_context_s* made_by, const nook::probe::Basis& basis,
+                   const nook::probe::FitSettings& settings)
+      : context(made_by), fit(basis, settings, made_by->memory()) {}
+
+  nook_context_s* context;  // kept alive by this object's owner reference
+  nook::probe::Fit fit;
+};
+
+struct nook_probe_s : nook::RefCounted {
+  explicit nook_probe_s(nook::probe::Probes loaded) : probes(std::move(loaded)) {}
+
+  const nook::probe::Probes probes;
+};

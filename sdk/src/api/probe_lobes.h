@@ -1,0 +1,26 @@
+// Lobes as they cross the C interface.
+#pragma once
+
+#include <nook/nook_probe.h>
+
+#include "core/failure.h"
+#include "core/spherical_gaussian.h"
+#include "probe/evaluate.h"
+
+namespace nook::api {
+
+inline nook_probe_lobe to_public(const SphericalGaussian& lobe) {
+  return {{lobe.axis.x, lobe.axis.y, lobe.axis.z},
+          lobe.sharpness,
+          {lobe.amplitude.x, lobe.amplitude.y, lobe.amplitude.z},
+          0};
+}
+
+inline probe::IrradianceForm irradiance_form(nook_probe_irradiance_form form) {
+  if (form < NOOK_PROBE_IRRADIANCE_FITTED || form > NOOK_PROBE_IRRADIANCE_BANDS)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "form is unknown (got %d, need 0 to %d)", form,
+                  NOOK_PROBE_IRRADIANCE_BANDS);
+  return static_cast<probe::IrradianceForm>(form);
+}
+
+}  // namespace nook::api

@@ -1,0 +1,75 @@
+#include "probe/evaluate.h"
+
+#include <algorithm>
+#include <array>
+
+#include "probe/dice.h"
+#include "probe/harmonics.h"
+
+namespace nook::probe {
+namespace {
+
+// What function i of the basis gives on a surface, at coefficient 1.
+void irradiance_functions(const Basis& basis, IrradianceForm form, Vec3 normal, float* values) {
+  switch (basis.kind) {
+    case BasisKind::gaussians:
+      for (std::uint32_t i = 0; i < basis.count; ++i)
+        values[i] = irradiance(basis.axis[i], basis.sharpness[i], form, normal);
+      return;
+    case BasisKind::harmonics:
+      evaluate_harmonics(basis.order, normal.x, normal.y, normal.z, values);
+      for (std::uint32_t l = 0, i = 0; l <= basis.order; ++l)
+        for (; i < harmonic_count(l); ++i) values[i] *= float(cosine_band[l]);
+      return;
+    case BasisKind::dice:
+      for (std::uint32_t i = 0; i < basis.count; ++i) values[i] = dice_irradiance(dot(basis.axis[i], normal));
+      return;
+  }
+}
+
+Vec3 weighted(const Basis& basis, std::span<const Vec3> coefficients, const float* values) {
+  Vec3 sum;
+  for (std::uint32_t i = 0; i < basis.count; ++i) sum += coefficients[i] * values[i];
+  return sum;
+}
+
+}  // namespace
+
+float irradiance(Vec3 axis, float sharpness, IrradianceForm form, Vec3 normal) {
+  switch (form) {
+    case IrradianceForm::inner_product:
+      return gaussian_irradiance_inner_product(axis, sharpness, normal);
+    case IrradianceForm::fitted:
+      return gaussian_integral(sharpness) * gaussian_unit_irradiance_fitted(sharpness, dot(axis, normal));
+    case IrradianceForm::bands:
+      return gaussian_integral(sharpness) * gaussian_unit_irradiance_best(sharpness, dot(axis, normal));
+  }
+  return 0;
+}
+
+Vec3 radiance(std::span<const SphericalGaussian> lobes, Vec3 direction) {
+  Vec3 sum;
+  for (const SphericalGaussian& lobe : lobes) sum += value(lobe, direction);
+  return sum;
+}
+
+Vec3 irradiance(std::span<const SphericalGaussian> lobes, IrradianceForm form, Vec3 normal) {
+  Vec3 sum;
+  for (const SphericalGaussian& lobe : lobes)
+    sum += lobe.amplitude * irradiance(lobe.axis, lobe.sharpness, form, normal);
+  return sum;
+}
+
+Vec3 radiance(const Basis& basis, std::span<const Vec3> coefficients, Vec3 direction) {
+  std::array<float, max_functions> values;
+  evaluate_basis(basis, direction, values.data());
+  return weighted(basis, coefficients, values.data());
+}
+
+Vec3 irradiance(const Basis& basis, std::span<const Vec3> coefficients, IrradianceForm form, Vec3 normal) {
+  std::array<float, max_functions> values;
+  irradiance_functions(basis, form, normal, values.data());
+  return weighted(basis, coefficients, values.data());
+}
+
+}  // namespace nook::probe

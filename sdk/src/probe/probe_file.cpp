@@ -1,0 +1,187 @@
+#include "probe/probe_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/half.h"
+#include "probe/harmonics.h"
+
+namespace nook::probe {
+namespace {
+
+void write_vec3(ByteWriter& out, Vec3 v) {
+  out.f32(v.x);
+  out.f32(v.y);
+  out.f32(v.z);
+}
+
+Vec3 read_vec3(ByteReader& in) {
+  const float x = in.f32(), y = in.f32(), z = in.f32();
+  return {x, y, z};
+}
+
+void check_fits(const Probes& probes, Packing packing) {
+  for (std::size_t i = 0; i < probes.coefficients.size(); ++i) {
+    const Vec3 v = probes.coefficients[i];
+    const float most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const float least = std::min({v.x, v.y, v.z});
+    const std::size_t function = i % probes.basis.count, probe = i / probes.basis.count;
+    if (packing == Packing::half && most > max_half)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "coefficient %zu of probe %zu is too large for half floats (got %g, need at most %g); "
+                    "scale the light down or pack as floats",
+                    function, probe, double(most), double(max_half));
+    if (packing == Packing::rgb9e5 && (most > max_rgb9e5 || least < 0))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "coefficient %zu of probe %zu does not fit RGB9E5 (got %g, need 0 to %g); use a "
+                    "non-negative method or pack as half floats",
+                    function, probe, double(least < 0 ? least : most), double(max_rgb9e5));
+  }
+}
+
+void write_coefficient(ByteWriter& out, Packing packing, Vec3 v) {
+  switch (packing) {
+    case Packing::float32:
+      return write_vec3(out, v);
+    case Packing::half:
+      for (const float channel : {v.x, v.y, v.z}) out.u16(to_half(channel));
+      return;
+    case Packing::rgb9e5:
+      return out.u32(to_rgb9e5(v));
+  }
+}
+
+Vec3 read_coefficient(ByteReader& in, Packing packing) {
+  switch (packing) {
+    case Packing::float32:
+      return read_vec3(in);
+    case Packing::half: {
+      const float x = from_half(std::uint16_t(in.u16())), y = from_half(std::uint16_t(in.u16())),
+                  z = from_half(std::uint16_t(in.u16()));
+      return {x, y, z};
+    }
+    case Packing::rgb9e5:
+      return from_rgb9e5(in.u32());
+  }
+  return {};
+}
+
+// One byte that names one of `count` things.
+std::uint32_t read_choice(ByteReader& in, const char* what, std::uint32_t count) {
+  const std::uint32_t value = in.u8();
+  if (value >= count)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the %s of the probe is unknown (got %u, need less than %u); bake it "
+                  "again",
+                  what, value, count);
+  return value;
+}
+
+struct Head {
+  Basis basis;
+  Grid grid;
+  Packing packing = Packing::float32;
+};
+
+Head read_head(ByteReader in) {
+  Head head;
+  head.basis.kind = BasisKind(read_choice(in, "basis", 3));
+  head.basis.domain = Domain(read_choice(in, "domain", 2));
+  head.basis.ambient = read_choice(in, "ambient term", 2) != 0;
+  head.basis.order = read_choice(in, "order", max_order + 1);
+  head.basis.count = in.u8();
+  head.packing = Packing(read_choice(in, "packing", 3));
+  head.basis.up = read_vec3(in);
+  for (std::uint32_t& count : head.grid.counts) count = in.u32();
+  head.grid.origin_ws = read_vec3(in);
+  head.grid.spacing_ws = read_vec3(in);
+  in.check_end();
+  return head;
+}
+
+void read_lobes(ByteReader in, Basis& basis) {
+  if (basis.count < 1 || basis.count > max_functions)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the number of lobes is out of range (got %u, need 1 to %u); bake the probe again",
+                  basis.count, max_functions);
+  for (std::uint32_t i = 0; i < basis.count; ++i) {
+    basis.axis[i] = read_vec3(in);
+    basis.sharpness[i] = in.f32();
+  }
+  in.check_end();
+}
+
+// What a file says of a basis without lobes must be what this library makes of its order.
+void complete(Basis& basis) {
+  check_basis(basis, NOOK_ERROR_BAD_FILE);
+  Basis made = basis.kind == BasisKind::dice ? dice_basis(basis.domain, basis.up)
+                                             : harmonic_basis(basis.order, basis.domain, basis.up);
+  if (basis.count != made.count || basis.ambient || basis.order != made.order)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the number of functions is wrong (got %u, need %u without an ambient term); bake it again",
+                  basis.count, made.count);
+  made.up = basis.up;
+  basis = made;
+}
+
+}  // namespace
+
+std::vector<std::byte> write_probes(const Probes& probes, Packing packing) {
+  check_probes(probes, NOOK_ERROR_INVALID_ARGUMENT);
+  check_fits(probes, packing);
+  const Basis& basis = probes.basis;
+  ByteWriter head, lobes, coefficients, recipe;
+  head.u8(std::uint32_t(basis.kind));
+  head.u8(std::uint32_t(basis.domain));
+  head.u8(basis.ambient ? 1 : 0);
+  head.u8(basis.order);
+  head.u8(basis.count);
+  head.u8(std::uint32_t(packing));
+  write_vec3(head, basis.up);
+  for (const std::uint32_t count : probes.grid.counts) head.u32(count);
+  write_vec3(head, probes.grid.origin_ws);
+  write_vec3(head, probes.grid.spacing_ws);
+  std::vector<ContainerSection> sections{{four_letters("HEAD"), head.bytes()}};
+  if (basis.kind == BasisKind::gaussians) {
+    for (std::uint32_t i = 0; i < basis.count; ++i) {
+      write_vec3(lobes, basis.axis[i]);
+      lobes.f32(basis.sharpness[i]);
+    }
+    sections.push_back({four_letters("LOBE"), lobes.bytes()});
+  }
+  for (const Vec3 v : probes.coefficients) write_coefficient(coefficients, packing, v);
+  sections.push_back({four_letters("COEF"), coefficients.bytes()});
+  recipe.text(probes.recipe);
+  sections.push_back({four_letters("RECP"), recipe.bytes()});
+  return write_container(probe_kind, sections);
+}
+
+Packing packing_of(std::span<const std::byte> bytes) {
+  return read_head(Container(bytes, probe_kind).section("HEAD")).packing;
+}
+
+Probes read_probes(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
+  const Container file(bytes, probe_kind);
+  const Head head = read_head(file.section("HEAD"));
+  Probes probes(memory);
+  probes.basis = head.basis;
+  probes.grid = head.grid;
+  if (head.basis.kind == BasisKind::gaussians)
+    read_lobes(file.section("LOBE"), probes.basis);
+  else
+    complete(probes.basis);
+  check_grid(probes.grid, NOOK_ERROR_BAD_FILE);
+  ByteReader coefficients = file.section("COEF");
+  const auto count = std::uint32_t(probes.grid.size() * probes.basis.count);
+  coefficients.check_count(count, 8 * packed_bytes(head.packing), "coefficients");
+  probes.coefficients.resize(count);
+  for (Vec3& v : probes.coefficients) v = read_coefficient(coefficients, head.packing);
+  coefficients.check_end();
+  ByteReader recipe = file.section("RECP");
+  probes.recipe = recipe.text(recipe.remaining());
+  check_probes(probes, NOOK_ERROR_BAD_FILE);
+  return probes;
+}
+
+}  // namespace nook::probe

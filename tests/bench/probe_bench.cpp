@@ -1,0 +1,59 @@
+// add_samples of the probe fits on one core: the argument is the instruction set, 0 the scalar loop, so that
+// samples a second of 3 (AVX-512) over those of 0 is what SIMD gives.
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "probe/fit.h"
+
+namespace {
+
+using namespace nook;
+using namespace nook::probe;
+
+struct Samples {
+  static constexpr std::size_t count = 4096;
+  std::vector<float> directions, radiance;
+
+  Samples() {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float z = 2 * uniform(random) - 1, azimuth = 6.2831853f * uniform(random), r = std::sqrt(1 - z * z);
+      directions.insert(directions.end(), {r * std::cos(azimuth), r * std::sin(azimuth), z});
+      for (int c = 0; c < 3; ++c) radiance.push_back(2 * uniform(random));
+    }
+  }
+};
+
+void add_samples(benchmark::State& state, FitMethod method, Step step) {
+  const auto isa = static_cast<Isa>(state.range(0));
+  if (!fit_kernels(isa)) {
+    state.SkipWithError("this processor lacks the instruction set");
+    return;
+  }
+  const Samples samples;
+  FitSettings settings;
+  settings.method = method;
+  settings.step = step;
+  settings.isa = NOOK_ISA_SCALAR + static_cast<nook_isa>(isa);
+  Fit fit(vogel_basis(12), settings);
+  for (auto _ : state)
+    fit.add_samples(samples.directions.data(), samples.radiance.data(), nullptr, Samples::count);
+  state.SetItemsProcessed(std::int64_t(state.iterations()) * std::int64_t(Samples::count));
+  state.SetLabel(fit.instruction_set());
+}
+
+}  // namespace
+
+BENCHMARK_CAPTURE(add_samples, running_average, FitMethod::running_average, Step::fast)->DenseRange(0, 3);
+BENCHMARK_CAPTURE(add_samples, running_average_plain, FitMethod::running_average, Step::plain)
+    ->DenseRange(0, 3);
+BENCHMARK_CAPTURE(add_samples, running_average_non_negative_plain, FitMethod::running_average_non_negative,
+                  Step::plain)
+    ->DenseRange(0, 3);
+BENCHMARK_CAPTURE(add_samples, moments, FitMethod::moments, Step::fast)->DenseRange(0, 3);
+BENCHMARK_CAPTURE(add_samples, least_squares, FitMethod::least_squares, Step::fast)->DenseRange(0, 3);
