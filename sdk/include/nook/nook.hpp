@@ -154,6 +154,14 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
   void read_ao(nook_instance_id id, float* out, std::uint32_t count, std::size_t stride = 0) const {
     check(nook_scene_read_ao(get(), id, out, count, stride));
   }
+  void set_light(nook_instance_id id, const nook_probe_lobe* lobes, std::uint32_t lobe_count) {
+    check(nook_scene_set_light(get(), id, lobes, lobe_count));
+  }
+  // Three floats a vertex.
+  void read_directional_ao(nook_instance_id id, float* out_rgb, std::uint32_t count,
+                           std::size_t stride = 0) const {
+    check(nook_scene_read_directional_ao(get(), id, out_rgb, count, stride));
+  }
   nook_scene_stats stats() const {
     nook_scene_stats stats{};
     stats.struct_size = sizeof stats;

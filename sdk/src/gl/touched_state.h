@@ -4,12 +4,14 @@
 
 namespace nook::gl {
 
-// Who touches an item: the characters' tiers, the screen-space pass, the reading of its timers.
+// Who touches an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload of
+// probes.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
   screen = 4,
   screen_timers = 8,
+  probes = 32,
   characters = tier_33 | tier_43,
   everyone = characters | screen,
   draws = tier_33 | screen,
@@ -19,10 +21,11 @@ enum : unsigned {
 // and a query, a restore and a reset of that name in state_guard.cpp or state_guard_draw.cpp.
 #define NOOK_GL_TOUCHED_STATE(X)                                                                            \
   X(program, everyone, "GL_CURRENT_PROGRAM", "runs the passes; default 0")                                  \
-  X(array_buffer, everyone, "GL_ARRAY_BUFFER_BINDING", "every upload goes through it; default 0")           \
+  X(array_buffer, everyone | probes, "GL_ARRAY_BUFFER_BINDING", "every upload goes through it; default 0")  \
   X(vertex_array, draws, "GL_VERTEX_ARRAY_BINDING", "inputs of the vertex pass, or none; default 0")        \
-  X(active_texture, draws, "GL_ACTIVE_TEXTURE", "selects units; default GL_TEXTURE0")                       \
-  X(texture_unit_0, tier_33, "GL_TEXTURE_BINDING_BUFFER of unit 0", "shadows at key points; default 0")     \
+  X(active_texture, draws | probes, "GL_ACTIVE_TEXTURE", "selects units; default GL_TEXTURE0")              \
+  X(texture_unit_0, tier_33 | probes, "GL_TEXTURE_BINDING_BUFFER of unit 0",                                \
+    "shadows at key points, texels of a probe; default 0")                                                  \
   X(texture_2d, screen, "GL_TEXTURE_BINDING_2D of units 0 to 3", "inputs of the stages; default 0")         \
   X(samplers, screen, "GL_SAMPLER_BINDING of units 0 to 3",                                                 \
     "so that no parameter of a texture counts; default 0")                                                  \
