@@ -98,9 +98,11 @@ void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views
   check.range("the number of clusters", shape.clusters, 1, shape.views);
   check.range("the number of mixture clusters", shape.mixture, 1, std::min(shape.clusters, max_mixture));
   check.range("mixture clusters times view rank", std::uint64_t(shape.mixture) * shape.rank_view, 1, max_row);
-  check.range("the expanded size",
-              std::uint64_t(shape.clusters) * shape.rank_light * shape.rank_view * shape.width * shape.height,
-              1, max_expanded);
+  // Decoding rounds both ranks up to multiples of 4, of a VOTF only the view rank.
+  const std::uint64_t light_modes = lights ? (shape.rank_light + 3) / 4 * 4 : 1;
+  const std::uint64_t view_modes = (shape.rank_view + 3) / 4 * 4;
+  check.range("the expanded size", shape.clusters * light_modes * view_modes * shape.width * shape.height, 1,
+              max_expanded);
 }
 
 void check_material(const Material& material, nook_result code) {

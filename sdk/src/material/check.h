@@ -12,7 +12,8 @@ inline constexpr std::uint32_t max_texels = 1024;      // along u; along v
 inline constexpr std::uint32_t max_mixture = 8;        // K
 inline constexpr std::uint32_t max_row = 512;          // K R_v, coefficients of one view
 inline constexpr std::uint32_t max_map_side = 512;     // cells of a resampled view map
-// Numbers of one tensor's expanded spatial modes, C R_l R_v I_x I_y: 1 GiB of half floats.
+// Numbers of one tensor's expanded spatial modes, C R_l R_v I_x I_y with ranks rounded up to multiples of 4:
+// 1 GiB of half floats.
 inline constexpr std::uint64_t max_expanded = std::uint64_t{1} << 29;
 // No core entry, and no other number, is larger than these, so that no sum of the decoder overflows. Powers
 // of two, so that no number at the limit is rounded beyond it.
