@@ -1,4 +1,4 @@
-// The sizes of the seed's Table I, in MiB.
+// The sizes of the paper's Table I, in MiB.
 #include <array>
 #include <cmath>
 
@@ -40,15 +40,15 @@ double mebibytes(const Row& row, std::uint32_t clusters, std::uint32_t mixture) 
 
 }  // namespace
 
-TEST_CASE("sizes of N-SVD are those of the seed's table") {
+TEST_CASE("sizes of N-SVD are those of the paper's table") {
   for (const Row& row : table) {
     INFO(row.name);
     CHECK(std::round(100 * mebibytes(row, 1, 1)) == std::round(100 * row.n_svd));
   }
 }
 
-TEST_CASE("sizes of CTA and K-CTA are those of the seed's table to 0.4 per cent") {
-  // The seed does not say how it stores the membership.
+TEST_CASE("sizes of CTA and K-CTA are those of the paper's table to 0.4 per cent") {
+  // The paper does not say how it stores the membership.
   for (const Row& row : table) {
     INFO(row.name);
     CHECK(std::abs(mebibytes(row, row.clusters, 1) / row.cta - 1) < 0.004);

@@ -6,8 +6,8 @@
 // normal. Texel (x, y) has its centre at u = (x + 0.5) / I_x, v = (y + 0.5) / I_y; the tile repeats.
 //
 // With c = membership[i, k], equations (24) and (25) are
-//   A[j, i, x, y] = sum_k sum_{a, b, p, q} light[j, a] coefficients[i, k, b] Z_c[a, b, p, q] X_c[x, p] Y_c[y,
-//   q],
+//   A[j, i, x, y] =
+//     sum_k sum_{a, b, p, q} light[j, a] coefficients[i, k, b] Z_c[a, b, p, q] X_c[x, p] Y_c[y, q],
 // k < K, a < R_l, b < R_v, p < R_x, q < R_y. j = 3 l + channel of light l and channel red, green, blue:
 // colour is folded into the light mode. A VOTF has no light mode: R_l = 1 and light[j, a] = 1.
 #pragma once
@@ -28,11 +28,11 @@ struct ViewRows {
   explicit ViewRows(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : membership(memory), coefficients(memory) {}
 
-  std::pmr::vector<std::uint16_t> membership;  // rows x K: clusters, of one row all different
+  std::pmr::vector<std::uint16_t> membership;  // rows x K: clusters, all different within a row
   std::pmr::vector<float> coefficients;        // rows x K x R_v: row i of U_{v,c}, c = membership[i, k]
 };
 
-// The view mode resampled over the hemisphere (the seed's 6.3.2), in the parabolic map: the row of cell
+// The view mode resampled over the hemisphere (the paper's 6.3.2), in the parabolic map: the row of cell
 // (column, row), number row * side + column, is that of the direction d with
 //   d.xy / (1 + d.z) = 2 (cell + 0.5) / side - 1,
 // and of the nearest direction of the horizon where that lies outside the unit disc.
@@ -49,10 +49,11 @@ struct ClusteredTensor {
 
   TensorShape shape;
   std::pmr::vector<float> cores;  // C x R_l x R_v x R_x x R_y: Z_c, the last index fastest
-  std::pmr::vector<float>
-      x_bases;  // C x I_x x R_x: X_c; empty at R_x = I_x, the identity (the core takes it up)
-  std::pmr::vector<float> y_bases;  // C x I_y x R_y: Y_c; likewise
-  ViewRows rows;                    // one for each view of the material
+  // C x I_x x R_x and C x I_y x R_y: X_c and Y_c. Empty at full rank, R_x = I_x or R_y = I_y: the identity,
+  // for a square basis goes into the core.
+  std::pmr::vector<float> x_bases;
+  std::pmr::vector<float> y_bases;
+  ViewRows rows;  // one for each view of the material
   ViewMap map;
 };
 
@@ -67,7 +68,7 @@ struct VisibilityMapping {
   float threshold = 0;
   float weight = 0;
 };
-// The seed's parameters.
+// The paper's parameters.
 constexpr VisibilityMapping default_mapping(VisibilityForm form) {
   return form == VisibilityForm::binary ? VisibilityMapping{0.5f, 1} : VisibilityMapping{0.05f, 12};
 }

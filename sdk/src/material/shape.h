@@ -1,5 +1,5 @@
 // The sizes of a clustered tensor and what it costs to store. Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor
-// Approximation, 2012 (the seed of this system); I, R, C and K are its symbols.
+// Approximation, 2012; I, R, C and K are the paper's symbols.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +45,7 @@ constexpr std::size_t view_rows_bytes(const TensorShape& s, std::size_t rows) {
   return 2 * coefficient_count(s, rows) + index_bytes * rows * s.mixture;
 }
 
-// Bytes of core tensors, spatial bases and the views' rows as half floats: the measure of the seed's Table I
+// Bytes of core tensors, spatial bases and the views' rows as half floats: the measure of the paper's Table I
 // (there in MiB). A resampled view map comes on top, view_rows_bytes(shape, side * side).
 constexpr std::size_t compressed_bytes(const TensorShape& s) {
   return 2 * s.clusters * (core_size(s) + x_basis_size(s) + y_basis_size(s)) + view_rows_bytes(s, s.views);
