@@ -12,8 +12,8 @@ struct Builtin {
 
 const std::array<Builtin, 3>& builtins() {
   static const std::array<Builtin, 3> all{
-      Builtin{{"fiber", 30, 0.02f, 0.12f, 0.06f, 1, 1}, make_fiber},
-      Builtin{{"roughhole", 3, 0.11f, 0.12f, 0.03f, 1, 1}, make_rough_hole},
+      Builtin{{"fiber", 10, 0.04f, 0.16f, 0.06f, 1, 1}, make_fiber},
+      Builtin{{"roughhole", 2, 0.18f, 0.12f, 0.03f, 1, 1}, make_rough_hole},
       Builtin{{"weave", 4, 0.1f, 0.09f, 0.12f, 1, 1}, make_weave}};
   return all;
 }

@@ -59,9 +59,9 @@ std::vector<float> squared_distances(std::span<const float> mask, std::size_t wi
 
 }  // namespace
 
-std::vector<float> signed_distances(std::span<const float> masks, std::uint32_t width, std::uint32_t height,
-                                    float& texel_distance) {
+std::vector<float> signed_distances(std::span<const float> masks, std::uint32_t width, std::uint32_t height) {
   const std::size_t texels = std::size_t(width) * height, views = masks.size() / texels;
+  const float longest = distance_cut * float(std::max(width, height));
   std::vector<float> distance(masks.size());
   tbb::parallel_for(std::size_t{0}, views, [&](std::size_t view) {
     const auto mask = masks.subspan(view * texels, texels);
@@ -69,18 +69,11 @@ std::vector<float> signed_distances(std::span<const float> masks, std::uint32_t 
     const auto to_hidden = squared_distances(mask, width, height, false);
     for (std::size_t i = 0; i < texels; ++i) {
       const bool visible = mask[i] > 0.5f;
-      const float squared = visible ? to_hidden[i] : to_visible[i];
       // The boundary lies half a texel before the other class's nearest centre.
-      const float d =
-          squared >= 0.5f * far_away ? std::numeric_limits<float>::infinity() : std::sqrt(squared) - 0.5f;
-      distance[view * texels + i] = visible ? d : -d;
+      const float d = std::sqrt(visible ? to_hidden[i] : to_visible[i]) - 0.5f;
+      distance[view * texels + i] = std::copysign(std::min(d / longest, 1.0f), visible ? 1.0f : -1.0f);
     }
   });
-  texel_distance = 0;
-  for (const float d : distance)
-    if (std::isfinite(d)) texel_distance = std::max(texel_distance, std::abs(d));
-  if (texel_distance == 0) texel_distance = 1;
-  for (float& d : distance) d = std::isfinite(d) ? d / texel_distance : std::copysign(1.0f, d);
   return distance;
 }
 
