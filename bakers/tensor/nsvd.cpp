@@ -1,0 +1,25 @@
+#include "tensor/nsvd.h"
+
+#include "core/failure.h"
+#include "tensor/alternation.h"
+#include "tensor/check.h"
+#include "tensor/mode_product.h"
+
+namespace nook::bake::tensor {
+
+Nsvd fit_nsvd(const TensorView& a, const NsvdSettings& settings, const OnNsvd& progress) {
+  check_tensor(a);
+  check_ranks(a.dimensions, settings.ranks);
+  check_iterations(settings.iterations, settings.tolerance);
+  std::vector<Matrix> bases = hosvd_bases(a, settings.ranks);
+  if (progress && !progress({0, settings.iterations, 0}))
+    throw Failure(NOOK_ERROR_CANCELLED, "stopped by the progress callback at the start of the N-SVD");
+  return alternate(a, squared_norm(a), std::move(bases),
+                   {settings.ranks, 0, settings.iterations, settings.tolerance}, progress);
+}
+
+Tensor reconstruct(const Nsvd& fit) {
+  return mode_products(fit.core, fit.basis);
+}
+
+}  // namespace nook::bake::tensor
