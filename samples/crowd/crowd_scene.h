@@ -40,6 +40,7 @@ class CrowdScene {
   nook_gl gl() const { return gl_.get(); }
   nook_scene_stats stats() const { return scene_.stats(); }
   const nook::CharacterModel& model() const { return model_; }
+  const nook::Context& context() const { return context_; }
 
  private:
   nook::Context context_;

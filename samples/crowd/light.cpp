@@ -18,7 +18,8 @@ using ProbeFit = nook::Unique<nook_probe_fit, nook_probe_fit_destroy>;
 
 // Centre of a texel as nook_bake_environment has them: the middle column looks along +x, a quarter further
 // right along +z.
-void texel_direction(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height, float* out) {
+void texel_direction(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height,
+                     float* out) {
   const float polar = kPi * (float(y) + 0.5f) / float(height);
   const float azimuth = 2 * kPi * ((float(x) + 0.5f) / float(width) - 0.5f);
   out[0] = std::sin(polar) * std::cos(azimuth);

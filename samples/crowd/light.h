@@ -14,8 +14,8 @@ namespace crowd {
 
 class Light {
  public:
-  // A probe's file, whose lobes are then the environment too, or a latitude-longitude map, to which 12 lobes are
-  // fitted. Throws std::runtime_error and nook::Error.
+  // A probe's file, whose lobes are then the environment too, or a latitude-longitude map, to which 12 lobes
+  // are fitted. Throws std::runtime_error and nook::Error.
   Light(const nook::Context& context, const std::filesystem::path& path);
 
   const std::string& name() const { return name_; }

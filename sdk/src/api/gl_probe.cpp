@@ -2,6 +2,7 @@
 
 #include "api/entry.h"
 #include "api/gl_handle.h"
+#include "api/probe_handles.h"
 #include "core/descriptors.h"
 #include "gl/probe/probe_texture.h"
 
