@@ -250,9 +250,24 @@ TEST_CASE("resampling at the sub-tensors themselves gives them back, and between
   const Matrix projections = atom_projections(fit, a);
   ClusteredFit same = fit;
   same.mixture = resample(fit, projections, Matrix::Identity(36, 36));
-  // The greedy search after the last update stage: optimal projection cannot be worse on the same clusters.
   const double error = squared_distance(reconstruct(fit), a);
-  CHECK(squared_distance(reconstruct(same), a) < 1.05 * error);
+  // The fit may keep clusters that the greedy search does not find; on the same ones, optimal projection is
+  // no worse than what the update stage left.
+  CHECK(squared_distance(reconstruct(same), a) < 1.1 * error);
+  std::size_t alike = 0;
+  for (std::size_t i = 0; i < 36; ++i) {
+    const auto clusters = [&](const ClusteredFit& of) {
+      const auto first = of.mixture.membership.begin() + std::ptrdiff_t(i * 3);
+      return std::set<std::uint32_t>(first, first + 3);
+    };
+    const auto error_of = [&](const ClusteredFit& of) {
+      return squared_distance(sub_tensors(reconstruct(of), 1, {i}), sub_tensors(a, 1, {i}));
+    };
+    if (clusters(fit) != clusters(same)) continue;
+    ++alike;
+    CHECK(error_of(same) <= error_of(fit) * (1 + 1e-4));  // floats
+  }
+  CHECK(alike >= 18);
 
   // Half way between neighbours: the mean of two sub-tensors, approximated about as well as they are.
   Matrix halves = Matrix::Zero(36, 36);
