@@ -27,9 +27,9 @@ struct ClusteredSettings {
   // The cluster of each mode-m sub-tensor to begin with, none empty: see tensor/seed_clusters.h.
   std::vector<std::uint32_t> seeds;
 
-  int iterations = 40;      // of Algorithm 1, at most
+  int iterations = 40;      // of Algorithm 1, at most; 0: the start, one cluster a sub-tensor
   double tolerance = 1e-4;  // ends when the sum of the cores' norms changes by less than this share
-  int sweeps = 2;           // of the N-SVD of one cluster in an update stage
+  int sweeps = 1;           // of the N-SVD of one cluster in an update stage; more change little
   Pursuit pursuit = Pursuit::greedy;
   // A sub-tensor keeps the clusters that it had where the search found worse ones; false: Algorithm 1 to the
   // letter, which then has to undo iterations more often.

@@ -53,7 +53,7 @@ ClusteredFit fit_cta(const TensorView& a, const ClusteredSettings& settings, con
   if (settings.mixture != 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "CTA mixes no clusters (got K = %zu, need 1); use K-CTA",
                   settings.mixture);
-  Reduction reduction = reduce_global_modes(a, settings);
+  Reduction reduction = reduce_global_modes(a, settings, progress);
   WorkingFit fit;
   std::vector<double> objective{reduction.lost + fit_seeds(fit, reduction.view, settings, progress)};
   double norms = sum_of_core_norms(fit);

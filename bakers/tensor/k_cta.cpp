@@ -10,7 +10,7 @@ namespace nook::bake::tensor {
 ClusteredFit fit_k_cta(const TensorView& a, const ClusteredSettings& settings, const OnClustered& progress) {
   check_tensor(a);
   check_clustered(a.dimensions, settings);
-  Reduction reduction = reduce_global_modes(a, settings);
+  Reduction reduction = reduce_global_modes(a, settings, progress);
   WorkingFit fit;
   std::vector<double> objective{reduction.lost + fit_seeds(fit, reduction.view, settings, progress)};
   double norms = sum_of_core_norms(fit);

@@ -33,6 +33,10 @@ Matrix atom_projections(const ClusteredFit& fit, const TensorView& a) {
                   "the tensor is not of the size that was fitted (%zu and %zu entries)", a.size(),
                   volume(fit.dimensions));
   const Tensor atoms = atoms_of(fit, dual_bases(fit));
+  // Nothing to reduce: the tensor itself, uncopied.
+  const auto is_empty = [](const Matrix& u) { return u.size() == 0; };
+  if (std::all_of(fit.global_basis.begin(), fit.global_basis.end(), is_empty))
+    return cross_gram(a, atoms, fit.mode).cast<float>();
   return cross_gram(project(a, fit.global_basis), atoms, fit.mode).cast<float>();
 }
 

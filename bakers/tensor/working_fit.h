@@ -13,7 +13,8 @@ struct Reduction {
   double lost = 0;                   // || A ||^2 - || A_G ||^2, what no cluster can explain
 };
 // Global bases lower || A - A x_n U_n U_n^T ||^2, n in G; other modes stay whole.
-Reduction reduce_global_modes(const TensorView& a, const ClusteredSettings& settings);
+Reduction reduce_global_modes(const TensorView& a, const ClusteredSettings& settings,
+                              const OnClustered& progress);
 
 struct WorkingCluster {
   std::vector<std::size_t> members;  // rising

@@ -106,7 +106,8 @@ std::vector<std::uint32_t> seeds_in_order(std::size_t count, std::size_t cluster
 TEST_CASE("CTA recovers planted clusters from seeds of which a third is wrong") {
   const test::Planted planted = test::planted_clusters({5, 24, 9, 8}, {2, 2, 3, 3}, 1, 3, 1, 31);
   std::vector<std::uint32_t> seeds = planted.membership;
-  for (const std::size_t i : {1, 4, 5, 9, 12, 14, 17, 22}) seeds[i] = (seeds[i] + 1 + std::uint32_t(i) % 2) % 3;
+  for (const std::size_t i : {1, 4, 5, 9, 12, 14, 17, 22})
+    seeds[i] = (seeds[i] + 1 + std::uint32_t(i) % 2) % 3;
   const ClusteredFit fit = fit_cta(planted.a, settings_of(1, {2, 2, 3, 3}, 3, 1, seeds));
   // The same partition, under whatever names.
   for (std::size_t i = 3; i < 24; ++i) CHECK(fit.mixture.membership[i] == fit.mixture.membership[i % 3]);
@@ -185,10 +186,10 @@ TEST_CASE("the exhaustive search ends no worse than the greedy one") {
 }
 
 TEST_CASE("an iteration that got worse is undone, and what stands is the one before") {
-  // Noise has no clusters to converge to: the greedy search soon finds a worse set than the one before.
-  std::mt19937_64 bits(33);
-  const Tensor a = test::random_tensor({3, 30, 6, 6}, bits);
-  ClusteredSettings settings = settings_of(1, {3, 2, 4, 4}, 6, 3, seeds_round(30, 6));
+  // Sub-tensors that are not negative have clusters that resemble each other: the greedy search soon finds a
+  // worse set than the one before.
+  const Tensor a = waves({4, 24, 10, 9});
+  ClusteredSettings settings = settings_of(1, {3, 2, 5, 4}, 4, 3, seeds_in_order(24, 4));
   settings.keep_better_clusters = false;
   settings.tolerance = 0;
   settings.iterations = 100;
@@ -203,6 +204,12 @@ TEST_CASE("an iteration that got worse is undone, and what stands is the one bef
   CHECK(shorter.objective == fit.objective);
   CHECK(shorter.mixture.coefficients == fit.mixture.coefficients);
   CHECK(shorter.clusters[2].core.data == fit.clusters[2].core.data);
+  // Keeping better clusters needs no undoing, and gets further.
+  settings.keep_better_clusters = true;
+  settings.iterations = 100;
+  const ClusteredFit kept = fit_k_cta(a, settings);
+  CHECK_FALSE(kept.undone);
+  CHECK(kept.objective.back() < fit.objective.back());
 }
 
 TEST_CASE("a cluster with fewer members than its rank has zeros where its core lacks them") {
@@ -243,9 +250,24 @@ TEST_CASE("resampling at the sub-tensors themselves gives them back, and between
   const Matrix projections = atom_projections(fit, a);
   ClusteredFit same = fit;
   same.mixture = resample(fit, projections, Matrix::Identity(36, 36));
-  // The greedy search after the last update stage: optimal projection cannot be worse on the same clusters.
   const double error = squared_distance(reconstruct(fit), a);
-  CHECK(squared_distance(reconstruct(same), a) < 1.05 * error);
+  // The fit may keep clusters that the greedy search does not find; on the same ones, optimal projection is
+  // no worse than what the update stage left.
+  CHECK(squared_distance(reconstruct(same), a) < 1.1 * error);
+  std::size_t alike = 0;
+  for (std::size_t i = 0; i < 36; ++i) {
+    const auto clusters = [&](const ClusteredFit& of) {
+      const auto first = of.mixture.membership.begin() + std::ptrdiff_t(i * 3);
+      return std::set<std::uint32_t>(first, first + 3);
+    };
+    const auto error_of = [&](const ClusteredFit& of) {
+      return squared_distance(sub_tensors(reconstruct(of), 1, {i}), sub_tensors(a, 1, {i}));
+    };
+    if (clusters(fit) != clusters(same)) continue;
+    ++alike;
+    CHECK(error_of(same) <= error_of(fit) * (1 + 1e-4));  // floats
+  }
+  CHECK(alike >= 18);
 
   // Half way between neighbours: the mean of two sub-tensors, approximated about as well as they are.
   Matrix halves = Matrix::Zero(36, 36);
