@@ -21,6 +21,7 @@ forbid(sdk/src/core "\"(character|nnao|probe|material|gl|api)/|nook_gl|glad" "co
 forbid(sdk/src/character "\"(nnao|probe|material|gl|api)/|nook_gl|glad" "a system room knows core only")
 forbid(sdk/src/nnao "\"(character|probe|material|gl|api)/|nook_gl|glad" "a system room knows core only")
 forbid(sdk/src/material "\"(character|nnao|probe|gl|api)/|nook_gl|glad" "a system room knows core only")
+forbid(sdk/src/probe "\"(character|nnao|material|gl|api)/|nook_gl|glad" "a system room knows core only")
 forbid(sdk/src/gl "\"api/" "gl does not know the api")
 forbid(sdk/src "tbb/|embree|Eigen|tiny_gltf|OpenImageIO|nlohmann|LBFGS|CLI/" "the runtime depends on nothing")
 foreach(room import raytrace tensor character nnao api)

@@ -129,7 +129,7 @@ NOOK_API nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float*
                                                 const float* weights, size_t count);
 
 /* The coefficients of `short_run`, of the same basis, become the start of a running average that has no samples yet, instead
- * of 0; with the fast step they go on counting as much as the samples of short_run. Forms that solve ignore it.
+ * of 0, and go on counting as much as the samples of short_run. Forms that solve ignore it.
  * One at a time (for both). Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_seed(nook_probe_fit fit, nook_probe_fit short_run);
 
@@ -270,7 +270,8 @@ typedef struct nook_probe_surface {
 } nook_probe_surface;
 
 /* Radiance that a GGX surface reflects to the eye, Smith masking and Schlick Fresnel at the lobe's centre. rgb: one colour
- * for each surface. */
+ * for each surface. Under 12 lobes of sharpness 6, seen from up to 60 degrees, within 2 % of the integral at alpha 0.05,
+ * 11 % (anisotropic 7 %) at 0.2, 30 % at 0.4. */
 NOOK_API nook_result nook_probe_lobes_specular(const nook_probe_lobe* lobes, uint32_t lobe_count,
                                                nook_probe_specular_form form, const nook_probe_surface* surfaces,
                                                float* rgb, size_t count);
