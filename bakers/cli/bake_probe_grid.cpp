@@ -68,7 +68,11 @@ double refine(const BakeProbeOptions& options, GridBake& bake, std::uint32_t mos
     bake.pass();
     if (bake.passes() % passes_between_errors == 0) error = bake.error();
     if (options.preview_every_s > 0 && seconds_since(previewed) >= options.preview_every_s) {
-      OutputFile(options.output).commit(file_of(options, bake, bake.error()));
+      error = bake.error();
+      OutputFile(options.output).commit(file_of(options, bake, error));
+      char label[64];
+      std::snprintf(label, sizeof label, "preview written, error %.3g", error);
+      bar.show(label, "passes at most", bake.passes(), most_passes);
       previewed = Clock::now();
     }
   }
@@ -107,7 +111,8 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   row["scene"] = options.input.stem().string();
   row["light"] = options.light.stem().string();
   row["probes"] = settings.grid.size();
-  for (const auto& item : describe(options.probe, settings.basis).items()) row[item.key()] = item.value();
+  const Json made_of = describe(options.probe, settings.basis);
+  for (const auto& item : made_of.items()) row[item.key()] = item.value();
   row["samples_per_probe"] = bake.samples();
   row["error"] = error;
   row["error_reached"] = error <= options.error;

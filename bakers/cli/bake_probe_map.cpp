@@ -35,7 +35,8 @@ Json row_of(const BakeProbeOptions& options, const bake::Environment& map, const
   const auto irradiance = truth.error(probes.basis, probes.of(0));
   Json row;
   row["map"] = options.input.stem().string();
-  for (const auto& item : describe(options.probe, probes.basis).items()) row[item.key()] = item.value();
+  const Json made_of = describe(options.probe, probes.basis);
+  for (const auto& item : made_of.items()) row[item.key()] = item.value();
   row["radiance_rms"] = exact.rms(probes.of(0));
   row["irradiance_rms"] = irradiance.rms;
   row["excess_mse"] = exact.excess(probes.of(0));
