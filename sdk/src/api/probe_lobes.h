@@ -17,8 +17,9 @@ inline nook_probe_lobe to_public(const SphericalGaussian& lobe) {
 }
 
 inline probe::IrradianceForm irradiance_form(nook_probe_irradiance_form form) {
-  if (form != NOOK_PROBE_IRRADIANCE_FITTED && form != NOOK_PROBE_IRRADIANCE_INNER_PRODUCT)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "form is unknown (got %d, need 0 or 1)", form);
+  if (form < NOOK_PROBE_IRRADIANCE_FITTED || form > NOOK_PROBE_IRRADIANCE_BANDS)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "form is unknown (got %d, need 0 to %d)", form,
+                  NOOK_PROBE_IRRADIANCE_BANDS);
   return static_cast<probe::IrradianceForm>(form);
 }
 

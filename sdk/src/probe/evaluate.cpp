@@ -14,9 +14,7 @@ void irradiance_functions(const Basis& basis, IrradianceForm form, Vec3 normal, 
   switch (basis.kind) {
     case BasisKind::gaussians:
       for (std::uint32_t i = 0; i < basis.count; ++i)
-        values[i] = form == IrradianceForm::fitted
-                        ? gaussian_irradiance_fitted(basis.axis[i], basis.sharpness[i], normal)
-                        : gaussian_irradiance_inner_product(basis.axis[i], basis.sharpness[i], normal);
+        values[i] = irradiance(basis.axis[i], basis.sharpness[i], form, normal);
       return;
     case BasisKind::harmonics:
       evaluate_harmonics(basis.order, normal.x, normal.y, normal.z, values);
@@ -37,6 +35,18 @@ Vec3 weighted(const Basis& basis, std::span<const Vec3> coefficients, const floa
 
 }  // namespace
 
+float irradiance(Vec3 axis, float sharpness, IrradianceForm form, Vec3 normal) {
+  switch (form) {
+    case IrradianceForm::inner_product:
+      return gaussian_irradiance_inner_product(axis, sharpness, normal);
+    case IrradianceForm::fitted:
+      return gaussian_integral(sharpness) * gaussian_unit_irradiance_fitted(sharpness, dot(axis, normal));
+    case IrradianceForm::bands:
+      return gaussian_integral(sharpness) * gaussian_unit_irradiance_best(sharpness, dot(axis, normal));
+  }
+  return 0;
+}
+
 Vec3 radiance(std::span<const SphericalGaussian> lobes, Vec3 direction) {
   Vec3 sum;
   for (const SphericalGaussian& lobe : lobes) sum += value(lobe, direction);
@@ -46,9 +56,7 @@ Vec3 radiance(std::span<const SphericalGaussian> lobes, Vec3 direction) {
 Vec3 irradiance(std::span<const SphericalGaussian> lobes, IrradianceForm form, Vec3 normal) {
   Vec3 sum;
   for (const SphericalGaussian& lobe : lobes)
-    sum += lobe.amplitude * (form == IrradianceForm::fitted
-                                 ? gaussian_irradiance_fitted(lobe.axis, lobe.sharpness, normal)
-                                 : gaussian_irradiance_inner_product(lobe.axis, lobe.sharpness, normal));
+    sum += lobe.amplitude * irradiance(lobe.axis, lobe.sharpness, form, normal);
   return sum;
 }
 

@@ -11,7 +11,10 @@
 
 namespace nook::probe {
 
-enum class IrradianceForm : std::uint8_t { fitted = 0, inner_product = 1 };
+enum class IrradianceForm : std::uint8_t { fitted = 0, inner_product = 1, bands = 2 };
+
+// Irradiance of one lobe of amplitude 1; see core/spherical_gaussian.h.
+float irradiance(Vec3 axis, float sharpness, IrradianceForm form, Vec3 normal);
 
 Vec3 radiance(std::span<const SphericalGaussian> lobes, Vec3 direction);
 Vec3 irradiance(std::span<const SphericalGaussian> lobes, IrradianceForm form, Vec3 normal);
