@@ -13,6 +13,7 @@
 #include "cli/table.h"
 #include "nnao/layers.h"
 #include "nnao/network_file.h"
+#include "probe/probe_file.h"
 
 namespace nook::cli {
 namespace {
@@ -68,12 +69,41 @@ Json describe_network(std::span<const std::byte> bytes) {
   return row;
 }
 
+constexpr const char* basis_names[] = {"gaussians", "harmonics", "dice"};
+constexpr const char* packing_names[] = {"float", "half", "rgb9e5"};
+
+Json describe_probes(std::span<const std::byte> bytes) {
+  const probe::Probes probes = probe::read_probes(bytes);
+  Json row;
+  row["kind"] = "light probe";
+  row["format_version"] = Container(bytes, probe::probe_kind).version();
+  row["bytes"] = bytes.size();
+  row["probes"] = probes.grid.size();
+  row["basis"] = basis_names[std::size_t(probes.basis.kind)];
+  row["domain"] = probes.basis.domain == probe::Domain::sphere ? "sphere" : "hemisphere";
+  row["functions"] = probes.basis.count;
+  row["ambient"] = probes.basis.ambient;
+  row["packing"] = packing_names[std::size_t(probe::packing_of(bytes))];
+  if (probes.grid.size() > 1) {
+    const Vec3 at = probes.grid.origin_ws, apart = probes.grid.spacing_ws;
+    row["counts"] = probes.grid.counts;
+    row["origin_m"] = {at.x, at.y, at.z};
+    row["spacing_m"] = {apart.x, apart.y, apart.z};
+  }
+  const Json recipe = Json::parse(probes.recipe, nullptr, false);
+  if (recipe.is_object())
+    for (const auto& item : recipe.items()) row["recipe_" + item.key()] = item.value();
+  return row;
+}
+
 void run(const Options& options) {
   const std::vector<std::byte> bytes = read_file(options.input);
   std::optional<OutputFile> report;
   if (!options.common.report.empty()) report.emplace(options.common.report);
   const Json row = naming_file(options.input, [&] {
-    if (bytes.size() >= 16 && container_kind(bytes) == nook::nnao::network_kind.kind) return describe_network(bytes);
+    if (bytes.size() >= 16 && container_kind(bytes) == nook::nnao::network_kind.kind)
+      return describe_network(bytes);
+    if (bytes.size() >= 16 && container_kind(bytes) == probe::probe_kind.kind) return describe_probes(bytes);
     if (bytes.size() >= 16 && container_kind(bytes) != character_kind.kind && container_kind(bytes) != 0)
       throw Failure(NOOK_ERROR_BAD_FILE,
                     "a .nook file of a kind that this version cannot inspect; use a newer one");
