@@ -41,6 +41,7 @@ std::size_t classify(WorkingFit& fit, const TensorView& reduced) {
     cluster.fitted = false;
   }
   list_members(fit);
+  for (WorkingCluster& cluster : fit.clusters) cluster.mixing = Matrix();  // of the members before
   return filled;
 }
 

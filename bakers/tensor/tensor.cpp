@@ -113,13 +113,13 @@ Tensor sub_tensors(const TensorView& a, std::size_t mode, const std::vector<std:
 }
 
 void check_tensor(const TensorView& a) {
-  if (a.dimensions.empty() || !a.data)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the tensor is empty; entries in at least one mode are needed");
   for (std::size_t n = 0; n < a.order(); ++n)
     if (a.dimensions[n] == 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "mode %zu of the tensor has size 0 (need at least 1)",
                     n + 1);
+  if (a.dimensions.empty() || !a.data)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the tensor is empty; entries in at least one mode are needed");
   // A sum with an entry that is not finite is not finite itself; only then is the entry looked for.
   if (std::isfinite(block_sum(a.size(), [&](std::size_t i) { return double(a.data[i]); }))) return;
   const auto bad = std::size_t(

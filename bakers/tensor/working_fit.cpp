@@ -70,6 +70,7 @@ double fit_members(WorkingCluster& cluster, const Tensor& shrunk, const Clustere
     alternation.ranks[n] = std::min(settings.ranks[n], shrunk.dimensions[n]);
   alternation.first = m;
   alternation.sweeps = settings.sweeps;
+  alternation.tolerance = 0;
   const bool whole = alternation.ranks[m] == shrunk.dimensions[m];
   std::vector<Matrix> bases = cluster.fitted ? cluster.parts.basis : hosvd_bases(shrunk, alternation.ranks);
   if (cluster.fitted) bases[m] = whole ? Matrix() : cluster.mixing;

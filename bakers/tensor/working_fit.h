@@ -32,8 +32,8 @@ struct WorkingFit {
 // Lists the members of each cluster from the membership; parts stay.
 void list_members(WorkingFit& fit);
 
-// What an N-SVD of the shrunk tensor's members gives: core, bases and mixing rows, from those there are, or
-// from the HOSVD. Returns the squared error.
+// What an N-SVD of the shrunk tensor, a cluster's members only, gives: core, bases and mixing rows, from
+// those there are (mixing rows need not be), or from the HOSVD. Returns the squared error.
 double fit_members(WorkingCluster& cluster, const Tensor& shrunk, const ClusteredSettings& settings);
 
 // Z_c x_n U_{n,c}, members only.
