@@ -11,6 +11,7 @@
 #include "test_context.h"
 
 std::vector<std::byte> nook_test_model_bytes();
+std::vector<std::byte> nook_test_material_bytes();
 
 static_assert(std::is_nothrow_move_constructible_v<nook::Gl> && !std::is_copy_constructible_v<nook::Gl>);
 
@@ -64,4 +65,23 @@ TEST_CASE("a wrapper that cannot be made throws") {
     CHECK(error.result() == NOOK_ERROR_INVALID_ARGUMENT);
     CHECK(std::string(error.what()).find("desc.get_proc is NULL") != std::string::npos);
   }
+}
+
+TEST_CASE("the C++ wrapper uploads a material and deletes its textures") {
+  NOOK_NEED_CONTEXT(context);
+  const std::vector<std::byte> bytes = nook_test_material_bytes();
+  const nook::Context host;
+  nook_gl_desc desc = nook::gl_desc();
+  desc.get_proc = platform::Context::loader;
+  desc.get_proc_user = &context;
+  const nook::Gl gl(host, desc);
+  const nook::Material material(host, bytes.data(), bytes.size());
+  nook::GlMaterial uploaded(gl, material);
+  const std::vector<nook_gl_material_texture> textures = uploaded.textures();
+  CHECK(textures.size() == 7);
+  CHECK(textures[0].uniform == std::string("nook_light_map"));
+  CHECK(uploaded.info().texture_bytes == material.info().table_bytes);
+  for (const nook_gl_material_texture& texture : textures) CHECK(context.gl().IsTexture(texture.texture));
+  uploaded = nook::GlMaterial();
+  for (const nook_gl_material_texture& texture : textures) CHECK_FALSE(context.gl().IsTexture(texture.texture));
 }

@@ -58,8 +58,8 @@ inline void fill_rows(ViewRows& rows, const TensorShape& shape, std::size_t coun
 inline void fill_tensor(ClusteredTensor& tensor, const TensorShape& shape, std::uint32_t map_side,
                         Numbers& numbers) {
   tensor.shape = shape;
-  // A value is a sum of K R_l R_v R_x R_y products; this keeps its deviation below one.
-  const float size = 2 / std::sqrt(float(core_size(shape) * shape.mixture));
+  // A value is a sum of K R_l R_v R_x R_y products of numbers up to one; this makes it about one.
+  const float size = 10 / std::sqrt(float(core_size(shape) * shape.mixture));
   fill(tensor.cores, shape.clusters * core_size(shape), size, numbers);
   fill(tensor.x_bases, shape.clusters * x_basis_size(shape), 1, numbers);
   fill(tensor.y_bases, shape.clusters * y_basis_size(shape), 1, numbers);

@@ -12,6 +12,7 @@
 
 #include "nook_character.h"
 #include "nook_gl.h"
+#include "nook_material.h"
 
 namespace nook {
 // A namespace within, so that these names never meet the library's own at link time. Write nook::Scene all
@@ -67,6 +68,12 @@ inline nook_scene_desc scene_desc() {
 inline nook_gl_desc gl_desc() {
   nook_gl_desc desc;
   check(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+inline nook_gl_material_desc gl_material_desc() {
+  nook_gl_material_desc desc;
+  check(nook_gl_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
   return desc;
 }
 
@@ -200,6 +207,59 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   static nook_gl create(const Context& context, const nook_gl_desc& desc) {
     nook_gl handle = nullptr;
     check(nook_gl_create(context.get(), &desc, &handle));
+    return handle;
+  }
+};
+
+class Material : public Unique<nook_material, nook_material_destroy> {
+ public:
+  Material(const Context& context, const void* bytes, std::size_t size)
+      : Unique(load(context, bytes, size)) {}
+
+  nook_material_info info() const {
+    nook_material_info info{};
+    info.struct_size = sizeof info;
+    check(nook_material_get_info(get(), &info));
+    return info;
+  }
+  void evaluate(const nook_material_sample* samples, std::uint32_t count, nook_material_value* values) const {
+    check(nook_material_evaluate(get(), samples, count, values));
+  }
+
+ private:
+  static nook_material load(const Context& context, const void* bytes, std::size_t size) {
+    nook_material handle = nullptr;
+    check(nook_material_load(context.get(), bytes, size, &handle));
+    return handle;
+  }
+};
+
+// Belongs to the context thread, as Gl does.
+class GlMaterial : public Unique<nook_gl_material, nook_gl_material_destroy> {
+ public:
+  GlMaterial() = default;
+  GlMaterial(const Gl& gl, const Material& material, const nook_gl_material_desc& desc = gl_material_desc())
+      : Unique(create(gl, material, desc)) {}
+
+  nook_gl_material_info info() const {
+    nook_gl_material_info info{};
+    info.struct_size = sizeof info;
+    check(nook_gl_material_get_info(get(), &info));
+    return info;
+  }
+  std::vector<nook_gl_material_texture> textures() const {
+    std::vector<nook_gl_material_texture> all(info().texture_count);
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+      all[i].struct_size = sizeof all[i];
+      check(nook_gl_material_get_texture(get(), i, &all[i]));
+    }
+    return all;
+  }
+
+ private:
+  static nook_gl_material create(const Gl& gl, const Material& material, const nook_gl_material_desc& desc) {
+    nook_gl_material handle = nullptr;
+    check(nook_gl_material_create(gl.get(), material.get(), &desc, &handle));
     return handle;
   }
 };

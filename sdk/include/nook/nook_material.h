@@ -132,7 +132,8 @@ typedef struct nook_gl_material_info {
   uint32_t texture_count; /* units that a draw binds, at most 16 */
   uint64_t texture_bytes;
   const char* glsl;       /* GLSL 3.30 without #version: constants, uniforms and the functions above. The same text for
-                             materials of the same sizes, which may share a program. Every name begins with nook_ or NOOK_.
+                             materials of the same sizes and mapping, which may share a program. Every name begins
+                             with nook_ or NOOK_.
                              uniform vec2 nook_visibility_mapping, threshold and weight, begins with the material's
                              own. Valid while the material lives */
 } nook_gl_material_info;
