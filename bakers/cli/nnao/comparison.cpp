@@ -87,7 +87,7 @@ ComparisonRow measure(const GladGLContext& gl, const Method& method, bool blurre
           median(ms)};
 }
 
-void add_network(std::vector<Method>& methods, const char* name,
+void add_network(std::vector<Method>& methods, const std::string& name,
                  std::vector<std::unique_ptr<NetworkPass>>& passes, const NookGl& gl, int width, int height,
                  std::span<const std::byte> network, float sharpness) {
   for (const int taps : network_taps) {
@@ -117,8 +117,9 @@ Comparison compare(platform::Context& context, std::span<const MeasuredView> vie
   std::vector<std::unique_ptr<NetworkPass>> passes;
   const float sharpness = settings.request.blur_sharpness;
   add_network(methods, "nnao", passes, nook_gl, width, height, {}, sharpness);
-  if (!settings.paper_network.empty())
-    add_network(methods, "nnao_paper", passes, nook_gl, width, height, settings.paper_network, sharpness);
+  if (!settings.other_network.empty())
+    add_network(methods, settings.other_name, passes, nook_gl, width, height, settings.other_network,
+                sharpness);
   PeerPass peers(gl, width, height);
   if (settings.peers)
     for (const PeerMethod& peer : peer_methods())

@@ -24,7 +24,8 @@ struct ComparisonRow {
 
 struct ComparisonSettings {
   AoRequest request;                     // its radius is each view's
-  std::vector<std::byte> paper_network;  // a file; empty: without the paper's form
+  std::vector<std::byte> other_network;  // a file beside the embedded one; empty: none
+  std::string other_name;                // in tables
   bool peers = true;
 };
 
