@@ -29,6 +29,7 @@ struct Options {
   TruthSettings truth;
   SceneWords scenes;
   std::filesystem::path network, images, markdown;
+  std::vector<std::string> methods;  // empty: all
   std::uint32_t placed_cameras = 3;
   float max_radius_px = 0;
   std::string tune;  // a peer's name, or all; empty: no tuning
@@ -96,6 +97,12 @@ Networks read_networks(const Options& options) {
   return networks;
 }
 
+// In tables.
+std::string other_name(const Networks& networks) {
+  if (networks.file.empty()) return "";
+  return networks.other.form == nook::nnao::NetworkForm::paper ? "nnao_paper" : "nnao_file";
+}
+
 void write_network_pictures(const std::filesystem::path& folder, const std::string& prefix,
                             const nook::nnao::Network& network, std::span<const MeasuredView> views) {
   platform::write_image(folder / (prefix + "_filters.png"), filter_picture(network));
@@ -108,7 +115,8 @@ Comparison compare_views(const Options& options, platform::Context& context, con
                          std::span<const MeasuredView> views) {
   ComparisonSettings settings;
   settings.other_network = networks.file;
-  settings.other_name = networks.other.form == nook::nnao::NetworkForm::paper ? "nnao_paper" : "nnao_file";
+  settings.other_name = other_name(networks);
+  settings.methods = options.methods;
   settings.request.max_radius_px =
       options.max_radius_px > 0 ? options.max_radius_px : 0.5f * float(options.truth.height);
   ProgressBar bar(options.common.quiet);
@@ -127,6 +135,10 @@ Json evaluate(const Options& options) {
   const Networks networks = read_networks(options);
   std::optional<OutputFile> markdown;
   if (!options.markdown.empty()) markdown.emplace(options.markdown);
+  const std::string other = other_name(networks);
+  for (const std::string& method : options.methods)
+    if (method.starts_with("nnao_") && method != other)
+      throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: --network gives no " + method);
   const auto context = make_context();
   const std::string resolution =
       std::to_string(options.truth.width) + "x" + std::to_string(options.truth.height);
@@ -239,6 +251,11 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
   command->add_option("--rays", o.truth.rays, "rays a pixel")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
+  std::vector<std::string> methods{"nnao", "nnao_paper", "nnao_file"};
+  methods.insert(methods.end(), peers.begin() + 1, peers.end());
+  command->add_option("--methods", o.methods, "measure these alone, separated by commas; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(methods));
   command->add_option("--network", o.network,
                       "a file of `nook train nnao`, such as the paper's form, measured as well");
   command->add_option("--images", o.images,

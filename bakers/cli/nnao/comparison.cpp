@@ -15,7 +15,7 @@ namespace {
 using bake::nnao::ImageError;
 
 constexpr int network_taps[] = {16, 32, 64, 128, 256};
-constexpr int frames = 2;  // timed, of each view
+constexpr int frames = 1;  // timed, of each view
 
 struct Method {
   std::string name;
@@ -113,16 +113,19 @@ Comparison compare(platform::Context& context, std::span<const MeasuredView> vie
   std::deque<ViewOnGpu> images;
   for (const MeasuredView& view : views) images.emplace_back(gl, view);
 
+  const auto wanted = [&](const std::string& name) {
+    return settings.methods.empty() || std::ranges::find(settings.methods, name) != settings.methods.end();
+  };
   std::vector<Method> methods;
   std::vector<std::unique_ptr<NetworkPass>> passes;
   const float sharpness = settings.request.blur_sharpness;
-  add_network(methods, "nnao", passes, nook_gl, width, height, {}, sharpness);
-  if (!settings.other_network.empty())
+  if (wanted("nnao")) add_network(methods, "nnao", passes, nook_gl, width, height, {}, sharpness);
+  if (!settings.other_network.empty() && wanted(settings.other_name))
     add_network(methods, settings.other_name, passes, nook_gl, width, height, settings.other_network,
                 sharpness);
   PeerPass peers(gl, width, height);
-  if (settings.peers)
-    for (const PeerMethod& peer : peer_methods())
+  for (const PeerMethod& peer : peer_methods())
+    if (wanted(peer_name(peer.peer)))
       methods.push_back({peer_name(peer.peer), peer.taps,
                          [&peers, peer](const GpuView& view, const AoRequest& request, bool blurred) {
                            return peers.draw(peer, view, request, blurred);

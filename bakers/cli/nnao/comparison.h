@@ -26,7 +26,7 @@ struct ComparisonSettings {
   AoRequest request;                     // its radius is each view's
   std::vector<std::byte> other_network;  // a file beside the embedded one; empty: none
   std::string other_name;                // in tables
-  bool peers = true;
+  std::vector<std::string> methods;      // names in tables; empty: all
 };
 
 // A method's AO of a view, for pictures.

@@ -86,6 +86,18 @@ TEST_CASE("evaluate nnao tells of several scenes each and their mean, with anoth
   CHECK(markdown.find("| nnao | 64 | no |") != std::string::npos);
 }
 
+TEST_CASE("evaluate nnao measures chosen methods alone") {
+  const TestFolder folder;
+  auto arguments = tiny({"--thin", "--cameras", "1", "--methods", "nnao,hbao"}, folder);
+  REQUIRE(folder.run(arguments).exit_code == 0);
+  const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
+  REQUIRE(report.at("rows").size() == 2 * (5 + 3));
+  for (const auto& row : report.at("rows")) CHECK((row.at("method") == "nnao" || row.at("method") == "hbao"));
+  CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "other"}).exit_code == 2);
+  // No file, no method of that name.
+  CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "nnao_paper"}).exit_code == 2);
+}
+
 TEST_CASE("evaluate nnao refuses bad arguments and bad scenes, and leaves no half file") {
   const TestFolder folder;
   CHECK(folder.run({"evaluate", "nnao"}).exit_code == 2);
