@@ -10,6 +10,7 @@
 
 #include "material/material_file.h"
 #include "material_sample.h"
+#include "random_changes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -37,19 +38,7 @@ int main(int argc, char** argv) {
   for (int run = 0; run < runs; ++run) {
     std::vector<std::byte> file = write_material(
         test::sample_material(1, test::sample_forms[std::size_t(run) % std::size(test::sample_forms)]));
-    for (std::uint32_t change = numbers.below(6) + 1; change > 0; --change) {
-      // Half of the changes meet the section table and the heads.
-      const auto reach = static_cast<std::uint32_t>(numbers.below(2) ? file.size() : file.size() / 8 + 1);
-      const std::uint32_t at = numbers.below(reach);
-      if (numbers.below(10) == 0)
-        file.resize(at);  // cut
-      else
-        file[at] = std::byte(numbers.below(3) ? numbers.below(256) : numbers.below(2) * 255);
-      if (file.empty()) break;
-      // The size in the head follows, or nearly every change would end there.
-      if (file.size() >= 24)
-        for (std::size_t i = 0; i < 8; ++i) file[16 + i] = std::byte(file.size() >> (8 * i) & 255);
-    }
+    nook::test::change_bytes(file, [&](std::uint32_t count) { return numbers.below(count); });
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
   }
   return 0;

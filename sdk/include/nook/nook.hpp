@@ -13,6 +13,7 @@
 #include "nook_character.h"
 #include "nook_gl.h"
 #include "nook_material.h"
+#include "nook_nnao.h"
 
 namespace nook {
 // A namespace within, so that these names never meet the library's own at link time. Write nook::Scene all
@@ -75,6 +76,27 @@ inline nook_gl_material_desc gl_material_desc() {
   nook_gl_material_desc desc;
   check(nook_gl_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
   return desc;
+}
+
+// max_width and max_height are left to the caller.
+inline nook_nnao_desc nnao_desc() {
+  nook_nnao_desc desc;
+  check(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+// Sizes, depth texture, projection and radius are left to the caller.
+inline nook_nnao_frame_desc nnao_frame_desc() {
+  nook_nnao_frame_desc desc;
+  check(nook_nnao_frame_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+// Texture memory of a pass made from desc.
+inline std::uint64_t nnao_memory(const nook_nnao_desc& desc) {
+  std::uint64_t bytes = 0;
+  check(nook_nnao_memory(&desc, &bytes));
+  return bytes;
 }
 
 class Context : public Unique<nook_context, nook_context_destroy> {
@@ -268,6 +290,34 @@ class GlMaterial : public Unique<nook_gl_material, nook_gl_material_destroy> {
   static nook_gl_material create(const Gl& gl, const Material& material, const nook_gl_material_desc& desc) {
     nook_gl_material handle = nullptr;
     check(nook_gl_material_create(gl.get(), material.get(), &desc, &handle));
+    return handle;
+  }
+};
+
+// What nook_nnao.h says of the context thread holds for every function here, and for the destructor.
+class Nnao : public Unique<nook_nnao, nook_nnao_destroy> {
+ public:
+  Nnao(const Gl& gl, const nook_nnao_desc& desc) : Unique(create(gl, desc)) {}
+
+  void render(const nook_nnao_frame_desc& frame) { check(nook_nnao_render(get(), &frame)); }
+  void recheck() { check(nook_nnao_recheck(get())); }
+  nook_nnao_info info() const {
+    nook_nnao_info info{};
+    info.struct_size = sizeof info;
+    check(nook_nnao_get_info(get(), &info));
+    return info;
+  }
+  nook_nnao_timings timings() const {
+    nook_nnao_timings timings{};
+    timings.struct_size = sizeof timings;
+    check(nook_nnao_get_timings(get(), &timings));
+    return timings;
+  }
+
+ private:
+  static nook_nnao create(const Gl& gl, const nook_nnao_desc& desc) {
+    nook_nnao handle = nullptr;
+    check(nook_nnao_create(gl.get(), &desc, &handle));
     return handle;
   }
 };
