@@ -16,22 +16,8 @@
 namespace nook::bake {
 namespace {
 
-struct Frame {
-  Vec3 x, y, z;
-};
-
-// An orthonormal basis round a unit normal, turned by an angle given as cosine and sine (Duff et al. 2017 for the basis).
-Frame turned_frame(Vec3 n, float cosine, float sine) {
-  const float sign = std::copysign(1.0f, n.z);
-  const float a = -1 / (sign + n.z);
-  const float b = n.x * n.y * a;
-  const Vec3 u{1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-  const Vec3 v{b, sign + n.y * n.y * a, -n.y};
-  return {cosine * u + sine * v, cosine * v - sine * u, n};
-}
-
-float trace_point(RTCScene scene, Vec3 position, Vec3 normal, const HemispherePatterns& patterns, float radius,
-                  float origin_offset, std::uint64_t random) {
+float trace_point(RTCScene scene, Vec3 position, Vec3 normal, const HemispherePatterns& patterns,
+                  float radius, float origin_offset, std::uint64_t random) {
   const float angle = 6.2831853f * unit_float(random);
   const Frame frame = turned_frame(normal, std::cos(angle), std::sin(angle));
   const Vec3* local = patterns.pattern(std::uint32_t(random));
@@ -76,7 +62,8 @@ float ray_origin_offset(std::span<const Vec3> rest_positions) {
   return 1e-4f * length(high - low);
 }
 
-std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers, const AoSettings& settings) {
+std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers,
+                            const AoSettings& settings) {
   return trace_ao(RayScene(occluders), receivers, settings);
 }
 
@@ -87,13 +74,14 @@ std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, c
     const FlushDenormals flush;
     for (std::size_t i = range.begin(); i < range.end(); ++i)
       ao[i] = trace_point(scene.get(), receivers.position[i], receivers.normal[i], patterns,
-                          receivers.radius.empty() ? settings.radius : receivers.radius[i], settings.origin_offset, mix_bits(settings.seed ^ mix_bits(i)));
+                          receivers.radius.empty() ? settings.radius : receivers.radius[i],
+                          settings.origin_offset, mix_bits(settings.seed ^ mix_bits(i)));
   });
   return ao;
 }
 
-AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
-                             const Progress& progress) {
+AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays,
+                             std::uint64_t seed, const Progress& progress) {
   AoTargets targets;
   targets.vertex_count = mesh.vertex_count();
   targets.value.resize(poses.size() * mesh.vertex_count());
@@ -131,7 +119,9 @@ AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> pose
         }
       },
       tbb::simple_partitioner());
-  if (cancelled) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu poses done)", done, poses.size());
+  if (cancelled)
+    throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu poses done)", done,
+                  poses.size());
   return targets;
 }
 
@@ -148,7 +138,8 @@ double measure_noise_floor(const SkinnedMesh& mesh, std::span<const Pose> poses,
   double sum = 0;
   for (std::size_t s = 0; s < sample.size(); ++s)
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-      const double d = (double(again.row(s)[i]) - double(targets.row(index[s])[i])) * double(AoTargets::scale);
+      const double d =
+          (double(again.row(s)[i]) - double(targets.row(index[s])[i])) * double(AoTargets::scale);
       sum += d * d;
     }
   return 0.5 * sum / (double(sample.size()) * double(mesh.vertex_count()));

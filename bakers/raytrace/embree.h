@@ -1,4 +1,5 @@
-// One spelling for Embree 3 (Debian 12) and Embree 4 (Debian 13): owned devices and scenes, and the 16-wide occlusion call.
+// One spelling for Embree 3 (Debian 12) and Embree 4 (Debian 13): owned devices and scenes, and the 16-wide
+// occlusion call.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -13,7 +14,8 @@ namespace nook::bake {
 
 class EmbreeDevice {
  public:
-  // Single-threaded inside: callers parallelise over scenes, so that results do not depend on Embree's own scheduling.
+  // Single-threaded inside: callers parallelise over scenes, so that results do not depend on Embree's own
+  // scheduling.
   EmbreeDevice() : handle_(rtcNewDevice("threads=1,set_affinity=0")) {}
   ~EmbreeDevice() { rtcReleaseDevice(handle_); }
   EmbreeDevice(const EmbreeDevice&) = delete;
@@ -44,6 +46,17 @@ inline void occluded16(RTCScene scene, const int* valid, RTCRay16& rays) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded16(valid, scene, &context, &rays);
+#endif
+}
+
+// Occlusion of one ray; tfar of an occluded ray becomes -infinity.
+inline void occluded1(RTCScene scene, RTCRay& ray) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded1(scene, &ray, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &ray);
 #endif
 }
 

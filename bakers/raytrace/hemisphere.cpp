@@ -1,7 +1,6 @@
 #include "raytrace/hemisphere.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace nook::bake {
 
@@ -15,11 +14,7 @@ HemispherePatterns::HemispherePatterns(std::uint32_t rays, std::uint64_t seed)
     for (std::uint32_t i = 0; i < rays; ++i) {
       const float u = (float(i % rows) + unit_float(mix_bits(counter++))) / float(rows);
       const float v = (float(i / rows) + unit_float(mix_bits(counter++))) / float(columns);
-      // Malley's method: uniform on the disc, projected up.
-      const float radius = std::sqrt(u);
-      const float angle = 2 * std::numbers::pi_v<float> * v;
-      directions_[std::size_t(p) * rays + i] = {radius * std::cos(angle), radius * std::sin(angle),
-                                                std::sqrt(std::max(0.0f, 1 - u))};
+      directions_[std::size_t(p) * rays + i] = cosine_direction(u, v);
     }
   }
 }

@@ -1,6 +1,8 @@
-// Stratified cosine-weighted directions over the hemisphere: the samples of every ray-traced ambient occlusion.
+// Cosine-weighted directions over the hemisphere, stratified: the samples of ray-traced ambient occlusion and
+// irradiance.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -8,24 +10,54 @@
 
 namespace nook::bake {
 
-// Many independent patterns of `rays` directions each, round +z, so that neighbouring vertices and poses do not share noise.
-// Directions are cosine-weighted, so that visibility is their plain mean (design: ground truth of character AO).
+// Many independent patterns of `rays` directions each, round +z, so that neighbouring vertices and poses do
+// not share noise. Directions are cosine-weighted, so that visibility is their plain mean (design: ground
+// truth of character AO).
 class HemispherePatterns {
  public:
   static constexpr std::uint32_t pattern_count = 256;
 
-  // rays is split into rows x columns strata of equal probability, as near to a square as its divisors allow; any
-  // rays >= 1 is fine.
+  // rays is split into rows x columns strata of equal probability, as near to a square as its divisors allow;
+  // any rays >= 1 is fine.
   HemispherePatterns(std::uint32_t rays, std::uint64_t seed);
 
   std::uint32_t rays() const { return rays_; }
   // rays() unit directions, z >= 0.
-  const Vec3* pattern(std::uint32_t index) const { return &directions_[std::size_t(index % pattern_count) * rays_]; }
+  const Vec3* pattern(std::uint32_t index) const {
+    return &directions_[std::size_t(index % pattern_count) * rays_];
+  }
 
  private:
   std::uint32_t rays_;
   std::vector<Vec3> directions_;
 };
+
+struct Frame {
+  Vec3 x, y, z;
+};
+
+// An orthonormal basis round a unit normal, turned by an angle given as cosine and sine (Duff et al. 2017 for
+// the basis).
+inline Frame turned_frame(Vec3 n, float cosine, float sine) {
+  const float sign = std::copysign(1.0f, n.z);
+  const float a = -1 / (sign + n.z);
+  const float b = n.x * n.y * a;
+  const Vec3 u{1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+  const Vec3 v{b, sign + n.y * n.y * a, -n.y};
+  return {cosine * u + sine * v, cosine * v - sine * u, n};
+}
+
+constexpr Vec3 to_world(const Frame& frame, Vec3 v) {
+  return v.x * frame.x + v.y * frame.y + v.z * frame.z;
+}
+
+// A direction round +z with density cos / pi, by Malley's method: uniform on the disc, projected up. u, v in
+// [0, 1).
+inline Vec3 cosine_direction(float u, float v) {
+  const float radius = std::sqrt(u);
+  const float angle = 6.2831853f * v;
+  return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::fmax(0.0f, 1 - u))};
+}
 
 // SplitMix64's finaliser: decorrelates consecutive integers.
 constexpr std::uint64_t mix_bits(std::uint64_t x) {
@@ -36,6 +68,8 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
 }
 
 // Uniform in [0, 1) from the upper bits.
-constexpr float unit_float(std::uint64_t bits) { return float(bits >> 40) * 0x1p-24f; }
+constexpr float unit_float(std::uint64_t bits) {
+  return float(bits >> 40) * 0x1p-24f;
+}
 
 }  // namespace nook::bake

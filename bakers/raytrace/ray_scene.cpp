@@ -4,6 +4,22 @@
 #include <limits>
 
 namespace nook::bake {
+namespace {
+
+RTCRay unbounded_ray(Vec3 origin, Vec3 direction) {
+  RTCRay ray{};
+  ray.org_x = origin.x;
+  ray.org_y = origin.y;
+  ray.org_z = origin.z;
+  ray.dir_x = direction.x;
+  ray.dir_y = direction.y;
+  ray.dir_z = direction.z;
+  ray.tfar = std::numeric_limits<float>::infinity();
+  ray.mask = ~0u;
+  return ray;
+}
+
+}  // namespace
 
 void build_scene(RTCDevice device, RTCScene scene, std::span<const Vec3> positions,
                  std::span<const std::array<std::uint32_t, 3>> triangles) {
@@ -22,25 +38,27 @@ void build_scene(RTCDevice device, RTCScene scene, std::span<const Vec3> positio
 
 RayScene::RayScene(const TriangleSoup& soup) : scene_(device_.get()) {
   const FlushDenormals flush;
-  build_scene(device_.get(), scene_.get(), soup.position, soup.triangle);
+  if (soup.triangle.empty())
+    rtcCommitScene(scene_.get());
+  else
+    build_scene(device_.get(), scene_.get(), soup.position, soup.triangle);
 }
 
 RayHit RayScene::nearest(Vec3 origin, Vec3 direction) const {
   alignas(16) RTCRayHit ray{};
-  ray.ray.org_x = origin.x;
-  ray.ray.org_y = origin.y;
-  ray.ray.org_z = origin.z;
-  ray.ray.dir_x = direction.x;
-  ray.ray.dir_y = direction.y;
-  ray.ray.dir_z = direction.z;
-  ray.ray.tfar = std::numeric_limits<float>::infinity();
-  ray.ray.mask = ~0u;
+  ray.ray = unbounded_ray(origin, direction);
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   intersect1(scene_.get(), ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {std::numeric_limits<float>::infinity(), {}};
   const Vec3 normal = normalised({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z});
-  return {ray.ray.tfar, dot(normal, direction) > 0 ? -normal : normal};
+  return {ray.ray.tfar, dot(normal, direction) > 0 ? -normal : normal, ray.hit.primID};
+}
+
+bool RayScene::occluded(Vec3 origin, Vec3 direction) const {
+  alignas(16) RTCRay ray = unbounded_ray(origin, direction);
+  occluded1(scene_.get(), ray);
+  return ray.tfar < 0;
 }
 
 }  // namespace nook::bake

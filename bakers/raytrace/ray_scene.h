@@ -41,14 +41,16 @@ void build_scene(RTCDevice device, RTCScene scene, std::span<const Vec3> positio
 struct RayHit {
   float distance = 0;  // in lengths of the ray's direction; infinite: nothing
   Vec3 normal;         // geometric, unit length, against the ray
+  std::uint32_t triangle = ~0u;
 };
 
-// A soup with its BVH; any thread may trace.
+// A soup with its BVH, which may be empty; any thread may trace.
 class RayScene {
  public:
   explicit RayScene(const TriangleSoup& soup);
   RTCScene get() const { return scene_.get(); }
   RayHit nearest(Vec3 origin, Vec3 direction) const;
+  bool occluded(Vec3 origin, Vec3 direction) const;  // by anything at any distance
 
  private:
   EmbreeDevice device_;

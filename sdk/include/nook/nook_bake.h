@@ -292,6 +292,54 @@ NOOK_API nook_result nook_bake_trace_desc_init(nook_bake_trace_desc* desc, size_
  * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float* ao, uint32_t count);
 
+/* ---- Path-traced irradiance of a scene under an environment ---- */
+
+/* A latitude-longitude map of linear radiance. Rows go from +y down to -y, columns once round y: the middle column looks along
+ * +x, a quarter further right along +z. Radiance is constant over a texel. */
+typedef struct nook_bake_environment {
+  const float* rgb; /* 3 a texel, rows from the top; finite, 0 or above. NULL only with width 0: black */
+  uint32_t width;   /* at most 16384 */
+  uint32_t height;  /* at most 8192 */
+} nook_bake_environment;
+
+/* World space, metres. A diffuse surface, the same from both sides. */
+typedef struct nook_bake_lit_mesh {
+  const float* positions;  /* 3 a vertex */
+  const uint32_t* indices; /* 3 a triangle */
+  uint32_t vertex_count;
+  uint32_t index_count;
+  float base_colour[3];    /* RGB, the share of light that it sends back, 0 to 1; 0: it only occludes */
+  float emission[3];       /* RGB, radiance of its own, 0 or above */
+} nook_bake_lit_mesh;
+
+typedef struct nook_bake_irradiance_desc {
+  uint32_t struct_size;              /* set by nook_bake_irradiance_desc_init */
+  uint32_t header_version;           /* set by nook_bake_irradiance_desc_init */
+  const void* next;                  /* NULL */
+  const nook_bake_lit_mesh* meshes;  /* NULL only with mesh_count 0: everything is open */
+  const float* positions;            /* receivers, 3 a point, world space */
+  const float* normals;              /* 3 a point, unit length to 1e-3 */
+  nook_bake_environment environment; /* default black */
+  uint32_t mesh_count;
+  uint32_t point_count;
+  uint32_t rays;                     /* paths a point; default 64 */
+  uint32_t threads;                  /* default 0: all cores */
+  uint64_t seed;                     /* default 1; the result does not depend on the number of threads */
+  uint32_t max_bounces;              /* reflections that count, 0: none; default UINT32_MAX: all of them, unbiased */
+  float origin_offset;               /* metres along the normal, of rays that leave a surface, >= 0, default 1e-4 */
+} nook_bake_irradiance_desc;
+
+/* Fills *desc with defaults, as nook_context_desc_init does. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+NOOK_API nook_result nook_bake_irradiance_desc_init(nook_bake_irradiance_desc* desc, size_t size,
+                                                    uint32_t header_version);
+
+/* Writes 3 floats a point to irradiance: RGB, E(n) = integral of L(w) max(n . w, 0) over the sphere, in the map's units times
+ * steradians; a diffuse surface there sends E * base colour / pi. Each path samples the environment by luminance and the
+ * hemisphere by cosine, weighed by the balance heuristic; the mean is exact, the noise falls with the root of rays. count
+ * must be point_count. Returns when it is done. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_bake_trace_irradiance(const nook_bake_irradiance_desc* desc, float* irradiance,
+                                                uint32_t count);
+
 #ifdef __cplusplus
 }
 #endif

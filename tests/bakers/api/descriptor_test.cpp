@@ -10,6 +10,7 @@ TEST_CASE("init functions fill what fits into the caller's struct, of every rele
   check_init(nook_bake_mesh_desc_init, 100);
   check_init(nook_bake_job_desc_init, 128);
   check_init(nook_bake_trace_desc_init, 72);
+  check_init(nook_bake_irradiance_desc_init, 88);
 
   nook_bake_mesh_desc desc;
   CHECK(nook_bake_mesh_desc_init(nullptr, sizeof desc, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
@@ -48,6 +49,15 @@ TEST_CASE("descriptors of every release are read, and what a newer one adds is r
   check_use(trace_desc, 72, [](const nook_bake_trace_desc* desc) {
     float ao = 0;
     return nook_bake_trace_ao(desc, &ao, 1);
+  });
+  nook_bake_irradiance_desc light_desc;
+  REQUIRE(nook_bake_irradiance_desc_init(&light_desc, sizeof light_desc, NOOK_VERSION) == NOOK_OK);
+  light_desc.positions = at;
+  light_desc.normals = up;
+  light_desc.point_count = 1;
+  check_use(light_desc, 88, [](const nook_bake_irradiance_desc* desc) {
+    float irradiance[3];
+    return nook_bake_trace_irradiance(desc, irradiance, 1);
   });
 }
 

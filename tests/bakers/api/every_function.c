@@ -146,6 +146,29 @@ static int call_trace_functions(const tube* t) {
   return wrong;
 }
 
+static int call_irradiance_functions(const tube* t) {
+  nook_bake_irradiance_desc desc;
+  nook_bake_lit_mesh mesh = {0};
+  const float normal[3] = {0, 1, 0}, point[3] = {0.5f, 0, 0}, white[3] = {1, 1, 1};
+  float irradiance[3] = {-1, -1, -1};
+  int wrong = nook_bake_irradiance_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  mesh.positions = t->positions;
+  mesh.indices = t->indices;
+  mesh.vertex_count = tube_vertices;
+  mesh.index_count = 3 * tube_triangles;
+  desc.meshes = &mesh;
+  desc.mesh_count = 1;
+  desc.positions = point;
+  desc.normals = normal;
+  desc.point_count = 1;
+  desc.environment.rgb = white;
+  desc.environment.width = desc.environment.height = 1;
+  wrong += nook_bake_trace_irradiance(&desc, irradiance, 1) != NOOK_OK;
+  /* As the AO of the same point, times pi. */
+  wrong += !(irradiance[0] >= 0 && irradiance[2] < 0.2f * 3.15f);
+  return wrong;
+}
+
 int call_every_function(void) {
   tube t;
   nook_bake_mesh_desc desc;
@@ -162,6 +185,7 @@ int call_every_function(void) {
   wrong += call_character_functions(character);
   wrong += call_job_functions(character);
   wrong += call_trace_functions(&t);
+  wrong += call_irradiance_functions(&t);
   nook_bake_character_destroy(&character);
   return wrong + (character != NULL);
 }

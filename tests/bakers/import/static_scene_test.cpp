@@ -51,6 +51,34 @@ TEST_CASE("a static scene holds every shown triangle where its nodes put it") {
   CHECK(scene.position[moved[2]] == Vec3{0, 3.5f, 0});
 }
 
+TEST_CASE("triangles of a static scene carry their material's colours") {
+  GltfBuilder file = two_triangles();
+  file.document["materials"] =
+      Json::array({{{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1.0, 1.0}}}}},
+                   {{"emissiveFactor", {1.0, 0.5, 0.0}},
+                    {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4.0}}}}}}});
+  Json& primitives = file.document["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  primitives.push_back(primitives[0]);
+  primitives[0]["material"] = 0;
+  primitives[1]["material"] = 1;
+  const StaticScene scene = import_static_scene(file.glb());
+  REQUIRE(scene.triangle_surface == std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2});
+  REQUIRE(scene.surface.size() == 3);
+  CHECK(scene.surface[0].base_colour == Vec3{0.5f, 0.25f, 1});
+  CHECK(scene.surface[0].emission == Vec3{});
+  CHECK(scene.surface[1].base_colour == Vec3{1, 1, 1});  // glTF's default
+  CHECK(scene.surface[1].emission == Vec3{4, 2, 0});
+  CHECK(scene.surface[2].base_colour == Vec3{0.8f, 0.8f, 0.8f});
+  CHECK(scene.textured == 0);
+
+  primitives[0]["material"] = 2;
+  CHECK(failure_of(file).find("names material 2 (file has 2)") != std::string::npos);
+  primitives[0]["material"] = 0;
+  file.document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][1] = -1;
+  CHECK(failure_of(file).find("material 0 has a baseColorFactor") != std::string::npos);
+}
+
 TEST_CASE("strips and indices of a static scene") {
   GltfBuilder file;
   const int position = file.add_floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3");

@@ -8,29 +8,12 @@
 
 #include "bakers/character/bending_tube.h"
 #include "catch.h"
+#include "sphere_soup.h"
 
 using namespace nook;
 using namespace nook::bake;
 
 namespace {
-
-// A fine sphere; its facets lie inside it by less than radius * (pi / segments)^2 / 2.
-TriangleSoup sphere(Vec3 centre, float radius, int segments) {
-  TriangleSoup soup;
-  for (int i = 0; i <= segments; ++i)
-    for (int j = 0; j < 2 * segments; ++j) {
-      const float a = std::numbers::pi_v<float> * float(i) / float(segments);
-      const float b = std::numbers::pi_v<float> * float(j) / float(segments);
-      soup.position.push_back(centre + radius * Vec3{std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b)});
-    }
-  const auto at = [&](int i, int j) { return std::uint32_t(i * 2 * segments + j % (2 * segments)); };
-  for (int i = 0; i < segments; ++i)
-    for (int j = 0; j < 2 * segments; ++j) {
-      soup.triangle.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
-      soup.triangle.push_back({at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)});
-    }
-  return soup;
-}
 
 float ao_of(const TriangleSoup& soup, Vec3 position, Vec3 normal, AoSettings settings) {
   return trace_ao(soup, {{&position, 1}, {&normal, 1}}, settings)[0];
@@ -45,7 +28,7 @@ TEST_CASE("a sphere above a surface darkens it by cos(theta) r^2 / d^2") {
   for (float tilt : {0.0f, 0.5f, 0.9f}) {
     const float distance = 2;
     const Vec3 direction{std::sin(tilt), std::cos(tilt), 0};
-    const TriangleSoup soup = sphere(distance * direction, radius, 64);
+    const TriangleSoup soup = sphere_soup(distance * direction, radius, 64);
     const float expected = 1 - std::cos(tilt) * radius * radius / (distance * distance);
     // 16,384 stratified rays: standard error near 1e-3; the facets cover 0.1 % less than the sphere.
     CHECK(std::abs(ao_of(soup, {0, 0, 0}, {0, 1, 0}, settings) - expected) < 4e-3f);
@@ -59,7 +42,8 @@ TEST_CASE("half-spaces and empty skies are exact") {
   AoSettings settings;
   settings.rays = 4096;
   // A wall close beside a surface hides half of its hemisphere, whichever side its triangles face.
-  CHECK(std::abs(ao_of(wall, {0.01f, 0, 0}, {0, 1, 0}, settings) - 0.5f) < 0.01f);   // standard error 4e-3 unstratified
+  CHECK(std::abs(ao_of(wall, {0.01f, 0, 0}, {0, 1, 0}, settings) - 0.5f) <
+        0.01f);  // standard error 4e-3 unstratified
   CHECK(std::abs(ao_of(wall, {-0.01f, 0, 0}, {0, 1, 0}, settings) - 0.5f) < 0.01f);
   CHECK(ao_of(wall, {1, 0, 0}, {1, 0, 0}, settings) == 1.0f);
   CHECK(ao_of(wall, {1, 0, 0}, {-1, 0, 0}, settings) < 2e-3f);  // rays past the edge 1,000 m away
@@ -109,5 +93,6 @@ TEST_CASE("targets of a character do not depend on threads, and their noise is w
 TEST_CASE("progress can cancel") {
   const SkinnedMesh mesh = bending_tube();
   const std::vector<Pose> poses = tube_poses(mesh, 12);
-  CHECK_THROWS(trace_character_ao(mesh, poses, 16, 9, [](std::size_t done, std::size_t) { return done < 3; }));
+  CHECK_THROWS(
+      trace_character_ao(mesh, poses, 16, 9, [](std::size_t done, std::size_t) { return done < 3; }));
 }

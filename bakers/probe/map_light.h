@@ -1,0 +1,47 @@
+// The light of a whole map, exactly: integrals weighted by solid angle, and irradiance by summing over every
+// texel.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "probe/basis.h"
+#include "raytrace/environment.h"
+
+namespace nook::bake::probe {
+
+using nook::probe::Basis;
+using nook::probe::Domain;
+
+using Channels = std::array<double, 3>;  // RGB
+
+// The part of the sphere that counts.
+struct Region {
+  Domain domain = Domain::sphere;
+  Vec3 up{0, 1, 0};  // the hemisphere's axis
+
+  bool holds(Vec3 direction) const { return domain == Domain::sphere || dot(up, direction) >= 0; }
+};
+inline Region region_of(const Basis& basis) {
+  return {basis.domain, basis.up};
+}
+
+struct MapIntegrals {
+  Channels radiance{};  // of f
+  Channels square{};    // of f^2
+};
+MapIntegrals integrate(const Environment& map, const Region& region);
+
+// Integrals of B_i f. Texels are divided until the sharpest function varies little within a part.
+std::vector<Channels> moments(const Environment& map, const Basis& basis);
+
+// Irradiance on surfaces with these unit normals, of the light in the region; texels count at their centres.
+std::vector<Vec3> map_irradiance(const Environment& map, const Region& region, std::span<const Vec3> normals);
+
+// The same light in fewer texels: halved while it has more columns than asked for, and an even number of rows
+// and columns.
+Environment reduced(Environment map, std::uint32_t most_columns);
+
+}  // namespace nook::bake::probe

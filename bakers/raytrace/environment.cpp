@@ -1,0 +1,99 @@
+#include "raytrace/environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/failure.h"
+
+namespace nook::bake {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+}  // namespace
+
+Environment::Environment(std::uint32_t width, std::uint32_t height, std::vector<float> rgb)
+    : width_(width), height_(height), rgb_(std::move(rgb)) {
+  if (texel_count() == 0 || rgb_.size() != 3 * texel_count())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "an environment of %u x %u texels has %zu numbers (need 3 a texel, and one texel or more)",
+                  width, height, rgb_.size());
+  for (std::size_t i = 0; i < rgb_.size(); ++i)
+    if (!std::isfinite(rgb_[i]) || rgb_[i] < 0)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "an environment's texel is negative or not finite (row %zu, column %zu); repair the map",
+                    i / 3 / width, i / 3 % width);
+}
+
+std::size_t Environment::texel_at(Vec3 d) const {
+  const float u = 0.5f + std::atan2(d.z, d.x) * float(0.5 / pi);
+  // acos(y) would lose half of its digits near the poles.
+  const float v = std::atan2(std::sqrt(d.x * d.x + d.z * d.z), d.y) * float(1 / pi);
+  const auto column = std::min(std::uint32_t(std::max(u, 0.0f) * float(width_)), width_ - 1);
+  const auto row = std::min(std::uint32_t(std::max(v, 0.0f) * float(height_)), height_ - 1);
+  return std::size_t(row) * width_ + column;
+}
+
+double Environment::solid_angle(std::uint32_t row) const {
+  const double top = pi * row / height_, bottom = pi * (row + 1.0) / height_;
+  return 2 * pi / width_ * (std::cos(top) - std::cos(bottom));
+}
+
+Vec3 Environment::direction(std::uint32_t column, std::uint32_t row, float u, float v) const {
+  const double top = std::cos(pi * row / height_), bottom = std::cos(pi * (row + 1.0) / height_);
+  const double y = top + (bottom - top) * double(v);
+  const double angle = 2 * pi * ((double(column) + double(u)) / width_ - 0.5);
+  const double radius = std::sqrt(std::max(0.0, 1 - y * y));
+  return {float(radius * std::cos(angle)), float(y), float(radius * std::sin(angle))};
+}
+
+LightSampler::LightSampler(const Environment& environment, float uniform_share) : environment_(&environment) {
+  const std::size_t count = environment.texel_count();
+  std::vector<double> share(count);
+  double total = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    total += double(luminance(environment.texel(i))) *
+             environment.solid_angle(std::uint32_t(i / environment.width()));
+  const double uniform = total > 0 ? double(uniform_share) : 1.0;
+  uniform_ = float(uniform / (4 * pi));
+  per_luminance_ = total > 0 ? float((1 - uniform) / total) : 0.0f;
+  for (std::size_t i = 0; i < count; ++i)
+    share[i] = double(texel_density(i)) * environment.solid_angle(std::uint32_t(i / environment.width()));
+  total = 0;
+  for (double s : share) total += s;
+  for (double& s : share) s *= double(count) / total;
+
+  keep_.assign(count, 1.0f);
+  other_.resize(count);
+  std::vector<std::uint32_t> small, large;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    other_[i] = i;
+    (share[i] < 1 ? small : large).push_back(i);
+  }
+  while (!small.empty() && !large.empty()) {
+    const std::uint32_t s = small.back(), l = large.back();
+    small.pop_back();
+    keep_[s] = float(share[s]);
+    other_[s] = l;
+    share[l] -= 1 - share[s];
+    if (share[l] < 1) {
+      large.pop_back();
+      small.push_back(l);
+    }
+  }
+}
+
+float LightSampler::texel_density(std::size_t texel) const {
+  return uniform_ + per_luminance_ * luminance(environment_->texel(texel));
+}
+
+LightSample LightSampler::sample(double choice, float alias, float u, float v) const {
+  std::size_t texel = std::min(std::size_t(choice * double(keep_.size())), keep_.size() - 1);
+  if (alias >= keep_[texel]) texel = other_[texel];
+  const auto row = std::uint32_t(texel / environment_->width());
+  const auto column = std::uint32_t(texel % environment_->width());
+  return {environment_->direction(column, row, u, v), environment_->texel(texel), texel_density(texel)};
+}
+
+}  // namespace nook::bake
