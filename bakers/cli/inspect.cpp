@@ -1,5 +1,6 @@
 // nook inspect: what is inside a .nook file.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -27,6 +28,12 @@ struct Options {
 
 constexpr const char* kernel_names[] = {"paper", "nook", "rational"};
 
+void add_recipe(Json& row, std::string_view text) {
+  const Json recipe = Json::parse(text, nullptr, false);
+  if (recipe.is_object())
+    for (const auto& item : recipe.items()) row["recipe_" + item.key()] = item.value();
+}
+
 Json describe_character(std::span<const std::byte> bytes) {
   const CharacterModel model = read_character_model(bytes);
   const Container container(bytes, character_kind);
@@ -48,9 +55,7 @@ Json describe_character(std::span<const std::byte> bytes) {
     const char letters[5] = {name[0], name[1], name[2], name[3], 0};
     row[std::string("bytes_") + name] = container.has(letters) ? container.section(letters).remaining() : 0;
   }
-  const Json recipe = Json::parse(model.recipe, nullptr, false);
-  if (recipe.is_object())
-    for (const auto& item : recipe.items()) row["recipe_" + item.key()] = item.value();
+  add_recipe(row, model.recipe);
   return row;
 }
 
@@ -63,36 +68,46 @@ Json describe_network(std::span<const std::byte> bytes) {
   std::size_t parameters = network.paper.filters.size();
   nook::nnao::visit_layers(network, [&](std::span<const float> values) { parameters += values.size(); });
   row["parameters"] = parameters;
-  const Json recipe = Json::parse(network.recipe, nullptr, false);
-  if (recipe.is_object())
-    for (const auto& item : recipe.items()) row["recipe_" + item.key()] = item.value();
+  add_recipe(row, network.recipe);
   return row;
 }
 
-constexpr const char* basis_names[] = {"gaussians", "harmonics", "dice"};
-constexpr const char* packing_names[] = {"float", "half", "rgb9e5"};
+constexpr const char* basis_names[] = {"spherical Gaussians", "spherical harmonics", "ambient dice"};
+constexpr const char* domain_names[] = {"sphere", "hemisphere"};
+constexpr const char* packing_names[] = {"float", "half", "RGB9E5"};
 
 Json describe_probes(std::span<const std::byte> bytes) {
-  const probe::Probes probes = probe::read_probes(bytes);
+  using namespace nook::probe;
+  const Probes probes = read_probes(bytes);
+  const Basis& basis = probes.basis;
+  const Grid& grid = probes.grid;
   Json row;
   row["kind"] = "light probe";
-  row["format_version"] = Container(bytes, probe::probe_kind).version();
+  row["format_version"] = Container(bytes, probe_kind).version();
   row["bytes"] = bytes.size();
-  row["probes"] = probes.grid.size();
-  row["basis"] = basis_names[std::size_t(probes.basis.kind)];
-  row["domain"] = probes.basis.domain == probe::Domain::sphere ? "sphere" : "hemisphere";
-  row["functions"] = probes.basis.count;
-  row["ambient"] = probes.basis.ambient;
-  row["packing"] = packing_names[std::size_t(probe::packing_of(bytes))];
-  if (probes.grid.size() > 1) {
-    const Vec3 at = probes.grid.origin_ws, apart = probes.grid.spacing_ws;
-    row["counts"] = probes.grid.counts;
-    row["origin_m"] = {at.x, at.y, at.z};
-    row["spacing_m"] = {apart.x, apart.y, apart.z};
+  row["probes"] = grid.size();
+  row["counts"] = grid.counts;
+  row["origin_m"] = {grid.origin_ws.x, grid.origin_ws.y, grid.origin_ws.z};
+  row["spacing_m"] = {grid.spacing_ws.x, grid.spacing_ws.y, grid.spacing_ws.z};
+  row["basis"] = basis_names[std::size_t(basis.kind)];
+  row["domain"] = domain_names[std::size_t(basis.domain)];
+  row["functions"] = basis.count;
+  row["ambient"] = basis.ambient;
+  if (basis.kind == BasisKind::gaussians) {
+    const auto [low, high] = std::minmax_element(
+        basis.sharpness.begin(), basis.sharpness.begin() + basis.count - (basis.ambient ? 1 : 0));
+    row["sharpness_lowest"] = *low;
+    row["sharpness_highest"] = *high;
   }
-  const Json recipe = Json::parse(probes.recipe, nullptr, false);
-  if (recipe.is_object())
-    for (const auto& item : recipe.items()) row["recipe_" + item.key()] = item.value();
+  row["packing"] = packing_names[std::size_t(packing_of(bytes))];
+  float least = 0, most = 0;
+  for (const Vec3 c : probes.coefficients) {
+    least = std::min({least, c.x, c.y, c.z});
+    most = std::max({most, c.x, c.y, c.z});
+  }
+  row["coefficient_lowest"] = least;
+  row["coefficient_highest"] = most;
+  add_recipe(row, probes.recipe);
   return row;
 }
 
@@ -103,7 +118,8 @@ void run(const Options& options) {
   const Json row = naming_file(options.input, [&] {
     if (bytes.size() >= 16 && container_kind(bytes) == nook::nnao::network_kind.kind)
       return describe_network(bytes);
-    if (bytes.size() >= 16 && container_kind(bytes) == probe::probe_kind.kind) return describe_probes(bytes);
+    if (bytes.size() >= 16 && container_kind(bytes) == nook::probe::probe_kind.kind)
+      return describe_probes(bytes);
     if (bytes.size() >= 16 && container_kind(bytes) != character_kind.kind && container_kind(bytes) != 0)
       throw Failure(NOOK_ERROR_BAD_FILE,
                     "a .nook file of a kind that this version cannot inspect; use a newer one");
