@@ -11,6 +11,8 @@
 #include "cli/input_file.h"
 #include "cli/output_file.h"
 #include "cli/table.h"
+#include "material/material_file.h"
+#include "material/raw_file.h"
 #include "nnao/layers.h"
 #include "nnao/network_file.h"
 
@@ -68,12 +70,50 @@ Json describe_network(std::span<const std::byte> bytes) {
   return row;
 }
 
+void describe_tensor(Json& row, const std::string& name, const nook::material::ClusteredTensor& t) {
+  const nook::material::TensorShape& s = t.shape;
+  row[name + "_ranks"] = Json::array({s.rank_light, s.rank_view, s.rank_x, s.rank_y});
+  row[name + "_clusters"] = s.clusters;
+  row[name + "_mixture"] = s.mixture;
+  row[name + "_view_map"] = t.map.side;
+}
+
+Json describe_material(std::span<const std::byte> bytes) {
+  const nook::material::Material material = nook::material::read_material(bytes);
+  constexpr const char* forms[] = {"none", "binary", "distance"};
+  Json row;
+  row["kind"] = "material";
+  row["format_version"] = Container(bytes, nook::material::material_kind).version();
+  row["bytes"] = bytes.size();
+  row["compressed_bytes"] = nook::material::compressed_bytes(material);
+  row["lights"] = material.lights.size();
+  row["views"] = material.views.size();
+  row["width"] = material.btf.shape.width;
+  row["height"] = material.btf.shape.height;
+  describe_tensor(row, "btf", material.btf);
+  row["visibility"] = forms[std::size_t(material.visibility)];
+  if (material.visibility != nook::material::VisibilityForm::none) describe_tensor(row, "votf", material.votf);
+  const Json recipe = Json::parse(material.recipe, nullptr, false);
+  if (recipe.is_object())
+    for (const auto& part : recipe.items())
+      for (const auto& item : part.value().items()) row[part.key() + "_" + item.key()] = item.value();
+  return row;
+}
+
+Json describe_raw_material(std::span<const std::byte> bytes) {
+  const bake::material::RawMaterial raw = bake::material::read_raw_material(bytes);
+  return {{"kind", "raw material"},      {"name", raw.name},     {"bytes", bytes.size()}, {"lights", raw.lights.size()},
+          {"views", raw.views.size()},   {"width", raw.width},   {"height", raw.height},  {"votf", !raw.mask.empty()}};
+}
+
 void run(const Options& options) {
   const std::vector<std::byte> bytes = read_file(options.input);
   std::optional<OutputFile> report;
   if (!options.common.report.empty()) report.emplace(options.common.report);
   const Json row = naming_file(options.input, [&] {
     if (bytes.size() >= 16 && container_kind(bytes) == nook::nnao::network_kind.kind) return describe_network(bytes);
+    if (bytes.size() >= 16 && container_kind(bytes) == nook::material::material_kind.kind) return describe_material(bytes);
+    if (bytes.size() >= 16 && container_kind(bytes) == bake::material::raw_kind.kind) return describe_raw_material(bytes);
     if (bytes.size() >= 16 && container_kind(bytes) != character_kind.kind && container_kind(bytes) != 0)
       throw Failure(NOOK_ERROR_BAD_FILE,
                     "a .nook file of a kind that this version cannot inspect; use a newer one");
