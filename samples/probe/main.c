@@ -36,6 +36,8 @@ static const char fragment_end[] =
     "void main() {\n"
     "  NookProbePlace probe = nook_probe_place(position_ws);\n"
     "  vec3 v = normalize(eye_ws - position_ws), n = normalize(normal_ws), light;\n"
+    /* Interpolated normals turn away from the eye at silhouettes, where nothing would be reflected. */
+    "  n = normalize(n + max(0.02 - dot(n, v), 0.0) * v);\n"
     "  if (sky) light = max(nook_probe_radiance(probe, -v), 0.0);\n"
     "  else {\n"
     "    float alpha = roughness * roughness, ao = dot(open, vec3(1.0 / 3.0));\n"
@@ -152,7 +154,7 @@ static void draw(GLuint program, GLuint array, const Shape* shape, const float p
 
 static void draw_all(GLuint program, const Light* l, const Shape* sphere, const Shape* character) {
   const float eye[3] = {0, 1, 7.2F}, far_sphere[4] = {0, 1, 7.2F, 40};
-  const float tall = 1 / tanf(0.5F * 0.36F);
+  const float tall = 1 / tanf(0.5F * 0.3F);
   const Material sky = {{0, 0, 0}, 1, 0, 1};
   const GLuint sphere_array = drawable(sphere);
   glUseProgram(program);
@@ -165,16 +167,16 @@ static void draw_all(GLuint program, const Light* l, const Shape* sphere, const 
   draw(program, sphere_array, sphere, far_sphere, &sky);
   glEnable(GL_DEPTH_TEST);
   for (int i = 0; i < 6; ++i) {
-    const float x = (character->vertex_count ? -2.45F : -1.75F) + 0.7F * (float)i;
-    const float upper[4] = {x, 1.4F, 0, 0.3F}, lower[4] = {x, 0.62F, 0, 0.3F};
-    const float roughness = 0.15F + 0.17F * (float)i;
+    const float x = (character->vertex_count ? -1.95F : -1.5F) + 0.6F * (float)i;
+    const float upper[4] = {x, 1.34F, 0, 0.27F}, lower[4] = {x, 0.68F, 0, 0.27F};
+    const float roughness = 0.12F + 0.145F * (float)i;
     const Material metal = {{0, 0, 0}, roughness, 0.92F, 0},
                    plastic = {{0.6F, 0.6F, 0.6F}, roughness, 0.04F, 0};
     draw(program, sphere_array, sphere, upper, &metal);
     draw(program, sphere_array, sphere, lower, &plastic);
   }
   if (character->vertex_count) {
-    const float stand[4] = {2.1F, 0.06F, 0, 1};
+    const float stand[4] = {1.75F, 0.07F, 0, 1};
     const Material clay = {{0.6F, 0.57F, 0.53F}, 0.6F, 0.04F, 0};
     draw(program, drawable(character), character, stand, &clay);
   }
