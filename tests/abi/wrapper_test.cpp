@@ -1,6 +1,7 @@
 // The C++ wrapper. This file sees public headers only, as a host does.
 #include <nook/nook.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -28,5 +29,47 @@ TEST_CASE("the C++ wrapper owns, moves and throws") {
   } catch (const nook::Error& error) {
     CHECK(error.result() == NOOK_ERROR_INVALID_HANDLE);
     CHECK(std::string(error.what()).find("999") != std::string::npos);
+  }
+}
+
+TEST_CASE("the C++ wrapper fits, saves and evaluates probes") {
+  std::vector<float> directions, radiance;
+  for (int i = 0; i < 500; ++i) {
+    const float z = 1 - 2 * (float(i) + 0.5f) / 500, r = std::sqrt(1 - z * z);
+    directions.insert(directions.end(), {r * std::cos(2.4f * float(i)), r * std::sin(2.4f * float(i)), z});
+    radiance.insert(radiance.end(), {1 + z, 1, 1 - z});
+  }
+  nook::Context context;
+  nook::ProbeFit fit(context), other(context);
+  fit.add_samples(directions.data(), radiance.data(), nullptr, 500);
+  other.seed(fit);
+  CHECK(other.read() == fit.read());
+  other.reset();
+  other.add_samples(directions.data(), radiance.data(), nullptr, 500);
+  fit.merge(other);
+  CHECK(fit.info().samples == 1000);
+  const nook::Probe probe = fit.solve();
+  const auto file = probe.save(NOOK_PROBE_PACKING_FLOAT);
+  const nook::Probe loaded(context, file.data(), file.size());
+  CHECK(loaded.coefficients() == fit.read());
+  CHECK(loaded.lobes().size() == loaded.info().function_count);
+
+  nook_probe_desc desc = nook::probe_desc();
+  std::vector<float> two = fit.read();
+  for (const float value : fit.read()) two.push_back(3 * value);
+  desc.functions = fit.get();
+  desc.counts[0] = 2;
+  desc.coefficients = two.data();
+  const nook::Probe grid(context, desc);
+  const float middle[3] = {0.5f, 0, 0}, up[3] = {0, 0, 1};
+  float between[3], one[3];
+  grid.irradiance(middle, NOOK_PROBE_IRRADIANCE_FITTED, up, between, 1);
+  probe.irradiance(nullptr, NOOK_PROBE_IRRADIANCE_FITTED, up, one, 1);
+  CHECK(std::abs(between[0] - 2 * one[0]) < 1e-4f);
+  try {
+    grid.radiance(nullptr, nullptr, one, 1);
+    FAIL("no exception");
+  } catch (const nook::Error& error) {
+    CHECK(error.result() == NOOK_ERROR_INVALID_ARGUMENT);
   }
 }

@@ -22,7 +22,8 @@ struct Samples {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> uniform(0, 1);
     for (std::size_t i = 0; i < count; ++i) {
-      const float z = 2 * uniform(random) - 1, azimuth = 6.2831853f * uniform(random), r = std::sqrt(1 - z * z);
+      const float z = 2 * uniform(random) - 1, azimuth = 6.2831853f * uniform(random),
+                  r = std::sqrt(1 - z * z);
       directions.insert(directions.end(), {r * std::cos(azimuth), r * std::sin(azimuth), z});
       for (int c = 0; c < 3; ++c) radiance.push_back(2 * uniform(random));
     }

@@ -1,13 +1,14 @@
 # Fails when an object compiled for a better processor defines a symbol that the linker may merge with another object's:
-# every weak or external symbol of it must be named after its instruction set. Arguments: NM, ISA, OBJECTS (separated by |).
+# every weak or external symbol of it must be named after its instruction set. Arguments: NM, FILE (without the instruction set),
+# TABLE (the function that returns the table), ISA, OBJECTS (separated by |).
 string(REPLACE "|" ";" OBJECTS "${OBJECTS}")
-list(FILTER OBJECTS INCLUDE REGEX "shadow_kernels_${ISA}\\.")
+list(FILTER OBJECTS INCLUDE REGEX "${FILE}_${ISA}\\.")
 list(LENGTH OBJECTS count)
 if(NOT count EQUAL 1)
   message(FATAL_ERROR "isa_symbols: found ${count} objects of ${ISA} (got '${OBJECTS}', need 1)")
 endif()
 execute_process(COMMAND ${NM} -C --defined-only --extern-only ${OBJECTS} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
-if(NOT symbols MATCHES "nook::isa_${ISA}::kernels")
+if(NOT symbols MATCHES "nook::isa_${ISA}::${TABLE}")
   message(FATAL_ERROR "isa_symbols: the table of ${ISA} is not in its object")
 endif()
 string(REPLACE ";" "," symbols "${symbols}")

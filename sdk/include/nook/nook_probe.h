@@ -123,13 +123,14 @@ NOOK_API void nook_probe_fit_destroy(nook_probe_fit* fit);
 /* Samples of uniformly distributed directions have weight 1 (weights NULL); drawn with probability density p over the
  * domain, whose area is a, 1 / (a p): for a sampler by luminance bright directions weigh little. Samples whose direction is not
  * unit to 1e-3, or outside the hemisphere, whose direction, radiance or weight is not finite, or whose weight is negative,
- * are skipped and counted; radiance and weights above 1e18 count as infinite. No allocation. One at a time.
+ * are skipped and counted; radiance and weights above 1e18 count as infinite. Running averages want directions in random
+ * order: rows of an image, one after the other, leave them with the last ones. No allocation. One at a time.
  * Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float* directions, const float* radiance,
                                                 const float* weights, size_t count);
 
 /* The coefficients of `short_run`, of the same basis, become the start of a running average that has no samples yet, instead
- * of 0; with the fast step they go on counting as much as the samples of short_run. Forms that solve ignore it.
+ * of 0, and go on counting as much as the samples of short_run. Forms that solve ignore it.
  * One at a time (for both). Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_seed(nook_probe_fit fit, nook_probe_fit short_run);
 
@@ -270,7 +271,8 @@ typedef struct nook_probe_surface {
 } nook_probe_surface;
 
 /* Radiance that a GGX surface reflects to the eye, Smith masking and Schlick Fresnel at the lobe's centre. rgb: one colour
- * for each surface. */
+ * for each surface. Under 12 lobes of sharpness 6, seen from up to 60 degrees, within 2 % of the integral at alpha 0.05,
+ * 11 % (anisotropic 7 %) at 0.2, 30 % at 0.4. */
 NOOK_API nook_result nook_probe_lobes_specular(const nook_probe_lobe* lobes, uint32_t lobe_count,
                                                nook_probe_specular_form form, const nook_probe_surface* surfaces,
                                                float* rgb, size_t count);

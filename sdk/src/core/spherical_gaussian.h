@@ -164,12 +164,12 @@ inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
   if (sharpness < hill_min_sharpness) return gaussian_unit_irradiance_bands(sharpness, cosine);
   constexpr float c0 = 0.36f, c1 = 1 / (4 * c0);
   const float e1 = std::exp(-sharpness), e2 = e1 * e1, inverse = 1 / sharpness;
-  const float scale = 1 + 2 * e2 - inverse;
+  const float rest = inverse - 2 * e2;  // 1 - scale, above 0 however sharp the lobe
   const float bias = (e1 - e2) * inverse - e2;
-  const float x = std::sqrt(1 - scale);
+  const float x = std::sqrt(rest);
   const float x0 = c0 * cosine, x1 = c1 * x, n = x0 + x1;
   const float y = std::abs(x0) <= x1 ? n * n / x : std::clamp(cosine, 0.0f, 1.0f);
-  return std::max(scale * y + bias, 0.0f);
+  return std::max((1 - rest) * y + bias, 0.0f);
 }
 
 // The better of both: bands up to this sharpness, the fit above.

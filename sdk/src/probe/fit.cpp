@@ -239,8 +239,7 @@ void Fit::seed(Fit& short_run) {
     const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};
     for (std::size_t c = 0; c < 3; ++c) sums_[c * padded_ + i] = rgb[c];
   }
-  if (settings_.step == Step::fast && settings_.method != FitMethod::running_average_original)
-    prior_weight_ = short_run.counts_.weight;
+  prior_weight_ = short_run.counts_.weight;
   settle();
 }
 

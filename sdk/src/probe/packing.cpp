@@ -18,7 +18,7 @@ float in_range(float channel) {
 std::uint32_t to_rgb9e5(Vec3 rgb) {
   const float channel[3] = {in_range(rgb.x), in_range(rgb.y), in_range(rgb.z)};
   const float largest = std::max({channel[0], channel[1], channel[2]});
-  int exponent = 0;
+  int exponent = -exponent_bias;
   if (largest > 0) std::frexp(largest, &exponent);  // largest = f 2^exponent, f in [1/2, 1)
   exponent = std::max(exponent, -exponent_bias);
   // Rounding may carry the largest mantissa to 512.

@@ -81,17 +81,17 @@ AnisotropicGaussian warped_anisotropic_lobe(const Surface& surface) {
 }
 
 float product_integral(const AnisotropicGaussian& lobe, const SphericalGaussian& light) {
-  const float nu = light.sharpness / 2;
-  const float sx = nu * lobe.x_sharpness / (nu + lobe.x_sharpness);
-  const float sy = nu * lobe.y_sharpness / (nu + lobe.y_sharpness);
-  const float x = dot(light.axis, lobe.x), y = dot(light.axis, lobe.y);
-  const float apart = one_minus_cosine(light.axis, lobe.z);  // the chord's square is twice this
-  const float sine2 = x * x + y * y;
-  // Straight behind, where every direction is as far, the wider way counts.
-  const float share = sine2 > 1e-12f ? 2 * apart / sine2 : 0.0f;
-  const float exponent = sine2 > 1e-12f ? (sx * x * x + sy * y * y) * share : 2 * apart * std::min(sx, sy);
-  const float sharpness = 2 * std::sqrt((nu + lobe.x_sharpness) * (nu + lobe.y_sharpness));
-  return lobe.amplitude * gaussian_integral(sharpness) * std::exp(-exponent);
+  const float x = dot(light.axis, lobe.x), y = dot(light.axis, lobe.y), sine2 = x * x + y * y;
+  const float apart = one_minus_cosine(light.axis, lobe.z);
+  // The lobe as wide as it is towards the light; straight behind, where every way is as far, the wider one.
+  const float towards = sine2 > 1e-12f ? 2 * (lobe.x_sharpness * x * x + lobe.y_sharpness * y * y) / sine2
+                                       : 2 * std::min(lobe.x_sharpness, lobe.y_sharpness);
+  const ProductShape<float> shape = gaussian_product_shape(towards, light.sharpness, apart);
+  // Its integral shrinks with both widths.
+  const float both =
+      std::sqrt((light.sharpness + 2 * lobe.x_sharpness) * (light.sharpness + 2 * lobe.y_sharpness));
+  const float sharpness = both * shape.sharpness / (towards + light.sharpness);
+  return lobe.amplitude * shape.scale * gaussian_integral(sharpness);
 }
 
 Vec3 specular(std::span<const SphericalGaussian> lights, SpecularForm form, const Surface& surface) {

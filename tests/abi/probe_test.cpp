@@ -1,0 +1,323 @@
+// Probes through the C interface: bad parameters, structs of other releases, memory.
+#include <nook/nook_probe.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "growing_struct.h"
+#include "host.h"
+
+using namespace nook::test;
+
+extern "C" int nook_call_every_probe_function(void);
+
+namespace {
+
+constexpr nook_result invalid = NOOK_ERROR_INVALID_ARGUMENT;
+
+bool last_is(const char* start, const char* part) {
+  const std::string text = nook_last_message();
+  return text.rfind(start, 0) == 0 && text.find(part) != std::string::npos;
+}
+
+nook_probe_fit_desc fit_desc() {
+  nook_probe_fit_desc desc;
+  nook_probe_fit_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  return desc;
+}
+
+nook_probe_desc probe_desc() {
+  nook_probe_desc desc;
+  nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  return desc;
+}
+
+constexpr std::size_t sample_count = 500;
+struct Sky {
+  float directions[3 * sample_count], radiance[3 * sample_count];
+  Sky() {
+    for (std::size_t i = 0; i < sample_count; ++i) {
+      const float z = 1 - 2 * (float(i) + 0.5f) / sample_count, r = std::sqrt(1 - z * z);
+      directions[3 * i] = r * std::cos(2.4f * float(i));
+      directions[3 * i + 1] = r * std::sin(2.4f * float(i));
+      directions[3 * i + 2] = z;
+      for (std::size_t c = 0; c < 3; ++c) radiance[3 * i + c] = 1 + z;
+    }
+  }
+};
+
+// A context, a fit with samples and its probe.
+struct ProbeStage {
+  Host host;
+  nook_context context = nullptr;
+  nook_probe_fit fit = nullptr;
+  nook_probe probe = nullptr;
+  Sky sky;
+
+  ProbeStage() {
+    const nook_context_desc context_desc = host.context_desc();
+    nook_context_create(&context_desc, &context);
+    const nook_probe_fit_desc desc = fit_desc();
+    nook_probe_fit_create(context, &desc, &fit);
+    nook_probe_fit_add_samples(fit, sky.directions, sky.radiance, nullptr, sample_count);
+    nook_probe_fit_solve(fit, &probe);
+  }
+  ~ProbeStage() {
+    nook_probe_destroy(&probe);
+    nook_probe_fit_destroy(&fit);
+    nook_context_destroy(&context);
+  }
+  ProbeStage(const ProbeStage&) = delete;
+  ProbeStage& operator=(const ProbeStage&) = delete;
+};
+
+nook_result run_everything(Host& host) {
+  nook_result first_failure = NOOK_OK;
+  const auto note = [&](nook_result result) {
+    if (first_failure == NOOK_OK) first_failure = result;
+    return result == NOOK_OK;
+  };
+  const nook_context_desc context_desc = host.context_desc();
+  nook_context context = nullptr;
+  nook_probe_fit_desc desc = fit_desc();
+  desc.ambient = 1;
+  nook_probe_fit fit = nullptr;
+  nook_probe probe = nullptr, loaded = nullptr;
+  static const Sky sky;
+  unsigned char file[4096];
+  std::size_t size = sizeof file;
+  if (note(nook_context_create(&context_desc, &context)) &&
+      note(nook_probe_fit_create(context, &desc, &fit)) &&
+      note(nook_probe_fit_add_samples(fit, sky.directions, sky.radiance, nullptr, sample_count)) &&
+      note(nook_probe_fit_solve(fit, &probe)) &&
+      note(nook_probe_save(probe, NOOK_PROBE_PACKING_FLOAT, file, &size)) &&
+      note(nook_probe_load(context, file, size, &loaded))) {
+  }
+  nook_probe_destroy(&loaded);
+  nook_probe_fit_destroy(&fit);
+  nook_context_destroy(&context);
+  nook_probe_destroy(&probe);
+  return first_failure;
+}
+
+}  // namespace
+
+TEST_CASE("a C program calls every function of the probes") {
+  CHECK(nook_call_every_probe_function() == 0);
+}
+
+TEST_CASE("probes: structs of every release") {
+  check_init(nook_probe_fit_desc_init, 92);
+  check_init(nook_probe_desc_init, 72);
+  ProbeStage stage;
+  check_use(fit_desc(), 92, [&](const nook_probe_fit_desc* desc) {
+    nook_probe_fit fit = nullptr;
+    const nook_result result = nook_probe_fit_create(stage.context, desc, &fit);
+    nook_probe_fit_destroy(&fit);
+    return result;
+  });
+  nook_probe_desc good = probe_desc();
+  const std::vector<float> coefficients(36, 0.5f);
+  good.functions = stage.fit;
+  good.coefficients = coefficients.data();
+  check_use(good, 72, [&](const nook_probe_desc* desc) {
+    nook_probe probe = nullptr;
+    const nook_result result = nook_probe_create(stage.context, desc, &probe);
+    nook_probe_destroy(&probe);
+    return result;
+  });
+  check_info<nook_probe_fit_info>(
+      80, [&](nook_probe_fit_info* info) { return nook_probe_fit_get_info(stage.fit, info); });
+  check_info<nook_probe_info>(76,
+                              [&](nook_probe_info* info) { return nook_probe_get_info(stage.probe, info); });
+}
+
+TEST_CASE("fits: bad descriptors name their field") {
+  ProbeStage stage;
+  nook_probe_fit fit = stage.fit;
+  const auto refused = [&](auto&& change, const char* part) {
+    nook_probe_fit_desc desc = fit_desc();
+    change(desc);
+    CHECK(nook_probe_fit_create(stage.context, &desc, &fit) == invalid);
+    CHECK(fit == nullptr);
+    INFO(nook_last_message());
+    CHECK(last_is("nook_probe_fit_create: ", part));
+  };
+  using Desc = nook_probe_fit_desc;
+  refused([](Desc& d) { d.method = 7; }, "desc.method is unknown (got 7");
+  refused([](Desc& d) { d.basis = -1; }, "desc.basis");
+  refused([](Desc& d) { d.domain = 2; }, "desc.domain");
+  refused([](Desc& d) { d.ambient = 2; }, "desc.ambient");
+  refused([](Desc& d) { d.denominator = 2; }, "desc.denominator");
+  refused([](Desc& d) { d.step = 2; }, "desc.step");
+  refused([](Desc& d) { d.isa = 9; }, "desc.isa");
+  refused([](Desc& d) { d.reserved = 1; }, "desc.reserved");
+  refused([](Desc& d) { d.lobe_count = 0; }, "desc.lobe_count is out of range (got 0, need 1 to 64)");
+  refused([](Desc& d) { d.lobe_count = 64, d.ambient = 1; }, "got 64, need 1 to 63");
+  refused([](Desc& d) { d.sharpness = -1; }, "desc.sharpness");
+  refused([](Desc& d) { d.sharpness = NAN; }, "desc.sharpness");
+  refused([](Desc& d) { d.up[2] = 0.5f; }, "desc.up");
+  refused([](Desc& d) { d.growing_samples = -1; }, "growing_samples");
+  refused([](Desc& d) { d.basis = NOOK_PROBE_HARMONICS, d.order = 5; }, "order of the harmonics");
+  static const float same[] = {0, 0, 1, 0, 1, 0, 0, 0, 1};
+  refused([](Desc& d) { d.axes = same, d.lobe_count = 3; },
+          "lobe 2 (axis 0, 0, 1, sharpness 1.5) is the same function as lobe 0");
+  static const float long_axis[] = {0, 0, 2};
+  refused([](Desc& d) { d.axes = long_axis, d.lobe_count = 1; }, "axis of lobe 0");
+  static const float flat[] = {6, 0};
+  refused([](Desc& d) { d.sharpnesses = flat, d.lobe_count = 2; }, "sharpness of lobe 1");
+
+  const nook_probe_fit_desc desc = fit_desc();
+  CHECK(nook_probe_fit_create(nullptr, &desc, &fit) == invalid);
+  CHECK(nook_probe_fit_create(stage.context, nullptr, &fit) == invalid);
+  CHECK(nook_probe_fit_create(stage.context, &desc, nullptr) == invalid);
+}
+
+TEST_CASE("fits: bad calls") {
+  ProbeStage stage;
+  const float* d = stage.sky.directions;
+  float coefficients[36];
+  CHECK(nook_probe_fit_add_samples(nullptr, d, d, nullptr, 1) == invalid);
+  CHECK(nook_probe_fit_add_samples(stage.fit, nullptr, d, nullptr, 1) == invalid);
+  CHECK(nook_probe_fit_add_samples(stage.fit, d, nullptr, nullptr, 1) == invalid);
+  CHECK(nook_probe_fit_add_samples(stage.fit, nullptr, nullptr, nullptr, 0) == NOOK_OK);
+  CHECK(nook_probe_fit_read(stage.fit, coefficients, 11) == invalid);
+  CHECK(last_is("nook_probe_fit_read: ", "got 11, need 12"));
+  CHECK(nook_probe_fit_merge(stage.fit, stage.fit) == invalid);
+  CHECK(nook_probe_fit_seed(stage.fit, nullptr) == invalid);
+  CHECK(nook_probe_fit_reset(nullptr) == invalid);
+  nook_probe_fit none = nullptr;
+  nook_probe_fit_destroy(&none);
+  nook_probe_fit_destroy(nullptr);
+
+  // Bad samples are no error; they are counted.
+  const float bad[] = {0, 0, 1, 0, 0, 0, 0, 1, 0}, light[] = {1, 1, NAN, 1, 1, 1, 1, 1, 1};
+  const float weights[] = {1, 1, -1};
+  CHECK(nook_probe_fit_add_samples(stage.fit, bad, light, weights, 3) == NOOK_OK);
+  nook_probe_fit_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_probe_fit_get_info(stage.fit, &info) == NOOK_OK);
+  CHECK(info.samples == sample_count);
+  CHECK(info.skipped == 3);
+  CHECK(info.skipped_direction == 1);
+  CHECK(info.skipped_radiance == 1);
+  CHECK(info.skipped_weight == 1);
+}
+
+TEST_CASE("probes: bad parameters and bad files") {
+  ProbeStage stage;
+  nook_probe probe = stage.probe;
+  unsigned char file[4096];
+  std::size_t size = 16;
+  CHECK(nook_probe_save(stage.probe, NOOK_PROBE_PACKING_FLOAT, file, &size) == invalid);
+  CHECK(last_is("nook_probe_save: ", "got 16 bytes, need "));
+  CHECK(size > 16);  // what is needed
+  CHECK(nook_probe_save(stage.probe, 3, nullptr, &size) == invalid);
+  size = sizeof file;
+  REQUIRE(nook_probe_save(stage.probe, NOOK_PROBE_PACKING_FLOAT, file, &size) == NOOK_OK);
+  CHECK(nook_probe_load(stage.context, file, size - 1, &probe) == NOOK_ERROR_BAD_FILE);
+  CHECK(probe == nullptr);
+  CHECK(nook_probe_load(stage.context, stage.host.bytes.data(), stage.host.bytes.size(), &probe) ==
+        NOOK_ERROR_BAD_FILE);  // a character
+  file[8] = 9;
+  CHECK(nook_probe_load(stage.context, file, size, &probe) == NOOK_ERROR_FILE_VERSION);
+  CHECK(last_is("nook_probe_load: ", "(got 9,"));
+
+  nook_probe_desc desc = probe_desc();
+  std::vector<float> coefficients(36, 1.0f);
+  CHECK(nook_probe_create(stage.context, &desc, &probe) == invalid);
+  desc.functions = stage.fit;
+  CHECK(nook_probe_create(stage.context, &desc, &probe) == invalid);
+  desc.coefficients = coefficients.data();
+  desc.counts[1] = 0;
+  CHECK(nook_probe_create(stage.context, &desc, &probe) == invalid);
+  desc.counts[1] = 1;
+  coefficients[4] = std::numeric_limits<float>::infinity();
+  CHECK(nook_probe_create(stage.context, &desc, &probe) == invalid);
+  CHECK(last_is("nook_probe_create: ", "coefficient 1 of probe 0"));
+
+  float rgb[36];
+  CHECK(nook_probe_read_coefficients(stage.probe, 1, rgb, 12) == invalid);
+  CHECK(nook_probe_irradiance(stage.probe, nullptr, 5, rgb, rgb, 1) == invalid);
+  CHECK(nook_probe_radiance(stage.probe, nullptr, nullptr, rgb, 1) == invalid);
+  nook_probe_fit_desc harmonics = fit_desc();
+  harmonics.basis = NOOK_PROBE_HARMONICS;
+  nook_probe_fit fit = nullptr;
+  nook_probe other = nullptr;
+  REQUIRE(nook_probe_fit_create(stage.context, &harmonics, &fit) == NOOK_OK);
+  REQUIRE(nook_probe_fit_solve(fit, &other) == NOOK_OK);
+  nook_probe_lobe lobes[64];
+  CHECK(nook_probe_read_lobes(other, nullptr, lobes, 9) == invalid);
+  nook_probe_destroy(&other);
+  nook_probe_fit_destroy(&fit);
+  CHECK(last_is("nook_probe_read_lobes: ", "no lobes"));
+}
+
+TEST_CASE("lobes: bad parameters") {
+  const float up[3] = {0, 0, 1};
+  float rgb[3] = {7, 7, 7};
+  nook_probe_lobe good{{0, 0, 1}, 6, {1, 1, 1}, 0}, out;
+  const auto refused = [&](nook_probe_lobe lobe, const char* part) {
+    CHECK(nook_probe_lobes_radiance(&lobe, 1, up, rgb, 1) == invalid);
+    CHECK(last_is("nook_probe_lobes_radiance: ", part));
+  };
+  refused({{0, 0, 2}, 6, {1, 1, 1}, 0}, "axis of lobe 0");
+  refused({{0, 0, 1}, -1, {1, 1, 1}, 0}, "sharpness of lobe 0");
+  refused({{0, 0, 1}, 6, {1, NAN, 1}, 0}, "amplitude of lobe 0");
+  CHECK(rgb[0] == 7);
+  CHECK(nook_probe_lobes_radiance(&good, 65, up, rgb, 1) == invalid);
+  CHECK(nook_probe_lobe_product(&good, nullptr, &out) == invalid);
+  const float mirror[9] = {1, 0, 0, 0, 1, 0, 0, 0, -1}, scaled[9] = {2, 0, 0, 0, 2, 0, 0, 0, 2};
+  CHECK(nook_probe_lobes_rotate(&good, 1, mirror) == invalid);
+  CHECK(last_is("nook_probe_lobes_rotate: ", "mirrored"));
+  CHECK(nook_probe_lobes_rotate(&good, 1, scaled) == invalid);
+  float harmonics[75];
+  CHECK(nook_probe_lobes_to_harmonics(&good, 1, 0, harmonics) == invalid);
+  nook_probe_surface surface{{0, 0, 1}, {0, 0, 1}, {1, 0, 0}, 0.1f, 0.1f, 0.04f};
+  CHECK(nook_probe_lobes_specular(&good, 1, 2, &surface, rgb, 1) == invalid);
+  surface.alpha_y = 0;
+  CHECK(nook_probe_lobes_specular(&good, 1, 0, &surface, rgb, 1) == invalid);
+  CHECK(last_is("nook_probe_lobes_specular: ", "alpha of surface 0"));
+  surface.alpha_y = 0.2f;
+  surface.tangent[0] = 0;
+  CHECK(nook_probe_lobes_specular(&good, 1, 0, &surface, rgb, 1) == invalid);
+}
+
+TEST_CASE("probes: each allocation refused in turn is one clean failure") {
+  Host plain;
+  REQUIRE(run_everything(plain) == NOOK_OK);
+  CHECK(plain.blocks == 0);
+  const int total = plain.allocations;
+  REQUIRE(total > 10);
+  for (int n = 0; n < total; ++n) {
+    Host host;
+    host.refuse_at = n;
+    INFO("allocation " << n);
+    CHECK(run_everything(host) == NOOK_ERROR_OUT_OF_MEMORY);
+    CHECK(host.blocks == 0);
+  }
+}
+
+TEST_CASE("samples, reading and evaluation allocate nothing") {
+  for (nook_probe_method method = NOOK_PROBE_NAIVE; method <= NOOK_PROBE_NON_NEGATIVE_LEAST_SQUARES;
+       ++method) {
+    ProbeStage stage;
+    nook_probe_fit_desc desc = fit_desc();
+    desc.method = method;
+    nook_probe_fit fit = nullptr;
+    REQUIRE(nook_probe_fit_create(stage.context, &desc, &fit) == NOOK_OK);
+    const int before = stage.host.allocations;
+    float rgb[36];
+    nook_probe_lobe lobes[12];
+    CHECK(nook_probe_fit_add_samples(fit, stage.sky.directions, stage.sky.radiance, nullptr, sample_count) ==
+          NOOK_OK);
+    CHECK(nook_probe_fit_read(fit, rgb, 12) == NOOK_OK);
+    const float where[3] = {0.3f, 0, 0};
+    CHECK(nook_probe_read_lobes(stage.probe, where, lobes, 12) == NOOK_OK);
+    CHECK(nook_probe_irradiance(stage.probe, where, NOOK_PROBE_IRRADIANCE_FITTED, where, rgb, 1) == NOOK_OK);
+    CHECK(nook_probe_lobes_radiance(lobes, 12, stage.sky.directions, rgb, 1) == NOOK_OK);
+    CHECK(stage.host.allocations == before);
+    nook_probe_fit_destroy(&fit);
+  }
+}
