@@ -73,7 +73,7 @@ platform::Image filter_picture(const Network& network) {
 
 platform::Image unit_picture(const Network& network, const MeasuredView& measured) {
   const View view = measured.view.view();
-  const Sampling sampling{measured.radius, 0.5f * float(view.height), 256};
+  const Sampling sampling{measured.radius, 0.5f * float(view.height), 64};
   const std::size_t pixels = std::size_t(view.width) * view.height;
   std::vector<std::array<float, 3>> units(pixels);
   std::array<std::vector<float>, 3> sorted;
