@@ -35,7 +35,7 @@ struct Options {
   CompressionOptions compression;
   std::string meso;
   std::filesystem::path btf, raw, output, keep_raw, images;
-  std::uint32_t directions = 100, texels = 0;
+  std::uint32_t directions = 100, lights = 0, texels = 0;
   float max_tilt_deg = default_max_tilt_deg;
   TraceSettings trace;
   std::optional<std::uint32_t> count;
@@ -65,6 +65,7 @@ Json recipe_of_trace(const Options& o) {
           {"roughness", p.roughness},
           {"detail", p.detail},
           {"directions", o.directions},
+          {"lights", o.lights ? o.lights : o.directions},
           {"max_tilt_deg", o.max_tilt_deg},
           {"texels", o.trace.width},
           {"samples", o.trace.samples},
@@ -85,8 +86,9 @@ RawMaterial obtain(const Options& o, ProgressBar& bar) {
     return naming_file(o.btf,
                        [&] { return read_ubo_folder(o.btf, o.texels, progress("reading", "images")); });
   const MesoSurface surface = make_meso_surface(meso_of(o));
-  const std::vector<Vec3> set = spiral_directions(o.directions, o.max_tilt_deg);
-  RawMaterial raw = trace_material(surface, set, set, o.trace, progress("ray tracing", "views"));
+  const auto lights = spiral_directions(o.lights ? o.lights : o.directions, o.max_tilt_deg);
+  const auto views = spiral_directions(o.directions, o.max_tilt_deg);
+  RawMaterial raw = trace_material(surface, lights, views, o.trace, progress("ray tracing", "views"));
   raw.name = o.meso;
   return raw;
 }
@@ -170,6 +172,8 @@ void add_bake_material(CLI::App& bake) {
   command->add_option("--directions", o.directions, "light and view directions of --meso")
       ->check(CLI::Range(4, 1024))
       ->capture_default_str();
+  command->add_option("--lights", o.lights, "light directions, where they are to be others than the views")
+      ->check(CLI::Range(4, 1024));
   command->add_option("--max-tilt", o.max_tilt_deg, "their largest angle to the normal, degrees")
       ->check(CLI::Range(10.0, 80.0))
       ->capture_default_str();

@@ -1,6 +1,7 @@
 // nook evaluate material: a compressed material against the raw one, beside its peers, with pictures and
 // plots.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,7 @@ struct Options {
   CommonOptions common;
   std::filesystem::path raw, material, images;
   std::vector<std::uint32_t> sweep;
+  std::vector<std::string> methods;  // peers; empty: all, where peers are asked for
   bool peers = false, seeding = false;
 };
 
@@ -49,32 +51,37 @@ CompressionSettings settings_of(const Material& material, const Options& o) {
   return s;
 }
 
-void add_peers(const RawMaterial& raw, const CompressionSettings& settings, const Options& o,
-               ProgressBar& bar, Json& rows) {
-  struct Peer {
-    Method method;
-    std::uint32_t mixture;
-  };
-  std::size_t btf_bytes = 0;
-  for (const Peer peer : {Peer{Method::n_svd, 1}, Peer{Method::cta, 1}, Peer{Method::k_cta, 2},
-                          Peer{Method::k_cta, 3}, Peer{Method::k_cta, 4}}) {
+struct Peer {
+  const char* name;
+  Method method;
+  std::uint32_t mixture;
+};
+constexpr Peer peers[] = {{"n-svd", Method::n_svd, 1},
+                          {"cta", Method::cta, 1},
+                          {"k-cta-2", Method::k_cta, 2},
+                          {"k-cta-3", Method::k_cta, 3},
+                          {"k-cta-4", Method::k_cta, 4}};
+constexpr const char* pca_name = "pca";
+
+bool wanted(const Options& o, const std::string& name) {
+  return o.methods.empty() ? o.peers : std::find(o.methods.begin(), o.methods.end(), name) != o.methods.end();
+}
+
+void add_peers(const RawMaterial& raw, const CompressionSettings& settings, std::size_t btf_bytes,
+               const Options& o, ProgressBar& bar, Json& rows) {
+  for (const Peer& peer : peers) {
     CompressionSettings s = settings;
     s.method = peer.method;
     s.mixture = peer.mixture;
-    if (s.method == Method::k_cta && s.mixture > s.cluster_count()) continue;
-    const std::string label =
-        method_name(s.method) + (peer.mixture > 1 ? " " + std::to_string(peer.mixture) : std::string());
+    if (!wanted(o, peer.name) || (s.method == Method::k_cta && s.mixture > s.cluster_count())) continue;
     Material material;
-    const MethodRow row = measure_method(raw, s, stage_progress(bar, label + ", "), &material);
-    rows.push_back(report_row(raw.name, row));
-    btf_bytes =
-        light_basis_bytes(raw.lights.size(), material.btf.shape) + compressed_bytes(material.btf.shape);
+    rows.push_back(report_row(
+        raw.name, measure_method(raw, s, stage_progress(bar, std::string(peer.name) + ", "), &material)));
     if (!o.images.empty())
-      bake::write_png(
-          o.images / (raw.name + "_" + method_name(s.method) + "_" + std::to_string(peer.mixture) + ".png"),
-          difference_sheet(raw, material));
+      bake::write_png(o.images / (raw.name + "_" + peer.name + ".png"), difference_sheet(raw, material));
   }
-  bar.show("PCA", "steps", 0, 1);
+  if (!wanted(o, pca_name)) return;
+  bar.show("principal components", "steps", 0, 1);
   rows.push_back(report_row(raw.name, measure_pca(raw, btf_bytes, settings.seed)));
 }
 
@@ -125,7 +132,9 @@ Json evaluate(const Options& o) {
   }
   const CompressionSettings settings = settings_of(material, o);
   Json report;
-  if (o.peers) add_peers(raw, settings, o, bar, rows);
+  const std::size_t btf_bytes =
+      light_basis_bytes(raw.lights.size(), material.btf.shape) + compressed_bytes(material.btf.shape);
+  add_peers(raw, settings, btf_bytes, o, bar, rows);
   report["rows"] = rows;
   report["settings"] = describe(settings);
   if (o.seeding) add_seedings(raw, settings, bar, report);
@@ -142,9 +151,15 @@ void add_evaluate_material(CLI::App& evaluate_command) {
   Options& o = *options;
   command->add_option("raw", o.raw, "the raw material, written by `bake material --keep-raw`")->required();
   command->add_option("material", o.material, "the .nook file")->required();
+  std::vector<std::string> names = {pca_name};
+  for (const Peer& peer : peers) names.emplace_back(peer.name);
   command->add_flag(
       "--peers", o.peers,
       "compress by N-SVD, CTA, K-CTA with K = 2, 3, 4 at the file's ranks, and PCA at its bytes");
+  command->add_option("--methods", o.methods, "only these peers: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, pca")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names))
+      ->type_name("NAME,...");
   command->add_flag("--compare-seeding", o.seeding,
                     "CTA and K-CTA from clusters of directions and of values");
   command->add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")

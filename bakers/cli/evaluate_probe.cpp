@@ -41,6 +41,8 @@ Json method_row(const std::string& map, const char* domain, const MethodError& e
           {"floats", e.method.floats()},
           {"radiance_rms", e.radiance_rms},
           {"irradiance_rms", e.irradiance_rms},
+          {"irradiance_rms_fitted", e.irradiance_rms_fitted},
+          {"irradiance_rms_inner_product", e.irradiance_rms_inner_product},
           {"excess_mse_1024", e.uniform_1024.excess_mse},
           {"excess_mse_20000", e.uniform_20000.excess_mse},
           {"distance_1024", e.uniform_1024.distance},

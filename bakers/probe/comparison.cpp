@@ -125,6 +125,8 @@ std::vector<MethodError> compare_methods(const Environment& map, const std::vect
     seeds[s] = {uniform_samples(map, region, many_samples, seed),
                 luminance_samples(map, sampler, region, many_samples, seed)};
   });
+  const Samples texels = texel_samples(map, region, settings.seed);
+  const Samples by_luminance = luminance_samples(map, sampler, region, settings.baked_samples, settings.seed);
   std::vector<MethodError> errors;
   std::optional<ExactFit> exact;
   for (const ProbeMethod& method : methods) {
@@ -136,13 +138,21 @@ std::vector<MethodError> compare_methods(const Environment& map, const std::vect
     bake.basis = method.basis;
     bake.fit = method.fit;
     bake.fit.growing_samples = 0;
-    bake.seed = settings.seed;
-    const std::vector<Vec3> b = bake_map(map, bake);
+    const std::vector<Vec3> b =
+        bake_map(bake, nook::probe::is_running(method.fit.method) ? by_luminance : texels);
     const IrradianceTruth::Error irradiance = truth.error(method.basis, b);
-    errors.push_back({method, exact->rms(b), irradiance.rms, exact->mean_ratio(b), irradiance.minimum,
-                      measure(method, *exact, truth, seeds, &SeedSamples::uniform, few_samples),
-                      measure(method, *exact, truth, seeds, &SeedSamples::uniform, many_samples),
-                      measure(method, *exact, truth, seeds, &SeedSamples::luminance, many_samples)});
+    MethodError error;
+    error.method = method;
+    error.radiance_rms = exact->rms(b);
+    error.irradiance_rms = irradiance.rms;
+    error.irradiance_rms_fitted = truth.error(method.basis, b, IrradianceForm::fitted).rms;
+    error.irradiance_rms_inner_product = truth.error(method.basis, b, IrradianceForm::inner_product).rms;
+    error.mean_ratio = exact->mean_ratio(b);
+    error.irradiance_minimum = irradiance.minimum;
+    error.uniform_1024 = measure(method, *exact, truth, seeds, &SeedSamples::uniform, few_samples);
+    error.uniform_20000 = measure(method, *exact, truth, seeds, &SeedSamples::uniform, many_samples);
+    error.luminance_20000 = measure(method, *exact, truth, seeds, &SeedSamples::luminance, many_samples);
+    errors.push_back(std::move(error));
   }
   if (progress) progress(methods.size(), methods.size());
   return errors;

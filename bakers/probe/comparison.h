@@ -27,6 +27,7 @@ std::vector<ProbeMethod> probe_methods(std::uint32_t lobes, const Region& region
 
 struct ComparisonSettings {
   std::uint32_t seeds = 20;
+  std::uint32_t baked_samples = 1u << 20;  // by luminance, of the whole map's bake, for running averages
   std::uint64_t seed = 1;
 };
 
@@ -41,8 +42,10 @@ struct SampledError {
 
 struct MethodError {
   ProbeMethod method;
-  double radiance_rms = 0, irradiance_rms = 0, mean_ratio = 0,
-         irradiance_minimum = 0;  // of a bake of the whole map
+  // Of a bake of the whole map. Irradiance by bands, by Hill's fit and by the inner product, which differ for
+  // lobes alone.
+  double radiance_rms = 0, irradiance_rms = 0, irradiance_rms_fitted = 0, irradiance_rms_inner_product = 0;
+  double mean_ratio = 0, irradiance_minimum = 0;
   SampledError uniform_1024, uniform_20000, luminance_20000;
 };
 

@@ -96,12 +96,12 @@ IrradianceTruth::IrradianceTruth(const Environment& map, const Region& region, s
   for (Vec3 e : irradiance_) mean_ += luminance(as_channels(e)) / double(normals);
 }
 
-IrradianceTruth::Error IrradianceTruth::error(const Basis& basis, std::span<const Vec3> coefficients) const {
+IrradianceTruth::Error IrradianceTruth::error(const Basis& basis, std::span<const Vec3> coefficients,
+                                              IrradianceForm form) const {
   Error error;
   error.minimum = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < normal_.size(); ++n) {
-    const Channels e = as_channels(
-        nook::probe::irradiance(basis, coefficients, nook::probe::IrradianceForm::fitted, normal_[n]));
+    const Channels e = as_channels(nook::probe::irradiance(basis, coefficients, form, normal_[n]));
     const Channels truth = as_channels(irradiance_[n]);
     for (std::size_t c = 0; c < 3; ++c) {
       error.rms += (e[c] - truth[c]) * (e[c] - truth[c]) / double(3 * normal_.size());

@@ -11,6 +11,8 @@
 
 namespace nook::bake::probe {
 
+using nook::probe::IrradianceForm;
+
 // What an exact least-squares fit of a basis to a map makes of it.
 class ExactFit {
  public:
@@ -50,7 +52,8 @@ class IrradianceTruth {
     double minimum =
         0;  // the lowest irradiance of any normal and channel, as a share of the map's mean irradiance
   };
-  Error error(const Basis& basis, std::span<const Vec3> coefficients) const;
+  Error error(const Basis& basis, std::span<const Vec3> coefficients,
+              IrradianceForm form = IrradianceForm::bands) const;
 
  private:
   std::vector<Vec3> normal_, irradiance_;

@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "core/failure.h"
-#include "probe/samples.h"
 
 namespace nook::bake::probe {
-namespace {
 
-Samples take_samples(const Environment& map, const Region& region, const MapBakeSettings& settings) {
+Samples bake_samples(const Environment& map, const MapBakeSettings& settings) {
+  const Region region = region_of(settings.basis);
   Sampling sampling = settings.sampling;
   if (sampling == Sampling::automatic)
     sampling = nook::probe::is_running(settings.fit.method) ? Sampling::luminance : Sampling::texels;
@@ -23,13 +22,10 @@ Samples take_samples(const Environment& map, const Region& region, const MapBake
   }
 }
 
-}  // namespace
-
-std::vector<Vec3> bake_map(const Environment& map, const MapBakeSettings& settings,
+std::vector<Vec3> bake_map(const MapBakeSettings& settings, const Samples& samples,
                            const std::function<bool(std::size_t, std::size_t)>& progress) {
   constexpr std::size_t block = 1u << 14;
   nook::probe::Fit fit(settings.basis, settings.fit);
-  const Samples samples = take_samples(map, region_of(settings.basis), settings);
   for (std::size_t first = 0; first < samples.size(); first += block) {
     add_samples(fit, samples, first, std::min(block, samples.size() - first));
     if (progress && !progress(std::min(first + block, samples.size()), samples.size()))

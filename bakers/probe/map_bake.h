@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "probe/fit.h"
+#include "probe/samples.h"
 #include "raytrace/environment.h"
 
 namespace nook::bake::probe {
@@ -26,9 +27,17 @@ struct MapBakeSettings {
   std::uint64_t seed = 1;
 };
 
+// Which samples a bake takes.
+Samples bake_samples(const Environment& map, const MapBakeSettings& settings);
+
 // The coefficients, one for each function. progress counts samples; throws Failure(NOOK_ERROR_CANCELLED) when
 // it returns false.
-std::vector<Vec3> bake_map(const Environment& map, const MapBakeSettings& settings,
+std::vector<Vec3> bake_map(const MapBakeSettings& settings, const Samples& samples,
                            const std::function<bool(std::size_t done, std::size_t total)>& progress = {});
+inline std::vector<Vec3> bake_map(
+    const Environment& map, const MapBakeSettings& settings,
+    const std::function<bool(std::size_t done, std::size_t total)>& progress = {}) {
+  return bake_map(settings, bake_samples(map, settings), progress);
+}
 
 }  // namespace nook::bake::probe

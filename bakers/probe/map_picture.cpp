@@ -57,7 +57,7 @@ Picture map_picture(const Environment& map, const Basis& basis, std::span<const 
     if (!region.holds(direction)) continue;
     const Vec3 fitted = nook::probe::radiance(basis, coefficients, direction);
     const Vec3 irradiance =
-        nook::probe::irradiance(basis, coefficients, nook::probe::IrradianceForm::fitted, direction);
+        nook::probe::irradiance(basis, coefficients, nook::probe::IrradianceForm::bands, direction);
     const float error = std::abs(luminance(fitted - truth));
     set_pixel(panels[1], at, exposed(fitted, exposure));
     set_pixel(panels[2], at, exposed(irradiance * (1 / std::numbers::pi_v<float>), exposure));

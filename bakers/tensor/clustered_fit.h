@@ -15,6 +15,7 @@ namespace nook::bake::tensor {
 // How the clustering stage looks for the K clusters of a sub-tensor.
 enum class Pursuit : std::uint8_t {
   greedy,      // one after the other, (9) and (13), as Algorithm 1
+  exchange,    // greedy, then single clusters exchanged while that lowers the error
   exhaustive,  // every set of K clusters: exact, and affordable while C choose K is a few thousand
 };
 

@@ -90,8 +90,7 @@ void write_light_sheet(const Stage& stage, CrowdScene& scene, const std::vector<
   const TracedLight truth =
       traced_light(stage.hero, poses, members, &patch, light.environment(), {kPictureRays, request.seed});
   const LitForms forms = light_members(stage.hero, scene, poses, members, light);
-  // Constant light of this power shows a white surface at three quarters.
-  const float exposure = 1.4f / light.mean_radiance();
+  const float exposure = 1.0f / light.mean_radiance();
   const LitFloor floor{patch, truth.floor, exposure};
   painter.add_lit("AO times constant light", forms.ao_only, floor);
   painter.add_lit("AO times the probe", forms.ao_x_probe, floor);

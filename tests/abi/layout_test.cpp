@@ -2,6 +2,7 @@
 #include <nook/nook_bake.h>
 #include <nook/nook_character.h>
 #include <nook/nook_gl.h>
+#include <nook/nook_gl_probe.h>
 #include <nook/nook_material.h>
 #include <nook/nook_nnao.h>
 #include <nook/nook_probe.h>
@@ -85,6 +86,12 @@ NOOK_AT(nook_gl_ao_view, buffer, 4);
 NOOK_AT(nook_gl_ao_view, offset, 8);
 NOOK_AT(nook_gl_ao_view, stride, 16);
 NOOK_AT(nook_gl_ao_view, count, 20);
+
+NOOK_SIZE(nook_gl_probe_info, 24);
+NOOK_AT(nook_gl_probe_info, struct_size, 0);
+NOOK_AT(nook_gl_probe_info, texture, 4);
+NOOK_AT(nook_gl_probe_info, bytes, 8);
+NOOK_AT(nook_gl_probe_info, glsl, 16);
 
 NOOK_SIZE(nook_bake_primitive, 8);
 NOOK_AT(nook_bake_primitive, first_vertex, 0);

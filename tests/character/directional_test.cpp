@@ -84,12 +84,12 @@ Blocked traced(const std::vector<double>& radiance, const Pose& pose) {
   return {light_behind / light, behind / all};
 }
 
-Colour<double> ratio_of(const LightView& light, const Pose& pose, float concentration) {
+Colour<double> ratio_of(const LightView& light, const Pose& pose, RatioForm form) {
   const Direction<double> n{pose.normal.x, pose.normal.y, pose.normal.z};
   const Direction<double> o{pose.offset.x, pose.offset.y, pose.offset.z};
   const double xi = dot(pose.offset, pose.normal), delta2 = dot(pose.offset, pose.offset);
   const double share = form_factor_exact(xi, delta2);
-  return light_ratio(light, inverse_hemisphere(light, n), n, o, xi, delta2, share, concentration);
+  return light_ratio(light, inverse_hemisphere(light, n), n, o, xi, delta2, share, form);
 }
 
 }  // namespace
@@ -124,8 +124,8 @@ TEST_CASE("under constant light every sphere takes its share") {
   std::mt19937 random(4);
   for (int i = 0; i < 200; ++i) {
     const Pose pose{random_direction(random) * std::exp(float(i % 20) * 0.4f - 2), random_direction(random)};
-    for (const float concentration : {self_concentration, caster_concentration}) {
-      const Colour<double> ratio = ratio_of(view_of(lobes), pose, concentration);
+    for (const RatioForm form : {self_ratio, caster_ratio}) {
+      const Colour<double> ratio = ratio_of(view_of(lobes), pose, form);
       CHECK(within(ratio.r, 1, 1e-6));
       CHECK(within(ratio.g, 1, 1e-6));
       CHECK(within(ratio.b, 1, 1e-6));
@@ -152,8 +152,7 @@ TEST_CASE("a sphere over a surface takes the light that rays say it takes") {
         const Pose pose{(n * height + across * std::sqrt(1 - height * height)) * distance, n};
         const Blocked truth = traced(radiance, pose);
         if (truth.share < 0.005) continue;
-        const double error =
-            ratio_of(view_of(lobes), pose, caster_concentration).r * truth.share - truth.light;
+        const double error = ratio_of(view_of(lobes), pose, caster_ratio).r * truth.share - truth.light;
         squares += error * error;
         squares_without += (truth.share - truth.light) * (truth.share - truth.light);
         ++count;
@@ -170,8 +169,8 @@ TEST_CASE("the ground under a standing surface takes the light from below") {
   const Pose wall{{0, -1, 0}, {1, 0, 0}};
   const std::vector<LightLobe> below = {{{0, -6, 0}, 6, {1, 1, 1}}};
   const std::vector<LightLobe> above = {{{0, 6, 0}, 6, {1, 1, 1}}};
-  CHECK(0.5 * ratio_of(view_of(below), wall, caster_concentration).r > 0.8);
-  CHECK(0.5 * ratio_of(view_of(above), wall, caster_concentration).r < 0.2);
+  CHECK(0.5 * ratio_of(view_of(below), wall, caster_ratio).r > 0.8);
+  CHECK(0.5 * ratio_of(view_of(above), wall, caster_ratio).r < 0.2);
 }
 
 TEST_CASE("directional sums follow the formulas on every instruction set") {
@@ -209,16 +208,16 @@ TEST_CASE("directional sums follow the formulas on every instruction set") {
             const Direction<double> o{(double(s.x[i]) - p.x[k]) * scale, (double(s.y[i]) - p.y[k]) * scale,
                                       (double(s.z[i]) - p.z[k]) * scale};
             const View v = view_of(s, i, p, k);
-            const auto green = [&](double share, float concentration) {
-              return light_ratio(light, inverse, n, o, v.xi, v.delta2, share, concentration).g;
+            const auto green = [&](double share, RatioForm ratio) {
+              return light_ratio(light, inverse, n, o, v.xi, v.delta2, share, ratio).g;
             };
             const double y = std::max(shadow_term(form, v.xi, v.delta2), 0.0);
-            norm_k += std::pow(y, double(gamma)) * green(y, self_concentration);
+            norm_k += std::pow(y, double(gamma)) * green(y, self_ratio);
             const double f = form_factor_fast(v.xi, v.delta2);
-            depth_k += f * double(s.caster_weight[i]) * green(f, caster_concentration);
+            depth_k += f * double(s.caster_weight[i]) * green(f, caster_ratio);
             const double share =
                 std::min(double(s.caster_weight[i]) * form_factor_exact(v.xi, v.delta2), 1.0);
-            open_k *= 1 - std::min(share * green(share, caster_concentration), 1.0);
+            open_k *= 1 - std::min(share * green(share, caster_ratio), 1.0);
           }
           worst = std::max({worst, std::abs(double(norm[1][k]) - norm_k) / std::max(1.0, norm_k),
                             std::abs(double(depth[1][k]) - depth_k) / std::max(1.0, depth_k),

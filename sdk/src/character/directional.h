@@ -43,10 +43,14 @@ struct Colour {
 // core/spherical_gaussian.h.
 inline constexpr float directional_cosine = 2.133f;
 // k = concentration sqrt(height) (1 - f^2) / f: a far sphere is a lobe of its solid angle, one that fills the
-// hemisphere is the hemisphere. Measured against rays in a crowd: what casters and the ground take depends on
-// where they stand, a body's own spheres, fitted to darken from all sides, say little more than a side.
-inline constexpr float caster_concentration = 2.0f;
-inline constexpr float self_concentration = 0.5f;
+// hemisphere is the hemisphere. Of rho, `strength` counts, the rest is 1. Measured against rays in a crowd:
+// what casters and the ground take depends on where they stand; a body's own spheres, fitted to darken from
+// all sides, say little more than a side.
+struct RatioForm {
+  float concentration, strength;
+};
+inline constexpr RatioForm caster_ratio{2.0f, 1.0f};
+inline constexpr RatioForm self_ratio{0.5f, 0.75f};
 inline constexpr float smallest_share = 1e-4f;
 // Nothing dims its receiver by more than this times its share: a bound on the effect of one bright lobe.
 inline constexpr float largest_ratio = 8.0f;
@@ -96,7 +100,7 @@ Colour<F> inverse_hemisphere(const LightView& light, const Direction<F>& n) {
 // delta2, which covers `share` of the hemisphere.
 template <class F>
 Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Direction<F>& n,
-                      const Direction<F>& o, F xi, F delta2, F share, float concentration) {
+                      const Direction<F>& o, F xi, F delta2, F share, RatioForm form) {
   // A sphere cut by the horizon is seen at the middle of what shows above it.
   const F height = max(xi, fma(max(xi, F(-1.0f)), F(0.5f), F(0.5f)));
   const F lift = height - xi;
@@ -104,12 +108,14 @@ Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Di
   const F inverse_distance = rsqrt(distance2);
   const F cosine = height * inverse_distance;
   const F f = max(share, F(smallest_share));
-  const F k = F(concentration) * sqrt(max(cosine, F(0.0f))) * max(F(1.0f) - f * f, F(0.0f)) / f;
+  const F k = F(form.concentration) * sqrt(max(cosine, F(0.0f))) * max(F(1.0f) - f * f, F(0.0f)) / f;
   const F along = k * inverse_distance;
   const F up = fma(along, lift, F(directional_cosine));
   const Colour<F> behind = mean_radiance(
       light, Direction<F>{fma(o.x, along, n.x * up), fma(o.y, along, n.y * up), fma(o.z, along, n.z * up)});
-  const auto ratio = [](F mean, F scale) { return min(max(mean * scale, F(0.0f)), F(largest_ratio)); };
+  const auto ratio = [&](F mean, F scale) {
+    return fma(F(form.strength), min(max(mean * scale, F(0.0f)), F(largest_ratio)), F(1 - form.strength));
+  };
   return {ratio(behind.r, inverse.r), ratio(behind.g, inverse.g), ratio(behind.b, inverse.b)};
 }
 

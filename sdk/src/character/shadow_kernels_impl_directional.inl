@@ -42,7 +42,7 @@ void directional_norm(const SphereSoa& spheres, const KeyPointSoa& points, float
       const SeenDirection seen = see_direction(spheres, i, p);
       const Float y = shadow_term(Form, seen.xi, seen.delta2);
       const Colour<Float> ratio =
-          light_ratio(light, inverse, n, seen.offset, seen.xi, seen.delta2, y, self_concentration);
+          light_ratio(light, inverse, n, seen.offset, seen.xi, seen.delta2, y, self_ratio);
       const Float term = raised<P>(y, exponent);
       total = {fma(term, ratio.r, total.r), fma(term, ratio.g, total.g), fma(term, ratio.b, total.b)};
     }
@@ -88,7 +88,7 @@ void directional_depth(const SphereSoa& spheres, const KeyPointSoa& points, cons
       const SeenDirection seen = see_direction(spheres, i, p);
       const Float share = form_factor_fast(seen.xi, seen.delta2);
       const Colour<Float> ratio =
-          light_ratio(light, inverse, n, seen.offset, seen.xi, seen.delta2, share, caster_concentration);
+          light_ratio(light, inverse, n, seen.offset, seen.xi, seen.delta2, share, caster_ratio);
       const Float term = share * broadcast(spheres.caster_weight[i]);
       total = {fma(term, ratio.r, total.r), fma(term, ratio.g, total.g), fma(term, ratio.b, total.b)};
     }
@@ -109,7 +109,7 @@ void directional_open(const SphereSoa& spheres, const KeyPointSoa& points, const
       const Float weight = spheres.caster_weight ? broadcast(spheres.caster_weight[i]) : one;
       const Float share = min(weight * form_factor_exact(seen.xi, seen.delta2), one);
       const Colour<Float> ratio =
-          light_ratio(light, inverse, n, seen.offset, seen.xi, seen.delta2, share, caster_concentration);
+          light_ratio(light, inverse, n, seen.offset, seen.xi, seen.delta2, share, caster_ratio);
       product = {product.r * (one - min(share * ratio.r, one)), product.g * (one - min(share * ratio.g, one)),
                  product.b * (one - min(share * ratio.b, one))};
     }

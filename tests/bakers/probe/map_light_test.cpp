@@ -47,9 +47,9 @@ TEST_CASE("moments of a constant map are the functions' integrals, however sharp
     const std::vector<Channels> moment = moments(map, basis);
     for (std::size_t i = 0; i < 4; ++i) {
       const double expected = gaussian_integral(i < 3 ? double(sharpness) : 0.0);
-      // The midpoint rule at steps of 0.1 of the lobe's width: 0.1^2 / 24, doubled for two directions.
-      CHECK(std::abs(moment[i][0] / expected - 1) < 1e-3);
-      CHECK(std::abs(moment[i][1] / expected - 2) < 2e-3);
+      // The midpoint rule: the rings round the pole span up to a fifth of the lobe, 0.22^2 / 24.
+      CHECK(std::abs(moment[i][0] / expected - 1) < 3e-3);
+      CHECK(std::abs(moment[i][1] / expected - 2) < 6e-3);
       CHECK(moment[i][2] == 0);
     }
   }
@@ -77,7 +77,7 @@ TEST_CASE("a reduced map holds the same light") {
   REQUIRE(half.width() == 32);
   const MapIntegrals a = integrate(map, {}), b = integrate(half, {});
   for (std::size_t c = 0; c < 3; ++c) CHECK(std::abs(b.radiance[c] / a.radiance[c] - 1) < 1e-6);  // floats
-  CHECK(reduced(map, 1).width() == 4);  // 4 x 2 has an odd half
+  CHECK(reduced(map, 1).width() == 2);  // one row cannot be halved
 }
 
 TEST_CASE("errors of a fit agree with quadrature over the map") {
@@ -113,8 +113,7 @@ TEST_CASE("the irradiance of a lobe as a map and as a probe agree") {
   b[4] = {1, 2, 3};
   const Environment map = map_of(256, 128, [&](Vec3 d) { return nook::probe::radiance(basis, b, d); });
   const auto error = IrradianceTruth(map, {}).error(basis, b);
-  // Hill's fit is within 1 % of the peak for a lobe of sharpness 6, whose irradiance peaks at 0.9 of its
-  // integral 1.05 x 3.
-  CHECK(error.rms < 0.03);
+  // Bands are within 1.5e-3 of a lobe's integral, 1.05 x 3 here.
+  CHECK(error.rms < 5e-3);
   CHECK(error.minimum >= 0);
 }

@@ -174,15 +174,18 @@ TEST_CASE("the clustered mode may be any") {
   }
 }
 
-TEST_CASE("the exhaustive search ends no worse than the greedy one") {
+TEST_CASE("exchange and the exhaustive search end no worse than the greedy one") {
   const Tensor a = waves({4, 36, 10, 9});
   ClusteredSettings settings = settings_of(1, {3, 2, 5, 4}, 6, 3, seeds_in_order(36, 6));
   const ClusteredFit greedy = fit_k_cta(a, settings);
-  settings.pursuit = Pursuit::exhaustive;
-  const ClusteredFit exhaustive = fit_k_cta(a, settings);
-  check_objective(exhaustive, a);
-  CHECK_FALSE(exhaustive.undone);
-  CHECK(exhaustive.objective.back() < greedy.objective.back() * 1.02);  // two local optima
+  for (const Pursuit pursuit : {Pursuit::exchange, Pursuit::exhaustive}) {
+    settings.pursuit = pursuit;
+    const ClusteredFit better = fit_k_cta(a, settings);
+    check_objective(better, a);
+    check_constraints(better, 3);
+    CHECK_FALSE(better.undone);
+    CHECK(better.objective.back() < greedy.objective.back() * 1.02);  // local optima
+  }
 }
 
 TEST_CASE("an iteration that got worse is undone, and what stands is the one before") {
