@@ -9,7 +9,7 @@
 
 #include "core/failure.h"
 #include "probe/map_bake.h"
-#include "probe/samples.h"
+#include "probe/map_samples.h"
 #include "raytrace/hemisphere.h"
 
 namespace nook::bake::probe {
