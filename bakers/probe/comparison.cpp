@@ -9,7 +9,7 @@
 
 #include "core/failure.h"
 #include "probe/map_bake.h"
-#include "probe/samples.h"
+#include "probe/map_samples.h"
 #include "raytrace/hemisphere.h"
 
 namespace nook::bake::probe {
@@ -86,18 +86,15 @@ std::vector<ProbeMethod> probe_methods(std::uint32_t lobes, const Region& region
   add("naive", gaussians, settings_of(FitMethod::naive));
   add("running_average", gaussians, running);
   FitSettings variant = running;
-  variant.step = Step::plain;
-  add("running_average, plain step", gaussians, variant);
-  variant.denominator = Denominator::precomputed;
-  add("running_average, plain step, precomputed", gaussians, variant);
-  variant = running;
-  variant.denominator = Denominator::precomputed;
-  add("running_average, precomputed", gaussians, variant);
-  variant = running;
   variant.growing_samples = 1;  // the number of samples takes its place
   add("running_average, growing weights", gaussians, variant);
-  add("running_average, seeded", gaussians, running);
+  variant = running;
+  variant.step = Step::plain;
+  add("running_average, plain step", gaussians, variant);
+  add("running_average, plain step, seeded", gaussians, variant);
   methods.back().seeded = true;
+  variant.denominator = Denominator::precomputed;
+  add("running_average, plain step, precomputed", gaussians, variant);
   add("running_average_original", gaussians, settings_of(FitMethod::running_average_original));
   add("running_average_non_negative", gaussians, settings_of(FitMethod::running_average_non_negative));
   add("moments", gaussians, settings_of(FitMethod::moments));

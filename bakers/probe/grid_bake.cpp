@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/failure.h"
-#include "probe/samples.h"
+#include "probe/map_samples.h"
 
 namespace nook::bake::probe {
 namespace {

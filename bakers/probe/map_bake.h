@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "probe/fit.h"
-#include "probe/samples.h"
+#include "probe/map_samples.h"
 #include "raytrace/environment.h"
 
 namespace nook::bake::probe {

@@ -12,7 +12,7 @@
 #include "probe/comparison.h"
 #include "probe/evaluate.h"
 #include "probe/fit_error.h"
-#include "probe/samples.h"
+#include "probe/map_samples.h"
 #include "small_maps.h"
 
 using namespace nook;

@@ -1,4 +1,4 @@
-#include "probe/samples.h"
+#include "probe/map_samples.h"
 
 #include <algorithm>
 #include <cmath>
