@@ -88,8 +88,9 @@ TEST_CASE("spheres are red on the red light's side and blue on the blue one's, g
   // eye.
   const auto edge = at(-1.5f + 0.19f, 1.34f), middle = at(-1.5f, 1.34f);
   INFO("metal: edge " << edge[0] << " " << edge[2] << ", middle " << middle[0] << " " << middle[2]);
-  CHECK(edge[0] > edge[2] + 80);
-  CHECK(edge[0] > middle[0] + 60);
+  // The picture's roll-off leaves less of bright colours.
+  CHECK(edge[0] > edge[2] + 30);
+  CHECK(edge[0] > middle[0] + 30);
 }
 
 TEST_CASE("bad arguments end with code 2, bad files with 3, and leave no picture") {
