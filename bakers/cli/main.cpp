@@ -12,7 +12,7 @@ namespace {
 
 int run(int argc, char** argv) {
   CLI::App tool(
-      "Bakes ambient occlusion, measures it against ray tracing, and inspects .nook files.\n"
+      "Bakes ambient occlusion and light probes, measures them against ray tracing, and inspects .nook files.\n"
       "Exit codes: 0 done, 2 bad arguments, 3 bad input, 1 anything else.",
       "nook");
   tool.set_version_flag("--version", std::to_string(NOOK_VERSION_MAJOR) + "." +
@@ -23,9 +23,13 @@ int run(int argc, char** argv) {
   CLI::App* evaluate =
       tool.add_subcommand("evaluate", "measure .nook files against ray tracing")->require_subcommand(1);
   nook::cli::add_bake_character(*bake);
+  nook::cli::add_bake_probe(*bake);
+  nook::cli::add_bake_material(*bake);
   nook::cli::add_evaluate_character(*evaluate);
   nook::cli::add_evaluate_casters(*evaluate);
   nook::cli::add_evaluate_nnao(*evaluate);
+  nook::cli::add_evaluate_probe(*evaluate);
+  nook::cli::add_evaluate_material(*evaluate);
   CLI::App* train = tool.add_subcommand("train", "train networks")->require_subcommand(1);
   nook::cli::add_train_nnao(*train);
   nook::cli::add_inspect(tool);

@@ -20,18 +20,18 @@ void check_layout(const OIIO::ImageSpec& spec, const char* format) {
   if (spec.nchannels < 3)
     throw Failure(NOOK_ERROR_BAD_FILE, "an image of %d channels (need red, green and blue)", spec.nchannels);
   if (spec.width != 2 * spec.height || spec.width < fewest_columns || spec.width > most_columns)
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "an image of %d x %d pixels is no latitude-longitude map (need twice as wide as high, %d to %d "
-                  "pixels wide)",
-                  spec.width, spec.height, fewest_columns, most_columns);
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "an image of %d x %d pixels is no latitude-longitude map (need twice as wide as high, %d to %d "
+        "pixels wide)",
+        spec.width, spec.height, fewest_columns, most_columns);
 }
 
 }  // namespace
 
 Environment read_environment(const std::filesystem::path& path) {
   const auto image = OIIO::ImageInput::open(path.string());
-  if (!image)
-    throw Failure(NOOK_ERROR_BAD_FILE, "cannot be read as an image (%s)", OIIO::geterror().c_str());
+  if (!image) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be read as an image (%s)", OIIO::geterror().c_str());
   const OIIO::ImageSpec spec = image->spec();
   check_layout(spec, image->format_name());
   std::vector<float> rgb(3 * std::size_t(spec.width) * std::size_t(spec.height));

@@ -1,4 +1,5 @@
-// Environment maps from image files. Compiled into the tool alone: the library would otherwise load OpenImageIO for nothing.
+// Environment maps from image files. Compiled into the tool alone: the library would otherwise load
+// OpenImageIO for nothing.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +8,9 @@
 
 namespace nook::bake::probe {
 
-// A latitude-longitude map of floating-point radiance (.hdr, .exr), twice as wide as high, at most 16,384 columns; negative
-// values, which filters leave behind, become 0. Fails with BAD_FILE on anything else, also on values that are not finite; the
-// message names the fault, and the caller adds the name of the file.
+// A latitude-longitude map of floating-point radiance (.hdr, .exr), twice as wide as high, at most 16,384
+// columns; negative values, which filters leave behind, become 0. Fails with BAD_FILE on anything else, also
+// on values that are not finite; the message names the fault, and the caller adds the name of the file.
 Environment read_environment(const std::filesystem::path& path);
 
 }  // namespace nook::bake::probe

@@ -9,7 +9,8 @@
 namespace nook::bake::probe {
 namespace {
 
-// How far a function of the basis may vary within a part of a texel: the midpoint rule then errs by a 24th of its square.
+// How far a function of the basis may vary within a part of a texel: the midpoint rule then errs by a 24th of
+// its square.
 constexpr double finest_step = 0.1;
 
 std::uint32_t divisions(const Environment& map, const Basis& basis) {
@@ -31,8 +32,7 @@ TexelArrays texel_arrays(const Environment& map, const Region& region) {
     for (std::uint32_t column = 0; column < map.width(); ++column) {
       const Vec3 direction = map.direction(column, row, 0.5f, 0.5f);
       if (!region.holds(direction)) continue;
-      const Vec3 light =
-          map.texel(std::size_t(row) * map.width() + column) * float(map.solid_angle(row));
+      const Vec3 light = map.texel(std::size_t(row) * map.width() + column) * float(map.solid_angle(row));
       arrays.x.push_back(direction.x);
       arrays.y.push_back(direction.y);
       arrays.z.push_back(direction.z);

@@ -1,4 +1,5 @@
-// The light of a whole map, exactly: integrals weighted by solid angle, and irradiance by summing over every texel.
+// The light of a whole map, exactly: integrals weighted by solid angle, and irradiance by summing over every
+// texel.
 #pragma once
 
 #include <array>
@@ -23,7 +24,9 @@ struct Region {
 
   bool holds(Vec3 direction) const { return domain == Domain::sphere || dot(up, direction) >= 0; }
 };
-inline Region region_of(const Basis& basis) { return {basis.domain, basis.up}; }
+inline Region region_of(const Basis& basis) {
+  return {basis.domain, basis.up};
+}
 
 struct MapIntegrals {
   Channels radiance{};  // of f
@@ -37,7 +40,8 @@ std::vector<Channels> moments(const Environment& map, const Basis& basis);
 // Irradiance on surfaces with these unit normals, of the light in the region; texels count at their centres.
 std::vector<Vec3> map_irradiance(const Environment& map, const Region& region, std::span<const Vec3> normals);
 
-// The same light in fewer texels: halved while it has more columns than asked for, and an even number of rows and columns.
+// The same light in fewer texels: halved while it has more columns than asked for, and an even number of rows
+// and columns.
 Environment reduced(Environment map, std::uint32_t most_columns);
 
 }  // namespace nook::bake::probe

@@ -61,7 +61,7 @@ Samples luminance_samples(const Environment& map, const LightSampler& sampler, c
   const auto scale = float(inside / nook::probe::domain_area(region.domain));
   while (samples.size() < count) {
     const double choice = random.next_double();
-  const float alias = random.next(), u = random.next(), v = random.next();
+    const float alias = random.next(), u = random.next(), v = random.next();
     const LightSample s = sampler.sample(choice, alias, u, v);
     if (region.holds(s.direction)) samples.add(s.direction, s.radiance, scale / s.density);
   }

@@ -23,7 +23,8 @@ void add_samples(nook::probe::Fit& fit, const Samples& samples, std::size_t firs
 // Independent directions, uniform over the region.
 Samples uniform_samples(const Environment& map, const Region& region, std::size_t count, std::uint64_t seed);
 
-// Independent directions, half of them by luminance, so that no weight is above twice that of a uniform sample.
+// Independent directions, half of them by luminance, so that no weight is above twice that of a uniform
+// sample.
 inline constexpr float uniform_share = 0.5f;
 Samples luminance_samples(const Environment& map, const LightSampler& sampler, const Region& region,
                           std::size_t count, std::uint64_t seed);

@@ -1,5 +1,6 @@
 #include "raytrace/picture.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <tbb/parallel_for.h>
 
@@ -141,6 +142,19 @@ Picture side_by_side(std::span<const Picture> pictures) {
       all.rgb.insert(all.rgb.end(), row, row + 3 * std::ptrdiff_t(p.width));
     }
   return all;
+}
+
+std::vector<std::byte> png_bytes(const Picture& picture) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto out = OIIO::ImageOutput::create("png");
+  const OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
+  if (!out || !out->set_ioproxy(&memory) || !out->open("picture.png", spec) ||
+      !out->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) || !out->close())
+    throw Failure(NOOK_ERROR_INTERNAL, "a picture cannot be encoded: %s",
+                  (out ? out->geterror() : OIIO::geterror()).c_str());
+  const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
+  return {first, first + bytes.size()};
 }
 
 void write_png(const std::filesystem::path& path, const Picture& picture) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -50,6 +51,9 @@ class BodyView {
 
 // Pictures of equal height in a row.
 Picture side_by_side(std::span<const Picture> pictures);
+
+// The bytes of a .png file. Throws Failure(INTERNAL) with the reason.
+std::vector<std::byte> png_bytes(const Picture& picture);
 
 // Throws Failure(INTERNAL) with the reason where the file cannot be written.
 void write_png(const std::filesystem::path& path, const Picture& picture);

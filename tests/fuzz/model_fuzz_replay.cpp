@@ -10,6 +10,7 @@
 
 #include "character/model_file.h"
 #include "model_sample.h"
+#include "random_changes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -38,17 +39,7 @@ int main(int argc, char** argv) {
   for (int run = 0; run < runs; ++run) {
     std::vector<std::byte> file =
         write_character_model(test::sample_model(1 + static_cast<std::uint32_t>(run % 5)));
-    for (std::uint32_t change = numbers.below(6) + 1; change > 0; --change) {
-      const std::uint32_t at = numbers.below(static_cast<std::uint32_t>(file.size()));
-      if (numbers.below(10) == 0)
-        file.resize(at);  // cut
-      else
-        file[at] = std::byte(numbers.below(3) ? numbers.below(256) : numbers.below(2) * 255);
-      if (file.empty()) break;
-      // The size in the head follows, or nearly every change would end there.
-      if (file.size() >= 24)
-        for (std::size_t i = 0; i < 8; ++i) file[16 + i] = std::byte(file.size() >> (8 * i) & 255);
-    }
+    test::change_bytes(file, [&](std::uint32_t count) { return numbers.below(count); });
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
   }
   return 0;

@@ -1,0 +1,139 @@
+// Probes of maps: what is in the basis comes back, every kind of sampling agrees, and the comparison measures
+// what it says.
+#include "probe/map_bake.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "catch.h"
+#include "core/failure.h"
+#include "probe/comparison.h"
+#include "probe/evaluate.h"
+#include "probe/fit_error.h"
+#include "probe/samples.h"
+#include "small_maps.h"
+
+using namespace nook;
+using namespace nook::bake;
+using namespace nook::bake::probe;
+using namespace nook::test;
+using nook::probe::FitMethod;
+
+namespace {
+
+MapBakeSettings settings_of(const Basis& basis, FitMethod method, Sampling sampling = Sampling::automatic) {
+  MapBakeSettings settings;
+  settings.basis = basis;
+  settings.fit.method = method;
+  settings.sampling = sampling;
+  settings.samples = 1u << 17;
+  return settings;
+}
+
+}  // namespace
+
+TEST_CASE("a map that lies in the basis comes back") {
+  const Basis basis = nook::probe::vogel_basis(12);
+  std::vector<Vec3> planted(12);
+  for (std::size_t i = 0; i < 12; ++i) planted[i] = {1 + 0.2f * float(i), 3 - 0.2f * float(i), 0.5f};
+  const Environment map = map_of(256, 128, [&](Vec3 d) { return nook::probe::radiance(basis, planted, d); });
+  for (FitMethod method :
+       {FitMethod::least_squares, FitMethod::moments, FitMethod::non_negative_least_squares,
+        FitMethod::running_average, FitMethod::running_average_non_negative})
+    for (Sampling sampling : {Sampling::texels, Sampling::luminance}) {
+      const std::vector<Vec3> b = bake_map(map, settings_of(basis, method, sampling));
+      const ExactFit exact(map, basis);
+      // Texels of 1.4 degrees are constant, which alone leaves 1e-5; moments from 131,072 samples scatter by
+      // 1e-4 in square.
+      CHECK(exact.distance(b) < 5e-4);
+    }
+}
+
+TEST_CASE("every kind of sampling tends to the exact fit") {
+  const Environment map = uneven_map();
+  const Basis basis = nook::probe::vogel_basis(9, true);
+  const ExactFit exact(map, basis);
+  CHECK(exact.excess(bake_map(map, settings_of(basis, FitMethod::least_squares))) <
+        1e-4);  // texels' centres alone
+  // 131,072 samples, 10 unknowns: 1e-4 of the residual's variance, more where light is uneven.
+  CHECK(exact.excess(bake_map(map, settings_of(basis, FitMethod::least_squares, Sampling::uniform))) < 2e-3);
+  CHECK(exact.excess(bake_map(map, settings_of(basis, FitMethod::least_squares, Sampling::luminance))) <
+        2e-3);
+  CHECK(exact.excess(bake_map(map, settings_of(basis, FitMethod::running_average))) < 4e-3);
+  const Basis half = nook::probe::vogel_basis(6, false, Domain::hemisphere, {0, 1, 0});
+  const ExactFit upper(map, half);
+  CHECK(upper.excess(bake_map(map, settings_of(half, FitMethod::least_squares))) < 1e-4);
+  CHECK(upper.excess(bake_map(map, settings_of(half, FitMethod::least_squares, Sampling::uniform))) < 2e-3);
+  CHECK(upper.excess(bake_map(map, settings_of(half, FitMethod::least_squares, Sampling::luminance))) < 2e-3);
+}
+
+TEST_CASE("samples are weighted by the density that drew them") {
+  const Environment map = uneven_map();
+  for (Domain domain : {Domain::sphere, Domain::hemisphere}) {
+    const Region region{domain, {0, 1, 0}};
+    const MapIntegrals truth = integrate(map, region);
+    const double area = nook::probe::domain_area(domain);
+    const LightSampler sampler(map, uniform_share);
+    for (const Samples& samples : {uniform_samples(map, region, 200000, 3), texel_samples(map, region, 3),
+                                   luminance_samples(map, sampler, region, 200000, 3)}) {
+      double weight = 0, light = 0;
+      float heaviest = 0;
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        weight += double(samples.weight[i]);
+        light += double(samples.weight[i]) * double(samples.radiance[3 * i]);
+        heaviest = std::max(heaviest, samples.weight[i]);
+      }
+      // Half of the directions are uniform; above the horizon lies a little more than half of the light.
+      CHECK(heaviest < (domain == Domain::sphere ? 2.01f : 2.4f));
+      // The lamp fills a hundredth of the sphere and gives half of the light: 2.5 % for 200,000 uniform
+      // samples is four sigma.
+      CHECK(std::abs(weight / double(samples.size()) - 1) < 0.01);
+      CHECK(std::abs(light / double(samples.size()) * area / truth.radiance[0] - 1) < 0.025);
+    }
+  }
+}
+
+TEST_CASE("a bake is the same on any number of threads and can be cancelled") {
+  const Environment map = uneven_map();
+  const MapBakeSettings settings = settings_of(nook::probe::vogel_basis(12), FitMethod::running_average);
+  std::vector<Vec3> one;
+  {
+    const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+    one = bake_map(map, settings);
+  }
+  CHECK(one == bake_map(map, settings));
+  CHECK_THROWS_AS(bake_map(map, settings, [](std::size_t, std::size_t) { return false; }), Failure);
+}
+
+TEST_CASE(
+    "the comparison: solving forms agree, batch is the best of the progressive ones, the original is not "
+    "one") {
+  const Environment map = uneven_map();
+  const Region sphere{Domain::sphere, {0, 1, 0}};
+  ComparisonSettings settings;
+  settings.seeds = 3;
+  settings.baked_samples = 1u << 17;
+  const std::vector<MethodError> errors = compare_methods(map, probe_methods(12, sphere), sphere, settings);
+  const auto of = [&](const std::string& name) -> const MethodError& {
+    for (const MethodError& e : errors)
+      if (e.method.name == name) return e;
+    FAIL(name);
+    return errors.front();
+  };
+  const MethodError &batch = of("least_squares"), &running = of("running_average");
+  CHECK(std::abs(of("moments").radiance_rms / batch.radiance_rms - 1) < 1e-3);
+  CHECK(std::abs(running.radiance_rms / batch.radiance_rms - 1) < 1e-2);
+  CHECK(of("naive").radiance_rms > batch.radiance_rms);
+  CHECK(of("non_negative_least_squares").radiance_rms >= batch.radiance_rms);
+  CHECK(of("non_negative_least_squares").irradiance_minimum >= 0);
+  CHECK(of("running_average_non_negative").luminance_20000.irradiance_minimum >= 0);
+  CHECK(of("sh_l2").irradiance_rms < of("sh_l1").irradiance_rms);
+  CHECK(of("sh_l2").method.floats() == 27);
+  CHECK(of("ambient_dice").method.floats() == 36);
+  CHECK(running.uniform_20000.excess_mse < running.uniform_1024.excess_mse);
+  CHECK(of("running_average_original").uniform_20000.distance > 3 * batch.uniform_20000.distance);
+  // 20,000 samples, each worth up to twice the mean: 1 % is usual for one seed.
+  CHECK(std::abs(of("least_squares, ambient").luminance_20000.mean_ratio - 1) < 0.03);
+}
