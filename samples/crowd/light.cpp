@@ -106,7 +106,7 @@ void Light::fit_map(const nook::Context& context, const std::filesystem::path& p
 std::vector<float> Light::irradiance(const std::vector<float>& normals) const {
   std::vector<float> e(normals.size());
   nook::check(nook_probe_lobes_irradiance(lobes_.data(), std::uint32_t(lobes_.size()),
-                                          NOOK_PROBE_IRRADIANCE_FITTED, normals.data(), e.data(),
+                                          NOOK_PROBE_IRRADIANCE_BANDS, normals.data(), e.data(),
                                           normals.size() / 3));
   for (float& channel : e) channel = std::max(channel, 0.0f);
   return e;

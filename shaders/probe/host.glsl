@@ -10,10 +10,17 @@ vec3 nook_probe_radiance(NookProbePlace place, vec3 direction) {
   return sum;
 }
 
-// Irradiance on a surface, by S. Hill's fit; fits of probes may ring a little below 0, which is cut off.
+// Irradiance on a surface; fits of probes may ring a little below 0, which is cut off.
 vec3 nook_probe_irradiance(NookProbePlace place, vec3 normal) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < place.lobe_count; ++i) sum += nook_probe_lobe_irradiance(nook_probe_lobe_at(place, i), normal);
+  return max(sum, 0.0);
+}
+// The same by S. Hill's fit alone, and with the clamped cosine as a lobe.
+vec3 nook_probe_irradiance_fitted(NookProbePlace place, vec3 normal) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < place.lobe_count; ++i)
+    sum += nook_probe_lobe_irradiance_fitted(nook_probe_lobe_at(place, i), normal);
   return max(sum, 0.0);
 }
 vec3 nook_probe_irradiance_inner_product(NookProbePlace place, vec3 normal) {

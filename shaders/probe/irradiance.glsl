@@ -6,24 +6,46 @@ vec3 nook_probe_lobe_irradiance_inner_product(NookLobe lobe, vec3 n) {
   return lobe.amplitude * (1.17 * nook_probe_lobe_product_integral(lobe.sharpness, 2.133, nook_probe_apart(lobe.axis, n)));
 }
 
-// Of integral 1; cosine is dot(axis, n). S. Hill's fit, and below its range three bands of zonal harmonics.
-float nook_probe_unit_irradiance(float sharpness, float cosine) {
-  if (sharpness < 1.25) {
-    float e = exp(-2.0 * sharpness);
-    float mean = sharpness < 0.05 ? sharpness / 3.0 : 1.0 - (1.0 / sharpness - 2.0 * e / (1.0 - e));
-    float second = sharpness < 0.05 ? sharpness * sharpness / 15.0 : 1.0 - 3.0 * mean / sharpness;
-    return max(0.25 + 0.5 * mean * cosine + 0.3125 * second * (1.5 * cosine * cosine - 0.5), 0.0);
+// Of a lobe of integral 1, by zonal harmonics of the clamped cosine to band 4; cosine is dot(axis, n).
+float nook_probe_unit_irradiance_bands(float sharpness, float cosine) {
+  float x = sharpness, x2 = x * x, b1, b2, b4;
+  if (x < 0.5) {
+    // The recurrence below would lose too many digits.
+    b1 = x / 3.0 * (1.0 - x2 / 15.0 * (1.0 - x2 * 2.0 / 21.0));
+    b2 = x2 / 15.0 * (1.0 - x2 * 2.0 / 21.0);
+    b4 = x2 * x2 / 945.0;
+  } else {
+    float e = exp(-2.0 * x);
+    b1 = (1.0 + e) / (1.0 - e) - 1.0 / x;
+    b2 = 1.0 - 3.0 / x * b1;
+    b4 = b2 - 7.0 / x * (b1 - 5.0 / x * b2);
   }
-  float e1 = exp(-sharpness), e2 = e1 * e1, inverse = 1.0 / sharpness;
-  float scale = 1.0 + 2.0 * e2 - inverse;
-  float bias = (e1 - e2) * inverse - e2;
-  float x = sqrt(1.0 - scale);
-  float x0 = 0.36 * cosine, x1 = x / (4.0 * 0.36), s = x0 + x1;
-  float y = abs(x0) <= x1 ? s * s / x : clamp(cosine, 0.0, 1.0);
-  return max(scale * y + bias, 0.0);
+  float c2 = cosine * cosine;
+  return max(0.25 + 0.5 * b1 * cosine + 0.3125 * b2 * (1.5 * c2 - 0.5) -
+                 0.09375 * b4 * ((4.375 * c2 - 3.75) * c2 + 0.375), 0.0);
 }
 
+// S. Hill's fit, and the bands below its range.
+float nook_probe_unit_irradiance_fitted(float sharpness, float cosine) {
+  if (sharpness < 3.0) return nook_probe_unit_irradiance_bands(sharpness, cosine);
+  float e1 = exp(-sharpness), e2 = e1 * e1, inverse = 1.0 / sharpness;
+  float rest = inverse - 2.0 * e2;
+  float bias = (e1 - e2) * inverse - e2;
+  float x = sqrt(rest);
+  float x0 = 0.36 * cosine, x1 = x / (4.0 * 0.36), s = x0 + x1;
+  float y = abs(x0) <= x1 ? s * s / x : clamp(cosine, 0.0, 1.0);
+  return max((1.0 - rest) * y + bias, 0.0);
+}
+
+vec3 nook_probe_lobe_irradiance_fitted(NookLobe lobe, vec3 n) {
+  return lobe.amplitude * (nook_probe_lobe_integral(lobe.sharpness) *
+                           nook_probe_unit_irradiance_fitted(lobe.sharpness, dot(lobe.axis, n)));
+}
+
+// The better of both.
 vec3 nook_probe_lobe_irradiance(NookLobe lobe, vec3 n) {
-  return lobe.amplitude *
-         (nook_probe_lobe_integral(lobe.sharpness) * nook_probe_unit_irradiance(lobe.sharpness, dot(lobe.axis, n)));
+  float cosine = dot(lobe.axis, n);
+  float unit = lobe.sharpness <= 16.0 ? nook_probe_unit_irradiance_bands(lobe.sharpness, cosine)
+                                      : nook_probe_unit_irradiance_fitted(lobe.sharpness, cosine);
+  return lobe.amplitude * (nook_probe_lobe_integral(lobe.sharpness) * unit);
 }

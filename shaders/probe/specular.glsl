@@ -90,12 +90,16 @@ NookProbeReflection nook_probe_reflection_anisotropic(NookProbeSurface surface) 
 }
 
 vec3 nook_probe_lobe_specular_anisotropic(NookLobe lobe, NookProbeReflection r) {
-  float nu = 0.5 * lobe.sharpness;
-  vec2 s = nu * r.sharpness / (nu + r.sharpness);
   vec2 offset = vec2(dot(lobe.axis, r.x), dot(lobe.axis, r.y));
-  float apart = nook_probe_apart(lobe.axis, r.z);
   float sine2 = dot(offset, offset);
-  float exponent = sine2 > 1e-12 ? dot(s, offset * offset) * 2.0 * apart / sine2 : 2.0 * apart * min(s.x, s.y);
-  float sharpness = 2.0 * sqrt((nu + r.sharpness.x) * (nu + r.sharpness.y));
-  return lobe.amplitude * (r.shading * r.amplitude * nook_probe_lobe_integral(sharpness) * exp(-exponent));
+  // As wide as it is towards the light; straight behind, where every way is as far, the wider one.
+  float towards = sine2 > 1e-12 ? 2.0 * dot(r.sharpness, offset * offset) / sine2
+                                : 2.0 * min(r.sharpness.x, r.sharpness.y);
+  float sum = towards + lobe.sharpness;
+  float cross_term = 2.0 * towards * lobe.sharpness * nook_probe_apart(lobe.axis, r.z);
+  float product = sqrt(max(sum * sum - cross_term, 0.0));
+  vec2 both = lobe.sharpness + 2.0 * r.sharpness;
+  float sharpness = sqrt(both.x * both.y) * product / sum;
+  return lobe.amplitude *
+         (r.shading * r.amplitude * exp(-cross_term / (product + sum)) * nook_probe_lobe_integral(sharpness));
 }

@@ -112,7 +112,7 @@ std::vector<Query> random_queries(std::size_t count) {
   return queries;
 }
 
-enum Answer { radiance, irradiance, inner_product, isotropic, anisotropic, answer_count };
+enum Answer { radiance, bands, fitted, inner_product, isotropic, anisotropic, answer_count };
 
 const char* const vertex_text =
     "#version 330 core\n"
@@ -129,8 +129,10 @@ const char* const fragment_text =
     "  switch (int(gl_FragCoord.y)) {\n"
     "    case 0: a = nook_probe_radiance(place, n); break;\n"
     "    case 1: a = nook_probe_irradiance(place, n); break;\n"
-    "    case 2: a = nook_probe_irradiance_inner_product(place, n); break;\n"
-    "    case 3: a = nook_probe_specular_isotropic(place, s); break;\n"
+    "    case 2: a = nook_probe_irradiance_fitted(place, n); break;\n"
+    "    case 3: a = nook_probe_irradiance_inner_product(place, n); break;\n"
+    "    case 4: s.alpha = vec2(sqrt(s.alpha.x * s.alpha.y));\n"
+    "      a = nook_probe_specular_isotropic(place, s); break;\n"
     "    default: a = nook_probe_specular_anisotropic(place, s); break;\n"
     "  }\n"
     "  answer = vec4(a, 1.0);\n"
@@ -229,10 +231,12 @@ std::vector<float> computed(nook_probe probe, const std::vector<Query>& queries)
     round.alpha_x = round.alpha_y = std::sqrt(q.alpha_x * q.alpha_y);
     const auto at = [&](Answer answer) { return &rgb[3 * (answer * queries.size() + i)]; };
     NOOK_OK_OR_FAIL(nook_probe_lobes_radiance(lobes.data(), count, n, at(radiance), 1));
-    NOOK_OK_OR_FAIL(
-        nook_probe_lobes_irradiance(lobes.data(), count, NOOK_PROBE_IRRADIANCE_FITTED, n, at(irradiance), 1));
-    NOOK_OK_OR_FAIL(nook_probe_lobes_irradiance(lobes.data(), count, NOOK_PROBE_IRRADIANCE_INNER_PRODUCT, n,
-                                                at(inner_product), 1));
+    const std::pair<nook_probe_irradiance_form, Answer> forms[] = {
+        {NOOK_PROBE_IRRADIANCE_BANDS, bands},
+        {NOOK_PROBE_IRRADIANCE_FITTED, fitted},
+        {NOOK_PROBE_IRRADIANCE_INNER_PRODUCT, inner_product}};
+    for (const auto& [form, answer] : forms)
+      NOOK_OK_OR_FAIL(nook_probe_lobes_irradiance(lobes.data(), count, form, n, at(answer), 1));
     NOOK_OK_OR_FAIL(nook_probe_lobes_specular(lobes.data(), count, NOOK_PROBE_SPECULAR_ISOTROPIC, &round,
                                               at(isotropic), 1));
     NOOK_OK_OR_FAIL(nook_probe_lobes_specular(lobes.data(), count, NOOK_PROBE_SPECULAR_ANISOTROPIC, &surface,

@@ -12,6 +12,7 @@
 
 #include "nook_character.h"
 #include "nook_gl.h"
+#include "nook_gl_probe.h"
 #include "nook_material.h"
 #include "nook_nnao.h"
 #include "nook_probe.h"
@@ -343,6 +344,27 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   static nook_gl create(const Context& context, const nook_gl_desc& desc) {
     nook_gl handle = nullptr;
     check(nook_gl_create(context.get(), &desc, &handle));
+    return handle;
+  }
+};
+
+// A probe or a grid in a texture of its own; what nook_gl_probe.h says of the context thread holds.
+class GlProbe : public Unique<nook_gl_probe, nook_gl_probe_destroy> {
+ public:
+  GlProbe(const Gl& gl, nook_probe probe) : Unique(create(gl, probe)) {}
+
+  void update(nook_probe probe) { check(nook_gl_probe_update(get(), probe)); }
+  nook_gl_probe_info info() const {
+    nook_gl_probe_info info{};
+    info.struct_size = sizeof info;
+    check(nook_gl_probe_get_info(get(), &info));
+    return info;
+  }
+
+ private:
+  static nook_gl_probe create(const Gl& gl, nook_probe probe) {
+    nook_gl_probe handle = nullptr;
+    check(nook_gl_probe_create(gl.get(), probe, &handle));
     return handle;
   }
 };

@@ -1,10 +1,12 @@
 // The sample as a user runs it, without a display.
+#include <OpenImageIO/imageio.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "catch.h"
 
@@ -45,11 +47,44 @@ TEST_CASE("a small crowd is drawn, and the more casters count the nearer it is t
   CHECK(mse_of(report, "self") < mse_of(report, "static"));
 }
 
+TEST_CASE("under a light, occlusion of each lobe is nearest to path tracing, AO alone farthest") {
+  const std::filesystem::path out = CROWD_OUT "_light";
+  std::filesystem::remove_all(out);
+  std::filesystem::create_directories(out);
+  // A bright side of the sky over a warm floor.
+  constexpr int width = 32, height = 16;
+  std::vector<float> rgb(3 * width * height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      float* texel = &rgb[3 * (y * width + x)];
+      const bool bright = x >= 12 && x < 20 && y >= 3 && y < 8;
+      texel[0] = y < 8 ? 0.4f : 0.5f;
+      texel[1] = y < 8 ? 0.5f : 0.35f;
+      texel[2] = y < 8 ? 0.7f : 0.2f;
+      for (int c = 0; c < 3 && bright; ++c) texel[c] += 4;
+    }
+  const std::string map = (out / "side.hdr").string();
+  const auto output = OIIO::ImageOutput::create(map);
+  REQUIRE(output);
+  REQUIRE(output->open(map, OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::FLOAT)));
+  REQUIRE(output->write_image(OIIO::TypeDesc::FLOAT, rgb.data()));
+  REQUIRE(output->close());
+  REQUIRE(run("--characters 4 --frames 1 --size 320x240 --no-sheets --light '" + map + "' --out '" +
+              out.string() + "'") == 0);
+  CHECK(std::filesystem::file_size(out / "light_side.png") > 5000);
+  const auto report = nlohmann::json::parse(std::ifstream(out / "report.json"));
+  const double per_lobe = mse_of(report, "per_lobe"), times = mse_of(report, "ao_x_probe");
+  CHECK(per_lobe > 0);
+  CHECK(per_lobe < times);
+  CHECK(times < mse_of(report, "ao_only"));
+}
+
 TEST_CASE("bad arguments end with code 2, a bad character with 3") {
   CHECK(run("--size 3 2> /dev/null") == 2);
   CHECK(run("--tier 40 2> /dev/null") == 2);
   CHECK(run("--screen-space maybe 2> /dev/null") == 2);
   CHECK(run("no_such_file.glb 2> /dev/null") == 2);
+  CHECK(run("--light no_such_file.hdr 2> /dev/null") == 2);
   const std::filesystem::path broken = std::filesystem::temp_directory_path() / "crowd_test_broken.glb";
   std::ofstream(broken) << "not a character";
   CHECK(run(broken.string() + " 2> /dev/null") == 3);
