@@ -236,6 +236,23 @@ TEST_CASE("a cluster with fewer members than its rank has zeros where its core l
   check_objective(fit_k_cta(a, settings), a);
 }
 
+TEST_CASE("tensors of no or one direction, as of a mask that is visible everywhere, are fitted exactly") {
+  for (const float value : {0.0f, 1.0f}) {
+    Tensor a({12, 8, 8});
+    std::fill(a.data.begin(), a.data.end(), value);
+    const ClusteredSettings settings = settings_of(0, {2, 4, 4}, 3, 2, seeds_round(12, 3));
+    ClusteredSettings hard = settings;
+    hard.mixture = 1;
+    for (const ClusteredFit& fit :
+         {fit_k_cta(a, settings), fit_cta(a, hard), as_one_cluster(fit_nsvd(a, {{2, 4, 4}}), 0)}) {
+      CHECK(fit.mixture.coefficients.allFinite());
+      CHECK(squared_distance(reconstruct(fit), a) <= 1e-12 * squared_norm(a));  // floats
+      const Mixture mixture = resample(fit, atom_projections(fit, a), Matrix::Identity(12, 12));
+      CHECK(mixture.coefficients.allFinite());
+    }
+  }
+}
+
 TEST_CASE("an N-SVD is one cluster of all") {
   const Tensor a = waves({4, 12, 8, 8});
   const Nsvd fit = fit_nsvd(a, {{2, 5, 4, 8}});
