@@ -17,12 +17,22 @@ std::vector<std::size_t> fitted_modes(const Dimensions& dimensions, const Altern
   return modes;
 }
 
+void report(const OnNsvd& progress, const NsvdProgress& now) {
+  if (progress && !progress(now))
+    throw Failure(NOOK_ERROR_CANCELLED, "stopped by the progress callback in sweep %d of the N-SVD",
+                  now.sweep);
+}
+
 }  // namespace
 
-std::vector<Matrix> hosvd_bases(const TensorView& a, const std::vector<std::size_t>& ranks) {
+std::vector<Matrix> hosvd_bases(const TensorView& a, const std::vector<std::size_t>& ranks,
+                                const OnNsvd& progress) {
   std::vector<Matrix> bases(a.order());
-  for (std::size_t n = 0; n < a.order(); ++n)
-    if (ranks[n] < a.dimensions[n]) bases[n] = leading_eigenvectors(gram(a, n), ranks[n]);
+  for (std::size_t n = 0; n < a.order(); ++n) {
+    if (ranks[n] == a.dimensions[n]) continue;
+    report(progress, {0, 0, n, 0});
+    bases[n] = leading_eigenvectors(gram(a, n), ranks[n]);
+  }
   return bases;
 }
 
@@ -43,6 +53,7 @@ Nsvd alternate(const TensorView& a, double squared, std::vector<Matrix> bases, c
   for (int sweep = 0; sweep < settings.sweeps || best.objective.empty(); ++sweep) {
     Tensor core;
     for (std::size_t n : modes) {
+      report(progress, {sweep + 1, settings.sweeps, n, best.objective.empty() ? 0 : best.objective.back()});
       // All other modes projected; what is left to choose is the best subspace of this one.
       bases[n] = Matrix();
       const Tensor projected = project(a, bases);
@@ -55,9 +66,6 @@ Nsvd alternate(const TensorView& a, double squared, std::vector<Matrix> bases, c
     best.core = std::move(core);
     best.basis = bases;
     best.objective.push_back(error);
-    if (progress && !progress({sweep + 1, settings.sweeps, error}))
-      throw Failure(NOOK_ERROR_CANCELLED, "stopped by the progress callback in sweep %d of the N-SVD",
-                    sweep + 1);
     if (before - error <= settings.tolerance * before) break;
   }
   return best;

@@ -6,7 +6,8 @@
 namespace nook::bake::tensor {
 
 // U_n of the truncated higher-order SVD for each mode, empty where R_n = I_n or where the mode is kept whole.
-std::vector<Matrix> hosvd_bases(const TensorView& a, const std::vector<std::size_t>& ranks);
+std::vector<Matrix> hosvd_bases(const TensorView& a, const std::vector<std::size_t>& ranks,
+                                const OnNsvd& progress = {});
 
 struct Alternation {
   std::vector<std::size_t> ranks;  // R_n = I_n keeps a mode whole, with an empty basis

@@ -15,6 +15,7 @@ namespace nook::bake::tensor {
 // How the clustering stage looks for the K clusters of a sub-tensor.
 enum class Pursuit : std::uint8_t {
   greedy,      // one after the other, (9) and (13), as Algorithm 1
+  exchange,    // greedy, then single clusters exchanged while that lowers the error
   exhaustive,  // every set of K clusters: exact, and affordable while C choose K is a few thousand
 };
 
@@ -27,9 +28,9 @@ struct ClusteredSettings {
   // The cluster of each mode-m sub-tensor to begin with, none empty: see tensor/seed_clusters.h.
   std::vector<std::uint32_t> seeds;
 
-  int iterations = 40;      // of Algorithm 1, at most
+  int iterations = 40;      // of Algorithm 1, at most; 0: the start, one cluster a sub-tensor
   double tolerance = 1e-4;  // ends when the sum of the cores' norms changes by less than this share
-  int sweeps = 2;           // of the N-SVD of one cluster in an update stage
+  int sweeps = 1;           // of the N-SVD of one cluster in an update stage; more change little
   Pursuit pursuit = Pursuit::greedy;
   // A sub-tensor keeps the clusters that it had where the search found worse ones; false: Algorithm 1 to the
   // letter, which then has to undo iterations more often.

@@ -33,8 +33,7 @@ std::vector<SubTensorMix> search_all(const AtomGram& atoms, const MatrixXd& prod
   std::vector<SubTensorMix> mixes(std::size_t(products.rows()));
   tbb::parallel_for(std::size_t(0), mixes.size(), [&](std::size_t i) {
     const VectorXd own = products.row(Index(i));
-    mixes[i] = settings.pursuit == Pursuit::greedy ? search_greedy(atoms, own, settings.mixture)
-                                                   : search_exhaustive(atoms, own, settings.mixture);
+    mixes[i] = search(settings.pursuit, atoms, own, settings.mixture);
     if (!settings.keep_better_clusters || before.mixture != settings.mixture) return;
     const auto first = before.membership.begin() + std::ptrdiff_t(i * before.mixture);
     SubTensorMix old = project_on(atoms, own, {first, first + std::ptrdiff_t(before.mixture)});

@@ -1,13 +1,9 @@
-#include <cmath>
-#include <utility>
-
 #include "core/failure.h"
 #include "tensor/atoms.h"
-#include "tensor/blocks.h"
-#include "tensor/check.h"
 #include "tensor/empty_clusters.h"
+#include "tensor/iteration.h"
 #include "tensor/mode_product.h"
-#include "tensor/working_fit.h"
+#include "tensor/progress.h"
 
 namespace nook::bake::tensor {
 namespace {
@@ -45,50 +41,34 @@ std::size_t classify(WorkingFit& fit, const TensorView& reduced) {
   return filled;
 }
 
+// Each cluster's N-SVD from its bases; the mixing rows of new members come out of the sweep, which begins
+// with them. Returns the squared error.
+double update(WorkingFit& fit, const TensorView& reduced, const ClusteredSettings& settings,
+              const OnClustered& progress, int iteration, double objective) {
+  double error = 0;
+  for (std::size_t c = 0; c < fit.clusters.size(); ++c) {
+    WorkingCluster& cluster = fit.clusters[c];
+    report(progress, iteration, settings, c, objective);
+    if (cluster.members.empty()) {  // explains nothing
+      cluster.parts.core = Tensor(cluster.parts.core.dimensions);
+      continue;
+    }
+    error += fit_members(cluster, sub_tensors(reduced, fit.mode, cluster.members), settings);
+  }
+  return error;
+}
+
 }  // namespace
 
 ClusteredFit fit_cta(const TensorView& a, const ClusteredSettings& settings, const OnClustered& progress) {
-  check_tensor(a);
-  check_clustered(a.dimensions, settings);
   if (settings.mixture != 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "CTA mixes no clusters (got K = %zu, need 1); use K-CTA",
                   settings.mixture);
-  Reduction reduction = reduce_global_modes(a, settings);
-  WorkingFit fit;
-  std::vector<double> objective{reduction.lost + fit_seeds(fit, reduction.view, settings, progress)};
-  double norms = sum_of_core_norms(fit);
-  bool undone = false;
-  std::size_t splits = 0;
-  for (int iteration = 1; iteration <= settings.iterations; ++iteration) {
-    const WorkingFit before = fit;
-    const std::size_t filled = classify(fit, reduction.view);
-    double now = reduction.lost;
-    for (std::size_t c = 0; c < fit.clusters.size(); ++c) {
-      WorkingCluster& cluster = fit.clusters[c];
-      report(progress, iteration, settings, c, objective.back());
-      if (cluster.members.empty()) {
-        cluster.parts.core = Tensor(cluster.parts.core.dimensions);
-        continue;
-      }
-      const Tensor shrunk = sub_tensors(reduction.view, fit.mode, cluster.members);
-      // The mixing rows of the new members come out of the sweep, which begins with them.
-      now += fit_members(cluster, shrunk, settings);
-    }
-    if (now > objective.back()) {
-      fit = before;
-      undone = true;
-      break;
-    }
-    splits += filled;
-    objective.push_back(now);
-    const double norms_before = std::exchange(norms, sum_of_core_norms(fit));
-    if (std::abs(norms - norms_before) <= settings.tolerance * norms_before) break;
-  }
-  ClusteredFit result = finish(std::move(fit), std::move(reduction), a, settings);
-  result.objective = std::move(objective);
-  result.undone = undone;
-  result.splits = splits;
-  return result;
+  return iterate(a, settings, progress,
+                 [&](WorkingFit& fit, const TensorView& reduced, int iteration, double objective) {
+                   const std::size_t splits = classify(fit, reduced);
+                   return StepResult{update(fit, reduced, settings, progress, iteration, objective), splits};
+                 });
 }
 
 }  // namespace nook::bake::tensor

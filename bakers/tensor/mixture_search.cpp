@@ -84,6 +84,25 @@ SubTensorMix search_greedy(const AtomGram& atoms, const VectorXd& products, std:
   return mix;
 }
 
+SubTensorMix exchange(const AtomGram& atoms, const VectorXd& products, SubTensorMix mix) {
+  const std::size_t count = mix.clusters.size();
+  // Ends after `count` exchanges in a row that gain nothing.
+  for (std::size_t k = 0, idle = 0; idle < count; k = (k + 1) % count) {
+    SubTensorMix best = mix;
+    for (std::uint32_t c = 0; c < atoms.clusters; ++c) {
+      if (std::find(mix.clusters.begin(), mix.clusters.end(), c) != mix.clusters.end()) continue;
+      std::vector<std::uint32_t> clusters = mix.clusters;
+      clusters[k] = c;
+      SubTensorMix other = project_on(atoms, products, std::move(clusters));
+      // More than rounding, or two equal mixes would be exchanged for ever.
+      if (other.explained > best.explained * (1 + 1e-9)) best = std::move(other);
+    }
+    idle = best.clusters == mix.clusters ? idle + 1 : 0;
+    mix = std::move(best);
+  }
+  return mix;
+}
+
 SubTensorMix search_exhaustive(const AtomGram& atoms, const VectorXd& products, std::size_t mixture) {
   // All sets in lexical order; of equals, the first.
   std::vector<std::uint32_t> set(mixture);
@@ -99,6 +118,12 @@ SubTensorMix search_exhaustive(const AtomGram& atoms, const VectorXd& products, 
     SubTensorMix mix = project_on(atoms, products, set);
     if (mix.explained > best.explained) best = std::move(mix);
   }
+}
+
+SubTensorMix search(Pursuit pursuit, const AtomGram& atoms, const VectorXd& products, std::size_t mixture) {
+  if (pursuit == Pursuit::exhaustive) return search_exhaustive(atoms, products, mixture);
+  SubTensorMix mix = search_greedy(atoms, products, mixture);
+  return pursuit == Pursuit::exchange ? exchange(atoms, products, std::move(mix)) : mix;
 }
 
 }  // namespace nook::bake::tensor

@@ -36,6 +36,13 @@ SubTensorMix project_on(const AtomGram& atoms, const Eigen::VectorXd& products,
 std::uint32_t next_cluster(const AtomGram& atoms, const Eigen::VectorXd& products, const SubTensorMix& mix);
 
 SubTensorMix search_greedy(const AtomGram& atoms, const Eigen::VectorXd& products, std::size_t mixture);
+// The mix with single clusters exchanged for others, the best exchange of each in turn, until none lowers the
+// error.
+SubTensorMix exchange(const AtomGram& atoms, const Eigen::VectorXd& products, SubTensorMix mix);
+
 SubTensorMix search_exhaustive(const AtomGram& atoms, const Eigen::VectorXd& products, std::size_t mixture);
+
+SubTensorMix search(Pursuit pursuit, const AtomGram& atoms, const Eigen::VectorXd& products,
+                    std::size_t mixture);
 
 }  // namespace nook::bake::tensor

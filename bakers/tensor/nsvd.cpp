@@ -1,6 +1,5 @@
 #include "tensor/nsvd.h"
 
-#include "core/failure.h"
 #include "tensor/alternation.h"
 #include "tensor/check.h"
 #include "tensor/mode_product.h"
@@ -11,9 +10,10 @@ Nsvd fit_nsvd(const TensorView& a, const NsvdSettings& settings, const OnNsvd& p
   check_tensor(a);
   check_ranks(a.dimensions, settings.ranks);
   check_iterations(settings.iterations, settings.tolerance);
-  std::vector<Matrix> bases = hosvd_bases(a, settings.ranks);
-  if (progress && !progress({0, settings.iterations, 0}))
-    throw Failure(NOOK_ERROR_CANCELLED, "stopped by the progress callback at the start of the N-SVD");
+  OnNsvd of_hosvd;
+  if (progress)
+    of_hosvd = [&](const NsvdProgress& now) { return progress({0, settings.iterations, now.mode, 0}); };
+  std::vector<Matrix> bases = hosvd_bases(a, settings.ranks, of_hosvd);
   return alternate(a, squared_norm(a), std::move(bases),
                    {settings.ranks, 0, settings.iterations, settings.tolerance}, progress);
 }

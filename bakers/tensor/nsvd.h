@@ -22,8 +22,9 @@ struct Nsvd {
 };
 
 struct NsvdProgress {
-  int sweep = 0, sweeps = 0;
-  double objective = 0;  // after the last sweep
+  int sweep = 0, sweeps = 0;  // sweep 0: the HOSVD
+  std::size_t mode = 0;       // whose basis comes next
+  double objective = 0;       // after the last sweep, 0 before
 };
 // Returns false to stop; called from the calling thread.
 using OnNsvd = std::function<bool(const NsvdProgress&)>;

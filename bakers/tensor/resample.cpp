@@ -33,10 +33,14 @@ Matrix atom_projections(const ClusteredFit& fit, const TensorView& a) {
                   "the tensor is not of the size that was fitted (%zu and %zu entries)", a.size(),
                   volume(fit.dimensions));
   const Tensor atoms = atoms_of(fit, dual_bases(fit));
+  // Nothing to reduce: the tensor itself, uncopied.
+  const auto is_empty = [](const Matrix& u) { return u.size() == 0; };
+  if (std::all_of(fit.global_basis.begin(), fit.global_basis.end(), is_empty))
+    return cross_gram(a, atoms, fit.mode).cast<float>();
   return cross_gram(project(a, fit.global_basis), atoms, fit.mode).cast<float>();
 }
 
-Mixture resample(const ClusteredFit& fit, const Matrix& projections, const Matrix& weights) {
+Mixture resample(const ClusteredFit& fit, const Matrix& projections, const Matrix& weights, Pursuit pursuit) {
   const std::vector<DualBasis> dual = dual_bases(fit);
   const AtomGram atoms = atom_gram(atoms_of(fit, dual), fit.mode, fit.clusters.size());
   const Index rank = Index(atoms.rank), all = Index(atoms.clusters) * rank;
@@ -54,7 +58,7 @@ Mixture resample(const ClusteredFit& fit, const Matrix& projections, const Matri
     const Matrix mixed = weights.middleRows(Index(first), Index(last - first)) * projections;
     for (std::size_t i = first; i < last; ++i) {
       const SubTensorMix mix =
-          search_greedy(atoms, mixed.row(Index(i - first)).cast<double>().transpose(), k);
+          search(pursuit, atoms, mixed.row(Index(i - first)).cast<double>().transpose(), k);
       std::copy(mix.clusters.begin(), mix.clusters.end(), mixture.membership.begin() + std::ptrdiff_t(i * k));
       // From coordinates of V_{m,c} to those of the core: U = w (uf(Z) uf(Z)^T)^(-1/2).
       for (Index j = 0; j < Index(k); ++j)

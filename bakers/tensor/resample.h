@@ -14,6 +14,7 @@ Matrix atom_projections(const ClusteredFit& fit, const TensorView& a);
 // nor their number need fit in memory, for inner products mix as sub-tensors do. With weights that
 // interpolate between directions this resamples the mode, and coefficients are then sought for each direction
 // by greedy search and optimal projection. The coefficients belong to the fit's own cores and bases.
-Mixture resample(const ClusteredFit& fit, const Matrix& projections, const Matrix& weights);
+Mixture resample(const ClusteredFit& fit, const Matrix& projections, const Matrix& weights,
+                 Pursuit pursuit = Pursuit::greedy);
 
 }  // namespace nook::bake::tensor

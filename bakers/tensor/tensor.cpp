@@ -34,8 +34,8 @@ void need_same_size(const TensorView& a, const TensorView& b) {
                   a.order(), b.order());
 }
 
-// Calls body(offset of the row in memory, offset of column 0 ..., ) in the seed's order of columns: first the
-// modes behind n, then those before it.
+// Calls body(row, column, entry in memory) for each entry of the unfolding. The seed's order of columns,
+// modes behind n before those ahead of it, the first the slowest, is r * outer + o.
 template <class Body>
 void for_each_unfolded(const ModeLayout& l, const Body& body) {
   for (std::size_t i = 0; i < l.size; ++i)

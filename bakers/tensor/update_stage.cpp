@@ -1,6 +1,7 @@
 #include "tensor/update_stage.h"
 
 #include "tensor/blocks.h"
+#include "tensor/progress.h"
 
 namespace nook::bake::tensor {
 namespace {

@@ -1,24 +1,13 @@
 #include "tensor/working_fit.h"
 
-#include <sys/resource.h>
-
-#include <cmath>
-
-#include "core/failure.h"
 #include "tensor/alternation.h"
 #include "tensor/mode_product.h"
+#include "tensor/progress.h"
 
 namespace nook::bake::tensor {
 namespace {
 
 using Eigen::Index;
-
-// Of the whole process since it began.
-std::size_t peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::size_t(usage.ru_maxrss) * 1024;
-}
 
 // A cluster of fewer members than R_m: zeros in the core's slices and in the columns that go with them.
 void pad_to_rank(WorkingCluster& cluster, std::size_t mode, std::size_t rank) {
@@ -33,28 +22,6 @@ void pad_to_rank(WorkingCluster& cluster, std::size_t mode, std::size_t rank) {
 }
 
 }  // namespace
-
-Reduction reduce_global_modes(const TensorView& a, const ClusteredSettings& settings) {
-  Reduction reduction;
-  std::vector<std::size_t> ranks = a.dimensions;
-  std::size_t reduced_modes = 0;
-  for (std::size_t n : settings.global_modes) {
-    reduced_modes += settings.ranks[n] < a.dimensions[n] && ranks[n] == a.dimensions[n];
-    ranks[n] = settings.ranks[n];
-  }
-  reduction.view = a;
-  reduction.global_basis.resize(a.order());
-  if (reduced_modes == 0) return reduction;
-  const double squared = squared_norm(a);
-  reduction.global_basis = hosvd_bases(a, ranks);
-  // With the others whole, the best basis of a single mode is the HOSVD's.
-  if (reduced_modes > 1)
-    reduction.global_basis = alternate(a, squared, reduction.global_basis, {ranks, 0, 10, 1e-4}).basis;
-  reduction.held = project(a, reduction.global_basis);
-  reduction.view = reduction.held;
-  reduction.lost = std::max(0.0, squared - squared_norm(reduction.held));
-  return reduction;
-}
 
 void list_members(WorkingFit& fit) {
   for (WorkingCluster& cluster : fit.clusters) cluster.members.clear();
@@ -106,41 +73,6 @@ double fit_seeds(WorkingFit& fit, const TensorView& reduced, const ClusteredSett
         fit_members(fit.clusters[c], sub_tensors(reduced, settings.mode, fit.clusters[c].members), settings);
   }
   return error;
-}
-
-void report(const OnClustered& progress, int iteration, const ClusteredSettings& settings,
-            std::size_t cluster, double objective) {
-  if (progress && !progress({iteration, settings.iterations, cluster, objective}))
-    throw Failure(NOOK_ERROR_CANCELLED,
-                  "stopped by the progress callback in iteration %d of the clustered fit", iteration);
-}
-
-double sum_of_core_norms(const WorkingFit& fit) {
-  double sum = 0;
-  for (const WorkingCluster& cluster : fit.clusters) sum += std::sqrt(squared_norm(cluster.parts.core));
-  return sum;
-}
-
-ClusteredFit finish(WorkingFit&& fit, Reduction&& reduction, const TensorView& a,
-                    const ClusteredSettings& settings) {
-  ClusteredFit result;
-  result.mode = fit.mode;
-  result.dimensions = a.dimensions;
-  result.ranks = settings.ranks;
-  result.global_basis = std::move(reduction.global_basis);
-  result.mixture.count = fit.mixture;
-  const Index rank = Index(settings.ranks[fit.mode]);
-  result.mixture.coefficients = Matrix::Zero(Index(a.dimensions[fit.mode]), Index(fit.mixture) * rank);
-  std::vector<Index> next(fit.clusters.size());
-  for (std::size_t e = 0; e < fit.membership.size(); ++e) {
-    const std::uint32_t c = fit.membership[e];
-    result.mixture.coefficients.block(Index(e / fit.mixture), Index(e % fit.mixture) * rank, 1, rank) =
-        fit.clusters[c].mixing.row(next[c]++);
-  }
-  result.mixture.membership = std::move(fit.membership);
-  for (WorkingCluster& cluster : fit.clusters) result.clusters.push_back(std::move(cluster.parts));
-  result.peak_bytes = peak_bytes();
-  return result;
 }
 
 }  // namespace nook::bake::tensor

@@ -137,6 +137,28 @@ TEST_CASE("the exhaustive search finds the best of all sets") {
   CHECK(beats_greedy);
 }
 
+TEST_CASE("exchange ends where no single cluster can be exchanged for a better one") {
+  const Explicit e(16);
+  bool beats_greedy = false;
+  for (Index i = 0; i < e.sub_tensors.rows(); ++i) {
+    const VectorXd products = e.products.row(i);
+    const SubTensorMix greedy = search_greedy(e.atoms, products, 3);
+    const SubTensorMix mix = search(Pursuit::exchange, e.atoms, products, 3);
+    beats_greedy |= mix.explained > greedy.explained * (1 + 1e-3);
+    CHECK(mix.explained >= greedy.explained);
+    CHECK(mix.explained <= search_exhaustive(e.atoms, products, 3).explained * (1 + rounding));
+    const double error = e.least_error(i, mix.clusters);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::uint32_t c = 0; c < Explicit::clusters; ++c) {
+        if (std::count(mix.clusters.begin(), mix.clusters.end(), c)) continue;
+        std::vector<std::uint32_t> other = mix.clusters;
+        other[k] = c;
+        CHECK(e.least_error(i, other) >= error - rounding * e.sub_tensors.row(i).squaredNorm());
+      }
+  }
+  CHECK(beats_greedy);
+}
+
 TEST_CASE("clusters that span the same space share a sub-tensor without blowing up") {
   Explicit e(15);
   e.parts[1] = e.parts[0];

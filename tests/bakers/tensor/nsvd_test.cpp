@@ -108,12 +108,18 @@ TEST_CASE("ranks that do not fit are refused, and progress can stop it") {
                      fit_nsvd(a, {{2, 2, 2}, 3, std::numeric_limits<double>::quiet_NaN()});
                    }),
                    "tolerance"));
+  std::vector<std::pair<int, std::size_t>> seen;
   try {
-    fit_nsvd(a, {{2, 2, 2}}, [](const NsvdProgress& now) { return now.sweep < 1; });
+    fit_nsvd(a, {{2, 5, 2}}, [&](const NsvdProgress& now) {
+      seen.emplace_back(now.sweep, now.mode);
+      CHECK((now.objective > 0) == (now.sweep > 0));
+      return now.sweep < 1;
+    });
     FAIL("was not stopped");
   } catch (const Failure& failure) {
     CHECK(failure.code() == NOOK_ERROR_CANCELLED);
   }
+  CHECK(seen == std::vector<std::pair<int, std::size_t>>{{0, 0}, {0, 2}, {1, 0}});
   a.data[0] = std::numeric_limits<float>::quiet_NaN();
   CHECK(test::says(test::failure_of([&] { fit_nsvd(a, {{2, 2, 2}}); }), "(0, 0, 0)"));
 }

@@ -1,0 +1,17 @@
+// Telling a clustered fit's caller where it stands.
+#pragma once
+
+#include "core/failure.h"
+#include "tensor/clustered_fit.h"
+
+namespace nook::bake::tensor {
+
+// Throws CANCELLED where the caller asks to stop.
+inline void report(const OnClustered& progress, int iteration, const ClusteredSettings& settings,
+                   std::size_t cluster, double objective) {
+  if (progress && !progress({iteration, settings.iterations, cluster, objective}))
+    throw Failure(NOOK_ERROR_CANCELLED,
+                  "stopped by the progress callback in iteration %d of the clustered fit", iteration);
+}
+
+}  // namespace nook::bake::tensor
