@@ -17,7 +17,8 @@ void draw_frame(const Stage& stage, const MaterialProgram& program, const View& 
     draw(Pass::whole);
     return;
   }
-  draw(Pass::visible);
+  draw(Pass::depth);
+  draw(Pass::colour);
   draw(Pass::part_visible);
 }
 

@@ -20,7 +20,7 @@ struct Stage {
   float aspect = 1;
 };
 
-// Draws both passes of a frame; without the visibility of the meso-structure where `silhouettes` is false.
+// Draws all passes of a frame; without the visibility of the meso-structure where `silhouettes` is false.
 void draw_frame(const Stage& stage, const MaterialProgram& program, const View& view, bool silhouettes);
 
 struct FrameRequest {

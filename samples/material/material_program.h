@@ -11,10 +11,13 @@
 
 namespace material {
 
-enum class Pass : int {
-  whole = 0,        // every pixel, without the visibility of the meso-structure
-  visible = 1,      // fully visible pixels
-  part_visible = 2  // the others, by alpha
+// Decoding costs many times what the visibility costs, so the depth of the fully visible pixels comes first,
+// and each is decoded once.
+enum class Pass {
+  depth,         // of fully visible pixels
+  colour,        // where that depth is
+  part_visible,  // the other pixels, blended by alpha
+  whole          // colour and depth of every pixel, without the visibility of the meso-structure
 };
 
 class MaterialProgram {
@@ -24,15 +27,13 @@ class MaterialProgram {
   MaterialProgram(const MaterialProgram&) = delete;
   MaterialProgram& operator=(const MaterialProgram&) = delete;
 
-  // Binds the program and the textures, and sets what a pass needs of OpenGL's state.
+  // Binds the pass's program and the textures, and sets what a pass needs of OpenGL's state.
   void begin(const View& view, Pass pass) const;
 
  private:
-  GLint uniform(const char* name) const { return gl_.GetUniformLocation(program_, name); }
-
   const GladGLContext& gl_;
   std::vector<nook_gl_material_texture> textures_;
-  GLuint program_ = 0;
+  GLuint programs_[3] = {};  // of the first three passes
 };
 
 }  // namespace material

@@ -49,6 +49,7 @@ void PictureTarget::begin() const {
   gl.Viewport(0, 0, width_px_, height_px_);
   gl.Enable(GL_FRAMEBUFFER_SRGB);
   gl.Enable(GL_MULTISAMPLE);
+  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl.DepthMask(GL_TRUE);
   gl.ClearColor(0.16f, 0.22f, 0.27f, 1);
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

@@ -1,13 +1,22 @@
 // What a host's shader calls. Before it stand the constants, the samplers and the functions
-//   vec4 nook_btf_mode(int layer, vec2 uv, vec2 dx, vec2 dy)
-//   vec4 nook_votf_mode(int layer, vec2 uv, vec2 dx, vec2 dy)
+//   vec4 nook_btf_mode(int layer, vec2 uv, float level)
+//   vec4 nook_votf_mode(int layer, vec2 uv, float level)
 // that sdk/src/gl/material/source.cpp writes for a material's sizes; layers and numbers lie as
 // sdk/src/material/tables.h says. The same as sdk/src/material/evaluate.cpp.
 #include "material/parabolic.glsl"
 
+// The mipmap level of a pixel with the sides dx and dy, found once for all fetches: these then need no
+// derivatives, which is faster and works in branches.
+float nook_mipmap_level(vec2 dx, vec2 dy, vec2 texels) {
+  dx *= texels;
+  dy *= texels;
+  return 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-30));
+}
+
 // The light mode of the point uv seen from the view, filtered over the pixel whose sides are dx and dy.
 void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_FOURS]) {
   ivec2 cell = nook_parabolic_cell(view, NOOK_BTF_SIDE);
+  float level = nook_mipmap_level(dx, dy, NOOK_BTF_TEXELS);
   for (int a = 0; a < NOOK_LIGHT_FOURS; ++a) modes[a] = vec4(0.0);
   uvec4 clusters = uvec4(0u);
   for (int k = 0; k < NOOK_BTF_TERMS; ++k) {
@@ -19,10 +28,10 @@ void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[N
       vec4 coefficients = texelFetch(nook_btf_coefficients, ivec3(cell, k * NOOK_BTF_VIEW_FOURS + b), 0);
       for (int a = 0; a < NOOK_LIGHT_FOURS; ++a) {
         int layer = first + a * 4 * NOOK_BTF_VIEW_FOURS + b;
-        modes[a] += vec4(dot(coefficients, nook_btf_mode(layer, uv, dx, dy)),
-                         dot(coefficients, nook_btf_mode(layer + NOOK_BTF_VIEW_FOURS, uv, dx, dy)),
-                         dot(coefficients, nook_btf_mode(layer + 2 * NOOK_BTF_VIEW_FOURS, uv, dx, dy)),
-                         dot(coefficients, nook_btf_mode(layer + 3 * NOOK_BTF_VIEW_FOURS, uv, dx, dy)));
+        modes[a] += vec4(dot(coefficients, nook_btf_mode(layer, uv, level)),
+                         dot(coefficients, nook_btf_mode(layer + NOOK_BTF_VIEW_FOURS, uv, level)),
+                         dot(coefficients, nook_btf_mode(layer + 2 * NOOK_BTF_VIEW_FOURS, uv, level)),
+                         dot(coefficients, nook_btf_mode(layer + 3 * NOOK_BTF_VIEW_FOURS, uv, level)));
       }
     }
   }
@@ -46,6 +55,7 @@ float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
   return 1.0;
 #else
   ivec2 cell = nook_parabolic_cell(view, NOOK_VOTF_SIDE);
+  float level = nook_mipmap_level(dx, dy, NOOK_VOTF_TEXELS);
   float value = 0.0;
   uvec4 clusters = uvec4(0u);
   for (int k = 0; k < NOOK_VOTF_TERMS; ++k) {
@@ -55,7 +65,7 @@ float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
     int first = int(clusters[k % 4]) * NOOK_VOTF_VIEW_FOURS;
     for (int b = 0; b < NOOK_VOTF_VIEW_FOURS; ++b)
       value += dot(texelFetch(nook_votf_coefficients, ivec3(cell, k * NOOK_VOTF_VIEW_FOURS + b), 0),
-                   nook_votf_mode(first + b, uv, dx, dy));
+                   nook_votf_mode(first + b, uv, level));
   }
   return value;
 #endif

@@ -18,7 +18,6 @@ const char counting_text[] =
     "#version 330 core\n"
     "int fetched = 0;\n"
     "#define texelFetch(s, p, l) (++fetched, texelFetch(s, p, l))\n"
-    "#define textureGrad(s, p, x, y) (++fetched, textureGrad(s, p, x, y))\n"
     "#define textureLod(s, p, l) (++fetched, textureLod(s, p, l))\n";
 
 const char main_text[] =

@@ -26,16 +26,17 @@ void add_tensor(Text& out, const material::TensorTables& t, const char* name, co
   add(out, "#define %s_TERMS %u\n#define %s_VIEW_FOURS %u\n", prefix, t.terms, prefix, t.view_fours);
   add(out, "#define %s_CLUSTERS %u\n#define %s_SIDE %u\n", prefix, t.clusters, prefix, t.side);
   if (t.terms == 0) return;
+  add(out, "#define %s_TEXELS vec2(%u.0, %u.0)\n", prefix, t.width, t.height);
   add(out, "uniform sampler2DArray nook_%s_coefficients;\n", name);
   if (t.clusters > 1) add(out, "uniform usampler2DArray nook_%s_membership;\n", name);
   const std::uint32_t arrays = array_count(t, max_layers);
   for (std::uint32_t i = 0; i < arrays; ++i)
     add(out, "uniform sampler2DArray nook_%s_spatial_%u;\n", name, i);
-  add(out, "vec4 nook_%s_mode(int layer, vec2 uv, vec2 dx, vec2 dy) {\n", name);
+  add(out, "vec4 nook_%s_mode(int layer, vec2 uv, float level) {\n", name);
   for (std::uint32_t i = 0; i < arrays; ++i) {
     const std::uint32_t first = i * max_layers;
     if (i + 1 < arrays) add(out, "  if (layer < %u)\n  ", first + max_layers);
-    add(out, "  return textureGrad(nook_%s_spatial_%u, vec3(uv, float(layer - %u)), dx, dy);\n", name, i,
+    add(out, "  return textureLod(nook_%s_spatial_%u, vec3(uv, float(layer - %u)), level);\n", name, i,
         first);
   }
   out += "}\n";
