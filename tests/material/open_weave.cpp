@@ -11,10 +11,9 @@ namespace nook::material::test {
 namespace {
 
 constexpr float pi = 3.14159265f;
-// In tiles: threads a side, their radius, how far they go up and down, the height of the cloth over its
-// middle.
-constexpr int threads = 4;
-constexpr float radius = 0.085f, wave = 0.06f, top = radius + wave;
+constexpr int threads = 4;  // a side
+// In tiles: how far threads go up and down.
+constexpr float wave = 0.06f;
 
 struct Hit {
   bool found = false;
@@ -27,7 +26,7 @@ struct Distance {
   float value = 1;
   bool warp = false;
 };
-Distance distance_at(Vec3 p) {
+Distance distance_at(Vec3 p, float radius) {
   Distance nearest;
   for (const bool warp : {true, false}) {
     const float across = (warp ? p.x : p.y) * threads, along = (warp ? p.y : p.x) * threads;
@@ -42,26 +41,26 @@ Distance distance_at(Vec3 p) {
 
 Vec3 normal_at(Vec3 p) {
   constexpr float h = 1e-3f;
-  return normalised({distance_at(p + Vec3{h, 0, 0}).value - distance_at(p - Vec3{h, 0, 0}).value,
-                     distance_at(p + Vec3{0, h, 0}).value - distance_at(p - Vec3{0, h, 0}).value,
-                     distance_at(p + Vec3{0, 0, h}).value - distance_at(p - Vec3{0, 0, h}).value});
+  const auto at = [&](Vec3 offset) { return distance_at(p + offset, 0).value; };
+  return normalised(
+      {at({h, 0, 0}) - at({-h, 0, 0}), at({0, h, 0}) - at({0, -h, 0}), at({0, 0, h}) - at({0, 0, -h})});
 }
 
 // Until the ray leaves the cloth's height. Steps are shortened, for a thread's slope makes the distance an
 // overestimate.
-Hit trace(Vec3 from, Vec3 direction) {
+Hit trace(Vec3 from, Vec3 direction, float radius) {
   for (int step = 0; step < 200; ++step) {
-    if (std::abs(from.z) > top + 1e-3f) return {};
-    const Distance d = distance_at(from);
+    if (std::abs(from.z) > radius + wave + 1e-3f) return {};
+    const Distance d = distance_at(from, radius);
     if (d.value < 1e-3f) return {true, from, normal_at(from), d.warp};
     from += direction * std::max(0.6f * d.value, 5e-4f);
   }
   return {};
 }
 
-std::array<float, 3> reflected(const Hit& hit, Vec3 view, Vec3 light) {
+std::array<float, 3> reflected(const Hit& hit, Vec3 view, Vec3 light, float radius) {
   const float cosine = dot(hit.normal, light);
-  if (cosine <= 0 || trace(hit.at + hit.normal * 0.01f, light).found) return {};
+  if (cosine <= 0 || trace(hit.at + hit.normal * 0.01f, light, radius).found) return {};
   const std::array<float, 3> albedo =
       hit.warp ? std::array{0.55f, 0.12f, 0.08f} : std::array{0.75f, 0.62f, 0.36f};
   const float shine = 0.12f * std::pow(std::max(dot(hit.normal, normalised(view + light)), 0.0f), 20.0f);
@@ -90,16 +89,16 @@ std::vector<float> signed_distance(const std::vector<float>& mask, int size) {
 struct ViewImage {
   std::vector<float> radiance, mask;
 };
-ViewImage look(Vec3 view, const std::pmr::vector<Vec3>& lights, std::uint32_t size) {
+ViewImage look(Vec3 view, const std::pmr::vector<Vec3>& lights, std::uint32_t size, float radius) {
   const std::size_t texels = std::size_t(size) * size;
   ViewImage image{std::vector<float>(3 * lights.size() * texels), std::vector<float>(texels)};
   for (std::size_t t = 0; t < texels; ++t) {
     const float u = (float(t % size) + 0.5f) / float(size), v = (float(t / size) + 0.5f) / float(size);
     // The texel lies on the plane in the middle; the ray begins above it.
-    const Hit hit = trace(Vec3{u, v, 0} + view * (top / view.z), -view);
+    const Hit hit = trace(Vec3{u, v, 0} + view * ((radius + wave) / view.z), -view, radius);
     image.mask[t] = hit.found;
     for (std::size_t l = 0; hit.found && l < lights.size(); ++l) {
-      const std::array<float, 3> colour = reflected(hit, view, lights[l]);
+      const std::array<float, 3> colour = reflected(hit, view, lights[l], radius);
       for (std::size_t c = 0; c < 3; ++c) image.radiance[(3 * l + c) * texels + t] = colour[c];
     }
   }
@@ -145,7 +144,7 @@ Material open_weave(const WeaveSize& size) {
   material.votf.shape.rank_light = 1;
   material.votf.cores.resize(std::size_t(size.views) * texels);
   for (std::uint32_t v = 0; v < size.views; ++v) {
-    const ViewImage image = look(material.views[v], material.lights, size.texels);
+    const ViewImage image = look(material.views[v], material.lights, size.texels, size.radius);
     const std::vector<float> value = size.visibility == VisibilityForm::distance
                                          ? signed_distance(image.mask, int(size.texels))
                                          : image.mask;
