@@ -92,11 +92,16 @@ NookProbeReflection nook_probe_reflection_anisotropic(NookProbeSurface surface) 
 vec3 nook_probe_lobe_specular_anisotropic(NookLobe lobe, NookProbeReflection r) {
   vec2 offset = vec2(dot(lobe.axis, r.x), dot(lobe.axis, r.y));
   float sine2 = dot(offset, offset);
-  // As wide as it is towards the light; straight behind, where every way is as far, the wider one.
-  float towards = sine2 > 1e-12 ? 2.0 * dot(r.sharpness, offset * offset) / sine2
-                                : 2.0 * min(r.sharpness.x, r.sharpness.y);
+  float apart = nook_probe_apart(lobe.axis, r.z);
+  // As wide as it is towards the light. Straight behind every way is as far and the wider one counts, ever
+  // more so from the horizon on.
+  float behind = max(apart - 1.0, 0.0), turned = behind * behind;
+  float wider = min(r.sharpness.x, r.sharpness.y);
+  float towards = sine2 + turned > 1e-12
+                      ? 2.0 * (dot(r.sharpness, offset * offset) + wider * turned) / (sine2 + turned)
+                      : 2.0 * wider;
   float sum = towards + lobe.sharpness;
-  float cross_term = 2.0 * towards * lobe.sharpness * nook_probe_apart(lobe.axis, r.z);
+  float cross_term = 2.0 * towards * lobe.sharpness * apart;
   float product = sqrt(max(sum * sum - cross_term, 0.0));
   vec2 both = lobe.sharpness + 2.0 * r.sharpness;
   float sharpness = sqrt(both.x * both.y) * product / sum;

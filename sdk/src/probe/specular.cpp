@@ -83,9 +83,14 @@ AnisotropicGaussian warped_anisotropic_lobe(const Surface& surface) {
 float product_integral(const AnisotropicGaussian& lobe, const SphericalGaussian& light) {
   const float x = dot(light.axis, lobe.x), y = dot(light.axis, lobe.y), sine2 = x * x + y * y;
   const float apart = one_minus_cosine(light.axis, lobe.z);
-  // The lobe as wide as it is towards the light; straight behind, where every way is as far, the wider one.
-  const float towards = sine2 > 1e-12f ? 2 * (lobe.x_sharpness * x * x + lobe.y_sharpness * y * y) / sine2
-                                       : 2 * std::min(lobe.x_sharpness, lobe.y_sharpness);
+  // The lobe as wide as it is towards the light. Straight behind every way is as far and the wider one
+  // counts, ever more so from the horizon on: otherwise a rough surface would show a pinch there.
+  const float behind = std::max(apart - 1, 0.0f), turned = behind * behind;
+  const float wider = std::min(lobe.x_sharpness, lobe.y_sharpness);
+  const float towards =
+      sine2 + turned > 1e-12f
+          ? 2 * (lobe.x_sharpness * x * x + lobe.y_sharpness * y * y + wider * turned) / (sine2 + turned)
+          : 2 * wider;
   const ProductShape<float> shape = gaussian_product_shape(towards, light.sharpness, apart);
   // Its integral shrinks with both widths.
   const float both =
