@@ -52,8 +52,10 @@ struct FitTask {
 tensor::ClusteredFit fit_n_svd(const FitTask& task) {
   tensor::NsvdSettings settings;
   settings.ranks = task.ranks;
+  const std::size_t modes = task.ranks.size();
   const auto progress = [&](const tensor::NsvdProgress& now) {
-    return !task.progress || task.progress(task.stage, std::size_t(now.sweep), std::size_t(now.sweeps));
+    return !task.progress || task.progress(task.stage, std::size_t(now.sweep) * modes + now.mode,
+                                           std::size_t(now.sweeps + 1) * modes);
   };
   return tensor::as_one_cluster(tensor::fit_nsvd(task.values, settings, progress), task.view_mode);
 }

@@ -101,7 +101,7 @@ class Drawing {
 
   std::string line(std::size_t index) const {
     const ChartLine& l = chart_.lines[index];
-    const char* colour = colours[index % std::size(colours)];
+    const char* colour = colours[(l.colour < 0 ? index : std::size_t(l.colour)) % std::size(colours)];
     const char* dash = l.dashed ? " stroke-dasharray=\"6 4\"" : "";
     std::string points, marks;
     for (const auto& [x, y] : l.points) {

@@ -11,6 +11,7 @@ struct ChartLine {
   std::string label;
   std::vector<std::pair<double, double>> points;  // x, y
   bool dashed = false;
+  int colour = -1;  // lines of one number share a colour; -1: the line's place
 };
 
 struct Chart {

@@ -64,8 +64,10 @@ std::vector<Chart> sweep_charts(const Sweep& sweep, const std::string& material)
     const auto of_binary = [](const MethodRow& r) { return r.error_texels_binary; };
     distance.lines.push_back(line_of(s, label_of(s), dashed, of_distance));
     if (s.method == Method::k_cta && s.mixture != 3) continue;
+    const int colour = int(forms.lines.size() / 2);
     forms.lines.push_back(line_of(s, label_of(s) + " (S)", false, of_distance));
     forms.lines.push_back(line_of(s, label_of(s) + " (B)", true, of_binary));
+    for (ChartLine* line : {&forms.lines.back(), &forms.lines.back() - 1}) line->colour = colour;
   }
   return {signal, distance, forms};
 }
