@@ -25,6 +25,21 @@ Image read_pixels(const Context& context, int width, int height, int channels) {
   return image;
 }
 
+FloatImage read_float_image(const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& why) {
+    throw std::runtime_error("read_float_image: " + path.string() + " cannot be read (" + why + ")");
+  };
+  const auto input = OIIO::ImageInput::open(path.string());
+  if (!input) fail(OIIO::geterror());
+  const OIIO::ImageSpec& spec = input->spec();
+  if (!spec.format.is_floating_point()) fail("it holds no floating-point values; use .hdr or .exr");
+  if (spec.nchannels < 3 || spec.depth > 1) fail("it is not a flat image of three channels");
+  FloatImage image{spec.width, spec.height, {}};
+  image.rgb.resize(3 * std::size_t(spec.width) * std::size_t(spec.height));
+  if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, image.rgb.data())) fail(input->geterror());
+  return image;
+}
+
 void write_image(const std::filesystem::path& path, const Image& image) {
   std::filesystem::path partial = path;
   partial.replace_filename(path.stem().string() + ".part" + path.extension().string());

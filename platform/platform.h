@@ -80,6 +80,16 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 };
 
+// Linear RGB, rows from top to bottom.
+struct FloatImage {
+  int width = 0;
+  int height = 0;
+  std::vector<float> rgb;
+};
+
+// Reads an image of floating-point values (.hdr, .exr); its first three channels.
+FloatImage read_float_image(const std::filesystem::path& path);
+
 // Reads the framebuffer that is bound for reading. Waits for the GPU. Pixel-pack state is set and not
 // restored.
 Image read_pixels(const Context& context, int width, int height, int channels = 3);

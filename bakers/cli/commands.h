@@ -10,10 +10,12 @@ namespace nook::cli {
 
 void add_bake_character(CLI::App& bake);
 void add_bake_probe(CLI::App& bake);
+void add_bake_material(CLI::App& bake);
 void add_evaluate_character(CLI::App& evaluate);
 void add_evaluate_casters(CLI::App& evaluate);
 void add_evaluate_nnao(CLI::App& evaluate);
 void add_evaluate_probe(CLI::App& evaluate);
+void add_evaluate_material(CLI::App& evaluate);
 void add_train_nnao(CLI::App& train);
 void add_inspect(CLI::App& tool);
 

@@ -1,59 +1,39 @@
 // nook evaluate nnao: the screen-space pass and its peers against ray tracing, on OpenGL without a display.
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/evaluation.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/nnao/comparison.h"
+#include "cli/nnao/network_picture.h"
 #include "cli/nnao/sheet.h"
 #include "cli/nnao/tuning.h"
+#include "cli/nnao_report.h"
+#include "cli/nnao_scenes.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
-#include "import/static_scene.h"
-#include "nnao/thin_scene.h"
+#include "nnao/network_file.h"
 
 namespace nook::cli {
 namespace {
 
-using namespace bake::nnao;
 using Json = nlohmann::ordered_json;
-
-constexpr float degree = 0.017453293f;  // radians
-
-struct GivenCamera {
-  Vec3 eye, target;
-  float fov = 0;  // vertical, radians
-};
 
 struct Options {
   CommonOptions common;
   TruthSettings truth;
-  std::filesystem::path scene, network, images;
-  std::vector<GivenCamera> cameras;
+  SceneWords scenes;
+  std::filesystem::path network, images, markdown;
+  std::vector<std::string> methods;  // empty: all
   std::uint32_t placed_cameras = 3;
   float max_radius_px = 0;
-  bool thin = false;
   std::string tune;  // a peer's name, or all; empty: no tuning
 };
-
-GivenCamera parse_camera(const std::string& text) {
-  float v[7];
-  int used = 0;
-  const int count =
-      std::sscanf(text.c_str(), "%f,%f,%f,%f,%f,%f,%f%n", v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, &used);
-  bool good = count == 7 && std::size_t(used) == text.size();
-  for (int i = 0; good && i < 7; ++i) good = std::isfinite(v[i]);
-  const Vec3 eye{v[0], v[1], v[2]}, target{v[3], v[4], v[5]};
-  if (!good || !(v[6] >= 1 && v[6] <= 170) || eye == target)
-    throw ToolError(exit_bad_arguments, "--camera: got " + text +
-                                            ", need ox,oy,oz,tx,ty,tz,fov: seven numbers, the eye apart from "
-                                            "the target, fov 1 to 170 degrees");
-  return {eye, target, v[6] * degree};
-}
 
 void parse_size(const std::string& text, TruthSettings& truth) {
   unsigned width = 0, height = 0;
@@ -65,75 +45,34 @@ void parse_size(const std::string& text, TruthSettings& truth) {
   truth.height = height;
 }
 
-TrainingScene read_scene(const Options& options) {
-  if (options.thin) return make_thin_scene(options.common.seed);
-  bake::StaticScene scene =
-      naming_file(options.scene, [&] { return bake::import_static_scene(options.scene); });
-  return scene_to_look_at({std::move(scene.position), std::move(scene.triangle)});
+// What a picture shows after the scene and the truth.
+struct Shown {
+  const char* suffix;
+  std::vector<std::pair<std::string, int>> methods;
+};
+const Shown sheets[] = {
+    {"", {{"nnao", 64}, {"hbao", 64}, {"gtao_bitmask", 16}, {"ssao+", 16}}},
+    // 60 to 64 fetches a pixel each, with the blur.
+    {"_equal_fetches", {{"nnao", 16}, {"gtao_bitmask", 16}, {"hbao", 16}, {"ssao+", 16}}}};
+
+bool is_shown(const std::string& method, int taps) {
+  for (const Shown& sheet : sheets)
+    for (const auto& [shown_method, shown_taps] : sheet.methods)
+      if (method == shown_method && taps == shown_taps) return true;
+  return false;
 }
 
-std::vector<MeasuredView> trace_views(const Options& options, const std::string& name) {
-  const TrainingScene scene = read_scene(options);
-  const bake::RayScene rays(scene.soup);
-  std::vector<Camera> cameras;
-  const TruthSettings& t = options.truth;
-  for (const GivenCamera& c : options.cameras)
-    cameras.push_back(look_at(c.eye, c.target, 0, c.fov, t.width, t.height));
-  for (std::uint32_t i = 0; options.cameras.empty() && i < options.placed_cameras; ++i) {
-    Random random(bake::mix_bits(t.seed) + i);
-    cameras.push_back(place_camera(rays, scene, random, t.width, t.height));
-  }
-  ProgressBar bar(options.common.quiet);
-  std::vector<MeasuredView> views;
-  for (const Camera& camera : cameras) {
-    bar.show("ray tracing", "views", views.size(), cameras.size());
-    if (interrupted()) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing");
-    views.push_back(measure_view(rays, name, camera, t));
-  }
-  bar.show("ray tracing", "views", views.size(), cameras.size());
-  return views;
-}
-
-// What a sheet shows after the scene and the truth.
-constexpr std::pair<const char*, int> shown[] = {
-    {"nnao", 64}, {"hbao", 64}, {"gtao_bitmask", 16}, {"ssao+", 16}};
-
-void write_sheets(const Options& options, const std::string& name, std::span<const MeasuredView> views,
+void write_sheets(const std::filesystem::path& folder, std::span<const MeasuredView> views,
                   std::span<const KeptImage> images) {
-  std::filesystem::create_directories(options.images);
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    std::vector<std::vector<float>> row;
-    for (const auto& [method, taps] : shown)
-      for (const KeptImage& image : images)
-        if (image.view == v && image.method == method && image.taps == taps) row.push_back(image.ao);
-    platform::write_image(options.images / (name + "_" + std::to_string(v) + ".png"),
-                          make_sheet(views[v], row));
-  }
-}
-
-Json json_rows(const Comparison& comparison, const std::string& scene, const std::string& resolution,
-               const std::string& gpu) {
-  Json rows = Json::array();
-  for (const ComparisonRow& r : comparison.rows) {
-    double reference = r.ms;
-    for (const ComparisonRow& other : comparison.rows)
-      if (other.method == "nnao" && other.taps == 64 && other.blurred == r.blurred) reference = other.ms;
-    rows.push_back({{"method", r.method},
-                    {"taps", r.taps},
-                    {"blurred", r.blurred},
-                    {"scene", scene},
-                    {"resolution", resolution},
-                    {"gpu", gpu},
-                    {"mse", r.mse},
-                    {"rmse", std::sqrt(r.mse)},
-                    {"ssim", r.ssim},
-                    {"r", r.correlation},
-                    {"flicker", r.flicker},
-                    {"fetches", r.fetches},
-                    {"ms", r.ms},
-                    {"ratio_to_nnao", r.ms / reference}});
-  }
-  return rows;
+  for (const Shown& sheet : sheets)
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      std::vector<std::vector<float>> row;
+      for (const auto& [method, taps] : sheet.methods)
+        for (const KeptImage& image : images)
+          if (image.view == v && image.method == method && image.taps == taps) row.push_back(image.ao);
+      platform::write_image(folder / (views[v].scene + "_" + std::to_string(v) + sheet.suffix + ".png"),
+                            make_sheet(views[v], row));
+    }
 }
 
 std::unique_ptr<platform::Context> make_context() {
@@ -142,38 +81,92 @@ std::unique_ptr<platform::Context> make_context() {
   return platform::create_context(request);
 }
 
-Json evaluate(const Options& options) {
-  const std::string name = options.thin ? "thin" : options.scene.stem().string();
+// The embedded network, and that of --network.
+struct Networks {
+  nook::nnao::Network embedded;
+  std::vector<std::byte> file;  // empty: none
+  nook::nnao::Network other;
+};
+
+Networks read_networks(const Options& options) {
+  Networks networks;
+  networks.embedded = nook::nnao::read_network(nook::nnao::default_network_file());
+  if (options.network.empty()) return networks;
+  networks.file = read_file(options.network);
+  networks.other = naming_file(options.network, [&] { return nook::nnao::read_network(networks.file); });
+  return networks;
+}
+
+// In tables.
+std::string other_name(const Networks& networks) {
+  if (networks.file.empty()) return "";
+  return networks.other.form == nook::nnao::NetworkForm::paper ? "nnao_paper" : "nnao_file";
+}
+
+void write_network_pictures(const std::filesystem::path& folder, const std::string& prefix,
+                            const nook::nnao::Network& network, std::span<const MeasuredView> views) {
+  platform::write_image(folder / (prefix + "_filters.png"), filter_picture(network));
+  for (std::size_t v = 0; v < views.size(); ++v)
+    platform::write_image(folder / (views[v].scene + "_" + std::to_string(v) + "_" + prefix + "_units.png"),
+                          unit_picture(network, views[v]));
+}
+
+Comparison compare_views(const Options& options, platform::Context& context, const Networks& networks,
+                         std::span<const MeasuredView> views) {
   ComparisonSettings settings;
-  if (!options.network.empty()) settings.paper_network = read_file(options.network);
+  settings.other_network = networks.file;
+  settings.other_name = other_name(networks);
+  settings.methods = options.methods;
   settings.request.max_radius_px =
       options.max_radius_px > 0 ? options.max_radius_px : 0.5f * float(options.truth.height);
-  const std::vector<MeasuredView> views = trace_views(options, name);
-  const auto context = make_context();
   ProgressBar bar(options.common.quiet);
-  const Comparison comparison = compare(
-      *context, views, settings,
-      [&](const std::string& method, int taps) {
-        for (const auto& [shown_method, shown_taps] : shown)
-          if (method == shown_method && taps == shown_taps) return !options.images.empty();
-        return false;
-      },
+  const std::string label = views.front().scene + ", measuring";
+  return compare(
+      context, views, settings,
+      [&](const std::string& method, int taps) { return !options.images.empty() && is_shown(method, taps); },
       [&](std::size_t done, std::size_t total) {
-        bar.show("measuring", "methods", done, total);
+        bar.show(label, "methods", done, total);
         return !interrupted();
       });
-  if (!options.images.empty()) write_sheets(options, name, views, comparison.images);
-  double noise = 0;
-  for (const MeasuredView& view : views) noise += view.noise / double(views.size());
+}
+
+Json evaluate(const Options& options) {
+  const std::vector<SceneRequest> scenes = parse_scenes(options.scenes);
+  const Networks networks = read_networks(options);
+  std::optional<OutputFile> markdown;
+  if (!options.markdown.empty()) markdown.emplace(options.markdown);
+  const std::string other = other_name(networks);
+  for (const std::string& method : options.methods)
+    if (method.starts_with("nnao_") && method != other)
+      throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: --network gives no " + method);
+  const auto context = make_context();
   const std::string resolution =
       std::to_string(options.truth.width) + "x" + std::to_string(options.truth.height);
-  Json report;
-  report["rows"] = json_rows(comparison, name, resolution, context->renderer());
-  report["views"] = views.size();
-  report["radius"] = options.truth.radius;
-  report["max_radius_px"] = settings.request.max_radius_px;
+  Json report{{"rows", Json::array()}, {"scenes", Json::array()}};
+  Json& rows = report["rows"];
+  for (const SceneRequest& scene : scenes) {
+    const std::vector<MeasuredView> views =
+        trace_views(scene, options.truth, options.placed_cameras, options.common);
+    const Comparison comparison = compare_views(options, *context, networks, views);
+    if (!options.images.empty()) {
+      std::filesystem::create_directories(options.images);
+      write_sheets(options.images, views, comparison.images);
+      write_network_pictures(options.images, "nnao", networks.embedded, views);
+      if (!networks.file.empty()) write_network_pictures(options.images, "other", networks.other, views);
+    }
+    for (const Json& row : nnao_rows(comparison, scene.name, resolution, context->renderer()))
+      rows.push_back(row);
+    double noise = 0;
+    for (const MeasuredView& view : views) noise += view.noise / double(views.size());
+    report["scenes"].push_back({{"scene", scene.name},
+                                {"views", views.size()},
+                                {"radius", scene.radius},
+                                {"noise_floor_mse", noise}});
+  }
+  if (scenes.size() > 1)
+    for (const Json& row : nnao_mean_rows(rows)) rows.push_back(row);
+  if (markdown) markdown->commit(nnao_markdown(rows));
   report["rays"] = options.truth.rays;
-  report["noise_floor_mse"] = noise;
   report["opengl"] = context->version();
   report["seed"] = options.common.seed;
   return report;
@@ -211,8 +204,9 @@ Json tune(const Options& options) {
 }
 
 void run(Options& options) {
-  if (int(!options.scene.empty()) + int(options.thin) + int(!options.tune.empty()) != 1)
-    throw ToolError(exit_bad_arguments, "evaluate nnao: need one of SCENE, --thin and --tune");
+  const bool has_scenes = !options.scenes.files.empty() || options.scenes.thin;
+  if (has_scenes == !options.tune.empty())
+    throw ToolError(exit_bad_arguments, "evaluate nnao: need scenes (files or --thin) or else --tune");
   options.truth.seed = options.common.seed;
   run_evaluation(options.common, [&] { return !options.tune.empty() ? tune(options) : evaluate(options); });
 }
@@ -226,8 +220,9 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
       "tracing");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("scene", o.scene, "a scene in metres, y up, .glb or .gltf");
-  command->add_flag("--thin", o.thin, "a built-in scene of thin things instead");
+  command->add_option("scene", o.scenes.files,
+                      "scenes in metres, y up, .glb or .gltf; of several, the means are told as well");
+  command->add_flag("--thin", o.scenes.thin, "a built-in scene of thin things, called thin");
   std::vector<std::string> peers{"all"};
   for (const Peer peer : all_peers) peers.push_back(peer_name(peer));
   command
@@ -235,19 +230,16 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
                    "tune one peer, or all, on training scenes and print their table instead")
       ->check(CLI::IsMember(peers));
   command
-      ->add_option_function<std::vector<std::string>>(
-          "--camera",
-          [&o](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) o.cameras.push_back(parse_camera(text));
-          },
-          "eye, target and vertical field of view in degrees: ox,oy,oz,tx,ty,tz,fov; any number of times")
+      ->add_option(
+          "--camera", o.scenes.cameras,
+          "eye, target and vertical field of view in degrees: [SCENE:]ox,oy,oz,tx,ty,tz,fov; any number "
+          "of times. SCENE is a file's name without .glb, or thin; without it, of every scene")
       ->type_name("CAMERA");
   command->add_option("--cameras", o.placed_cameras, "how many to place where none is given")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--radius", o.truth.radius, "of the AO, metres")
-      ->check(CLI::Range(1e-3, 1e3))
-      ->capture_default_str();
+  command->add_option("--radius", o.scenes.radii, "of the AO, metres, 0.5 by default: [SCENE:]R")
+      ->type_name("RADIUS");
   command
       ->add_option("--max-radius-px", o.max_radius_px,
                    "where the radius covers more pixels, every method shrinks it; 0: half the height")
@@ -259,8 +251,16 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
   command->add_option("--rays", o.truth.rays, "rays a pixel")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
-  command->add_option("--network", o.network, "a file of `nook train nnao --form paper`, measured as well");
-  command->add_option("--images", o.images, "write a sheet of each view into this folder");
+  std::vector<std::string> methods{"nnao", "nnao_paper", "nnao_file"};
+  methods.insert(methods.end(), peers.begin() + 1, peers.end());
+  command->add_option("--methods", o.methods, "measure these alone, separated by commas; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(methods));
+  command->add_option("--network", o.network,
+                      "a file of `nook train nnao`, such as the paper's form, measured as well");
+  command->add_option("--images", o.images,
+                      "write sheets of each view and pictures of the networks into this folder");
+  command->add_option("--markdown", o.markdown, "write the tables of docs/nnao.md to this file");
   add_common_options(*command, o.common);
   command->callback([options] { run(*options); });
 }

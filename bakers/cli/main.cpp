@@ -24,10 +24,12 @@ int run(int argc, char** argv) {
       tool.add_subcommand("evaluate", "measure .nook files against ray tracing")->require_subcommand(1);
   nook::cli::add_bake_character(*bake);
   nook::cli::add_bake_probe(*bake);
+  nook::cli::add_bake_material(*bake);
   nook::cli::add_evaluate_character(*evaluate);
   nook::cli::add_evaluate_casters(*evaluate);
   nook::cli::add_evaluate_nnao(*evaluate);
   nook::cli::add_evaluate_probe(*evaluate);
+  nook::cli::add_evaluate_material(*evaluate);
   CLI::App* train = tool.add_subcommand("train", "train networks")->require_subcommand(1);
   nook::cli::add_train_nnao(*train);
   nook::cli::add_inspect(tool);

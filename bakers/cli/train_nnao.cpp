@@ -30,6 +30,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   CommonOptions common;
   std::string output;
+  double time_limit_s = 0;  // 0: none
   DatasetSettings data;
   TrainingSettings training;
 
@@ -72,6 +73,7 @@ Network train_with_progress(const Options& options, const Dataset& data, const s
   const std::uint32_t tenth = std::max(1u, options.training.epochs / 10);
   std::string label = "training";
   std::uint32_t labelled = 0;
+  const auto start = std::chrono::steady_clock::now();
   const auto show = [&](const TrainingProgress& now) {
     if (now.validation_mse > 0 && now.epoch / tenth != labelled) {
       labelled = now.epoch / tenth;
@@ -80,7 +82,8 @@ Network train_with_progress(const Options& options, const Dataset& data, const s
       label = text;
     }
     bar.show(label, "steps", now.steps_done, now.steps);
-    return !interrupted();
+    const bool in_time = options.time_limit_s == 0 || seconds_since(start) < options.time_limit_s;
+    return in_time && !interrupted();
   };
   return train(data, options.training, state, show, [&](const TrainingState& s) {
     OutputFile(options.resume()).commit(write_checkpoint(s, recipe));
@@ -185,6 +188,10 @@ void add_train_nnao(CLI::App& train) {
   command->add_option("--rays", o.data.rays, "rays of each point")->check(CLI::Range(1, 65536));
   command->add_option("--epochs", o.training.epochs, "passes over the training points")
       ->check(CLI::Range(1, 100000));
+  command
+      ->add_option("--time-limit", o.time_limit_s,
+                   "stop after so many seconds of training, as Ctrl-C does: the same command goes on")
+      ->check(CLI::PositiveNumber);
   command->add_option("--batch", o.training.batch, "points a step, a multiple of 16")
       ->check(CLI::Range(16, 65536));
   add_common_options(*command, o.common);

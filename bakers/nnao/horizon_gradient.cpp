@@ -20,8 +20,8 @@ typedef int LaneInts __attribute__((vector_size(4 * lane_count)));
 HorizonBatch::HorizonBatch(TapGrid tap_grid)
     : grid(tap_grid),
       tap(lane_array(std::size_t(grid.directions) * grid.steps * tap_inputs)),
-      weight(lane_array(std::size_t(grid.directions) * grid.steps)),
-      direction(lane_array(2 * std::size_t(grid.directions))) {}
+      direction(lane_array(2 * std::size_t(grid.directions))),
+      share(lane_array(grid.directions)) {}
 
 HorizonTrace::HorizonTrace(TapGrid grid)
     : pooled(lane_array(std::size_t(grid.directions) * pooled_inputs)),
@@ -36,24 +36,28 @@ void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNo
   const PixelScale scale = pixel_scale(view.rays, depth);
   const float radius_px = point.radius * std::abs(scale.y);
   facing[lane] = dot(point.normal, viewer);
+  float taps_on_screen = 0;
   for (std::uint32_t d = 0; d < grid.directions; ++d) {
     const float angle = direction_angle(d, grid.directions, noise);
     const float cosine = std::cos(angle), sine = std::sin(angle);
     direction[2 * d][lane] = dot(point.normal, across_viewer(viewer, cosine, sine));
     direction[2 * d + 1][lane] = facing[lane];
+    float on_screen = 0;
     for (std::uint32_t s = 0; s < grid.steps; ++s) {
       const std::size_t t = std::size_t(d) * grid.steps + s;
       const float distance_px = step_distance_px(s, grid.steps, noise, radius_px);
       const TappedTexel texel =
           tapped_texel(view, point.x, point.y, horizon_tap(cosine, sine, distance_px, scale));
-      HorizonTapInput input;
-      const bool surface =
-          horizon_tap_input(view, texel, position, point.normal, viewer, point.radius, input);
-      weight[t][lane] = surface ? input.weight : 0;
-      for (int i = 0; i < tap_inputs; ++i)
-        tap[t * tap_inputs + std::size_t(i)][lane] = surface ? input.value[std::size_t(i)] : 0;
+      const HorizonTapInput input =
+          texel.on_screen ? horizon_tap_input(view, texel, position, point.normal, viewer, point.radius)
+                          : plane_tap_input(direction[2 * d][lane], facing[lane], distance_px / radius_px);
+      for (int i = 0; i < tap_inputs; ++i) tap[t * tap_inputs + std::size_t(i)][lane] = input[std::size_t(i)];
+      on_screen += float(texel.on_screen);
     }
+    share[d][lane] = on_screen;
+    taps_on_screen += on_screen;
   }
+  for (std::uint32_t d = 0; d < grid.directions; ++d) share[d][lane] /= std::max(taps_on_screen, 1.0f);
 }
 
 NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace,
@@ -68,7 +72,7 @@ NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& ba
       Lanes before[units], hidden[units];
       forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], before, hidden);
       for (int u = 0; u < units; ++u) {
-        const Lanes h = hidden[u] * batch.weight[t];
+        const Lanes h = hidden[u];
         const LaneInts here = LaneInts{} + int(s);
         if (s == 0) {
           pooled[u] = h;
@@ -90,7 +94,7 @@ NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& ba
     Lanes out[units];
     forward<pooled_inputs, units>(parameters + direction_layer, pooled, &trace.direction_before[d * units],
                                   out);
-    for (int u = 0; u < units; ++u) trace.joined[u] += out[u] * (1 / float(directions));
+    for (int u = 0; u < units; ++u) trace.joined[u] += out[u] * batch.share[d];
   }
   trace.joined[units] = batch.facing;
   forward<units + 1, units>(parameters + join_layer, trace.joined, trace.join_before, trace.join_output);
@@ -105,13 +109,13 @@ NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& b
                      gradient + out_layer, g_join);
   backward<units + 1, units>(parameters + join_layer, trace.joined, trace.join_before, g_join,
                              gradient + join_layer, g_joined);
-  for (int u = 0; u < units; ++u) g_joined[u] *= 1 / float(directions);
   // The tap layer's gradient is summed here: the loop over taps is where the time goes.
   Lanes g_tap_layer[LayerOrder<tap_inputs, units>::count] = {};
   for (std::uint32_t d = 0; d < directions; ++d) {
-    Lanes g_pooled[pooled_inputs];
+    Lanes g_pooled[pooled_inputs], g_out[units];
+    for (int u = 0; u < units; ++u) g_out[u] = g_joined[u] * batch.share[d];
     backward<pooled_inputs, units>(parameters + direction_layer, &trace.pooled[d * pooled_inputs],
-                                   &trace.direction_before[d * units], g_joined, gradient + direction_layer,
+                                   &trace.direction_before[d * units], g_out, gradient + direction_layer,
                                    g_pooled);
     for (int u = 0; u < units; ++u) g_pooled[units + u] *= 1 / float(steps);
     LaneInts most_step[units];
@@ -124,8 +128,7 @@ NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& b
       forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], before, hidden);
       const LaneInts here = LaneInts{} + int(s);
       for (int u = 0; u < units; ++u)
-        g_hidden[u] = batch.weight[t] *
-                      (most_step[u] == here ? g_pooled[u] + g_pooled[units + u] : g_pooled[units + u]);
+        g_hidden[u] = most_step[u] == here ? g_pooled[u] + g_pooled[units + u] : g_pooled[units + u];
       backward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], before, g_hidden,
                                   g_tap_layer, static_cast<Lanes*>(nullptr));
     }

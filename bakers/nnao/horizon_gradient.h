@@ -20,8 +20,8 @@ struct HorizonBatch {
 
   TapGrid grid;
   LaneArray tap;        // tap_inputs a tap, direction by direction
-  LaneArray weight;     // one a tap, 0 without a surface
   LaneArray direction;  // dot(n, t), dot(n, o) of each direction
+  LaneArray share;      // one a direction: its share of the taps on the screen
   Lanes facing{};       // dot(n, o)
 
   void set(int lane, const View& view, const DataPoint& point, TapNoise noise);

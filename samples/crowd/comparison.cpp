@@ -24,17 +24,6 @@ Values read_all(const CrowdScene& scene, std::span<const std::uint32_t> members)
   return ao;
 }
 
-// Those with a neighbour nearby, spread over the crowd; any characters where there is none.
-std::vector<std::uint32_t> sample_of(const std::vector<Placement>& places, bool& have_neighbours) {
-  std::vector<std::uint32_t> candidates = with_neighbour_within(places, kNear_m);
-  have_neighbours = !candidates.empty();
-  if (candidates.empty()) candidates = nearest_to(places, 0, 0, kSampled);
-  std::vector<std::uint32_t> sample;
-  const std::size_t count = std::min(kSampled, candidates.size());
-  for (std::size_t i = 0; i < count; ++i) sample.push_back(candidates[i * candidates.size() / count]);
-  return sample;
-}
-
 Values differences(const Values& a, const Values& b) {
   Values grey = a;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -55,6 +44,16 @@ std::string screen_space_label(const ScreenSpaceQuality& quality) {
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> sample_of(const std::vector<Placement>& places, bool& have_neighbours) {
+  std::vector<std::uint32_t> candidates = with_neighbour_within(places, kNear_m);
+  have_neighbours = !candidates.empty();
+  if (candidates.empty()) candidates = nearest_to(places, 0, 0, kSampled);
+  std::vector<std::uint32_t> sample;
+  const std::size_t count = std::min(kSampled, candidates.size());
+  for (std::size_t i = 0; i < count; ++i) sample.push_back(candidates[i * candidates.size() / count]);
+  return sample;
+}
 
 void measure_errors(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
                     const ComparisonRequest& request, nlohmann::ordered_json& report) {
@@ -91,7 +90,7 @@ void measure_errors(const Stage& stage, CrowdScene& scene, const std::vector<Bon
 
 void write_comparison_sheet(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
                             const ComparisonRequest& request) {
-  SheetPainter painter(stage, poses, choose_group(stage.places, kSampled));
+  SheetPainter painter(stage, poses, choose_group(stage.places, kSheetMembers));
   const std::vector<std::uint32_t>& members = painter.group().members;
   const Values truth = traced_ao(stage.hero, poses, members, {kPictureRays, request.seed});
   painter.add("no AO", Values{});
@@ -116,7 +115,7 @@ void write_comparison_sheet(const Stage& stage, CrowdScene& scene, const std::ve
 
 void write_double_shadowing_sheet(platform::Context& context, const Stage& stage, CrowdScene& scene,
                                   const std::vector<Bones>& poses, const ComparisonRequest& request) {
-  SheetPainter painter(stage, poses, choose_group(stage.places, kSampled));
+  SheetPainter painter(stage, poses, choose_group(stage.places, kSheetMembers));
   // Without the ground, whose darkening would drown what overlapping spheres do.
   const Values truth =
       traced_ao(stage.hero, poses, painter.group().members, {kPictureRays, request.seed, false});

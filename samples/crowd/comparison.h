@@ -9,6 +9,12 @@
 
 namespace crowd {
 
+inline constexpr std::size_t kSheetMembers = 12;
+
+// The characters of the report: those with a neighbour nearby, spread over the crowd; any where there is
+// none.
+std::vector<std::uint32_t> sample_of(const std::vector<Placement>& places, bool& have_neighbours);
+
 struct ComparisonRequest {
   std::uint32_t neighbours = 4;
   int tier = 0;

@@ -82,6 +82,21 @@ std::vector<float> CrowdScene::read_ao(std::size_t character) const {
   return ao;
 }
 
+std::vector<std::vector<float>> CrowdScene::directional_ao(std::span<const std::uint32_t> characters,
+                                                           std::span<const nook_probe_lobe> lobes) {
+  for (const std::uint32_t c : characters)
+    scene_.set_light(instances_[c], lobes.data(), std::uint32_t(lobes.size()));
+  scene_.set_terms(NOOK_TERM_ALL);
+  scene_.update();
+  std::vector<std::vector<float>> occlusion;
+  const std::uint32_t count = model_.info().file_vertex_count;
+  for (const std::uint32_t c : characters) {
+    scene_.read_directional_ao(instances_[c], occlusion.emplace_back(3 * std::size_t(count)).data(), count);
+    scene_.set_light(instances_[c], nullptr, 0);
+  }
+  return occlusion;
+}
+
 nook_gl_info CrowdScene::gl_info() const {
   nook_gl_info info{};
   info.struct_size = sizeof info;

@@ -31,11 +31,16 @@ class CrowdScene {
   // Waits for the GPU: for reports, not for frames.
   std::vector<float> read_ao(std::size_t character) const;
 
+  // Directional occlusion of some characters under one light, three floats a vertex, evaluated on the CPU.
+  std::vector<std::vector<float>> directional_ao(std::span<const std::uint32_t> characters,
+                                                 std::span<const nook_probe_lobe> lobes);
+
   void link_nearest(std::uint32_t neighbours);
   nook_gl_info gl_info() const;
   nook_gl gl() const { return gl_.get(); }
   nook_scene_stats stats() const { return scene_.stats(); }
   const nook::CharacterModel& model() const { return model_; }
+  const nook::Context& context() const { return context_; }
 
  private:
   nook::Context context_;

@@ -68,7 +68,7 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
     gl.Finish();
     now.scene_update = watch.lap_ms();
     std::vector<DrawnInstance> drawn(poses.size());
-    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {&poses[i], scene.ao(i), albedo_of(i)};
+    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {&poses[i], scene.ao(i), albedo_of(i), {}};
     const Camera camera = orbit(radius_m, float(frame) / float(std::max(request.frames, 24u)));
     if (stage.screen_space) {
       watch.lap_ms();

@@ -10,6 +10,7 @@
 #include "file_bytes.h"
 #include "frames.h"
 #include "layout.h"
+#include "light_comparison.h"
 #include "options.h"
 #include "progress_line.h"
 #ifdef CROWD_HAS_WINDOW_LOOP
@@ -87,6 +88,20 @@ void compare_with_rays(platform::Context& context, const Stage& stage, CrowdScen
   line.show("comparing", "parts", 3, 3);
 }
 
+void compare_lights(const Stage& stage, CrowdScene& scene, const Options& o, nlohmann::ordered_json& report,
+                    ProgressLine& line) {
+  const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
+  scene.set_poses(poses);
+  const LightComparisonRequest request{o.seed, o.out};
+  for (std::size_t i = 0; i < o.lights.size(); ++i) {
+    line.show("lights", "lights", std::uint32_t(i), std::uint32_t(o.lights.size()));
+    const Light light(scene.context(), o.lights[i]);
+    measure_light(stage, scene, poses, light, request, report);
+    write_light_sheet(stage, scene, poses, light, request);
+  }
+  line.show("lights", "lights", std::uint32_t(o.lights.size()), std::uint32_t(o.lights.size()));
+}
+
 // The newest OpenGL that there is, down to 3.3, which is all that the crowd needs.
 std::unique_ptr<platform::Context> create_context(const Options& o) {
   platform::ContextRequest wanted;
@@ -135,6 +150,7 @@ void run(const Options& o) {
   report["screen_space"] = screen_space ? describe(screen_space->quality()) : nlohmann::ordered_json();
   report["rows"] = nlohmann::ordered_json::array();
   if (o.sheets) compare_with_rays(*context, stage, scene, o, character, report, line);
+  if (!o.lights.empty()) compare_lights(stage, scene, o, report, line);
   const std::string text = report.dump(2) + "\n";
   write_file(o.report, text.data(), text.size());
   std::printf("pictures: %s\nreport:   %s\n", std::filesystem::absolute(o.out).c_str(),

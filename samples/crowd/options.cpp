@@ -50,9 +50,15 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--screen-space", screen_space,
                  "on: screen-space AO on the floor, beside the characters' own")
       ->check(CLI::IsMember({"on", "off"}));
+  app.add_option(
+         "--light", o.lights,
+         "probe (.nook) or environment (.hdr, .exr) to compare occlusion of its light under; may repeat")
+      ->check(CLI::ExistingFile)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--seed", o.seed, "of the places, the clips and the rays");
   app.add_option("--cache", o.cache, "folder where baked characters are kept");
-  app.add_flag("!--no-sheets", o.sheets, "draw frames only: no comparison sheets, no ray tracing");
+  app.add_flag("!--no-sheets", o.sheets,
+               "draw frames only: no comparison sheets, no ray tracing but that of --light");
   app.add_flag("--quiet", o.quiet, "no progress");
   try {
     app.parse(argc, argv);

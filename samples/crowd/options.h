@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace crowd {
 
@@ -15,6 +16,7 @@ struct Options {
   int tier = 0;  // 33, 43 or 0 for the best there is
   std::filesystem::path out = "out/crowd", report;
   std::filesystem::path cache;
+  std::vector<std::filesystem::path> lights;  // probes (.nook) or maps of the environment (.hdr, .exr)
   bool screen_space = true, sheets = true, quiet = false;
 };
 

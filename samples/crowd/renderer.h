@@ -24,6 +24,7 @@ struct DrawnInstance {
   const Bones* bones = nullptr;
   AoSource ao;
   glm::vec3 albedo{0.6f};
+  AoSource irradiance;  // three floats a vertex; read by draw_given_light alone
 };
 
 // What the screen-space pass made of the same instances through the same camera; 0: no such pass.
@@ -32,7 +33,7 @@ struct ScreenAo {
   GLuint depth = 0;  // single-sampled, of the viewport's size
 };
 
-// AO of a square of the ground that was made elsewhere, 1 on its rim; 0: none.
+// AO, or light, of a square of the ground that was made elsewhere, AO 1 on its rim; 0: none.
 struct FloorAo {
   GLuint texture = 0;                 // linear filter, clamped to its edge
   glm::vec2 first_m{0}, extent_m{1};  // x and z of the texture's corner, its sides
@@ -46,6 +47,13 @@ struct Look {
   float fog_start_m = 22;
   ScreenAo screen_ao;
   FloorAo floor_ao;
+};
+
+// For surfaces whose irradiance is given.
+struct GivenLight {
+  float exposure = 1;  // of radiance, before the roll-off
+  FloorAo floor;       // irradiance, RGB; 0: no floor is drawn
+  glm::vec3 background{0.62f};
 };
 
 class Renderer {
@@ -62,8 +70,12 @@ class Renderer {
   // round the origin of shadow_centre_ws.
   void draw(std::span<const DrawnInstance> instances, const Camera& camera, const Look& look,
             const glm::vec3& shadow_centre_ws, float shadow_radius_m);
+  // The same with nothing but the instances' irradiance and the floor's.
+  void draw_given_light(std::span<const DrawnInstance> instances, const Camera& camera,
+                        const GivenLight& light);
 
  private:
+  void bind_irradiance(const AoSource& irradiance);
   void upload_bones(std::span<const DrawnInstance> instances);
   void draw_characters(const GpuProgram& program, std::span<const DrawnInstance> instances,
                        const glm::mat4& view);
@@ -73,6 +85,7 @@ class Renderer {
 
   const GladGLContext& gl_;
   GpuProgram character_, ground_, character_surface_, ground_surface_, shadow_;
+  GpuProgram character_given_light_, ground_given_light_;
   GLsizei index_count_;
   std::size_t bone_texels_;
   GLuint arrays_[2] = {};   // character, ground

@@ -8,6 +8,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in uvec4 joints;
 layout(location = 3) in vec4 weights;
 layout(location = 4) in float ao;
+layout(location = 5) in vec3 irradiance;
 uniform samplerBuffer bones;
 uniform int first_bone_texel;
 uniform mat4 clip_from_world;
@@ -16,6 +17,7 @@ out vec3 surface_position_ws;
 out vec3 surface_normal_ws;
 out vec3 surface_albedo;
 out float surface_ao;
+out vec3 surface_irradiance;
 vec4 bone_row(int bone, int row) { return texelFetch(bones, first_bone_texel + 3 * bone + row); }
 void main() {
   vec4 rows[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
@@ -26,6 +28,7 @@ void main() {
   surface_normal_ws = vec3(dot(rows[0].xyz, normal), dot(rows[1].xyz, normal), dot(rows[2].xyz, normal));
   surface_albedo = instance_albedo;
   surface_ao = ao;
+  surface_irradiance = irradiance;
   gl_Position = clip_from_world * vec4(surface_position_ws, 1.0);
 }
 )";
@@ -38,12 +41,14 @@ out vec3 surface_position_ws;
 out vec3 surface_normal_ws;
 out vec3 surface_albedo;
 out float surface_ao;
+out vec3 surface_irradiance;
 void main() {
   vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 2.0 - 1.0;
   surface_position_ws = vec3(corner.x, 0.0, corner.y) * ground_half_size_m;
   surface_normal_ws = vec3(0.0, 1.0, 0.0);
   surface_albedo = instance_albedo;
   surface_ao = 1.0;
+  surface_irradiance = vec3(0.0);
   gl_Position = clip_from_world * vec4(surface_position_ws, 1.0);
 }
 )";
@@ -119,6 +124,31 @@ void main() {
   float distance_m = length(surface_position_ws - eye_ws);
   float fog = 1.0 - exp(-max(distance_m - fog_start_m, 0.0) / (0.7 * fog_start_m));
   colour = vec4(mix(surface_albedo * light, background, fog), 1.0);
+}
+)";
+
+const char* const kGivenLightFragment = R"(#version 330 core
+in vec3 surface_position_ws;
+in vec3 surface_albedo;
+in vec3 surface_irradiance;
+uniform bool use_floor_light;
+uniform sampler2D floor_light;
+uniform vec2 floor_first_m;
+uniform vec2 floor_extent_m;
+uniform float exposure;
+uniform vec3 background;
+out vec4 colour;
+void main() {
+  vec3 irradiance = surface_irradiance;
+  float edge = 0.0;
+  if (use_floor_light) {
+    vec2 uv = (surface_position_ws.xz - floor_first_m) / floor_extent_m;
+    irradiance = texture(floor_light, uv).rgb;
+    // The floor ends where no light is known.
+    edge = smoothstep(0.85, 1.0, 2.0 * length(uv - 0.5));
+  }
+  vec3 seen = 1.0 - exp(-exposure * surface_albedo * irradiance * 0.31830989);
+  colour = vec4(mix(seen, background, edge), 1.0);
 }
 )";
 

@@ -3,7 +3,8 @@
 
 namespace crowd {
 
-// Characters: linear blend skinning with bones in a texture buffer, three texels a bone. ao is Nook's value.
+// Characters: linear blend skinning with bones in a texture buffer, three texels a bone. ao is Nook's value;
+// irradiance is read by kGivenLightFragment alone.
 extern const char* const kCharacterVertex;
 // One big quad on y = 0, made from gl_VertexID.
 extern const char* const kGroundVertex;
@@ -14,6 +15,9 @@ extern const char* const kSurfaceFragment;
 // AO is that of the vertices, where use_screen_ao is set times that of the screen-space pass, and on the
 // ground where use_floor_ao is set times that of a texture laid on it.
 extern const char* const kLitFragment;
+// Irradiance that is given, at vertices or in a texture laid on the ground, and nothing else; linear light to an
+// sRGB target, bright parts rolled off.
+extern const char* const kGivenLightFragment;
 // Depth from the key light; draws characters only.
 extern const char* const kShadowFragment;
 

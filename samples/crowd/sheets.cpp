@@ -66,43 +66,75 @@ FloorPatch floor_under(const Group& group, const std::vector<Placement>& places,
   return {low.x - reach_m, low.y - reach_m, size_m, side};
 }
 
-void SheetPainter::add(const std::string& label, const std::vector<std::vector<float>>& ao,
-                       const FloorPatch& patch, const std::vector<float>& floor_ao) {
+FloorAo SheetPainter::upload(const FloorPatch& patch, const std::vector<float>& values,
+                             std::uint32_t channels) const {
   const GladGLContext& gl = stage_.context.gl();
+  FloorAo floor;
   // Texel centres lie on the patch's points: the texture is wider by half a texel on each side.
   const float texel_m = patch.size_m / float(patch.side - 1);
-  floor_.first_m = glm::vec2(patch.low_x_m, patch.low_z_m) - 0.5f * texel_m;
-  floor_.extent_m = glm::vec2(patch.size_m + texel_m);
-  gl.GenTextures(1, &floor_.texture);
+  floor.first_m = glm::vec2(patch.low_x_m, patch.low_z_m) - 0.5f * texel_m;
+  floor.extent_m = glm::vec2(patch.size_m + texel_m);
+  gl.GenTextures(1, &floor.texture);
   gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_2D, floor_.texture);
+  gl.BindTexture(GL_TEXTURE_2D, floor.texture);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     gl.TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
     gl.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R16F, GLsizei(patch.side), GLsizei(patch.side), 0, GL_RED, GL_FLOAT,
-                floor_ao.data());
+  gl.TexImage2D(GL_TEXTURE_2D, 0, channels == 3 ? GL_RGB32F : GL_R16F, GLsizei(patch.side),
+                GLsizei(patch.side), 0, channels == 3 ? GL_RGB : GL_RED, GL_FLOAT, values.data());
+  return floor;
+}
+
+GLuint SheetPainter::upload(const std::vector<std::vector<float>>& values, std::uint32_t channels,
+                            std::vector<AoSource>& sources) const {
+  const GladGLContext& gl = stage_.context.gl();
+  sources.assign(group_.members.size(), AoSource{});
+  if (values.empty()) return 0;
+  const std::uint32_t stride = channels * std::uint32_t(sizeof(float));
+  GLuint buffer = 0;
+  gl.GenBuffers(1, &buffer);
+  std::vector<float> all;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    sources[i] = {buffer, all.size() * sizeof(float), stride};
+    all.insert(all.end(), values[i].begin(), values[i].end());
+  }
+  gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
+  gl.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(all.size() * sizeof(float)), all.data(), GL_STREAM_DRAW);
+  return buffer;
+}
+
+void SheetPainter::add(const std::string& label, const std::vector<std::vector<float>>& ao,
+                       const FloorPatch& patch, const std::vector<float>& floor_ao) {
+  floor_ = upload(patch, floor_ao, 1);
   add(label, ao);
-  gl.DeleteTextures(1, &floor_.texture);
+  stage_.context.gl().DeleteTextures(1, &floor_.texture);
   floor_ = {};
 }
 
 void SheetPainter::add(const std::string& label, const std::vector<std::vector<float>>& ao) {
-  const GladGLContext& gl = stage_.context.gl();
-  std::vector<float> values;
-  std::vector<AoSource> sources(group_.members.size());
-  GLuint buffer = 0;
-  if (!ao.empty()) {
-    gl.GenBuffers(1, &buffer);
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-      sources[i] = {buffer, values.size() * sizeof(float), sizeof(float)};
-      values.insert(values.end(), ao[i].begin(), ao[i].end());
-    }
-    gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
-    gl.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * sizeof(float)), values.data(), GL_STREAM_DRAW);
-  }
+  std::vector<AoSource> sources;
+  const GLuint buffer = upload(ao, 1, sources);
   add_panel(label, sources, ScreenSpace::kOff);
-  gl.DeleteBuffers(1, &buffer);
+  stage_.context.gl().DeleteBuffers(1, &buffer);
+}
+
+void SheetPainter::add_lit(const std::string& label, const std::vector<std::vector<float>>& irradiance,
+                           const LitFloor& floor) {
+  std::vector<AoSource> sources;
+  const GLuint buffer = upload(irradiance, 3, sources);
+  GivenLight light;
+  light.exposure = floor.exposure;
+  light.floor = upload(floor.patch, floor.irradiance, 3);
+  std::vector<DrawnInstance> drawn;
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    drawn.push_back({&poses_[group_.members[i]], {}, glm::vec3(0.72f), sources[i]});
+  stage_.target.bind();
+  stage_.renderer.draw_given_light(drawn, group_.camera, light);
+  panels_.push_back(stage_.target.read());
+  draw_label(panels_.back(), label);
+  stage_.context.gl().DeleteTextures(1, &light.floor.texture);
+  stage_.context.gl().DeleteBuffers(1, &buffer);
 }
 
 std::vector<AoSource> SheetPainter::sources_of(const CrowdScene& scene) const {
@@ -133,7 +165,7 @@ void SheetPainter::add_panel(const std::string& label, std::span<const AoSource>
   look.floor_ao = floor_;
   std::vector<DrawnInstance> drawn;
   for (std::size_t i = 0; i < sources.size(); ++i)
-    drawn.push_back({&poses_[group_.members[i]], sources[i], glm::vec3(0.72f)});
+    drawn.push_back({&poses_[group_.members[i]], sources[i], glm::vec3(0.72f), {}});
   if (screen_space != ScreenSpace::kOff)
     look.screen_ao = stage_.screen_space->draw(
         stage_.renderer, drawn, group_.camera,

@@ -24,6 +24,13 @@ Group choose_group(const std::vector<Placement>& places, std::size_t count);
 FloorPatch floor_under(const Group& group, const std::vector<Placement>& places, float margin_m,
                        std::uint32_t side);
 
+// A floor whose irradiance is known, three floats a point, and how bright the picture is.
+struct LitFloor {
+  FloorPatch patch;
+  std::vector<float> irradiance;
+  float exposure = 1;
+};
+
 class SheetPainter {
  public:
   SheetPainter(const Stage& stage, const std::vector<Bones>& poses, Group group)
@@ -41,11 +48,18 @@ class SheetPainter {
   // One value a vertex and member, one a point of the floor.
   void add(const std::string& label, const std::vector<std::vector<float>>& ao, const FloorPatch& patch,
            const std::vector<float>& floor_ao);
+  // Irradiance alone: three floats a vertex and member, and the floor's.
+  void add_lit(const std::string& label, const std::vector<std::vector<float>>& irradiance,
+               const LitFloor& floor);
   void write(const std::filesystem::path& path, int columns) const;
 
  private:
   enum class ScreenSpace { kOff, kBesideCharacters, kAlone };
   std::vector<AoSource> sources_of(const CrowdScene& scene) const;
+  // Values of all members in one buffer, which the caller deletes.
+  GLuint upload(const std::vector<std::vector<float>>& values, std::uint32_t channels,
+                std::vector<AoSource>& sources) const;
+  FloorAo upload(const FloorPatch& patch, const std::vector<float>& values, std::uint32_t channels) const;
   void add_panel(const std::string& label, std::span<const AoSource> sources, ScreenSpace screen_space);
 
   FloorAo floor_;

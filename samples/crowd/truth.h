@@ -32,13 +32,25 @@ std::vector<float> traced_floor_ao(const Hero& hero, const std::vector<Bones>& p
                                    std::span<const std::uint32_t> casters, const FloorPatch& patch,
                                    float radius_m, const TraceRequest& request);
 
+// Irradiance of the receivers' vertices and of a patch of the floor, three floats each, from the environment
+// past all bodies near them and the ground, all of them black: what occlusion alone leaves of the light.
+struct TracedLight {
+  std::vector<std::vector<float>> bodies;
+  std::vector<float> floor;
+};
+TracedLight traced_light(const Hero& hero, const std::vector<Bones>& poses,
+                         std::span<const std::uint32_t> receivers, const FloorPatch* patch,
+                         const nook_bake_environment& environment, const TraceRequest& request);
+
 struct Errors {
   double mse = 0;       // mean over vertices
   double mse_area = 0;  // weighted by the area of the posed surface
 };
 
 // Over all receivers; vertices that no triangle uses, copies at seams, are left out.
+// `channels` values a vertex, errors in units of `unit`.
 Errors compare(const Hero& hero, const std::vector<Bones>& poses, std::span<const std::uint32_t> receivers,
-               const std::vector<std::vector<float>>& ao, const std::vector<std::vector<float>>& truth);
+               const std::vector<std::vector<float>>& values, const std::vector<std::vector<float>>& truth,
+               std::uint32_t channels = 1, float unit = 1);
 
 }  // namespace crowd

@@ -139,7 +139,7 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
     scene->update(controls.terms());
     update_ms = std::chrono::duration<double, std::milli>(Clock::now() - before).count();
     std::vector<DrawnInstance> drawn(poses.size());
-    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {&poses[i], scene->ao(i), albedo_of(i)};
+    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {&poses[i], scene->ao(i), albedo_of(i), {}};
     Look look;
     look.ao_strength = controls.ao ? controls.intensity : 0;
     look.key_strength = controls.key;

@@ -8,7 +8,7 @@ static EGLDisplay display = EGL_NO_DISPLAY;
 static EGLContext context = EGL_NO_CONTEXT;
 
 static int fail(const char* what) {
-  fprintf(stderr, "nnao: %s (EGL error 0x%04x)\n", what, (unsigned)eglGetError());
+  fprintf(stderr, "offscreen: %s (EGL error 0x%04x)\n", what, (unsigned)eglGetError());
   return 0;
 }
 
@@ -52,7 +52,7 @@ static GLuint shader(GLenum stage, const char* text) {
   glGetShaderiv(name, GL_COMPILE_STATUS, &compiled);
   if (compiled) return name;
   glGetShaderInfoLog(name, sizeof log, NULL, log);
-  fprintf(stderr, "nnao: a shader does not compile: %s\n", log);
+  fprintf(stderr, "offscreen: a shader does not compile: %s\n", log);
   glDeleteShader(name);
   return 0;
 }

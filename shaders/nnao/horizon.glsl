@@ -34,59 +34,83 @@ nook_units nook_prelu(nook_units x, int bias) {
                     max(x.high, 0.0) * nook_network[bias + 5] + min(x.high, 0.0) * nook_network[bias + 3]);
 }
 
-// The hidden units of one tap, 0 where there is no surface within two radii.
-nook_units nook_tap_units(ivec2 at, vec3 position, vec3 normal, vec3 viewer, float radius) {
-  nook_units none = nook_units(vec4(0.0), vec4(0.0));
-  float depth = nook_surface_depth(at);
-  if (depth == nook_no_surface) return none;
+// Where nothing is, something far beyond any radius; its square is still a float.
+const float nook_sky_depth = 1.0e15;
+
+// What the network reads of a tap on the screen.
+vec3 nook_tap_input(ivec2 at, vec3 position, vec3 normal, vec3 viewer, float radius) {
+  float depth = min(nook_surface_depth(at), nook_sky_depth);
   vec3 v = nook_position(nook_surface_rays, at, depth) - position;
-  float away = length(v), distance_r = away / radius;
-  if (!(distance_r < 2.0) || !(away > 0.0)) return none;
-  nook_units x = nook_bias(nook_tap_bias);
-  nook_add(x, dot(v, normal) / away, nook_tap_layer);
-  nook_add(x, dot(v, viewer) / away, nook_tap_layer + 2);
-  nook_add(x, distance_r, nook_tap_layer + 4);
-  x = nook_prelu(x, nook_tap_bias);
-  float weight = min(2.0 - distance_r, 1.0);
-  return nook_units(x.low * weight, x.high * weight);
+  float away = max(length(v), 1.0e-12);
+  return vec3(dot(v, normal) / away, dot(v, viewer) / away, min(away / radius, 2.0));
 }
 
+// And off the screen, where the pixel's own plane is taken to go on.
+vec3 nook_plane_tap_input(float across, float facing, float distance_r) {
+  float slope = across / max(facing, 0.05), stretch = sqrt(1.0 + slope * slope);
+  return vec3(0.0, -slope / stretch, min(distance_r * stretch, 2.0));
+}
+
+nook_units nook_tap_units(vec3 tap_input) {
+  nook_units x = nook_bias(nook_tap_bias);
+  nook_add(x, tap_input.x, nook_tap_layer);
+  nook_add(x, tap_input.y, nook_tap_layer + 2);
+  nook_add(x, tap_input.z, nook_tap_layer + 4);
+  return nook_prelu(x, nook_tap_bias);
+}
+
+// Weighted by the steps that lie on the screen, whose number on_screen receives.
 nook_units nook_direction_units(ivec2 texel, vec2 direction, vec2 noise, vec3 position, vec3 normal, vec3 viewer,
-                                vec2 scale, vec2 radius) {
+                                vec2 scale, vec2 radius, out float on_screen) {
   nook_units most = nook_units(vec4(-nook_no_surface), vec4(-nook_no_surface));
   nook_units sum = nook_units(vec4(0.0), vec4(0.0));
+  on_screen = 0.0;
+  vec3 along = vec3(direction, 0.0);
+  vec3 across_viewer = normalize(along - dot(along, viewer) * viewer);
+  float across = dot(normal, across_viewer), facing = dot(normal, viewer);
   for (int i = 0; i < NOOK_STEPS; ++i) {
     float distance_px = nook_step_distance(i, NOOK_STEPS, noise, radius.y);
     ivec2 at = nook_tapped_texel(texel, nook_horizon_tap(direction, distance_px, scale));
-    nook_units hidden = nook_tap_units(at, position, normal, viewer, radius.x);
+    vec3 tap_input;
+    if (nook_inside(at, nook_surface_size)) {
+      tap_input = nook_tap_input(at, position, normal, viewer, radius.x);
+      on_screen += 1.0;
+    } else {
+      tap_input = nook_plane_tap_input(across, facing, distance_px / radius.y);
+    }
+    nook_units hidden = nook_tap_units(tap_input);
     most = nook_units(max(most.low, hidden.low), max(most.high, hidden.high));
     sum = nook_units(sum.low + hidden.low, sum.high + hidden.high);
   }
-  vec3 along = vec3(direction, 0.0);
-  vec3 across = normalize(along - dot(along, viewer) * viewer);
   nook_units x = nook_bias(nook_direction_bias);
   nook_add(x, most.low, nook_direction_layer);
   nook_add(x, most.high, nook_direction_layer + 8);
   nook_add(x, sum.low / float(NOOK_STEPS), nook_direction_layer + 16);
   nook_add(x, sum.high / float(NOOK_STEPS), nook_direction_layer + 24);
-  nook_add(x, dot(normal, across), nook_direction_layer + 32);
-  nook_add(x, dot(normal, viewer), nook_direction_layer + 34);
-  return nook_prelu(x, nook_direction_bias);
+  nook_add(x, across, nook_direction_layer + 32);
+  nook_add(x, facing, nook_direction_layer + 34);
+  x = nook_prelu(x, nook_direction_bias);
+  return nook_units(x.low * on_screen, x.high * on_screen);
 }
 
 float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 radius) {
   vec2 noise = nook_tap_noise(texel);
   vec3 viewer = nook_to_viewer(position);
   nook_units sum = nook_units(vec4(0.0), vec4(0.0));
+  float taps_on_screen = 0.0;
   for (int i = 0; i < nook_tap_groups; ++i) {
     float angle = nook_direction_angle(i, nook_tap_groups, noise);
+    float on_screen;
     nook_units x = nook_direction_units(texel, vec2(cos(angle), sin(angle)), noise, position, normal, viewer, scale,
-                                        radius);
+                                        radius, on_screen);
     sum = nook_units(sum.low + x.low, sum.high + x.high);
+    taps_on_screen += on_screen;
   }
+  // A screen of a pixel or two: nothing is known of any occluder.
+  if (taps_on_screen == 0.0) return 1.0;
   nook_units joined = nook_bias(nook_join_bias);
-  nook_add(joined, sum.low / float(nook_tap_groups), nook_join_layer);
-  nook_add(joined, sum.high / float(nook_tap_groups), nook_join_layer + 8);
+  nook_add(joined, sum.low / taps_on_screen, nook_join_layer);
+  nook_add(joined, sum.high / taps_on_screen, nook_join_layer + 8);
   nook_add(joined, dot(normal, viewer), nook_join_layer + 16);
   joined = nook_prelu(joined, nook_join_bias);
   vec4 last = nook_network[nook_out_layer + 2];  // bias, negative slope, positive slope

@@ -17,8 +17,8 @@ float nook_side_error(float linear, float near, float far) {
   return abs(guess - linear);
 }
 
-// The way from a pixel to its neighbour, taken on the side that continues the pixel's own surface, so that no normal leans
-// over an edge.
+// The way from a pixel to its neighbour, each side weighted by how well it continues the pixel's own surface: no normal
+// leans over an edge, and on a sliver one pixel wide, which neither side continues, they balance.
 vec3 nook_slope(ivec2 pixel, ivec2 axis, float depth, vec3 position) {
   float before = nook_screen_depth(pixel - axis), after = nook_screen_depth(pixel + axis);
   float linear = nook_screen_linear(depth);
@@ -29,8 +29,13 @@ vec3 nook_slope(ivec2 pixel, ivec2 axis, float depth, vec3 position) {
   float width = abs(dot(nook_screen_rays.xz, vec2(axis))) * (nook_orthographic ? 1.0 : linear);
   if (min(before_error, after_error) > 8.0 * width)
     return nook_position(nook_screen_rays, pixel + axis, depth) - position;
-  if (before_error < after_error) return position - nook_position(nook_screen_rays, pixel - axis, before);
-  return nook_position(nook_screen_rays, pixel + axis, after) - position;
+  float before_share = min(before_error / width, 1.0e6), after_share = min(after_error / width, 1.0e6);
+  before_share = 1.0 / (before_share * before_share + 1.0e-4);
+  after_share = 1.0 / (after_share * after_share + 1.0e-4);
+  // Where there is no surface, its own depth, so that nothing overflows.
+  vec3 from = nook_position(nook_screen_rays, pixel - axis, before == nook_no_surface ? depth : before);
+  vec3 to = nook_position(nook_screen_rays, pixel + axis, after == nook_no_surface ? depth : after);
+  return (position - from) * before_share + (to - position) * after_share;
 }
 
 vec3 nook_rebuilt_normal(ivec2 pixel, float depth, vec3 position) {

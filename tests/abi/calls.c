@@ -56,6 +56,8 @@ int nook_call_everything(const void* bytes, size_t size) {
   uint32_t first = 9, count = 0;
   float *pose, *ao;
   const float plane[4] = {0, 1, 0, -1}, centre[3] = {0, 2, 0};
+  const nook_probe_lobe lobe = {{0, 1, 0}, 2, {1, 1, 1}, 0};
+  float* colour;
 
   failures = 0;
   EXPECT(nook_version() == NOOK_VERSION);
@@ -96,6 +98,12 @@ int nook_call_everything(const void* bytes, size_t size) {
   EXPECT_OK(nook_scene_set_terms(scene, NOOK_TERM_SELF | NOOK_TERM_LINKS));
   EXPECT_OK(nook_scene_update(scene));
   EXPECT_OK(nook_scene_read_ao(scene, a, ao, info.file_vertex_count, 0));
+  EXPECT_OK(nook_scene_set_light(scene, a, &lobe, 1));
+  EXPECT_OK(nook_scene_update(scene));
+  colour = (float*)malloc(3 * info.file_vertex_count * sizeof(float));
+  EXPECT_OK(nook_scene_read_directional_ao(scene, a, colour, info.file_vertex_count, 0));
+  EXPECT(colour[0] >= 0 && colour[0] <= 1);
+  free(colour);
   memset(&stats, 0, sizeof stats);
   stats.struct_size = sizeof stats;
   EXPECT_OK(nook_scene_get_stats(scene, &stats));

@@ -153,6 +153,23 @@ TEST_CASE("scenes: bad handles and parameters of every call") {
   CHECK(nook_scene_read_ao(scene, stage.first, nullptr, stage.info.file_vertex_count, 0) == invalid);
   CHECK(nook_scene_read_ao(scene, stage.first, stage.ao.data(), 1, 0) == invalid);
   CHECK(nook_scene_read_ao(scene, stage.first, stage.ao.data(), stage.info.file_vertex_count, 3) == invalid);
+
+  nook_probe_lobe lobes[NOOK_PROBE_MAX_FUNCTIONS + 1] = {};
+  for (nook_probe_lobe& lobe : lobes) lobe.axis[1] = 1;
+  std::vector<float> colour(3 * std::size_t(stage.info.file_vertex_count));
+  CHECK(nook_scene_set_light(scene, 99, lobes, 1) == no_handle);
+  CHECK(nook_scene_set_light(scene, stage.first, lobes, NOOK_PROBE_MAX_FUNCTIONS + 1) == invalid);
+  lobes[1].sharpness = -1;
+  CHECK(nook_scene_set_light(scene, stage.first, lobes, 2) == invalid);
+  CHECK(std::string(nook_last_message()).find("lobe 1") != std::string::npos);
+  CHECK(nook_scene_set_light(scene, stage.first, nullptr, 2) == NOOK_OK);
+  CHECK(nook_scene_read_directional_ao(scene, 99, colour.data(), stage.info.file_vertex_count, 0) ==
+        no_handle);
+  CHECK(nook_scene_read_directional_ao(scene, stage.first, nullptr, stage.info.file_vertex_count, 0) ==
+        invalid);
+  CHECK(nook_scene_read_directional_ao(scene, stage.first, colour.data(), 1, 0) == invalid);
+  CHECK(nook_scene_read_directional_ao(scene, stage.first, colour.data(), stage.info.file_vertex_count, 8) ==
+        invalid);
   CHECK(nook_scene_get_stats(scene, nullptr) == invalid);
   CHECK(nook_scene_update(scene) == NOOK_OK);  // still well
 }

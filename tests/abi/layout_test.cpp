@@ -2,6 +2,8 @@
 #include <nook/nook_bake.h>
 #include <nook/nook_character.h>
 #include <nook/nook_gl.h>
+#include <nook/nook_gl_probe.h>
+#include <nook/nook_material.h>
 #include <nook/nook_nnao.h>
 #include <nook/nook_probe.h>
 
@@ -84,6 +86,12 @@ NOOK_AT(nook_gl_ao_view, buffer, 4);
 NOOK_AT(nook_gl_ao_view, offset, 8);
 NOOK_AT(nook_gl_ao_view, stride, 16);
 NOOK_AT(nook_gl_ao_view, count, 20);
+
+NOOK_SIZE(nook_gl_probe_info, 24);
+NOOK_AT(nook_gl_probe_info, struct_size, 0);
+NOOK_AT(nook_gl_probe_info, texture, 4);
+NOOK_AT(nook_gl_probe_info, bytes, 8);
+NOOK_AT(nook_gl_probe_info, glsl, 16);
 
 NOOK_SIZE(nook_bake_primitive, 8);
 NOOK_AT(nook_bake_primitive, first_vertex, 0);
@@ -200,6 +208,61 @@ NOOK_AT(nook_bake_irradiance_desc, threads, 68);
 NOOK_AT(nook_bake_irradiance_desc, seed, 72);
 NOOK_AT(nook_bake_irradiance_desc, max_bounces, 80);
 NOOK_AT(nook_bake_irradiance_desc, origin_offset, 84);
+NOOK_SIZE(nook_material_tensor, 32);
+NOOK_AT(nook_material_tensor, rank_light, 0);
+NOOK_AT(nook_material_tensor, rank_view, 4);
+NOOK_AT(nook_material_tensor, rank_x, 8);
+NOOK_AT(nook_material_tensor, rank_y, 12);
+NOOK_AT(nook_material_tensor, clusters, 16);
+NOOK_AT(nook_material_tensor, mixture, 20);
+NOOK_AT(nook_material_tensor, view_map_side, 24);
+NOOK_AT(nook_material_tensor, terms, 28);
+
+NOOK_SIZE(nook_material_info, 144);
+NOOK_AT(nook_material_info, visibility, 4);
+NOOK_AT(nook_material_info, visibility_threshold, 8);
+NOOK_AT(nook_material_info, visibility_weight, 12);
+NOOK_AT(nook_material_info, light_count, 16);
+NOOK_AT(nook_material_info, view_count, 20);
+NOOK_AT(nook_material_info, width, 24);
+NOOK_AT(nook_material_info, height, 28);
+NOOK_AT(nook_material_info, btf, 32);
+NOOK_AT(nook_material_info, votf, 64);
+NOOK_AT(nook_material_info, decode_fetches, 96);
+NOOK_AT(nook_material_info, decode_multiply_adds, 100);
+NOOK_AT(nook_material_info, light_fetches, 104);
+NOOK_AT(nook_material_info, light_multiply_adds, 108);
+NOOK_AT(nook_material_info, occlusion_fetches, 112);
+NOOK_AT(nook_material_info, occlusion_multiply_adds, 116);
+NOOK_AT(nook_material_info, compressed_bytes, 120);
+NOOK_AT(nook_material_info, view_map_bytes, 128);
+NOOK_AT(nook_material_info, table_bytes, 136);
+
+NOOK_SIZE(nook_material_sample, 36);
+NOOK_AT(nook_material_sample, level, 8);
+NOOK_AT(nook_material_sample, view, 12);
+NOOK_AT(nook_material_sample, light, 24);
+
+NOOK_SIZE(nook_material_value, 20);
+NOOK_AT(nook_material_value, occlusion, 12);
+NOOK_AT(nook_material_value, visibility, 16);
+
+NOOK_SIZE(nook_gl_material_desc, 24);
+NOOK_AT(nook_gl_material_desc, struct_size, 0);
+NOOK_AT(nook_gl_material_desc, header_version, 4);
+NOOK_AT(nook_gl_material_desc, next, 8);
+NOOK_AT(nook_gl_material_desc, max_layers, 16);
+NOOK_AT(nook_gl_material_desc, reserved, 20);
+
+NOOK_SIZE(nook_gl_material_info, 24);
+NOOK_AT(nook_gl_material_info, texture_count, 4);
+NOOK_AT(nook_gl_material_info, texture_bytes, 8);
+NOOK_AT(nook_gl_material_info, glsl, 16);
+
+NOOK_SIZE(nook_gl_material_texture, 24);
+NOOK_AT(nook_gl_material_texture, target, 4);
+NOOK_AT(nook_gl_material_texture, texture, 8);
+NOOK_AT(nook_gl_material_texture, uniform, 16);
 
 NOOK_SIZE(nook_nnao_desc, 64);
 NOOK_AT(nook_nnao_desc, struct_size, 0);

@@ -10,6 +10,7 @@
 #include "catch.h"
 
 std::vector<std::byte> nook_test_model_bytes();
+std::vector<std::byte> nook_test_material_bytes();
 
 TEST_CASE("the C++ wrapper owns, moves and throws") {
   const std::vector<std::byte> bytes = nook_test_model_bytes();
@@ -72,4 +73,34 @@ TEST_CASE("the C++ wrapper fits, saves and evaluates probes") {
   } catch (const nook::Error& error) {
     CHECK(error.result() == NOOK_ERROR_INVALID_ARGUMENT);
   }
+}
+
+TEST_CASE("the C++ wrapper owns a material and decodes it") {
+  const std::vector<std::byte> bytes = nook_test_material_bytes();
+  const nook::Context context;
+  nook::Material made(context, bytes.data(), bytes.size());
+  const nook::Material material = std::move(made);
+  CHECK_FALSE(made);
+  const nook_material_info info = material.info();
+  CHECK(info.visibility == NOOK_MATERIAL_VISIBILITY_DISTANCE);
+  CHECK(info.visibility_threshold == 0.05f);
+  CHECK(info.visibility_weight == 12);
+  CHECK(info.light_count == 5);
+  CHECK(info.view_count == 9);
+  CHECK(info.btf.clusters == 3);
+  CHECK(info.btf.mixture == 2);
+  CHECK(info.votf.rank_light == 1);
+  // Two terms of one group of four view modes and four light modes; their coefficients; their clusters.
+  CHECK(info.decode_fetches == 2 * 4 + 2 + 1);
+  CHECK(info.decode_multiply_adds == 2 * 16);
+  CHECK(info.light_fetches == 3);
+  CHECK(info.light_multiply_adds == 12);
+  CHECK(info.occlusion_fetches == 2 + 2 + 1);
+  CHECK(info.view_map_bytes == 0);
+  CHECK(info.compressed_bytes < bytes.size());
+  const nook_material_sample sample{{0.2f, 0.7f}, 0, {0, 0, 1}, {0, 0, 1}};
+  nook_material_value value{};
+  material.evaluate(&sample, 1, &value);
+  CHECK(value.visibility >= 0);
+  CHECK_THROWS_AS(nook::Material(context, bytes.data(), 10), nook::Error);
 }

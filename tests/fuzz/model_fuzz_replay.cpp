@@ -10,7 +10,7 @@
 
 #include "character/model_file.h"
 #include "model_sample.h"
-#include "mutate.h"
+#include "random_changes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
   for (int run = 0; run < runs; ++run) {
     std::vector<std::byte> file =
         write_character_model(test::sample_model(1 + static_cast<std::uint32_t>(run % 5)));
-    test::mutate(file, numbers);
+    test::change_bytes(file, [&](std::uint32_t count) { return numbers.below(count); });
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
   }
   return 0;

@@ -3,14 +3,14 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "model_sample.h"
-#include "mutate.h"
 #include "probe/probe_file.h"
 #include "probe_sample.h"
+#include "random_changes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -41,10 +41,10 @@ int main(int argc, char** argv) {
   if (argc == 3 && std::string_view(argv[1]) == "--corpus") return write_corpus(argv[2]);
   const int runs = argc > 1 ? std::atoi(argv[1]) : 1000;
   const std::vector<std::vector<std::byte>> files = sound_files();
-  test::Numbers numbers(1);
+  std::mt19937 random(1);
   for (int run = 0; run < runs; ++run) {
     std::vector<std::byte> file = files[static_cast<std::size_t>(run) % files.size()];
-    test::mutate(file, numbers);
+    test::change_bytes(file, [&](std::uint32_t count) { return std::uint32_t(random()) % count; });
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
   }
   return 0;

@@ -1,6 +1,7 @@
-/* Every function of nook_gl.h, called from C in the order a host would; returns the number of failed
+/* Every function of nook_gl.h and nook_gl_probe.h, called from C in the order a host would; returns the number of failed
  * expectations and prints each. The OpenGL context is current; bytes: a character model. */
 #include <nook/nook_gl.h>
+#include <nook/nook_gl_probe.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,6 +24,32 @@ static void read_ao(nook_gl gl, nook_scene scene, nook_instance_id instance, uin
   EXPECT_OK(nook_gl_scene_read_ao(gl, scene, instance, ao, count));
   for (i = 0; i < count; ++i) EXPECT(ao[i] >= 0 && ao[i] <= 1);
   free(ao);
+}
+
+static void upload_probe(nook_context context, nook_gl gl) {
+  const float coefficients[3 * 12] = {1};
+  nook_probe_fit_desc fit_desc;
+  nook_probe_desc probe_desc;
+  nook_probe_fit fit = NULL;
+  nook_probe probe = NULL;
+  nook_gl_probe uploaded = NULL;
+  nook_gl_probe_info info;
+  EXPECT_OK(nook_probe_fit_desc_init(&fit_desc, sizeof fit_desc, NOOK_VERSION));
+  EXPECT_OK(nook_probe_fit_create(context, &fit_desc, &fit));
+  EXPECT_OK(nook_probe_desc_init(&probe_desc, sizeof probe_desc, NOOK_VERSION));
+  probe_desc.functions = fit;
+  probe_desc.coefficients = coefficients;
+  EXPECT_OK(nook_probe_create(context, &probe_desc, &probe));
+  EXPECT_OK(nook_gl_probe_create(gl, probe, &uploaded));
+  EXPECT_OK(nook_gl_probe_update(uploaded, probe));
+  memset(&info, 0, sizeof info);
+  info.struct_size = sizeof info;
+  EXPECT_OK(nook_gl_probe_get_info(uploaded, &info));
+  EXPECT(info.texture != 0 && info.bytes == 16 * (3 + 12 * 2) && strstr(info.glsl, "nook_probe_irradiance"));
+  nook_gl_probe_destroy(&uploaded);
+  EXPECT(!uploaded);
+  nook_probe_destroy(&probe);
+  nook_probe_fit_destroy(&fit);
 }
 
 int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_proc, void* user) {
@@ -62,6 +89,7 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   EXPECT_OK(nook_gl_get_info(gl, &info));
   EXPECT((info.tier == 33 || info.tier == 43) && info.version && info.renderer);
   EXPECT(info.ao_bytes >= view.count * sizeof(float) && info.buffer_bytes > info.ao_bytes);
+  upload_probe(context, gl);
   EXPECT_OK(nook_gl_scene_release(gl, scene));
   EXPECT(nook_gl_scene_ao_buffer(gl, scene, instance, &view) == NOOK_ERROR_INVALID_HANDLE);
   EXPECT_OK(nook_gl_get_info(gl, &info));

@@ -228,6 +228,27 @@ TEST_CASE("nnao: a wire one pixel wide faces the viewer") {
   }
 }
 
+TEST_CASE("nnao: a sliver one pixel wide before a wall does not turn sideways, however near the wall it is") {
+  NOOK_NEED_CONTEXT(context);
+  NnaoFixture fixture(context);
+  for (const Camera& camera : {cameras(16.0f / 9)[0], cameras(16.0f / 9)[6]}) {
+    const Picture wall = look(camera, {plane_through({0, 0, -5}, {0, 0, 1})}, width, height);
+    const float pixel_m = std::abs(wall.rays.x_scale) * (wall.rays.orthographic ? 1.0f : 5.0f);
+    for (const float pixels_away : {0.5f, 1.0f, 2.0f, 4.0f, 7.0f, 9.0f, 30.0f}) {
+      Picture picture = wall;
+      for (int y = 5; y < height - 5; ++y)
+        picture.depth[std::size_t(y) * width + 40] = 5 - pixels_away * pixel_m;
+      const std::vector<float> shown = rebuilt_normals(fixture, camera, picture);
+      float worst = 0;
+      for (int y = 7; y < height - 7; ++y)
+        worst = std::max(worst, degrees_off(shown, picture, std::size_t(y) * width + 40));
+      INFO(camera.name << ", " << pixels_away << " pixels before the wall: " << worst << " degrees");
+      // Both sides balance; depth is kept in 32-bit floats.
+      CHECK(worst < 1);
+    }
+  }
+}
+
 TEST_CASE("nnao: half resolution is near full resolution") {
   NOOK_NEED_CONTEXT(context);
   NnaoFixture fixture(context);

@@ -8,7 +8,7 @@ namespace nook::test {
 
 struct Poison::Objects {
   GLuint buffers[4] = {};
-  GLuint texture = 0, other_texture = 0, texture_2d = 0, sampler = 0, framebuffer = 0, renderbuffer = 0,
+  GLuint texture = 0, other_texture = 0, texture_2d = 0, texture_array = 0, sampler = 0, framebuffer = 0, renderbuffer = 0,
          vertex_array = 0, program = 0;
   GLuint feedback = 0;
 };
@@ -63,6 +63,12 @@ struct Readers {
   Values texture_2d() const { return of_units(GL_TEXTURE_BINDING_2D); }
   Values samplers() const { return of_units(GL_SAMPLER_BINDING); }
   Values filter_texture() const { return of_unit(gl::filter_unit, GL_TEXTURE_BINDING_BUFFER); }
+  Values texture_2d_array() const { return of_unit(0, GL_TEXTURE_BINDING_2D_ARRAY); }
+  Values pixel_store() const {
+    Values values;
+    for (const GLenum name : gl::pixel_store_names) values.push_back(integers(gl, name)[0]);
+    return values;
+  }
   Values pixel_unpack_buffer() const { return integers(gl, GL_PIXEL_UNPACK_BUFFER_BINDING); }
   Values viewport() const { return integers(gl, GL_VIEWPORT, 4); }
   Values blend() const {
@@ -156,8 +162,6 @@ Poison::Poison(platform::Context& context, unsigned users)
   gl.BindBuffer(GL_COPY_READ_BUFFER, o.buffers[1]);
   gl.BindBuffer(GL_COPY_WRITE_BUFFER, o.buffers[2]);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, o.buffers[2]);
-  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl.PixelStorei(GL_UNPACK_SKIP_ROWS, 3);
   gl.DepthMask(GL_FALSE);
   gl.StencilMask(5);
   gl.DepthFunc(GL_NEVER);
@@ -183,6 +187,11 @@ Poison::Poison(platform::Context& context, unsigned users)
   gl.ActiveTexture(GL_TEXTURE0 + gl::filter_unit);
   gl.BindTexture(GL_TEXTURE_BUFFER, o.other_texture);
   gl.ActiveTexture(GL_TEXTURE5);
+  gl.GenTextures(1, &o.texture_array);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D_ARRAY, o.texture_array);
+  gl.ActiveTexture(GL_TEXTURE5);
+  for (const GLenum name : gl::pixel_store_names) gl.PixelStorei(name, name == GL_UNPACK_ALIGNMENT ? 8 : 1);
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, o.buffers[0]);
   gl.Viewport(3, 4, 5, 6);
   gl.Enable(GL_BLEND);
@@ -233,8 +242,10 @@ void Poison::reset_touched() {
     gl.ActiveTexture(GL_TEXTURE0 + unit);
     gl.BindTexture(GL_TEXTURE_2D, 0);
     gl.BindTexture(GL_TEXTURE_BUFFER, 0);
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, 0);
     gl.BindSampler(unit, 0);
   }
+  for (const GLenum name : gl::pixel_store_names) gl.PixelStorei(name, name == GL_UNPACK_ALIGNMENT ? 4 : 0);
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   gl.BlendFunc(GL_ONE, GL_ZERO);
@@ -263,8 +274,6 @@ Poison::~Poison() {
   for (const GLenum target : {GL_PIXEL_PACK_BUFFER, GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER})
     gl.BindBuffer(target, 0);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, 0);
-  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  gl.PixelStorei(GL_UNPACK_SKIP_ROWS, 0);
   gl.DepthMask(GL_TRUE);
   gl.StencilMask(~0u);
   gl.DepthFunc(GL_LESS);
@@ -280,6 +289,7 @@ Poison::~Poison() {
   gl.DeleteTextures(1, &o.texture);
   gl.DeleteTextures(1, &o.other_texture);
   gl.DeleteTextures(1, &o.texture_2d);
+  gl.DeleteTextures(1, &o.texture_array);
   gl.DeleteSamplers(1, &o.sampler);
   gl.DeleteFramebuffers(1, &o.framebuffer);
   gl.DeleteRenderbuffers(1, &o.renderbuffer);
@@ -304,6 +314,7 @@ StateValues Poison::defaults() const {
       {"active_texture", {GL_TEXTURE0}},
       {"blend", {GL_FALSE, GL_ONE, GL_ZERO, GL_ONE, GL_ZERO, GL_FUNC_ADD, GL_FUNC_ADD}},
       {"color_mask", {GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE}},
+      {"pixel_store", {0, 0, 0, 0, 0, 0, 0, 4}},
       {"polygon_mode", {GL_FILL}},
       {"dither", {GL_TRUE}}};
   StateValues values = touched();
@@ -351,8 +362,6 @@ StateValues Poison::untouched() const {
   NOOK_INTEGERS(GL_PACK_ALIGNMENT, 1);
   NOOK_INTEGERS(GL_PRIMITIVE_RESTART_INDEX, 1);
   NOOK_INTEGERS(GL_PIXEL_PACK_BUFFER_BINDING, 1);
-  NOOK_INTEGERS(GL_UNPACK_ALIGNMENT, 1);
-  NOOK_INTEGERS(GL_UNPACK_SKIP_ROWS, 1);
   NOOK_INTEGERS(GL_UNIFORM_BUFFER_BINDING, 1);
   NOOK_INTEGERS(GL_COPY_READ_BUFFER, 1);
   NOOK_INTEGERS(GL_COPY_WRITE_BUFFER, 1);

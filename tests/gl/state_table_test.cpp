@@ -14,7 +14,9 @@ std::string names_of(unsigned users) {
   const std::pair<unsigned, const char*> all[] = {{nook::gl::tier_33, "33"},
                                                   {nook::gl::tier_43, "43"},
                                                   {nook::gl::screen, "nnao"},
-                                                  {nook::gl::screen_timers, "nook_nnao_get_timings"}};
+                                                  {nook::gl::screen_timers, "nook_nnao_get_timings"},
+                                                  {nook::gl::materials, "material"},
+                                                  {nook::gl::probes, "probe"}};
   std::string names;
   for (const auto& [user, name] : all)
     if (users & user) names += (names.empty() ? "" : ", ") + std::string(name);
@@ -34,8 +36,11 @@ std::string table() {
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
   out << "\nWho: 33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions, nnao is "
-         "nook_nnao_create and nook_nnao_render.\n"
+         "nook_nnao_create and nook_nnao_render, probe is nook_gl_probe_create and nook_gl_probe_update.\n"
          "Nothing else changes: no parameter of a host's texture or sampler, no pixel-store value, no depth, "
+         "nook_nnao_create and nook_nnao_render, material is nook_gl_material_create.\n"
+         "Nothing else changes: no parameter of a host's texture or sampler, no other pixel-store value, no "
+         "depth, "
          "stencil or scissor "
          "parameter; further viewports (from OpenGL 4.1 on) and draw buffers (from 4.0 on) keep theirs.\n"
          "`NOOK_GL_STATE_PRESERVE` reads these once a call and puts them back; `NOOK_GL_STATE_DEFAULTS` and "

@@ -1,7 +1,8 @@
-// The C++ wrapper of nook_gl.h on a living OpenGL context. This file sees public headers only, as a host
-// does.
+// The C++ wrapper of nook_gl.h and nook_nnao.h on a living OpenGL context. This file sees public headers
+// only, as a host does.
 #include <nook/nook.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <type_traits>
@@ -11,7 +12,9 @@
 #include "test_context.h"
 
 std::vector<std::byte> nook_test_model_bytes();
+std::vector<std::byte> nook_test_material_bytes();
 
+static_assert(std::is_nothrow_move_constructible_v<nook::Nnao> && !std::is_copy_constructible_v<nook::Nnao>);
 static_assert(std::is_nothrow_move_constructible_v<nook::Gl> && !std::is_copy_constructible_v<nook::Gl>);
 
 TEST_CASE("the C++ wrapper evaluates on the GPU what it evaluates on the CPU") {
@@ -64,4 +67,78 @@ TEST_CASE("a wrapper that cannot be made throws") {
     CHECK(error.result() == NOOK_ERROR_INVALID_ARGUMENT);
     CHECK(std::string(error.what()).find("desc.get_proc is NULL") != std::string::npos);
   }
+}
+
+TEST_CASE("the C++ wrapper uploads a material and deletes its textures") {
+  NOOK_NEED_CONTEXT(context);
+  const std::vector<std::byte> bytes = nook_test_material_bytes();
+  const nook::Context host;
+  nook_gl_desc desc = nook::gl_desc();
+  desc.get_proc = platform::Context::loader;
+  desc.get_proc_user = &context;
+  const nook::Gl gl(host, desc);
+  const nook::Material material(host, bytes.data(), bytes.size());
+  nook::GlMaterial uploaded(gl, material);
+  const std::vector<nook_gl_material_texture> textures = uploaded.textures();
+  CHECK(textures.size() == 7);
+  CHECK(textures[0].uniform == std::string("nook_light_map"));
+  CHECK(uploaded.info().texture_bytes == material.info().table_bytes);
+  for (const nook_gl_material_texture& texture : textures) CHECK(context.gl().IsTexture(texture.texture));
+  uploaded = nook::GlMaterial();
+  for (const nook_gl_material_texture& texture : textures) CHECK_FALSE(context.gl().IsTexture(texture.texture));
+}
+
+TEST_CASE("the C++ wrapper draws the screen-space pass") {
+  NOOK_NEED_CONTEXT(context);
+  const GladGLContext& g = context.gl();
+  constexpr int width = 48, height = 32;
+  GLuint depth = 0;
+  g.GenTextures(1, &depth);
+  g.BindTexture(GL_TEXTURE_2D, depth);
+  // A wall three metres away, its lower half 0.3 m nearer.
+  std::vector<float> depths(width * height, 3.0f);
+  std::fill_n(depths.begin(), width * height / 2, 2.7f);
+  g.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, depths.data());
+
+  const nook::Context host;
+  nook_gl_desc gl_desc = nook::gl_desc();
+  gl_desc.get_proc = platform::Context::loader;
+  gl_desc.get_proc_user = &context;
+  const nook::Gl gl(host, gl_desc);
+  nook_nnao_desc desc = nook::nnao_desc();
+  desc.max_width = width;
+  desc.max_height = height;
+  desc.timers = 1;
+  nook::Nnao made(gl, desc);
+  nook::Nnao pass = std::move(made);
+  CHECK_FALSE(made);
+  CHECK(pass.info().texture_bytes == nook::nnao_memory(desc));
+  CHECK(pass.timings().valid == 0);
+
+  nook_nnao_frame_desc frame = nook::nnao_frame_desc();
+  frame.width = width;
+  frame.height = height;
+  frame.depth_texture = depth;
+  frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+  const float projection[16] = {1, 0, 0, 0, 0, 1.5f, 0, 0, 0, 0, -1, -1, 0, 0, -0.2f, 0};
+  std::copy_n(projection, 16, frame.projection);
+  frame.radius = 0.5f;
+  pass.recheck();
+  pass.render(frame);
+  std::vector<unsigned char> ao(width * height);
+  g.BindTexture(GL_TEXTURE_2D, pass.info().texture);
+  g.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  g.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_UNSIGNED_BYTE, ao.data());
+  // Next to the step the wall is darker than away from it.
+  CHECK(ao[17 * width + width / 2] + 20 < ao[28 * width + width / 2]);
+
+  frame.radius = 0;
+  try {
+    pass.render(frame);
+    FAIL("no exception");
+  } catch (const nook::Error& error) {
+    CHECK(error.result() == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(std::string(error.what()).find("nook_nnao_render: ") == 0);
+  }
+  g.DeleteTextures(1, &depth);
 }

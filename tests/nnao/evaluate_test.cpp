@@ -89,7 +89,7 @@ TEST_CASE("positions and scales agree with the projection matrix, off-centre and
   }
 }
 
-TEST_CASE("sky is exactly 1 and gives its neighbours nothing") {
+TEST_CASE("sky is exactly 1, and to its neighbours the same as a surface far away") {
   const Picture open = plane({0, 0, -3}, {0, 0, 1}, true);
   Picture holed = open;
   holed.depth[32 * 96 + 10] = sky;
@@ -101,7 +101,71 @@ TEST_CASE("sky is exactly 1 and gives its neighbours nothing") {
     CHECK(evaluate_pixel(network, holed.view(), sampling, 11, 32) == 1);
     const float far = unclamped(network, holed.view(), sampling, 60, 32, {});
     CHECK(far == unclamped(network, open.view(), sampling, 60, 32, {}));
-    CHECK(std::isfinite(unclamped(network, holed.view(), sampling, 12, 32, {})));
+    // 10 km away is as far as the sky, to float's precision: a ten thousandth of the distances to the taps.
+    Picture deep = holed;
+    deep.depth[32 * 96 + 10] = deep.depth[32 * 96 + 11] = 1e4f;
+    const float near_sky = unclamped(network, holed.view(), sampling, 12, 32, {});
+    CHECK(std::abs(near_sky - unclamped(network, deep.view(), sampling, 12, 32, {})) < 1e-3f);
+    // The paper's form takes neither into account.
+    CHECK((near_sky != unclamped(network, open.view(), sampling, 12, 32, {})) ==
+          (form == NetworkForm::horizon));
+  }
+}
+
+TEST_CASE("what the screen cuts off counts as what is left of it") {
+  // On a plane that faces the viewer all directions are alike, so that those which are left tell everything.
+  const Picture open = plane({0, 0, -3}, {0, 0, 1}, true);
+  Picture sky_below = open;
+  std::fill_n(sky_below.depth.begin(), 32 * 96, sky);
+  const Network network = test::sample_network(NetworkForm::horizon);
+  const Sampling sampling{0.5f, 256, 64};
+  const auto whole = first_units(network, open.view(), sampling, 48, 32);
+  const auto cut = first_units(network, open.view(), sampling, 48, 0);
+  const auto to_sky = first_units(network, sky_below.view(), sampling, 48, 32);
+  double cut_off = 0, sky_off = 0;
+  for (std::size_t u = 0; u < 3; ++u) {
+    cut_off += std::abs(double(cut[u]) - double(whole[u]));
+    sky_off += std::abs(double(to_sky[u]) - double(whole[u]));
+  }
+  // Directions differ by where their taps fall within texels.
+  CHECK(cut_off < 0.1 * sky_off);
+
+  // A screen of one pixel knows no occluder.
+  const std::vector<float> depth{2};
+  const std::vector<Vec3> normal{{0, 0, 1}};
+  CHECK(evaluate_pixel(network, {1, 1, test_rays(1, 1, false), depth, normal}, sampling, 0, 0) == 1);
+}
+
+TEST_CASE("the units shown in pictures are those that the network goes on with") {
+  const Picture picture = plane({0, 0, -3}, normalised({0.2f, 0.6f, 1}), false);
+  const Sampling sampling{0.5f, 256, 64};
+  // A join that takes one unit through to the output and nothing else.
+  for (std::size_t u = 0; u < 3; ++u) {
+    Network network = test::sample_network(NetworkForm::horizon);
+    HorizonNetwork& h = network.horizon;
+    h.join = {};
+    h.out = {};
+    h.join.weights[u * 8] = h.out.weights[0] = 1;
+    h.join.negative_slope.fill(1);
+    h.join.positive_slope.fill(1);
+    h.out.negative_slope.fill(1);
+    h.out.positive_slope.fill(1);
+    CHECK(first_units(network, picture.view(), sampling, 40, 30)[u] ==
+          unclamped(network, picture.view(), sampling, 40, 30, tap_noise(40, 30)));
+    Network paper = test::sample_network(NetworkForm::paper);
+    PaperNetwork& p = paper.paper;
+    for (auto* layer : {&p.layer_1, &p.layer_2}) {
+      *layer = {};
+      layer->weights[u * 4 + u] = 1;
+      layer->negative_slope.fill(1);
+      layer->positive_slope.fill(1);
+    }
+    p.layer_3 = {};
+    p.layer_3.weights[u] = 1;
+    p.layer_3.negative_slope.fill(1);
+    p.layer_3.positive_slope.fill(1);
+    CHECK(first_units(paper, picture.view(), sampling, 40, 30)[u] ==
+          unclamped(paper, picture.view(), sampling, 40, 30, tap_noise(40, 30)));
   }
 }
 
@@ -141,10 +205,10 @@ TEST_CASE("on a plane that faces the viewer each form has a value that a hand co
       const float distance = step_distance_px(s, 8, noise, 8);
       const double x = std::floor(48.5f + distance * std::cos(angle)) - 48;
       const double y = std::floor(32.5f + distance * std::sin(angle)) - 32;
-      const double away = std::hypot(x, y) / 8, weight = std::clamp(2 - away, 0.0, 1.0);
+      const double away = std::min(std::hypot(x, y) / 8, 2.0);
       const auto units = layer(network.horizon.tap, std::vector<double>{0, 0, away});
       for (std::size_t u = 0; u < 8; ++u) {
-        const double h = units[u] * weight;
+        const double h = units[u];
         pooled[u] = s == 0 ? h : std::max(pooled[u], h);
         pooled[8 + u] += h / 8;
       }

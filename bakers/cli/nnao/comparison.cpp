@@ -15,7 +15,7 @@ namespace {
 using bake::nnao::ImageError;
 
 constexpr int network_taps[] = {16, 32, 64, 128, 256};
-constexpr int frames = 2;  // timed, of each view
+constexpr int frames = 1;  // timed, of each view
 
 struct Method {
   std::string name;
@@ -87,7 +87,7 @@ ComparisonRow measure(const GladGLContext& gl, const Method& method, bool blurre
           median(ms)};
 }
 
-void add_network(std::vector<Method>& methods, const char* name,
+void add_network(std::vector<Method>& methods, const std::string& name,
                  std::vector<std::unique_ptr<NetworkPass>>& passes, const NookGl& gl, int width, int height,
                  std::span<const std::byte> network, float sharpness) {
   for (const int taps : network_taps) {
@@ -113,15 +113,19 @@ Comparison compare(platform::Context& context, std::span<const MeasuredView> vie
   std::deque<ViewOnGpu> images;
   for (const MeasuredView& view : views) images.emplace_back(gl, view);
 
+  const auto wanted = [&](const std::string& name) {
+    return settings.methods.empty() || std::ranges::find(settings.methods, name) != settings.methods.end();
+  };
   std::vector<Method> methods;
   std::vector<std::unique_ptr<NetworkPass>> passes;
   const float sharpness = settings.request.blur_sharpness;
-  add_network(methods, "nnao", passes, nook_gl, width, height, {}, sharpness);
-  if (!settings.paper_network.empty())
-    add_network(methods, "nnao_paper", passes, nook_gl, width, height, settings.paper_network, sharpness);
+  if (wanted("nnao")) add_network(methods, "nnao", passes, nook_gl, width, height, {}, sharpness);
+  if (!settings.other_network.empty() && wanted(settings.other_name))
+    add_network(methods, settings.other_name, passes, nook_gl, width, height, settings.other_network,
+                sharpness);
   PeerPass peers(gl, width, height);
-  if (settings.peers)
-    for (const PeerMethod& peer : peer_methods())
+  for (const PeerMethod& peer : peer_methods())
+    if (wanted(peer_name(peer.peer)))
       methods.push_back({peer_name(peer.peer), peer.taps,
                          [&peers, peer](const GpuView& view, const AoRequest& request, bool blurred) {
                            return peers.draw(peer, view, request, blurred);

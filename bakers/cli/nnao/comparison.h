@@ -24,8 +24,9 @@ struct ComparisonRow {
 
 struct ComparisonSettings {
   AoRequest request;                     // its radius is each view's
-  std::vector<std::byte> paper_network;  // a file; empty: without the paper's form
-  bool peers = true;
+  std::vector<std::byte> other_network;  // a file beside the embedded one; empty: none
+  std::string other_name;                // in tables
+  std::vector<std::string> methods;      // names in tables; empty: all
 };
 
 // A method's AO of a view, for pictures.

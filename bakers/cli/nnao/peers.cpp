@@ -3,8 +3,7 @@
 namespace nook::cli {
 namespace {
 
-// Found by `nook evaluate nnao --tune PEER`, seed 1, in several runs while the peers' shaders took their shape;
-// `--tune all` searches anew, from these.
+// What `nook evaluate nnao --tune all` prints, seed 1.
 constexpr PeerMethod methods[] = {
 #include "cli/nnao/peer_tuning.inl"
 };

@@ -1,5 +1,6 @@
 #include "cli/nnao/tuning.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <deque>
@@ -67,8 +68,14 @@ struct Search {
   }
 };
 
-// A larger radius and less contrast darken alike, so that one alone would stop at once.
-std::vector<PeerTuning> other_radii_and_powers(const PeerTuning& tuning) {
+// The middle of its shapes, its own radius and contrast.
+PeerTuning untuned(Peer peer) {
+  const std::vector<float> shapes = shapes_of(peer);
+  return {1, 1, shapes.empty() ? 0 : shapes[shapes.size() / 2], false};
+}
+
+// A larger radius, less contrast and more thickness darken alike, so that valleys lie across the grid.
+std::vector<PeerTuning> all_radii_and_powers(const PeerTuning& tuning) {
   std::vector<PeerTuning> candidates;
   for (const float radius_scale : radius_scales)
     for (const float power : powers)
@@ -76,7 +83,7 @@ std::vector<PeerTuning> other_radii_and_powers(const PeerTuning& tuning) {
   return candidates;
 }
 
-std::vector<PeerTuning> other_shapes(Peer peer, const PeerTuning& tuning) {
+std::vector<PeerTuning> all_shapes(Peer peer, const PeerTuning& tuning) {
   std::vector<PeerTuning> candidates;
   for (const float shape : shapes_of(peer)) {
     candidates.push_back({tuning.radius_scale, tuning.power, shape, tuning.equal_weights});
@@ -86,22 +93,36 @@ std::vector<PeerTuning> other_shapes(Peer peer, const PeerTuning& tuning) {
   return candidates;
 }
 
-// What other numbers of taps of the same peer take: the search ends in the nearest of several valleys.
-std::vector<PeerTuning> tunings_of(Peer peer, std::span<const PeerMethod> methods) {
+bool is_near(std::span<const float> grid, float a, float b) {
+  return std::abs(std::ranges::find(grid, a) - std::ranges::find(grid, b)) <= 1;
+}
+
+// What lies next to it on the grid, across as well.
+std::vector<PeerTuning> neighbours(Peer peer, const PeerTuning& tuning) {
+  std::vector<float> shapes = shapes_of(peer);
+  if (shapes.empty()) shapes = {tuning.shape};
   std::vector<PeerTuning> candidates;
-  for (const PeerMethod& method : methods)
-    if (method.peer == peer) candidates.push_back(method.tuning);
+  for (const float radius_scale : radius_scales)
+    for (const float power : powers)
+      for (const float shape : shapes)
+        if (is_near(radius_scales, radius_scale, tuning.radius_scale) &&
+            is_near(powers, power, tuning.power) && is_near(shapes, shape, tuning.shape))
+          candidates.push_back({radius_scale, power, shape, tuning.equal_weights});
   return candidates;
 }
 
-TunedPeer tune(Search& search, const PeerMethod& start, std::span<const PeerMethod> methods) {
+// before: what this search found for other numbers of taps; it ends in the nearest of several valleys.
+TunedPeer tune(Search& search, Peer peer, int taps, std::span<const TunedPeer> before) {
+  const PeerMethod start{peer, taps, untuned(peer)};
   TunedPeer best{start, search.mse(start)};
-  search.improve(best, tunings_of(start.peer, methods));
-  constexpr int max_rounds = 2;
-  for (int round = 0; round < max_rounds; ++round) {
-    bool better = search.improve(best, other_radii_and_powers(best.method.tuning));
-    better |= search.improve(best, other_shapes(start.peer, best.method.tuning));
-    if (!better) break;
+  std::vector<PeerTuning> found;
+  for (const TunedPeer& tuned : before)
+    if (tuned.method.peer == peer) found.push_back(tuned.method.tuning);
+  search.improve(best, found);
+  search.improve(best, all_radii_and_powers(best.method.tuning));
+  search.improve(best, all_shapes(peer, best.method.tuning));
+  // Each step goes down a finite grid.
+  while (search.improve(best, neighbours(peer, best.method.tuning))) {
   }
   return best;
 }
@@ -119,7 +140,7 @@ std::vector<TunedPeer> tune_peers(platform::Context& context, std::span<const Me
   for (const MeasuredView& view : views) search.images.emplace_back(gl, view.view);
   std::vector<TunedPeer> tuned;
   for (const PeerMethod& method : methods) {
-    tuned.push_back(tune(search, method, methods));
+    tuned.push_back(tune(search, method.peer, method.taps, tuned));
     if (!progress(tuned.size(), methods.size()))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while tuning");
   }

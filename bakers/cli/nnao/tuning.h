@@ -17,9 +17,10 @@ struct TunedPeer {
   double mse;  // blurred, mean over the views
 };
 
-// Each method from the best of its peer's present tunings: radius and contrast together over their grid, then
-// the shape, until a round changes nothing. progress counts methods; false stops, which throws
-// Failure(CANCELLED).
+// Each method from nothing, or from what the search has just found for the same peer with other taps where
+// that is better: radius and contrast together over their grid, then the shape, then to the best neighbour of
+// all three until there is none. Tunings that the methods have already do not matter. progress counts
+// methods; false stops, which throws Failure(CANCELLED).
 std::vector<TunedPeer> tune_peers(platform::Context& context, std::span<const MeasuredView> views,
                                   std::span<const PeerMethod> methods,
                                   const std::function<bool(std::size_t, std::size_t)>& progress);

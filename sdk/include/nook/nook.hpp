@@ -12,6 +12,8 @@
 
 #include "nook_character.h"
 #include "nook_gl.h"
+#include "nook_material.h"
+#include "nook_nnao.h"
 #include "nook_probe.h"
 
 namespace nook {
@@ -82,6 +84,33 @@ inline nook_gl_desc gl_desc() {
   nook_gl_desc desc;
   check(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
   return desc;
+}
+
+inline nook_gl_material_desc gl_material_desc() {
+  nook_gl_material_desc desc;
+  check(nook_gl_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+// max_width and max_height are left to the caller.
+inline nook_nnao_desc nnao_desc() {
+  nook_nnao_desc desc;
+  check(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+// Sizes, depth texture, projection and radius are left to the caller.
+inline nook_nnao_frame_desc nnao_frame_desc() {
+  nook_nnao_frame_desc desc;
+  check(nook_nnao_frame_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+// Texture memory of a pass made from desc.
+inline std::uint64_t nnao_memory(const nook_nnao_desc& desc) {
+  std::uint64_t bytes = 0;
+  check(nook_nnao_memory(&desc, &bytes));
+  return bytes;
 }
 
 class Context : public Unique<nook_context, nook_context_destroy> {
@@ -167,6 +196,14 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
   void update() { check(nook_scene_update(get())); }
   void read_ao(nook_instance_id id, float* out, std::uint32_t count, std::size_t stride = 0) const {
     check(nook_scene_read_ao(get(), id, out, count, stride));
+  }
+  void set_light(nook_instance_id id, const nook_probe_lobe* lobes, std::uint32_t lobe_count) {
+    check(nook_scene_set_light(get(), id, lobes, lobe_count));
+  }
+  // Three floats a vertex.
+  void read_directional_ao(nook_instance_id id, float* out_rgb, std::uint32_t count,
+                           std::size_t stride = 0) const {
+    check(nook_scene_read_directional_ao(get(), id, out_rgb, count, stride));
   }
   nook_scene_stats stats() const {
     nook_scene_stats stats{};
@@ -306,6 +343,87 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   static nook_gl create(const Context& context, const nook_gl_desc& desc) {
     nook_gl handle = nullptr;
     check(nook_gl_create(context.get(), &desc, &handle));
+    return handle;
+  }
+};
+
+class Material : public Unique<nook_material, nook_material_destroy> {
+ public:
+  Material(const Context& context, const void* bytes, std::size_t size)
+      : Unique(load(context, bytes, size)) {}
+
+  nook_material_info info() const {
+    nook_material_info info{};
+    info.struct_size = sizeof info;
+    check(nook_material_get_info(get(), &info));
+    return info;
+  }
+  void evaluate(const nook_material_sample* samples, std::uint32_t count, nook_material_value* values) const {
+    check(nook_material_evaluate(get(), samples, count, values));
+  }
+
+ private:
+  static nook_material load(const Context& context, const void* bytes, std::size_t size) {
+    nook_material handle = nullptr;
+    check(nook_material_load(context.get(), bytes, size, &handle));
+    return handle;
+  }
+};
+
+// Belongs to the context thread, as Gl does.
+class GlMaterial : public Unique<nook_gl_material, nook_gl_material_destroy> {
+ public:
+  GlMaterial() = default;
+  GlMaterial(const Gl& gl, const Material& material, const nook_gl_material_desc& desc = gl_material_desc())
+      : Unique(create(gl, material, desc)) {}
+
+  nook_gl_material_info info() const {
+    nook_gl_material_info info{};
+    info.struct_size = sizeof info;
+    check(nook_gl_material_get_info(get(), &info));
+    return info;
+  }
+  std::vector<nook_gl_material_texture> textures() const {
+    std::vector<nook_gl_material_texture> all(info().texture_count);
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+      all[i].struct_size = sizeof all[i];
+      check(nook_gl_material_get_texture(get(), i, &all[i]));
+    }
+    return all;
+  }
+
+ private:
+  static nook_gl_material create(const Gl& gl, const Material& material, const nook_gl_material_desc& desc) {
+    nook_gl_material handle = nullptr;
+    check(nook_gl_material_create(gl.get(), material.get(), &desc, &handle));
+    return handle;
+  }
+};
+
+// What nook_nnao.h says of the context thread holds for every function here, and for the destructor.
+class Nnao : public Unique<nook_nnao, nook_nnao_destroy> {
+ public:
+  Nnao(const Gl& gl, const nook_nnao_desc& desc) : Unique(create(gl, desc)) {}
+
+  void render(const nook_nnao_frame_desc& frame) { check(nook_nnao_render(get(), &frame)); }
+  void recheck() { check(nook_nnao_recheck(get())); }
+  nook_nnao_info info() const {
+    nook_nnao_info info{};
+    info.struct_size = sizeof info;
+    check(nook_nnao_get_info(get(), &info));
+    return info;
+  }
+  nook_nnao_timings timings() const {
+    nook_nnao_timings timings{};
+    timings.struct_size = sizeof timings;
+    check(nook_nnao_get_timings(get(), &timings));
+    return timings;
+  }
+
+ private:
+  static nook_nnao create(const Gl& gl, const nook_nnao_desc& desc) {
+    nook_nnao handle = nullptr;
+    check(nook_nnao_create(gl.get(), &desc, &handle));
     return handle;
   }
 };

@@ -7,6 +7,7 @@
 #define NOOK_CHARACTER_H
 
 #include "nook.h"
+#include "nook_probe.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -130,6 +131,26 @@ NOOK_API nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id 
                                              float radius);
 /* One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_id occluder);
+
+/* ---- Directional occlusion: what is taken from the light of a probe, channel by channel ----
+ *
+ * Light that comes from few directions is darkened by what stands there, and by nothing else. With lobes set, each sphere takes
+ * from its receiver, instead of its share f of the hemisphere, f * rho: rho is the mean radiance of the lobes behind the sphere
+ * over their mean in the receiver's hemisphere, for each channel. What comes out is a colour for each vertex that takes the place
+ * of AO in albedo / pi * E * AO, E the irradiance of the same lobes. Under constant light it is AO. */
+
+/* Sets the light of an instance for the updates that follow: lobes such as nook_probe_read_lobes gives at its place, at most
+ * NOOK_PROBE_MAX_FUNCTIONS, copied. lobe_count 0 or lobes NULL: none. An update of an instance with light costs about as many
+ * times more as there are lobes. Allocates at an instance's first light. One at a time.
+ * Errors: INVALID_ARGUMENT (names the lobe), INVALID_HANDLE, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_probe_lobe* lobes,
+                                          uint32_t lobe_count);
+
+/* As nook_scene_read_ao, with three floats (red, green, blue, in [0, 1]) for each vertex; AO in all three for an instance whose
+ * last nook_scene_update saw no light. count is in vertices; stride is in bytes (0: three floats).
+ * Any thread while no other call changes the scene. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+NOOK_API nook_result nook_scene_read_directional_ao(nook_scene scene, nook_instance_id instance, float* out_rgb, uint32_t count,
+                                                    size_t stride);
 
 /* Where the camera is, for level of detail. Without a call, and after one with NULL, every instance is near.
  * One at a time. Errors: INVALID_ARGUMENT. */

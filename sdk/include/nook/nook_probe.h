@@ -120,8 +120,8 @@ NOOK_API nook_result nook_probe_fit_create(nook_context context, const nook_prob
 /* Sets *fit to NULL. One at a time. */
 NOOK_API void nook_probe_fit_destroy(nook_probe_fit* fit);
 
-/* Samples of uniformly distributed directions have weight 1 (weights NULL); drawn with probability density p over the
- * domain, whose area is a, 1 / (a p): for a sampler by luminance bright directions weigh little. Samples whose direction is not
+/* Samples of uniformly distributed directions have weight 1 (weights NULL); those drawn with probability density p over a
+ * domain of area a have 1 / (a p): sampled by luminance, bright directions weigh little. Samples whose direction is not
  * unit to 1e-3, or outside the hemisphere, whose direction, radiance or weight is not finite, or whose weight is negative,
  * are skipped and counted; radiance and weights above 1e18 count as infinite. Running averages want directions in random
  * order: rows of an image, one after the other, leave them with the last ones. No allocation. One at a time.
@@ -201,8 +201,8 @@ enum {
 typedef int32_t nook_probe_packing;
 
 /* Writes the .nook file of a probe to bytes. *size: the buffer's size on entry, the file's afterwards; bytes NULL: the size
- * alone. The host writes the file. Allocates with malloc. Any thread. Errors: INVALID_ARGUMENT (also: the buffer is too small, *size then says how
- * much is needed), OUT_OF_MEMORY. */
+ * alone. The host writes the file. Allocates with malloc. Any thread. Errors: INVALID_ARGUMENT (also: the buffer is too
+ * small, *size then says how much is needed), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_save(nook_probe probe, nook_probe_packing packing, void* bytes, size_t* size);
 
 typedef struct nook_probe_info {
@@ -225,8 +225,8 @@ NOOK_API nook_result nook_probe_get_info(nook_probe probe, nook_probe_info* info
 NOOK_API nook_result nook_probe_read_coefficients(nook_probe probe, uint32_t index, float* coefficients,
                                                   uint32_t function_count);
 
-/* The lobes at a point, with trilinear weights between the probes of a grid, which ends are clamped; position_ws (metres) NULL:
- * of the first probe. No allocation. Any thread. Errors: INVALID_ARGUMENT (also: the basis is not NOOK_PROBE_GAUSSIANS). */
+/* The lobes at a point, with trilinear weights between the probes of a grid; outside it, those of its nearest point.
+ * position_ws (metres) NULL: the lobes of the first probe. No allocation. Any thread. Errors: INVALID_ARGUMENT (also: the basis is not NOOK_PROBE_GAUSSIANS). */
 NOOK_API nook_result nook_probe_read_lobes(nook_probe probe, const float* position_ws, nook_probe_lobe* lobes,
                                            uint32_t function_count);
 

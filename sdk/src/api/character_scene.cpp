@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include "api/entry.h"
@@ -67,6 +68,16 @@ nook_result with_scene(const char* function, nook_scene scene, Body&& body) noex
 Sphere sphere_of(const float* centre_ws, float radius) {
   need(centre_ws, "centre_ws");
   return {{centre_ws[0], centre_ws[1], centre_ws[2]}, radius};
+}
+
+void check_output(const Instance& instance, uint32_t count, size_t stride, std::size_t entry_bytes) {
+  const std::size_t file_vertices = instance.model->model.file_to_welded.size();
+  if (count != file_vertices)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "count is not the model's file_vertex_count (got %u, need %zu)", count, file_vertices);
+  if (stride != 0 && stride < entry_bytes)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "stride is too small (got %zu bytes, need 0 or at least %zu)",
+                  stride, entry_bytes);
 }
 
 }  // namespace
@@ -188,14 +199,34 @@ nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, floa
   return with_scene("nook_scene_read_ao", scene, [&](const Scene& s) {
     const Instance& found = instance_of(s, instance);
     need(out, "out");
-    const std::size_t file_vertices = found.model->model.file_to_welded.size();
-    if (count != file_vertices)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "count is not the model's file_vertex_count (got %u, need %zu)", count, file_vertices);
-    if (stride != 0 && stride < sizeof(float))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "stride is too small (got %zu bytes, need 0 or at least %zu)", stride, sizeof(float));
+    check_output(found, count, stride, sizeof(float));
     read_ao(s, found, out, stride ? stride : sizeof(float));
+  });
+}
+
+nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_probe_lobe* lobes,
+                                 uint32_t lobe_count) {
+  return with_scene("nook_scene_set_light", scene, [&](Scene& s) {
+    if (!lobes) lobe_count = 0;
+    if (lobe_count > max_light_lobes)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is too large (got %u, need at most %u)",
+                    lobe_count, max_light_lobes);
+    std::array<SphericalGaussian, max_light_lobes> light;
+    for (uint32_t i = 0; i < lobe_count; ++i)
+      light[i] = {{lobes[i].axis[0], lobes[i].axis[1], lobes[i].axis[2]},
+                  lobes[i].sharpness,
+                  {lobes[i].amplitude[0], lobes[i].amplitude[1], lobes[i].amplitude[2]}};
+    set_light(s, instance, {light.data(), lobe_count});
+  });
+}
+
+nook_result nook_scene_read_directional_ao(nook_scene scene, nook_instance_id instance, float* out_rgb,
+                                           uint32_t count, size_t stride) {
+  return with_scene("nook_scene_read_directional_ao", scene, [&](const Scene& s) {
+    const Instance& found = instance_of(s, instance);
+    need(out_rgb, "out_rgb");
+    check_output(found, count, stride, 3 * sizeof(float));
+    read_directional_ao(s, found, out_rgb, stride ? stride : 3 * sizeof(float));
   });
 }
 

@@ -3,63 +3,11 @@
 #include <array>
 #include <cstring>
 
+#include "character/instance_views.h"
 #include "character/scene.h"
 
 namespace nook {
 namespace {
-
-// Spheres of an instance at a level, or at its coarsest if that is finer.
-SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
-  const LoadedModel& model = *instance.model;
-  const std::size_t l = std::min<std::size_t>(level, model.levels.size());
-  const SphereLanes& s = l == 0 ? instance.arrays.spheres : instance.arrays.coarse_spheres[l - 1];
-  const RestSpheres& rest = l == 0 ? model.rest_spheres : model.levels[l - 1].rest_spheres;
-  return {s.x, s.y, s.z, s.inverse_radius, rest.caster_weight(), s.count};
-}
-
-const RestKeyPoints& rest_points_of(const Instance& instance) {
-  return instance.level == 0 ? instance.model->rest_key_points
-                             : instance.model->levels[instance.level - 1].rest_key_points;
-}
-
-// The lanes of the key points that are evaluated at the instance's level.
-PointLanes evaluated_points(const Instance& instance) {
-  PointLanes points = instance.arrays.points;
-  points.padded_count = rest_points_of(instance).padded_count();
-  if (instance.level > 0)
-    points.count =
-        static_cast<std::uint32_t>(instance.model->model.levels[instance.level - 1].evaluated.size());
-  return points;
-}
-
-KeyPointSoa fitted_points(const PointLanes& p) {
-  return {p.x, p.y, p.z, p.nx, p.ny, p.nz, p.padded_count};
-}
-KeyPointSoa surface_points(const PointLanes& p) {
-  return {p.surface_x, p.surface_y, p.surface_z, p.surface_nx, p.surface_ny, p.surface_nz, p.padded_count};
-}
-
-// Ground and free occluders in batches on the stack; their caster weight is 1.
-template <class Apply>
-void for_free_spheres(const Scene& scene, const Instance& instance, Apply&& apply) {
-  constexpr std::uint32_t batch = 16;
-  std::array<float, batch> x{}, y{}, z{}, inverse_radius{};
-  std::uint32_t count = 0;
-  const auto flush = [&] {
-    if (count > 0) apply(SphereSoa{x.data(), y.data(), z.data(), inverse_radius.data(), nullptr, count});
-    count = 0;
-  };
-  const auto push = [&](const Sphere& sphere) {
-    x[count] = sphere.centre.x;
-    y[count] = sphere.centre.y;
-    z[count] = sphere.centre.z;
-    inverse_radius[count] = inverse_sphere_radius(sphere.radius);
-    if (++count == batch) flush();
-  };
-  if (instance.ground_sphere.radius > 0) push(instance.ground_sphere);
-  for (const std::uint32_t slot : instance.occluders) push(scene.occluders[slot].sphere);
-  flush();
-}
 
 // Leaves what casters add in optical_depth, which then is no depth any more.
 void evaluate_composed(const Scene& scene, const Instance& instance, const PointLanes& points) {
@@ -164,7 +112,9 @@ void update(Scene& scene) noexcept {
   parallel_for(scene.parallel, slots, transform);
   auto evaluate = [&](std::uint32_t slot) noexcept {
     Instance& instance = scene.instances[slot];
-    if (instance.id && instance.due) evaluate_shadows(scene, instance);
+    if (instance.id == 0 || !instance.due) return;
+    evaluate_shadows(scene, instance);
+    evaluate_directional(scene, instance);
   };
   parallel_for(scene.parallel, slots, evaluate);
 
@@ -180,11 +130,15 @@ void update(Scene& scene) noexcept {
 }
 
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept {
+  read_ao(scene, instance, instance.arrays.points.shadow, instance.arrays.points.added, out, stride_bytes);
+}
+
+void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added, float* out,
+             std::size_t stride_bytes) noexcept {
   const LoadedModel& loaded = *instance.model;
-  const PointLanes& points = instance.arrays.points;
   LinearView view = loaded.linear.view();
   if (!(scene.terms & NOOK_TERM_SELF)) view.open_bias = loaded.open_without_bias.data();
-  const float* added = scene.settings.combine == NOOK_COMBINE_COMPOSED ? points.added : nullptr;
+  if (scene.settings.combine != NOOK_COMBINE_COMPOSED) added = nullptr;
 
   constexpr std::uint32_t chunk_blocks = 16;
   alignas(64) std::array<float, chunk_blocks * linear_block_vertices> ao;
@@ -200,7 +154,7 @@ void read_ao(const Scene& scene, const Instance& instance, float* out, std::size
     const LinearView chunk{view.blocks + block, std::min(chunk_blocks, view.block_count - block),
                            view.key_point,      view.alpha,
                            view.blend,          view.open_bias + first_slot};
-    scene.kernels->linear_layer(chunk, points.shadow, added, ao.data());
+    scene.kernels->linear_layer(chunk, shadow, added, ao.data());
     const std::uint32_t end = first_slot + chunk.block_count * linear_block_vertices;
     for (std::uint32_t slot = first_slot; slot < end; ++slot)
       for (std::uint32_t i = loaded.slot_begin[slot]; i < loaded.slot_begin[slot + 1]; ++i)

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "character/light.h"
 #include "character/loaded_model.h"
 #include "character/neighbours.h"
 #include "core/aligned_array.h"
@@ -76,6 +77,8 @@ struct Instance {
   bool has_ground = false;
   Plane ground;
   std::pmr::vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
+
+  InstanceLight light;
 
   // What set_pose derives: a sphere round the root bone's image of the model's bounding centre that holds all
   // key points and proxy spheres of the pose, and an upper bound of the scale of its bones.
@@ -170,7 +173,8 @@ void resolve_casters(Scene& scene) noexcept;
 void transform_spheres(const Scene& scene, Instance& instance) noexcept;
 // World-space key points of an instance that is due, at its level.
 void transform_key_points(const Scene& scene, Instance& instance) noexcept;
-// Shadow and added occlusion at the key points of an instance that is due.
+// Shadow and added occlusion at the key points of an instance that is due; then their colours if it has a
+// light (light.h).
 void evaluate_shadows(const Scene& scene, Instance& instance) noexcept;
 // All of the above for all instances, and the statistics.
 void update(Scene& scene) noexcept;
@@ -178,5 +182,8 @@ void update(Scene& scene) noexcept;
 // Blends the key points to vertices and writes the AO of the last update in file order; `out` has the model's
 // number of file vertices, stride_bytes apart.
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept;
+// The same from other shadows and added occlusions at the key points than the instance's own.
+void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added, float* out,
+             std::size_t stride_bytes) noexcept;
 
 }  // namespace nook

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "character/directional.h"
 #include "character/kernel.h"
 #include "core/isa.h"
 #include "core/vec.h"
@@ -149,6 +150,18 @@ struct ShadowKernels {
   // composed_depth uses.
   void (*pose_key_points)(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
                           const KeyPointTarget& out, const KeyPointTarget* surface);
+
+  // Directional occlusion (directional.h); rgb: one array of padded_count entries for each channel. With rho
+  // the share of light behind a sphere against its share of the hemisphere,
+  // rgb[k] += sum over spheres of y^gamma rho: self_norm_sum with a colour;
+  void (*directional_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
+                               const LightView& light, float* const* rgb);
+  // rgb[k] += sum over spheres of caster_weight * form factor * rho: composed_depth with a colour;
+  void (*directional_depth)(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
+                            float* const* rgb);
+  // rgb[k] *= 1 - min(1, caster_weight * form factor * rho) for each sphere: exact_open with a colour.
+  void (*directional_open)(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
+                           float* const* rgb);
 };
 
 // The table of one instruction set; NULL where the processor or the build lacks it. scalar is always there.

@@ -1,6 +1,7 @@
 // The kernels for AVX-512F.
 #include "core/simd_avx512.h"
 
+#include "character/directional.h"
 #include "character/kernel.h"
 #include "character/shadow_kernels.h"
 #include "character/shadow_kernels_tables.h"
@@ -11,11 +12,13 @@ namespace nook::isa_avx512 {
 using Wide = simd::Pair<Float>;  // what the loops over spheres run on
 
 #include "character/shadow_kernels_impl.inl"
+#include "character/shadow_kernels_impl_directional.inl"
 #include "character/shadow_kernels_pose_x86.inl"
 
-constexpr ShadowKernels table{Isa::avx512,    "avx512",     self_norm_sum,      norm_root,
-                              composed_depth, exact_open,   composed_occlusion, linear_layer,
-                              scatter,        pose_spheres, pose_key_points};
+constexpr ShadowKernels table{Isa::avx512,       "avx512",        self_norm_sum,      norm_root,
+                              composed_depth,    exact_open,      composed_occlusion, linear_layer,
+                              scatter,           pose_spheres,    pose_key_points,    directional_norm_sum,
+                              directional_depth, directional_open};
 
 const ShadowKernels& kernels() {
   return table;

@@ -2,6 +2,7 @@
 // x86 SIMD run.
 #include <cstdint>
 
+#include "character/directional.h"
 #include "character/kernel.h"
 #include "character/shadow_kernels.h"
 #include "character/shadow_kernels_tables.h"
@@ -27,11 +28,13 @@ void store(float* p, Float a) {
 }  // namespace
 
 #include "character/shadow_kernels_impl.inl"
+#include "character/shadow_kernels_impl_directional.inl"
 #include "character/shadow_kernels_pose_scalar.inl"
 
-constexpr ShadowKernels table{Isa::scalar,    "scalar",     self_norm_sum,      norm_root,
-                              composed_depth, exact_open,   composed_occlusion, linear_layer,
-                              scatter,        pose_spheres, pose_key_points};
+constexpr ShadowKernels table{Isa::scalar,       "scalar",        self_norm_sum,      norm_root,
+                              composed_depth,    exact_open,      composed_occlusion, linear_layer,
+                              scatter,           pose_spheres,    pose_key_points,    directional_norm_sum,
+                              directional_depth, directional_open};
 
 const ShadowKernels& kernels() {
   return table;

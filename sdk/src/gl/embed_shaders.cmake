@@ -1,5 +1,6 @@
 # cmake -DSHADERS=dir -DOUTPUT=file.cpp [-DHEADER=path -DNAMESPACE=name] -P embed_shaders.cmake
-# Turns every *.vert, *.frag and *.comp file below SHADERS into one C++ source. A line `#include "path"` (relative to SHADERS) is
+# Turns every *.vert, *.frag and *.comp file below SHADERS, and every host.glsl, which hosts put into shaders of their own, into
+# one C++ source. A line `#include "path"` (relative to SHADERS) is
 # replaced by that file's text, once per shader; the host needs no files at run time.
 cmake_minimum_required(VERSION 3.25)
 
@@ -35,7 +36,8 @@ function(nook_expand path included out)
   set(nook_included "${included}" PARENT_SCOPE)
 endfunction()
 
-file(GLOB_RECURSE paths RELATIVE "${SHADERS}" "${SHADERS}/*.vert" "${SHADERS}/*.frag" "${SHADERS}/*.comp")
+file(GLOB_RECURSE paths RELATIVE "${SHADERS}" "${SHADERS}/*.vert" "${SHADERS}/*.frag" "${SHADERS}/*.comp"
+     "${SHADERS}/*/host.glsl")
 list(SORT paths)
 set(source "// Made from shaders at build; do not edit.\n#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\nnamespace {\n")
 set(table "")

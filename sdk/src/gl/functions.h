@@ -83,6 +83,7 @@ namespace nook::gl {
   X(IsTexture)                           \
   X(LinkProgram)                         \
   X(MapBufferRange)                      \
+  X(PixelStorei)                         \
   X(PolygonMode)                         \
   X(QueryCounter)                        \
   X(RenderbufferStorage)                 \
@@ -90,6 +91,7 @@ namespace nook::gl {
   X(ShaderSource)                        \
   X(TexBuffer)                           \
   X(TexImage2D)                          \
+  X(TexImage3D)                          \
   X(TexParameteri)                       \
   X(TransformFeedbackVaryings)           \
   X(Uniform1f)                           \

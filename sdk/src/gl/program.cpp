@@ -7,13 +7,14 @@
 #include "gl/embedded_shaders.h"
 
 namespace nook::gl {
-namespace {
 
 const char* embedded_text(const char* path) {
   for (const EmbeddedShader* shader = embedded_shaders_begin(); shader != embedded_shaders_end(); ++shader)
     if (std::strcmp(shader->path, path) == 0) return shader->text;
   throw Failure(NOOK_ERROR_INTERNAL, "the library holds no shader %s; please report it", path);
 }
+
+namespace {
 
 struct InfoLog {
   char text[2048] = "";

@@ -5,6 +5,9 @@
 
 namespace nook::gl {
 
+// The text of an embedded shader. Throws Failure(NOOK_ERROR_INTERNAL) where there is none of that path.
+const char* embedded_text(const char* path);
+
 // `path` names an embedded shader, `defines` is put before its text ("#define A 1\n"). Throw
 // Failure(NOOK_ERROR_GL) with the shader's name and the compiler's words; the whole log goes to the host's
 // log.

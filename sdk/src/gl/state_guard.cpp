@@ -56,7 +56,8 @@ void restore_active_texture(const Functions& gl, const SavedState& s) {
   gl.ActiveTexture(s.active_texture);
 }
 
-// The next item is about unit 0 whatever unit is active, and leaves the choice of the unit to the item above.
+// The next two items are about unit 0 whatever unit is active, and leave the choice of the unit to the item
+// above.
 void query_texture_unit_0(const Functions& gl, SavedState& s) {
   gl.ActiveTexture(GL_TEXTURE0);
   s.texture_unit_0 = integer(gl, GL_TEXTURE_BINDING_BUFFER);
@@ -66,6 +67,29 @@ void restore_texture_unit_0(const Functions& gl, const SavedState& s) {
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_BUFFER, s.texture_unit_0);
   gl.ActiveTexture(s.active_texture);
+}
+
+void query_texture_2d_array(const Functions& gl, SavedState& s) {
+  gl.ActiveTexture(GL_TEXTURE0);
+  s.texture_2d_array = integer(gl, GL_TEXTURE_BINDING_2D_ARRAY);
+  gl.ActiveTexture(s.active_texture);
+}
+void restore_texture_2d_array(const Functions& gl, const SavedState& s) {
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D_ARRAY, s.texture_2d_array);
+  gl.ActiveTexture(s.active_texture);
+}
+
+void set_pixel_store(const Functions& gl, const PixelStore& store) {
+  for (std::size_t i = 0; i < std::size(pixel_store_names); ++i)
+    gl.PixelStorei(pixel_store_names[i], store.values[i]);
+}
+void query_pixel_store(const Functions& gl, SavedState& s) {
+  for (std::size_t i = 0; i < std::size(pixel_store_names); ++i)
+    s.pixel_store.values[i] = integer(gl, pixel_store_names[i]);
+}
+void restore_pixel_store(const Functions& gl, const SavedState& s) {
+  set_pixel_store(gl, s.pixel_store);
 }
 
 void query_draw_framebuffer(const Functions& gl, SavedState& s) {

@@ -43,6 +43,13 @@ struct BlendState {
   GLint equation_rgb = GL_FUNC_ADD, equation_alpha = GL_FUNC_ADD;
 };
 
+inline constexpr GLenum pixel_store_names[] = {
+    GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST,   GL_UNPACK_ROW_LENGTH,  GL_UNPACK_IMAGE_HEIGHT,
+    GL_UNPACK_SKIP_ROWS,  GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_ALIGNMENT};
+struct PixelStore {
+  GLint values[std::size(pixel_store_names)] = {0, 0, 0, 0, 0, 0, 0, 4};
+};
+
 struct SavedState {
   GLint program = 0;
   GLint array_buffer = 0;
@@ -63,7 +70,9 @@ struct SavedState {
   GLint texture_2d[texture_unit_count] = {};
   GLint samplers[texture_unit_count] = {};
   GLint filter_texture = 0;
+  GLint texture_2d_array = 0;
   GLint pixel_unpack_buffer = 0;
+  PixelStore pixel_store;
   struct {
     bool known = false;  // there is no default
     GLfloat box[4] = {};
@@ -81,6 +90,7 @@ struct SavedState {
 // Draw buffer 0 and viewport 0 alone where OpenGL has more of them; otherwise all at once.
 void set_blend(const Functions& gl, const BlendState& blend);
 void set_viewport(const Functions& gl, const GLfloat (&box)[4]);
+void set_pixel_store(const Functions& gl, const PixelStore& store);
 void set_scissor_test(const Functions& gl, bool enabled);
 // Blend, masks, tests and capabilities such that one triangle fills its viewport and nothing else happens.
 void set_plain_drawing(const Functions& gl);

@@ -4,12 +4,15 @@
 
 namespace nook::gl {
 
-// Who touches an item: the characters' tiers, the screen-space pass, the reading of its timers.
+// Who touches an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload of
+// probes and materials.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
   screen = 4,
   screen_timers = 8,
+  materials = 16,
+  probes = 32,
   characters = tier_33 | tier_43,
   everyone = characters | screen,
   draws = tier_33 | screen,
@@ -19,16 +22,23 @@ enum : unsigned {
 // and a query, a restore and a reset of that name in state_guard.cpp or state_guard_draw.cpp.
 #define NOOK_GL_TOUCHED_STATE(X)                                                                            \
   X(program, everyone, "GL_CURRENT_PROGRAM", "runs the passes; default 0")                                  \
-  X(array_buffer, everyone, "GL_ARRAY_BUFFER_BINDING", "every upload goes through it; default 0")           \
+  X(array_buffer, everyone | probes, "GL_ARRAY_BUFFER_BINDING", "every upload goes through it; default 0")  \
   X(vertex_array, draws, "GL_VERTEX_ARRAY_BINDING", "inputs of the vertex pass, or none; default 0")        \
-  X(active_texture, draws, "GL_ACTIVE_TEXTURE", "selects units; default GL_TEXTURE0")                       \
-  X(texture_unit_0, tier_33, "GL_TEXTURE_BINDING_BUFFER of unit 0", "shadows at key points; default 0")     \
+  X(active_texture, draws | probes | materials, "GL_ACTIVE_TEXTURE", "selects units; default GL_TEXTURE0")  \
+  X(texture_unit_0, tier_33 | probes, "GL_TEXTURE_BINDING_BUFFER of unit 0",                                \
+    "shadows at key points, texels of a probe; default 0")                                                  \
   X(texture_2d, screen, "GL_TEXTURE_BINDING_2D of units 0 to 3", "inputs of the stages; default 0")         \
   X(samplers, screen, "GL_SAMPLER_BINDING of units 0 to 3",                                                 \
     "so that no parameter of a texture counts; default 0")                                                  \
   X(filter_texture, screen, "GL_TEXTURE_BINDING_BUFFER of unit 2",                                          \
     "filters of the paper's network; default 0")                                                            \
-  X(pixel_unpack_buffer, screen, "GL_PIXEL_UNPACK_BUFFER_BINDING", "in nook_nnao_create only; default 0")   \
+  X(texture_2d_array, materials, "GL_TEXTURE_BINDING_2D_ARRAY of unit 0", "uploads; default 0")             \
+  X(pixel_unpack_buffer, screen | materials, "GL_PIXEL_UNPACK_BUFFER_BINDING",                              \
+    "in nook_nnao_create and nook_gl_material_create only; default 0")                                      \
+  X(pixel_store, materials,                                                                                 \
+    "GL_UNPACK_SWAP_BYTES, LSB_FIRST, ROW_LENGTH, IMAGE_HEIGHT, SKIP_ROWS, SKIP_PIXELS, SKIP_IMAGES, "      \
+    "ALIGNMENT",                                                                                            \
+    "uploads without gaps; default 0, alignment 4")                                                         \
   X(draw_framebuffer, draws, "GL_DRAW_FRAMEBUFFER_BINDING",                                                 \
     "a draw needs a complete framebuffer; default 0")                                                       \
   X(renderbuffer, tier_33, "GL_RENDERBUFFER_BINDING", "in nook_gl_create only; default 0")                  \

@@ -41,16 +41,22 @@ Centre centre_of(const View& view, Vec3 normal, const Sampling& sampling, std::u
   return centre;
 }
 
+// Where nothing is, something far beyond any radius; its square is still a float.
+constexpr float sky_depth = 1e15f;
+
 Vec3 texel_position(const View& view, TappedTexel texel) {
   return view_position(view.rays, float(texel.x) + 0.5f, float(texel.y) + 0.5f,
-                       view.depth[view.at(texel.x, texel.y)]);
+                       texel.surface ? view.depth[view.at(texel.x, texel.y)] : sky_depth);
 }
 
-float evaluate_paper(const PaperNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
-                     std::uint32_t x, std::uint32_t y, TapNoise noise) {
+using PaperUnits = std::array<float, PaperNetwork::units>;
+
+// The first layer's units.
+PaperUnits paper_units(const PaperNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
+                       std::uint32_t x, std::uint32_t y, TapNoise noise) {
   constexpr int units = PaperNetwork::units, inputs = PaperNetwork::tap_inputs;
   const Centre centre = centre_of(view, normal, sampling, x, y);
-  std::array<float, units> sum{};
+  PaperUnits sum{};
   for (std::uint32_t tap = 0; tap < sampling.taps; ++tap) {
     const std::uint32_t cell = paper_tap_cell(tap, sampling.taps, noise);
     const TapOffset offset = paper_tap(cell, sampling.taps, noise, centre.radius.metres, centre.scale);
@@ -65,45 +71,55 @@ float evaluate_paper(const PaperNetwork& network, const View& view, Vec3 normal,
   const float scale = float(PaperNetwork::grid_size * PaperNetwork::grid_size) / float(sampling.taps);
   for (int u = 0; u < units; ++u)
     sum[u] = prelu(network.bias[u] + scale * sum[u], network.negative_slope[u], network.positive_slope[u]);
-  return through(network.layer_3, through(network.layer_2, through(network.layer_1, sum)))[0];
+  return sum;
 }
 
-float evaluate_horizon(const HorizonNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
-                       std::uint32_t x, std::uint32_t y, TapNoise noise) {
+// The mean of the directions' units, and dot(n, o).
+struct HorizonUnits {
+  bool known = false;  // false where no tap lies on the screen
+  std::array<float, HorizonNetwork::units + 1> value{};
+};
+
+HorizonUnits horizon_units(const HorizonNetwork& network, const View& view, Vec3 normal,
+                           const Sampling& sampling, std::uint32_t x, std::uint32_t y, TapNoise noise) {
   constexpr int units = HorizonNetwork::units;
   const Centre centre = centre_of(view, normal, sampling, x, y);
   const TapGrid grid = horizon_grid(sampling.taps);
-  std::array<float, units + 1> joined{};
+  const float facing = dot(centre.normal, centre.viewer);
+  HorizonUnits joined;
+  std::uint32_t taps_on_screen = 0;
   for (std::uint32_t d = 0; d < grid.directions; ++d) {
     const float angle = direction_angle(d, grid.directions, noise);
     const float cosine = std::cos(angle), sine = std::sin(angle);
     std::array<float, 2 * units + 2> pooled{};
-    // Where no step has a surface both stay 0.
     float* const most = pooled.data();
     float* const mean = pooled.data() + units;
+    const float across = dot(centre.normal, across_viewer(centre.viewer, cosine, sine));
+    std::uint32_t on_screen = 0;
     for (std::uint32_t s = 0; s < grid.steps; ++s) {
       const float distance_px = step_distance_px(s, grid.steps, noise, centre.radius.px);
       const TappedTexel texel =
           tapped_texel(view, x, y, horizon_tap(cosine, sine, distance_px, centre.scale));
-      HorizonTapInput input;
-      std::array<float, units> hidden{};
-      if (horizon_tap_input(view, texel, centre.position, centre.normal, centre.viewer, centre.radius.metres,
-                            input)) {
-        hidden = through(network.tap, input.value);
-        for (float& h : hidden) h *= input.weight;
-      }
+      on_screen += texel.on_screen;
+      const auto hidden = through(
+          network.tap, texel.on_screen ? horizon_tap_input(view, texel, centre.position, centre.normal,
+                                                           centre.viewer, centre.radius.metres)
+                                       : plane_tap_input(across, facing, distance_px / centre.radius.px));
       for (int u = 0; u < units; ++u) {
         most[u] = s == 0 ? hidden[u] : std::max(most[u], hidden[u]);
         mean[u] += hidden[u] / float(grid.steps);
       }
     }
-    pooled[2 * units] = dot(centre.normal, across_viewer(centre.viewer, cosine, sine));
-    pooled[2 * units + 1] = dot(centre.normal, centre.viewer);
+    pooled[2 * units] = across;
+    pooled[2 * units + 1] = facing;
     const auto out = through(network.direction, pooled);
-    for (int u = 0; u < units; ++u) joined[u] += out[u] / float(grid.directions);
+    for (int u = 0; u < units; ++u) joined.value[u] += out[u] * float(on_screen);
+    taps_on_screen += on_screen;
   }
-  joined[units] = dot(centre.normal, centre.viewer);
-  return through(network.out, through(network.join, joined))[0];
+  joined.known = taps_on_screen > 0;
+  for (int u = 0; u < units; ++u) joined.value[u] /= std::max(float(taps_on_screen), 1.0f);
+  joined.value[units] = facing;
+  return joined;
 }
 
 }  // namespace
@@ -125,20 +141,23 @@ TappedTexel tapped_texel(const View& view, std::uint32_t x, std::uint32_t y, Tap
   const float column = std::floor(float(x) + 0.5f + offset.x_px),
               row = std::floor(float(y) + 0.5f + offset.y_px);
   if (!(column >= 0 && column < float(view.width) && row >= 0 && row < float(view.height))) return {};
-  const TappedTexel texel{true, std::uint32_t(column), std::uint32_t(row)};
-  return view.has_surface(texel.x, texel.y) ? texel : TappedTexel{};
+  TappedTexel texel{true, false, std::uint32_t(column), std::uint32_t(row)};
+  texel.surface = view.has_surface(texel.x, texel.y);
+  return texel;
 }
 
-bool horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal, Vec3 viewer,
-                       float radius, HorizonTapInput& input) {
-  if (!texel.surface) return false;
+HorizonTapInput horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal,
+                                  Vec3 viewer, float radius) {
   const Vec3 v = texel_position(view, texel) - position;
-  const float away = length(v), distance = away / radius;
-  // The pixel itself tells nothing.
-  if (!(distance < 2) || !(away > 0)) return false;
-  input.value = {dot(v, normal) / away, dot(v, viewer) / away, distance};
-  input.weight = std::min(2 - distance, 1.0f);
-  return true;
+  // The pixel itself, where pixels are not square, is a tap on its own plane.
+  const float away = std::max(length(v), 1e-12f);
+  return {dot(v, normal) / away, dot(v, viewer) / away, std::min(away / radius, 2.0f)};
+}
+
+HorizonTapInput plane_tap_input(float across, float facing, float distance_r) {
+  // In the plane of a direction the tangent plane goes along t - slope o.
+  const float slope = across / std::max(facing, 0.05f), stretch = std::sqrt(1 + slope * slope);
+  return {0, -slope / stretch, std::min(distance_r * stretch, 2.0f)};
 }
 
 bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal, float radius,
@@ -154,9 +173,25 @@ bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 no
 
 float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
                          std::uint32_t x, std::uint32_t y, TapNoise noise) {
+  if (network.form == NetworkForm::paper) {
+    const PaperNetwork& paper = network.paper;
+    const PaperUnits units = paper_units(paper, view, normal, sampling, x, y, noise);
+    return through(paper.layer_3, through(paper.layer_2, through(paper.layer_1, units)))[0];
+  }
+  const HorizonNetwork& horizon = network.horizon;
+  const HorizonUnits units = horizon_units(horizon, view, normal, sampling, x, y, noise);
+  // On a screen of a pixel or two nothing is known of any occluder.
+  return units.known ? through(horizon.out, through(horizon.join, units.value))[0] : 1;
+}
+
+std::array<float, 3> first_units(const Network& network, const View& view, const Sampling& sampling,
+                                 std::uint32_t x, std::uint32_t y) {
+  const Vec3 normal = view.normal[view.at(x, y)];
+  const TapNoise noise = tap_noise(x, y);
+  const auto first = [](const auto& units) { return std::array<float, 3>{units[0], units[1], units[2]}; };
   return network.form == NetworkForm::paper
-             ? evaluate_paper(network.paper, view, normal, sampling, x, y, noise)
-             : evaluate_horizon(network.horizon, view, normal, sampling, x, y, noise);
+             ? first(paper_units(network.paper, view, normal, sampling, x, y, noise))
+             : first(horizon_units(network.horizon, view, normal, sampling, x, y, noise).value);
 }
 
 float evaluate_pixel(const Network& network, const View& view, const Sampling& sampling, std::uint32_t x,

@@ -64,20 +64,22 @@ inline PixelRadius pixel_radius(const Sampling& sampling, PixelScale scale) {
   return {px / per_metre, px};
 }
 
-// The texel below a tap, if there is a surface in it.
+// The texel below a tap.
 struct TappedTexel {
-  bool surface = false;
+  bool on_screen = false;
+  bool surface = false;  // on the screen, and not the sky
   std::uint32_t x = 0, y = 0;
 };
 TappedTexel tapped_texel(const View& view, std::uint32_t x, std::uint32_t y, TapOffset offset);
 
-// A tap's input to the horizon form; false where its units are 0.
-struct HorizonTapInput {
-  std::array<float, HorizonNetwork::tap_inputs> value{};
-  float weight = 0;
-};
-bool horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal, Vec3 viewer,
-                       float radius, HorizonTapInput& input);
+// The input to the horizon form of a tap that lies on the screen.
+using HorizonTapInput = std::array<float, HorizonNetwork::tap_inputs>;
+HorizonTapInput horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal,
+                                  Vec3 viewer, float radius);
+
+// The same of a tap off the screen, where the pixel's own plane is taken to go on. across, facing: dot(n, t)
+// and dot(n, o) of network.h; distance_r: of the tap on the screen, in radii.
+HorizonTapInput plane_tap_input(float across, float facing, float distance_r);
 
 // A tap's input to the paper's form; false where it is 0.
 bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal, float radius,
@@ -93,6 +95,11 @@ inline Vec3 across_viewer(Vec3 viewer, float cosine, float sine) {
 // The horizon form needs no other normal of the view. For training.
 float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
                          std::uint32_t x, std::uint32_t y, TapNoise noise);
+
+// Three units of a pixel with a surface, for pictures: the first of the paper's first layer; of the horizon
+// form the first of the means over directions.
+std::array<float, 3> first_units(const Network& network, const View& view, const Sampling& sampling,
+                                 std::uint32_t x, std::uint32_t y);
 
 // AO of one pixel in [0, 1]; exactly 1 where there is no surface.
 float evaluate_pixel(const Network& network, const View& view, const Sampling& sampling, std::uint32_t x,

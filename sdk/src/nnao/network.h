@@ -48,13 +48,14 @@ struct PaperNetwork {
 
 // Nook's network: the taps lie along `directions` half-lines on the screen, `steps` on each. With v = p_t -
 // p, the direction to the viewer o = -p / |p| (orthographic: +z) and the tap's distance d = |v| / r, a tap's
-// input is
-//   (dot(v, n) / |v|, dot(v, o) / |v|, min(d, 2)),
-// and its hidden units are tap(input) clamp(2 - d, 0, 1), 0 where there is no surface. Over the steps of a
-// direction their maximum and their mean, with the direction's own (dot(n, t), dot(n, o)), t the unit vector
-// across o in the plane of the direction, go through `direction`; the mean over directions, with dot(n, o),
-// through `join` and `out`.
+// hidden units are tap(input) of
+//   input = (dot(v, n) / |v|, dot(v, o) / |v|, min(d, 2)).
+// The sky is a surface infinitely far away; off the screen the pixel's own plane is taken to go on. Over the
+// steps of a direction the units' maximum and their mean, with the direction's own (dot(n, t), dot(n, o)), t
+// the unit vector across o in the plane of the direction, go through `direction`; the mean over directions,
+// each weighted by its steps on the screen, with dot(n, o), through `join` and `out`.
 struct HorizonNetwork {
+  static constexpr int revision = 2;  // of what the numbers mean
   static constexpr int tap_inputs = 3;
   static constexpr int units = 8;
 

@@ -21,7 +21,7 @@ float checked(float value, const char* what, nook_result code) {
 std::array<std::uint32_t, 3> sizes_of(NetworkForm form) {
   if (form == NetworkForm::paper)
     return {PaperNetwork::grid_size, PaperNetwork::tap_inputs, PaperNetwork::units};
-  return {1, HorizonNetwork::tap_inputs, HorizonNetwork::units};
+  return {HorizonNetwork::revision, HorizonNetwork::tap_inputs, HorizonNetwork::units};
 }
 
 NetworkForm read_head(ByteReader in) {
@@ -31,10 +31,10 @@ NetworkForm read_head(ByteReader in) {
                   "the form of the network is unknown (got %u, need 0 or 1); train it again", form);
   for (const std::uint32_t need : sizes_of(NetworkForm(form)))
     if (const std::uint32_t got = in.u16(); got != need)
-      throw Failure(
-          NOOK_ERROR_BAD_FILE,
-          "the network has a size that this version does not evaluate (got %u, need %u); train it again", got,
-          need);
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "the network has a size or revision that this version does not evaluate (got %u, need "
+                    "%u); train it again",
+                    got, need);
   in.check_end();
   return NetworkForm(form);
 }

@@ -72,7 +72,8 @@ class Fit {
   // directions and radiance: three floats an entry; weights null: all 1. Allocates nothing. How samples are
   // cut into calls does not matter, to the bit.
   void add_samples(const float* directions, const float* radiance, const float* weights, std::size_t count);
-  // The start of a running average without samples; it weighs as much as the samples of short_run. Both throw INVALID_ARGUMENT for a fit of another basis, merge also for other settings.
+  // The start of a running average without samples; it weighs as much as the samples of short_run. Both throw
+  // INVALID_ARGUMENT for a fit of another basis, merge also for other settings.
   void seed(Fit& short_run);
   void merge(const Fit& other);
   void reset();

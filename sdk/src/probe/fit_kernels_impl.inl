@@ -94,7 +94,7 @@ void plain_steps(const RunningView& fit, const Sample* samples, const float* val
         store(fit.square + i, moved);
         denominator = max(moved, denominator);
       }
-      const Float along = value / denominator, kept = squared / denominator - one;
+      const Float inverse = one / denominator, along = value * inverse, kept = squared * inverse - one;
       for (std::uint32_t c = 0; c < 3; ++c) {
         const Float before = load(fit.value[c] + i);
         Float gain = share * fma(along, residual[c], kept * before);

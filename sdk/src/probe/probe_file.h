@@ -1,7 +1,6 @@
 // Probes as .nook files. Version 1 of the kind "PROB" has the sections
-//   HEAD u8 kind, u8 domain, u8 ambient, u8 order, u8 functions, u8 packing; up 3 f32; counts 3 u32;
-//   origin_ws
-//        and spacing_ws 3 f32 each
+//   HEAD u8 kind, u8 domain, u8 ambient, u8 order, u8 functions, u8 packing;
+//        f32: up 3; u32: counts 3; f32: origin_ws 3, spacing_ws 3
 //   LOBE Gaussians only: for each function axis 3 f32 and sharpness f32
 //   COEF coefficients, probe by probe, packed as HEAD says: 3 f32, 3 half floats, or one RGB9E5 word
 //   RECP recipe, JSON; may be empty

@@ -40,7 +40,8 @@ struct AnisotropicGaussian {
 SphericalGaussian warped_lobe(const Surface& surface);
 AnisotropicGaussian warped_anisotropic_lobe(const Surface& surface);
 
-// Integral of the product with a light, at its amplitude 1: exact where x_sharpness and y_sharpness are equal.
+// Integral of the product with a light, at its amplitude 1: exact where x_sharpness and y_sharpness are
+// equal.
 float product_integral(const AnisotropicGaussian& lobe, const SphericalGaussian& light);
 
 // Radiance that leaves towards the eye.

@@ -51,6 +51,19 @@ TEST_CASE("train nnao stops at a signal, goes on to the same bits, and leaves no
   CHECK(read_text(folder.path("a.nook")) == read_text(folder.path("b.nook")));
 }
 
+TEST_CASE("train nnao stops at its time limit as at a signal") {
+  const TestFolder folder;
+  auto arguments = tiny_training(folder.path("a.nook"), "2");
+  for (std::string& a : arguments)
+    if (a == "2" && &a != &arguments.back()) a = "100000";  // epochs, far more than a second's
+  arguments.insert(arguments.end(), {"--time-limit", "1"});
+  const ToolRun run = folder.run(arguments);
+  CHECK(run.exit_code == 1);
+  CHECK(run.error.find("a.nook.resume") != std::string::npos);
+  CHECK(folder.names() == std::vector<std::string>{"a.nook.resume"});
+  CHECK(folder.run({"train", "nnao", "-o", folder.path("b.nook"), "--time-limit", "0"}).exit_code == 2);
+}
+
 TEST_CASE("train nnao refuses bad arguments and a checkpoint of something else") {
   const TestFolder folder;
   CHECK(folder.run({"train", "nnao"}).exit_code == 2);

@@ -89,7 +89,7 @@ TEST_CASE("a network is recovered from the AO that it gave") {
   };
   for (DataPoint& point : data.training) answer(point);
   for (DataPoint& point : data.validation) answer(point);
-  const TrainingSettings settings = quick(NetworkForm::horizon, 30);
+  const TrainingSettings settings = quick(NetworkForm::horizon, 60);
   TrainingState state = start_training(data, settings);
   const Network network = train(data, settings, state);
   const double error = validate(network, data, 64, 3).mse_blurred;

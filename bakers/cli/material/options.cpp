@@ -1,0 +1,162 @@
+#include "cli/material/options.h"
+
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+
+#include "cli/interrupt.h"
+#include "cli/tool_error.h"
+
+namespace nook::cli {
+namespace {
+
+using namespace bake::material;
+using nook::material::VisibilityForm;
+
+struct DefaultRanks {
+  const char* material;
+  std::uint32_t light, view, x, y, votf_x, votf_y;
+};
+
+// The seed's Table I for the first two, for 96 x 96 texels.
+constexpr DefaultRanks builtin_ranks[] = {{"fiber", 16, 80, 64, 64, 80, 80},
+                                          {"roughhole", 28, 44, 96, 96, 80, 80},
+                                          {"weave", 20, 40, 48, 48, 48, 48}};
+
+std::vector<std::uint32_t> read_numbers(const std::string& text, std::size_t count, const char* option) {
+  std::vector<std::uint32_t> numbers;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::string part = text.substr(at, comma - at);
+    if (part.empty() || part.size() > 6 || part.find_first_not_of("0123456789") != std::string::npos) break;
+    numbers.push_back(std::uint32_t(std::stoul(part)));
+    at = comma + 1;
+  }
+  if (numbers.size() != count || at != text.size() + 1)
+    throw ToolError(exit_bad_arguments, std::string(option) + ": got " + text + ", need " +
+                                            std::to_string(count) +
+                                            " whole numbers with commas between them");
+  return numbers;
+}
+
+// Ranks that a smaller version of a built-in material allows, multiples of 4 where there is room.
+std::uint32_t at_most(std::uint32_t rank, std::size_t size) {
+  if (rank <= size) return rank;
+  return size >= 4 ? std::uint32_t(size / 4 * 4) : std::uint32_t(size);
+}
+
+bool set_builtin(CompressionSettings& s, const RawMaterial& raw) {
+  for (const DefaultRanks& d : builtin_ranks) {
+    if (raw.name != d.material) continue;
+    s.rank_light = at_most(d.light, raw.light_rows());
+    s.rank_view = at_most(d.view, raw.views.size());
+    s.rank_x = at_most(d.x, raw.width);
+    s.rank_y = at_most(d.y, raw.height);
+    s.votf_rank_x = at_most(d.votf_x, raw.width);
+    s.votf_rank_y = at_most(d.votf_y, raw.height);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void add_compression_options(CLI::App& command, CompressionOptions& o) {
+  CompressionSettings& s = o.settings;
+  command
+      .add_option(
+          "--ranks", o.ranks,
+          "L,V,X,Y: ranks of the BTF's modes, V in total over the clusters; auto: by --threshold. Built-in "
+          "materials have ranks of their own, others auto")
+      ->type_name("L,V,X,Y|auto");
+  command.add_option("--votf-ranks", o.votf_ranks, "X,Y: ranks of the VOTF")->type_name("X,Y");
+  command
+      .add_option("--threshold", o.threshold,
+                  "squared error that --ranks auto allows in each mode, a share of the square norm")
+      ->check(CLI::Range(1e-6, 0.5))
+      ->capture_default_str();
+  command.add_option("--cluster-rank", s.cluster_rank_view, "view rank of one cluster")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command.add_option("--clusters", s.clusters, "clusters of views; default V / cluster rank")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--mixture", s.mixture, "clusters K that a view is mixed from")
+      ->check(CLI::Range(1, 8))
+      ->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--seeding",
+          [&s](const std::string& v) { s.seeding = v == "values" ? Seeding::values : Seeding::directions; },
+          "first clusters by view directions (default) or by k-means of values")
+      ->check(CLI::IsMember({"directions", "values"}))
+      ->type_name("NAME");
+}
+
+CompressionSettings compression_settings(const CompressionOptions& options, const RawMaterial& raw) {
+  CompressionSettings s = options.settings;
+  if (!options.ranks.empty() && options.ranks != "auto") {
+    const auto r = read_numbers(options.ranks, 4, "--ranks");
+    s.rank_light = r[0];
+    s.rank_view = r[1];
+    s.rank_x = r[2];
+    s.rank_y = r[3];
+    s.votf_rank_x = std::min(s.votf_rank_x, raw.width);
+    s.votf_rank_y = std::min(s.votf_rank_y, raw.height);
+  } else if (options.ranks == "auto" || !set_builtin(s, raw)) {
+    s = ranks_by_threshold(raw, options.threshold, s);
+  }
+  if (!options.votf_ranks.empty()) {
+    const auto r = read_numbers(options.votf_ranks, 2, "--votf-ranks");
+    s.votf_rank_x = r[0];
+    s.votf_rank_y = r[1];
+  }
+  if (s.method == Method::k_cta && options.settings.clusters == 0)
+    s.mixture = std::min(s.mixture, s.cluster_count());
+  check_settings(s, raw);
+  return s;
+}
+
+nlohmann::ordered_json report_row(const std::string& material, const MethodRow& row) {
+  nlohmann::ordered_json json = {{"material", material}, {"method", row.method}, {"k", row.mixture},
+                                 {"bytes", row.bytes},   {"se_db", row.se_db},   {"psnr_db", row.psnr_db}};
+  const auto texels = [&](const char* key, const std::optional<std::size_t>& count) {
+    json[key] = count ? nlohmann::ordered_json(*count) : nlohmann::ordered_json();
+  };
+  texels("votf_error_texels_binary", row.error_texels_binary);
+  texels("votf_error_texels_distance", row.error_texels_distance);
+  json["seconds"] = row.seconds;
+  json["peak_bytes"] = peak_bytes();
+  return json;
+}
+
+nlohmann::ordered_json describe(const CompressionSettings& s) {
+  return {{"method", method_name(s.method)},
+          {"ranks", {s.rank_light, s.rank_view, s.rank_x, s.rank_y}},
+          {"votf_ranks", {s.votf_rank_x, s.votf_rank_y}},
+          {"cluster_rank", s.method == Method::n_svd ? s.rank_view : s.cluster_rank_view},
+          {"clusters", s.method == Method::n_svd ? 1 : s.cluster_count()},
+          {"mixture", s.method == Method::k_cta ? s.mixture : 1},
+          {"seeding", s.seeding == Seeding::directions ? "directions" : "values"},
+          {"votf", s.visibility == VisibilityForm::none     ? "none"
+                   : s.visibility == VisibilityForm::binary ? "binary"
+                                                            : "distance"},
+          {"seed", s.seed}};
+}
+
+std::size_t peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::size_t(usage.ru_maxrss) * 1024;
+}
+
+StageProgress stage_progress(ProgressBar& bar, std::string prefix) {
+  return [&bar, prefix = std::move(prefix)](const char* stage, std::size_t done, std::size_t total) {
+    bar.show(prefix + stage, "steps", done, total);
+    return !interrupted();
+  };
+}
+
+}  // namespace nook::cli

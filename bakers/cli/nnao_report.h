@@ -1,0 +1,22 @@
+// The rows of `nook evaluate nnao`, their means over scenes, and the tables of docs/nnao.md.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/nnao/comparison.h"
+
+namespace nook::cli {
+
+// One object a row; ratio_to_nnao is the time over that of nnao with 64 taps.
+nlohmann::ordered_json nnao_rows(const Comparison& comparison, const std::string& scene,
+                                 const std::string& resolution, const std::string& gpu);
+
+// For each method, number of taps and blur the mean of every number over the scenes, as a row of the scene
+// "mean". All scenes have the same methods in the same order.
+nlohmann::ordered_json nnao_mean_rows(const nlohmann::ordered_json& rows);
+
+// Markdown: blurred mse by scene with its mean, then the means of every column.
+std::string nnao_markdown(const nlohmann::ordered_json& rows);
+
+}  // namespace nook::cli

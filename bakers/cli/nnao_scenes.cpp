@@ -1,0 +1,123 @@
+#include "cli/nnao_scenes.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "cli/input_file.h"
+#include "cli/interrupt.h"
+#include "cli/progress_bar.h"
+#include "import/static_scene.h"
+#include "nnao/thin_scene.h"
+
+namespace nook::cli {
+namespace {
+
+using namespace bake::nnao;
+
+constexpr float degree = 0.017453293f;  // radians
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw ToolError(exit_bad_arguments, "evaluate nnao: " + text);
+}
+
+// What an option says of one scene, or of all.
+struct Word {
+  std::string scene, value;
+};
+
+Word split(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos) return {"", text};
+  return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
+GivenCamera parse_camera(const std::string& text) {
+  float v[7];
+  int used = 0;
+  const int count =
+      std::sscanf(text.c_str(), "%f,%f,%f,%f,%f,%f,%f%n", v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, &used);
+  bool good = count == 7 && std::size_t(used) == text.size();
+  for (int i = 0; good && i < 7; ++i) good = std::isfinite(v[i]);
+  const Vec3 eye{v[0], v[1], v[2]}, target{v[3], v[4], v[5]};
+  if (!good || !(v[6] >= 1 && v[6] <= 170) || eye == target)
+    refuse(
+        "--camera: got " + text +
+        ", need ox,oy,oz,tx,ty,tz,fov: seven numbers, the eye apart from the target, fov 1 to 170 degrees");
+  return {eye, target, v[6] * degree};
+}
+
+float parse_radius(const std::string& text) {
+  float radius = 0;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%f%n", &radius, &used) != 1 || std::size_t(used) != text.size() ||
+      !(radius >= 1e-3f && radius <= 1e3f))
+    refuse("--radius: got " + text + ", need 0.001 to 1000 metres");
+  return radius;
+}
+
+// visit(scene, value) for every scene that the word is about.
+template <class Visit>
+void apply(std::vector<SceneRequest>& scenes, const std::string& option, const std::string& text,
+           const Visit& visit) {
+  const Word word = split(text);
+  bool known = word.scene.empty();
+  for (SceneRequest& scene : scenes)
+    if (word.scene.empty() || word.scene == scene.name) {
+      visit(scene, word.value);
+      known = true;
+    }
+  if (!known) refuse(option + ": there is no scene of this name (got " + word.scene + ")");
+}
+
+TrainingScene read_scene(const SceneRequest& request, std::uint64_t seed) {
+  if (request.file.empty()) return make_thin_scene(seed);
+  bake::StaticScene scene =
+      naming_file(request.file, [&] { return bake::import_static_scene(request.file); });
+  return scene_to_look_at({std::move(scene.position), std::move(scene.triangle)});
+}
+
+}  // namespace
+
+std::vector<SceneRequest> parse_scenes(const SceneWords& words) {
+  std::vector<SceneRequest> scenes;
+  for (const std::filesystem::path& file : words.files)
+    scenes.push_back({file.stem().string(), file, 0.5f, {}});
+  if (words.thin) scenes.push_back({"thin", {}, 0.5f, {}});
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (scenes[i].name == scenes[j].name) refuse("two scenes have one name (got " + scenes[i].name + ")");
+  for (const std::string& text : words.radii)
+    apply(scenes, "--radius", text,
+          [](SceneRequest& scene, const std::string& value) { scene.radius = parse_radius(value); });
+  for (const std::string& text : words.cameras)
+    apply(scenes, "--camera", text, [](SceneRequest& scene, const std::string& value) {
+      scene.cameras.push_back(parse_camera(value));
+    });
+  return scenes;
+}
+
+std::vector<MeasuredView> trace_views(const SceneRequest& request, TruthSettings truth, std::uint32_t placed,
+                                      const CommonOptions& common) {
+  truth.radius = request.radius;
+  const TrainingScene scene = read_scene(request, common.seed);
+  const bake::RayScene rays(scene.soup);
+  std::vector<Camera> cameras;
+  for (const GivenCamera& c : request.cameras)
+    cameras.push_back(look_at(c.eye, c.target, 0, c.fov, truth.width, truth.height));
+  for (std::uint32_t i = 0; request.cameras.empty() && i < placed; ++i) {
+    Random random(bake::mix_bits(truth.seed) + i);
+    cameras.push_back(place_camera(rays, scene, random, truth.width, truth.height));
+  }
+  ProgressBar bar(common.quiet);
+  std::vector<MeasuredView> views;
+  const std::string label = request.name + ", ray tracing";
+  for (const Camera& camera : cameras) {
+    bar.show(label, "views", views.size(), cameras.size());
+    if (interrupted()) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing");
+    views.push_back(measure_view(rays, request.name, camera, truth));
+  }
+  bar.show(label, "views", views.size(), cameras.size());
+  return views;
+}
+
+}  // namespace nook::cli

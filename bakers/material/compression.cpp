@@ -1,0 +1,219 @@
+#include "material/compression.h"
+
+#include <algorithm>
+
+#include "core/failure.h"
+#include "material/check.h"
+#include "material/signed_distance.h"
+#include "material/view_spline.h"
+#include "tensor/nsvd.h"
+#include "tensor/rank_choice.h"
+#include "tensor/resample.h"
+#include "tensor/seed_clusters.h"
+
+namespace nook::bake::material {
+namespace {
+
+using nook::material::ClusteredTensor;
+using nook::material::Material;
+using nook::material::VisibilityForm;
+using tensor::Matrix;
+
+constexpr float distance_threshold = 0.5f / 3, distance_weight = 1 / distance_threshold;
+
+tensor::TensorView btf_view(const RawMaterial& raw) {
+  return {{raw.light_rows(), raw.views.size(), raw.width, raw.height}, raw.btf.data()};
+}
+
+tensor::TensorView votf_view(const RawMaterial& raw, const std::vector<float>& values) {
+  return {{raw.views.size(), raw.width, raw.height}, values.data()};
+}
+
+Matrix as_rows(const std::vector<Vec3>& directions) {
+  Matrix rows(Eigen::Index(directions.size()), 3);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const Vec3 d = directions[std::size_t(i)];
+    rows.row(i) << d.x, d.y, d.z;
+  }
+  return rows;
+}
+
+// What fits a tensor, the clustered mode being its view mode.
+struct FitTask {
+  const RawMaterial& raw;
+  tensor::TensorView values;
+  std::size_t view_mode;
+  std::vector<std::size_t> ranks;  // total in the view mode
+  const CompressionSettings& settings;
+  const StageProgress& progress;
+  const char* stage;
+};
+
+tensor::ClusteredFit fit_n_svd(const FitTask& task) {
+  tensor::NsvdSettings settings;
+  settings.ranks = task.ranks;
+  const auto progress = [&](const tensor::NsvdProgress& now) {
+    return !task.progress || task.progress(task.stage, std::size_t(now.sweep), std::size_t(now.sweeps));
+  };
+  return tensor::as_one_cluster(tensor::fit_nsvd(task.values, settings, progress), task.view_mode);
+}
+
+tensor::ClusteredFit fit_clusters(const FitTask& task) {
+  const CompressionSettings& s = task.settings;
+  tensor::ClusteredSettings settings;
+  settings.mode = task.view_mode;
+  settings.ranks = task.ranks;
+  settings.ranks[task.view_mode] = s.cluster_rank_view;
+  settings.clusters = s.cluster_count();
+  settings.mixture = s.method == Method::cta ? 1 : s.mixture;
+  if (task.view_mode > 0) settings.global_modes = {0};
+  const Matrix points = s.seeding == Seeding::directions
+                            ? as_rows(task.raw.views)
+                            : tensor::sub_tensor_points(task.values, task.view_mode);
+  settings.seeds = tensor::seed_clusters(points, settings.clusters, s.seed);
+  const auto progress = [&](const tensor::ClusteredProgress& now) {
+    return !task.progress ||
+           task.progress(task.stage, std::size_t(now.iteration) * settings.clusters + now.cluster,
+                         std::size_t(now.iterations + 1) * settings.clusters);
+  };
+  return s.method == Method::cta ? tensor::fit_cta(task.values, settings, progress)
+                                 : tensor::fit_k_cta(task.values, settings, progress);
+}
+
+void append(std::pmr::vector<float>& to, const Matrix& matrix) {
+  to.insert(to.end(), matrix.data(), matrix.data() + matrix.size());
+}
+
+nook::material::ViewRows view_rows(const tensor::Mixture& mixture) {
+  nook::material::ViewRows rows;
+  for (const std::uint32_t c : mixture.membership) rows.membership.push_back(std::uint16_t(c));
+  append(rows.coefficients, mixture.coefficients);
+  return rows;
+}
+
+ClusteredTensor as_clustered_tensor(const tensor::ClusteredFit& fit) {
+  const std::size_t view = fit.mode, x = view + 1, y = view + 2;
+  ClusteredTensor t;
+  t.shape.views = std::uint32_t(fit.dimensions[view]);
+  t.shape.width = std::uint32_t(fit.dimensions[x]);
+  t.shape.height = std::uint32_t(fit.dimensions[y]);
+  t.shape.rank_light = view > 0 ? std::uint32_t(fit.ranks[0]) : 1;
+  t.shape.rank_view = std::uint32_t(fit.ranks[view]);
+  t.shape.rank_x = std::uint32_t(fit.ranks[x]);
+  t.shape.rank_y = std::uint32_t(fit.ranks[y]);
+  t.shape.clusters = std::uint32_t(fit.clusters.size());
+  t.shape.mixture = std::uint32_t(fit.mixture.count);
+  for (const auto& cluster : fit.clusters) {
+    t.cores.insert(t.cores.end(), cluster.core.data.begin(), cluster.core.data.end());
+    append(t.x_bases, cluster.basis[x]);
+    append(t.y_bases, cluster.basis[y]);
+  }
+  t.rows = view_rows(fit.mixture);
+  return t;
+}
+
+// The mode-light basis of a BTF's fit: global for clusters, the one cluster's own for an N-SVD.
+std::vector<float> light_basis_of(const tensor::ClusteredFit& fit) {
+  const Matrix& own = fit.clusters[0].basis.empty() ? fit.global_basis[0] : fit.clusters[0].basis[0];
+  const Matrix& basis = fit.global_basis[0].size() > 0 ? fit.global_basis[0] : own;
+  const auto rows = Eigen::Index(fit.dimensions[0]);
+  const Matrix full = basis.size() > 0 ? basis : Matrix(Matrix::Identity(rows, rows));
+  return {full.data(), full.data() + full.size()};
+}
+
+tensor::ClusteredFit fit(const FitTask& task) {
+  if (task.progress && !task.progress(task.stage, 0, 1)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
+  return task.settings.method == Method::n_svd ? fit_n_svd(task) : fit_clusters(task);
+}
+
+ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task) {
+  ClusteredTensor t = as_clustered_tensor(fitted);
+  const std::uint32_t side = task.settings.map_side;
+  if (task.settings.method != Method::k_cta || side == 0) return t;
+  if (task.progress && !task.progress("view map", 0, 1)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
+  const Matrix projections = tensor::atom_projections(fitted, task.values);
+  t.map.side = side;
+  t.map.rows = view_rows(tensor::resample(fitted, projections, spline_weights(task.raw.views, side)));
+  return t;
+}
+
+}  // namespace
+
+void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
+  const auto check = [](std::size_t got, std::size_t most, const char* what, const char* of) {
+    if (got < 1 || got > most)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is %zu; %s allows 1 to %zu", what, got, of, most);
+  };
+  const std::size_t views = raw.views.size();
+  check(s.rank_light, raw.light_rows(), "the light rank", "three times the number of lights");
+  check(s.rank_view, views, "the view rank", "the number of views");
+  check(s.rank_x, raw.width, "the x rank", "the width in texels");
+  check(s.rank_y, raw.height, "the y rank", "the height in texels");
+  if (!raw.mask.empty() && s.visibility != VisibilityForm::none) {
+    check(s.votf_rank_x, raw.width, "the VOTF's x rank", "the width in texels");
+    check(s.votf_rank_y, raw.height, "the VOTF's y rank", "the height in texels");
+  }
+  if (s.method == Method::n_svd) return;
+  check(s.cluster_rank_view, views, "the view rank of a cluster", "the number of views");
+  check(s.cluster_count(), views, "the number of clusters", "the number of views");
+  if (s.method == Method::k_cta)
+    check(s.mixture, std::min(s.cluster_count(), nook::material::max_mixture), "the mixture K",
+          "the number of clusters, and the file format,");
+  if (s.map_side > nook::material::max_map_side)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a view map of %u cells a side; need at most %u", s.map_side,
+                  nook::material::max_map_side);
+}
+
+CompressedBtf compress_btf(const RawMaterial& raw, const CompressionSettings& s,
+                           const StageProgress& progress) {
+  check_settings(s, raw);
+  const FitTask task{raw, btf_view(raw), 1,    {s.rank_light, s.rank_view, s.rank_x, s.rank_y},
+                     s,   progress,      "BTF"};
+  const tensor::ClusteredFit fitted = fit(task);
+  return {light_basis_of(fitted), with_map(fitted, task), int(fitted.objective.size()) - 1};
+}
+
+ClusteredTensor compress_votf(const RawMaterial& raw, const std::vector<float>& values,
+                              const CompressionSettings& s, const StageProgress& progress) {
+  check_settings(s, raw);
+  const FitTask task{
+      raw, votf_view(raw, values), 0, {s.rank_view, s.votf_rank_x, s.votf_rank_y}, s, progress, "VOTF"};
+  return with_map(fit(task), task);
+}
+
+std::vector<float> votf_values(const RawMaterial& raw, VisibilityForm form) {
+  return form == VisibilityForm::binary ? raw.mask : signed_distances(raw.mask, raw.width, raw.height);
+}
+
+Material compress(const RawMaterial& raw, const CompressionSettings& s, const StageProgress& progress) {
+  Material material;
+  material.lights.assign(raw.lights.begin(), raw.lights.end());
+  material.views.assign(raw.views.begin(), raw.views.end());
+  CompressedBtf btf = compress_btf(raw, s, progress);
+  material.light_basis.assign(btf.light_basis.begin(), btf.light_basis.end());
+  material.btf = std::move(btf.tensor);
+  if (raw.mask.empty() || s.visibility == VisibilityForm::none) return material;
+  material.visibility = s.visibility;
+  material.mapping = s.visibility == VisibilityForm::distance
+                         ? nook::material::VisibilityMapping{distance_threshold, distance_weight}
+                         : nook::material::default_mapping(s.visibility);
+  material.votf = compress_votf(raw, votf_values(raw, s.visibility), s, progress);
+  return material;
+}
+
+CompressionSettings ranks_by_threshold(const RawMaterial& raw, double share, CompressionSettings s) {
+  const auto btf = tensor::ranks_for_error(btf_view(raw), std::vector<double>(4, share));
+  s.rank_light = std::uint32_t(btf[0]);
+  s.rank_view = std::uint32_t(btf[1]);
+  s.rank_x = std::uint32_t(btf[2]);
+  s.rank_y = std::uint32_t(btf[3]);
+  s.clusters = 0;
+  if (raw.mask.empty() || s.visibility == VisibilityForm::none) return s;
+  const std::vector<float> values = votf_values(raw, s.visibility);
+  const auto votf = tensor::ranks_for_error(votf_view(raw, values), std::vector<double>(3, share));
+  s.votf_rank_x = std::uint32_t(votf[1]);
+  s.votf_rank_y = std::uint32_t(votf[2]);
+  return s;
+}
+
+}  // namespace nook::bake::material

@@ -1,0 +1,75 @@
+// From a raw material to a compressed one, by N-SVD, CTA or K-CTA.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "material/material.h"
+#include "material/raw_material.h"
+#include "tensor/clustered_fit.h"
+
+namespace nook::bake::material {
+
+enum class Method : std::uint8_t { n_svd, cta, k_cta };
+
+enum class Seeding : std::uint8_t {
+  directions,  // clusters of view directions: the parametric space of the seed's 5.1
+  values,      // k-means of the views' sub-tensors
+};
+
+struct CompressionSettings {
+  Method method = Method::k_cta;
+  std::uint32_t rank_light = 16;
+  std::uint32_t rank_view = 80;  // of N-SVD; of CTA and K-CTA in total, C times that of a cluster
+  std::uint32_t rank_x = 64, rank_y = 64;
+  std::uint32_t votf_rank_x = 80, votf_rank_y = 80;
+  std::uint32_t cluster_rank_view = 4;
+  std::uint32_t clusters = 0;  // C; 0: rank_view / cluster_rank_view
+  std::uint32_t mixture = 3;   // K of K-CTA
+  Seeding seeding = Seeding::directions;
+  nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;
+  std::uint32_t map_side = 256;  // cells of the resampled view maps of K-CTA; 0: none
+  std::uint64_t seed = 1;
+
+  std::uint32_t cluster_count() const {
+    return clusters ? clusters : std::max(rank_view / cluster_rank_view, 1u);
+  }
+};
+
+// Returns false to stop. stage names what goes on.
+using StageProgress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
+
+// Ranks, clusters and mixture against the material's sizes; throws Failure(INVALID_ARGUMENT) that names the
+// first that does not fit.
+void check_settings(const CompressionSettings& settings, const RawMaterial& raw);
+
+// Both throw Failure(NOOK_ERROR_CANCELLED) when progress returns false. The same bits for the same seed on
+// any number of threads.
+struct CompressedBtf {
+  std::vector<float> light_basis;  // as Material::light_basis
+  nook::material::ClusteredTensor tensor;
+  int iterations = 0;
+};
+CompressedBtf compress_btf(const RawMaterial& raw, const CompressionSettings& settings,
+                           const StageProgress& progress = {});
+
+// values: view x width x height, a mask or distances.
+nook::material::ClusteredTensor compress_votf(const RawMaterial& raw, const std::vector<float>& values,
+                                              const CompressionSettings& settings,
+                                              const StageProgress& progress = {});
+
+// The VOTF's values in a form: the mask, or its signed distances.
+std::vector<float> votf_values(const RawMaterial& raw, nook::material::VisibilityForm form);
+
+// Both, and the directions, as a whole; without a mask in raw there is no VOTF. Numbers are not yet rounded
+// to half floats: quantise() in sdk's material/material_file.h does.
+nook::material::Material compress(const RawMaterial& raw, const CompressionSettings& settings,
+                                  const StageProgress& progress = {});
+
+// The seed's choice of ranks (section 6), for light, view, x, y, and x, y of the VOTF: in each mode alone the
+// least multiple of 4 at which the squared error stays below a share of the square norm.
+CompressionSettings ranks_by_threshold(const RawMaterial& raw, double share, CompressionSettings settings);
+
+}  // namespace nook::bake::material

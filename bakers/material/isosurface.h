@@ -1,0 +1,22 @@
+// The zero surface of a periodic function, by marching tetrahedra.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "material/meso_surface.h"
+
+namespace nook::bake::material {
+
+struct IsoGrid {
+  std::uint32_t cells = 64;   // along a tile's side
+  std::uint32_t layers = 16;  // cells between bottom and top
+  float bottom = -0.1f, top = 0.1f;
+};
+
+// field: positive inside; it repeats after 1 along x and y and is negative at bottom and top. Normals are its
+// gradient's. albedo is asked at each vertex. The tile's opposite sides match vertex by vertex.
+MesoSurface extract_isosurface(const std::function<float(Vec3)>& field,
+                               const std::function<Vec3(Vec3)>& albedo, const IsoGrid& grid);
+
+}  // namespace nook::bake::material

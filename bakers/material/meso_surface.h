@@ -1,0 +1,52 @@
+// The geometry of a meso-structure: one tile of a surface that repeats without end along x and y.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace nook::bake::material {
+
+// A closed surface (or closed on the torus): normals point out of the solid. Lengths are in tiles: the
+// pattern repeats after 1 along x and y. Triangles may reach beyond the tile; together with their copies they
+// cover the plane once.
+struct MesoSurface {
+  std::vector<Vec3> position;
+  std::vector<Vec3> normal;  // unit, for shading
+  std::vector<Vec3> albedo;  // linear RGB of the diffuse part
+  std::vector<std::array<std::uint32_t, 3>> triangle;
+  float specular = 0;   // normal reflectance of a Blinn-Phong lobe on top of the diffuse one; 0: none
+  float shininess = 1;  // its exponent
+};
+
+// What the built-in structures are made of. The defaults of each are in `meso_parameters`, and
+// docs/materials.md publishes them.
+struct MesoParameters {
+  std::string name;         // "fiber", "roughhole" or "weave"
+  std::uint32_t count = 1;  // fibres; holes along a side; yarns along a side
+  float radius = 0.02f;     // of a fibre; of a hole; half the width of a yarn
+  float thickness =
+      0.1f;  // fiber: height over which fibres are spread; roughhole: of the plate; weave: of a yarn
+  float roughness =
+      0;             // fiber: wander of a fibre; roughhole: amplitude of the noise; weave: depth of the plies
+  float detail = 1;  // segments and grid cells relative to the default
+  std::uint64_t seed = 1;
+};
+
+std::vector<std::string_view> meso_names();
+
+// Throws Failure(INVALID_ARGUMENT) that lists the names where this one is unknown.
+MesoParameters meso_parameters(std::string_view name);
+
+// Throws Failure(INVALID_ARGUMENT) for parameters outside of what the structure can be built from.
+MesoSurface make_meso_surface(const MesoParameters& parameters);
+
+MesoSurface make_fiber(const MesoParameters& parameters);
+MesoSurface make_rough_hole(const MesoParameters& parameters);
+MesoSurface make_weave(const MesoParameters& parameters);
+
+}  // namespace nook::bake::material

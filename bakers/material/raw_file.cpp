@@ -1,0 +1,138 @@
+#include "material/raw_file.h"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cmath>
+
+#include "core/failure.h"
+#include "core/half.h"
+
+namespace nook::bake::material {
+namespace {
+
+// Far above any use, small enough that their product cannot overflow.
+constexpr std::uint32_t most_directions = 65536, most_texels_a_side = 16384;
+
+std::vector<std::byte> as_half_bytes(const std::vector<float>& values) {
+  std::vector<std::byte> bytes(2 * values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::uint16_t half = to_half(values[i]);
+    bytes[2 * i] = std::byte(half & 255u);
+    bytes[2 * i + 1] = std::byte(half >> 8);
+  }
+  return bytes;
+}
+
+std::vector<float> from_half_bytes(std::string_view bytes) {
+  std::vector<float> values(bytes.size() / 2);
+  const auto byte = [&](std::size_t i) { return std::uint32_t(static_cast<unsigned char>(bytes[i])); };
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = from_half(std::uint16_t(byte(2 * i) | byte(2 * i + 1) << 8));
+  return values;
+}
+
+std::vector<Vec3> read_directions(ByteReader& reader, std::uint32_t count) {
+  std::vector<Vec3> directions(reader.check_count(count, 96, "directions"));
+  for (Vec3& d : directions)
+    for (float* c : {&d.x, &d.y, &d.z}) *c = reader.f32();
+  return directions;
+}
+
+void need_size(const ByteReader& reader, std::size_t size) {
+  if (reader.remaining() != size)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "section %s does not fit the head (got %zu bytes, need %zu); bake the file again",
+                  reader.name(), reader.remaining(), size);
+}
+
+void check_directions(const std::vector<Vec3>& directions, const char* what) {
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const Vec3 d = directions[i];
+    if (!(std::abs(length(d) - 1) < 1e-3f && d.z >= 0))
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%s direction %zu, (%g, %g, %g), is no unit vector of the upper hemisphere", what, i,
+                    double(d.x), double(d.y), double(d.z));
+    for (std::size_t k = 0; k < i; ++k)
+      if (directions[k] == d)
+        throw Failure(NOOK_ERROR_BAD_FILE, "%s directions %zu and %zu are the same, (%g, %g, %g)", what, k, i,
+                      double(d.x), double(d.y), double(d.z));
+  }
+}
+
+}  // namespace
+
+void check_raw_material(const RawMaterial& raw) {
+  check_directions(raw.lights, "light");
+  check_directions(raw.views, "view");
+  const std::size_t views = raw.views.size(), texels = raw.texels();
+  std::atomic<std::size_t> bad_row{raw.light_rows()};
+  const auto first_bad = [&](std::size_t row) {
+    const float* values = &raw.btf[row * views * texels];
+    for (std::size_t i = 0; i < views * texels; ++i)
+      if (!std::isfinite(values[i])) return i;
+    return views * texels;
+  };
+  tbb::parallel_for(std::size_t{0}, raw.light_rows(), [&](std::size_t row) {
+    if (first_bad(row) == views * texels) return;
+    std::size_t before = bad_row;
+    while (row < before && !bad_row.compare_exchange_weak(before, row)) {
+    }
+  });
+  if (bad_row == raw.light_rows()) return;
+  const std::size_t at = first_bad(bad_row), texel = at % texels;
+  throw Failure(NOOK_ERROR_BAD_FILE,
+                "light %zu, channel %zu, view %zu: texel (%zu, %zu) is not a finite number", bad_row / 3,
+                bad_row % 3, at / texels, texel / raw.height, texel % raw.height);
+}
+
+std::vector<std::byte> write_raw_material(const RawMaterial& raw) {
+  ByteWriter head, directions, mask;
+  head.u32(std::uint32_t(raw.lights.size()));
+  head.u32(std::uint32_t(raw.views.size()));
+  head.u32(raw.width);
+  head.u32(raw.height);
+  head.u32(!raw.mask.empty());
+  head.u32(std::uint32_t(raw.name.size()));
+  head.text(raw.name);
+  for (const auto& set : {raw.lights, raw.views})
+    for (const Vec3 d : set)
+      for (const float c : {d.x, d.y, d.z}) directions.f32(c);
+  for (const float visible : raw.mask) mask.bits(visible > 0.5f, 1);
+  const ContainerSection sections[] = {{four_letters("HEAD"), head.bytes()},
+                                       {four_letters("DIRS"), directions.bytes()},
+                                       {four_letters("BTF_"), as_half_bytes(raw.btf)},
+                                       {four_letters("MASK"), mask.bytes()}};
+  return write_container(raw_kind, sections);
+}
+
+RawMaterial read_raw_material(std::span<const std::byte> bytes) {
+  const Container file(bytes, raw_kind);
+  ByteReader head = file.section("HEAD"), directions = file.section("DIRS"), btf = file.section("BTF_"),
+             mask = file.section("MASK");
+  RawMaterial raw;
+  const std::uint32_t lights = head.u32(), views = head.u32();
+  raw.width = head.u32();
+  raw.height = head.u32();
+  const bool has_mask = head.u32() != 0;
+  raw.name = head.text(head.u32());
+  head.check_end();
+  if (lights == 0 || views == 0 || lights > most_directions || views > most_directions || raw.texels() == 0 ||
+      raw.width > most_texels_a_side || raw.height > most_texels_a_side)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%u lights, %u views, %u x %u texels are no material; bake the file again", lights, views,
+                  raw.width, raw.height);
+  raw.lights = read_directions(directions, lights);
+  raw.views = read_directions(directions, views);
+  directions.check_end();
+  const std::size_t visible = raw.views.size() * raw.texels();
+  need_size(btf, 2 * raw.light_rows() * visible);
+  need_size(mask, has_mask ? (visible + 7) / 8 : 0);
+  raw.btf = from_half_bytes(btf.text(btf.remaining()));
+  if (has_mask) raw.mask.resize(visible);
+  for (float& m : raw.mask) m = float(mask.bits(1));
+  check_raw_material(raw);
+  return raw;
+}
+
+}  // namespace nook::bake::material

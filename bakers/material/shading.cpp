@@ -1,0 +1,135 @@
+#include "material/shading.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "raytrace/hemisphere.h"
+#include "raytrace/ray_scene.h"
+
+namespace nook::bake::material {
+namespace {
+
+// Turns z onto n (Duff et al. 2017).
+Vec3 to_frame(Vec3 n, Vec3 d) {
+  const float sign = std::copysign(1.0f, n.z);
+  const float a = -1 / (sign + n.z), b = n.x * n.y * a;
+  const Vec3 u{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, v{b, sign + n.y * n.y * a, -n.y};
+  return d.x * u + d.y * v + d.z * n;
+}
+
+Vec3 shading_normal(const MesoSurface& surface, const SurfaceHit& hit) {
+  return normalised(at_hit<Vec3>(surface.normal, surface.triangle, hit));
+}
+
+// What gathers light at a vertex: the triangles that its rays meet.
+std::vector<SurfaceHit> gather_hits(const MesoSurface& surface, const TiledScene& scene, std::uint32_t rays,
+                                    std::uint64_t seed) {
+  const HemispherePatterns patterns(rays, seed);
+  std::vector<SurfaceHit> hits(surface.position.size() * rays);
+  tbb::parallel_for(std::size_t{0}, surface.position.size(), [&](std::size_t v) {
+    const FlushDenormals flush;
+    const Vec3 n = surface.normal[v], origin = scene.outside(surface.position[v], n);
+    const Vec3* local = patterns.pattern(std::uint32_t(mix_bits(seed + v)));
+    for (std::uint32_t r = 0; r < rays; ++r)
+      hits[v * rays + r] = scene.nearest(origin, to_frame(n, local[r]));
+  });
+  return hits;
+}
+
+}  // namespace
+
+void direct_cosines(const TiledScene& scene, const SurfaceHit& hit, Vec3 normal, std::span<const Vec3> lights,
+                    std::span<float> cosine) {
+  thread_local std::vector<Vec3> towards;
+  thread_local std::vector<std::uint32_t> index;
+  thread_local std::vector<unsigned char> open;
+  towards.clear();
+  index.clear();
+  for (std::uint32_t l = 0; l < lights.size(); ++l) {
+    cosine[l] = 0;
+    if (dot(normal, lights[l]) <= 0 || dot(hit.normal, lights[l]) <= 0) continue;
+    towards.push_back(lights[l]);
+    index.push_back(l);
+  }
+  open.resize(towards.size());
+  scene.open_directions(hit, towards, open);
+  for (std::size_t i = 0; i < index.size(); ++i)
+    if (open[i]) cosine[index[i]] = dot(normal, towards[i]);
+}
+
+InterReflection::InterReflection(const MesoSurface& surface, const TiledScene& scene,
+                                 std::span<const Vec3> lights, std::uint32_t rays, std::uint32_t bounces,
+                                 std::uint64_t seed)
+    : surface_(surface), lights_(lights.size()) {
+  if (bounces == 0) return;
+  const std::size_t vertices = surface.position.size(), width = 3 * lights_;
+  std::vector<float> direct(vertices * lights_);
+  tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
+    const FlushDenormals flush;
+    SurfaceHit here;
+    here.position = surface.position[v];
+    here.normal = surface.normal[v];
+    direct_cosines(scene, here, here.normal, lights, {&direct[v * lights_], lights_});
+  });
+  const std::vector<SurfaceHit> hits = gather_hits(surface, scene, rays, seed);
+  irradiance_.assign(vertices * width, 0);
+  std::vector<float> radiosity(vertices * width);
+  for (std::uint32_t bounce = 0; bounce < bounces; ++bounce) {
+    tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
+      const float albedo[3] = {surface.albedo[v].x, surface.albedo[v].y, surface.albedo[v].z};
+      for (std::size_t i = 0; i < width; ++i)
+        radiosity[v * width + i] = albedo[i % 3] * (direct[v * lights_ + i / 3] + irradiance_[v * width + i]);
+    });
+    tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
+      float* sum = &irradiance_[v * width];
+      std::fill_n(sum, width, 0.0f);
+      for (std::uint32_t r = 0; r < rays; ++r) {
+        const SurfaceHit& hit = hits[v * rays + r];
+        if (hit.triangle == SurfaceHit::nothing) continue;
+        const auto& t = surface.triangle[hit.triangle];
+        const float weight[3] = {(1 - hit.u - hit.v) / float(rays), hit.u / float(rays), hit.v / float(rays)};
+        for (int k = 0; k < 3; ++k) {
+          const float* from = &radiosity[t[std::size_t(k)] * width];
+          for (std::size_t i = 0; i < width; ++i) sum[i] += weight[k] * from[i];
+        }
+      }
+    });
+  }
+}
+
+void InterReflection::add(const SurfaceHit& hit, Vec3 albedo, std::span<float> value) const {
+  if (irradiance_.empty()) return;
+  const auto& t = surface_.triangle[hit.triangle];
+  const float weight[3] = {1 - hit.u - hit.v, hit.u, hit.v};
+  const float colour[3] = {albedo.x, albedo.y, albedo.z};
+  for (int k = 0; k < 3; ++k) {
+    const float* from = &irradiance_[t[std::size_t(k)] * 3 * lights_];
+    for (std::size_t i = 0; i < 3 * lights_; ++i) value[i] += colour[i % 3] * weight[k] * from[i];
+  }
+}
+
+void shade(const MesoSurface& surface, const TiledScene& scene, const InterReflection& indirect,
+           const SurfaceHit& hit, Vec3 view, std::span<const Vec3> lights, std::span<float> value) {
+  thread_local std::vector<float> cosine;
+  cosine.resize(lights.size());
+  const Vec3 normal = shading_normal(surface, hit);
+  const Vec3 albedo = at_hit<Vec3>(surface.albedo, surface.triangle, hit);
+  direct_cosines(scene, hit, normal, lights, cosine);
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    // Blinn-Phong, (n + 8) / 8 so that the lobe's reflectance hardly depends on the exponent.
+    const float towards = std::max(dot(normal, normalised(lights[l] + view)), 0.0f);
+    const float gloss = cosine[l] > 0 && surface.specular > 0 ? surface.specular * (surface.shininess + 8) /
+                                                                    8 * std::pow(towards, surface.shininess)
+                                                              : 0;
+    value[3 * l] = cosine[l] * (albedo.x + gloss);
+    value[3 * l + 1] = cosine[l] * (albedo.y + gloss);
+    value[3 * l + 2] = cosine[l] * (albedo.z + gloss);
+  }
+  indirect.add(hit, albedo, value);
+  for (float& v : value) v *= std::numbers::inv_pi_v<float>;
+}
+
+}  // namespace nook::bake::material

@@ -1,0 +1,118 @@
+#include "material/trace_material.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <mutex>
+#include <span>
+
+#include "core/failure.h"
+#include "core/half.h"
+#include "material/shading.h"
+#include "raytrace/ray_scene.h"
+
+namespace nook::bake::material {
+namespace {
+
+void check(const TraceSettings& s, std::span<const Vec3> lights, std::span<const Vec3> views) {
+  if (s.width < 1 || s.height < 1 || s.width > 4096 || s.height > 4096)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a texture of %u x %u texels; need 1 to 4096 each way",
+                  s.width, s.height);
+  if (s.samples < 1 || s.samples > 16)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%u samples along a texel's side; need 1 to 16", s.samples);
+  if (s.bounces > 0 && s.bounce_rays < 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "inter-reflection without rays; need 1 or more, or no bounces");
+  if (lights.empty() || views.empty())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "no directions (got %zu lights and %zu views, need 1 each)",
+                  lights.size(), views.size());
+  for (const auto& set : {lights, views})
+    for (const Vec3 d : set)
+      if (!(std::abs(length(d) - 1) < 1e-3f) || d.z < 0.08f)
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "direction (%g, %g, %g) is no unit vector within 85 degrees of the normal", double(d.x),
+                      double(d.y), double(d.z));
+}
+
+// One column of texels, x fixed, from one view.
+class Column {
+ public:
+  Column(const MesoSurface& surface, const TiledScene& scene, const InterReflection& indirect,
+         RawMaterial& raw, std::uint32_t samples)
+      : surface_(surface), scene_(scene), indirect_(indirect), raw_(raw), samples_(samples) {}
+
+  void trace(std::size_t view, std::uint32_t x) const {
+    const std::size_t rows = raw_.light_rows(), height = raw_.height,
+                      stride = raw_.views.size() * raw_.texels();
+    const std::size_t first = (view * raw_.width + x) * height;
+    std::vector<float> value(rows), sum(rows * height, 0.0f);
+    const auto per_texel = float(samples_ * samples_);
+    for (std::uint32_t y = 0; y < raw_.height; ++y) {
+      std::uint32_t met = 0;
+      for (std::uint32_t s = 0; s < samples_ * samples_; ++s) {
+        const SurfaceHit hit = look(raw_.views[view], x, y, s);
+        if (hit.triangle == SurfaceHit::nothing) continue;
+        ++met;
+        shade(surface_, scene_, indirect_, hit, raw_.views[view], raw_.lights, value);
+        for (std::size_t r = 0; r < rows; ++r) sum[r * height + y] += value[r] / per_texel;
+      }
+      raw_.mask[first + y] = 2 * met >= samples_ * samples_ ? 1.0f : 0.0f;
+    }
+    for (std::size_t r = 0; r < rows; ++r)
+      std::copy_n(&sum[r * height], height, &raw_.btf[r * stride + first]);
+  }
+
+ private:
+  SurfaceHit look(Vec3 view, std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
+    const auto inside = [this](std::uint32_t i) { return (float(i) + 0.5f) / float(samples_); };
+    const Vec3 texel{(float(x) + inside(sample % samples_)) / float(raw_.width),
+                     (float(y) + inside(sample / samples_)) / float(raw_.height), 0};
+    // Just above the top, so that a ray never starts inside the solid.
+    const Vec3 start = texel + ((scene_.top() + 1e-3f) / view.z) * view;
+    return scene_.nearest({start.x - std::floor(start.x), start.y - std::floor(start.y), start.z}, -view);
+  }
+
+  const MesoSurface& surface_;
+  const TiledScene& scene_;
+  const InterReflection& indirect_;
+  RawMaterial& raw_;
+  std::uint32_t samples_;
+};
+
+}  // namespace
+
+void round_to_halves(RawMaterial& raw) {
+  tbb::parallel_for(std::size_t{0}, raw.light_rows(), [&](std::size_t row) {
+    const std::size_t size = raw.btf.size() / raw.light_rows();
+    for (std::size_t i = row * size; i < (row + 1) * size; ++i) raw.btf[i] = from_half(to_half(raw.btf[i]));
+  });
+}
+
+RawMaterial trace_material(const MesoSurface& surface, std::vector<Vec3> lights, std::vector<Vec3> views,
+                           const TraceSettings& settings, const Progress& progress) {
+  check(settings, lights, views);
+  RawMaterial raw;
+  raw.lights = std::move(lights);
+  raw.views = std::move(views);
+  raw.width = settings.width;
+  raw.height = settings.height;
+  raw.btf.resize(raw.light_rows() * raw.views.size() * raw.texels());
+  raw.mask.resize(raw.views.size() * raw.texels());
+
+  const TiledScene scene(surface);
+  const InterReflection indirect(surface, scene, raw.lights, settings.bounce_rays, settings.bounces,
+                                 settings.seed);
+  const Column column(surface, scene, indirect, raw, settings.samples);
+  for (std::size_t view = 0; view < raw.views.size(); ++view) {
+    if (progress && !progress(view, raw.views.size())) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
+    tbb::parallel_for(std::uint32_t{0}, raw.width, [&](std::uint32_t x) {
+      const FlushDenormals flush;
+      column.trace(view, x);
+    });
+  }
+  if (progress) progress(raw.views.size(), raw.views.size());
+  round_to_halves(raw);
+  return raw;
+}
+
+}  // namespace nook::bake::material

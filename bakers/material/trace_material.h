@@ -1,0 +1,26 @@
+// Ray traces a meso-surface into a BTF and a VOTF.
+#pragma once
+
+#include "material/meso_surface.h"
+#include "material/raw_material.h"
+#include "raytrace/ambient_occlusion.h"
+
+namespace nook::bake::material {
+
+struct TraceSettings {
+  std::uint32_t width = 96, height = 96;  // texels
+  std::uint32_t samples = 2;              // a texel's side: samples^2 view rays in it
+  std::uint32_t bounces = 2;              // diffuse inter-reflections
+  std::uint32_t bounce_rays = 64;         // from each vertex
+  std::uint64_t seed = 1;
+};
+
+// A view ray passes through its texel on the plane z = 0, comes in above the structure and leaves below it.
+// The BTF is the mean over the texel's samples, black for those that meet nothing; the mask tells whether
+// half of them or more meet the structure. Progress counts views. The same bits on any number of threads.
+// Throws Failure(NOOK_ERROR_CANCELLED) when progress returns false, Failure(INVALID_ARGUMENT) for settings or
+// directions that make no sense.
+RawMaterial trace_material(const MesoSurface& surface, std::vector<Vec3> lights, std::vector<Vec3> views,
+                           const TraceSettings& settings, const Progress& progress = {});
+
+}  // namespace nook::bake::material

@@ -1,0 +1,90 @@
+// What the clustered tensor approximations take and give: CTA (Tsai and Shih 2006) and K-CTA (Tsai and Shih
+// 2012), equation (8):
+//   A ~ sum_c Z_c x_1 U_{1,c} ... x_N U_{N,c},
+// where every mode-m sub-tensor belongs to K clusters: the rows of the mixing matrices U_{m,c} are zero
+// elsewhere.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "tensor/nsvd.h"
+
+namespace nook::bake::tensor {
+
+// How the clustering stage looks for the K clusters of a sub-tensor.
+enum class Pursuit : std::uint8_t {
+  greedy,      // one after the other, (9) and (13), as Algorithm 1
+  exchange,    // greedy, then single clusters exchanged while that lowers the error
+  exhaustive,  // every set of K clusters: exact, and affordable while C choose K is a few thousand
+};
+
+struct ClusteredSettings {
+  std::size_t mode = 0;                   // the clustered mode m
+  std::vector<std::size_t> ranks;         // R_n for each mode; that of mode m is a cluster's
+  std::size_t clusters = 1;               // C, 1 to I_m
+  std::size_t mixture = 1;                // K, 1 to C; CTA takes no other than 1
+  std::vector<std::size_t> global_modes;  // G: modes with one basis for all clusters, equation (23); never m
+  // The cluster of each mode-m sub-tensor to begin with, none empty: see tensor/seed_clusters.h.
+  std::vector<std::uint32_t> seeds;
+
+  int iterations = 40;      // of Algorithm 1, at most; 0: the start, one cluster a sub-tensor
+  double tolerance = 1e-4;  // ends when the sum of the cores' norms changes by less than this share
+  int sweeps = 1;           // of the N-SVD of one cluster in an update stage; more change little
+  Pursuit pursuit = Pursuit::greedy;
+  // A sub-tensor keeps the clusters that it had where the search found worse ones; false: Algorithm 1 to the
+  // letter, which then has to undo iterations more often.
+  bool keep_better_clusters = true;
+};
+
+// For each sub-tensor of mode m the clusters that it mixes, in the order in which they were found, and the
+// rows of their mixing matrices: all of U_{m,c} that is not zero.
+struct Mixture {
+  std::size_t count = 0;                  // K
+  std::vector<std::uint32_t> membership;  // I_m x K, different in a row
+  Matrix coefficients;                    // I_m x (K R_m)
+};
+
+// An empty basis is the identity: of a mode that keeps its full rank. A cluster of fewer than R_m members has
+// zeros in the last mode-m slices of its core and in the columns of U_{m,c} that go with them.
+struct ClusteredFit {
+  std::size_t mode = 0;
+  Dimensions dimensions, ranks;
+  std::vector<Matrix> global_basis;  // a mode: I_n x R_n, empty where n is not in G
+
+  struct Cluster {
+    Tensor core;                // R_1 x ... x R_N
+    std::vector<Matrix> basis;  // a mode: I_n x R_n; empty for global modes and for m
+  };
+  std::vector<Cluster> clusters;
+  Mixture mixture;
+
+  std::vector<double> objective;  // || A - A^ ||^2 after the start and each iteration; never rises
+  bool undone = false;            // the last iteration made it worse, and the one before stands
+  std::size_t splits = 0;         // clusters that had become empty and were filled by splitting another
+  std::size_t peak_bytes = 0;     // the most memory the process has held until the end of the fit
+};
+
+struct ClusteredProgress {
+  int iteration = 0, iterations = 0;  // iteration 0: the start
+  std::size_t cluster = 0;            // of the update stage
+  double objective = 0;               // after the last iteration, 0 before
+};
+// Returns false to stop; called from the calling thread.
+using OnClustered = std::function<bool(const ClusteredProgress&)>;
+
+// Both: the same bits for the same seeds on any number of threads (those of the caller's TBB arena). Throw
+// INVALID_ARGUMENT for what check_tensor refuses and for settings that do not fit, CANCELLED where progress
+// returned false. Memory: the input, three tensors of the input's size after its global modes are reduced,
+// and less beside.
+ClusteredFit fit_cta(const TensorView& a, const ClusteredSettings& settings,
+                     const OnClustered& progress = {});
+ClusteredFit fit_k_cta(const TensorView& a, const ClusteredSettings& settings,
+                       const OnClustered& progress = {});
+
+// An N-SVD as one cluster, of which every sub-tensor is a member: C = K = 1.
+ClusteredFit as_one_cluster(const Nsvd& fit, std::size_t mode);
+
+Tensor reconstruct(const ClusteredFit& fit);
+
+}  // namespace nook::bake::tensor

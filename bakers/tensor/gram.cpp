@@ -1,0 +1,108 @@
+#include "tensor/gram.h"
+
+#include <Eigen/Eigenvalues>
+
+#include "core/failure.h"
+#include "tensor/blocks.h"
+
+namespace nook::bake::tensor {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Rows = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
+
+// Columns of an unfolding that are summed in floats: the error of such a sum, about 1e-7 times the root of
+// their number, stays below the rounding of the data.
+constexpr std::size_t float_columns = 512;
+// Parts of the sum, each a task with a sum of its own.
+constexpr std::size_t most_parts = 32;
+
+// The unfolding of mode n in pieces: matrices of I_n x columns, one after another.
+struct Pieces {
+  explicit Pieces(const ModeLayout& mode_layout) : layout(mode_layout) {
+    if (layout.inner == 1) {
+      per_outer = 0;
+      count = (layout.outer + float_columns - 1) / float_columns;
+    } else {
+      per_outer = (layout.inner + float_columns - 1) / float_columns;
+      count = layout.outer * per_outer;
+    }
+  }
+  // Calls body with piece p of data whose mode n has `size` entries.
+  template <class Body>
+  void with(const float* data, std::size_t size, std::size_t p, const Body& body) const {
+    if (layout.inner == 1) {
+      const std::size_t first = p * float_columns;
+      const std::size_t columns = std::min(float_columns, layout.outer - first);
+      body(Eigen::Map<const Matrix>(data + first * size, Index(columns), Index(size)).transpose());
+    } else {
+      const std::size_t o = p / per_outer, first = p % per_outer * float_columns;
+      const std::size_t columns = std::min(float_columns, layout.inner - first);
+      body(Rows(data + o * size * layout.inner + first, Index(size), Index(columns),
+                Eigen::OuterStride<>(Index(layout.inner))));
+    }
+  }
+
+  ModeLayout layout;
+  std::size_t per_outer = 0, count = 0;
+};
+
+// Sums add(piece, sum) over all pieces, in parts that are the same for any number of threads.
+template <class Add>
+MatrixXd sum_over(const Pieces& pieces, std::size_t rows, std::size_t columns, const Add& add) {
+  const std::size_t part = (pieces.count + most_parts - 1) / most_parts;
+  std::vector<MatrixXd> sums((pieces.count + part - 1) / part);
+  for_each_block(pieces.count, part, [&](std::size_t first, std::size_t last) {
+    MatrixXd& sum = sums[first / part];
+    sum = MatrixXd::Zero(Index(rows), Index(columns));
+    for (std::size_t p = first; p < last; ++p) add(p, sum);
+  });
+  for (std::size_t s = 1; s < sums.size(); ++s) sums[0] += sums[s];
+  return sums[0];
+}
+
+}  // namespace
+
+MatrixXd cross_gram(const TensorView& a, const TensorView& b, std::size_t mode) {
+  const ModeLayout left = layout_of(a.dimensions, mode), right = layout_of(b.dimensions, mode);
+  if (left.outer != right.outer || left.inner != right.inner)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "sub-tensors of mode %zu differ in size (%zu and %zu entries)",
+                  mode + 1, left.outer * left.inner, right.outer * right.inner);
+  const Pieces pieces(left);
+  return sum_over(pieces, left.size, right.size, [&](std::size_t p, MatrixXd& sum) {
+    pieces.with(a.data, left.size, p, [&](const auto& x) {
+      pieces.with(b.data, right.size, p, [&](const auto& y) {
+        const Eigen::MatrixXf product = x * y.transpose();
+        sum += product.cast<double>();
+      });
+    });
+  });
+}
+
+MatrixXd gram(const TensorView& a, std::size_t mode) {
+  const ModeLayout layout = layout_of(a.dimensions, mode);
+  const Pieces pieces(layout);
+  MatrixXd sum = sum_over(pieces, layout.size, layout.size, [&](std::size_t p, MatrixXd& lower) {
+    pieces.with(a.data, layout.size, p, [&](const auto& x) {
+      Eigen::MatrixXf product = Eigen::MatrixXf::Zero(x.rows(), x.rows());
+      product.template selfadjointView<Eigen::Lower>().rankUpdate(x);
+      lower.template triangularView<Eigen::Lower>() += product.cast<double>();
+    });
+  });
+  sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose();
+  return sum;
+}
+
+Matrix leading_eigenvectors(const MatrixXd& symmetric, std::size_t count) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(symmetric);
+  MatrixXd vectors = solver.eigenvectors().rightCols(Index(count)).rowwise().reverse();
+  for (Index c = 0; c < vectors.cols(); ++c) {
+    Index greatest = 0;
+    vectors.col(c).cwiseAbs().maxCoeff(&greatest);
+    if (vectors(greatest, c) < 0) vectors.col(c) *= -1;
+  }
+  return vectors.cast<float>();
+}
+
+}  // namespace nook::bake::tensor

@@ -1,0 +1,129 @@
+#include "tensor/mixture_search.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <numeric>
+
+namespace nook::bake::tensor {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Directions of less than this share of the greatest eigenvalue are linear dependence between clusters, seen
+// through products summed in floats.
+constexpr double dependence = 1e-6;
+
+VectorXd solve_by_pseudo_inverse(const MatrixXd& gram, const VectorXd& products) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram);
+  const VectorXd& values = solver.eigenvalues();
+  const double least = dependence * values.cwiseAbs().maxCoeff();
+  VectorXd rotated = solver.eigenvectors().transpose() * products;
+  for (Index i = 0; i < rotated.size(); ++i) rotated[i] = values[i] > least ? rotated[i] / values[i] : 0;
+  return solver.eigenvectors() * rotated;
+}
+
+VectorXd solve(const MatrixXd& gram, const VectorXd& products) {
+  const Eigen::LLT<MatrixXd> factor(gram);
+  // Atoms have norm 1: a small pivot says that one depends on those before it.
+  if (factor.info() == Eigen::Success &&
+      factor.matrixLLT().diagonal().array().square().minCoeff() > 10 * dependence)
+    return factor.solve(products);
+  return solve_by_pseudo_inverse(gram, products);
+}
+
+}  // namespace
+
+SubTensorMix project_on(const AtomGram& atoms, const VectorXd& products,
+                        std::vector<std::uint32_t> clusters) {
+  const Index rank = Index(atoms.rank), count = Index(clusters.size());
+  MatrixXd gram(count * rank, count * rank);
+  VectorXd chosen(count * rank);
+  for (Index j = 0; j < count; ++j) {
+    const Index c = Index(clusters[std::size_t(j)]) * rank;
+    chosen.segment(j * rank, rank) = products.segment(c, rank);
+    for (Index k = 0; k < count; ++k)
+      gram.block(j * rank, k * rank, rank, rank) =
+          atoms.product.block(c, Index(clusters[std::size_t(k)]) * rank, rank, rank);
+  }
+  SubTensorMix mix;
+  mix.weights = solve(gram, chosen);
+  // || A ||^2 - || A - sum w O ||^2; equal to w . p where w solves the normal equations exactly.
+  mix.explained = 2 * mix.weights.dot(chosen) - mix.weights.dot(gram * mix.weights);
+  mix.clusters = std::move(clusters);
+  return mix;
+}
+
+std::uint32_t next_cluster(const AtomGram& atoms, const VectorXd& products, const SubTensorMix& mix) {
+  const Index rank = Index(atoms.rank);
+  VectorXd left = products;
+  for (std::size_t j = 0; j < mix.clusters.size(); ++j)
+    left -= atoms.product.middleCols(Index(mix.clusters[j]) * rank, rank) *
+            mix.weights.segment(Index(j) * rank, rank);
+  std::uint32_t best = 0;
+  double greatest = -1;
+  for (std::uint32_t c = 0; c < atoms.clusters; ++c) {
+    if (std::find(mix.clusters.begin(), mix.clusters.end(), c) != mix.clusters.end()) continue;
+    const double gain = left.segment(Index(c) * rank, rank).squaredNorm();
+    if (gain <= greatest) continue;
+    greatest = gain;
+    best = c;
+  }
+  return best;
+}
+
+SubTensorMix search_greedy(const AtomGram& atoms, const VectorXd& products, std::size_t mixture) {
+  SubTensorMix mix;
+  for (std::size_t k = 0; k < mixture; ++k) {
+    std::vector<std::uint32_t> clusters = mix.clusters;
+    clusters.push_back(next_cluster(atoms, products, mix));
+    mix = project_on(atoms, products, std::move(clusters));
+  }
+  return mix;
+}
+
+SubTensorMix exchange(const AtomGram& atoms, const VectorXd& products, SubTensorMix mix) {
+  const std::size_t count = mix.clusters.size();
+  // Ends after `count` exchanges in a row that gain nothing.
+  for (std::size_t k = 0, idle = 0; idle < count; k = (k + 1) % count) {
+    SubTensorMix best = mix;
+    for (std::uint32_t c = 0; c < atoms.clusters; ++c) {
+      if (std::find(mix.clusters.begin(), mix.clusters.end(), c) != mix.clusters.end()) continue;
+      std::vector<std::uint32_t> clusters = mix.clusters;
+      clusters[k] = c;
+      SubTensorMix other = project_on(atoms, products, std::move(clusters));
+      // More than rounding, or two equal mixes would be exchanged for ever.
+      if (other.explained > best.explained * (1 + 1e-9)) best = std::move(other);
+    }
+    idle = best.clusters == mix.clusters ? idle + 1 : 0;
+    mix = std::move(best);
+  }
+  return mix;
+}
+
+SubTensorMix search_exhaustive(const AtomGram& atoms, const VectorXd& products, std::size_t mixture) {
+  // All sets in lexical order; of equals, the first.
+  std::vector<std::uint32_t> set(mixture);
+  std::iota(set.begin(), set.end(), 0u);
+  SubTensorMix best = project_on(atoms, products, set);
+  const auto last = [&](std::size_t k) { return std::uint32_t(atoms.clusters - mixture + k); };
+  for (;;) {
+    std::size_t k = mixture;
+    while (k > 0 && set[k - 1] == last(k - 1)) --k;
+    if (k == 0) return best;
+    ++set[k - 1];
+    for (; k < mixture; ++k) set[k] = set[k - 1] + 1;
+    SubTensorMix mix = project_on(atoms, products, set);
+    if (mix.explained > best.explained) best = std::move(mix);
+  }
+}
+
+SubTensorMix search(Pursuit pursuit, const AtomGram& atoms, const VectorXd& products, std::size_t mixture) {
+  if (pursuit == Pursuit::exhaustive) return search_exhaustive(atoms, products, mixture);
+  SubTensorMix mix = search_greedy(atoms, products, mixture);
+  return pursuit == Pursuit::exchange ? exchange(atoms, products, std::move(mix)) : mix;
+}
+
+}  // namespace nook::bake::tensor

@@ -1,0 +1,48 @@
+// The clustering stage for one sub-tensor: which clusters, and with which coefficients.
+//
+// Everything is in coordinates of the dual bases V_{m,c} of equation (7), whose rows are orthonormal: with
+// O_c = fold(V_{m,c}) x_{n != m} U_{n,c}, the atoms of cluster c, a sub-tensor is sum_k w_k O_{c_k}. Then the
+// search reads nothing but inner products, and (9), (11), (13), (15) become, with p_c = <A_<m_i>, O_c>,
+//   (9)   max || p_c ||^2
+//   (11)  w = p_c
+//   (13)  max || p_c - sum_j w_j <O_{c_j}, O_c> ||^2  (the proof, (34), has V of the new cluster c_{i_k} in
+//         the second term, where (13) prints that of c_{i_j})
+//   (15)  w = <O, O>^+ p over the clusters chosen.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tensor/clustered_fit.h"
+
+namespace nook::bake::tensor {
+
+struct AtomGram {
+  std::size_t clusters = 0, rank = 0;  // C, R_m
+  Eigen::MatrixXd product;             // (C R_m) x (C R_m): <O_c, O_d>
+};
+
+struct SubTensorMix {
+  std::vector<std::uint32_t> clusters;
+  Eigen::VectorXd weights;  // in the order of clusters, R_m each
+  double explained = 0;     // by how much they lower || A_<m_i> ||^2
+};
+
+// Optimal projection (15) of a sub-tensor, given by its inner products with all atoms (C R_m), on clusters.
+SubTensorMix project_on(const AtomGram& atoms, const Eigen::VectorXd& products,
+                        std::vector<std::uint32_t> clusters);
+
+// The next cluster by (13), not among those of the mix.
+std::uint32_t next_cluster(const AtomGram& atoms, const Eigen::VectorXd& products, const SubTensorMix& mix);
+
+SubTensorMix search_greedy(const AtomGram& atoms, const Eigen::VectorXd& products, std::size_t mixture);
+// The mix with single clusters exchanged for others, the best exchange of each in turn, until none lowers the
+// error.
+SubTensorMix exchange(const AtomGram& atoms, const Eigen::VectorXd& products, SubTensorMix mix);
+
+SubTensorMix search_exhaustive(const AtomGram& atoms, const Eigen::VectorXd& products, std::size_t mixture);
+
+SubTensorMix search(Pursuit pursuit, const AtomGram& atoms, const Eigen::VectorXd& products,
+                    std::size_t mixture);
+
+}  // namespace nook::bake::tensor

@@ -1,0 +1,74 @@
+#include "tensor/resample.h"
+
+#include "core/failure.h"
+#include "tensor/atoms.h"
+#include "tensor/blocks.h"
+#include "tensor/gram.h"
+#include "tensor/mode_product.h"
+
+namespace nook::bake::tensor {
+namespace {
+
+using Eigen::Index;
+
+std::vector<DualBasis> dual_bases(const ClusteredFit& fit) {
+  std::vector<DualBasis> dual;
+  for (const ClusteredFit::Cluster& cluster : fit.clusters)
+    dual.push_back(dual_basis(cluster.core, fit.mode));
+  return dual;
+}
+
+Tensor atoms_of(const ClusteredFit& fit, const std::vector<DualBasis>& dual) {
+  Dimensions reduced = fit.dimensions;
+  for (std::size_t n = 0; n < reduced.size(); ++n)
+    if (fit.global_basis[n].size() > 0) reduced[n] = fit.ranks[n];
+  return join_atoms(fit.clusters, dual, reduced, fit.mode);
+}
+
+}  // namespace
+
+Matrix atom_projections(const ClusteredFit& fit, const TensorView& a) {
+  if (a.dimensions != fit.dimensions)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the tensor is not of the size that was fitted (%zu and %zu entries)", a.size(),
+                  volume(fit.dimensions));
+  const Tensor atoms = atoms_of(fit, dual_bases(fit));
+  // Nothing to reduce: the tensor itself, uncopied.
+  const auto is_empty = [](const Matrix& u) { return u.size() == 0; };
+  if (std::all_of(fit.global_basis.begin(), fit.global_basis.end(), is_empty))
+    return cross_gram(a, atoms, fit.mode).cast<float>();
+  return cross_gram(project(a, fit.global_basis), atoms, fit.mode).cast<float>();
+}
+
+Mixture resample(const ClusteredFit& fit, const Matrix& projections, const Matrix& weights, Pursuit pursuit) {
+  const std::vector<DualBasis> dual = dual_bases(fit);
+  const AtomGram atoms = atom_gram(atoms_of(fit, dual), fit.mode, fit.clusters.size());
+  const Index rank = Index(atoms.rank), all = Index(atoms.clusters) * rank;
+  if (projections.cols() != all || weights.cols() != projections.rows())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "projections of %zu x %zu and weights of %zu columns do not fit %zu clusters of rank %zu",
+                  std::size_t(projections.rows()), std::size_t(projections.cols()),
+                  std::size_t(weights.cols()), atoms.clusters, atoms.rank);
+  const std::size_t rows = std::size_t(weights.rows()), k = fit.mixture.count;
+  Mixture mixture;
+  mixture.count = k;
+  mixture.membership.resize(rows * k);
+  mixture.coefficients.resize(Index(rows), Index(k) * rank);
+  for_each_block(rows, 256, [&](std::size_t first, std::size_t last) {
+    const Matrix mixed = weights.middleRows(Index(first), Index(last - first)) * projections;
+    for (std::size_t i = first; i < last; ++i) {
+      const SubTensorMix mix =
+          search(pursuit, atoms, mixed.row(Index(i - first)).cast<double>().transpose(), k);
+      std::copy(mix.clusters.begin(), mix.clusters.end(), mixture.membership.begin() + std::ptrdiff_t(i * k));
+      // From coordinates of V_{m,c} to those of the core: U = w (uf(Z) uf(Z)^T)^(-1/2).
+      for (Index j = 0; j < Index(k); ++j)
+        mixture.coefficients.block(Index(i), j * rank, 1, rank) =
+            (mix.weights.segment(j * rank, rank).transpose() *
+             dual[mix.clusters[std::size_t(j)]].inverse_root)
+                .cast<float>();
+    }
+  });
+  return mixture;
+}
+
+}  // namespace nook::bake::tensor

@@ -1,0 +1,59 @@
+// Dense tensors of any order, in floats.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace nook::bake::tensor {
+
+using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Dimensions = std::vector<std::size_t>;  // I_1 to I_N; modes are counted from 0 in code
+
+std::size_t volume(const Dimensions& dimensions);
+
+// Entries that somebody else owns (a Tensor, a mapped file), row-major: the last mode's index runs fastest.
+struct TensorView {
+  Dimensions dimensions;
+  const float* data = nullptr;
+
+  std::size_t order() const { return dimensions.size(); }
+  std::size_t size() const { return volume(dimensions); }
+};
+
+struct Tensor {
+  Tensor() = default;
+  explicit Tensor(Dimensions sizes) : dimensions(std::move(sizes)), data(volume(dimensions)) {}
+
+  Dimensions dimensions;
+  std::vector<float> data;
+
+  operator TensorView() const { return {dimensions, data.data()}; }
+};
+
+// How a mode lies in memory: entry (o, i, r) at (o * size + i) * inner + r, o < outer, r < inner.
+struct ModeLayout {
+  std::size_t outer = 1, size = 1, inner = 1;
+};
+ModeLayout layout_of(const Dimensions& dimensions, std::size_t mode);
+
+// <A, B> of equation (1), and its square norm; summed in doubles, in an order that depends on the size only.
+double scalar_product(const TensorView& a, const TensorView& b);
+double squared_norm(const TensorView& a);
+// || A - B ||^2.
+double squared_distance(const TensorView& a, const TensorView& b);
+
+// uf_n(A), I_n x (I_{n+1} ... I_N I_1 ... I_{n-1}): the seed's order of columns (De Lathauwer 2000), the
+// index of mode n + 1 the slowest, of mode n - 1 the fastest.
+Matrix unfold(const TensorView& a, std::size_t mode);
+// The tensor of these dimensions whose unfolding is given.
+Tensor fold(const Matrix& unfolded, const Dimensions& dimensions, std::size_t mode);
+
+// The sub-tensors A_<m_i> of equation (4) for the given i, joined along mode m in that order.
+Tensor sub_tensors(const TensorView& a, std::size_t mode, const std::vector<std::size_t>& indices);
+
+// Throws INVALID_ARGUMENT for an order of 0, a mode of size 0, no data, or an entry that is not finite, which
+// it names by its indices.
+void check_tensor(const TensorView& a);
+
+}  // namespace nook::bake::tensor

@@ -1,0 +1,56 @@
+// A clustered fit in the making: clusters by their members, on the tensor whose global modes are reduced.
+#pragma once
+
+#include "tensor/clustered_fit.h"
+
+namespace nook::bake::tensor {
+
+// A_G of equation (23).
+struct Reduction {
+  std::vector<Matrix> global_basis;  // a mode: I_n x R_n; empty: not global, or of full rank
+  Tensor held;                       // A_G where a mode was reduced, else empty
+  TensorView view;                   // A_G, or the input itself
+  double lost = 0;                   // || A ||^2 - || A_G ||^2, what no cluster can explain
+};
+// Global bases lower || A - A x_n U_n U_n^T ||^2, n in G; other modes stay whole.
+Reduction reduce_global_modes(const TensorView& a, const ClusteredSettings& settings,
+                              const OnClustered& progress);
+
+struct WorkingCluster {
+  std::vector<std::size_t> members;  // rising
+  Matrix mixing;                     // members x R_m: the rows of U_{m,c} that are not zero
+  bool fitted = false;               // false: core and bases are still to be found
+  ClusteredFit::Cluster parts;
+};
+
+struct WorkingFit {
+  std::size_t mode = 0;
+  std::size_t mixture = 1;                // K of the membership
+  std::vector<std::uint32_t> membership;  // I_m x K
+  std::vector<WorkingCluster> clusters;
+};
+
+// Lists the members of each cluster from the membership; parts stay.
+void list_members(WorkingFit& fit);
+
+// What an N-SVD of the shrunk tensor, a cluster's members only, gives: core, bases and mixing rows, from
+// those there are (mixing rows need not be), or from the HOSVD. Returns the squared error.
+double fit_members(WorkingCluster& cluster, const Tensor& shrunk, const ClusteredSettings& settings);
+
+// Z_c x_n U_{n,c}, members only.
+Tensor expand_members(const WorkingCluster& cluster, std::size_t mode);
+
+// Each seed's cluster by an N-SVD of its members. Returns || A_G - A^ ||^2.
+double fit_seeds(WorkingFit& fit, const TensorView& reduced, const ClusteredSettings& settings,
+                 const OnClustered& progress);
+
+void report(const OnClustered& progress, int iteration, const ClusteredSettings& settings,
+            std::size_t cluster, double objective);
+
+// Sum over clusters of || Z_c ||, by which Algorithm 1 stops.
+double sum_of_core_norms(const WorkingFit& fit);
+
+ClusteredFit finish(WorkingFit&& fit, Reduction&& reduction, const TensorView& a,
+                    const ClusteredSettings& settings);
+
+}  // namespace nook::bake::tensor

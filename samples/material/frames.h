@@ -1,0 +1,36 @@
+// The pictures of one material.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "material_program.h"
+#include "mesh.h"
+#include "picture_target.h"
+
+namespace material {
+
+struct Stage {
+  platform::Context& context;
+  const std::vector<Mesh>& meshes;
+  const PictureTarget& target;
+  float aspect = 1;
+};
+
+// Draws all passes of a frame; without the visibility of the meso-structure where `silhouettes` is false.
+void draw_frame(const Stage& stage, const MaterialProgram& program, const View& view, bool silhouettes);
+
+struct FrameRequest {
+  std::uint32_t frames = 1;
+  std::filesystem::path out;
+  std::string name;  // pictures are name_000.png and on, and name_flat.png, the first without silhouettes
+};
+
+// Milliseconds a frame, the best of them, between two glFinish.
+double draw_frames(const Stage& stage, const MaterialProgram& program, const FrameRequest& request,
+                   const std::function<void(std::uint32_t)>& progress);
+
+}  // namespace material

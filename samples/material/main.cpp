@@ -1,0 +1,143 @@
+// Draws baked materials on several shapes, under a moving light and view, and reports what that costs.
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "frames.h"
+#include "options.h"
+
+namespace material {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<char> read_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::vector<char> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (!in) throw std::runtime_error("material: " + path.string() + " cannot be read");
+  return bytes;
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path beside = path.string() + ".part";
+  std::ofstream out(beside, std::ios::binary);
+  if (!(out << text) || !out.flush())
+    throw std::runtime_error("material: " + beside.string() + " cannot be written");
+  out.close();
+  std::filesystem::rename(beside, path);
+}
+
+struct Loaded {
+  Loaded(const nook::Context& host, const nook::Gl& gl, const platform::Context& context,
+         const std::filesystem::path& path)
+      : name(path.stem().string()),
+        bytes(read_file(path)),
+        material(host, bytes.data(), bytes.size()),
+        uploaded(gl, material),
+        program(context.gl(), uploaded) {}
+
+  std::string name;
+  std::vector<char> bytes;
+  nook::Material material;
+  nook::GlMaterial uploaded;
+  MaterialProgram program;
+};
+
+Json describe(const Loaded& loaded, double ms) {
+  const nook_material_info info = loaded.material.info();
+  return {{"material", loaded.name},
+          {"clusters", info.btf.clusters},
+          {"mixture", info.btf.mixture},
+          {"terms", info.btf.terms},
+          {"bytes", info.compressed_bytes},
+          {"view_map_bytes", info.view_map_bytes},
+          {"texture_bytes", loaded.uploaded.info().texture_bytes},
+          {"textures", loaded.uploaded.info().texture_count},
+          {"decode_fetches", info.decode_fetches},
+          {"decode_multiply_adds", info.decode_multiply_adds},
+          {"light_fetches", info.light_fetches},
+          {"light_multiply_adds", info.light_multiply_adds},
+          {"occlusion_fetches", info.occlusion_fetches},
+          {"occlusion_multiply_adds", info.occlusion_multiply_adds},
+          {"ms", ms}};
+}
+
+// Until the window is closed; one turn of the light takes ten seconds.
+void run_window(const Stage& stage, const MaterialProgram& program) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  while (!stage.context.should_close()) {
+    const float seconds = std::chrono::duration<float>(Clock::now() - begin).count();
+    draw_frame(stage, program, view_at(0.1f * seconds, stage.aspect), true);
+    int width = 0, height = 0;
+    stage.context.size(&width, &height);
+    stage.target.show(0, width, height);
+    stage.context.present();
+  }
+}
+
+std::unique_ptr<platform::Context> create_context(const Options& o) {
+  platform::ContextRequest wanted;
+  wanted.kind = o.context;
+  wanted.width = o.width_px;
+  wanted.height = o.height_px;
+  wanted.major = wanted.minor = 3;
+  wanted.title = "Nook materials";
+  return platform::create_context(wanted);
+}
+
+void run(const Options& o) {
+  const std::unique_ptr<platform::Context> context = create_context(o);
+  const nook::Context host;
+  nook_gl_desc desc = nook::gl_desc();
+  desc.get_proc = platform::Context::loader;
+  desc.get_proc_user = context.get();
+  const nook::Gl gl(host, desc);
+  std::vector<Mesh> meshes;
+  for (const Shape& shape : make_shapes(o.tile_m)) meshes.emplace_back(context->gl(), shape);
+  const PictureTarget target(*context, o.width_px, o.height_px);
+  const Stage stage{*context, meshes, target, float(o.width_px) / float(o.height_px)};
+  if (o.frames == 0) {
+    run_window(stage, Loaded(host, gl, *context, o.files[0]).program);
+    return;
+  }
+  std::filesystem::create_directories(o.out);
+  Json report{{"renderer", context->renderer()},
+              {"version", context->version()},
+              {"width", o.width_px},
+              {"height", o.height_px},
+              {"rows", Json::array()}};
+  for (const std::filesystem::path& path : o.files) {
+    const Loaded loaded(host, gl, *context, path);
+    const double ms =
+        draw_frames(stage, loaded.program, {o.frames, o.out, loaded.name}, [&](std::uint32_t done) {
+          if (!o.quiet) std::fprintf(stderr, "%s: %u of %u pictures\n", loaded.name.c_str(), done, o.frames);
+        });
+    report["rows"].push_back(describe(loaded, ms));
+  }
+  write_text(o.report, report.dump(2) + "\n");
+  std::printf("pictures: %s\nreport:   %s\n", std::filesystem::absolute(o.out).c_str(),
+              std::filesystem::absolute(o.report).c_str());
+}
+
+}  // namespace
+}  // namespace material
+
+int main(int argc, char** argv) {
+  material::Options options;
+  int exit_code = 0;
+  if (!material::parse_options(argc, argv, options, exit_code)) return exit_code;
+  try {
+    material::run(options);
+    return 0;
+  } catch (const nook::Error& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return e.result() == NOOK_ERROR_BAD_FILE || e.result() == NOOK_ERROR_FILE_VERSION ? 3 : 1;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,138 @@
+#include "material_program.h"
+
+#include <glm/gtc/type_ptr.hpp>
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+
+namespace material {
+namespace {
+
+constexpr char version[] = "#version 330 core\n";
+
+constexpr char vertex_text[] = R"glsl(
+layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 tangent; layout(location = 3) in vec2 tiles;
+uniform mat4 view_projection;
+out vec3 position_ws, normal_ws, tangent_ws; out vec2 uv;
+invariant gl_Position;
+void main() {
+  position_ws = position; normal_ws = normal; tangent_ws = tangent; uv = tiles;
+  gl_Position = view_projection * vec4(position, 1.0);
+}
+)glsl";
+
+// Between the version and this stands the material's own text.
+constexpr char fragment_text[] = R"glsl(
+in vec3 position_ws, normal_ws, tangent_ws; in vec2 uv;
+uniform vec3 eye, key_direction, fill_direction;
+out vec4 pixel;
+void main() {
+  vec2 dx = dFdx(uv), dy = dFdy(uv);
+  // The inside of a surface is its mirror image.
+  float side = gl_FrontFacing ? 1.0 : -1.0;
+  vec3 normal = side * normalize(normal_ws);
+  vec3 tangent = side * normalize(tangent_ws - normal * dot(normal, tangent_ws));
+  vec2 place = vec2(side * uv.x, uv.y); dx.x *= side; dy.x *= side;
+  // The rows of the matrix from world to tangent space are the axes.
+  mat3 to_tangent = transpose(mat3(tangent, cross(normal, tangent), normal));
+  vec3 view = to_tangent * normalize(eye - position_ws);
+  float alpha = 1.0;
+#if PASS != COLOUR
+  alpha = nook_material_visibility(nook_material_occlusion(place, dx, dy, view));
+#endif
+#if PASS == DEPTH
+  if (alpha < 1.0) discard;
+  pixel = vec4(0.0);
+#else
+#if PASS == PART_VISIBLE
+  if (alpha <= 0.0 || alpha >= 1.0) discard;
+#endif
+  vec4 modes[NOOK_LIGHT_FOURS];
+  nook_material_decode(place, dx, dy, view, modes);
+  vec3 colour = nook_material_radiance(modes, to_tangent * key_direction) * vec3(4.2, 4.0, 3.7) +
+                nook_material_radiance(modes, to_tangent * fill_direction) * vec3(0.5, 0.6, 0.8);
+  pixel = vec4(max(colour, 0.0), alpha);
+#endif
+}
+)glsl";
+
+constexpr char pass_names[] = "#define DEPTH 0\n#define COLOUR 1\n#define PART_VISIBLE 2\n";
+constexpr const char* pass_choice[] = {"#define PASS DEPTH\n", "#define PASS COLOUR\n",
+                                       "#define PASS PART_VISIBLE\n"};
+
+GLuint compile(const GladGLContext& gl, GLenum stage, std::initializer_list<const char*> texts) {
+  const GLuint shader = gl.CreateShader(stage);
+  gl.ShaderSource(shader, GLsizei(texts.size()), texts.begin(), nullptr);
+  gl.CompileShader(shader);
+  GLint compiled = GL_FALSE;
+  gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+  if (compiled) return shader;
+  char log[2048] = "";
+  gl.GetShaderInfoLog(shader, sizeof log, nullptr, log);
+  gl.DeleteShader(shader);
+  throw std::runtime_error(std::string("material: a shader does not compile: ") + log);
+}
+
+GLuint linked(const GladGLContext& gl, GLuint vertex, GLuint fragment) {
+  const GLuint program = gl.CreateProgram();
+  gl.AttachShader(program, vertex);
+  gl.AttachShader(program, fragment);
+  gl.LinkProgram(program);
+  gl.DeleteShader(vertex);
+  gl.DeleteShader(fragment);
+  GLint success = GL_FALSE;
+  gl.GetProgramiv(program, GL_LINK_STATUS, &success);
+  if (success) return program;
+  gl.DeleteProgram(program);
+  throw std::runtime_error("material: a program does not link");
+}
+
+}  // namespace
+
+MaterialProgram::MaterialProgram(const GladGLContext& gl, const nook::GlMaterial& material)
+    : gl_(gl), textures_(material.textures()) {
+  for (int pass = 0; pass < 3; ++pass) {
+    const GLuint vertex = compile(gl, GL_VERTEX_SHADER, {version, vertex_text});
+    const GLuint fragment =
+        compile(gl, GL_FRAGMENT_SHADER,
+                {version, pass_names, pass_choice[pass], material.info().glsl, fragment_text});
+    programs_[pass] = linked(gl, vertex, fragment);
+    gl.UseProgram(programs_[pass]);
+    for (std::size_t i = 0; i < textures_.size(); ++i)
+      gl.Uniform1i(gl.GetUniformLocation(programs_[pass], textures_[i].uniform), GLint(i));
+  }
+}
+
+MaterialProgram::~MaterialProgram() {
+  for (const GLuint program : programs_) gl_.DeleteProgram(program);
+}
+
+void MaterialProgram::begin(const View& view, Pass pass) const {
+  const GLuint program = programs_[int(pass == Pass::whole ? Pass::colour : pass)];
+  const auto uniform = [&](const char* name) { return gl_.GetUniformLocation(program, name); };
+  gl_.UseProgram(program);
+  for (std::size_t i = 0; i < textures_.size(); ++i) {
+    gl_.ActiveTexture(GL_TEXTURE0 + GLenum(i));
+    gl_.BindTexture(textures_[i].target, textures_[i].texture);
+  }
+  gl_.UniformMatrix4fv(uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(view.view_projection));
+  gl_.Uniform3fv(uniform("eye"), 1, glm::value_ptr(view.eye));
+  gl_.Uniform3fv(uniform("key_direction"), 1, glm::value_ptr(view.key_direction));
+  gl_.Uniform3fv(uniform("fill_direction"), 1, glm::value_ptr(view.fill_direction));
+
+  const bool writes_colour = pass != Pass::depth, writes_depth = pass == Pass::depth || pass == Pass::whole;
+  const auto mask = GLboolean(writes_colour);
+  gl_.ColorMask(mask, mask, mask, mask);
+  gl_.DepthMask(GLboolean(writes_depth));
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(pass == Pass::colour ? GL_EQUAL : GL_LESS);
+  if (pass == Pass::part_visible) {
+    gl_.Enable(GL_BLEND);
+    gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  } else {
+    gl_.Disable(GL_BLEND);
+  }
+}
+
+}  // namespace material

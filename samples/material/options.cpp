@@ -1,0 +1,47 @@
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "platform/platform.h"
+
+namespace material {
+
+bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
+  CLI::App app("Draws baked materials on several shapes, under a moving light and view.");
+  std::string size = "960x540";
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app.add_option("materials", o.files, ".nook files of `nook bake material`")
+      ->required()
+      ->check(CLI::ExistingFile)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
+      ->check(CLI::IsMember({"window", "egl", "osmesa"}));
+  CLI::Option* const frames =
+      app.add_option("--frames", o.frames, "pictures of each material (window: 0 runs until it is closed)")
+          ->check(CLI::Range(0, 100000));
+  app.add_option("--size", size, "pixels of a picture, WIDTHxHEIGHT");
+  app.add_option("--tile", o.tile_m, "side of a material's tile on the shapes, metres")
+      ->check(CLI::Range(0.01f, 1.0f));
+  app.add_option("--out", o.out, "folder of the pictures");
+  app.add_option("--report", o.report, "JSON with sizes, fetches and times (default: report.json in --out)");
+  app.add_flag("--quiet", o.quiet, "no progress");
+  try {
+    app.parse(argc, argv);
+    char rest = 0;
+    if (std::sscanf(size.c_str(), "%dx%d%c", &o.width_px, &o.height_px, &rest) != 2 || o.width_px < 16 ||
+        o.height_px < 16 || o.width_px > 8192 || o.height_px > 8192)
+      throw CLI::ValidationError("--size", "got '" + size + "', need WIDTHxHEIGHT from 16x16 to 8192x8192");
+    // A window stays open until it is closed, unless pictures are asked for.
+    if (o.context == "window" && frames->count() == 0) o.frames = 0;
+    if (o.context != "window" && o.frames == 0)
+      throw CLI::ValidationError("--frames", "got 0, need 1 or more");
+    if (o.report.empty()) o.report = o.out / "report.json";
+    return true;
+  } catch (const CLI::ParseError& e) {
+    exit_code = app.exit(e) == 0 ? 0 : 2;
+    return false;
+  }
+}
+
+}  // namespace material

@@ -1,0 +1,122 @@
+#include <cmath>
+
+#include "api/entry.h"
+#include "api/material_handle.h"
+#include "core/descriptors.h"
+#include "material/cost.h"
+#include "material/evaluate.h"
+#include "material/material_file.h"
+
+using namespace nook;
+using namespace nook::material;
+
+namespace {
+
+constexpr std::size_t first_info = offsetof(nook_material_info, table_bytes) + sizeof(std::uint64_t);
+
+nook_material_tensor tensor_info(const ClusteredTensor& tensor, const TensorTables& tables) {
+  const TensorShape& s = tensor.shape;
+  return {s.rank_light, s.rank_view, s.rank_x,        s.rank_y,
+          s.clusters,   s.mixture,   tensor.map.side, tables.terms};
+}
+
+std::uint64_t map_bytes(const ClusteredTensor& tensor) {
+  return view_rows_bytes(tensor.shape, std::size_t(tensor.map.side) * tensor.map.side);
+}
+
+nook_material_info info_of(const Material& material, const MaterialTables& tables) {
+  nook_material_info info{};
+  info.visibility = static_cast<nook_material_visibility>(material.visibility);
+  info.light_count = static_cast<std::uint32_t>(material.lights.size());
+  info.view_count = static_cast<std::uint32_t>(material.views.size());
+  info.width = material.btf.shape.width;
+  info.height = material.btf.shape.height;
+  info.btf = tensor_info(material.btf, tables.btf);
+  const DecodeCost decode = decode_cost(tables.btf), light = light_cost(tables.btf),
+                   occlusion = decode_cost(tables.votf);
+  info.decode_fetches = decode.fetches;
+  info.decode_multiply_adds = decode.multiply_adds;
+  info.light_fetches = light.fetches;
+  info.light_multiply_adds = light.multiply_adds;
+  info.occlusion_fetches = occlusion.fetches;
+  info.occlusion_multiply_adds = occlusion.multiply_adds;
+  info.compressed_bytes = compressed_bytes(material);
+  info.view_map_bytes = map_bytes(material.btf);
+  info.table_bytes = table_bytes(tables);
+  if (material.visibility == VisibilityForm::none) return info;
+  info.visibility_threshold = material.mapping.threshold;
+  info.visibility_weight = material.mapping.weight;
+  info.votf = tensor_info(material.votf, tables.votf);
+  info.view_map_bytes += map_bytes(material.votf);
+  return info;
+}
+
+Sample checked(const nook_material_sample& given, std::uint32_t index) {
+  for (const float number : {given.uv[0], given.uv[1], given.level, given.view[0], given.view[1],
+                             given.view[2], given.light[0], given.light[1], given.light[2]})
+    if (!std::isfinite(number))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a number of sample %u is not finite (got %g)", index,
+                    double(number));
+  return {given.uv[0],
+          given.uv[1],
+          given.level,
+          {given.view[0], given.view[1], given.view[2]},
+          {given.light[0], given.light[1], given.light[2]}};
+}
+
+}  // namespace
+
+nook_material_s::nook_material_s(nook_context_s* made_by, const Material& loaded)
+    : tables(make_tables(loaded, made_by->parallel(), made_by->memory())) {
+  info = info_of(loaded, tables);
+}
+
+nook_result nook_material_load(nook_context context, const void* bytes, size_t size, nook_material* out) {
+  return api::enter("nook_material_load", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(context, "context");
+    need(bytes, "bytes");
+    const auto shared = Ref<nook_context_s>::share(context);
+    const Material material = read_material({static_cast<const std::byte*>(bytes), size}, context->memory());
+    *out = Owned<nook_material_s>::make(context->memory(), shared, context, material).detach();
+    const nook_material_info& info = (*out)->info;
+    context->log(NOOK_LOG_INFO,
+                 "material: %u x %u texels, %u clusters, %u of them mixed, %zu bytes, %llu expanded",
+                 info.width, info.height, info.btf.clusters, info.btf.mixture, size,
+                 static_cast<unsigned long long>(info.table_bytes));
+  });
+}
+
+void nook_material_destroy(nook_material* material) {
+  if (!material || !*material) return;
+  (*material)->release();
+  *material = nullptr;
+}
+
+nook_result nook_material_get_info(nook_material material, nook_material_info* info) {
+  return api::enter("nook_material_get_info", [&] {
+    need(material, "material");
+    write_info(info, first_info, material->info);
+  });
+}
+
+nook_result nook_material_evaluate(nook_material material, const nook_material_sample* samples,
+                                   uint32_t count, nook_material_value* values) {
+  return api::enter("nook_material_evaluate", [&] {
+    need(material, "material");
+    if (count == 0) return;
+    need(samples, "samples");
+    need(values, "values");
+    for (std::uint32_t i = 0; i < count; ++i) checked(samples[i], i);
+    const MaterialTables& tables = material->tables;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Sample sample = checked(samples[i], i);
+      const Radiance radiance = evaluate_btf(tables, sample);
+      const float occlusion = evaluate_votf(tables, sample);
+      values[i] = {{radiance.red, radiance.green, radiance.blue},
+                   occlusion,
+                   visibility_of(tables.visibility, tables.mapping, occlusion)};
+    }
+  });
+}

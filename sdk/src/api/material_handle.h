@@ -1,0 +1,15 @@
+// The object behind the handle nook_material.
+#pragma once
+
+#include <nook/nook_material.h>
+
+#include "api/handles.h"
+#include "material/tables.h"
+
+struct nook_material_s : nook::RefCounted {
+  // The compressed numbers are not kept.
+  nook_material_s(nook_context_s* made_by, const nook::material::Material& loaded);
+
+  nook_material_info info{};  // but struct_size
+  nook::material::MaterialTables tables;
+};

@@ -1,0 +1,122 @@
+// Directional occlusion: how much of the light that a key point's hemisphere receives comes from behind one
+// sphere. Light is a sum of lobes (core/spherical_gaussian.h). A sphere that covers the share f of the
+// cosine-weighted hemisphere takes f times
+//   rho = mean radiance behind the sphere / mean radiance of the hemisphere
+// of the irradiance, channel by channel; under constant light rho is 1 and plain occlusion is left.
+//
+// Both means are taken under a density over directions proportional to exp(dot(b, s)): b = h n stands for the
+// clamped cosine, and b = h n + k d for its product with the sphere's cap, d pointing at the part of the
+// sphere above the horizon. The mean of a lobe of vector a = sharpness * axis is then closed:
+//   e^(m - |a| - |b|) N(m) / N(|b|),  m = |a + b|,  N(v) = (1 - e^(-2 v)) / v.
+//
+// Written over a number type F, as kernel.h is.
+#pragma once
+
+#include <cstdint>
+
+#include "core/simd_scalar.h"
+#include "core/vec.h"
+
+namespace nook {
+
+// One lobe of the light: vector = sharpness * axis.
+struct LightLobe {
+  Vec3 vector;
+  float sharpness = 0;
+  Vec3 amplitude;  // linear RGB
+};
+
+struct LightView {
+  const LightLobe* lobes = nullptr;
+  std::uint32_t count = 0;
+  // No hemisphere counts as darker: a small share of the mean radiance of all directions, > 0, so that fits
+  // that ring below 0 on their dark side give no wild ratios there.
+  Vec3 darkest;
+};
+
+template <class F>
+struct Colour {
+  F r, g, b;
+};
+
+// Sharpness of the lobe that stands for the clamped cosine; cosine_lobe_sharpness of
+// core/spherical_gaussian.h.
+inline constexpr float directional_cosine = 2.133f;
+// k = concentration sqrt(height) (1 - f^2) / f: a far sphere is a lobe of its solid angle, one that fills the
+// hemisphere is the hemisphere. Of rho, `strength` counts, the rest is 1. Measured against rays in a crowd:
+// what casters and the ground take depends on where they stand; a body's own spheres, fitted to darken from
+// all sides, say little more than a side.
+struct RatioForm {
+  float concentration, strength;
+};
+inline constexpr RatioForm caster_ratio{2.0f, 1.0f};
+inline constexpr RatioForm self_ratio{0.5f, 0.75f};
+inline constexpr float smallest_share = 1e-4f;
+// Nothing dims its receiver by more than this times its share: a bound on the effect of one bright lobe.
+inline constexpr float largest_ratio = 8.0f;
+
+// (1 - e^(-2 v)) / v as 1 / (v + v / (e^(2 v) - 1)) with the exponential's series: relative error below
+// 0.006, for v from 0 to 1e6.
+template <class F>
+F lobe_norm(F v) {
+  const F q = fma(fma(fma(fma(F(0.26666667f), v, F(0.66666667f)), v, F(1.3333333f)), v, F(2.0f)), v, F(2.0f));
+  return q / fma(v, q, F(1.0f));
+}
+
+template <class F>
+struct Direction {
+  F x, y, z;
+};
+
+// Mean of the lobes under the density of vector b.
+template <class F>
+Colour<F> mean_radiance(const LightView& light, const Direction<F>& b) {
+  const F length_b = sqrt(fma(b.x, b.x, fma(b.y, b.y, b.z * b.z)));
+  Colour<F> sum{F(0.0f), F(0.0f), F(0.0f)};
+  for (std::uint32_t i = 0; i < light.count; ++i) {
+    const LightLobe& lobe = light.lobes[i];
+    const F x = b.x + F(lobe.vector.x), y = b.y + F(lobe.vector.y), z = b.z + F(lobe.vector.z);
+    const F m = sqrt(fma(x, x, fma(y, y, z * z)));
+    const F weight = exponential(min(m - (length_b + F(lobe.sharpness)), F(0.0f))) * lobe_norm(m);
+    sum.r = fma(weight, F(lobe.amplitude.x), sum.r);
+    sum.g = fma(weight, F(lobe.amplitude.y), sum.g);
+    sum.b = fma(weight, F(lobe.amplitude.z), sum.b);
+  }
+  const F scale = F(1.0f) / lobe_norm(length_b);
+  return {sum.r * scale, sum.g * scale, sum.b * scale};
+}
+
+// 1 / the mean radiance of the hemisphere round n.
+template <class F>
+Colour<F> inverse_hemisphere(const LightView& light, const Direction<F>& n) {
+  const F h(directional_cosine);
+  const Colour<F> mean = mean_radiance(light, Direction<F>{n.x * h, n.y * h, n.z * h});
+  const F one(1.0f);
+  return {one / max(mean.r, F(light.darkest.x)), one / max(mean.g, F(light.darkest.y)),
+          one / max(mean.b, F(light.darkest.z))};
+}
+
+// rho of a sphere whose centre lies at o radii from the key point, height xi = dot(o, n) and squared distance
+// delta2, which covers `share` of the hemisphere.
+template <class F>
+Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Direction<F>& n,
+                      const Direction<F>& o, F xi, F delta2, F share, RatioForm form) {
+  // A sphere cut by the horizon is seen at the middle of what shows above it.
+  const F height = max(xi, fma(max(xi, F(-1.0f)), F(0.5f), F(0.5f)));
+  const F lift = height - xi;
+  const F distance2 = max(delta2 + height * height - xi * xi, F(1e-12f));
+  const F inverse_distance = rsqrt(distance2);
+  const F cosine = height * inverse_distance;
+  const F f = max(share, F(smallest_share));
+  const F k = F(form.concentration) * sqrt(max(cosine, F(0.0f))) * max(F(1.0f) - f * f, F(0.0f)) / f;
+  const F along = k * inverse_distance;
+  const F up = fma(along, lift, F(directional_cosine));
+  const Colour<F> behind = mean_radiance(
+      light, Direction<F>{fma(o.x, along, n.x * up), fma(o.y, along, n.y * up), fma(o.z, along, n.z * up)});
+  const auto ratio = [&](F mean, F scale) {
+    return fma(F(form.strength), min(max(mean * scale, F(0.0f)), F(largest_ratio)), F(1 - form.strength));
+  };
+  return {ratio(behind.r, inverse.r), ratio(behind.g, inverse.g), ratio(behind.b, inverse.b)};
+}
+
+}  // namespace nook

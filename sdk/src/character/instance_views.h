@@ -1,0 +1,64 @@
+// The arrays of a scene's instances as the kernels take them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "character/scene.h"
+
+namespace nook {
+
+// Spheres of an instance at a level, or at its coarsest if that is finer.
+inline SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
+  const LoadedModel& model = *instance.model;
+  const std::size_t l = std::min<std::size_t>(level, model.levels.size());
+  const SphereLanes& s = l == 0 ? instance.arrays.spheres : instance.arrays.coarse_spheres[l - 1];
+  const RestSpheres& rest = l == 0 ? model.rest_spheres : model.levels[l - 1].rest_spheres;
+  return {s.x, s.y, s.z, s.inverse_radius, rest.caster_weight(), s.count};
+}
+
+inline const RestKeyPoints& rest_points_of(const Instance& instance) {
+  return instance.level == 0 ? instance.model->rest_key_points
+                             : instance.model->levels[instance.level - 1].rest_key_points;
+}
+
+// The lanes of the key points that are evaluated at the instance's level.
+inline PointLanes evaluated_points(const Instance& instance) {
+  PointLanes points = instance.arrays.points;
+  points.padded_count = rest_points_of(instance).padded_count();
+  if (instance.level > 0)
+    points.count =
+        static_cast<std::uint32_t>(instance.model->model.levels[instance.level - 1].evaluated.size());
+  return points;
+}
+
+inline KeyPointSoa fitted_points(const PointLanes& p) {
+  return {p.x, p.y, p.z, p.nx, p.ny, p.nz, p.padded_count};
+}
+inline KeyPointSoa surface_points(const PointLanes& p) {
+  return {p.surface_x, p.surface_y, p.surface_z, p.surface_nx, p.surface_ny, p.surface_nz, p.padded_count};
+}
+
+// Ground and free occluders in batches on the stack; their caster weight is 1.
+template <class Apply>
+void for_free_spheres(const Scene& scene, const Instance& instance, Apply&& apply) {
+  constexpr std::uint32_t batch = 16;
+  std::array<float, batch> x{}, y{}, z{}, inverse_radius{};
+  std::uint32_t count = 0;
+  const auto flush = [&] {
+    if (count > 0) apply(SphereSoa{x.data(), y.data(), z.data(), inverse_radius.data(), nullptr, count});
+    count = 0;
+  };
+  const auto push = [&](const Sphere& sphere) {
+    x[count] = sphere.centre.x;
+    y[count] = sphere.centre.y;
+    z[count] = sphere.centre.z;
+    inverse_radius[count] = inverse_sphere_radius(sphere.radius);
+    if (++count == batch) flush();
+  };
+  if (instance.ground_sphere.radius > 0) push(instance.ground_sphere);
+  for (const std::uint32_t slot : instance.occluders) push(scene.occluders[slot].sphere);
+  flush();
+}
+
+}  // namespace nook

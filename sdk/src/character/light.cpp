@@ -1,0 +1,149 @@
+#include "character/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "character/instance_views.h"
+#include "core/failure.h"
+
+namespace nook {
+namespace {
+
+constexpr float max_sharpness = 1e4f, max_amplitude = 1e18f;
+// No hemisphere is taken for darker than this share of the mean radiance: fits that ring are below 0 there.
+constexpr float darkest_share = 0.02f;
+
+void check_lobe(const SphericalGaussian& lobe, std::size_t index) {
+  if (!(std::abs(length(lobe.axis) - 1) <= 1e-3f))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the axis of lobe %zu is not of unit length (got %g, need 1 to 0.001)", index,
+                  double(length(lobe.axis)));
+  if (!(lobe.sharpness >= 0 && lobe.sharpness <= max_sharpness))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the sharpness of lobe %zu is out of range (got %g, need 0 to 10,000)", index,
+                  double(lobe.sharpness));
+  for (const float channel : {lobe.amplitude.x, lobe.amplitude.y, lobe.amplitude.z})
+    if (!(std::abs(channel) <= max_amplitude))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "the amplitude of lobe %zu is out of range (got %g, need at most 1e18 in magnitude)",
+                    index, double(channel));
+}
+
+Vec3 darkest_of(std::span<const SphericalGaussian> lobes) {
+  Vec3 mean;
+  for (const SphericalGaussian& lobe : lobes)
+    mean += integral(lobe) * (darkest_share / gaussian_integral(0.0f));
+  constexpr float tiny = 1e-20f;
+  return {std::max(mean.x, tiny), std::max(mean.y, tiny), std::max(mean.z, tiny)};
+}
+
+void allocate(InstanceLight& light, const PointLanes& points, std::pmr::memory_resource* memory) {
+  AlignedArray<LightLobe> lobes(max_light_lobes, memory);
+  light.storage = AlignedArray<float>(std::size_t{12} * points.padded_count, memory);
+  light.lobes = std::move(lobes);
+  float* at = light.storage.data();
+  for (auto lanes : {&light.shadow, &light.added, &light.sum, &light.open})
+    for (float*& lane : *lanes) {
+      lane = at;
+      at += points.padded_count;
+    }
+}
+
+void fill(float* const* lanes, std::uint32_t count, float value) {
+  for (int c = 0; c < 3; ++c) std::fill_n(lanes[c], count, value);
+}
+
+// Weighted sums become colours of the shadow: shadow * (sum of y^gamma rho) / (sum of y^gamma), from the
+// evaluated key points to all of them.
+void colour_shadow(const Instance& instance, InstanceLight& light) {
+  const PointLanes& points = instance.arrays.points;
+  const float gamma = instance.model->model.kernel.gamma;
+  const CharacterLevel* level = instance.level ? &instance.model->model.levels[instance.level - 1] : nullptr;
+  for (std::uint32_t k = 0; k < points.count; ++k) {
+    const std::uint32_t source = level ? level->source[k] : k;
+    // At a coarser level the roots have been taken in place.
+    const float sum =
+        level && gamma != 1 ? std::pow(points.norm_sum[source], gamma) : points.norm_sum[source];
+    const float scale = sum > 0 ? points.shadow[k] / sum : 0;
+    for (int c = 0; c < 3; ++c) light.shadow[c][k] = light.sum[c][source] * scale;
+  }
+}
+
+void spread_added(const Instance& instance, InstanceLight& light) {
+  const CharacterLevel* level = instance.level ? &instance.model->model.levels[instance.level - 1] : nullptr;
+  for (std::uint32_t k = 0; k < instance.arrays.points.count; ++k)
+    for (int c = 0; c < 3; ++c) light.added[c][k] = light.sum[c][level ? level->source[k] : k];
+}
+
+void evaluate_composed(const Scene& scene, const Instance& instance, const PointLanes& points,
+                       InstanceLight& light) {
+  const KeyPointSoa surface = surface_points(points);
+  fill(light.sum, points.padded_count, 0.0f);
+  fill(light.open, points.padded_count, 1.0f);
+  for (const std::uint32_t caster : instance.casters)
+    scene.kernels->directional_depth(spheres_of(scene.instances[caster], instance.level), surface,
+                                     light.view(), light.sum);
+  for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
+    scene.kernels->directional_open(spheres, surface, light.view(), light.open);
+  });
+  for (int c = 0; c < 3; ++c)
+    scene.kernels->composed_occlusion(light.sum[c], light.open[c], points.padded_count, light.sum[c]);
+  spread_added(instance, light);
+}
+
+// Casters join the one norm of the paper's form.
+void join_paper_norm(const Scene& scene, const Instance& instance, const PointLanes& points,
+                     InstanceLight& light) {
+  const auto join = [&](const SphereSoa& spheres) {
+    scene.kernels->directional_norm_sum(spheres, fitted_points(points), instance.model->model.kernel,
+                                        light.view(), light.sum);
+  };
+  for (const std::uint32_t caster : instance.casters)
+    join(spheres_of(scene.instances[caster], instance.level));
+  for_free_spheres(scene, instance, join);
+}
+
+}  // namespace
+
+void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes) {
+  Instance& instance = instance_of(scene, id);
+  if (lobes.size() > max_light_lobes)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is too large (got %zu, need at most %u)",
+                  lobes.size(), max_light_lobes);
+  for (std::size_t i = 0; i < lobes.size(); ++i) check_lobe(lobes[i], i);
+  InstanceLight& light = instance.light;
+  if (!lobes.empty() && light.lobes.size() == 0) allocate(light, instance.arrays.points, scene.memory);
+  for (std::size_t i = 0; i < lobes.size(); ++i)
+    light.lobes[i] = {lobes[i].axis * lobes[i].sharpness, lobes[i].sharpness, lobes[i].amplitude};
+  light.count = static_cast<std::uint32_t>(lobes.size());
+  light.darkest = darkest_of(lobes);
+  if (lobes.empty()) light.evaluated = false;
+}
+
+void evaluate_directional(const Scene& scene, Instance& instance) noexcept {
+  InstanceLight& light = instance.light;
+  if (light.count == 0) return;
+  const PointLanes points = evaluated_points(instance);
+  const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  fill(light.sum, points.padded_count, 0.0f);
+  if (scene.terms & NOOK_TERM_SELF)
+    scene.kernels->directional_norm_sum(spheres_of(instance, instance.level), fitted_points(points),
+                                        instance.model->model.kernel, light.view(), light.sum);
+  if (!composed) join_paper_norm(scene, instance, points, light);
+  colour_shadow(instance, light);
+  if (composed) evaluate_composed(scene, instance, points, light);
+  light.evaluated = true;
+}
+
+void read_directional_ao(const Scene& scene, const Instance& instance, float* out,
+                         std::size_t stride_bytes) noexcept {
+  const InstanceLight& light = instance.light;
+  for (int c = 0; c < 3; ++c)
+    if (light.evaluated)
+      read_ao(scene, instance, light.shadow[c], light.added[c], out + c, stride_bytes);
+    else
+      read_ao(scene, instance, out + c, stride_bytes);
+}
+
+}  // namespace nook

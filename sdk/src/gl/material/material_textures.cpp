@@ -1,0 +1,97 @@
+#include "gl/material/material_textures.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/failure.h"
+#include "gl/material/source.h"
+#include "gl/material/texture_array.h"
+#include "gl/state_access.h"
+
+namespace nook::gl {
+namespace {
+
+using material::MaterialTables;
+using material::TensorTables;
+
+constexpr std::uint32_t guaranteed_layers = 256;  // by OpenGL 3.3
+
+std::size_t texture_count(const TensorTables& t, std::uint32_t max_layers) {
+  return t.terms == 0 ? 0 : array_count(t, max_layers) + 1 + (t.clusters > 1);
+}
+
+// The textures' sides and layers against what this OpenGL has.
+void check_limits(const Functions& gl, const MaterialTables& tables, std::uint32_t max_layers) {
+  const auto side = std::uint32_t(integer(gl, GL_MAX_TEXTURE_SIZE));
+  const auto layers = std::uint32_t(integer(gl, GL_MAX_ARRAY_TEXTURE_LAYERS));
+  for (const TensorTables* t : {&tables.btf, &tables.votf}) {
+    const std::uint32_t largest = std::max({t->width, t->height, t->side});
+    if (largest > side)
+      throw Failure(
+          NOOK_ERROR_UNSUPPORTED,
+          "the material needs larger textures than this OpenGL has (got %u texels, need at most %u)", largest,
+          side);
+    if (t->terms * t->view_fours > layers)
+      throw Failure(
+          NOOK_ERROR_UNSUPPORTED,
+          "the material's coefficients need more layers than this OpenGL has (got %u, need at most %u); "
+          "bake it with a smaller view rank",
+          t->terms * t->view_fours, layers);
+  }
+  const std::size_t count =
+      1 + texture_count(tables.btf, max_layers) + texture_count(tables.votf, max_layers);
+  if (count > MaterialTextures::max_textures)
+    throw Failure(
+        NOOK_ERROR_UNSUPPORTED,
+        "the material needs more textures than a shader has units (got %zu with %u layers each, need at "
+        "most %zu); allow more layers, or bake it with smaller ranks or fewer clusters",
+        count, max_layers, MaterialTextures::max_textures);
+}
+
+}  // namespace
+
+MaterialTextures::MaterialTextures(Device& device, const MaterialTables& tables, std::uint32_t max_layers)
+    : textures_(device.memory), source_(device.memory) {
+  const Functions& gl = device.gl;
+  const auto most =
+      std::uint32_t(std::max(integer(gl, GL_MAX_ARRAY_TEXTURE_LAYERS), GLint(guaranteed_layers)));
+  max_layers = max_layers == 0 ? most : std::min(max_layers, most);
+  check_limits(gl, tables, max_layers);
+  source_ = material_source(tables, max_layers, device.memory);
+  textures_.reserve(max_textures);
+  set_plain_unpacking(gl);
+  const auto light_layers = GLsizei(3 * tables.btf.light_modes / 4),
+             light_side = GLsizei(MaterialTables::light_side);
+  textures_.push_back(
+      {make_texture_array(device, {ArrayUse::light, light_side, light_side, 0, light_layers, light_layers, 1},
+                          tables.light.data(), "nook: light map"),
+       "nook_light_map"});
+  add_tensor(device, tables.btf, "btf", max_layers);
+  if (tables.votf.terms != 0) add_tensor(device, tables.votf, "votf", max_layers);
+  bytes_ = material::table_bytes(tables);
+}
+
+void MaterialTextures::add_tensor(Device& device, const TensorTables& t, const char* name,
+                                  std::uint32_t max_layers) {
+  const auto add = [&](const ArrayPlan& plan, const void* data, const char* what, int number) {
+    Texture texture;
+    const int length = std::snprintf(texture.uniform, sizeof texture.uniform, "nook_%s_%s", name, what);
+    if (number >= 0) std::snprintf(texture.uniform + length, sizeof texture.uniform - length, "_%d", number);
+    texture.object = make_texture_array(device, plan, data, texture.uniform);
+    textures_.push_back(std::move(texture));
+  };
+  const auto side = GLsizei(t.side), coefficient_layers = GLsizei(t.terms * t.view_fours),
+             membership_layers = GLsizei(material::in_fours(t.terms)), layers = GLsizei(t.layers());
+  add({ArrayUse::coefficients, side, side, 0, coefficient_layers, coefficient_layers, 1},
+      t.coefficients.data(), "coefficients", -1);
+  if (t.clusters > 1)
+    add({ArrayUse::membership, side, side, 0, membership_layers, membership_layers, 1}, t.membership.data(),
+        "membership", -1);
+  int number = 0;
+  for (GLsizei first = 0; first < layers; first += GLsizei(max_layers))
+    add({ArrayUse::spatial, GLsizei(t.width), GLsizei(t.height), first,
+         std::min(layers - first, GLsizei(max_layers)), layers, GLsizei(t.levels)},
+        t.spatial.data(), "spatial", number++);
+}
+
+}  // namespace nook::gl

@@ -1,0 +1,41 @@
+// A material in texture arrays, and the GLSL that decodes it.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <string>
+#include <vector>
+
+#include "gl/object.h"
+#include "material/tables.h"
+
+namespace nook::gl {
+
+class MaterialTextures {
+ public:
+  // Samplers that OpenGL 3.3 guarantees a fragment shader.
+  static constexpr std::size_t max_textures = 16;
+
+  struct Texture {
+    Object object;
+    char uniform[40] = "";
+  };
+
+  // max_layers of one array: 0 for what this OpenGL has. Changes the state of the user `materials` in
+  // touched_state.h; the caller holds a StateGuard. Throws Failure.
+  MaterialTextures(Device& device, const material::MaterialTables& tables, std::uint32_t max_layers);
+
+  const std::pmr::vector<Texture>& textures() const { return textures_; }
+  const std::pmr::string& source() const { return source_; }
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  void add_tensor(Device& device, const material::TensorTables& tables, const char* name,
+                  std::uint32_t max_layers);
+
+  std::pmr::vector<Texture> textures_;
+  std::pmr::string source_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace nook::gl

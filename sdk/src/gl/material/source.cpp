@@ -1,0 +1,67 @@
+#include "gl/material/source.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+#include "gl/embedded_shaders.h"
+
+namespace nook::gl {
+namespace {
+
+using Text = std::pmr::string;
+
+void add(Text& out, const char* format, ...) __attribute__((format(printf, 2, 3)));
+void add(Text& out, const char* format, ...) {
+  char line[200];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  out += line;
+}
+
+// name: "btf"; prefix: "NOOK_BTF".
+void add_tensor(Text& out, const material::TensorTables& t, const char* name, const char* prefix,
+                std::uint32_t max_layers) {
+  add(out, "#define %s_TERMS %u\n#define %s_VIEW_FOURS %u\n", prefix, t.terms, prefix, t.view_fours);
+  add(out, "#define %s_CLUSTERS %u\n#define %s_SIDE %u\n", prefix, t.clusters, prefix, t.side);
+  if (t.terms == 0) return;
+  add(out, "#define %s_TEXELS vec2(%u.0, %u.0)\n", prefix, t.width, t.height);
+  add(out, "uniform sampler2DArray nook_%s_coefficients;\n", name);
+  if (t.clusters > 1) add(out, "uniform usampler2DArray nook_%s_membership;\n", name);
+  const std::uint32_t arrays = array_count(t, max_layers);
+  for (std::uint32_t i = 0; i < arrays; ++i)
+    add(out, "uniform sampler2DArray nook_%s_spatial_%u;\n", name, i);
+  add(out, "vec4 nook_%s_mode(int layer, vec2 uv, float level) {\n", name);
+  for (std::uint32_t i = 0; i < arrays; ++i) {
+    const std::uint32_t first = i * max_layers;
+    if (i + 1 < arrays) add(out, "  if (layer < %u)\n  ", first + max_layers);
+    add(out, "  return textureLod(nook_%s_spatial_%u, vec3(uv, float(layer - %u)), level);\n", name, i,
+        first);
+  }
+  out += "}\n";
+}
+
+const char* host_text() {
+  for (const EmbeddedShader* shader = embedded_shaders_begin(); shader != embedded_shaders_end(); ++shader)
+    if (std::string_view(shader->path) == "material/host.glsl") return shader->text;
+  return "";
+}
+
+}  // namespace
+
+std::pmr::string material_source(const material::MaterialTables& tables, std::uint32_t max_layers,
+                                 std::pmr::memory_resource* memory) {
+  Text out(memory);
+  add(out, "#define NOOK_LIGHT_FOURS %u\nuniform sampler2DArray nook_light_map;\n",
+      tables.btf.light_modes / 4);
+  add_tensor(out, tables.btf, "btf", "NOOK_BTF", max_layers);
+  add_tensor(out, tables.votf, "votf", "NOOK_VOTF", max_layers);
+  if (tables.votf.terms != 0)
+    add(out, "uniform vec2 nook_visibility_mapping = vec2(%.9g, %.9g);\n", double(tables.mapping.threshold),
+        double(tables.mapping.weight));
+  out += host_text();
+  return out;
+}
+
+}  // namespace nook::gl

@@ -1,0 +1,19 @@
+// The GLSL of a material: constants and samplers for its sizes, then shaders/material/host.glsl.
+#pragma once
+
+#include <memory_resource>
+#include <string>
+
+#include "material/tables.h"
+
+namespace nook::gl {
+
+// max_layers: of one texture array.
+inline std::uint32_t array_count(const material::TensorTables& tables, std::uint32_t max_layers) {
+  return (tables.layers() + max_layers - 1) / max_layers;
+}
+
+std::pmr::string material_source(const material::MaterialTables& tables, std::uint32_t max_layers,
+                                 std::pmr::memory_resource* memory);
+
+}  // namespace nook::gl

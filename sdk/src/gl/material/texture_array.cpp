@@ -1,0 +1,67 @@
+#include "gl/material/texture_array.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "gl/state_guard.h"
+
+namespace nook::gl {
+namespace {
+
+struct Layout {
+  GLint internal_format;
+  GLenum format, type;
+  std::size_t texel_bytes;
+  GLint min_filter, mag_filter, wrap;
+};
+
+Layout layout_of(ArrayUse use) {
+  switch (use) {
+    case ArrayUse::spatial:
+      return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT};
+    case ArrayUse::coefficients:
+      return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
+    case ArrayUse::membership:
+      return {GL_RGBA16UI, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, 8, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
+    default:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE};
+  }
+}
+
+}  // namespace
+
+Object make_texture_array(Device& device, const ArrayPlan& plan, const void* data, const char* label) {
+  const Functions& gl = device.gl;
+  const Layout layout = layout_of(plan.use);
+  Object texture = Object::make(device, Object::Kind::texture);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
+  const struct {
+    GLenum name;
+    GLint value;
+  } parameters[] = {{GL_TEXTURE_MAX_LEVEL, plan.levels - 1},
+                    {GL_TEXTURE_MIN_FILTER, layout.min_filter},
+                    {GL_TEXTURE_MAG_FILTER, layout.mag_filter},
+                    {GL_TEXTURE_WRAP_S, layout.wrap},
+                    {GL_TEXTURE_WRAP_T, layout.wrap}};
+  for (const auto& parameter : parameters)
+    gl.TexParameteri(GL_TEXTURE_2D_ARRAY, parameter.name, parameter.value);
+  const auto* bytes = static_cast<const std::byte*>(data);
+  for (GLsizei level = 0; level < plan.levels; ++level) {
+    const GLsizei width = std::max(plan.width >> level, 1), height = std::max(plan.height >> level, 1);
+    const std::size_t layer_bytes = layout.texel_bytes * std::size_t(width) * std::size_t(height);
+    gl.TexImage3D(GL_TEXTURE_2D_ARRAY, level, layout.internal_format, width, height, plan.layers, 0,
+                  layout.format, layout.type, bytes + layer_bytes * std::size_t(plan.first_layer));
+    bytes += layer_bytes * std::size_t(plan.all_layers);
+  }
+  device.check("uploading a material's texture");
+  device.label(GL_TEXTURE, texture.name(), label);
+  return texture;
+}
+
+void set_plain_unpacking(const Functions& gl) {
+  gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  set_pixel_store(gl, {});
+}
+
+}  // namespace nook::gl

@@ -1,0 +1,17 @@
+// Probes as the texels that shaders/probe/grid.glsl reads.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "probe/probe.h"
+
+namespace nook::gl {
+
+// Four floats a texel: counts and number of lobes; origin; 1 / spacing; axis and sharpness of each lobe; then
+// the amplitudes of each probe, x fastest, then y, z.
+std::uint64_t probe_texel_count(const probe::Probes& probes);
+std::pmr::vector<float> probe_texels(const probe::Probes& probes, std::pmr::memory_resource* memory);
+
+}  // namespace nook::gl

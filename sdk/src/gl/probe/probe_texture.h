@@ -1,0 +1,27 @@
+// A probe or a grid in a texture buffer.
+#pragma once
+
+#include "gl/object.h"
+#include "probe/probe.h"
+
+namespace nook::gl {
+
+class ProbeTexture {
+ public:
+  // Binds GL_ARRAY_BUFFER, and GL_TEXTURE_BUFFER of unit 0. Throw Failure, and leave what was there.
+  ProbeTexture(Device& device, const probe::Probes& probes);
+  void update(const probe::Probes& probes);
+
+  GLuint name() const { return texture_.name(); }
+  std::uint64_t bytes() const { return buffer_.bytes(); }
+
+ private:
+  Device& device_;
+  Buffer buffer_;
+  Object texture_;
+};
+
+// What hosts put into their shaders: shaders/probe/host.glsl with all that it includes.
+const char* probe_glsl();
+
+}  // namespace nook::gl

@@ -1,0 +1,55 @@
+// Interpolation between sampled directions: the Delaunay triangulation of their points in the parabolic map.
+// The map is stereographic, so circles stay circles: these are the Delaunay triangles of the sphere too.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "material/parabolic.h"
+
+namespace nook::material {
+
+// The three nearest directions round a direction and their weights, non-negative, sum 1.
+struct DirectionMix {
+  std::array<std::uint16_t, 3> index{};
+  std::array<float, 3> weight{1, 0, 0};
+};
+
+class DirectionMesh {
+ public:
+  // At least one direction; at least min_distance apart.
+  explicit DirectionMesh(std::span<const Vec3> directions,
+                         std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+  // Linear inside the triangle that holds the point, continuous everywhere; beyond the outermost directions
+  // the nearest point between them counts. `hint` is kept between calls with points near each other.
+  DirectionMix locate(ParabolicPoint p, std::size_t& hint) const;
+
+  std::size_t triangle_count() const { return triangles_.size(); }
+
+ private:
+  struct Point {
+    double x = 0, y = 0;
+  };
+  using Triangle = std::array<std::uint16_t, 3>;  // counter-clockwise
+  using Edge = std::array<std::uint16_t, 2>;
+
+  void triangulate(std::size_t directions);
+  void insert(std::uint16_t point);
+  void find_border();
+  bool circle_holds(const Triangle& t, const Point& p) const;
+  bool weights_in(const Triangle& t, const Point& p, std::array<double, 3>& weight) const;
+
+  std::pmr::vector<Point> points_;
+  std::pmr::vector<Triangle> triangles_;
+  std::pmr::vector<Edge> border_;  // outermost edges; a chain where there are no triangles
+  std::pmr::vector<Edge> cavity_;  // of an insertion
+};
+
+// The direction of the set that is nearest to d.
+std::size_t nearest_direction(std::span<const Vec3> directions, Vec3 d);
+
+}  // namespace nook::material

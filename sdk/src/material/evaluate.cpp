@@ -1,0 +1,123 @@
+#include "material/evaluate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/half.h"
+#include "material/check.h"
+#include "material/parabolic.h"
+#include "material/spatial_modes.h"
+
+namespace nook::material {
+namespace {
+
+using Four = std::array<float, 4>;
+
+Four four(const std::uint16_t* halves) {
+  return {from_half(halves[0]), from_half(halves[1]), from_half(halves[2]), from_half(halves[3])};
+}
+Four mix(const Four& a, const Four& b, float t) {
+  Four out;
+  for (int i = 0; i < 4; ++i) out[i] = a[i] + (b[i] - a[i]) * t;
+  return out;
+}
+float dot(const Four& a, const Four& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+
+// Two neighbouring texels along one side and the way between their centres.
+struct Between {
+  std::uint32_t low, high;
+  float t;
+};
+Between repeated(float at, std::uint32_t size) {
+  const float place = (at - std::floor(at)) * float(size) - 0.5f, low = std::floor(place);
+  const auto first = static_cast<std::uint32_t>(low + float(size)) % size;
+  return {first, (first + 1) % size, place - low};
+}
+Between clamped(float at, std::uint32_t size) {
+  const float place = std::clamp(at * float(size) - 0.5f, 0.0f, float(size - 1)), low = std::floor(place);
+  const auto first = static_cast<std::uint32_t>(low);
+  return {first, std::min(first + 1, size - 1), place - low};
+}
+
+Four bilinear(const TensorTables& tables, std::uint32_t layer, float u, float v, std::uint32_t level) {
+  const std::uint32_t w = level_size(tables.width, level), h = level_size(tables.height, level);
+  const Between x = repeated(u, w), y = repeated(v, h);
+  const std::uint16_t* const image =
+      &tables.spatial[tables.level_offset(level) + std::size_t(layer) * w * h * 4];
+  const auto texel = [&](std::uint32_t column, std::uint32_t row) {
+    return four(image + (std::size_t(row) * w + column) * 4);
+  };
+  return mix(mix(texel(x.low, y.low), texel(x.high, y.low), x.t),
+             mix(texel(x.low, y.high), texel(x.high, y.high), x.t), y.t);
+}
+
+Four trilinear(const TensorTables& tables, std::uint32_t layer, const Sample& sample) {
+  const float level = std::clamp(sample.level, 0.0f, float(tables.levels - 1));
+  const auto low = static_cast<std::uint32_t>(level);
+  const Four fine = bilinear(tables, layer, sample.u, sample.v, low);
+  if (level == float(low)) return fine;
+  return mix(fine, bilinear(tables, layer, sample.u, sample.v, low + 1), level - float(low));
+}
+
+// The light mode of a texel seen from the view: sum over terms and view modes, light_modes of them.
+void decode(const TensorTables& tables, const Sample& sample, float* modes) {
+  const std::size_t count = std::size_t(tables.side) * tables.side, cell = cell_of(sample.view, tables.side);
+  std::fill_n(modes, tables.light_modes, 0.0f);
+  for (std::uint32_t k = 0; k < tables.terms; ++k) {
+    const std::uint32_t cluster =
+        tables.clusters > 1 ? tables.membership[(k / 4 * count + cell) * 4 + k % 4] : 0;
+    for (std::uint32_t f = 0; f < tables.view_fours; ++f) {
+      const Four coefficients =
+          four(&tables.coefficients[((std::size_t(k) * tables.view_fours + f) * count + cell) * 4]);
+      for (std::uint32_t a = 0; a < tables.light_modes; ++a) {
+        const std::uint32_t layer = (cluster * tables.light_modes + a) * tables.view_fours + f;
+        modes[a] += dot(coefficients, trilinear(tables, layer, sample));
+      }
+    }
+  }
+}
+
+Four light_texel(const MaterialTables& tables, std::uint32_t layer, const Between& x, const Between& y) {
+  constexpr std::size_t side = MaterialTables::light_side;
+  const auto texel = [&](std::uint32_t column, std::uint32_t row) {
+    const float* const at = &tables.light[((layer * side + row) * side + column) * 4];
+    return Four{at[0], at[1], at[2], at[3]};
+  };
+  return mix(mix(texel(x.low, y.low), texel(x.high, y.low), x.t),
+             mix(texel(x.low, y.high), texel(x.high, y.high), x.t), y.t);
+}
+
+}  // namespace
+
+Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample) {
+  if (!(sample.light.z > 0)) return {};
+  std::array<float, 3 * max_directions + 3> modes;
+  decode(tables.btf, sample, modes.data());
+  const ParabolicPoint p = to_parabolic(sample.light);
+  const Between x = clamped(0.5f * p.x + 0.5f, MaterialTables::light_side);
+  const Between y = clamped(0.5f * p.y + 0.5f, MaterialTables::light_side);
+  float radiance[3] = {};
+  const std::uint32_t fours = tables.btf.light_modes / 4;
+  for (std::uint32_t channel = 0; channel < 3; ++channel)
+    for (std::uint32_t f = 0; f < fours; ++f)
+      radiance[channel] += dot(light_texel(tables, channel * fours + f, x, y),
+                               {modes[4 * f], modes[4 * f + 1], modes[4 * f + 2], modes[4 * f + 3]});
+  return {radiance[0], radiance[1], radiance[2]};
+}
+
+float evaluate_votf(const MaterialTables& tables, const Sample& sample) {
+  if (tables.visibility == VisibilityForm::none) return 1;
+  float value = 0;
+  decode(tables.votf, sample, &value);
+  return value;
+}
+
+float visibility_of(VisibilityForm form, const VisibilityMapping& mapping, float value) {
+  if (form == VisibilityForm::none || value >= mapping.threshold) return 1;
+  return value > 0 ? std::min(mapping.weight * value, 1.0f) : 0;
+}
+
+}  // namespace nook::material

@@ -1,0 +1,108 @@
+#include "core/failure.h"
+#include "material/check.h"
+#include "material/material_file.h"
+#include "material/packed_numbers.h"
+
+namespace nook::material {
+namespace {
+
+struct Head {
+  std::uint32_t lights = 0, views = 0;
+};
+
+Head read_head(ByteReader in, Material& material) {
+  Head head;
+  head.lights = in.u16();
+  head.views = in.u16();
+  const std::uint32_t form = in.u8();
+  if (form > std::uint32_t(VisibilityForm::distance))
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the form of visibility is unknown (got %u, need 0 to 2); use a newer library", form);
+  material.visibility = VisibilityForm(form);
+  material.mapping.threshold = in.f32();
+  material.mapping.weight = in.f32();
+  in.check_end();
+  return head;
+}
+
+void read_directions(ByteReader& in, std::uint32_t count, std::pmr::vector<Vec3>& directions) {
+  in.check_count(count, 96, "directions");
+  directions.resize(count);
+  for (Vec3& d : directions) {
+    d.x = in.f32();
+    d.y = in.f32();
+    d.z = in.f32();
+  }
+}
+
+// Refuses a count that the section cannot hold before memory is asked for.
+void read_numbers(ByteReader& in, std::size_t count, const char* what, std::pmr::vector<float>& values) {
+  if (count > in.remaining() / 2)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "section %s is too short for its %s (got %zu bytes for %zu); bake the file again",
+                  in.name(), what, in.remaining(), count);
+  values.resize(count);
+  read_packed(in, values);
+}
+
+void read_rows(ByteReader& in, const TensorShape& shape, std::size_t count, ViewRows& rows) {
+  if (view_rows_bytes(shape, count) > in.remaining())
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "section %s is too short for its rows (got %zu bytes for %zu); bake the file again",
+                  in.name(), in.remaining(), count);
+  rows.membership.resize(count * shape.mixture);
+  if (shape.clusters > 1)
+    for (std::uint16_t& cluster : rows.membership)
+      cluster = std::uint16_t(shape.clusters > 256 ? in.u16() : in.u8());
+  read_numbers(in, coefficient_count(shape, count), "coefficients", rows.coefficients);
+}
+
+void read_tensor(ByteReader in, const Material& material, std::size_t lights, const char* name,
+                 ClusteredTensor& tensor) {
+  TensorShape& s = tensor.shape;
+  s.views = static_cast<std::uint32_t>(material.views.size());
+  for (std::uint32_t* size :
+       {&s.width, &s.height, &s.rank_light, &s.rank_view, &s.rank_x, &s.rank_y, &s.clusters})
+    *size = in.u16();
+  s.mixture = in.u8();
+  check_shape(s, lights, material.views.size(), name, NOOK_ERROR_BAD_FILE);
+  read_numbers(in, s.clusters * core_size(s), "cores", tensor.cores);
+  read_numbers(in, s.clusters * x_basis_size(s), "x bases", tensor.x_bases);
+  read_numbers(in, s.clusters * y_basis_size(s), "y bases", tensor.y_bases);
+  read_rows(in, s, s.views, tensor.rows);
+  in.check_end();
+}
+
+void read_map(ByteReader in, ClusteredTensor& tensor) {
+  tensor.map.side = in.u16();
+  read_rows(in, tensor.shape, std::size_t(tensor.map.side) * tensor.map.side, tensor.map.rows);
+  in.check_end();
+}
+
+}  // namespace
+
+Material read_material(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
+  const Container file(bytes, material_kind);
+  Material material(memory);
+  const Head head = read_head(file.section("HEAD"), material);
+  ByteReader directions = file.section("DIRS");
+  read_directions(directions, head.lights, material.lights);
+  read_directions(directions, head.views, material.views);
+  directions.check_end();
+  read_tensor(file.section("BTF_"), material, head.lights, "BTF", material.btf);
+  ByteReader light = file.section("LGHT");
+  read_numbers(light, std::size_t(3) * head.lights * material.btf.shape.rank_light, "basis",
+               material.light_basis);
+  light.check_end();
+  if (file.has("BMAP")) read_map(file.section("BMAP"), material.btf);
+  if (material.visibility != VisibilityForm::none) {
+    read_tensor(file.section("VOTF"), material, 0, "VOTF", material.votf);
+    if (file.has("VMAP")) read_map(file.section("VMAP"), material.votf);
+  }
+  ByteReader recipe = file.section("RECP");
+  material.recipe = recipe.text(recipe.remaining());
+  check_material(material, NOOK_ERROR_BAD_FILE);
+  return material;
+}
+
+}  // namespace nook::material

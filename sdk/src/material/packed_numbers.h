@@ -1,0 +1,21 @@
+// Floats as half floats with one exponent for all, so that the largest of them lies near a half's largest
+// and the small ones keep their digits.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/bytes.h"
+
+namespace nook::material {
+
+// All finite.
+void write_packed(ByteWriter& out, std::span<const float> values);
+
+constexpr std::size_t packed_bytes(std::size_t count) {
+  return 1 + 2 * count;
+}
+// Throws Failure(NOOK_ERROR_BAD_FILE) at a number that is not finite.
+void read_packed(ByteReader& in, std::span<float> values);
+
+}  // namespace nook::material

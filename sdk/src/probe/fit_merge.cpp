@@ -1,0 +1,70 @@
+// Fits that start from others, join them, or start anew.
+#include <algorithm>
+#include <array>
+
+#include "core/failure.h"
+#include "probe/fit.h"
+
+namespace nook::probe {
+
+void Fit::seed(Fit& short_run) {
+  if (!(short_run.basis_ == basis_))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "short_run has another basis; make both with the same functions and domain");
+  if (!is_running(settings_.method)) return;
+  if (counts_.used > 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the fit has samples already; seed it before, or reset it");
+  std::array<Vec3, max_functions> start;
+  short_run.read(std::span(start).first(basis_.count));
+  for (std::uint32_t i = 0; i < basis_.count; ++i) {
+    const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};
+    for (std::size_t c = 0; c < 3; ++c) sums_[c * padded_ + i] = rgb[c];
+  }
+  prior_weight_ = short_run.counts_.weight;
+  settle();
+}
+
+void Fit::merge(const Fit& other) {
+  const auto same = [](const FitSettings& a, const FitSettings& b) {
+    return a.method == b.method && a.step == b.step && a.denominator == b.denominator &&
+           a.growing_samples == b.growing_samples;
+  };
+  if (!(other.basis_ == basis_) || !same(other.settings_, settings_))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the fits differ in basis or method; make both from equal descriptors");
+  if (&other == this)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a fit cannot be merged with itself; make a second one");
+  if (is_running(settings_.method)) {
+    const double mine = counts_.weight + prior_weight_, theirs = other.counts_.weight + other.prior_weight_;
+    const double share = mine + theirs > 0 ? theirs / (mine + theirs) : 0;
+    settle();
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t i = 0; i < padded_; ++i) {
+        const double their = other.sums_[c * padded_ + i] + double(other.running_.change[c][i]);
+        sums_[c * padded_ + i] += share * (their - sums_[c * padded_ + i]);
+      }
+    for (std::size_t i = 0; i < padded_; ++i)
+      running_.square[i] += float(share) * (other.running_.square[i] - running_.square[i]);
+    settle();
+  } else {
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
+  }
+  prior_weight_ += other.prior_weight_;
+  counts_.used += other.counts_.used;
+  counts_.bad_direction += other.counts_.bad_direction;
+  counts_.bad_radiance += other.counts_.bad_radiance;
+  counts_.bad_weight += other.counts_.bad_weight;
+  counts_.weight += other.counts_.weight;
+  for (std::size_t c = 0; c < 3; ++c) counts_.radiance[c] += other.counts_.radiance[c];
+}
+
+void Fit::reset() {
+  std::ranges::fill(sums_, 0.0);
+  for (float* row : {running_.change[0], running_.change[1], running_.change[2], running_.square})
+    std::fill_n(row, padded_, 0.0f);
+  settle();
+  prior_weight_ = 0;
+  counts_ = {};
+}
+
+}  // namespace nook::probe

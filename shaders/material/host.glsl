@@ -1,0 +1,82 @@
+// What a host's shader calls. Before it stand the constants, the samplers and the functions
+//   vec4 nook_btf_mode(int layer, vec2 uv, float level)
+//   vec4 nook_votf_mode(int layer, vec2 uv, float level)
+// that sdk/src/gl/material/source.cpp writes for a material's sizes; layers and numbers lie as
+// sdk/src/material/tables.h says. The same as sdk/src/material/evaluate.cpp.
+#include "material/parabolic.glsl"
+
+// The mipmap level of a pixel with the sides dx and dy, found once for all fetches: these then need no
+// derivatives, which is faster and works in branches.
+float nook_mipmap_level(vec2 dx, vec2 dy, vec2 texels) {
+  dx *= texels;
+  dy *= texels;
+  return 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-30));
+}
+
+// The light mode of the point uv seen from the view, filtered over the pixel whose sides are dx and dy.
+void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_FOURS]) {
+  ivec2 cell = nook_parabolic_cell(view, NOOK_BTF_SIDE);
+  float level = nook_mipmap_level(dx, dy, NOOK_BTF_TEXELS);
+  for (int a = 0; a < NOOK_LIGHT_FOURS; ++a) modes[a] = vec4(0.0);
+  uvec4 clusters = uvec4(0u);
+  for (int k = 0; k < NOOK_BTF_TERMS; ++k) {
+#if NOOK_BTF_CLUSTERS > 1
+    if (k % 4 == 0) clusters = texelFetch(nook_btf_membership, ivec3(cell, k / 4), 0);
+#endif
+    int first = int(clusters[k % 4]) * NOOK_LIGHT_FOURS * 4 * NOOK_BTF_VIEW_FOURS;
+    for (int b = 0; b < NOOK_BTF_VIEW_FOURS; ++b) {
+      vec4 coefficients = texelFetch(nook_btf_coefficients, ivec3(cell, k * NOOK_BTF_VIEW_FOURS + b), 0);
+      for (int a = 0; a < NOOK_LIGHT_FOURS; ++a) {
+        int layer = first + a * 4 * NOOK_BTF_VIEW_FOURS + b;
+        modes[a] += vec4(dot(coefficients, nook_btf_mode(layer, uv, level)),
+                         dot(coefficients, nook_btf_mode(layer + NOOK_BTF_VIEW_FOURS, uv, level)),
+                         dot(coefficients, nook_btf_mode(layer + 2 * NOOK_BTF_VIEW_FOURS, uv, level)),
+                         dot(coefficients, nook_btf_mode(layer + 3 * NOOK_BTF_VIEW_FOURS, uv, level)));
+      }
+    }
+  }
+}
+
+// Radiance towards the view for an irradiance of 1 on a plane that faces the light.
+vec3 nook_material_radiance(vec4 modes[NOOK_LIGHT_FOURS], vec3 light) {
+  vec3 radiance = vec3(0.0);
+  if (light.z <= 0.0) return radiance;
+  vec2 at = 0.5 * nook_parabolic(light) + 0.5;
+  for (int a = 0; a < NOOK_LIGHT_FOURS; ++a)
+    radiance += vec3(dot(modes[a], textureLod(nook_light_map, vec3(at, float(a)), 0.0)),
+                     dot(modes[a], textureLod(nook_light_map, vec3(at, float(a + NOOK_LIGHT_FOURS)), 0.0)),
+                     dot(modes[a], textureLod(nook_light_map, vec3(at, float(a + 2 * NOOK_LIGHT_FOURS)), 0.0)));
+  return radiance;
+}
+
+// The VOTF, a filtered mask or signed distance.
+float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
+#if NOOK_VOTF_TERMS == 0
+  return 1.0;
+#else
+  ivec2 cell = nook_parabolic_cell(view, NOOK_VOTF_SIDE);
+  float level = nook_mipmap_level(dx, dy, NOOK_VOTF_TEXELS);
+  float value = 0.0;
+  uvec4 clusters = uvec4(0u);
+  for (int k = 0; k < NOOK_VOTF_TERMS; ++k) {
+#if NOOK_VOTF_CLUSTERS > 1
+    if (k % 4 == 0) clusters = texelFetch(nook_votf_membership, ivec3(cell, k / 4), 0);
+#endif
+    int first = int(clusters[k % 4]) * NOOK_VOTF_VIEW_FOURS;
+    for (int b = 0; b < NOOK_VOTF_VIEW_FOURS; ++b)
+      value += dot(texelFetch(nook_votf_coefficients, ivec3(cell, k * NOOK_VOTF_VIEW_FOURS + b), 0),
+                   nook_votf_mode(first + b, uv, level));
+  }
+  return value;
+#endif
+}
+
+// The visibility mapping, equation (26): 1 is fully visible, 0 invisible, between them partly visible.
+float nook_material_visibility(float occlusion) {
+#if NOOK_VOTF_TERMS == 0
+  return 1.0;
+#else
+  if (occlusion >= nook_visibility_mapping.x) return 1.0;
+  return occlusion > 0.0 ? min(nook_visibility_mapping.y * occlusion, 1.0) : 0.0;
+#endif
+}

@@ -1,0 +1,43 @@
+// A probe, or a grid of probes, in a texture buffer of RGBA32F as sdk/src/gl/probe/probe_texels.cpp lays it
+// out: counts and number of lobes; origin; 1 / spacing; axis and sharpness of each lobe; then the amplitudes
+// of each probe, x fastest, then y, z.
+#include "probe/lobe.glsl"
+
+uniform samplerBuffer nook_probe_texels;
+
+// The eight probes round a point, and their weights: trilinear, clamped at the grid's ends.
+struct NookProbePlace {
+  int lobe_count;
+  int first[8];    // texel of the first amplitude
+  float weight[8];
+};
+
+NookProbePlace nook_probe_place(vec3 position_ws) {
+  NookProbePlace place;
+  vec4 head = texelFetch(nook_probe_texels, 0);
+  ivec3 counts = ivec3(head.xyz);
+  place.lobe_count = int(head.w);
+  vec3 origin = texelFetch(nook_probe_texels, 1).xyz, inverse_spacing = texelFetch(nook_probe_texels, 2).xyz;
+  vec3 at = clamp((position_ws - origin) * inverse_spacing, vec3(0.0), vec3(counts - 1));
+  ivec3 low = min(ivec3(at), max(counts - 2, 0));
+  vec3 share = at - vec3(low);
+  int row = counts.x, slice = counts.x * counts.y;
+  for (int corner = 0; corner < 8; ++corner) {
+    ivec3 step = ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+    ivec3 cell = min(low + step, counts - 1);
+    vec3 w = mix(1.0 - share, share, vec3(step));
+    place.first[corner] = 3 + place.lobe_count * (1 + cell.x + row * cell.y + slice * cell.z);
+    place.weight[corner] = w.x * w.y * w.z;
+  }
+  return place;
+}
+
+// Lobe i of the light at a place.
+NookLobe nook_probe_lobe_at(NookProbePlace place, int i) {
+  vec4 shape = texelFetch(nook_probe_texels, 3 + i);
+  vec3 amplitude = vec3(0.0);
+  for (int corner = 0; corner < 8; ++corner)
+    if (place.weight[corner] > 0.0)
+      amplitude += place.weight[corner] * texelFetch(nook_probe_texels, place.first[corner] + i).xyz;
+  return NookLobe(shape.xyz, shape.w, amplitude, 0.0);
+}

@@ -1,0 +1,105 @@
+// nook_material.h without OpenGL: bad parameters, refused allocations, growing structs.
+#include <nook/nook_material.h>
+
+#include <cmath>
+#include <string>
+
+#include "catch.h"
+#include "growing_struct.h"
+#include "host.h"
+#include "material/material_file.h"
+#include "material_sample.h"
+
+using namespace nook::test;
+
+std::vector<std::byte> nook_test_material_bytes() {
+  return nook::material::write_material(nook::material::test::sample_material(2));
+}
+
+namespace {
+
+constexpr nook_result invalid = NOOK_ERROR_INVALID_ARGUMENT;
+
+bool last_is(const char* start, const char* part) {
+  const std::string text = nook_last_message();
+  return text.rfind(start, 0) == 0 && text.find(part) != std::string::npos;
+}
+
+constexpr nook_material_sample sample{{0.2f, 0.7f}, 0, {0, 0, 1}, {0, 0, 1}};
+
+}  // namespace
+
+TEST_CASE("materials: bad parameters and bad files") {
+  Stage stage;
+  const std::vector<std::byte> bytes = nook_test_material_bytes();
+  nook_material material = nullptr;
+  CHECK(nook_material_load(nullptr, bytes.data(), bytes.size(), &material) == invalid);
+  CHECK(nook_material_load(stage.context, nullptr, 4, &material) == invalid);
+  CHECK(nook_material_load(stage.context, bytes.data(), bytes.size(), nullptr) == invalid);
+  CHECK(nook_material_load(stage.context, bytes.data(), bytes.size() - 1, &material) == NOOK_ERROR_BAD_FILE);
+  CHECK(last_is("nook_material_load: ", "size is wrong"));
+  CHECK(nook_material_load(stage.context, stage.host.bytes.data(), stage.host.bytes.size(), &material) ==
+        NOOK_ERROR_BAD_FILE);
+  CHECK(last_is("nook_material_load: ", "got \"CHAR\", need \"MATL\""));
+  CHECK(material == nullptr);
+  REQUIRE(nook_material_load(stage.context, bytes.data(), bytes.size(), &material) == NOOK_OK);
+
+  nook_material_value value{};
+  CHECK(nook_material_evaluate(nullptr, &sample, 1, &value) == invalid);
+  CHECK(nook_material_evaluate(material, nullptr, 1, &value) == invalid);
+  CHECK(nook_material_evaluate(material, &sample, 1, nullptr) == invalid);
+  CHECK(nook_material_evaluate(material, nullptr, 0, nullptr) == NOOK_OK);
+  nook_material_sample bad[2] = {sample, sample};
+  bad[1].view[1] = NAN;
+  CHECK(nook_material_evaluate(material, bad, 2, &value) == invalid);
+  CHECK(last_is("nook_material_evaluate: ", "sample 1"));
+  CHECK(nook_material_get_info(material, nullptr) == invalid);
+  check_info<nook_material_info>(sizeof(nook_material_info), [&](nook_material_info* info) {
+    return nook_material_get_info(material, info);
+  });
+  nook_material_destroy(&material);
+  nook_material_destroy(&material);
+  nook_material_destroy(nullptr);
+  CHECK(nook_material_get_info(material, nullptr) == invalid);
+}
+
+TEST_CASE("materials: callers of older and newer headers") {
+  check_init<nook_gl_material_desc>(nook_gl_material_desc_init, sizeof(nook_gl_material_desc));
+}
+
+TEST_CASE("materials: numbers of any size give an answer") {
+  Stage stage;
+  const std::vector<std::byte> bytes = nook_test_material_bytes();
+  nook_material material = nullptr;
+  REQUIRE(nook_material_load(stage.context, bytes.data(), bytes.size(), &material) == NOOK_OK);
+  for (const float size : {0.0f, 1e-30f, 1e10f, 1e38f, -1e38f}) {
+    const nook_material_sample odd{{size, -size}, size, {size, size, -size}, {size, 0, size}};
+    nook_material_value value{};
+    CHECK(nook_material_evaluate(material, &odd, 1, &value) == NOOK_OK);
+    CHECK(std::isfinite(value.radiance[0] + value.radiance[1] + value.radiance[2] + value.occlusion));
+  }
+  nook_material_destroy(&material);
+}
+
+TEST_CASE("materials: each allocation refused in turn leaves nothing") {
+  Host host;
+  const std::vector<std::byte> bytes = nook_test_material_bytes();
+  const nook_context_desc desc = host.context_desc();
+  nook_context context = nullptr;
+  REQUIRE(nook_context_create(&desc, &context) == NOOK_OK);
+  const int held = host.blocks;
+  nook_material material = nullptr;
+  int refusals = 0;
+  for (int n = 0; !material; ++n) {
+    host.refuse_at = host.allocations + n;
+    const nook_result result = nook_material_load(context, bytes.data(), bytes.size(), &material);
+    if (result == NOOK_OK) break;
+    ++refusals;
+    REQUIRE(result == NOOK_ERROR_OUT_OF_MEMORY);
+    CHECK(host.blocks == held);
+  }
+  CHECK(refusals > 20);
+  nook_context_destroy(&context);
+  nook_material_destroy(&material);
+  CHECK(host.blocks == 0);
+}

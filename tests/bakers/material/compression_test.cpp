@@ -1,0 +1,173 @@
+#include "material/compression.h"
+
+#include <tbb/global_control.h>
+
+#include <string>
+
+#include "catch.h"
+#include "core/failure.h"
+#include "material/comparison.h"
+#include "material/material_file.h"
+#include "material/measures.h"
+#include "small_material.h"
+
+using namespace nook;
+using namespace nook::bake::material;
+using nook::material::Material;
+using nook::material::VisibilityForm;
+
+namespace {
+
+CompressionSettings small_settings(Method method) {
+  CompressionSettings s;
+  s.method = method;
+  s.rank_light = 8;
+  s.rank_view = 16;
+  s.rank_x = 8;
+  s.rank_y = 8;
+  s.votf_rank_x = 8;
+  s.votf_rank_y = 12;
+  s.map_side = 16;
+  return s;
+}
+
+double error_db(const RawMaterial& raw, const Material& m) {
+  return measure_btf(raw, {m.light_basis.begin(), m.light_basis.end()}, m.btf).se_db();
+}
+
+std::string refusal(const RawMaterial& raw, const CompressionSettings& s) {
+  try {
+    check_settings(s, raw);
+  } catch (const Failure& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE(
+    "all three methods give materials whose size is the formula's, and K-CTA lies between CTA and N-SVD") {
+  const RawMaterial raw = test::small_material();
+  double se[3];
+  for (const Method method : {Method::n_svd, Method::cta, Method::k_cta}) {
+    const CompressionSettings s = small_settings(method);
+    const Material m = nook::material::quantise(compress(raw, s));
+    const std::size_t clusters = method == Method::n_svd ? 1 : 4, k = method == Method::k_cta ? 3 : 1;
+    const std::size_t view_rank = method == Method::n_svd ? 16 : 4;
+    // Half floats of cores, x and y bases of each cluster, the light basis, K R_v numbers and K indices a
+    // view.
+    const std::size_t index = clusters == 1 ? 0 : 24 * k;
+    const std::size_t btf =
+        2 * (18 * 8 + clusters * (8 * view_rank * 8 * 8 + 12 * 8 + 16 * 8) + 24 * k * view_rank) + index;
+    const std::size_t votf =
+        2 * (clusters * (view_rank * 8 * 12 + 12 * 8 + 16 * 12) + 24 * k * view_rank) + index;
+    CHECK(nook::material::compressed_bytes(m) == btf + votf);
+    CHECK(m.btf.map.side == (method == Method::k_cta ? 16u : 0u));
+    CHECK(m.visibility == VisibilityForm::distance);
+    se[int(method)] = error_db(raw, m);
+  }
+  CHECK(se[int(Method::k_cta)] > se[int(Method::cta)]);
+  // 12 coefficients of a view against 16: what N-SVD is ahead of K-CTA is small, if anything.
+  CHECK(se[int(Method::n_svd)] > se[int(Method::cta)]);
+}
+
+TEST_CASE("K-CTA with K = 1 is as good as CTA") {
+  const RawMaterial raw = test::small_material();
+  CompressionSettings s = small_settings(Method::k_cta);
+  s.mixture = 1;
+  const double k_cta = error_db(raw, compress(raw, s));
+  s.method = Method::cta;
+  // Both descend to the same kind of optimum from the same seeds; they stop at a change of 1e-4.
+  CHECK(k_cta == Approx(error_db(raw, compress(raw, s))).margin(0.5));
+}
+
+TEST_CASE("at full ranks nothing is lost but half floats") {
+  const RawMaterial raw = test::small_material(4, 8, 6, 5);
+  CompressionSettings s;
+  s.method = Method::n_svd;
+  s.rank_light = 12;
+  s.rank_view = 8;
+  s.rank_x = s.votf_rank_x = 6;
+  s.rank_y = s.votf_rank_y = 5;
+  const Material m = nook::material::quantise(compress(raw, s));
+  // Rounding to 11 bits is an error of 2^-12 / sqrt(3) of each number: 77 dB; the core's small entries lose
+  // less.
+  CHECK(error_db(raw, m) > 70);
+  CHECK(count_error_texels(raw, m.votf, m.visibility) == 0);
+}
+
+TEST_CASE("the resampled map decodes to the views' own images where it meets them") {
+  const RawMaterial raw = test::small_material();
+  CompressionSettings s = small_settings(Method::k_cta);
+  s.map_side = 256;
+  Material m = compress(raw, s);
+  const double own = error_db(raw, m);
+  // The rows of the map's nearest cells in the place of the views' own.
+  for (std::size_t v = 0; v < raw.views.size(); ++v) {
+    const float scale = 1 / (1 + raw.views[v].z);
+    const auto cell = [&](float at) {
+      return std::min(std::size_t((0.5f * at * scale + 0.5f) * 256), std::size_t{255});
+    };
+    const std::size_t row = cell(raw.views[v].y) * 256 + cell(raw.views[v].x);
+    for (std::size_t i = 0; i < 3; ++i)
+      m.btf.rows.membership[3 * v + i] = m.btf.map.rows.membership[3 * row + i];
+    for (std::size_t i = 0; i < 12; ++i)
+      m.btf.rows.coefficients[12 * v + i] = m.btf.map.rows.coefficients[12 * row + i];
+  }
+  // A cell's centre is up to 0.4 degrees off, which alone moves images by an error of about -46 dB, and the
+  // greedy search may take other clusters than the fit kept. Wrong directions or clusters would leave less
+  // than 15 dB.
+  CHECK(error_db(raw, m) > own - 3);
+}
+
+TEST_CASE("the same seed gives the same bytes on one thread and on four") {
+  const RawMaterial raw = test::small_material();
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return nook::material::write_material(compress(raw, small_settings(Method::k_cta)));
+  };
+  CHECK(with_threads(1) == with_threads(4));
+}
+
+TEST_CASE("ranks, clusters and mixtures that do not fit are named") {
+  const RawMaterial raw = test::small_material();
+  const auto with = [&](auto change) {
+    CompressionSettings s = small_settings(Method::k_cta);
+    change(s);
+    return refusal(raw, s);
+  };
+  CHECK(with([](auto&) {}).empty());
+  CHECK(with([](auto& s) { s.rank_light = 19; }).find("light rank is 19") != std::string::npos);
+  CHECK(with([](auto& s) { s.rank_view = 25; }).find("view rank is 25") != std::string::npos);
+  CHECK(with([](auto& s) { s.rank_x = 13; }).find("x rank is 13") != std::string::npos);
+  CHECK(with([](auto& s) { s.rank_y = 0; }).find("y rank is 0") != std::string::npos);
+  CHECK(with([](auto& s) { s.votf_rank_y = 17; }).find("VOTF's y rank is 17") != std::string::npos);
+  CHECK(with([](auto& s) { s.clusters = 25; }).find("clusters is 25") != std::string::npos);
+  CHECK(with([](auto& s) { s.mixture = 5; }).find("K is 5") != std::string::npos);
+  CHECK(with([](auto& s) { s.map_side = 1000; }).find("1000 cells") != std::string::npos);
+}
+
+TEST_CASE("ranks by threshold keep each mode's error, in fours") {
+  const RawMaterial raw = test::small_material();
+  const CompressionSettings s = ranks_by_threshold(raw, 0.01, {});
+  for (const std::uint32_t rank :
+       {s.rank_light, s.rank_view, s.rank_x, s.rank_y, s.votf_rank_x, s.votf_rank_y})
+    CHECK((rank % 4 == 0 || rank == 18));
+  CHECK(s.cluster_count() == std::max(s.rank_view / 4, 1u));
+  CompressionSettings n_svd = s;
+  n_svd.method = Method::n_svd;
+  n_svd.visibility = VisibilityForm::none;
+  // The error of all modes together is at most the sum of theirs (De Lathauwer et al. 2000, property 10).
+  CHECK(error_db(raw, compress(raw, n_svd)) > 10 * std::log10(1 / 0.04));
+}
+
+TEST_CASE("compression can be stopped, and a material without a mask has no VOTF") {
+  RawMaterial raw = test::small_material();
+  const CompressionSettings s = small_settings(Method::k_cta);
+  int calls = 0;
+  CHECK_THROWS_AS(compress(raw, s, [&](const char*, std::size_t, std::size_t) { return ++calls < 3; }),
+                  Failure);
+  raw.mask.clear();
+  CHECK(compress(raw, s).visibility == VisibilityForm::none);
+}

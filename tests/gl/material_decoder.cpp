@@ -1,0 +1,195 @@
+#include "material_decoder.h"
+
+#include <cmath>
+#include <string>
+
+#include "material/material_file.h"
+#include "test_context.h"
+
+namespace nook::test {
+namespace {
+
+const char vertex_text[] =
+    "#version 330 core\n"
+    "void main() { gl_Position = vec4(vec2(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1), 0, 1); }\n";
+
+// Every fetch of the text in between is counted.
+const char counting_text[] =
+    "#version 330 core\n"
+    "int fetched = 0;\n"
+    "#define texelFetch(s, p, l) (++fetched, texelFetch(s, p, l))\n"
+    "#define textureLod(s, p, l) (++fetched, textureLod(s, p, l))\n";
+
+const char main_text[] =
+    "#undef texelFetch\n"
+    "uniform sampler2D places, views, lights;\n"
+    "uniform vec2 texels;\n"
+    "layout(location = 0) out vec4 value; layout(location = 1) out vec4 more;\n"
+    "int taken() { int n = fetched; fetched = 0; return n; }\n"
+    "void main() {\n"
+    "  ivec2 p = ivec2(gl_FragCoord.xy);\n"
+    "  vec3 place = texelFetch(places, p, 0).xyz;\n"
+    "  vec3 view = texelFetch(views, p, 0).xyz, light = texelFetch(lights, p, 0).xyz;\n"
+    "  vec2 dx = vec2(exp2(place.z) / texels.x, 0.0), dy = vec2(0.0, exp2(place.z) / texels.y);\n"
+    "  vec4 modes[NOOK_LIGHT_FOURS];\n"
+    "  nook_material_decode(place.xy, dx, dy, view, modes);\n"
+    "  int decoded = taken();\n"
+    "  vec3 radiance = nook_material_radiance(modes, light);\n"
+    "  int lit = taken();\n"
+    "  float occlusion = nook_material_occlusion(place.xy, dx, dy, view);\n"
+    "  value = vec4(radiance, occlusion);\n"
+    "  more = vec4(nook_material_visibility(occlusion), float(decoded), float(lit), float(taken()));\n"
+    "}\n";
+
+GLuint compiled(const GladGLContext& gl, GLenum stage, std::vector<const char*> texts) {
+  const GLuint shader = gl.CreateShader(stage);
+  gl.ShaderSource(shader, GLsizei(texts.size()), texts.data(), nullptr);
+  gl.CompileShader(shader);
+  GLint success = GL_FALSE;
+  gl.GetShaderiv(shader, GL_COMPILE_STATUS, &success);
+  char log[1000] = "";
+  gl.GetShaderInfoLog(shader, sizeof log, nullptr, log);
+  INFO(log);
+  REQUIRE(success);
+  return shader;
+}
+
+}  // namespace
+
+MaterialFixture::MaterialFixture(platform::Context& made_in, nook_gl_state_mode mode)
+    : context(made_in), gl(create_gl(host.handle, platform::Context::loader, &context, 0, mode)) {}
+
+MaterialFixture::~MaterialFixture() {
+  for (nook_gl_material& upload : uploads) nook_gl_material_destroy(&upload);
+  for (nook_material& material : materials) nook_material_destroy(&material);
+  nook_gl_destroy(&gl);
+  CHECK(context.gl().GetError() == GL_NO_ERROR);
+  for (const std::string& message : take_debug_messages()) FAIL_CHECK(message);
+}
+
+nook_material MaterialFixture::load(const material::Material& material) {
+  const std::vector<std::byte> file = material::write_material(material);
+  nook_material handle = nullptr;
+  NOOK_OK_OR_FAIL(nook_material_load(host.handle, file.data(), file.size(), &handle));
+  materials.push_back(handle);
+  return handle;
+}
+
+nook_gl_material MaterialFixture::upload(nook_material material, int max_layers) {
+  nook_gl_material_desc desc;
+  NOOK_OK_OR_FAIL(nook_gl_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.max_layers = max_layers;
+  nook_gl_material handle = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_material_create(gl, material, &desc, &handle));
+  uploads.push_back(handle);
+  return handle;
+}
+
+nook_material_info info_of(nook_material material) {
+  nook_material_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_material_get_info(material, &info));
+  return info;
+}
+nook_gl_material_info info_of(nook_gl_material material) {
+  nook_gl_material_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_gl_material_get_info(material, &info));
+  return info;
+}
+
+MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_material material, nook_material_info info)
+    : gl_(gl), info_(info) {
+  const nook_gl_material_info uploaded = info_of(material);
+  for (std::uint32_t i = 0; i < uploaded.texture_count; ++i) {
+    nook_gl_material_texture texture{};
+    texture.struct_size = sizeof texture;
+    NOOK_OK_OR_FAIL(nook_gl_material_get_texture(material, i, &texture));
+    textures_.push_back(texture);
+  }
+  const GLuint vertex = compiled(gl, GL_VERTEX_SHADER, {vertex_text});
+  const GLuint fragment = compiled(gl, GL_FRAGMENT_SHADER, {counting_text, uploaded.glsl, main_text});
+  program_ = gl.CreateProgram();
+  gl.AttachShader(program_, vertex);
+  gl.AttachShader(program_, fragment);
+  gl.LinkProgram(program_);
+  gl.DeleteShader(vertex);
+  gl.DeleteShader(fragment);
+  GLint linked = GL_FALSE;
+  gl.GetProgramiv(program_, GL_LINK_STATUS, &linked);
+  REQUIRE(linked);
+}
+
+MaterialDecoder::~MaterialDecoder() {
+  gl_.DeleteProgram(program_);
+}
+
+std::vector<GpuValue> MaterialDecoder::decode(const std::vector<nook_material_sample>& samples) const {
+  const int width = std::min(int(samples.size()), 256), height = (int(samples.size()) + width - 1) / width;
+  std::vector<float> numbers[3];
+  for (const nook_material_sample& s : samples)
+    for (int i = 0; i < 3; ++i) {
+      numbers[0].push_back(i < 2 ? s.uv[i] : s.level);
+      numbers[1].push_back(s.view[i]);
+      numbers[2].push_back(s.light[i]);
+    }
+  Textures images(gl_);
+  GLuint inputs[3] = {};
+  for (int i = 0; i < 3; ++i) {
+    numbers[i].resize(std::size_t(3) * width * height);
+    inputs[i] = images.floats(GL_RGB32F, 3, width, height, numbers[i]);
+  }
+  const GLuint value = images.floats(GL_RGBA32F, 4, width, height, {}),
+               more = images.floats(GL_RGBA32F, 4, width, height, {});
+  gl_.UseProgram(program_);
+  GLint unit = 0;
+  for (const nook_gl_material_texture& texture : textures_) {
+    gl_.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
+    gl_.BindTexture(texture.target, texture.texture);
+    const GLint at = gl_.GetUniformLocation(program_, texture.uniform);
+    INFO(texture.uniform);
+    CHECK(at >= 0);
+    gl_.Uniform1i(at, unit++);
+  }
+  const char* const names[] = {"places", "views", "lights"};
+  for (int i = 0; i < 3; ++i) {
+    gl_.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
+    gl_.BindTexture(GL_TEXTURE_2D, inputs[i]);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_.Uniform1i(gl_.GetUniformLocation(program_, names[i]), unit++);
+  }
+  gl_.Uniform2f(gl_.GetUniformLocation(program_, "texels"), float(info_.width), float(info_.height));
+
+  GLuint framebuffer = 0, vertex_array = 0;
+  gl_.GenFramebuffers(1, &framebuffer);
+  gl_.GenVertexArrays(1, &vertex_array);
+  gl_.BindVertexArray(vertex_array);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, value, 0);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, more, 0);
+  const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl_.DrawBuffers(2, buffers);
+  gl_.Viewport(0, 0, width, height);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl_.DeleteFramebuffers(1, &framebuffer);
+  gl_.BindVertexArray(0);
+  gl_.DeleteVertexArrays(1, &vertex_array);
+  gl_.UseProgram(0);
+  const std::vector<float> first = read_texture(gl_, value, width, height, 4),
+                           second = read_texture(gl_, more, width, height, 4);
+  for (; unit > 0; --unit) {
+    gl_.ActiveTexture(GL_TEXTURE0 + GLenum(unit - 1));
+    gl_.BindTexture(GL_TEXTURE_2D, 0);
+    gl_.BindTexture(GL_TEXTURE_2D_ARRAY, 0);
+  }
+  std::vector<GpuValue> out;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    out.push_back({{{first[4 * i], first[4 * i + 1], first[4 * i + 2]}, first[4 * i + 3], second[4 * i]},
+                   second[4 * i + 1],
+                   second[4 * i + 2],
+                   second[4 * i + 3]});
+  return out;
+}
+
+}  // namespace nook::test

@@ -1,0 +1,58 @@
+// Decodes samples of a material on the GPU, through the GLSL that a host gets, one pixel a sample.
+#pragma once
+
+#include <glad/gl.h>
+#include <nook/nook_material.h>
+
+#include <vector>
+
+#include "crowd.h"
+#include "material/material.h"
+#include "nnao_images.h"
+#include "platform/platform.h"
+
+namespace nook::test {
+
+// A nook_gl, and the promise that no OpenGL error and no complaint of the driver is left at the end.
+struct MaterialFixture {
+  explicit MaterialFixture(platform::Context& made_in, nook_gl_state_mode mode = NOOK_GL_STATE_PRESERVE);
+  ~MaterialFixture();
+
+  // Kept to the end.
+  nook_material load(const material::Material& material);
+  // max_layers 0: the context's own.
+  nook_gl_material upload(nook_material material, int max_layers = 0);
+
+  platform::Context& context;
+  CountedContext host;
+  nook_gl gl;
+  std::vector<nook_material> materials;
+  std::vector<nook_gl_material> uploads;
+};
+
+nook_material_info info_of(nook_material material);
+nook_gl_material_info info_of(nook_gl_material material);
+
+struct GpuValue {
+  nook_material_value value{};
+  // Texels fetched, counted while the shader ran.
+  float decode_fetches = 0, light_fetches = 0, occlusion_fetches = 0;
+};
+
+class MaterialDecoder {
+ public:
+  MaterialDecoder(const GladGLContext& gl, nook_gl_material material, nook_material_info info);
+  ~MaterialDecoder();
+  MaterialDecoder(const MaterialDecoder&) = delete;
+  MaterialDecoder& operator=(const MaterialDecoder&) = delete;
+
+  std::vector<GpuValue> decode(const std::vector<nook_material_sample>& samples) const;
+
+ private:
+  const GladGLContext& gl_;
+  nook_material_info info_;
+  std::vector<nook_gl_material_texture> textures_;
+  GLuint program_ = 0;
+};
+
+}  // namespace nook::test

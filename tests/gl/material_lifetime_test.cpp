@@ -1,0 +1,135 @@
+// Materials on the GPU as C and careless hosts use them: any order of destruction, refused allocations,
+// limits, lost contexts.
+#include <cstring>
+
+#include "material/material_file.h"
+#include "material_decoder.h"
+#include "material_sample.h"
+#include "test_context.h"
+#include "traced_loader.h"
+
+using namespace nook;
+using namespace nook::test;
+
+extern "C" int nook_material_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_proc,
+                                             void* user);
+
+std::vector<std::byte> nook_test_material_bytes() {
+  return material::write_material(material::test::sample_material(3));
+}
+
+namespace {
+
+// Names are small numbers handed out from 1 on, on every driver that the tests run on.
+int living_textures(const GladGLContext& gl) {
+  int count = 0;
+  for (GLuint name = 1; name < 2000; ++name) count += gl.IsTexture(name);
+  return count;
+}
+
+bool message_has(const char* part) {
+  INFO(nook_last_message());
+  return std::strstr(nook_last_message(), part) != nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("material: a C program calls every function of nook_material.h") {
+  NOOK_NEED_CONTEXT(context);
+  const std::vector<std::byte> bytes = nook_test_material_bytes();
+  CHECK(nook_material_call_everything(bytes.data(), bytes.size(), platform::Context::loader, &context) == 0);
+  CHECK(context.gl().GetError() == GL_NO_ERROR);
+}
+
+TEST_CASE("material: an upload, its nook_gl, its material and its context may go in any order") {
+  NOOK_NEED_CONTEXT(context);
+  const int before = living_textures(context.gl());
+  const std::vector<std::byte> bytes = nook_test_material_bytes();
+  for (const char* order : {"0123", "3210", "1302", "2031", "3120"}) {
+    INFO(order);
+    CountedContext host;
+    nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
+    nook_material loaded = nullptr;
+    NOOK_OK_OR_FAIL(nook_material_load(host.handle, bytes.data(), bytes.size(), &loaded));
+    nook_gl_material uploaded = nullptr;
+    NOOK_OK_OR_FAIL(nook_gl_material_create(gl, loaded, nullptr, &uploaded));
+    for (const char* step = order; *step; ++step) {
+      if (*step == '0') nook_gl_material_destroy(&uploaded);
+      if (*step == '1') nook_material_destroy(&loaded);
+      if (*step == '2') nook_gl_destroy(&gl);
+      if (*step == '3') nook_context_destroy(&host.handle);
+    }
+    CHECK(living_textures(context.gl()) == before);
+    CHECK(host.bytes == 0);
+  }
+}
+
+TEST_CASE("material: a failed upload leaves nothing behind") {
+  NOOK_NEED_CONTEXT(context);
+  const std::vector<std::byte> bytes = nook_test_material_bytes();
+  CountedContext host;
+  Trace trace(context);
+  nook_gl gl = create_gl(host.handle, Trace::loader, &trace, 0);
+  nook_material loaded = nullptr;
+  NOOK_OK_OR_FAIL(nook_material_load(host.handle, bytes.data(), bytes.size(), &loaded));
+  const int before = living_textures(context.gl());
+  const long long held = host.bytes;
+  nook_gl_material uploaded = nullptr;
+  int refusals = 0;
+  for (long n = 0; !uploaded; ++n) {
+    host.refuse_after = n;
+    const nook_result result = nook_gl_material_create(gl, loaded, nullptr, &uploaded);
+    host.refuse_after = -1;
+    if (result == NOOK_OK) break;
+    ++refusals;
+    REQUIRE(result == NOOK_ERROR_OUT_OF_MEMORY);
+    CHECK(living_textures(context.gl()) == before);
+    CHECK(host.bytes == held);
+  }
+  CHECK(refusals >= 3);
+  nook_gl_material_destroy(&uploaded);
+
+  nook_gl_material_desc desc;
+  NOOK_OK_OR_FAIL(nook_gl_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.max_layers = 1;
+  CHECK(nook_gl_material_create(gl, loaded, &desc, &uploaded) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(message_has("more textures than a shader has units (got 20 with 1 layers each"));
+  desc.max_layers = -1;
+  CHECK(nook_gl_material_create(gl, loaded, &desc, &uploaded) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("max_layers is negative"));
+  desc.max_layers = 0;
+  desc.reserved = 3;
+  CHECK(nook_gl_material_create(gl, loaded, &desc, &uploaded) == NOOK_ERROR_INVALID_ARGUMENT);
+  trace.limits[GL_MAX_TEXTURE_SIZE] = 128;  // the view map has 256
+  CHECK(nook_gl_material_create(gl, loaded, nullptr, &uploaded) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(message_has("got 256 texels, need at most 128"));
+  trace.limits.clear();
+  CHECK(nook_gl_material_create(nullptr, loaded, nullptr, &uploaded) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_material_create(gl, nullptr, nullptr, &uploaded) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_material_create(gl, loaded, nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(living_textures(context.gl()) == before);
+  CHECK(host.bytes == held);
+  nook_material_destroy(&loaded);
+  nook_gl_destroy(&gl);
+  CHECK(context.gl().GetError() == GL_NO_ERROR);
+}
+
+TEST_CASE("material: after the OpenGL context is lost nothing calls OpenGL, and destroy works") {
+  NOOK_NEED_CONTEXT(context);
+  const std::vector<std::byte> bytes = nook_test_material_bytes();
+  CountedContext host;
+  nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
+  nook_material loaded = nullptr;
+  NOOK_OK_OR_FAIL(nook_material_load(host.handle, bytes.data(), bytes.size(), &loaded));
+  nook_gl_material uploaded = nullptr, other = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_material_create(gl, loaded, nullptr, &uploaded));
+  // Without a current context any OpenGL call would crash or be caught by the next check.
+  context.clear_current();
+  NOOK_OK_OR_FAIL(nook_gl_context_lost(gl));
+  CHECK(nook_gl_material_create(gl, loaded, nullptr, &other) == NOOK_ERROR_GL);
+  nook_gl_material_destroy(&uploaded);
+  nook_gl_destroy(&gl);
+  nook_material_destroy(&loaded);
+  context.make_current();
+  CHECK(context.gl().GetError() == GL_NO_ERROR);
+}

@@ -1,0 +1,385 @@
+// Probes in shaders: the GLSL against the CPU, the grid, the state contract, and what is refused.
+#include <nook/nook_gl_probe.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "crowd.h"
+#include "gl/touched_state.h"
+#include "poison.h"
+#include "test_context.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+struct ProbeDelete {
+  void operator()(nook_probe probe) const { nook_probe_destroy(&probe); }
+};
+using Probe = std::unique_ptr<nook_probe_s, ProbeDelete>;
+struct GlProbeDelete {
+  void operator()(nook_gl_probe probe) const { nook_gl_probe_destroy(&probe); }
+};
+using GlProbe = std::unique_ptr<nook_gl_probe_s, GlProbeDelete>;
+struct GlDelete {
+  void operator()(nook_gl gl) const { nook_gl_destroy(&gl); }
+};
+using Gl = std::unique_ptr<nook_gl_s, GlDelete>;
+
+struct ProbeRequest {
+  std::vector<float> sharpnesses{2, 6, 6, 12, 30, 0.2f, 1.24f, 1.26f, 80, 6, 6, 6};
+  int ambient = 1;
+  std::uint32_t counts[3] = {1, 1, 1};
+  nook_probe_basis basis = NOOK_PROBE_GAUSSIANS;
+};
+
+Probe make_probe(nook_context context, const ProbeRequest& request, unsigned seed = 1) {
+  nook_probe_fit_desc fit_desc;
+  NOOK_OK_OR_FAIL(nook_probe_fit_desc_init(&fit_desc, sizeof fit_desc, NOOK_VERSION));
+  fit_desc.basis = request.basis;
+  fit_desc.lobe_count = std::uint32_t(request.sharpnesses.size());
+  fit_desc.sharpnesses = request.sharpnesses.data();
+  fit_desc.ambient = request.basis == NOOK_PROBE_GAUSSIANS ? request.ambient : 0;
+  nook_probe_fit fit = nullptr;
+  NOOK_OK_OR_FAIL(nook_probe_fit_create(context, &fit_desc, &fit));
+  nook_probe_fit_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_probe_fit_get_info(fit, &info));
+  nook_probe_desc desc;
+  NOOK_OK_OR_FAIL(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.functions = fit;
+  std::copy_n(request.counts, 3, desc.counts);
+  const float origin[3] = {-1, 0.5f, 2}, spacing[3] = {1.5f, 2, 0.75f};
+  std::copy_n(origin, 3, desc.origin_ws);
+  std::copy_n(spacing, 3, desc.spacing_ws);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> amplitude(0, 2);
+  std::vector<float> coefficients(std::size_t(3) * info.function_count * desc.counts[0] * desc.counts[1] *
+                                  desc.counts[2]);
+  for (float& c : coefficients) c = amplitude(random);
+  desc.coefficients = coefficients.data();
+  nook_probe probe = nullptr;
+  NOOK_OK_OR_FAIL(nook_probe_create(context, &desc, &probe));
+  nook_probe_fit_destroy(&fit);
+  return Probe(probe);
+}
+
+std::vector<nook_probe_lobe> lobes_of(nook_probe probe, const float* position_ws) {
+  nook_probe_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_probe_get_info(probe, &info));
+  std::vector<nook_probe_lobe> lobes(info.function_count);
+  NOOK_OK_OR_FAIL(nook_probe_read_lobes(probe, position_ws, lobes.data(), info.function_count));
+  return lobes;
+}
+
+nook_gl_probe_info info_of(const GlProbe& probe) {
+  nook_gl_probe_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_gl_probe_get_info(probe.get(), &info));
+  return info;
+}
+
+// One pixel's question: five texels.
+struct Query {
+  Vec3 position_ws;
+  Vec3 normal;
+  Vec3 view;
+  Vec3 tangent;
+  float alpha_x, alpha_y, reflectance;
+};
+
+std::vector<Query> random_queries(std::size_t count) {
+  Numbers numbers(8);
+  std::vector<Query> queries;
+  while (queries.size() < count) {
+    Query q{};
+    q.position_ws = numbers.place(4);
+    q.normal = numbers.direction();
+    q.view = numbers.direction();
+    // The warp has no meaning for surfaces that turn away.
+    if (dot(q.normal, q.view) < 0.02f) q.view = normalised(q.normal + q.view * 0.9f);
+    q.tangent = normalised(cross(q.normal, numbers.direction()));
+    q.alpha_x = numbers.between(0.02f, 1);
+    q.alpha_y = queries.size() % 2 ? q.alpha_x : numbers.between(0.02f, 1);
+    q.reflectance = numbers.between(0, 1);
+    queries.push_back(q);
+  }
+  return queries;
+}
+
+enum Answer { radiance, irradiance, inner_product, isotropic, anisotropic, answer_count };
+
+const char* const vertex_text =
+    "#version 330 core\n"
+    "void main() { gl_Position = vec4(4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0.0, 1.0); }\n";
+const char* const fragment_text =
+    "uniform samplerBuffer queries; out vec4 answer;\n"
+    "void main() {\n"
+    "  int first = 5 * int(gl_FragCoord.x);\n"
+    "  NookProbePlace place = nook_probe_place(texelFetch(queries, first).xyz);\n"
+    "  vec3 n = texelFetch(queries, first + 1).xyz; vec4 last = texelFetch(queries, first + 4);\n"
+    "  NookProbeSurface s = NookProbeSurface(n, texelFetch(queries, first + 2).xyz,\n"
+    "                                        texelFetch(queries, first + 3).xyz, last.xy, last.z);\n"
+    "  vec3 a;\n"
+    "  switch (int(gl_FragCoord.y)) {\n"
+    "    case 0: a = nook_probe_radiance(place, n); break;\n"
+    "    case 1: a = nook_probe_irradiance(place, n); break;\n"
+    "    case 2: a = nook_probe_irradiance_inner_product(place, n); break;\n"
+    "    case 3: a = nook_probe_specular_isotropic(place, s); break;\n"
+    "    default: a = nook_probe_specular_anisotropic(place, s); break;\n"
+    "  }\n"
+    "  answer = vec4(a, 1.0);\n"
+    "}\n";
+
+GLuint compile(const GladGLContext& gl, const std::string& fragment) {
+  const GLuint program = gl.CreateProgram();
+  for (const auto& [stage, text] :
+       {std::pair<GLenum, std::string>{GL_VERTEX_SHADER, vertex_text}, {GL_FRAGMENT_SHADER, fragment}}) {
+    const GLuint shader = gl.CreateShader(stage);
+    const char* source = text.c_str();
+    gl.ShaderSource(shader, 1, &source, nullptr);
+    gl.CompileShader(shader);
+    char log[2000] = "";
+    gl.GetShaderInfoLog(shader, sizeof log, nullptr, log);
+    GLint compiled = 0;
+    gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    INFO(log);
+    REQUIRE(compiled);
+    gl.AttachShader(program, shader);
+    gl.DeleteShader(shader);
+  }
+  gl.LinkProgram(program);
+  GLint linked = 0;
+  gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
+  REQUIRE(linked);
+  return program;
+}
+
+// answer_count rows of colours, a column for each query.
+std::vector<float> ask(const GladGLContext& gl, const nook_gl_probe_info& probe,
+                       const std::vector<Query>& queries) {
+  const int width = int(queries.size());
+  std::vector<float> texels;
+  for (const Query& q : queries) {
+    for (const Vec3 v : {q.position_ws, q.normal, q.view, q.tangent})
+      texels.insert(texels.end(), {v.x, v.y, v.z, 0});
+    texels.insert(texels.end(), {q.alpha_x, q.alpha_y, q.reflectance, 0});
+  }
+  GLuint names[2], buffer, framebuffer, array;
+  gl.GenTextures(2, names);
+  gl.GenBuffers(1, &buffer);
+  gl.GenFramebuffers(1, &framebuffer);
+  gl.GenVertexArrays(1, &array);
+  gl.BindBuffer(GL_TEXTURE_BUFFER, buffer);
+  gl.BufferData(GL_TEXTURE_BUFFER, GLsizeiptr(4 * texels.size()), texels.data(), GL_STATIC_DRAW);
+  gl.ActiveTexture(GL_TEXTURE1);
+  gl.BindTexture(GL_TEXTURE_BUFFER, names[0]);
+  gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, names[1]);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, answer_count, 0, GL_RGBA, GL_FLOAT, nullptr);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, names[1], 0);
+  gl.Viewport(0, 0, width, answer_count);
+  const GLuint program = compile(gl, std::string("#version 330 core\n") + probe.glsl + fragment_text);
+  gl.UseProgram(program);
+  gl.BindTexture(GL_TEXTURE_BUFFER, probe.texture);
+  gl.Uniform1i(gl.GetUniformLocation(program, "nook_probe_texels"), 0);
+  gl.Uniform1i(gl.GetUniformLocation(program, "queries"), 1);
+  gl.BindVertexArray(array);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  std::vector<float> rgb(std::size_t(3) * std::size_t(width) * answer_count);
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl.ReadPixels(0, 0, width, answer_count, GL_RGB, GL_FLOAT, rgb.data());
+  gl.BindTexture(GL_TEXTURE_BUFFER, 0);
+  gl.UseProgram(0);
+  gl.BindVertexArray(0);
+  gl.BindBuffer(GL_TEXTURE_BUFFER, 0);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl.DeleteProgram(program);
+  gl.DeleteVertexArrays(1, &array);
+  gl.DeleteFramebuffers(1, &framebuffer);
+  gl.DeleteBuffers(1, &buffer);
+  gl.DeleteTextures(2, names);
+  return rgb;
+}
+
+// The same from nook_probe.h.
+std::vector<float> computed(nook_probe probe, const std::vector<Query>& queries) {
+  std::vector<float> rgb(3 * queries.size() * answer_count);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const Query& q = queries[i];
+    const float position[3] = {q.position_ws.x, q.position_ws.y, q.position_ws.z};
+    const std::vector<nook_probe_lobe> lobes = lobes_of(probe, position);
+    const auto count = std::uint32_t(lobes.size());
+    const float n[3] = {q.normal.x, q.normal.y, q.normal.z};
+    const nook_probe_surface surface{{n[0], n[1], n[2]},
+                                     {q.view.x, q.view.y, q.view.z},
+                                     {q.tangent.x, q.tangent.y, q.tangent.z},
+                                     q.alpha_x,
+                                     q.alpha_y,
+                                     q.reflectance};
+    // The isotropic form takes one width.
+    nook_probe_surface round = surface;
+    round.alpha_x = round.alpha_y = std::sqrt(q.alpha_x * q.alpha_y);
+    const auto at = [&](Answer answer) { return &rgb[3 * (answer * queries.size() + i)]; };
+    NOOK_OK_OR_FAIL(nook_probe_lobes_radiance(lobes.data(), count, n, at(radiance), 1));
+    NOOK_OK_OR_FAIL(
+        nook_probe_lobes_irradiance(lobes.data(), count, NOOK_PROBE_IRRADIANCE_FITTED, n, at(irradiance), 1));
+    NOOK_OK_OR_FAIL(nook_probe_lobes_irradiance(lobes.data(), count, NOOK_PROBE_IRRADIANCE_INNER_PRODUCT, n,
+                                                at(inner_product), 1));
+    NOOK_OK_OR_FAIL(nook_probe_lobes_specular(lobes.data(), count, NOOK_PROBE_SPECULAR_ISOTROPIC, &round,
+                                              at(isotropic), 1));
+    NOOK_OK_OR_FAIL(nook_probe_lobes_specular(lobes.data(), count, NOOK_PROBE_SPECULAR_ANISOTROPIC, &surface,
+                                              at(anisotropic), 1));
+  }
+  return rgb;
+}
+
+void compare(const std::vector<float>& found, const std::vector<float>& expected) {
+  REQUIRE(found.size() == expected.size());
+  const std::size_t row = expected.size() / answer_count;
+  for (int answer = 0; answer < answer_count; ++answer) {
+    float largest = 0, worst = 0;
+    for (std::size_t i = answer * row; i < (answer + 1) * row; ++i) {
+      largest = std::max(largest, std::abs(expected[i]));
+      worst = std::max(worst, std::isfinite(found[i]) ? std::abs(found[i] - expected[i]) : INFINITY);
+    }
+    INFO("answer " << answer << " largest " << largest);
+    // What nook_gl_probe.h promises: exponentials of a GPU have an error of a few units in the last place,
+    // times exponents up to a hundred.
+    CHECK(worst <= 1e-4f * largest);
+  }
+}
+
+struct Fixture {
+  explicit Fixture(platform::Context& context, nook_gl_state_mode mode = NOOK_GL_STATE_PRESERVE)
+      : gl(create_gl(host.handle, platform::Context::loader, &context, 0, mode)) {}
+  GlProbe upload(const Probe& probe) {
+    nook_gl_probe made = nullptr;
+    NOOK_OK_OR_FAIL(nook_gl_probe_create(gl.get(), probe.get(), &made));
+    return GlProbe(made);
+  }
+  CountedContext host;
+  Gl gl;
+};
+
+}  // namespace
+
+TEST_CASE("probes in shaders agree with the CPU") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const std::vector<Query> queries = random_queries(64);
+  for (const int ambient : {0, 1}) {
+    ProbeRequest request;
+    request.ambient = ambient;
+    const Probe probe = make_probe(fixture.host.handle, request);
+    const GlProbe uploaded = fixture.upload(probe);
+    compare(ask(context.gl(), info_of(uploaded), queries), computed(probe.get(), queries));
+  }
+}
+
+TEST_CASE("a grid is interpolated in shaders as on the CPU, inside and beyond its ends") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  for (const auto& counts : {std::array<std::uint32_t, 3>{3, 2, 4}, {1, 5, 1}, {2, 1, 2}}) {
+    ProbeRequest request;
+    std::ranges::copy(counts, request.counts);
+    const Probe probe = make_probe(fixture.host.handle, request);
+    const std::vector<Query> queries = random_queries(48);
+    compare(ask(context.gl(), info_of(fixture.upload(probe)), queries), computed(probe.get(), queries));
+  }
+}
+
+TEST_CASE("an update shows the new probe under the old name") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const Probe first = make_probe(fixture.host.handle, {}, 1);
+  ProbeRequest larger;
+  larger.counts[0] = 3;
+  const Probe second = make_probe(fixture.host.handle, larger, 2);
+  const GlProbe uploaded = fixture.upload(first);
+  const GLuint name = info_of(uploaded).texture;
+  NOOK_OK_OR_FAIL(nook_gl_probe_update(uploaded.get(), second.get()));
+  CHECK(info_of(uploaded).texture == name);
+  const std::vector<Query> queries = random_queries(16);
+  compare(ask(context.gl(), info_of(uploaded), queries), computed(second.get(), queries));
+}
+
+TEST_CASE("uploading a probe keeps the promises on OpenGL state") {
+  NOOK_NEED_CONTEXT(context);
+  for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_DEFAULTS, NOOK_GL_STATE_HOST}) {
+    Fixture fixture(context, mode);
+    const Probe probe = make_probe(fixture.host.handle, {});
+    Poison poison(context, gl::probes);
+    const StateValues touched = poison.touched(), untouched = poison.untouched();
+    const GlProbe uploaded = fixture.upload(probe);
+    NOOK_OK_OR_FAIL(nook_gl_probe_update(uploaded.get(), probe.get()));
+    INFO("mode " << mode);
+    CHECK(poison.untouched() == untouched);
+    if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);
+    if (mode == NOOK_GL_STATE_DEFAULTS) CHECK(poison.touched() == poison.defaults());
+  }
+}
+
+TEST_CASE("what cannot be uploaded is refused and leaves nothing") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  nook_gl_probe made = nullptr;
+  ProbeRequest harmonics;
+  harmonics.basis = NOOK_PROBE_HARMONICS;
+  const Probe bands = make_probe(fixture.host.handle, harmonics);
+  CHECK(nook_gl_probe_create(fixture.gl.get(), bands.get(), &made) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(std::string(nook_last_message()).find("NOOK_PROBE_GAUSSIANS") != std::string::npos);
+  CHECK(made == nullptr);
+  CHECK(nook_gl_probe_create(nullptr, bands.get(), &made) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_probe_create(fixture.gl.get(), nullptr, &made) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_probe_create(fixture.gl.get(), bands.get(), nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_probe_get_info(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+
+  GLint texels = 0;
+  context.gl().GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+  if (texels > 65536) return;
+  ProbeRequest large;
+  large.counts[0] = large.counts[2] = 80;
+  const Probe grid = make_probe(fixture.host.handle, large);
+  const Probe small = make_probe(fixture.host.handle, {});
+  const GlProbe uploaded = fixture.upload(small);
+  CHECK(nook_gl_probe_update(uploaded.get(), grid.get()) == NOOK_ERROR_UNSUPPORTED);
+  const std::vector<Query> queries = random_queries(8);
+  compare(ask(context.gl(), info_of(uploaded), queries), computed(small.get(), queries));
+}
+
+TEST_CASE("a probe outlives its nook_gl, and a lost context asks for no call") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
+  const Probe probe = make_probe(host.handle, {});
+  nook_gl_probe uploaded = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, probe.get(), &uploaded));
+  nook_gl_probe_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_gl_probe_get_info(uploaded, &info));
+  nook_gl_destroy(&gl);
+  CHECK(context.gl().IsTexture(info.texture));
+  nook_gl_probe_destroy(&uploaded);
+  CHECK(uploaded == nullptr);
+  CHECK_FALSE(context.gl().IsTexture(info.texture));
+  nook_gl_probe_destroy(&uploaded);
+  nook_gl_probe_destroy(nullptr);
+
+  gl = create_gl(host.handle, platform::Context::loader, &context, 0);
+  NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, probe.get(), &uploaded));
+  NOOK_OK_OR_FAIL(nook_gl_probe_get_info(uploaded, &info));
+  NOOK_OK_OR_FAIL(nook_gl_context_lost(gl));
+  CHECK(nook_gl_probe_update(uploaded, probe.get()) == NOOK_ERROR_GL);
+  nook_gl_probe_destroy(&uploaded);
+  nook_gl_destroy(&gl);
+  // As a new context would find it.
+  context.gl().DeleteTextures(1, &info.texture);
+}

@@ -1,0 +1,211 @@
+#include "material/evaluate.h"
+
+#include <array>
+#include <cmath>
+#include <thread>
+
+#include "catch.h"
+#include "equation.h"
+#include "material/direction_mesh.h"
+#include "material/view_cells.h"
+#include "material_sample.h"
+
+using namespace nook;
+using namespace nook::material;
+
+namespace {
+
+constexpr std::uint32_t side = 16;  // of view maps that the tables make
+
+MaterialTables tables_of(const Material& material, const Parallel& parallel = {}) {
+  return make_tables(material, parallel, std::pmr::get_default_resource(), side);
+}
+
+// A host's jobs: every index on a thread of its own.
+void on_threads(void*, std::uint32_t count, void (*run)(void*, std::uint32_t), void* user) {
+  std::vector<std::thread> threads;
+  for (std::uint32_t i = 0; i < count; ++i) threads.emplace_back(run, user, i);
+  for (std::thread& thread : threads) thread.join();
+}
+
+struct Weighted {
+  std::size_t row = 0;
+  double weight = 0;
+};
+
+// Rows of the material's views that a cell stands for, by the definition of each form.
+std::vector<Weighted> rows_of_cell(const Material& material, const ClusteredTensor& tensor,
+                                   ParabolicPoint p) {
+  if (tensor.shape.mixture > 1) return {{nearest_direction(material.views, from_parabolic(p)), 1}};
+  const DirectionMesh mesh(material.views);
+  std::size_t hint = 0;
+  const DirectionMix mix = mesh.locate(p, hint);
+  return {{mix.index[0], mix.weight[0]}, {mix.index[1], mix.weight[1]}, {mix.index[2], mix.weight[2]}};
+}
+
+double expected(const Material& material, const ClusteredTensor& tensor, std::uint32_t column,
+                std::uint32_t row, std::span<const float> light, std::uint32_t x, std::uint32_t y) {
+  if (tensor.map.side)
+    return test::value(tensor, tensor.map.rows, std::size_t(row) * tensor.map.side + column, light, x, y);
+  double sum = 0;
+  const ParabolicPoint p = to_parabolic(from_parabolic(cell_centre(column, row, side)));
+  for (const auto& [view, weight] : rows_of_cell(material, tensor, p))
+    sum += weight * test::value(tensor, tensor.rows, view, light, x, y);
+  return sum;
+}
+
+// The light basis at a direction, R_l numbers of one channel.
+std::vector<float> light_modes(const Material& material, Vec3 light, std::uint32_t channel) {
+  const DirectionMesh mesh(material.lights);
+  std::size_t hint = 0;
+  const DirectionMix mix = mesh.locate(to_parabolic(light), hint);
+  const std::uint32_t rank = material.btf.shape.rank_light;
+  std::vector<float> modes(rank);
+  for (int i = 0; i < 3; ++i)
+    for (std::uint32_t a = 0; a < rank; ++a)
+      modes[a] += mix.weight[i] * material.light_basis[(3 * std::size_t(mix.index[i]) + channel) * rank + a];
+  return modes;
+}
+
+Sample at_texel(const TensorShape& s, std::uint32_t x, std::uint32_t y) {
+  return {(float(x) + 0.5f) / float(s.width), (float(y) + 0.5f) / float(s.height), 0, {}, {}};
+}
+
+}  // namespace
+
+TEST_CASE("decoding gives the sums of equations (24) and (25)") {
+  for (const test::SampleSize& size : test::sample_forms) {
+    const Material material = test::sample_material(11, size);
+    const MaterialTables tables = tables_of(material);
+    const std::uint32_t cells = size.map_side ? size.map_side : side;
+    const TensorShape& s = material.btf.shape;
+    test::Numbers numbers(2);
+    for (int i = 0; i < 40; ++i) {
+      const std::uint32_t column = numbers.below(cells), row = numbers.below(cells);
+      const std::uint32_t x = numbers.below(s.width), y = numbers.below(s.height);
+      // Cells beyond the disc stand for the horizon and are nobody's nearest.
+      if (const ParabolicPoint p = cell_centre(column, row, cells); std::hypot(p.x, p.y) > 1) continue;
+      Sample sample = at_texel(s, x, y);
+      sample.view = from_parabolic(cell_centre(column, row, cells));
+      // A cell's centre of the light map, where its filter reads one texel.
+      sample.light = from_parabolic(cell_centre(20 + numbers.below(24), 20 + numbers.below(24), 64));
+      const Radiance got = evaluate_btf(tables, sample);
+      const float channels[3] = {got.red, got.green, got.blue};
+      // Two half floats, mode and coefficient, in each of some 30 products of size up to one.
+      for (std::uint32_t channel = 0; channel < 3; ++channel)
+        CHECK(std::abs(channels[channel] - expected(material, material.btf, column, row,
+                                                    light_modes(material, sample.light, channel), x, y)) <
+              4e-3);
+      if (size.visibility == VisibilityForm::none)
+        CHECK(evaluate_votf(tables, sample) == 1);
+      else
+        CHECK(std::abs(evaluate_votf(tables, sample) -
+                       expected(material, material.votf, column, row, std::array{1.0f}, x, y)) < 4e-3);
+    }
+  }
+}
+
+TEST_CASE("K-CTA takes the nearest view, CTA and N-SVD the three nearest") {
+  const Material k_cta = test::sample_material(4),
+                 cta = test::sample_material(4, {.clusters = 5, .mixture = 1}),
+                 n_svd = test::sample_material(4, {.clusters = 1, .mixture = 1});
+  CHECK(cell_terms(k_cta.btf) == 2);
+  CHECK(cell_terms(cta.btf) == 3);
+  CHECK(cell_terms(n_svd.btf) == 1);
+  CHECK(cell_terms(test::sample_material(4, {.clusters = 2, .mixture = 1}).btf) == 2);
+  const ViewCells cells = view_cells(cta.btf, cta.views, 32, std::pmr::get_default_resource());
+  std::size_t mixed = 0;
+  for (std::size_t cell = 0; cell < 32 * 32; ++cell) {
+    const std::uint16_t* const clusters = &cells.rows.membership[3 * cell];
+    mixed += clusters[0] != clusters[1] && cells.rows.coefficients[(3 * cell + 1) * 4] != 0;
+  }
+  CHECK(mixed > 300);  // most triangles of nine views in five clusters
+}
+
+TEST_CASE("the smallest level decodes to the mean over the texture") {
+  // Also of sizes that do not halve evenly.
+  for (const auto& [width, height] : {std::pair{8u, 8u}, {7u, 5u}, {12u, 3u}}) {
+    const Material material = test::sample_material(6, {.width = width, .height = height, .rank_y = 3});
+    const MaterialTables tables = tables_of(material);
+    Sample sample = at_texel(material.btf.shape, 0, 0);
+    sample.view = normalised({0.3f, -0.2f, 0.8f});
+    sample.light = normalised({-0.5f, 0.1f, 0.6f});
+    double mean[3] = {}, mean_votf = 0;
+    for (std::uint32_t y = 0; y < height; ++y)
+      for (std::uint32_t x = 0; x < width; ++x) {
+        sample.u = at_texel(material.btf.shape, x, y).u;
+        sample.v = at_texel(material.btf.shape, x, y).v;
+        const Radiance near = evaluate_btf(tables, sample);
+        mean[0] += near.red / (width * height);
+        mean[1] += near.green / (width * height);
+        mean[2] += near.blue / (width * height);
+        mean_votf += evaluate_votf(tables, sample) / (width * height);
+      }
+    sample.level = 20;
+    const Radiance far = evaluate_btf(tables, sample);
+    // Half floats on both sides.
+    CHECK(std::abs(far.red - mean[0]) < 1e-3);
+    CHECK(std::abs(far.green - mean[1]) < 1e-3);
+    CHECK(std::abs(far.blue - mean[2]) < 1e-3);
+    CHECK(std::abs(evaluate_votf(tables, sample) - mean_votf) < 1e-3);
+  }
+}
+
+TEST_CASE("texels, levels and tiles are interpolated linearly") {
+  const Material material = test::sample_material(8, {.width = 8, .height = 8, .rank_x = 8});
+  const MaterialTables tables = tables_of(material);
+  const auto votf = [&](float u, float v, float level) {
+    return evaluate_votf(tables, {u, v, level, {0, 0, 1}, {0, 0, 1}});
+  };
+  CHECK(std::abs(votf(1.0f / 8, 0.5f / 8, 0) -
+                 0.5f * (votf(0.5f / 8, 0.5f / 8, 0) + votf(1.5f / 8, 0.5f / 8, 0))) < 1e-5f);
+  CHECK(std::abs(votf(0, 0.5f / 8, 0) - 0.5f * (votf(0.5f / 8, 0.5f / 8, 0) + votf(7.5f / 8, 0.5f / 8, 0))) <
+        1e-5f);
+  CHECK(std::abs(votf(-3.4f, 5.7f, 0) - votf(0.6f, 0.7f, 0)) < 1e-4f);
+  CHECK(std::abs(votf(0.3f, 0.3f, 0.25f) - (0.75f * votf(0.3f, 0.3f, 0) + 0.25f * votf(0.3f, 0.3f, 1))) <
+        1e-5f);
+}
+
+TEST_CASE("light from below the horizon gives black, and a view from below counts as the horizon") {
+  const MaterialTables tables = tables_of(test::sample_material());
+  Sample sample{0.3f, 0.4f, 0, {0, 0, 1}, normalised({1, 0, -0.1f})};
+  CHECK(evaluate_btf(tables, sample).red == 0);
+  sample.light = {0, 0, 1};
+  sample.view = {0.6f, 0.8f, 0};
+  const Radiance horizon = evaluate_btf(tables, sample);
+  sample.view = {0.6f, 0.8f, -1e-3f};
+  CHECK(evaluate_btf(tables, sample).red == horizon.red);
+}
+
+TEST_CASE("the visibility mapping is equation (26) with both sets of parameters") {
+  const VisibilityMapping distance = default_mapping(VisibilityForm::distance);
+  CHECK(visibility_of(VisibilityForm::distance, distance, 0.05f) == 1);
+  CHECK(std::abs(visibility_of(VisibilityForm::distance, distance, 0.02f) - 0.24f) < 1e-6f);
+  CHECK(visibility_of(VisibilityForm::distance, distance, 0) == 0);
+  CHECK(visibility_of(VisibilityForm::distance, distance, -0.4f) == 0);
+  const VisibilityMapping binary = default_mapping(VisibilityForm::binary);
+  CHECK(visibility_of(VisibilityForm::binary, binary, 0.5f) == 1);
+  CHECK(visibility_of(VisibilityForm::binary, binary, 0.3f) == 0.3f);
+  CHECK(visibility_of(VisibilityForm::binary, binary, -0.1f) == 0);
+  CHECK(visibility_of(VisibilityForm::none, {}, -1) == 1);
+}
+
+TEST_CASE("tables are the same on any number of threads") {
+  const Material material = test::sample_material(9, {.rank_view = 8, .clusters = 2});
+  const MaterialTables alone = tables_of(material), together = tables_of(material, {on_threads, nullptr});
+  CHECK(alone.btf.spatial == together.btf.spatial);
+  CHECK(alone.btf.coefficients == together.btf.coefficients);
+  CHECK(alone.btf.membership == together.btf.membership);
+  CHECK(alone.votf.spatial == together.votf.spatial);
+  CHECK(alone.light == together.light);
+}
+
+TEST_CASE("numbers beyond a half float's range decode all the same") {
+  Material material = test::sample_material(12);
+  const MaterialTables plain = tables_of(material);
+  for (float& core : material.btf.cores) core *= 0x1p20f;
+  for (float& light : material.light_basis) light *= 0x1p-20f;
+  const Sample sample{0.3f, 0.4f, 0, {0, 0, 1}, {0, 0, 1}};
+  // Powers of two change no digit.
+  CHECK(evaluate_btf(tables_of(material), sample).green == evaluate_btf(plain, sample).green);
+}

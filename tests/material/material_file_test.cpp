@@ -1,0 +1,208 @@
+#include "material/material_file.h"
+
+#include <cmath>
+#include <string>
+
+#include "catch.h"
+#include "core/failure.h"
+#include "material/check.h"
+#include "material_sample.h"
+
+using namespace nook;
+using namespace nook::material;
+
+namespace {
+
+struct Outcome {
+  nook_result code = NOOK_OK;
+  std::string text;
+  bool says(const char* part) const { return text.find(part) != std::string::npos; }
+};
+
+template <class Body>
+Outcome outcome_of(Body&& body) {
+  try {
+    body();
+  } catch (const Failure& failure) {
+    return {failure.code(), failure.what()};
+  }
+  return {};
+}
+Outcome read_outcome(std::span<const std::byte> bytes) {
+  return outcome_of([&] { read_material(bytes); });
+}
+
+// Counts what a reader asks for.
+class CountingMemory final : public std::pmr::memory_resource {
+ public:
+  std::size_t total = 0;
+
+ private:
+  void* do_allocate(std::size_t size, std::size_t alignment) override {
+    total += size;
+    return std::pmr::new_delete_resource()->allocate(size, alignment);
+  }
+  void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
+    std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+  }
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+};
+
+// A half float has 11 digits: half a step of the number itself, or of the smallest number that keeps all its
+// digits, 2^-28 of the largest.
+void check_near(const std::pmr::vector<float>& got, const std::pmr::vector<float>& want) {
+  REQUIRE(got.size() == want.size());
+  float largest = 0;
+  for (const float value : want) largest = std::max(largest, std::abs(value));
+  for (std::size_t i = 0; i < got.size(); ++i)
+    CHECK(std::abs(got[i] - want[i]) <= std::max(std::abs(want[i]), 0x1p-28f * largest) * 0x1p-11f);
+}
+
+void check_near(const ClusteredTensor& got, const ClusteredTensor& want) {
+  CHECK(got.shape == want.shape);
+  check_near(got.cores, want.cores);
+  check_near(got.x_bases, want.x_bases);
+  check_near(got.y_bases, want.y_bases);
+  CHECK(got.rows.membership == want.rows.membership);
+  check_near(got.rows.coefficients, want.rows.coefficients);
+  CHECK(got.map.side == want.map.side);
+  CHECK(got.map.rows.membership == want.map.rows.membership);
+  check_near(got.map.rows.coefficients, want.map.rows.coefficients);
+}
+
+}  // namespace
+
+TEST_CASE("a material comes back from its file within a half float's step") {
+  for (const test::SampleSize& size : test::sample_forms) {
+    const Material material = test::sample_material(7, size);
+    const Material read = quantise(material);
+    CHECK(read.lights == material.lights);
+    CHECK(read.views == material.views);
+    CHECK(read.visibility == material.visibility);
+    CHECK(read.mapping.threshold == material.mapping.threshold);
+    CHECK(read.mapping.weight == material.mapping.weight);
+    CHECK(read.recipe == material.recipe);
+    check_near(read.light_basis, material.light_basis);
+    check_near(read.btf, material.btf);
+    check_near(read.votf, material.votf);
+    CHECK(write_material(read) == write_material(quantise(read)));
+  }
+}
+
+TEST_CASE("numbers of any size keep a half float's digits in the file") {
+  Material material = test::sample_material(3);
+  for (float& core : material.btf.cores) core *= 1e6f;
+  for (float& core : material.votf.cores) core *= 1e-9f;
+  const Material read = quantise(material);
+  check_near(read.btf.cores, material.btf.cores);
+  check_near(read.votf.cores, material.votf.cores);
+  // The limits themselves are not rounded beyond the limits.
+  material.btf.cores[0] = max_core;
+  material.light_basis[0] = -max_number;
+  CHECK(quantise(material).btf.cores[0] == max_core);
+}
+
+TEST_CASE("a file is as long as the formula says, but for directions, heads and the view maps") {
+  for (const test::SampleSize& size : test::sample_forms) {
+    const Material material = test::sample_material(1, size);
+    const std::size_t tensors = size.visibility == VisibilityForm::none ? 1 : 2;
+    const std::size_t sections = 5 + tensors - 1 + (size.map_side ? tensors : 0);
+    // Container, section table, HEAD, directions, recipe; of each tensor a head of 15 bytes and an exponent
+    // for each of four arrays; one exponent more for the light basis.
+    std::size_t around = 40 + 24 * sections + 13 + 12 * (material.lights.size() + material.views.size()) +
+                         material.recipe.size() + 19 * tensors + 1;
+    if (size.map_side)
+      around +=
+          tensors * (3 + view_rows_bytes(material.btf.shape, std::size_t(size.map_side) * size.map_side));
+    CHECK(write_material(material).size() == compressed_bytes(material) + around);
+  }
+}
+
+TEST_CASE("a file cut at any byte is refused") {
+  const std::vector<std::byte> good = write_material(test::sample_material(1, {.map_side = 3}));
+  REQUIRE(read_outcome(good).code == NOOK_OK);
+  for (std::size_t size = 0; size < good.size(); ++size) {
+    // An exact copy on the heap, so that the address sanitizer sees one byte too far.
+    const std::vector<std::byte> cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
+    REQUIRE(read_outcome(cut).code == NOOK_ERROR_BAD_FILE);
+  }
+}
+
+TEST_CASE("a file flipped at any byte is refused, or with its checksum repaired loads soundly") {
+  const std::vector<std::byte> good = write_material(test::sample_material(1, {.map_side = 3}));
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < good.size(); ++i)
+    for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
+      auto file = good;
+      file[i] ^= std::byte(flip);
+      REQUIRE(read_outcome(file).code != NOOK_OK);
+      repair_checksum(file);
+      const Outcome outcome = outcome_of([&] { check_material(read_material(file), NOOK_ERROR_INTERNAL); });
+      refused += outcome.code != NOOK_OK;
+      REQUIRE((outcome.code == NOOK_OK || outcome.code == NOOK_ERROR_BAD_FILE ||
+               outcome.code == NOOK_ERROR_FILE_VERSION));
+    }
+  // Heads, directions and memberships are a part of so small a file.
+  CHECK(refused > good.size() / 4);
+}
+
+TEST_CASE("memory for a hostile file is bounded by its size") {
+  const std::vector<std::byte> good = write_material(test::sample_material());
+  for (std::size_t i = 40; i < good.size(); ++i) {
+    auto file = good;
+    file[i] ^= std::byte{0xff};
+    repair_checksum(file);
+    CountingMemory memory;
+    try {
+      read_material(file, &memory);
+    } catch (const Failure&) {
+    }
+    // Half floats become floats, a byte of membership two.
+    REQUIRE(memory.total < 3 * file.size());
+  }
+}
+
+TEST_CASE("files of another kind and version are refused by name") {
+  const std::vector<std::byte> good = write_material(test::sample_material());
+  auto file = good;
+  file[12] = std::byte{'X'};
+  CHECK(read_outcome(file).says("need \"MATL\""));
+  file = good;
+  file[8] = std::byte{9};
+  CHECK(read_outcome(file).code == NOOK_ERROR_FILE_VERSION);
+}
+
+TEST_CASE("a material with a fault is not written, and the message names it") {
+  const auto refusal = [](auto&& damage, const test::SampleSize& size = {}) {
+    Material material = test::sample_material(1, size);
+    damage(material);
+    const Outcome outcome = outcome_of([&] { write_material(material); });
+    CHECK(outcome.code == NOOK_ERROR_INVALID_ARGUMENT);
+    return outcome;
+  };
+  CHECK(refusal([](Material& m) { m.lights.clear(); }).says("number of directions of the lights"));
+  CHECK(refusal([](Material& m) { m.lights[3].z = -0.5f; }).says("direction 3 of the lights"));
+  CHECK(refusal([](Material& m) { m.views[2].x = NAN; }).says("direction 2 of the views"));
+  CHECK(refusal([](Material& m) { m.views[4] = m.views[1]; }).says("directions 1 and 4 of the views"));
+  CHECK(refusal([](Material& m) { m.btf.shape.views = 8; }).says("number of views of the BTF"));
+  CHECK(refusal([](Material& m) { m.btf.shape.rank_x = 7; }).says("x rank of the BTF"));
+  CHECK(refusal([](Material& m) { m.btf.shape.rank_light = 16; }).says("light rank of the BTF"));
+  CHECK(refusal([](Material& m) { m.btf.shape.rank_view = 10; }).says("view rank of the BTF"));
+  CHECK(refusal([](Material& m) { m.votf.shape.rank_light = 2; }).says("light rank of the VOTF"));
+  CHECK(refusal([](Material& m) { m.btf.shape.clusters = 10; }).says("number of clusters of the BTF"));
+  CHECK(refusal([](Material& m) { m.btf.shape.mixture = 4; }).says("mixture clusters of the BTF"));
+  CHECK(refusal([](Material& m) { m.btf.shape.width = 1025; }).says("width"));
+  CHECK(refusal([](Material& m) { m.btf.cores.pop_back(); }).says("cores of the BTF"));
+  CHECK(refusal([](Material& m) { m.btf.cores[5] = INFINITY; }).says("number 5 of the cores of the BTF"));
+  CHECK(refusal([](Material& m) { m.votf.y_bases.push_back(0); }, {.rank_y = 3}).says("y bases of the VOTF"));
+  CHECK(refusal([](Material& m) { m.btf.rows.membership[3] = 3; }).says("memberships 3 of the BTF"));
+  CHECK(refusal([](Material& m) { m.btf.rows.membership[3] = m.btf.rows.membership[2]; }).says("row 1"));
+  CHECK(refusal([](Material& m) { m.btf.rows.coefficients[9] = NAN; }).says("number 9 of the coefficients"));
+  CHECK(refusal([](Material& m) { m.btf.map.side = 6; }, {.map_side = 5}).says("map memberships of the BTF"));
+  CHECK(refusal([](Material& m) { m.light_basis.pop_back(); }).says("basis of the light mode"));
+  CHECK(refusal([](Material& m) { m.visibility = VisibilityForm::none; }).says("cores of the VOTF"));
+  CHECK(refusal([](Material& m) { m.mapping.weight = -1; }).says("visibility mapping"));
+  CHECK(refusal([](Material& m) {
+          m.btf.shape = {9, 1024, 1024, 15, 9, 1, 1, 9, 1};
+        }).says("expanded size of the BTF"));
+}

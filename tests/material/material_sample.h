@@ -1,0 +1,98 @@
+// Small materials of random numbers, for tests that need no bake.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "material/material.h"
+
+namespace nook::material::test {
+
+// Reproducible numbers on every platform (Numerical Recipes' linear congruential generator).
+class Numbers {
+ public:
+  explicit Numbers(std::uint32_t seed) : state_(seed) {}
+  std::uint32_t next() { return state_ = state_ * 1664525u + 1013904223u; }
+  float between(float low, float high) {
+    return low + (high - low) * static_cast<float>(next() >> 8) / 16777216.0f;
+  }
+  std::uint32_t below(std::uint32_t count) { return (next() >> 8) % count; }
+
+ private:
+  std::uint32_t state_;
+};
+
+// Evenly spread over the hemisphere (a Fibonacci spiral), the first near the normal.
+inline std::pmr::vector<Vec3> hemisphere(std::uint32_t count) {
+  std::pmr::vector<Vec3> directions;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const float z = 1 - (float(i) + 0.5f) / float(count), r = std::sqrt(1 - z * z),
+                phi = 2.3999632f * float(i);
+    directions.push_back({r * std::cos(phi), r * std::sin(phi), z});
+  }
+  return directions;
+}
+
+struct SampleSize {
+  std::uint32_t lights = 5, views = 9, width = 6, height = 4;
+  std::uint32_t rank_light = 4, rank_view = 4, rank_x = 3, rank_y = 4;
+  std::uint32_t clusters = 3, mixture = 2;
+  std::uint32_t map_side = 0;
+  VisibilityForm visibility = VisibilityForm::distance;
+};
+
+inline void fill(std::pmr::vector<float>& values, std::size_t count, float size, Numbers& numbers) {
+  values.resize(count);
+  for (float& value : values) value = numbers.between(-size, size);
+}
+
+inline void fill_rows(ViewRows& rows, const TensorShape& shape, std::size_t count, Numbers& numbers) {
+  for (std::size_t row = 0; row < count; ++row) {
+    const std::uint32_t first = numbers.below(shape.clusters);
+    for (std::uint32_t k = 0; k < shape.mixture; ++k)
+      rows.membership.push_back(std::uint16_t((first + k) % shape.clusters));
+  }
+  fill(rows.coefficients, coefficient_count(shape, count), 1, numbers);
+}
+
+inline void fill_tensor(ClusteredTensor& tensor, const TensorShape& shape, std::uint32_t map_side,
+                        Numbers& numbers) {
+  tensor.shape = shape;
+  // A value is a sum of K R_l R_v R_x R_y products of numbers up to one; this makes it about one.
+  const float size = 10 / std::sqrt(float(core_size(shape) * shape.mixture));
+  fill(tensor.cores, shape.clusters * core_size(shape), size, numbers);
+  fill(tensor.x_bases, shape.clusters * x_basis_size(shape), 1, numbers);
+  fill(tensor.y_bases, shape.clusters * y_basis_size(shape), 1, numbers);
+  fill_rows(tensor.rows, shape, shape.views, numbers);
+  tensor.map.side = map_side;
+  fill_rows(tensor.map.rows, shape, std::size_t(map_side) * map_side, numbers);
+}
+
+inline Material sample_material(std::uint32_t seed = 1, const SampleSize& size = {}) {
+  Numbers numbers(seed);
+  Material material;
+  material.lights = hemisphere(size.lights);
+  material.views = hemisphere(size.views);
+  const TensorShape shape{size.views,  size.width,  size.height,   size.rank_light, size.rank_view,
+                          size.rank_x, size.rank_y, size.clusters, size.mixture};
+  fill_tensor(material.btf, shape, size.map_side, numbers);
+  fill(material.light_basis, 3 * size.lights * size.rank_light, 1, numbers);
+  material.visibility = size.visibility;
+  if (size.visibility != VisibilityForm::none) {
+    material.mapping = default_mapping(size.visibility);
+    TensorShape votf = shape;
+    votf.rank_light = 1;
+    fill_tensor(material.votf, votf, size.map_side, numbers);
+  }
+  material.recipe = "{\"meso\": \"test\"}";
+  return material;
+}
+
+// N-SVD, CTA, K-CTA, and a resampled K-CTA.
+inline const SampleSize sample_forms[] = {
+    {.rank_view = 8, .clusters = 1, .mixture = 1},       {.clusters = 4, .mixture = 1},
+    {.rank_x = 6, .visibility = VisibilityForm::binary}, {.map_side = 5},
+    {.map_side = 4, .visibility = VisibilityForm::none},
+};
+
+}  // namespace nook::material::test
