@@ -66,8 +66,9 @@ void bake_probe_of_map(const BakeProbeOptions& options) {
   const auto began = std::chrono::steady_clock::now();
   probe::Probes probes;
   probes.basis = settings.basis;
+  const bake::probe::Samples samples = bake::probe::bake_samples(map, settings);
   const std::vector<Vec3> coefficients =
-      bake::probe::bake_map(map, settings, [&](std::size_t done, std::size_t total) {
+      bake::probe::bake_map(settings, samples, [&](std::size_t done, std::size_t total) {
         bar.show("fitting", "samples", done, total);
         return !interrupted();
       });
@@ -76,7 +77,7 @@ void bake_probe_of_map(const BakeProbeOptions& options) {
   Json recipe = describe(options.probe, settings.basis);
   recipe["source"] = options.input.filename().string();
   recipe["sampling"] = options.sampling;
-  recipe["samples"] = settings.samples;
+  recipe["samples"] = samples.size();
   recipe["seed"] = settings.seed;
   probes.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace);
   const std::vector<std::byte> bytes = probe::write_probes(probes, packing_of(options.probe));
