@@ -13,7 +13,7 @@ namespace crowd {
 namespace {
 
 constexpr std::uint32_t kRays = 64;  // paths of one of the report's two estimates
-constexpr std::uint32_t kPictureRays = 128;
+constexpr std::uint32_t kPictureRays = 256;
 constexpr std::uint32_t kFloorSide = 100;
 
 using Values = std::vector<std::vector<float>>;
