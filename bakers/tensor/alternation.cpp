@@ -1,5 +1,7 @@
 #include "tensor/alternation.h"
 
+#include <algorithm>
+
 #include "core/failure.h"
 #include "tensor/gram.h"
 #include "tensor/mode_product.h"

@@ -1,6 +1,8 @@
 #include "tensor/atoms.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 #include "tensor/gram.h"
 #include "tensor/mode_product.h"

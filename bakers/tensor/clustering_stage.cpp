@@ -1,6 +1,7 @@
 #include "tensor/clustering_stage.h"
 
 #include <Eigen/SVD>
+#include <algorithm>
 
 #include "tensor/atoms.h"
 #include "tensor/blocks.h"

@@ -1,6 +1,7 @@
 #include "tensor/gram.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "core/failure.h"
 #include "tensor/blocks.h"

@@ -1,5 +1,6 @@
 #include "tensor/mode_product.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "core/failure.h"

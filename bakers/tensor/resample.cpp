@@ -1,5 +1,7 @@
 #include "tensor/resample.h"
 
+#include <algorithm>
+
 #include "core/failure.h"
 #include "tensor/atoms.h"
 #include "tensor/blocks.h"

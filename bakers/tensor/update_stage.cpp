@@ -1,5 +1,7 @@
 #include "tensor/update_stage.h"
 
+#include <algorithm>
+
 #include "tensor/blocks.h"
 #include "tensor/progress.h"
 

@@ -1,5 +1,7 @@
 #include "tensor/working_fit.h"
 
+#include <algorithm>
+
 #include "tensor/alternation.h"
 #include "tensor/mode_product.h"
 #include "tensor/progress.h"
