@@ -29,8 +29,14 @@ struct FrameRequest {
   std::string name;  // pictures are name_000.png and on, and name_flat.png, the first without silhouettes
 };
 
-// Milliseconds a frame, the best of them, between two glFinish.
-double draw_frames(const Stage& stage, const MaterialProgram& program, const FrameRequest& request,
-                   const std::function<void(std::uint32_t)>& progress);
+// Of a frame between two glFinish, the least of all frames.
+struct FrameTimes {
+  double ms = 0;
+  // The process's, over all threads: what a software renderer costs whatever else runs on the machine.
+  double cpu_ms = 0;
+};
+
+FrameTimes draw_frames(const Stage& stage, const MaterialProgram& program, const FrameRequest& request,
+                       const std::function<void(std::uint32_t)>& progress);
 
 }  // namespace material

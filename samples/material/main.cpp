@@ -46,7 +46,7 @@ struct Loaded {
   MaterialProgram program;
 };
 
-Json describe(const Loaded& loaded, double ms) {
+Json describe(const Loaded& loaded, const FrameTimes& times) {
   const nook_material_info info = loaded.material.info();
   return {{"material", loaded.name},
           {"clusters", info.btf.clusters},
@@ -62,7 +62,8 @@ Json describe(const Loaded& loaded, double ms) {
           {"light_multiply_adds", info.light_multiply_adds},
           {"occlusion_fetches", info.occlusion_fetches},
           {"occlusion_multiply_adds", info.occlusion_multiply_adds},
-          {"ms", ms}};
+          {"ms", times.ms},
+          {"cpu_ms", times.cpu_ms}};
 }
 
 // Until the window is closed; one turn of the light takes ten seconds.
@@ -112,11 +113,11 @@ void run(const Options& o) {
               {"rows", Json::array()}};
   for (const std::filesystem::path& path : o.files) {
     const Loaded loaded(host, gl, *context, path);
-    const double ms =
+    const FrameTimes times =
         draw_frames(stage, loaded.program, {o.frames, o.out, loaded.name}, [&](std::uint32_t done) {
           if (!o.quiet) std::fprintf(stderr, "%s: %u of %u pictures\n", loaded.name.c_str(), done, o.frames);
         });
-    report["rows"].push_back(describe(loaded, ms));
+    report["rows"].push_back(describe(loaded, times));
   }
   write_text(o.report, report.dump(2) + "\n");
   std::printf("pictures: %s\nreport:   %s\n", std::filesystem::absolute(o.out).c_str(),

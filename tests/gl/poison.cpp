@@ -8,8 +8,8 @@ namespace nook::test {
 
 struct Poison::Objects {
   GLuint buffers[4] = {};
-  GLuint texture = 0, other_texture = 0, texture_2d = 0, texture_array = 0, sampler = 0, framebuffer = 0, renderbuffer = 0,
-         vertex_array = 0, program = 0;
+  GLuint texture = 0, other_texture = 0, texture_2d = 0, texture_array = 0, sampler = 0, framebuffer = 0,
+         renderbuffer = 0, vertex_array = 0, program = 0;
   GLuint feedback = 0;
 };
 

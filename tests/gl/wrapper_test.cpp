@@ -83,5 +83,6 @@ TEST_CASE("the C++ wrapper uploads a material and deletes its textures") {
   CHECK(uploaded.info().texture_bytes == material.info().table_bytes);
   for (const nook_gl_material_texture& texture : textures) CHECK(context.gl().IsTexture(texture.texture));
   uploaded = nook::GlMaterial();
-  for (const nook_gl_material_texture& texture : textures) CHECK_FALSE(context.gl().IsTexture(texture.texture));
+  for (const nook_gl_material_texture& texture : textures)
+    CHECK_FALSE(context.gl().IsTexture(texture.texture));
 }

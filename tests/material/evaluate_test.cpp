@@ -208,4 +208,10 @@ TEST_CASE("numbers beyond a half float's range decode all the same") {
   const Sample sample{0.3f, 0.4f, 0, {0, 0, 1}, {0, 0, 1}};
   // Powers of two change no digit.
   CHECK(evaluate_btf(tables_of(material), sample).green == evaluate_btf(plain, sample).green);
+  for (float& core : material.btf.cores) core *= 0x1p-140f;
+  for (float& core : material.votf.cores) core *= 0x1p-120f;
+  CHECK(std::abs(evaluate_btf(tables_of(material), sample).green) < 1e-6f);
+  CHECK(std::abs(evaluate_votf(tables_of(material), sample)) < 1e-6f);
+  for (float& core : material.btf.cores) core = 0;
+  CHECK(evaluate_btf(tables_of(material), sample).green == 0);
 }

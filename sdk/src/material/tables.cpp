@@ -73,7 +73,8 @@ int spatial_exponent(const ClusteredTensor& tensor, std::pmr::memory_resource* m
   float bound = 0;
   for (std::uint32_t c = 0; c < tensor.shape.clusters; ++c)
     bound = std::max(bound, ModeExpansion(tensor, c, memory).bound());
-  return bound > 0 ? 14 - std::ilogb(bound) : 0;
+  // Kept where the power of two and its inverse are floats.
+  return bound > 0 ? std::clamp(14 - std::ilogb(bound), -100, 100) : 0;
 }
 
 // scale: of the coefficients.
