@@ -42,10 +42,10 @@ std::vector<SurfaceHit> gather_hits(const MesoSurface& surface, const TiledScene
 }  // namespace
 
 void direct_cosines(const TiledScene& scene, const SurfaceHit& hit, Vec3 normal, std::span<const Vec3> lights,
-                    std::span<float> cosine) {
-  thread_local std::vector<Vec3> towards;
-  thread_local std::vector<std::uint32_t> index;
-  thread_local std::vector<unsigned char> open;
+                    std::span<float> cosine, LightScratch& scratch) {
+  std::vector<Vec3>& towards = scratch.towards;
+  std::vector<std::uint32_t>& index = scratch.index;
+  std::vector<unsigned char>& open = scratch.open;
   towards.clear();
   index.clear();
   for (std::uint32_t l = 0; l < lights.size(); ++l) {
@@ -72,7 +72,8 @@ InterReflection::InterReflection(const MesoSurface& surface, const TiledScene& s
     SurfaceHit here;
     here.position = surface.position[v];
     here.normal = surface.normal[v];
-    direct_cosines(scene, here, here.normal, lights, {&direct[v * lights_], lights_});
+    LightScratch scratch;
+    direct_cosines(scene, here, here.normal, lights, {&direct[v * lights_], lights_}, scratch);
   });
   const std::vector<SurfaceHit> hits = gather_hits(surface, scene, rays, seed);
   irradiance_.assign(vertices * width, 0);
@@ -112,12 +113,13 @@ void InterReflection::add(const SurfaceHit& hit, Vec3 albedo, std::span<float> v
 }
 
 void shade(const MesoSurface& surface, const TiledScene& scene, const InterReflection& indirect,
-           const SurfaceHit& hit, Vec3 view, std::span<const Vec3> lights, std::span<float> value) {
-  thread_local std::vector<float> cosine;
+           const SurfaceHit& hit, Vec3 view, std::span<const Vec3> lights, std::span<float> value,
+           LightScratch& scratch) {
+  std::vector<float>& cosine = scratch.cosine;
   cosine.resize(lights.size());
   const Vec3 normal = shading_normal(surface, hit);
   const Vec3 albedo = at_hit<Vec3>(surface.albedo, surface.triangle, hit);
-  direct_cosines(scene, hit, normal, lights, cosine);
+  direct_cosines(scene, hit, normal, lights, cosine, scratch);
   for (std::size_t l = 0; l < lights.size(); ++l) {
     // Blinn-Phong, (n + 8) / 8 so that the lobe's reflectance hardly depends on the exponent.
     const float towards = std::max(dot(normal, normalised(lights[l] + view)), 0.0f);

@@ -9,9 +9,17 @@
 
 namespace nook::bake::material {
 
-// Unshadowed cosines of all lights at a hit, zero where the light is blocked or behind the surface.
+// Working memory of the calls below, kept between them.
+struct LightScratch {
+  std::vector<Vec3> towards;
+  std::vector<std::uint32_t> index;
+  std::vector<unsigned char> open;
+  std::vector<float> cosine;
+};
+
+// Cosines of all lights at a hit, zero where the light is blocked or behind the surface.
 void direct_cosines(const TiledScene& scene, const SurfaceHit& hit, Vec3 shading_normal,
-                    std::span<const Vec3> lights, std::span<float> cosine);
+                    std::span<const Vec3> lights, std::span<float> cosine, LightScratch& scratch);
 
 // Light of the meso-surface on itself: for each vertex and light the irradiance after up to `bounces` diffuse
 // reflections, RGB, vertex-major. `rays` cosine-weighted rays leave each vertex; the same seed gives the same
@@ -32,6 +40,7 @@ class InterReflection {
 
 // value[3 l + channel] of one hit, seen along `view`.
 void shade(const MesoSurface& surface, const TiledScene& scene, const InterReflection& indirect,
-           const SurfaceHit& hit, Vec3 view, std::span<const Vec3> lights, std::span<float> value);
+           const SurfaceHit& hit, Vec3 view, std::span<const Vec3> lights, std::span<float> value,
+           LightScratch& scratch);
 
 }  // namespace nook::bake::material

@@ -46,6 +46,7 @@ class Column {
                       stride = raw_.views.size() * raw_.texels();
     const std::size_t first = (view * raw_.width + x) * height;
     std::vector<float> value(rows), sum(rows * height, 0.0f);
+    LightScratch scratch;
     const auto per_texel = float(samples_ * samples_);
     for (std::uint32_t y = 0; y < raw_.height; ++y) {
       std::uint32_t met = 0;
@@ -53,7 +54,7 @@ class Column {
         const SurfaceHit hit = look(raw_.views[view], x, y, s);
         if (hit.triangle == SurfaceHit::nothing) continue;
         ++met;
-        shade(surface_, scene_, indirect_, hit, raw_.views[view], raw_.lights, value);
+        shade(surface_, scene_, indirect_, hit, raw_.views[view], raw_.lights, value, scratch);
         for (std::size_t r = 0; r < rows; ++r) sum[r * height + y] += value[r] / per_texel;
       }
       raw_.mask[first + y] = 2 * met >= samples_ * samples_ ? 1.0f : 0.0f;
