@@ -89,7 +89,8 @@ Colour<double> ratio_of(const LightView& light, const Pose& pose, RatioForm form
   const Direction<double> o{pose.offset.x, pose.offset.y, pose.offset.z};
   const double xi = dot(pose.offset, pose.normal), delta2 = dot(pose.offset, pose.offset);
   const double share = form_factor_exact(xi, delta2);
-  return light_ratio(light, inverse_hemisphere(light, n), n, o, xi, delta2, share, form);
+  return light_ratio(light, inverse_hemisphere(light, n), n, sight_of(n, o, xi, delta2), share,
+                     double(no_sharpest), form);
 }
 
 }  // namespace
@@ -200,7 +201,8 @@ TEST_CASE("directional sums follow the formulas on every instruction set") {
         kernels->directional_open(s, p, light, opens);
         double worst = 0;
         for (std::uint32_t k = 0; k < points.count; ++k) {
-          double norm_k = 0, depth_k = 0, open_k = 1;
+          double norm_k = 0, open_k = 1;
+          JointSight<double> joint;
           const Direction<double> n{p.nx[k], p.ny[k], p.nz[k]};
           const Colour<double> inverse = inverse_hemisphere(light, n);
           for (std::uint32_t i = 0; i < s.count; ++i) {
@@ -209,16 +211,22 @@ TEST_CASE("directional sums follow the formulas on every instruction set") {
                                       (double(s.z[i]) - p.z[k]) * scale};
             const View v = view_of(s, i, p, k);
             const auto green = [&](double share, RatioForm ratio) {
-              return light_ratio(light, inverse, n, o, v.xi, v.delta2, share, ratio).g;
+              return light_ratio(light, inverse, n, sight_of(n, o, v.xi, v.delta2), share,
+                                 double(no_sharpest), ratio)
+                  .g;
             };
             const double y = std::max(shadow_term(form, v.xi, v.delta2), 0.0);
             norm_k += std::pow(y, double(gamma)) * green(y, self_ratio);
-            const double f = form_factor_fast(v.xi, v.delta2);
-            depth_k += f * double(s.caster_weight[i]) * green(f, caster_ratio);
+            joint.add(sight_of(n, o, v.xi, v.delta2),
+                      form_factor_fast(v.xi, v.delta2) * double(s.caster_weight[i]));
             const double share =
                 std::min(double(s.caster_weight[i]) * form_factor_exact(v.xi, v.delta2), 1.0);
             open_k *= 1 - std::min(share * green(share, caster_ratio), 1.0);
           }
+          const double depth_k =
+              joint.taken * light_ratio(light, inverse, n, joint.mean(n), std::min(joint.taken, 1.0),
+                                        joint.sharpest(), caster_ratio)
+                                .g;
           worst = std::max({worst, std::abs(double(norm[1][k]) - norm_k) / std::max(1.0, norm_k),
                             std::abs(double(depth[1][k]) - depth_k) / std::max(1.0, depth_k),
                             std::abs(double(open[1][k]) - open_k)});

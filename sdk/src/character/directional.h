@@ -96,27 +96,69 @@ Colour<F> inverse_hemisphere(const LightView& light, const Direction<F>& n) {
           one / max(mean.b, F(light.darkest.z))};
 }
 
-// rho of a sphere whose centre lies at o radii from the key point, height xi = dot(o, n) and squared distance
-// delta2, which covers `share` of the hemisphere.
+// Where something that darkens a key point stands above its horizon.
 template <class F>
-Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Direction<F>& n,
-                      const Direction<F>& o, F xi, F delta2, F share, RatioForm form) {
-  // A sphere cut by the horizon is seen at the middle of what shows above it.
+struct Sight {
+  Direction<F> towards;  // unit
+  F cosine;              // to the normal
+};
+
+// Of a sphere whose centre lies at o radii from the key point, height xi = dot(o, n) and squared distance
+// delta2. A sphere cut by the horizon is seen at the middle of what shows above it.
+template <class F>
+Sight<F> sight_of(const Direction<F>& n, const Direction<F>& o, F xi, F delta2) {
   const F height = max(xi, fma(max(xi, F(-1.0f)), F(0.5f), F(0.5f)));
   const F lift = height - xi;
-  const F distance2 = max(delta2 + height * height - xi * xi, F(1e-12f));
-  const F inverse_distance = rsqrt(distance2);
-  const F cosine = height * inverse_distance;
+  const F inverse_distance = rsqrt(max(delta2 + height * height - xi * xi, F(1e-12f)));
+  return {{fma(n.x, lift, o.x) * inverse_distance, fma(n.y, lift, o.y) * inverse_distance,
+           fma(n.z, lift, o.z) * inverse_distance},
+          height * inverse_distance};
+}
+
+// rho of what covers `share` of the hemisphere there; it is at least as wide as a lobe of sharpness
+// `sharpest`.
+template <class F>
+Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Direction<F>& n,
+                      const Sight<F>& sight, F share, F sharpest, RatioForm form) {
   const F f = max(share, F(smallest_share));
-  const F k = F(form.concentration) * sqrt(max(cosine, F(0.0f))) * max(F(1.0f) - f * f, F(0.0f)) / f;
-  const F along = k * inverse_distance;
-  const F up = fma(along, lift, F(directional_cosine));
-  const Colour<F> behind = mean_radiance(
-      light, Direction<F>{fma(o.x, along, n.x * up), fma(o.y, along, n.y * up), fma(o.z, along, n.z * up)});
+  const F wide = F(form.concentration) * sqrt(max(sight.cosine, F(0.0f))) * max(F(1.0f) - f * f, F(0.0f)) / f;
+  const F k = min(wide, sharpest), h(directional_cosine);
+  const Direction<F>& d = sight.towards;
+  const Colour<F> behind =
+      mean_radiance(light, Direction<F>{fma(d.x, k, n.x * h), fma(d.y, k, n.y * h), fma(d.z, k, n.z * h)});
   const auto ratio = [&](F mean, F scale) {
     return fma(F(form.strength), min(max(mean * scale, F(0.0f)), F(largest_ratio)), F(1 - form.strength));
   };
   return {ratio(behind.r, inverse.r), ratio(behind.g, inverse.g), ratio(behind.b, inverse.b)};
 }
+// Of one sphere.
+inline constexpr float no_sharpest = 1e6f;
+
+// The spheres of one caster as one: the mean of their sights by what each takes, and how much that is
+// together.
+template <class F>
+struct JointSight {
+  Direction<F> sum{F(0.0f), F(0.0f), F(0.0f)};
+  F taken = F(0.0f);
+
+  void add(const Sight<F>& sight, F takes) {
+    sum = {fma(sight.towards.x, takes, sum.x), fma(sight.towards.y, takes, sum.y),
+           fma(sight.towards.z, takes, sum.z)};
+    taken = taken + takes;
+  }
+  Sight<F> mean(const Direction<F>& n) const {
+    const F scale = rsqrt(max(squared_length(), F(1e-30f)));
+    const Direction<F> d{sum.x * scale, sum.y * scale, sum.z * scale};
+    return {d, fma(d.x, n.x, fma(d.y, n.y, d.z * n.z))};
+  }
+  // The sharpness of a lobe that scatters as much as the sights do: 1 / (1 - length of their mean).
+  F sharpest() const {
+    const F length = sqrt(squared_length()) / max(taken, F(1e-15f));
+    return F(1.0f) / max(F(1.0f) - length, F(1e-4f));
+  }
+
+ private:
+  F squared_length() const { return fma(sum.x, sum.x, fma(sum.y, sum.y, sum.z * sum.z)); }
+};
 
 }  // namespace nook

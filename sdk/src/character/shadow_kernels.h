@@ -156,7 +156,8 @@ struct ShadowKernels {
   // rgb[k] += sum over spheres of y^gamma rho: self_norm_sum with a colour;
   void (*directional_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                                const LightView& light, float* const* rgb);
-  // rgb[k] += sum over spheres of caster_weight * form factor * rho: composed_depth with a colour;
+  // rgb[k] += rho * sum over spheres of caster_weight * form factor: composed_depth with a colour, the
+  // spheres being one caster's, with one rho for all of them;
   void (*directional_depth)(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
                             float* const* rgb);
   // rgb[k] *= 1 - min(1, caster_weight * form factor * rho) for each sphere: exact_open with a colour.

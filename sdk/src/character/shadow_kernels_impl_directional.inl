@@ -42,7 +42,8 @@ void directional_norm(const SphereSoa& spheres, const KeyPointSoa& points, float
       const SeenDirection seen = see_direction(spheres, i, p);
       const Float y = shadow_term(Form, seen.xi, seen.delta2);
       const Colour<Float> ratio =
-          light_ratio(light, inverse, n, seen.offset, seen.xi, seen.delta2, y, self_ratio);
+          light_ratio(light, inverse, n, sight_of(n, seen.offset, seen.xi, seen.delta2), y,
+                      broadcast(no_sharpest), self_ratio);
       const Float term = raised<P>(y, exponent);
       total = {fma(term, ratio.r, total.r), fma(term, ratio.g, total.g), fma(term, ratio.b, total.b)};
     }
@@ -83,16 +84,18 @@ void directional_depth(const SphereSoa& spheres, const KeyPointSoa& points, cons
     const Points<Float> p = load_points<Float>(points, k);
     const Direction<Float> n = normal_of(p);
     const Colour<Float> inverse = inverse_hemisphere(light, n);
-    Colour<Float> total = load_colour(rgb, k);
+    JointSight<Float> joint;
     for (std::uint32_t i = 0; i < spheres.count; ++i) {
       const SeenDirection seen = see_direction(spheres, i, p);
-      const Float share = form_factor_fast(seen.xi, seen.delta2);
-      const Colour<Float> ratio =
-          light_ratio(light, inverse, n, seen.offset, seen.xi, seen.delta2, share, caster_ratio);
-      const Float term = share * broadcast(spheres.caster_weight[i]);
-      total = {fma(term, ratio.r, total.r), fma(term, ratio.g, total.g), fma(term, ratio.b, total.b)};
+      joint.add(sight_of(n, seen.offset, seen.xi, seen.delta2),
+                form_factor_fast(seen.xi, seen.delta2) * broadcast(spheres.caster_weight[i]));
     }
-    store_colour(rgb, k, total);
+    const Colour<Float> ratio = light_ratio(
+        light, inverse, n, joint.mean(n), min(joint.taken, broadcast(1.0f)), joint.sharpest(), caster_ratio);
+    const Colour<Float> total = load_colour(rgb, k);
+    store_colour(rgb, k,
+                 {fma(joint.taken, ratio.r, total.r), fma(joint.taken, ratio.g, total.g),
+                  fma(joint.taken, ratio.b, total.b)});
   }
 }
 
@@ -109,7 +112,8 @@ void directional_open(const SphereSoa& spheres, const KeyPointSoa& points, const
       const Float weight = spheres.caster_weight ? broadcast(spheres.caster_weight[i]) : one;
       const Float share = min(weight * form_factor_exact(seen.xi, seen.delta2), one);
       const Colour<Float> ratio =
-          light_ratio(light, inverse, n, seen.offset, seen.xi, seen.delta2, share, caster_ratio);
+          light_ratio(light, inverse, n, sight_of(n, seen.offset, seen.xi, seen.delta2), share,
+                      broadcast(no_sharpest), caster_ratio);
       product = {product.r * (one - min(share * ratio.r, one)), product.g * (one - min(share * ratio.g, one)),
                  product.b * (one - min(share * ratio.b, one))};
     }
