@@ -102,6 +102,47 @@ TEST_CASE("no samples, or samples without weight, give 0") {
   }
 }
 
+// Half of the directions uniform, half within a sun of radius 0.01 that holds 60 % of the light; weights by
+// the balance of both densities. The first direction meets the sun, whose weight is tiny and whose radiance
+// is huge.
+test::Samples sun_by_luminance(std::uint32_t seed, std::size_t count) {
+  constexpr double cap = 5e-5, share = cap / 2;  // 1 - cos(0.01); of the sphere
+  constexpr float sun = float(1.5 / share);
+  test::Directions directions(seed);
+  test::Samples samples;
+  for (std::size_t i = 0; i < count; ++i) {
+    Vec3 d = directions.next();
+    if (i % 2 == 0) {
+      const double z = 1 - cap * directions.uniform(), azimuth = 6.283185307179586 * directions.uniform();
+      const double r = std::sqrt(1 - z * z);
+      d = {float(r * std::cos(azimuth)), float(r * std::sin(azimuth)), float(z)};
+    }
+    const bool inside = i % 2 == 0;  // uniform directions meet it once in 40,000, and are taken for sky
+    const float v = inside ? sun : 1.0f;
+    samples.directions.insert(samples.directions.end(), {d.x, d.y, d.z});
+    samples.radiance.insert(samples.radiance.end(), {v, v, v});
+    samples.weights.push_back(inside ? float(2 * share) : 2.0f);
+  }
+  return samples;
+}
+
+TEST_CASE("a sun sampled by luminance leaves every running average near its exact fit") {
+  const std::pmr::vector<double> gram = basis_gram(vogel_basis(12));
+  for (const auto& [running, exact] :
+       {std::pair(FitMethod::running_average, FitMethod::least_squares),
+        std::pair(FitMethod::running_average_non_negative, FitMethod::non_negative_least_squares)})
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+      const test::Samples samples = sun_by_luminance(seed, 20000);
+      Fit fit(vogel_basis(12), with(running)), reference(vogel_basis(12), with(exact));
+      test::add(fit, samples);
+      test::add(reference, samples);
+      const Coefficients a = test::read(fit), b = test::read(reference);
+      // 12 functions from 20,000 samples: some thousandths. Without a floor for the first weights it is
+      // above 1.
+      CHECK(test::squared_distance(gram, a, b) < 0.02 * test::squared_norm(gram, b));
+    }
+}
+
 TEST_CASE("how samples are cut into calls does not matter, to the bit") {
   const test::Samples samples = test::sample(2, 1500, sky);
   for (const FitMethod method : all_methods)

@@ -121,7 +121,8 @@ NOOK_API nook_result nook_probe_fit_create(nook_context context, const nook_prob
 NOOK_API void nook_probe_fit_destroy(nook_probe_fit* fit);
 
 /* Samples of uniformly distributed directions have weight 1 (weights NULL); those drawn with probability density p over a
- * domain of area a have 1 / (a p): sampled by luminance, bright directions weigh little. Samples whose direction is not
+ * domain of area a have 1 / (a p): sampled by luminance, bright directions weigh little. The mean of all weights is 1: running averages that see
+ * others settle slower. Samples whose direction is not
  * unit to 1e-3, or outside the hemisphere, whose direction, radiance or weight is not finite, or whose weight is negative,
  * are skipped and counted; radiance and weights above 1e18 count as infinite. Running averages want directions in random
  * order: rows of an image, one after the other, leave them with the last ones. No allocation. One at a time.

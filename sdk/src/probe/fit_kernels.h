@@ -13,7 +13,7 @@ struct Sample {
   float direction[3];  // unit
   float weight;        // >= 0
   float radiance[3];
-  float total;  // sum of the weights up to and with this one, > 0
+  float total;  // sum of the weights up to and with this one, > 0; at first not below their number
 };
 
 // Lobes in structure-of-arrays form. Padding has axis 0 and a sharpness that makes it vanish.
