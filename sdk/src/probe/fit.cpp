@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::uint32_t chunk = 64;          // samples that go through the kernels at once
 constexpr std::uint32_t settle_every = 256;  // samples
-// Weights are 1 in the mean. For so many samples the weight so far counts as at least their number: a first
+// Weights are 1 in the mean. Up to so many samples the weight so far counts as at least their number: a first
 // sample of tiny weight and huge radiance, as a sampler by luminance draws, would otherwise be all that a
 // running average knows, and what it makes of that would not be forgotten for thousands of samples.
-constexpr std::uint64_t first_samples = 256;
+constexpr double first_weight = 256;
 constexpr float max_radiance = 1e18f;  // sums of squares stay finite
 constexpr float padding_sharpness = 1e4f;
 // A pivot of the Gram matrix below this share of its diagonal: coefficients would be rounding alone.
@@ -149,15 +149,16 @@ std::uint32_t Fit::filter(const float* directions, const float* radiance, const 
       continue;
     }
     ++counts_.used;
-    counts_.weighted += w > 0;
-    if (settings_.growing_samples > 0)
-      w *= float(-std::expm1(-double(counts_.used) / double(settings_.growing_samples)));
+    const double growth = settings_.growing_samples > 0
+                              ? -std::expm1(-double(counts_.used) / double(settings_.growing_samples))
+                              : 1;
+    w *= float(growth);
+    if (w > 0) counts_.expected_weight = std::min(counts_.expected_weight + growth, first_weight);
     counts_.weight += double(w);
     counts_.radiance[0] += double(w) * double(v.x);
     counts_.radiance[1] += double(w) * double(v.y);
     counts_.radiance[2] += double(w) * double(v.z);
-    const double expected = double(std::min(counts_.weighted, first_samples));
-    const float total = float(std::max(counts_.weight, expected) + prior_weight_);
+    const float total = float(std::max(counts_.weight, counts_.expected_weight) + prior_weight_);
     if (!(w > 0 && total > 0)) continue;
     // Two Newton steps from 1 make a nearly unit vector unit.
     const float first = 1.5f - 0.5f * length2, unit = first * (1.5f - 0.5f * length2 * first * first);

@@ -53,7 +53,7 @@ constexpr bool is_running(FitMethod method) {
 // What became of the samples.
 struct SampleCounts {
   std::uint64_t used = 0;
-  std::uint64_t weighted = 0;  // of those used, with a weight above 0
+  double expected_weight = 0;  // of the first ones, were each 1 before it grows
   std::uint64_t bad_direction = 0;
   std::uint64_t bad_radiance = 0;
   std::uint64_t bad_weight = 0;

@@ -51,7 +51,7 @@ void Fit::merge(const Fit& other) {
   }
   prior_weight_ += other.prior_weight_;
   counts_.used += other.counts_.used;
-  counts_.weighted += other.counts_.weighted;
+  counts_.expected_weight += other.counts_.expected_weight;
   counts_.bad_direction += other.counts_.bad_direction;
   counts_.bad_radiance += other.counts_.bad_radiance;
   counts_.bad_weight += other.counts_.bad_weight;
