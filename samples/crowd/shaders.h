@@ -15,8 +15,8 @@ extern const char* const kSurfaceFragment;
 // AO is that of the vertices, where use_screen_ao is set times that of the screen-space pass, and on the
 // ground where use_floor_ao is set times that of a texture laid on it.
 extern const char* const kLitFragment;
-// Irradiance that is given, at vertices or in a texture laid on the ground, and nothing else; linear light to an
-// sRGB target, bright parts rolled off.
+// Irradiance that is given, at vertices or in a texture laid on the ground, and nothing else; linear light to
+// an sRGB target, bright parts rolled off.
 extern const char* const kGivenLightFragment;
 // Depth from the key light; draws characters only.
 extern const char* const kShadowFragment;

@@ -17,8 +17,8 @@ Row describe_probes(std::span<const std::byte> bytes);
 Row describe_material(std::span<const std::byte> bytes);
 Row describe_raw_material(std::span<const std::byte> bytes);
 
-// Adds the entries of a recipe, a JSON object, to row, those of an object in it as object_entry; anything else
-// adds nothing.
+// Adds the entries of a recipe, a JSON object, to row, those of an object in it as object_entry; anything
+// else adds nothing.
 void add_recipe(Row& row, std::string_view recipe);
 
 }  // namespace nook::cli

@@ -133,8 +133,8 @@ void read_ao(const Scene& scene, const Instance& instance, float* out, std::size
   read_ao(scene, instance, instance.arrays.points.shadow, instance.arrays.points.added, out, stride_bytes);
 }
 
-void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added, float* out,
-             std::size_t stride_bytes) noexcept {
+void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
+             float* out, std::size_t stride_bytes) noexcept {
   const LoadedModel& loaded = *instance.model;
   LinearView view = loaded.linear.view();
   if (!(scene.terms & NOOK_TERM_SELF)) view.open_bias = loaded.open_without_bias.data();

@@ -183,7 +183,7 @@ void update(Scene& scene) noexcept;
 // number of file vertices, stride_bytes apart.
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept;
 // The same from other shadows and added occlusions at the key points than the instance's own.
-void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added, float* out,
-             std::size_t stride_bytes) noexcept;
+void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
+             float* out, std::size_t stride_bytes) noexcept;
 
 }  // namespace nook
