@@ -12,8 +12,8 @@ namespace {
 
 int run(int argc, char** argv) {
   CLI::App tool(
-      "Bakes ambient occlusion and light probes, measures them against ray tracing, and inspects .nook "
-      "files.\n"
+      "Bakes ambient occlusion, light probes and materials, measures them against ray tracing, and inspects "
+      ".nook files.\n"
       "Exit codes: 0 done, 2 bad arguments, 3 bad input, 1 anything else.",
       "nook");
   tool.set_version_flag("--version", std::to_string(NOOK_VERSION_MAJOR) + "." +
