@@ -7,7 +7,7 @@
 
 #include "crowd_scene.h"
 #include "layout.h"
-#include "render_target.h"
+#include "platform/render_target.h"
 #include "screen_space.h"
 
 namespace crowd {
@@ -18,7 +18,7 @@ struct Stage {
   const Hero& hero;
   const std::vector<Placement>& places;
   Renderer& renderer;
-  RenderTarget& target;
+  platform::RenderTarget& target;
   ScreenSpaceAo* screen_space;  // null: none
 };
 

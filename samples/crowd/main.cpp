@@ -131,7 +131,7 @@ void run(const Options& o) {
   }
 #endif
   std::filesystem::create_directories(o.out);
-  RenderTarget target(*context, o.width_px, o.height_px);
+  platform::RenderTarget target(*context, o.width_px, o.height_px);
   std::unique_ptr<ScreenSpaceAo> screen_space;
   if (o.screen_space)
     screen_space = std::make_unique<ScreenSpaceAo>(*context, scene.gl(), o.width_px, o.height_px);

@@ -7,9 +7,22 @@
 #include <limits>
 
 namespace material {
+namespace {
+
+// The target bound for drawing, cleared to the background.
+void begin_picture(const Stage& stage) {
+  const GladGLContext& gl = stage.context.gl();
+  stage.target.bind();
+  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl.DepthMask(GL_TRUE);
+  gl.ClearColor(0.16f, 0.22f, 0.27f, 1);
+  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+}  // namespace
 
 void draw_frame(const Stage& stage, const MaterialProgram& program, const View& view, bool silhouettes) {
-  stage.target.begin();
+  begin_picture(stage);
   const auto draw = [&](Pass pass) {
     program.begin(view, pass);
     for (const Mesh& mesh : stage.meshes) mesh.draw();

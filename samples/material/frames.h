@@ -9,14 +9,14 @@
 
 #include "material_program.h"
 #include "mesh.h"
-#include "picture_target.h"
+#include "platform/render_target.h"
 
 namespace material {
 
 struct Stage {
   platform::Context& context;
   const std::vector<Mesh>& meshes;
-  const PictureTarget& target;
+  const platform::RenderTarget& target;
   float aspect = 1;
 };
 

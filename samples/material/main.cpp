@@ -99,7 +99,7 @@ void run(const Options& o) {
   const nook::Gl gl(host, desc);
   std::vector<Mesh> meshes;
   for (const Shape& shape : make_shapes(o.tile_m)) meshes.emplace_back(context->gl(), shape);
-  const PictureTarget target(*context, o.width_px, o.height_px);
+  const platform::RenderTarget target(*context, o.width_px, o.height_px);
   const Stage stage{*context, meshes, target, float(o.width_px) / float(o.height_px)};
   if (o.frames == 0) {
     run_window(stage, Loaded(host, gl, *context, o.files[0]).program);

@@ -1,9 +1,8 @@
 #include "material_program.h"
 
 #include <glm/gtc/type_ptr.hpp>
-#include <initializer_list>
-#include <stdexcept>
-#include <string>
+
+#include "platform/program.h"
 
 namespace material {
 namespace {
@@ -61,43 +60,14 @@ constexpr char pass_names[] = "#define DEPTH 0\n#define COLOUR 1\n#define PART_V
 constexpr const char* pass_choice[] = {"#define PASS DEPTH\n", "#define PASS COLOUR\n",
                                        "#define PASS PART_VISIBLE\n"};
 
-GLuint compile(const GladGLContext& gl, GLenum stage, std::initializer_list<const char*> texts) {
-  const GLuint shader = gl.CreateShader(stage);
-  gl.ShaderSource(shader, GLsizei(texts.size()), texts.begin(), nullptr);
-  gl.CompileShader(shader);
-  GLint compiled = GL_FALSE;
-  gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-  if (compiled) return shader;
-  char log[2048] = "";
-  gl.GetShaderInfoLog(shader, sizeof log, nullptr, log);
-  gl.DeleteShader(shader);
-  throw std::runtime_error(std::string("material: a shader does not compile: ") + log);
-}
-
-GLuint linked(const GladGLContext& gl, GLuint vertex, GLuint fragment) {
-  const GLuint program = gl.CreateProgram();
-  gl.AttachShader(program, vertex);
-  gl.AttachShader(program, fragment);
-  gl.LinkProgram(program);
-  gl.DeleteShader(vertex);
-  gl.DeleteShader(fragment);
-  GLint success = GL_FALSE;
-  gl.GetProgramiv(program, GL_LINK_STATUS, &success);
-  if (success) return program;
-  gl.DeleteProgram(program);
-  throw std::runtime_error("material: a program does not link");
-}
-
 }  // namespace
 
 MaterialProgram::MaterialProgram(const GladGLContext& gl, const nook::GlMaterial& material)
     : gl_(gl), textures_(material.textures()) {
   for (int pass = 0; pass < 3; ++pass) {
-    const GLuint vertex = compile(gl, GL_VERTEX_SHADER, {version, vertex_text});
-    const GLuint fragment =
-        compile(gl, GL_FRAGMENT_SHADER,
-                {version, pass_names, pass_choice[pass], material.info().glsl, fragment_text});
-    programs_[pass] = linked(gl, vertex, fragment);
+    programs_[pass] =
+        platform::link_program(gl, {version, vertex_text},
+                               {version, pass_names, pass_choice[pass], material.info().glsl, fragment_text});
     gl.UseProgram(programs_[pass]);
     for (std::size_t i = 0; i < textures_.size(); ++i)
       gl.Uniform1i(gl.GetUniformLocation(programs_[pass], textures_[i].uniform), GLint(i));

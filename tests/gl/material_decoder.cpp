@@ -4,6 +4,7 @@
 #include <string>
 
 #include "material/material_file.h"
+#include "platform/program.h"
 #include "test_context.h"
 
 namespace nook::test {
@@ -40,19 +41,6 @@ const char main_text[] =
     "  value = vec4(radiance, occlusion);\n"
     "  more = vec4(nook_material_visibility(occlusion), float(decoded), float(lit), float(taken()));\n"
     "}\n";
-
-GLuint compiled(const GladGLContext& gl, GLenum stage, std::vector<const char*> texts) {
-  const GLuint shader = gl.CreateShader(stage);
-  gl.ShaderSource(shader, GLsizei(texts.size()), texts.data(), nullptr);
-  gl.CompileShader(shader);
-  GLint success = GL_FALSE;
-  gl.GetShaderiv(shader, GL_COMPILE_STATUS, &success);
-  char log[1000] = "";
-  gl.GetShaderInfoLog(shader, sizeof log, nullptr, log);
-  INFO(log);
-  REQUIRE(success);
-  return shader;
-}
 
 }  // namespace
 
@@ -107,17 +95,7 @@ MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_material mater
     NOOK_OK_OR_FAIL(nook_gl_material_get_texture(material, i, &texture));
     textures_.push_back(texture);
   }
-  const GLuint vertex = compiled(gl, GL_VERTEX_SHADER, {vertex_text});
-  const GLuint fragment = compiled(gl, GL_FRAGMENT_SHADER, {counting_text, uploaded.glsl, main_text});
-  program_ = gl.CreateProgram();
-  gl.AttachShader(program_, vertex);
-  gl.AttachShader(program_, fragment);
-  gl.LinkProgram(program_);
-  gl.DeleteShader(vertex);
-  gl.DeleteShader(fragment);
-  GLint linked = GL_FALSE;
-  gl.GetProgramiv(program_, GL_LINK_STATUS, &linked);
-  REQUIRE(linked);
+  program_ = platform::link_program(gl, {vertex_text}, {counting_text, uploaded.glsl, main_text});
 }
 
 MaterialDecoder::~MaterialDecoder() {

@@ -9,6 +9,7 @@
 
 #include "crowd.h"
 #include "gl/touched_state.h"
+#include "platform/program.h"
 #include "poison.h"
 #include "test_context.h"
 
@@ -138,30 +139,6 @@ const char* const fragment_text =
     "  answer = vec4(a, 1.0);\n"
     "}\n";
 
-GLuint compile(const GladGLContext& gl, const std::string& fragment) {
-  const GLuint program = gl.CreateProgram();
-  for (const auto& [stage, text] :
-       {std::pair<GLenum, std::string>{GL_VERTEX_SHADER, vertex_text}, {GL_FRAGMENT_SHADER, fragment}}) {
-    const GLuint shader = gl.CreateShader(stage);
-    const char* source = text.c_str();
-    gl.ShaderSource(shader, 1, &source, nullptr);
-    gl.CompileShader(shader);
-    char log[2000] = "";
-    gl.GetShaderInfoLog(shader, sizeof log, nullptr, log);
-    GLint compiled = 0;
-    gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-    INFO(log);
-    REQUIRE(compiled);
-    gl.AttachShader(program, shader);
-    gl.DeleteShader(shader);
-  }
-  gl.LinkProgram(program);
-  GLint linked = 0;
-  gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
-  REQUIRE(linked);
-  return program;
-}
-
 // answer_count rows of colours, a column for each query.
 std::vector<float> ask(const GladGLContext& gl, const nook_gl_probe_info& probe,
                        const std::vector<Query>& queries) {
@@ -188,7 +165,8 @@ std::vector<float> ask(const GladGLContext& gl, const nook_gl_probe_info& probe,
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, names[1], 0);
   gl.Viewport(0, 0, width, answer_count);
-  const GLuint program = compile(gl, std::string("#version 330 core\n") + probe.glsl + fragment_text);
+  const GLuint program =
+      platform::link_program(gl, {vertex_text}, {"#version 330 core\n", probe.glsl, fragment_text});
   gl.UseProgram(program);
   gl.BindTexture(GL_TEXTURE_BUFFER, probe.texture);
   gl.Uniform1i(gl.GetUniformLocation(program, "nook_probe_texels"), 0);

@@ -2,6 +2,7 @@
 
 #include "cli/nnao/peer_shaders.h"
 #include "core/failure.h"
+#include "platform/program.h"
 
 namespace nook::cli {
 namespace {
@@ -10,20 +11,6 @@ const char* shader_text(const std::string& path) {
   for (const EmbeddedShader* s = embedded_shaders_begin(); s != embedded_shaders_end(); ++s)
     if (path == s->path) return s->text;
   throw Failure(NOOK_ERROR_INTERNAL, "no shader %s in this build", path.c_str());
-}
-
-GLuint compile(const GladGLContext& gl, GLenum stage, const std::string& path) {
-  const GLuint shader = gl.CreateShader(stage);
-  const char* const text = shader_text(path);
-  gl.ShaderSource(shader, 1, &text, nullptr);
-  gl.CompileShader(shader);
-  GLint compiled = 0;
-  gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-  if (compiled) return shader;
-  char log[1024] = "";
-  gl.GetShaderInfoLog(shader, sizeof log, nullptr, log);
-  gl.DeleteShader(shader);
-  throw Failure(NOOK_ERROR_INTERNAL, "%s does not compile: %s", path.c_str(), log);
 }
 
 const float* numbers(const std::vector<Vec3>& vectors) {
@@ -61,21 +48,8 @@ std::vector<float> read_red(const GladGLContext& gl, GLuint texture, int width, 
   return values;
 }
 
-GpuProgram::GpuProgram(const GladGLContext& gl, const std::string& path) : gl_(gl) {
-  const GLuint vertex = compile(gl, GL_VERTEX_SHADER, "screen.vert");
-  const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, path);
-  name_ = gl.CreateProgram();
-  for (const GLuint shader : {vertex, fragment}) {
-    gl.AttachShader(name_, shader);
-    gl.DeleteShader(shader);
-  }
-  gl.LinkProgram(name_);
-  GLint linked = 0;
-  gl.GetProgramiv(name_, GL_LINK_STATUS, &linked);
-  if (linked) return;
-  gl.DeleteProgram(name_);
-  throw Failure(NOOK_ERROR_INTERNAL, "%s does not link", path.c_str());
-}
+GpuProgram::GpuProgram(const GladGLContext& gl, const std::string& path)
+    : gl_(gl), name_(platform::link_program(gl, {shader_text("screen.vert")}, {shader_text(path)})) {}
 
 GpuProgram::~GpuProgram() {
   gl_.DeleteProgram(name_);

@@ -32,7 +32,7 @@ std::vector<float> read_red(const GladGLContext& gl, GLuint texture, int width, 
 
 class GpuProgram {
  public:
-  // path: of an embedded fragment shader. Throws Failure(INTERNAL) with the compiler's words.
+  // path: of an embedded fragment shader. Throws std::runtime_error with the compiler's words.
   GpuProgram(const GladGLContext& gl, const std::string& path);
   ~GpuProgram();
   GpuProgram(const GpuProgram&) = delete;

@@ -1,13 +1,14 @@
-// What the pictures are drawn into: a multisampled sRGB framebuffer and the one it is resolved to.
+// What the samples draw pictures into: an sRGB framebuffer of four samples where OpenGL has them, and the one
+// it is resolved to.
 #pragma once
 
 #include "platform/platform.h"
 
-namespace crowd {
+namespace platform {
 
 class RenderTarget {
  public:
-  RenderTarget(const platform::Context& context, int width_px, int height_px);
+  RenderTarget(const Context& context, int width_px, int height_px);
   ~RenderTarget();
   RenderTarget(const RenderTarget&) = delete;
   RenderTarget& operator=(const RenderTarget&) = delete;
@@ -17,13 +18,16 @@ class RenderTarget {
   void bind() const;     // for drawing, viewport and sRGB encoding set
   void resolve() const;  // leaves the resolved picture bound for reading
   // Resolves, waits for the GPU, returns rows from top to bottom.
-  platform::Image read() const;
+  Image read() const;
+  // Resolves onto a framebuffer that shows its bytes as they are, such as a window's; filtered where sizes
+  // differ.
+  void show(unsigned framebuffer, int width_px, int height_px) const;
 
  private:
-  const platform::Context& context_;
+  const Context& context_;
   int width_px_, height_px_;
   unsigned framebuffers_[2] = {};   // multisampled, resolved
   unsigned renderbuffers_[3] = {};  // colour, depth, resolved colour
 };
 
-}  // namespace crowd
+}  // namespace platform

@@ -1,10 +1,10 @@
-#include "picture_target.h"
+#include "platform/render_target.h"
 
 #include <glad/gl.h>
 
 #include <stdexcept>
 
-namespace material {
+namespace platform {
 namespace {
 
 void attach(const GladGLContext& gl, GLuint renderbuffer, GLenum attachment, GLenum format, GLint samples,
@@ -14,48 +14,45 @@ void attach(const GladGLContext& gl, GLuint renderbuffer, GLenum attachment, GLe
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, renderbuffer);
 }
 
-void need_complete(const GladGLContext& gl) {
+void require_complete(const GladGLContext& gl) {
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw std::runtime_error("material: this OpenGL cannot draw into an sRGB framebuffer");
+    throw std::runtime_error("this OpenGL cannot draw into an sRGB framebuffer");
 }
 
 }  // namespace
 
-PictureTarget::PictureTarget(const platform::Context& context, int width_px, int height_px)
+RenderTarget::RenderTarget(const Context& context, int width_px, int height_px)
     : context_(context), width_px_(width_px), height_px_(height_px) {
   const GladGLContext& gl = context.gl();
   GLint most = 0;
   gl.GetIntegerv(GL_MAX_SAMPLES, &most);
+  // Softpipe has no multisampling: a plain framebuffer then.
   const GLint samples = most >= 4 ? 4 : 0;
   gl.GenFramebuffers(2, framebuffers_);
   gl.GenRenderbuffers(3, renderbuffers_);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffers_[0]);
   attach(gl, renderbuffers_[0], GL_COLOR_ATTACHMENT0, GL_SRGB8_ALPHA8, samples, width_px, height_px);
   attach(gl, renderbuffers_[1], GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, samples, width_px, height_px);
-  need_complete(gl);
+  require_complete(gl);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffers_[1]);
   attach(gl, renderbuffers_[2], GL_COLOR_ATTACHMENT0, GL_SRGB8_ALPHA8, 0, width_px, height_px);
-  need_complete(gl);
+  require_complete(gl);
 }
 
-PictureTarget::~PictureTarget() {
+RenderTarget::~RenderTarget() {
   context_.gl().DeleteFramebuffers(2, framebuffers_);
   context_.gl().DeleteRenderbuffers(3, renderbuffers_);
 }
 
-void PictureTarget::begin() const {
+void RenderTarget::bind() const {
   const GladGLContext& gl = context_.gl();
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffers_[0]);
   gl.Viewport(0, 0, width_px_, height_px_);
   gl.Enable(GL_FRAMEBUFFER_SRGB);
   gl.Enable(GL_MULTISAMPLE);
-  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  gl.DepthMask(GL_TRUE);
-  gl.ClearColor(0.16f, 0.22f, 0.27f, 1);
-  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void PictureTarget::resolve() const {
+void RenderTarget::resolve() const {
   const GladGLContext& gl = context_.gl();
   gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffers_[0]);
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffers_[1]);
@@ -64,12 +61,12 @@ void PictureTarget::resolve() const {
   gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffers_[1]);
 }
 
-platform::Image PictureTarget::read() const {
+Image RenderTarget::read() const {
   resolve();
-  return platform::read_pixels(context_, width_px_, height_px_);
+  return read_pixels(context_, width_px_, height_px_);
 }
 
-void PictureTarget::show(unsigned framebuffer, int width_px, int height_px) const {
+void RenderTarget::show(unsigned framebuffer, int width_px, int height_px) const {
   resolve();
   const GladGLContext& gl = context_.gl();
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
@@ -78,4 +75,4 @@ void PictureTarget::show(unsigned framebuffer, int width_px, int height_px) cons
   gl.BlitFramebuffer(0, 0, width_px_, height_px_, 0, 0, width_px, height_px, GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }
 
-}  // namespace material
+}  // namespace platform
