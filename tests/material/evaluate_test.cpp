@@ -54,16 +54,24 @@ double expected(const Material& material, const ClusteredTensor& tensor, std::ui
   return sum;
 }
 
-// The light basis at a direction, R_l numbers of one channel.
+// The light basis at a direction of the upper hemisphere, R_l numbers of one channel.
 std::vector<float> light_modes(const Material& material, Vec3 light, std::uint32_t channel) {
   const DirectionMesh mesh(material.lights);
   std::size_t hint = 0;
   const DirectionMix mix = mesh.locate(to_parabolic(light), hint);
   const std::uint32_t rank = material.btf.shape.rank_light;
   std::vector<float> modes(rank);
+  ParabolicPoint nearest{};
+  for (int i = 0; i < 3; ++i) {
+    const ParabolicPoint p = to_parabolic(material.lights[mix.index[i]]);
+    nearest = {nearest.x + mix.weight[i] * p.x, nearest.y + mix.weight[i] * p.y};
+  }
   for (int i = 0; i < 3; ++i)
     for (std::uint32_t a = 0; a < rank; ++a)
       modes[a] += mix.weight[i] * material.light_basis[(3 * std::size_t(mix.index[i]) + channel) * rank + a];
+  // Beyond the lights, by the ratio of cosines.
+  const float share = std::min(light.z / from_parabolic(nearest).z, 1.0f);
+  for (float& mode : modes) mode *= share;
   return modes;
 }
 
@@ -175,6 +183,24 @@ TEST_CASE("light from below the horizon gives black, and a view from below count
   const Radiance horizon = evaluate_btf(tables, sample);
   sample.view = {0.6f, 0.8f, -1e-3f};
   CHECK(evaluate_btf(tables, sample).red == horizon.red);
+}
+
+TEST_CASE("beyond the lowest lights, light falls off as its cosine") {
+  Material material = test::sample_material(4, {.lights = 6});
+  for (std::size_t i = 0; i < 5; ++i) {
+    const float phi = 1.2566371f * float(i);
+    material.lights[i] = {std::sqrt(0.75f) * std::cos(phi), std::sqrt(0.75f) * std::sin(phi), 0.5f};
+  }
+  material.lights[5] = {0, 0, 1};
+  const MaterialTables tables = tables_of(material);
+  Sample sample{0.3f, 0.4f, 0, {0, 0, 1}, material.lights[0]};
+  const float rim = evaluate_btf(tables, sample).red;
+  REQUIRE(std::abs(rim) > 1e-3f);
+  for (const float z : {0.4f, 0.25f, 0.1f, 0.01f}) {
+    sample.light = {std::sqrt(1 - z * z), 0, z};
+    // The map's cells are 1/32 wide, over which a share of 2 z changes by 0.06; between them it is linear.
+    CHECK(std::abs(evaluate_btf(tables, sample).red / rim - 2 * z) < 0.03f);
+  }
 }
 
 TEST_CASE("the visibility mapping is equation (26) with both sets of parameters") {
