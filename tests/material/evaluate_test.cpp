@@ -33,10 +33,8 @@ struct Weighted {
   double weight = 0;
 };
 
-// Rows of the material's views that a cell stands for, by the definition of each form.
-std::vector<Weighted> rows_of_cell(const Material& material, const ClusteredTensor& tensor,
-                                   ParabolicPoint p) {
-  if (tensor.shape.mixture > 1) return {{nearest_direction(material.views, from_parabolic(p)), 1}};
+// Rows of the material's views that a cell stands for.
+std::vector<Weighted> rows_of_cell(const Material& material, ParabolicPoint p) {
   const DirectionMesh mesh(material.views);
   std::size_t hint = 0;
   const DirectionMix mix = mesh.locate(p, hint);
@@ -49,7 +47,7 @@ double expected(const Material& material, const ClusteredTensor& tensor, std::ui
     return test::value(tensor, tensor.map.rows, std::size_t(row) * tensor.map.side + column, light, x, y);
   double sum = 0;
   const ParabolicPoint p = to_parabolic(from_parabolic(cell_centre(column, row, side)));
-  for (const auto& [view, weight] : rows_of_cell(material, tensor, p))
+  for (const auto& [view, weight] : rows_of_cell(material, p))
     sum += weight * test::value(tensor, tensor.rows, view, light, x, y);
   return sum;
 }
@@ -113,11 +111,13 @@ TEST_CASE("decoding gives the sums of equations (24) and (25)") {
   }
 }
 
-TEST_CASE("K-CTA takes the nearest view, CTA and N-SVD the three nearest") {
+TEST_CASE("without a view map the clusters of the three nearest views are mixed, with one its own") {
   const Material k_cta = test::sample_material(4),
                  cta = test::sample_material(4, {.clusters = 5, .mixture = 1}),
                  n_svd = test::sample_material(4, {.clusters = 1, .mixture = 1});
-  CHECK(cell_terms(k_cta.btf) == 2);
+  CHECK(cell_terms(k_cta.btf) == 3);  // of three clusters
+  CHECK(cell_terms(test::sample_material(4, {.clusters = 8}).btf) == 6);
+  CHECK(cell_terms(test::sample_material(4, {.map_side = 4}).btf) == 2);
   CHECK(cell_terms(cta.btf) == 3);
   CHECK(cell_terms(n_svd.btf) == 1);
   CHECK(cell_terms(test::sample_material(4, {.clusters = 2, .mixture = 1}).btf) == 2);
@@ -204,12 +204,12 @@ TEST_CASE("beyond the lowest lights, light falls off as its cosine") {
 }
 
 TEST_CASE("the visibility mapping is equation (26) with both sets of parameters") {
-  const VisibilityMapping distance = default_mapping(VisibilityForm::distance);
+  const VisibilityMapping distance = paper_mapping(VisibilityForm::distance);
   CHECK(visibility_of(VisibilityForm::distance, distance, 0.05f) == 1);
   CHECK(std::abs(visibility_of(VisibilityForm::distance, distance, 0.02f) - 0.24f) < 1e-6f);
   CHECK(visibility_of(VisibilityForm::distance, distance, 0) == 0);
   CHECK(visibility_of(VisibilityForm::distance, distance, -0.4f) == 0);
-  const VisibilityMapping binary = default_mapping(VisibilityForm::binary);
+  const VisibilityMapping binary = paper_mapping(VisibilityForm::binary);
   CHECK(visibility_of(VisibilityForm::binary, binary, 0.5f) == 1);
   CHECK(visibility_of(VisibilityForm::binary, binary, 0.3f) == 0.3f);
   CHECK(visibility_of(VisibilityForm::binary, binary, -0.1f) == 0);
