@@ -19,8 +19,6 @@ using nook::material::Material;
 using nook::material::VisibilityForm;
 using tensor::Matrix;
 
-constexpr float distance_threshold = 0.5f / 3, distance_weight = 1 / distance_threshold;
-
 tensor::TensorView btf_view(const RawMaterial& raw) {
   return {{raw.light_rows(), raw.views.size(), raw.width, raw.height}, raw.btf.data()};
 }
@@ -144,6 +142,15 @@ ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task
 
 }  // namespace
 
+nook::material::VisibilityMapping default_mapping(VisibilityForm form, std::uint32_t width,
+                                                  std::uint32_t height) {
+  if (form != VisibilityForm::distance) return nook::material::paper_mapping(form);
+  const float half_texel = 0.5f / (distance_cut * float(std::max(width, height)));
+  // A texture so small that distances are cut within half a texel.
+  const float threshold = std::min(half_texel, 1.0f);
+  return {threshold, 1 / threshold};
+}
+
 void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
   const auto check = [](std::size_t got, std::size_t most, const char* what, const char* of) {
     if (got < 1 || got > most)
@@ -158,6 +165,11 @@ void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
     check(s.votf_rank_x, raw.width, "the VOTF's x rank", "the width in texels");
     check(s.votf_rank_y, raw.height, "the VOTF's y rank", "the height in texels");
   }
+  if (s.mapping && !(s.mapping->threshold >= 0 && s.mapping->threshold <= nook::material::max_number &&
+                     s.mapping->weight >= 0 && s.mapping->weight <= nook::material::max_number))
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT, "a visibility mapping of threshold %g and weight %g; need 0 to %g each",
+        double(s.mapping->threshold), double(s.mapping->weight), double(nook::material::max_number));
   if (s.method == Method::n_svd) return;
   check(s.cluster_rank_view, views, "the view rank of a cluster", "the number of views");
   check(s.cluster_count(), views, "the number of clusters", "the number of views");
@@ -208,9 +220,7 @@ Material compress(const RawMaterial& raw, const CompressionSettings& s, const St
   material.btf = std::move(btf.tensor);
   if (raw.mask.empty() || s.visibility == VisibilityForm::none) return material;
   material.visibility = s.visibility;
-  material.mapping = s.visibility == VisibilityForm::distance
-                         ? nook::material::VisibilityMapping{distance_threshold, distance_weight}
-                         : nook::material::default_mapping(s.visibility);
+  material.mapping = s.mapping ? *s.mapping : default_mapping(s.visibility, raw.width, raw.height);
   material.votf = compress_votf(raw, votf_values(raw, s.visibility), s, progress);
   return material;
 }

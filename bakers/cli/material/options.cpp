@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <map>
 
 #include "cli/interrupt.h"
@@ -117,6 +118,16 @@ CompressionSettings compression_settings(const CompressionOptions& options, cons
     s.mixture = std::min(s.mixture, s.cluster_count());
   check_settings(s, raw);
   return s;
+}
+
+nook::material::VisibilityMapping visibility_mapping(const std::string& text, VisibilityForm form) {
+  if (text == "paper") return nook::material::paper_mapping(form);
+  nook::material::VisibilityMapping mapping;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%f,%f%c", &mapping.threshold, &mapping.weight, &rest) != 2)
+    throw ToolError(exit_bad_arguments,
+                    "--visibility-mapping: got " + text + ", need T,W, such as 0.05,12, or paper");
+  return mapping;
 }
 
 nlohmann::ordered_json report_row(const std::string& material, const MethodRow& row) {

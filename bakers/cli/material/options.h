@@ -26,6 +26,10 @@ void add_compression_options(CLI::App& command, CompressionOptions& options);
 bake::material::CompressionSettings compression_settings(const CompressionOptions& options,
                                                          const bake::material::RawMaterial& raw);
 
+// "T,W", or "paper": the paper's numbers for the form. Throws ToolError for a text that is neither.
+nook::material::VisibilityMapping visibility_mapping(const std::string& text,
+                                                     nook::material::VisibilityForm form);
+
 nlohmann::ordered_json report_row(const std::string& material, const bake::material::MethodRow& row);
 nlohmann::ordered_json describe(const bake::material::CompressionSettings& settings);
 
