@@ -154,9 +154,9 @@ TEST_CASE("measured data come back at their texels, colours and directions, and 
       INFO("texel " << x << " " << y);
       CHECK((value.visibility > 0.5f) == met(x, y));
       for (std::uint32_t c = 0; c < 3 && met(x, y); ++c)
-        // Cells of the maps are up to 1/64 of the map away from a direction, which mixes as much of others
-        // in.
-        CHECK(std::fabs(value.radiance[c] - planted(2, 4, x, y, c)) < 0.01f);
+        // Cells of the light map are 1/32 wide; round the outermost lights some lie beyond, where the cosine
+        // over theirs is up to 3 % less.
+        CHECK(std::fabs(value.radiance[c] - planted(2, 4, x, y, c)) < 0.03f * value.radiance[c]);
     }
   const char* report = nullptr;
   REQUIRE(nook_bake_job_get_report(job.get(), &report) == NOOK_OK);
