@@ -108,7 +108,7 @@ Json bake(const Options& o, OutputFile& output, std::optional<OutputFile>& raw_f
   start = Clock::now();
   nook::material::Material material = compress(raw, settings, stage_progress(bar, "compressing the "));
   const double seconds_compress = seconds();
-  if (settings.method == Method::k_cta && settings.map_side == 0)
+  if (!o.common.quiet && settings.method == Method::k_cta && settings.map_side == 0)
     std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
                  std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);
   const Json recipe = {{"source", recipe_of_trace(o)}, {"compression", describe(settings)}};
