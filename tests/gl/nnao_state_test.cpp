@@ -49,7 +49,11 @@ struct Stage {
 
 using Check = std::function<void(const char*, Poison&, const std::function<void()>&)>;
 
-void walk(platform::Context& context, nook_gl_state_mode mode, const Check& check) {
+unsigned users_of(nook_nnao_path path) {
+  return path == NOOK_NNAO_PATH_COMPUTE ? gl::screen | gl::screen_compute : gl::screen;
+}
+
+void walk_path(platform::Context& context, nook_gl_state_mode mode, nook_nnao_path path, const Check& check) {
   for (const nnao::NetworkForm form : {nnao::NetworkForm::horizon, nnao::NetworkForm::paper})
     for (const int half : {0, 1}) {
       // The state is the same for both forms but for the filters' texture.
@@ -60,6 +64,7 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
       desc.taps = 16;
       desc.half_resolution = half;
       desc.timers = 1;
+      desc.path = path;
       nook_nnao calm = create_pass(stage.fixture.gl, desc, network);
       const nook_nnao_frame_desc frame = stage.frame();
       NOOK_OK_OR_FAIL(nook_nnao_render(calm, &frame));
@@ -86,8 +91,8 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
            }},
       };
       for (const auto& [name, call] : steps) {
-        Poison poison(context, gl::screen);
-        INFO("form " << int(form) << ", half " << half);
+        Poison poison(context, users_of(path));
+        INFO("form " << int(form) << ", half " << half << ", path " << path);
         check(name, poison, call);
         CHECK(context.gl().GetError() == GL_NO_ERROR);
       }
@@ -97,11 +102,15 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
         check("timings", poison, [&] { NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings)); });
       }
       {
-        Poison poison(context, gl::screen);
+        Poison poison(context, users_of(path));
         check("destroy", poison, [&] { nook_nnao_destroy(&pass); });
       }
       CHECK(context.gl().GetError() == GL_NO_ERROR);
     }
+}
+
+void walk(platform::Context& context, nook_gl_state_mode mode, const Check& check) {
+  for (const nook_nnao_path path : paths_of(context)) walk_path(context, mode, path, check);
 }
 
 }  // namespace
@@ -180,14 +189,19 @@ TEST_CASE("nnao: no parameter of the host's textures and samplers changes") {
 TEST_CASE("nnao: a frame allocates nothing, reads nothing back and asks OpenGL only to preserve") {
   NOOK_NEED_CONTEXT(context);
   for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_HOST})
-    for (const int half : {0, 1}) {
+    for (const auto& [half, path] : {std::pair{0, NOOK_NNAO_PATH_FRAGMENT},
+                                     {1, NOOK_NNAO_PATH_FRAGMENT},
+                                     {0, NOOK_NNAO_PATH_AUTOMATIC},
+                                     {1, NOOK_NNAO_PATH_AUTOMATIC}}) {
       Stage stage(context, mode);
       Trace trace(context);
       nook_gl gl = create_gl(stage.fixture.host.handle, Trace::loader, &trace, 0, mode);
       nook_nnao_desc desc = pass_desc(width, height);
       desc.half_resolution = half;
       desc.timers = 1;
+      desc.path = path;
       nook_nnao pass = create_pass(gl, desc);
+      const int dispatches = info_of(pass).path == NOOK_NNAO_PATH_COMPUTE;
       nook_nnao_frame_desc frame = stage.frame();
       NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
       nook_nnao_timings timings{};
@@ -201,7 +215,10 @@ TEST_CASE("nnao: a frame allocates nothing, reads nothing back and asks OpenGL o
       }
       CHECK(stage.fixture.host.allocations == allocations);
       // Normals, AO, blur along x, at half resolution along y, resolve.
-      CHECK(trace.calls("glDrawArrays") == 6 * (half ? 5 : 4));
+      CHECK(trace.calls("glDrawArrays") == 6 * ((half ? 5 : 4) - dispatches));
+      CHECK(trace.calls("glDispatchCompute") == 6 * dispatches);
+      // Before the dispatch and after it.
+      CHECK(trace.calls("glMemoryBarrier") == 12 * dispatches);
       for (const char* forbidden : {"glGen", "glTexImage", "glBufferData", "glGetBufferSubData", "glGetError",
                                     "glGetTexLevel", "glGetFramebuffer", "glCheckFramebuffer", "glGetQuery"})
         CHECK(trace.calls_that_begin(forbidden) == 0);
