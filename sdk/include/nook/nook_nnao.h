@@ -17,6 +17,9 @@
  * and in the shader that lights, times the ambient term (not the direct light):
  *     float ao = texelFetch(nook_ao, ivec2(gl_FragCoord.xy), 0).r;
  *
+ * What the host wrote to an input by image stores needs its own glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT) before the call.
+ * The result is drawn, whatever the path: reading it needs no barrier.
+ *
  * View space is OpenGL's: x right, y up, the camera looks along -z, metres. Images count from their lower left corner.
  * Every function that takes a nook_gl or a nook_nnao, except nook_nnao_get_info, makes OpenGL calls and belongs to the
  * context thread; nook_gl.h says what of OpenGL's state is touched and what may not be active. */
@@ -31,7 +34,8 @@ extern "C" {
 
 typedef struct nook_nnao_s* nook_nnao;
 
-/* How the network's stage runs, nine tenths of the pass's time; the other stages are draws. Both give the same values. */
+/* How the network's stage runs; the others are draws in any case. Both paths give the same AO, on Mesa's llvmpipe the same
+ * bits. There a frame by compute takes 0.88 to 0.97 of its time by fragments (docs/nnao.md); on a GPU that is not measured. */
 enum {
   NOOK_NNAO_PATH_AUTOMATIC = 0, /* compute where it can be had, else fragment */
   NOOK_NNAO_PATH_FRAGMENT = 1,  /* a draw; OpenGL 3.3 */
@@ -172,7 +176,7 @@ typedef struct nook_nnao_info {
   uint32_t struct_size;   /* sizeof(nook_nnao_info), set by the caller */
   uint32_t texture;       /* the pass's own texture: GL_R8, max_width x max_height, AO of pixel (x, y) in texel (x, y). Owned
                              by Nook: read it, never write or delete it. 1 everywhere before the first frame; later frames
-                             write their viewport alone */
+                             write their viewport alone, those with another target something undefined */
   uint64_t texture_bytes; /* of all textures of the pass */
   int32_t taps;
   int32_t horizon_form;   /* 1: the network has the horizon form; 0: the paper's */

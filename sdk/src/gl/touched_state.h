@@ -34,7 +34,7 @@ enum : unsigned {
   X(filter_texture, screen, "GL_TEXTURE_BINDING_BUFFER of unit 2",                                          \
     "filters of the paper's network; default 0")                                                            \
   X(image_unit, screen_compute, "GL_IMAGE_BINDING_NAME, LEVEL, LAYERED, LAYER, ACCESS, FORMAT of unit 0",   \
-    "what the network's stage writes on the compute path; default 0, GL_READ_ONLY, GL_R8")                  \
+    "what a compute shader writes; default 0, GL_READ_ONLY, GL_R8")                                         \
   X(texture_2d_array, materials, "GL_TEXTURE_BINDING_2D_ARRAY of unit 0", "uploads; default 0")             \
   X(pixel_unpack_buffer, screen | materials, "GL_PIXEL_UNPACK_BUFFER_BINDING",                              \
     "in nook_nnao_create and nook_gl_material_create only; default 0")                                      \

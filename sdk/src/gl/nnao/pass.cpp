@@ -52,13 +52,18 @@ void NnaoPass::bind_texture(GLuint unit, GLuint texture) const {
   device_.gl.BindTexture(GL_TEXTURE_2D, texture);
 }
 
+void NnaoPass::set_frame(const Stage& stage, const FrameConstants& constants) const {
+  device_.gl.UseProgram(stage.program.name());
+  device_.gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4),
+                        constants.values.data());
+}
+
 void NnaoPass::draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
                     const Viewport& viewport) const {
   const Functions& gl = device_.gl;
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
-  gl.UseProgram(stage.program.name());
-  gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
+  set_frame(stage, constants);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -67,21 +72,16 @@ void NnaoPass::run_network(const FrameConstants& constants, const RenderTexture&
   const Functions& gl = device_.gl;
   gl.UseProgram(occlusion_.program.name());
   gl.Uniform2i(occlusion_.ao_origin, into_place.x, into_place.y);
-  if (path_ == NOOK_NNAO_PATH_COMPUTE)
-    dispatch(occlusion_, constants, into, into_place);
-  else
+  if (path_ == NOOK_NNAO_PATH_FRAGMENT) {
     draw(occlusion_, constants, into.framebuffer(), into_place);
-}
-
-void NnaoPass::dispatch(const Stage& stage, const FrameConstants& constants, const RenderTexture& into,
-                        const Viewport& viewport) const {
-  const Functions& gl = device_.gl;
-  gl.UseProgram(stage.program.name());
-  gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
-  gl.BindImageTexture(image_unit_index, into.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY, into.image_format());
+    return;
+  }
+  set_frame(occlusion_, constants);
+  // As occlusion.comp declares it; OpenGL 4.3 guarantees images of this format.
+  gl.BindImageTexture(image_unit_index, into.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R8);
   // Reading and drawing that is under way, the host's too, ends before the texture is written.
   gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  gl.DispatchCompute(groups(viewport.width), groups(viewport.height), 1);
+  gl.DispatchCompute(groups(into_place.width), groups(into_place.height), 1);
   // It is read by the next stage and, where it is the own texture, drawn into by the last.
   gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }

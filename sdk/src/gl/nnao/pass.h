@@ -49,13 +49,12 @@ class NnaoPass {
   bool blurs(const nook_nnao_frame_desc& frame) const;
   bool half() const { return desc_.half_resolution != 0; }
   void bind_texture(GLuint unit, GLuint texture) const;
+  void set_frame(const Stage& stage, const FrameConstants& constants) const;
   void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
             const Viewport& viewport) const;
   // into_place: where the surface lies in the texture.
   void run_network(const FrameConstants& constants, const RenderTexture& into,
                    const Viewport& into_place) const;
-  void dispatch(const Stage& stage, const FrameConstants& constants, const RenderTexture& into,
-                const Viewport& viewport) const;
   void draw_blur(const FrameConstants& constants, const RenderTexture& from, const Viewport& from_place,
                  bool vertical, const RenderTexture& into) const;
   void draw_resolve(const nook_nnao_frame_desc& frame, const FrameConstants& constants,

@@ -30,8 +30,7 @@ std::uint64_t bytes_per_texel(TextureFormat format) {
 
 RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, int height, const char* label)
     : texture_(Object::make(device, Object::Kind::texture)),
-      framebuffer_(Object::make(device, Object::Kind::framebuffer)),
-      image_format_(static_cast<GLenum>(layout_of(format).internal_format)) {
+      framebuffer_(Object::make(device, Object::Kind::framebuffer)) {
   const Functions& gl = device.gl;
   const Layout layout = layout_of(format);
   const GLint filter = format == TextureFormat::ao ? GL_LINEAR : GL_NEAREST;

@@ -21,12 +21,9 @@ class RenderTexture {
 
   GLuint texture() const { return texture_.name(); }
   GLuint framebuffer() const { return framebuffer_.name(); }
-  // As compute shaders write it; one of those that OpenGL 4.3 guarantees for images.
-  GLenum image_format() const { return image_format_; }
 
  private:
   Object texture_, framebuffer_;
-  GLenum image_format_ = GL_R8;
 };
 
 }  // namespace nook::gl
