@@ -35,7 +35,7 @@ extern "C" {
 typedef struct nook_nnao_s* nook_nnao;
 
 /* How the network's stage runs; the others are draws in any case. Both paths give the same AO, on Mesa's llvmpipe the same
- * bits. There a frame by compute takes 0.88 to 0.97 of its time by fragments (docs/nnao.md); on a GPU that is not measured. */
+ * bits. There compute takes 0.87 to 0.99 of a frame's processor time by fragments (docs/nnao.md); no GPU was measured. */
 enum {
   NOOK_NNAO_PATH_AUTOMATIC = 0, /* compute where it can be had, else fragment */
   NOOK_NNAO_PATH_FRAGMENT = 1,  /* a draw; OpenGL 3.3 */
