@@ -21,18 +21,24 @@ configure() {  # folder, options...
 }
 mkdir -p "$(dirname "$build")"
 
+# Sanitized code is compiled more than twice as fast as with -O2 -g, and its reports still name lines.
+sanitized=(-DCMAKE_BUILD_TYPE=RelWithDebInfo)
+for language in C CXX; do
+  sanitized+=("-DCMAKE_${language}_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG")
+done
+
 echo "== build and tests"
 configure "$build"
 ninja -C "$build"
 ctest --test-dir "$build" --output-on-failure -j "$jobs"
 
 echo "== library and bakers under address and undefined-behaviour sanitizers"
-configure "$build-asan" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DNOOK_SANITIZE=ON -DNOOK_TOOL=OFF -DNOOK_SAMPLES=OFF
+configure "$build-asan" "${sanitized[@]}" -DNOOK_SANITIZE=ON -DNOOK_TOOL=OFF -DNOOK_SAMPLES=OFF
 ninja -C "$build-asan"
 ctest --test-dir "$build-asan" --output-on-failure -j "$jobs"
 
 echo "== library under the thread sanitizer"
-configure "$build-tsan" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DNOOK_SANITIZE_THREAD=ON -DNOOK_BAKERS=OFF -DNOOK_SAMPLES=OFF
+configure "$build-tsan" "${sanitized[@]}" -DNOOK_SANITIZE_THREAD=ON -DNOOK_BAKERS=OFF -DNOOK_SAMPLES=OFF
 ninja -C "$build-tsan" nook_abi_tests
 "$build-tsan/tests/abi/nook_abi_tests"
 
