@@ -21,6 +21,8 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   };
   texels("votf_error_texels_binary", row.error_texels_binary);
   texels("votf_error_texels_distance", row.error_texels_distance);
+  if (row.se_db_unseen) json["se_db_unseen"] = *row.se_db_unseen;
+  if (row.error_texels_unseen) json["votf_error_texels_unseen"] = *row.error_texels_unseen;
   json["seconds"] = row.seconds;
   json["peak_bytes"] = peak_bytes();
   return json;
