@@ -313,7 +313,7 @@ NOOK_AT(nook_nnao_desc, half_resolution, 28);
 NOOK_AT(nook_nnao_desc, blur, 32);
 NOOK_AT(nook_nnao_desc, blur_sharpness, 36);
 NOOK_AT(nook_nnao_desc, timers, 40);
-NOOK_AT(nook_nnao_desc, reserved, 44);
+NOOK_AT(nook_nnao_desc, path, 44);
 NOOK_AT(nook_nnao_desc, network, 48);
 NOOK_AT(nook_nnao_desc, network_size, 56);
 
@@ -341,11 +341,13 @@ NOOK_AT(nook_nnao_frame_desc, target_name, 196);
 NOOK_AT(nook_nnao_frame_desc, blend, 200);
 NOOK_AT(nook_nnao_frame_desc, view, 204);
 
-NOOK_SIZE(nook_nnao_info, 24);
+NOOK_SIZE(nook_nnao_info, 32);
 NOOK_AT(nook_nnao_info, texture, 4);
 NOOK_AT(nook_nnao_info, texture_bytes, 8);
 NOOK_AT(nook_nnao_info, taps, 16);
 NOOK_AT(nook_nnao_info, horizon_form, 20);
+NOOK_AT(nook_nnao_info, path, 24);
+NOOK_AT(nook_nnao_info, reserved, 28);
 
 NOOK_SIZE(nook_nnao_timings, 28);
 NOOK_AT(nook_nnao_timings, valid, 4);
