@@ -27,8 +27,9 @@ Outcome outcome_of(const std::exception_ptr& exception) noexcept {
   } catch (const Failure& failure) {
     return make_outcome(failure.code(), failure.what());
   } catch (const std::bad_alloc&) {
-    return make_outcome(NOOK_ERROR_OUT_OF_MEMORY,
-                        "not enough memory; use fewer poses, or free memory and call again");
+    return make_outcome(
+        NOOK_ERROR_OUT_OF_MEMORY,
+        "not enough memory; use fewer poses, directions or texels, or free memory and call again");
   } catch (const std::length_error&) {
     return make_outcome(NOOK_ERROR_OUT_OF_MEMORY,
                         "more memory is needed than can be addressed; use smaller data");

@@ -135,8 +135,8 @@ ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task
   if (task.progress && !task.progress("view map", 0, 1)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
   const Matrix projections = tensor::atom_projections(fitted, task.values);
   t.map.side = side;
-  t.map.rows = view_rows(tensor::resample(fitted, projections, spline_weights(task.raw.views, side),
-                                           tensor::Pursuit::exchange));
+  t.map.rows = view_rows(
+      tensor::resample(fitted, projections, spline_weights(task.raw.views, side), tensor::Pursuit::exchange));
   return t;
 }
 

@@ -7,8 +7,10 @@
 #include "catch.h"
 #include "core/failure.h"
 #include "material/comparison.h"
+#include "material/evaluate.h"
 #include "material/material_file.h"
 #include "material/measures.h"
+#include "material/tables.h"
 #include "small_material.h"
 
 using namespace nook;
@@ -119,6 +121,48 @@ TEST_CASE("the resampled map decodes to the views' own images where it meets the
   // greedy search may take other clusters than the fit kept. Wrong directions or clusters would leave less
   // than 15 dB.
   CHECK(error_db(raw, m) > own - 3);
+}
+
+TEST_CASE("a view that turns changes what K-CTA decodes about as smoothly as what N-SVD decodes") {
+  const RawMaterial raw = test::small_material(6, 40);
+  // The largest root mean square change of a step of half a degree, over two arcs.
+  const auto largest_step = [&](Method method, std::uint32_t map_side) {
+    CompressionSettings s = small_settings(method);
+    s.mixture = 3;
+    s.map_side = map_side;
+    s.visibility = VisibilityForm::none;
+    const auto tables =
+        nook::material::make_tables(compress(raw, s), {}, std::pmr::get_default_resource(), 256);
+    double largest = 0;
+    for (const float aside : {0.1f, -0.3f}) {
+      std::vector<float> before;
+      for (int step = -80; step <= 80; ++step) {
+        const float angle = float(step) * 0.0087266f;
+        std::vector<float> now;
+        for (std::uint32_t i = 0; i < raw.texels(); ++i) {
+          nook::material::Sample sample;
+          sample.u = (float(i % raw.width) + 0.5f) / float(raw.width);
+          sample.v = (float(i / raw.width) + 0.5f) / float(raw.height);
+          sample.view = normalised({std::sin(angle), aside, std::cos(angle)});
+          sample.light = normalised({0.3f, 0.2f, 1});
+          now.push_back(evaluate_btf(tables, sample).green);
+        }
+        double square = 0;
+        for (std::size_t i = 0; i < before.size(); ++i)
+          square += double((now[i] - before[i]) * (now[i] - before[i]));
+        largest = std::max(largest, square / double(now.size()));
+        before = std::move(now);
+      }
+    }
+    return std::sqrt(largest);
+  };
+  const double n_svd = largest_step(Method::n_svd, 0);
+  INFO("N-SVD " << n_svd << ", K-CTA with a map " << largest_step(Method::k_cta, 256) << ", without "
+                << largest_step(Method::k_cta, 0));
+  // Where the map's clusters change, both sets are near the data, but not the same.
+  CHECK(largest_step(Method::k_cta, 256) < 1.5 * n_svd);
+  // Mixed linearly from the same views as N-SVD is.
+  CHECK(largest_step(Method::k_cta, 0) < 1.5 * n_svd);
 }
 
 TEST_CASE("the same seed gives the same bytes on one thread and on four") {
