@@ -49,10 +49,10 @@ float nook_probe_fresnel_polynomial(float u, float v) {
               u * (0.906918 + v * (-7.91908 + v * 4.70353) + u * (2.07866 + v * 0.151807 + u * -1.00017)));
 }
 float nook_probe_tilt_polynomial(float u, float v) {
-  return 0.11411 + v * (-0.140621 + v * 1.08545) + u * (-0.0166478 + v * -0.112495 + u * -0.0954173);
+  return 0.110059 + v * (-0.14709 + v * 1.09911) + u * (0.00187069 + v * -0.124211 + u * -0.105623);
 }
 float nook_probe_width_polynomial(float u, float v) {
-  return 4.14167 + v * (-6.87514 + v * 2.97354) + u * (-0.536099 + v * 0.491387 + u * 0.055217);
+  return 4.75539 + v * (-8.25312 + v * 3.73913) + u * (-0.619576 + v * 0.570814 + u * 0.0648816);
 }
 
 // Share of uniform light that leaves towards the eye.
@@ -76,7 +76,7 @@ vec3 nook_probe_mean_micro_normal(NookProbeSurfaceView v, NookProbeSurface surfa
 // Squared widths of the lobe over those of slopes, in the plane of incidence and across it.
 vec2 nook_probe_lobe_widths(NookProbeSurfaceView v) {
   vec2 rho = sqrt(sqrt(v.alpha2));
-  float wider = 2.31277 + rho.y * -2.10455 + v.facing * -0.107777;
+  float wider = 2.23813 + rho.y * -2.03077 + v.facing * -0.103893;
   return vec2(nook_probe_width_polynomial(v.facing, rho.x),
               nook_probe_width_polynomial(v.facing, rho.y) + (1.0 - v.facing) * wider);
 }

@@ -54,20 +54,29 @@ double relative_error(const Surface& s, std::span<const SphericalGaussian> light
 
 constexpr double facings[] = {0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1};
 
-// The largest relative errors of both forms under 12 lobes, over all views.
-struct Worst {
-  double isotropic = 0, anisotropic = 0, square = 0;
-  int count = 0;
+// Relative errors of both forms under 12 lobes, over views.
+struct Errors {
+  double isotropic = 0, anisotropic = 0;  // the largest
+  double isotropic_square = 0, anisotropic_square = 0;
+
   void add(const Surface& s, std::span<const SphericalGaussian> all) {
     const double truth = reflected(s, all);
+    const double i = relative_error(s, all, SpecularForm::isotropic, truth);
     const double a = relative_error(s, all, SpecularForm::anisotropic, truth);
-    isotropic = std::max(isotropic, relative_error(s, all, SpecularForm::isotropic, truth));
+    isotropic = std::max(isotropic, i);
     anisotropic = std::max(anisotropic, a);
-    square += a * a;
-    ++count;
+    isotropic_square += i * i;
+    anisotropic_square += a * a;
   }
-  double rms() const { return std::sqrt(square / count); }
 };
+
+Errors errors_of(float alpha_x, float alpha_y) {
+  const auto all = lights();
+  Errors errors;
+  for (const double facing : facings)
+    for (const double azimuth : {0.4, 2.0, 4.0}) errors.add(surface(alpha_x, alpha_y, facing, azimuth), all);
+  return errors;
+}
 
 }  // namespace
 
@@ -138,34 +147,29 @@ TEST_CASE("under constant light anisotropic surfaces reflect their directional a
 }
 
 TEST_CASE("glossy reflection of a probe against the GGX integral") {
-  const auto all = lights();
-  // From any view, 0.02 to 1. What one lobe leaves of a distribution with GGX's tails.
+  // From any view, 0.02 to 1. What one lobe leaves of a distribution with GGX's tails and a horizon; at 0.2
+  // the lobe of a grazing view is longest in proportion, and its product integral the least exact.
   const struct {
     float alpha;
     double isotropic, anisotropic;
-  } bounds[] = {{0.05f, 0.1, 0.1}, {0.1f, 0.1, 0.1}, {0.2f, 0.1, 0.1},
-                {0.4f, 0.1, 0.1},  {0.7f, 0.1, 0.1}, {1, 0.1, 0.1}};
+  } bounds[] = {{0.05f, 0.07, 0.045}, {0.1f, 0.07, 0.055}, {0.2f, 0.06, 0.125},
+                {0.4f, 0.06, 0.07},   {0.7f, 0.045, 0.05}, {1, 0.04, 0.04}};
   for (const auto& bound : bounds) {
-    Worst worst;
-    for (const double facing : facings)
-      for (const double azimuth : {0.4, 2.0, 4.0})
-        worst.add(surface(bound.alpha, bound.alpha, facing, azimuth), all);
-    WARN("alpha " << bound.alpha << " isotropic " << worst.isotropic << " anisotropic " << worst.anisotropic
-                  << " rms " << worst.rms());
-    CHECK(worst.isotropic < bound.isotropic);
-    CHECK(worst.anisotropic < bound.anisotropic);
+    const Errors errors = errors_of(bound.alpha, bound.alpha);
+    INFO("alpha " << bound.alpha << " isotropic " << errors.isotropic << " anisotropic "
+                  << errors.anisotropic);
+    CHECK(errors.isotropic < bound.isotropic);
+    CHECK(errors.anisotropic < bound.anisotropic);
   }
 }
 
 TEST_CASE("anisotropic surfaces against the GGX integral") {
-  const auto all = lights();
   for (const auto& [x, y] : {std::pair{0.1f, 0.3f}, {0.4f, 0.1f}, {0.2f, 0.8f}}) {
-    Worst worst;
-    for (const double facing : facings)
-      for (const double azimuth : {0.4, 2.0, 4.0}) worst.add(surface(x, y, facing, azimuth), all);
-    WARN("alpha " << x << " " << y << " isotropic " << worst.isotropic << " anisotropic " << worst.anisotropic
-                  << " rms " << worst.rms());
-    CHECK(worst.anisotropic < 0.18);
+    const Errors errors = errors_of(x, y);
+    INFO("alpha " << x << " " << y << " isotropic " << errors.isotropic << " anisotropic "
+                  << errors.anisotropic);
+    CHECK(errors.anisotropic < 0.22);
+    CHECK(errors.anisotropic_square < errors.isotropic_square);
   }
 }
 

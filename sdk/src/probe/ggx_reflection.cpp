@@ -30,10 +30,10 @@ constexpr float fresnel_k[15] = {0.108191f, 2.83018f,  -4.61656f, 2.03889f,  0.1
                                  -1.35554f, 0.268952f, 6.32566f,  -4.83581f, 0.906918f,
                                  -7.91908f, 4.70353f,  2.07866f,  0.151807f, -1.00017f};
 // Of openness and the root of alpha.
-constexpr float tilt_k[6] = {0.11411f, -0.140621f, 1.08545f, -0.0166478f, -0.112495f, -0.0954173f};
+constexpr float tilt_k[6] = {0.110059f, -0.14709f, 1.09911f, 0.00187069f, -0.124211f, -0.105623f};
 // Of facing and the root of alpha.
-constexpr float width_k[6] = {4.14167f, -6.87514f, 2.97354f, -0.536099f, 0.491387f, 0.055217f};
-constexpr float wider_k[3] = {2.31277f, -2.10455f, -0.107777f};
+constexpr float width_k[6] = {4.75539f, -8.25312f, 3.73913f, -0.619576f, 0.570814f, 0.0648816f};
+constexpr float wider_k[3] = {2.23813f, -2.03077f, -0.103893f};
 
 }  // namespace
 
