@@ -32,9 +32,12 @@ Texture decode_texture(const EncodedImage& image) {
   if (!format)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s is neither PNG nor JPEG; convert it", image.name.c_str());
   OIIO::Filesystem::IOMemReader reader(image.bytes.data(), image.bytes.size());
+  OIIO::Filesystem::IOProxy* proxy = &reader;
+  // In the configuration: beside one, OpenImageIO 2.4 loses a reader that is passed for itself.
   OIIO::ImageSpec config;
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   config["oiio:UnassociatedAlpha"] = 1;
-  const auto input = OIIO::ImageInput::open(format, &config, &reader);
+  const auto input = OIIO::ImageInput::open(format, &config);
   if (!input)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s cannot be decoded (%s)", image.name.c_str(),
                   OIIO::geterror().c_str());
