@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/failure.h"
+#include "core/spherical_gaussian.h"
 #include "probe/evaluate.h"
 #include "probe/inside_probes.h"
 
@@ -119,7 +120,8 @@ GridError grid_error(const LitScene& scene, const nook::probe::Probes& probes, c
   double square = 0, noise = 0;
   std::vector<Vec3> coefficients(probes.basis.count);
   for (std::size_t i = 0; i < count; ++i) {
-    nook::probe::interpolate(probes, places.position_ws[i], coefficients);
+    const Vec3 step = by_channel(places.normal[i], probes.grid.spacing_ws) * places.lookup_offset;
+    nook::probe::interpolate(probes, places.position_ws[i] + step, coefficients);
     const Vec3 found = nook::probe::irradiance(probes.basis, coefficients, nook::probe::IrradianceForm::bands,
                                                places.normal[i]);
     const Vec3 truth = 0.5f * (half[0][i] + half[1][i]), apart = 0.5f * (half[0][i] - half[1][i]);

@@ -13,6 +13,7 @@ namespace nook::bake::probe {
 struct Places {
   std::vector<Vec3> position_ws;
   std::vector<Vec3> normal;
+  float lookup_offset = 0;  // along the normal, in the grid's spacings: where probes are looked up
 };
 
 // Random points that share the surface area inside the box that the grid's cells fill, on the side from which

@@ -29,15 +29,14 @@ void append_grid(const EvaluateGridOptions& options, const CommonOptions& common
   const nook::probe::Probes probes = naming_file(path, [&] { return nook::probe::read_probes(bytes); });
   const std::vector<bool> inside = inside_probes(*scene.lit, probes.grid);
   const bake::PathSettings trace{options.max_bounces, scene.origin_offset};
-  const std::pair<const char*, Places> kinds[] = {
-      {"on surfaces", naming_file(path,
-                                  [&] {
-                                    return places_on_surfaces(scene.soup, probes.grid, inside, options.points,
-                                                              common.seed);
-                                  })},
-      {"in the open", naming_file(path, [&] {
-         return places_in_the_open(*scene.lit, probes.grid, options.points, common.seed);
-       })}};
+  const Places surfaces = naming_file(
+      path, [&] { return places_on_surfaces(scene.soup, probes.grid, inside, options.points, common.seed); });
+  const Places open = naming_file(
+      path, [&] { return places_in_the_open(*scene.lit, probes.grid, options.points, common.seed); });
+  Places off = surfaces;
+  off.lookup_offset = 0.5f;
+  const std::pair<const char*, const Places&> kinds[] = {
+      {"on surfaces", surfaces}, {"on surfaces, looked up half a cell off", off}, {"in the open", open}};
   for (const auto& [name, places] : kinds) {
     const std::string label = path.filename().string() + ", " + name;
     const GridError error = grid_error(*scene.lit, probes, places, options.paths, common.seed, trace,

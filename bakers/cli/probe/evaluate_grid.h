@@ -17,7 +17,8 @@ struct EvaluateGridOptions {
   bool no_textures = false;
 };
 
-// Two rows a grid: points on surfaces, and in the open.
+// Three rows a grid: points on surfaces, the same with probes looked up half a cell off along the normal, and
+// points in the open.
 nlohmann::ordered_json evaluate_grids(const EvaluateGridOptions& options, const CommonOptions& common,
                                       const std::vector<std::filesystem::path>& grids);
 

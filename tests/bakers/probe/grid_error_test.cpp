@@ -101,6 +101,20 @@ TEST_CASE("places on surfaces share the area in the grid's box, and face its pro
       Failure);
 }
 
+TEST_CASE("probes are looked up off the surface where that is asked for") {
+  // A floor between a dark layer of probes and a bright one.
+  TriangleSoup floor;
+  floor.position = {{-9, 0, -9}, {9, 0, 9}, {9, 0, -9}};
+  floor.triangle = {{0, 1, 2}};
+  const LitScene scene(grey(floor), white_sky());
+  Probes probes = constant_probes(grid_in_box({1, 2, 1}, {-1, -1, -1}, {1, 1, 1}), 1);
+  probes.coefficients[0] = {};
+  Places places{{{0.2f, 0, 0}, {-0.2f, 0, 0}}, {{0, 1, 0}, {0, 1, 0}}};
+  CHECK(std::abs(grid_error(scene, probes, places, 1024, 1, {}).bias / pi + 0.5) < 0.03);
+  places.lookup_offset = 0.5f;
+  CHECK(std::abs(grid_error(scene, probes, places, 1024, 1, {}).bias / pi) < 0.03);
+}
+
 TEST_CASE("probes inside a solid are found, and take the light of those round it") {
   const LitScene scene(grey(cube(0.6f)), white_sky());
   GridBakeSettings settings;
