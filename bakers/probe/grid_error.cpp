@@ -60,8 +60,10 @@ constexpr std::size_t most_draws = 1000;
 
 }  // namespace
 
-Places places_on_surfaces(const TriangleSoup& soup, const Grid& grid, const std::vector<bool>& inside,
-                          std::size_t count, std::uint64_t seed) {
+Places places_on_surfaces(const LitScene& scene, const TriangleSoup& soup, const Grid& grid,
+                          const std::vector<bool>& inside, float origin_offset, std::size_t count,
+                          std::uint64_t seed) {
+  const FlushDenormals flush;
   const Box box = box_of(grid);
   std::vector<double> area;  // added up
   double total = 0;
@@ -81,9 +83,13 @@ Places places_on_surfaces(const TriangleSoup& soup, const Grid& grid, const std:
     const Vec3 point = a * (1 - root) + b * (root * (1 - share)) + c * (root * share);
     const Vec3 normal = normalised(cross(b - a, c - a));
     if (!box.holds(point) || dot(normal, normal) == 0) continue;
+    const bool front_inside = is_inside(scene, point + origin_offset * normal);
+    const bool back_inside = is_inside(scene, point - origin_offset * normal);
+    if (front_inside && back_inside) continue;
     const bool faces = dot(normal, nearest_probe(grid, inside, point) - point) >= 0;
+    const bool front = front_inside == back_inside ? faces : back_inside;
     places.position_ws.push_back(point);
-    places.normal.push_back(faces ? normal : -normal);
+    places.normal.push_back(front ? normal : -normal);
   }
   return places;
 }

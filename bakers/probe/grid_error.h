@@ -16,10 +16,12 @@ struct Places {
   float lookup_offset = 0;  // along the normal, in the grid's spacings: where probes are looked up
 };
 
-// Random points that share the surface area inside the box that the grid's cells fill, on the side from which
-// the nearest probe outside solids is seen.
-Places places_on_surfaces(const TriangleSoup& soup, const nook::probe::Grid& grid,
-                          const std::vector<bool>& inside, std::size_t count, std::uint64_t seed);
+// Random points that share the surface area inside the box that the grid's cells fill, on the side that is
+// outside solids; of sheets, whose sides both are, the one from which the nearest probe outside solids is
+// seen. origin_offset: metres from a surface to its sides.
+Places places_on_surfaces(const LitScene& scene, const TriangleSoup& soup, const nook::probe::Grid& grid,
+                          const std::vector<bool>& inside, float origin_offset, std::size_t count,
+                          std::uint64_t seed);
 
 // Random points in the box and outside solids, random normals.
 Places places_in_the_open(const LitScene& scene, const nook::probe::Grid& grid, std::size_t count,

@@ -29,8 +29,10 @@ void append_grid(const EvaluateGridOptions& options, const CommonOptions& common
   const nook::probe::Probes probes = naming_file(path, [&] { return nook::probe::read_probes(bytes); });
   const std::vector<bool> inside = inside_probes(*scene.lit, probes.grid);
   const bake::PathSettings trace{options.max_bounces, scene.origin_offset};
-  const Places surfaces = naming_file(
-      path, [&] { return places_on_surfaces(scene.soup, probes.grid, inside, options.points, common.seed); });
+  const Places surfaces = naming_file(path, [&] {
+    return places_on_surfaces(*scene.lit, scene.soup, probes.grid, inside, scene.origin_offset,
+                              options.points, common.seed);
+  });
   const Places open = naming_file(
       path, [&] { return places_in_the_open(*scene.lit, probes.grid, options.points, common.seed); });
   Places off = surfaces;

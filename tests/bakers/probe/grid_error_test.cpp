@@ -82,7 +82,8 @@ TEST_CASE("places on surfaces share the area in the grid's box, and face its pro
                    {1, 1, -1},  {-9, -9, -9}, {9, -9, -9}, {9, -9, 9}};
   soup.triangle = {{0, 1, 2}, {0, 2, 3}, {0, 1, 5}, {0, 5, 4}, {6, 7, 8}};
   const Grid grid = grid_in_box({3, 2, 3}, {-1, 0, -1}, {1, 2, 1});
-  const Places places = places_on_surfaces(soup, grid, std::vector<bool>(18), 600, 3);
+  const LitScene scene(grey(soup), white_sky());
+  const Places places = places_on_surfaces(scene, soup, grid, std::vector<bool>(18), 1e-4f, 600, 3);
   int on_floor = 0, left = 0;
   for (std::size_t i = 0; i < 600; ++i) {
     const Vec3 p = places.position_ws[i], n = places.normal[i];
@@ -94,7 +95,12 @@ TEST_CASE("places on surfaces share the area in the grid's box, and face its pro
   CHECK(std::abs(on_floor - 400) < 50);  // four standard deviations
   CHECK(std::abs(left - 300) < 50);
   const Grid elsewhere = grid_in_box({2, 2, 2}, {50, 50, 50}, {51, 51, 51});
-  CHECK_THROWS_AS(places_on_surfaces(soup, elsewhere, std::vector<bool>(8), 4, 3), Failure);
+  CHECK_THROWS_AS(places_on_surfaces(scene, soup, elsewhere, std::vector<bool>(8), 1e-4f, 4, 3), Failure);
+  // A solid is seen from outside, also where the nearest probe lies behind the tangent plane.
+  const LitScene block(grey(cube(0.5f)), white_sky());
+  const Places round = places_on_surfaces(block, cube(0.5f), grid_in_box({2, 1, 1}, {-2, -2, -2}, {2, 2, 2}),
+                                          std::vector<bool>(2), 1e-4f, 64, 3);
+  for (std::size_t i = 0; i < 64; ++i) CHECK(dot(round.position_ws[i], round.normal[i]) > 0.49f);
   const LitScene solid(grey(cube(1)), white_sky());
   CHECK_THROWS_AS(
       places_in_the_open(solid, grid_in_box({1, 1, 1}, {-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}), 4, 3),
