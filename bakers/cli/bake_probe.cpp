@@ -8,8 +8,8 @@
 
 #include "api/worker_arena.h"
 #include "cli/commands.h"
-#include "cli/input_file.h"
-#include "probe/environment_file.h"
+#include "cli/tool_error.h"
+#include "core/failure.h"
 
 namespace nook::cli {
 namespace {
@@ -65,10 +65,6 @@ void run(const BakeProbeOptions& options) {
 
 }  // namespace
 
-bake::Environment read_map(const std::filesystem::path& path) {
-  return naming_file(path, [&] { return bake::probe::read_environment(path); });
-}
-
 void add_bake_probe(CLI::App& bake_command) {
   CLI::App* command = bake_command.add_subcommand(
       "probe", "spherical-Gaussian light probes of an environment map, or of a path-traced scene");
@@ -114,6 +110,8 @@ void add_bake_probe(CLI::App& bake_command) {
                    "of a scene: seconds after which the output is written as far as it is")
       ->check(CLI::Range(0.0, 1e9));
   command->add_option("--max-bounces", o.max_bounces, "of a scene: reflections that count; default all");
+  command->add_flag("--no-textures", o.no_textures,
+                    "of a scene: colour factors stand for textures, and alpha masks are solid");
   add_common_options(*command, o.common);
   command->callback([options] { run(*options); });
 }

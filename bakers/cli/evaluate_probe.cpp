@@ -9,7 +9,8 @@
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
-#include "cli/probe/bake.h"
+#include "cli/probe/evaluate_grid.h"
+#include "cli/probe/scene.h"
 #include "cli/progress_bar.h"
 #include "probe/comparison.h"
 #include "probe/map_bake.h"
@@ -24,6 +25,7 @@ using namespace bake::probe;
 
 struct Options {
   CommonOptions common;
+  EvaluateGridOptions grid;
   std::vector<std::filesystem::path> files;  // maps, each followed by the probes that were baked from it
   std::uint32_t lobes = 12;
   ComparisonSettings comparison;
@@ -82,7 +84,7 @@ Json file_row(const std::filesystem::path& path, const std::string& map_name, co
   if (probes.grid.size() != 1)
     throw ToolError(exit_bad_input, path.string() + ": holds a grid of " +
                                         std::to_string(probes.grid.size()) +
-                                        " probes, which no map alone can measure; give a probe of one map");
+                                        " probes, which no map alone can measure; give --scene and --light");
   const ExactFit exact(map, probes.basis);
   const auto irradiance = IrradianceTruth(map, region_of(probes.basis)).error(probes.basis, probes.of(0));
   return {{"map", map_name},
@@ -108,6 +110,9 @@ void write_picture(const Options& options, const std::string& name, const bake::
 }
 
 Json evaluate(const Options& options) {
+  if (options.grid.scene.empty() != options.grid.light.empty())
+    throw ToolError(exit_bad_arguments, "evaluate probe: grids need both --scene and --light, maps neither");
+  if (!options.grid.scene.empty()) return evaluate_grids(options.grid, options.common, options.files);
   Json report;
   report["rows"] = Json::array();
   ProgressBar bar(options.common.quiet);
@@ -133,16 +138,31 @@ Json evaluate(const Options& options) {
 }  // namespace
 
 void add_evaluate_probe(CLI::App& evaluate_command) {
-  CLI::App* command = evaluate_command.add_subcommand(
-      "probe",
-      "all forms of fitting, spherical harmonics, ambient dice and baked probes against environment maps");
+  CLI::App* command = evaluate_command.add_subcommand("probe",
+                                                      "all forms of fitting, spherical harmonics, ambient "
+                                                      "dice and baked probes against environment maps; baked "
+                                                      "grids against path tracing");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
       ->add_option(
           "files", o.files,
-          "latitude-longitude maps, .hdr or .exr, each followed by .nook files that were baked from it")
+          "latitude-longitude maps, .hdr or .exr, each followed by .nook files that were baked from it; with "
+          "--scene: .nook files of grids")
       ->required();
+  command->add_option("--scene", o.grid.scene,
+                      "of grids: the scene that they were baked from, .glb or .gltf");
+  command->add_option("--light", o.grid.light, "of grids: the map round it");
+  command
+      ->add_option("--points", o.grid.points, "of grids: random points on surfaces, and as many in the open")
+      ->check(CLI::Range(1u, 1u << 24))
+      ->capture_default_str();
+  command->add_option("--paths", o.grid.paths, "of grids: for each point")
+      ->check(CLI::Range(2u, 1u << 24))
+      ->capture_default_str();
+  command->add_option("--max-bounces", o.grid.max_bounces, "of grids: reflections that count; default all");
+  command->add_flag("--no-textures", o.grid.no_textures,
+                    "of grids: colour factors stand for textures, and alpha masks are solid");
   command->add_option("--lobes", o.lobes, "spherical Gaussians of the forms that are fitted here")
       ->check(CLI::Range(1u, nook::probe::max_functions - 1))
       ->capture_default_str();

@@ -63,6 +63,13 @@ bool accept_any_image(tinygltf::Image*, const int, std::string*, std::string*, i
   return true;
 }
 
+// Images in buffer views have their bytes there, and tinygltf does not check that the views are in bounds.
+bool keep_encoded_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                        const unsigned char* bytes, int size, void*) {
+  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
+  return true;
+}
+
 tinygltf::FsCallbacks no_files() {
   tinygltf::FsCallbacks callbacks{};
   callbacks.FileExists = [](const std::string&, void*) { return false; };
@@ -122,14 +129,14 @@ Node read_node(const tinygltf::Node& source, std::size_t index) {
 
 }  // namespace
 
-tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const std::string& base_dir) {
+tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const std::string& base_dir, Images images) {
   if (bytes.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "empty file");
   if (bytes.size() > 0x7fffffffu)
     throw Failure(NOOK_ERROR_BAD_FILE, "file of %zu bytes (need less than 2 GiB)", bytes.size());
   refuse_deep_nesting(is_binary(bytes) ? json_of_binary(bytes) : bytes);
 
   tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(accept_any_image, nullptr);
+  loader.SetImageLoader(images == Images::keep ? keep_encoded_image : accept_any_image, nullptr);
   if (base_dir.empty()) loader.SetFsCallbacks(no_files());
   tinygltf::Model model;
   std::string error;

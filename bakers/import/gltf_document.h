@@ -12,8 +12,13 @@
 
 namespace nook::bake {
 
-// base_dir empty: external files are refused. Images are not decoded. Fails with BAD_FILE.
-tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const std::string& base_dir);
+// Images are not decoded. keep: what URIs name is in tinygltf::Image::image, as encoded; empty where it could
+// not be read.
+enum class Images { skip, keep };
+
+// base_dir empty: external files are refused. Fails with BAD_FILE.
+tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const std::string& base_dir,
+                           Images images = Images::skip);
 
 // Fails with BAD_FILE on cycles, second parents, indices out of range and transforms that are not finite.
 NodeTree read_nodes(const tinygltf::Model& model);

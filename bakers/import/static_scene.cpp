@@ -9,6 +9,7 @@
 #include "core/failure.h"
 #include "import/accessor.h"
 #include "import/gltf_document.h"
+#include "import/gltf_textures.h"
 #include "import/primitive_triangles.h"
 #include "import/validate.h"
 
@@ -34,7 +35,17 @@ double emissive_strength(const tinygltf::Material& material) {
   return strength.IsNumber() ? strength.GetNumberAsDouble() : 1;
 }
 
-void read_surfaces(const tinygltf::Model& model, StaticScene& scene) {
+void read_alpha(const tinygltf::Material& material, std::size_t index, Surface& surface) {
+  if (material.alphaMode != "MASK") return;
+  const std::vector<double>& factor = material.pbrMetallicRoughness.baseColorFactor;
+  surface.alpha = factor.size() > 3 ? float(factor[3]) : 1.0f;
+  surface.alpha_cutoff = float(material.alphaCutoff);
+  if (!std::isfinite(surface.alpha) || !std::isfinite(surface.alpha_cutoff))
+    throw Failure(NOOK_ERROR_BAD_FILE, "material %zu has an alpha that is not finite", index);
+}
+
+void read_surfaces(const tinygltf::Model& model, SceneTextures textures, StaticScene& scene) {
+  GltfTextures used(model);
   for (std::size_t m = 0; m < model.materials.size(); ++m) {
     const tinygltf::Material& material = model.materials[m];
     Surface surface;
@@ -42,11 +53,38 @@ void read_surfaces(const tinygltf::Model& model, StaticScene& scene) {
     std::vector<double> emission = material.emissiveFactor;
     for (double& channel : emission) channel *= emissive_strength(material);
     surface.emission = read_colour(emission, std::numeric_limits<float>::max(), m, "emission");
+    if (textures == SceneTextures::read) {
+      const std::string what = "material " + std::to_string(m);
+      surface.base_colour_texture =
+          used.use(material.pbrMetallicRoughness.baseColorTexture, what + ", baseColorTexture");
+      surface.emission_texture = used.use(material.emissiveTexture, what + ", emissiveTexture");
+      read_alpha(material, m, surface);
+    }
     scene.surface.push_back(surface);
-    if (material.pbrMetallicRoughness.baseColorTexture.index >= 0 || material.emissiveTexture.index >= 0)
-      ++scene.textured;
   }
   scene.surface.emplace_back();
+  scene.image = used.take_images();
+}
+
+// One set of coordinates of the vertices from `first` on.
+void read_uv(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const TextureUse& use,
+             std::size_t first, const std::string& what, StaticScene& scene) {
+  if (!use.is_used()) return;
+  const std::string name = "TEXCOORD_" + std::to_string(use.uv_set);
+  const int accessor = attribute(primitive, name);
+  if (accessor < 0)
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s has no %s, which the texture of material %d reads", what.c_str(),
+                  name.c_str(), primitive.material);
+  const Floats uv = read_floats(model, accessor, 2, what + "." + name);
+  if (uv.count != scene.position.size() - first)
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu %s (need one for each of %zu vertices)", what.c_str(),
+                  uv.count, name.c_str(), scene.position.size() - first);
+  for (std::size_t v = 0; v < uv.count; ++v) {
+    const TexturePoint point{uv.value[2 * v], uv.value[2 * v + 1]};
+    if (!std::isfinite(point.u) || !std::isfinite(point.v))
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s: %s of vertex %zu is not finite", what.c_str(), name.c_str(), v);
+    scene.uv[first + v][use.uv_set] = point;
+  }
 }
 
 void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
@@ -73,17 +111,24 @@ void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   if (primitive.material >= int(none))
     throw Failure(NOOK_ERROR_BAD_FILE, "%s names material %d (file has %u)", what.c_str(), primitive.material,
                   none);
-  scene.triangle_surface.resize(scene.triangle.size(),
-                                primitive.material < 0 ? none : std::uint32_t(primitive.material));
+  const std::uint32_t index = primitive.material < 0 ? none : std::uint32_t(primitive.material);
+  scene.triangle_surface.resize(scene.triangle.size(), index);
+  if (scene.image.empty()) return;
+  scene.uv.resize(scene.position.size());
+  for (const TextureUse* use :
+       {&scene.surface[index].base_colour_texture, &scene.surface[index].emission_texture})
+    read_uv(model, primitive, *use, first, what, scene);
 }
 
-StaticScene import_document(std::span<const std::byte> bytes, const std::string& base_dir) {
-  const tinygltf::Model model = parse_gltf(bytes, base_dir);
+StaticScene import_document(std::span<const std::byte> bytes, const std::string& base_dir,
+                            SceneTextures textures) {
+  const tinygltf::Model model =
+      parse_gltf(bytes, base_dir, textures == SceneTextures::read ? Images::keep : Images::skip);
   const NodeTree nodes = read_nodes(model);
   const std::vector<bool> shown = shown_nodes(model, nodes);
   const std::vector<Affine> world = default_world_transforms(nodes);
   StaticScene scene;
-  read_surfaces(model, scene);
+  read_surfaces(model, textures, scene);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const int mesh = model.nodes[n].mesh;
     if (!shown[n] || mesh < 0) continue;
@@ -102,16 +147,16 @@ StaticScene import_document(std::span<const std::byte> bytes, const std::string&
 
 }  // namespace
 
-StaticScene import_static_scene(const std::filesystem::path& path) {
+StaticScene import_static_scene(const std::filesystem::path& path, SceneTextures textures) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be opened");
   const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   const std::filesystem::path folder = path.parent_path();
-  return import_document(std::as_bytes(std::span(bytes)), folder.empty() ? "." : folder.string());
+  return import_document(std::as_bytes(std::span(bytes)), folder.empty() ? "." : folder.string(), textures);
 }
 
-StaticScene import_static_scene(std::span<const std::byte> bytes) {
-  return import_document(bytes, "");
+StaticScene import_static_scene(std::span<const std::byte> bytes, SceneTextures textures) {
+  return import_document(bytes, "", textures);
 }
 
 }  // namespace nook::bake

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "import/texture_use.h"
 
 namespace nook::bake {
 
@@ -16,6 +17,9 @@ namespace nook::bake {
 struct Surface {
   Vec3 base_colour{0.8f, 0.8f, 0.8f};  // share of light that it sends back, each in [0, 1]
   Vec3 emission;                       // radiance of its own, 0 or above
+  TextureUse base_colour_texture = {}, emission_texture = {};  // they multiply
+  float alpha = 1;                                             // multiplies that of base_colour_texture
+  float alpha_cutoff = 0;                                      // less alpha is a hole; 0: none
 };
 
 // World space, metres; vertices are not shared between primitives.
@@ -24,15 +28,22 @@ struct StaticScene {
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::vector<Surface> surface;  // the file's materials, then one for primitives that name none
   std::vector<std::uint32_t> triangle_surface;  // an index of surface for each triangle
-  std::uint32_t textured = 0;                   // materials whose colour textures were not read
+  std::vector<EncodedImage> image;              // of the surfaces' textures
+  std::vector<std::array<TexturePoint, 2>> uv;  // sets 0 and 1 of each vertex; empty where image is
 };
 
-// Skins and morph targets are ignored; points and lines are left out. Of materials the base colour's and the
-// emission's factors are read, and KHR_materials_emissive_strength. Fails with BAD_FILE, also where no
-// triangle is shown; the message names the fault, and the caller adds the name of the file.
-StaticScene import_static_scene(const std::filesystem::path& path);
+// skip: colour factors stand for their textures, and alpha masks are solid.
+enum class SceneTextures { skip, read };
 
-// From memory, without access to any file: buffers must be in the bytes or in data URIs.
-StaticScene import_static_scene(std::span<const std::byte> bytes);
+// Skins and morph targets are ignored; points and lines are left out. Of materials the base colour, the
+// emission with KHR_materials_emissive_strength, alpha masks and, if asked for, colour textures are read;
+// blended alpha is solid. Fails with BAD_FILE, also where no triangle is shown; the message names the fault,
+// and the caller adds the name of the file.
+StaticScene import_static_scene(const std::filesystem::path& path,
+                                SceneTextures textures = SceneTextures::skip);
+
+// From memory, without access to any file: buffers and images must be in the bytes or in data URIs.
+StaticScene import_static_scene(std::span<const std::byte> bytes,
+                                SceneTextures textures = SceneTextures::skip);
 
 }  // namespace nook::bake

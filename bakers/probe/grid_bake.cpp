@@ -6,17 +6,11 @@
 #include <cmath>
 
 #include "core/failure.h"
+#include "probe/inside_probes.h"
 #include "probe/map_samples.h"
 
 namespace nook::bake::probe {
 namespace {
-
-Vec3 probe_position(const nook::probe::Grid& grid, std::size_t index) {
-  const auto x = float(index % grid.counts[0]);
-  const auto y = float(index / grid.counts[0] % grid.counts[1]);
-  const auto z = float(index / grid.counts[0] / grid.counts[1]);
-  return grid.origin_ws + Vec3{x * grid.spacing_ws.x, y * grid.spacing_ws.y, z * grid.spacing_ws.z};
-}
 
 double square_of(std::span<const double> gram, std::span<const Vec3> b) {
   double sum = 0;
@@ -35,14 +29,17 @@ GridBake::GridBake(const LitScene& scene, const GridBakeSettings& settings)
   if (settings.grid.size() == 0 || settings.grid.size() > nook::probe::max_probes)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a grid of %zu probes (need 1 to %u)", settings.grid.size(),
                   nook::probe::max_probes);
+  nook::probe::check_grid(settings.grid, NOOK_ERROR_INVALID_ARGUMENT);
   for (std::size_t i = 0; i < settings.grid.size(); ++i) fits_.emplace_back(settings);
+  inside_ = inside_probes(scene, settings.grid);
 }
 
 void GridBake::pass() {
   const Region region = region_of(settings_.basis);
   tbb::parallel_for(std::size_t(0), fits_.size(), [&](std::size_t p) {
+    if (inside_[p]) return;
     const FlushDenormals flush;
-    const Vec3 origin = probe_position(settings_.grid, p);
+    const Vec3 origin = settings_.grid.position_ws(p);
     Samples traced;
     for (std::uint32_t s = 0; s < settings_.samples_per_pass; ++s) {
       PathRandom random(mix_bits(settings_.seed ^ mix_bits(p)) + mix_bits(samples() + s));
@@ -90,6 +87,7 @@ nook::probe::Probes GridBake::probes() {
   for (std::size_t p = 0; p < fits_.size(); ++p)
     fits_[p].all.read(
         std::span(probes.coefficients).subspan(p * settings_.basis.count, settings_.basis.count));
+  fill_inside(probes, inside_);
   return probes;
 }
 

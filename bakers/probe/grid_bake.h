@@ -1,6 +1,7 @@
 // A grid of probes in a path-traced scene, all refined together, pass by pass.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory_resource>
@@ -38,8 +39,10 @@ class GridBake {
   // of the even passes. 1 before there are two.
   double error();
 
-  // As far as it has come; at any time between passes.
+  // As far as it has come; at any time between passes. Probes inside solids, which get no paths, have the
+  // mean of those round them.
   nook::probe::Probes probes();
+  std::size_t inside_count() const { return std::size_t(std::count(inside_.begin(), inside_.end(), true)); }
 
  private:
   struct ProbeFits {
@@ -53,6 +56,7 @@ class GridBake {
   LightSampler light_;
   std::pmr::vector<double> gram_;
   std::vector<ProbeFits> fits_;
+  std::vector<bool> inside_;
   std::uint32_t passes_ = 0;
 };
 

@@ -1,19 +1,28 @@
 // A scene that light can be traced through: diffuse triangles under an environment.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "import/static_scene.h"
 #include "raytrace/environment.h"
 #include "raytrace/ray_scene.h"
+#include "raytrace/texture.h"
 
 namespace nook::bake {
 
 struct LitTriangles {
   TriangleSoup soup;  // world space, metres; may be empty
   std::vector<Surface> surface;
-  std::vector<std::uint32_t> triangle_surface;  // an index of surface for each triangle
+  std::vector<std::uint32_t> triangle_surface = {};  // an index of surface for each triangle
+  std::vector<Texture> texture = {};                 // that the surfaces' texture uses name
+  std::vector<std::array<TexturePoint, 2>> uv = {};  // of each vertex; empty where no surface has a texture
+};
+
+// A surface at one point.
+struct SurfaceColours {
+  Vec3 base_colour, emission;
 };
 
 // Any thread may trace; it must not be moved, since its sampler looks at its environment.
@@ -23,19 +32,31 @@ class LitScene {
   LitScene(const LitScene&) = delete;
   LitScene& operator=(const LitScene&) = delete;
 
-  const RayScene& rays() const { return rays_; }
+  // What rays meet; they pass through the holes of alpha masks.
+  RayHit nearest(Vec3 origin, Vec3 direction) const;
+  bool occluded(Vec3 origin, Vec3 direction) const;
+  SurfaceColours colours(const RayHit& hit) const;
+
   const Environment& environment() const { return environment_; }
   const LightSampler& light() const { return light_; }
-  const Surface& surface(std::uint32_t triangle) const { return surface_[triangle_surface_[triangle]]; }
 
  private:
+  const Surface& surface(const RayHit& hit) const { return surface_[triangle_surface_[hit.triangle]]; }
+  TextureColour texture_colour(const TextureUse& use, const RayHit& hit) const;
+  bool is_hole(const RayHit& hit) const;
+
   RayScene rays_;
   std::vector<Surface> surface_;
   std::vector<std::uint32_t> triangle_surface_;
+  std::vector<Texture> texture_;
+  std::vector<std::array<TexturePoint, 2>> uv_;
+  std::vector<std::array<std::uint32_t, 3>> triangle_;  // only where there are textures
+  bool masked_ = false;
   Environment environment_;
   LightSampler light_;
 };
 
-LitTriangles lit_triangles(StaticScene scene);
+// textures: those of scene.image, decoded.
+LitTriangles lit_triangles(StaticScene scene, std::vector<Texture> textures);
 
 }  // namespace nook::bake

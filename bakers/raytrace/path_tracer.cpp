@@ -33,7 +33,7 @@ Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, PathRan
   const float alias = random.next(), u = random.next(), v = random.next();
   const LightSample light = scene.light().sample(choice, alias, u, v);
   const float cosine = dot(light.direction, normal);
-  if (cosine <= 0 || is_black(light.radiance) || scene.rays().occluded(origin, light.direction)) return {};
+  if (cosine <= 0 || is_black(light.radiance) || scene.occluded(origin, light.direction)) return {};
   return light.radiance * (cosine / (light.density + cosine / pi));
 }
 
@@ -44,7 +44,7 @@ Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 dir
   for (std::uint32_t bounce = 0;; ++bounce) {
     const Vec3 origin = position + settings.origin_offset * normal;
     irradiance += by_channel(share, light_by_luminance(scene, origin, normal, random));
-    const RayHit hit = scene.rays().nearest(origin, direction);
+    const RayHit hit = scene.nearest(origin, direction);
     if (std::isinf(hit.distance)) {
       const float density = std::max(dot(direction, normal), 0.0f) / pi;
       if (density > 0)
@@ -52,7 +52,7 @@ Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 dir
                       (pi * density / (density + scene.light().density(direction)));
       return irradiance;
     }
-    const Surface& surface = scene.surface(hit.triangle);
+    const SurfaceColours surface = scene.colours(hit);
     irradiance += pi * by_channel(share, surface.emission);
     // A cosine-weighted direction carries pi times its radiance, and a diffuse surface sends irradiance *
     // base colour / pi.
@@ -74,9 +74,9 @@ Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 dir
 
 Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const PathSettings& settings,
                     PathRandom& random) {
-  const RayHit hit = scene.rays().nearest(origin, direction);
+  const RayHit hit = scene.nearest(origin, direction);
   if (std::isinf(hit.distance)) return scene.environment().radiance(direction);
-  const Surface& surface = scene.surface(hit.triangle);
+  const SurfaceColours surface = scene.colours(hit);
   if (settings.max_bounces == 0 || is_black(surface.base_colour)) return surface.emission;
   PathSettings rest = settings;
   if (rest.max_bounces != ~0u) --rest.max_bounces;

@@ -1,5 +1,6 @@
 #include "raytrace/ray_scene.h"
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -44,15 +45,19 @@ RayScene::RayScene(const TriangleSoup& soup) : scene_(device_.get()) {
     build_scene(device_.get(), scene_.get(), soup.position, soup.triangle);
 }
 
-RayHit RayScene::nearest(Vec3 origin, Vec3 direction) const {
+RayHit RayScene::nearest(Vec3 origin, Vec3 direction, float beyond) const {
   alignas(16) RTCRayHit ray{};
   ray.ray = unbounded_ray(origin, direction);
+  if (beyond > 0) ray.ray.tnear = std::nextafter(beyond, std::numeric_limits<float>::infinity());
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   intersect1(scene_.get(), ray);
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {std::numeric_limits<float>::infinity(), {}};
+  RayHit hit;
+  hit.distance = std::numeric_limits<float>::infinity();
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
   const Vec3 normal = normalised({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z});
-  return {ray.ray.tfar, dot(normal, direction) > 0 ? -normal : normal, ray.hit.primID};
+  const bool from_behind = dot(normal, direction) > 0;
+  return {ray.ray.tfar, from_behind ? -normal : normal, ray.hit.primID, ray.hit.u, ray.hit.v, from_behind};
 }
 
 bool RayScene::occluded(Vec3 origin, Vec3 direction) const {

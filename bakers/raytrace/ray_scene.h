@@ -42,6 +42,8 @@ struct RayHit {
   float distance = 0;  // in lengths of the ray's direction; infinite: nothing
   Vec3 normal;         // geometric, unit length, against the ray
   std::uint32_t triangle = ~0u;
+  float u = 0, v = 0;        // shares of the triangle's second and third vertex
+  bool from_behind = false;  // the ray met the side from which the vertices go round clockwise
 };
 
 // A soup with its BVH, which may be empty; any thread may trace.
@@ -49,7 +51,8 @@ class RayScene {
  public:
   explicit RayScene(const TriangleSoup& soup);
   RTCScene get() const { return scene_.get(); }
-  RayHit nearest(Vec3 origin, Vec3 direction) const;
+  // Hits up to and at `beyond` do not count; in lengths of direction.
+  RayHit nearest(Vec3 origin, Vec3 direction, float beyond = 0) const;
   bool occluded(Vec3 origin, Vec3 direction) const;  // by anything at any distance
 
  private:

@@ -1,7 +1,8 @@
-// The warped lobes against the GGX reflection integral they stand for.
+// Glossy reflection against the GGX reflection integral that it stands for.
 #include "probe/specular.h"
 
 #include "catch.h"
+#include "ggx_quadrature.h"
 #include "probe/axes.h"
 #include "samples.h"
 #include "sphere_quadrature.h"
@@ -13,46 +14,13 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double ggx(const Surface& s, Vec3 half, Vec3 bitangent) {
-  const double x = double(dot(half, s.tangent)) / double(s.alpha_x);
-  const double y = double(dot(half, bitangent)) / double(s.alpha_y), z = double(dot(half, s.normal));
-  const double sum = x * x + y * y + z * z;
-  return z > 0 ? 1 / (pi * double(s.alpha_x) * double(s.alpha_y) * sum * sum) : 0;
-}
-
-double masking(const Surface& s, Vec3 d, Vec3 bitangent) {
-  const double n = double(dot(d, s.normal)), x = double(dot(d, s.tangent) * s.alpha_x),
-               y = double(dot(d, bitangent) * s.alpha_y);
-  return 1 / (n + std::sqrt(n * n + x * x + y * y));
-}
-
-// Radiance towards the eye by brute force round the mirror direction; channel x.
-double reflected(const Surface& s, std::span<const SphericalGaussian> lights) {
-  const Vec3 mirror = s.normal * (2 * dot(s.normal, s.view)) - s.view, bitangent = cross(s.normal, s.tangent);
-  const Frame frame = frame_round(mirror);
-  const auto integrand = [&](double x, double y, double z) {
-    const Vec3 l = frame.x * float(x) + frame.y * float(y) + frame.z * float(z);
-    const double cosine = double(dot(l, s.normal));
-    if (cosine <= 0) return 0.0;
-    const Vec3 half = normalised(l + s.view);
-    const double away = 1 - double(dot(half, s.view));
-    const double fresnel = double(s.reflectance) + (1 - double(s.reflectance)) * std::pow(away, 5);
-    double light = 0;
-    for (const SphericalGaussian& g : lights) light += double(value(g, l).x);
-    return light * ggx(s, half, bitangent) * masking(s, l, bitangent) * masking(s, s.view, bitangent) *
-           fresnel * cosine;
-  };
-  // Fine steps near the mirror direction, where a glossy lobe lives.
-  return test::integrate_sphere(integrand, 0, 0.4, 200, 90) +
-         test::integrate_sphere(integrand, 0.4, pi, 200, 90);
-}
-
-Surface surface(float alpha_x, float alpha_y, double view_angle, double azimuth = 0.4) {
+// Seen from `facing`, the cosine to the normal.
+Surface surface(float alpha_x, float alpha_y, double facing, double azimuth = 0.4) {
   Surface s;
   s.alpha_x = alpha_x;
   s.alpha_y = alpha_y;
-  s.view = {float(std::sin(view_angle) * std::cos(azimuth)), float(std::sin(view_angle) * std::sin(azimuth)),
-            float(std::cos(view_angle))};
+  const double sine = std::sqrt(1 - facing * facing);
+  s.view = {float(sine * std::cos(azimuth)), float(sine * std::sin(azimuth)), float(facing)};
   s.reflectance = 0.3f;
   return s;
 }
@@ -66,58 +34,170 @@ std::vector<SphericalGaussian> lights() {
   return all;
 }
 
-// The largest relative errors of both forms over views up to 60 degrees.
-struct Worst {
-  double isotropic = 0, anisotropic = 0;
+// Radiance towards the eye; channel x.
+double reflected(const Surface& s, std::span<const SphericalGaussian> lights, int steps = 96) {
+  const Vec3 bitangent = cross(s.normal, s.tangent);
+  double sum = 0;
+  for (const test::ReflectedDirection& l : test::visible_reflections(s, steps)) {
+    const Vec3 d = s.tangent * float(l.x) + bitangent * float(l.y) + s.normal * float(l.z);
+    double light = 0;
+    for (const SphericalGaussian& g : lights) light += double(value(g, d).x);
+    sum += light * l.weight * (double(s.reflectance) + (1 - double(s.reflectance)) * l.schlick);
+  }
+  return sum;
+}
+
+double relative_error(const Surface& s, std::span<const SphericalGaussian> lights, SpecularForm form,
+                      double truth) {
+  return std::abs(double(specular(lights, form, s).x) / truth - 1);
+}
+
+constexpr double facings[] = {0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1};
+
+// Relative errors of both forms under 12 lobes, over views.
+struct Errors {
+  double isotropic = 0, anisotropic = 0;  // the largest
+  double isotropic_square = 0, anisotropic_square = 0;
+
+  void add(const Surface& s, std::span<const SphericalGaussian> all) {
+    const double truth = reflected(s, all);
+    const double i = relative_error(s, all, SpecularForm::isotropic, truth);
+    const double a = relative_error(s, all, SpecularForm::anisotropic, truth);
+    isotropic = std::max(isotropic, i);
+    anisotropic = std::max(anisotropic, a);
+    isotropic_square += i * i;
+    anisotropic_square += a * a;
+  }
 };
 
-Worst worst_of(float alpha_x, float alpha_y, double last_angle) {
+Errors errors_of(float alpha_x, float alpha_y) {
   const auto all = lights();
-  Worst worst;
-  for (const double angle : {0.0, 0.3, 0.6, 0.8, 1.0, 1.2, 1.4}) {
-    if (angle > last_angle) break;
-    for (const double azimuth : {0.4, 2.0}) {
-      const Surface s = surface(alpha_x, alpha_y, angle, azimuth);
-      const double truth = reflected(s, all);
-      worst.isotropic = std::max(worst.isotropic,
-                                 std::abs(double(specular(all, SpecularForm::isotropic, s).x) / truth - 1));
-      worst.anisotropic = std::max(
-          worst.anisotropic, std::abs(double(specular(all, SpecularForm::anisotropic, s).x) / truth - 1));
-    }
-  }
-  return worst;
+  Errors errors;
+  for (const double facing : facings)
+    for (const double azimuth : {0.4, 2.0, 4.0}) errors.add(surface(alpha_x, alpha_y, facing, azimuth), all);
+  return errors;
 }
 
 }  // namespace
 
+TEST_CASE("the sum over visible normals is the GGX integral over directions") {
+  const Surface s = surface(0.3f, 0.5f, 0.6);
+  const auto all = lights();
+  const Vec3 bitangent = cross(s.normal, s.tangent);
+  const auto masking = [&](Vec3 d) {
+    const double n = double(dot(d, s.normal)), x = double(dot(d, s.tangent) * s.alpha_x),
+                 y = double(dot(d, bitangent) * s.alpha_y);
+    return 1 / (n + std::hypot(n, x, y));
+  };
+  const double direct = test::integrate_hemisphere([&](double x, double y, double z) {
+    const Vec3 l{float(x), float(y), float(z)}, half = normalised(l + s.view);
+    const double hx = double(dot(half, s.tangent) / s.alpha_x), hy = double(dot(half, bitangent) / s.alpha_y);
+    const double sum = hx * hx + hy * hy + double(half.z) * double(half.z);
+    const double distribution = 1 / (pi * double(s.alpha_x) * double(s.alpha_y) * sum * sum);
+    const double fresnel = 0.3 + 0.7 * std::pow(1 - double(dot(half, s.view)), 5);
+    double light = 0;
+    for (const SphericalGaussian& g : all) light += double(value(g, l).x);
+    return light * distribution * masking(l) * masking(s.view) * fresnel * z;
+  });
+  // Both are grids of some 10,000 points.
+  CHECK(std::abs(reflected(s, all) / direct - 1) < 2e-3);
+}
+
+TEST_CASE("under constant light a surface reflects its directional albedo") {
+  const std::vector<SphericalGaussian> constant{{{0, 0, 1}, 0, {1, 1, 1}}};
+  for (const float alpha : {0.005f, 0.02f, 0.05f, 0.1f, 0.2f, 0.3f, 0.5f, 0.7f, 1.0f})
+    for (const double facing : facings)
+      for (const float reflectance : {0.02f, 0.04f, 0.3f, 1.0f}) {
+        Surface s = surface(alpha, alpha, facing);
+        s.reflectance = reflectance;
+        const double truth = reflected(s, constant);
+        INFO("alpha " << alpha << " facing " << facing << " reflectance " << reflectance);
+        // What 15 coefficients for masking and 15 for Fresnel leave, see ggx_fit.cpp.
+        CHECK(relative_error(s, constant, SpecularForm::isotropic, truth) < 0.05);
+        CHECK(relative_error(s, constant, SpecularForm::anisotropic, truth) < 0.05);
+      }
+}
+
+TEST_CASE("under constant light anisotropic surfaces reflect their directional albedo") {
+  const std::vector<SphericalGaussian> constant{{{0, 0, 1}, 0, {1, 1, 1}}};
+  // Metals are masked alone; of plastic at grazing views most is Fresnel's part, whose mean angle depends on
+  // both widths in ways that one width does not hold.
+  const struct {
+    float reflectance;
+    double worst, rms;
+  } bounds[] = {{1, 0.06, 0.03}, {0.5f, 0.09, 0.03}, {0.04f, 0.26, 0.06}};
+  for (const auto& bound : bounds) {
+    double worst = 0, square = 0;
+    int count = 0;
+    for (const auto& [x, y] :
+         {std::pair{0.1f, 0.3f}, {0.1f, 0.6f}, {0.2f, 0.8f}, {0.5f, 1.0f}, {0.05f, 0.2f}})
+      for (const double facing : facings)
+        for (const double azimuth : {0.0, 0.4, 0.8, 1.2, pi / 2}) {
+          Surface s = surface(x, y, facing, azimuth);
+          s.reflectance = bound.reflectance;
+          const double error = relative_error(s, constant, SpecularForm::anisotropic, reflected(s, constant));
+          worst = std::max(worst, error);
+          square += error * error;
+          ++count;
+        }
+    INFO("reflectance " << bound.reflectance << " worst " << worst << " rms " << std::sqrt(square / count));
+    CHECK(worst < bound.worst);
+    CHECK(std::sqrt(square / count) < bound.rms);
+  }
+}
+
 TEST_CASE("glossy reflection of a probe against the GGX integral") {
-  // What one lobe leaves of a distribution with GGX's tails: little while the light is broader than it. The
-  // anisotropic lobe is nearer until the tails are all that is missing.
+  // From any view, 0.02 to 1. What one lobe leaves of a distribution with GGX's tails and a horizon; at 0.2
+  // the lobe of a grazing view is longest in proportion, and its product integral the least exact.
   const struct {
     float alpha;
     double isotropic, anisotropic;
-  } bounds[] = {{0.05f, 0.02, 0.02}, {0.1f, 0.04, 0.03}, {0.2f, 0.12, 0.08}, {0.4f, 0.3, 0.3}};
+  } bounds[] = {{0.05f, 0.07, 0.045}, {0.1f, 0.07, 0.055}, {0.2f, 0.06, 0.125},
+                {0.4f, 0.06, 0.07},   {0.7f, 0.045, 0.05}, {1, 0.04, 0.04}};
   for (const auto& bound : bounds) {
-    const Worst worst = worst_of(bound.alpha, bound.alpha, 1.05);
-    INFO("alpha " << bound.alpha << " isotropic " << worst.isotropic << " anisotropic " << worst.anisotropic);
-    CHECK(worst.isotropic < bound.isotropic);
-    CHECK(worst.anisotropic < bound.anisotropic);
+    const Errors errors = errors_of(bound.alpha, bound.alpha);
+    INFO("alpha " << bound.alpha << " isotropic " << errors.isotropic << " anisotropic "
+                  << errors.anisotropic);
+    CHECK(errors.isotropic < bound.isotropic);
+    CHECK(errors.anisotropic < bound.anisotropic);
   }
 }
 
 TEST_CASE("anisotropic surfaces against the GGX integral") {
-  for (const auto& [x, y] : {std::pair{0.1f, 0.3f}, {0.4f, 0.1f}}) {
-    const Worst worst = worst_of(x, y, 1.05);
-    INFO("alpha " << x << " " << y << " isotropic " << worst.isotropic << " anisotropic "
-                  << worst.anisotropic);
-    CHECK(worst.anisotropic < 0.18);
-    CHECK(worst.anisotropic < worst.isotropic + 0.02);
+  for (const auto& [x, y] : {std::pair{0.1f, 0.3f}, {0.4f, 0.1f}, {0.2f, 0.8f}}) {
+    const Errors errors = errors_of(x, y);
+    INFO("alpha " << x << " " << y << " isotropic " << errors.isotropic << " anisotropic "
+                  << errors.anisotropic);
+    CHECK(errors.anisotropic < 0.22);
+    CHECK(errors.anisotropic_square < errors.isotropic_square);
+  }
+}
+
+TEST_CASE("a rough metal sphere has no rim") {
+  // From the middle of a sphere to its silhouette, under constant light and under one lobe behind the eye.
+  const std::vector<SphericalGaussian> constant{{{0, 0, 1}, 0, {1, 1, 1}}};
+  for (const float alpha : {0.2f, 0.4f, 0.7f, 1.0f}) {
+    Surface s;
+    s.alpha_x = s.alpha_y = alpha;
+    s.reflectance = 0.92f;
+    s.view = {0, 0, 1};
+    float before = 0;
+    for (int i = 0; i <= 98; ++i) {
+      const float facing = 1 - float(i) / 100;
+      s.normal = {std::sqrt(1 - facing * facing), 0, facing};
+      s.tangent = {0, 1, 0};
+      const float now = specular(constant, SpecularForm::anisotropic, s).x;
+      INFO("alpha " << alpha << " facing " << facing);
+      // Single scattering grows towards the silhouette for these widths, or falls by a few percent (0.2).
+      if (i > 0) CHECK(now > 0.985f * before);
+      before = now;
+    }
   }
 }
 
 TEST_CASE("the anisotropic lobe of an isotropic one is a spherical Gaussian") {
   // Seen straight on, both warps agree.
-  const Surface s = surface(0.2f, 0.2f, 0);
+  const Surface s = surface(0.2f, 0.2f, 1);
   for (const SphericalGaussian& light : lights()) {
     const float a = product_integral(warped_lobe(s), light).x;
     const float b = product_integral(warped_anisotropic_lobe(s), light) * light.amplitude.x;
@@ -129,7 +209,9 @@ TEST_CASE("reflection turns with its tangent and is finite everywhere") {
   const auto all = lights();
   for (const float alpha : {0.001f, 0.03f, 1.0f})
     for (const double angle : {0.0, 1.0, pi / 2, 2.0}) {
-      const Surface s = surface(alpha, 0.5f, angle);
+      Surface s = surface(alpha, 0.5f, 1);
+      s.view = {float(std::sin(angle) * std::cos(0.4)), float(std::sin(angle) * std::sin(0.4)),
+                float(std::cos(angle))};
       for (const SpecularForm form : {SpecularForm::isotropic, SpecularForm::anisotropic}) {
         const Vec3 rgb = specular(all, form, s);
         CHECK((std::isfinite(rgb.x) && rgb.x >= 0));
@@ -140,6 +222,7 @@ TEST_CASE("reflection turns with its tangent and is finite everywhere") {
       turned.tangent = {0, 1, 0};
       const Vec3 a = specular(all, SpecularForm::anisotropic, s);
       const Vec3 b = specular(all, SpecularForm::anisotropic, turned);
-      CHECK(length(a - b) <= 1e-3f * length(a));
+      // Straight on the plane of incidence is the tangent's, of which Fresnel's small part knows.
+      CHECK(length(a - b) <= (angle == 0 ? 2e-3f : 1e-3f) * length(a));
     }
 }

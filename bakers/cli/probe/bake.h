@@ -7,7 +7,6 @@
 #include "cli/common_options.h"
 #include "cli/probe/options.h"
 #include "core/vec.h"
-#include "raytrace/environment.h"
 
 namespace nook::cli {
 
@@ -28,10 +27,8 @@ struct BakeProbeOptions {
   Vec3 box_low_ws, box_high_ws;
   double error = 0.01, preview_every_s = 0;
   std::uint32_t max_bounces = ~0u;
+  bool no_textures = false;
 };
-
-// Throws ToolError (bad input) that names the file.
-bake::Environment read_map(const std::filesystem::path& path);
 
 void bake_probe_of_map(const BakeProbeOptions& options);
 void bake_probe_grid(const BakeProbeOptions& options);

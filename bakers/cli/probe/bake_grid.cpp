@@ -6,16 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/probe/bake.h"
+#include "cli/probe/scene.h"
 #include "cli/progress_bar.h"
 #include "cli/table.h"
-#include "import/static_scene.h"
 #include "probe/grid_bake.h"
 #include "probe/probe_file.h"
-#include "raytrace/lit_scene.h"
 
 namespace nook::cli {
 namespace {
@@ -30,19 +28,6 @@ constexpr std::uint32_t passes_between_errors = 4;
 
 double seconds_since(Clock::time_point began) {
   return std::chrono::duration<double>(Clock::now() - began).count();
-}
-
-struct Box {
-  Vec3 low, high;
-};
-
-Box box_of(const std::vector<Vec3>& points) {
-  Box box{points.front(), points.front()};
-  for (Vec3 p : points) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
-  return box;
 }
 
 std::vector<std::byte> file_of(const BakeProbeOptions& options, GridBake& bake, double error) {
@@ -85,24 +70,18 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   OutputFile output(options.output);
   std::optional<OutputFile> report;
   if (!options.common.report.empty()) report.emplace(options.common.report);
-  bake::StaticScene scene =
-      naming_file(options.input, [&] { return bake::import_static_scene(options.input); });
-  if (scene.textured > 0 && !options.common.quiet)
-    std::fprintf(stderr,
-                 "nook: %s: textures of %u materials are not read; their colour factors stand for them\n",
-                 options.input.c_str(), scene.textured);
-  const Box box = options.has_box ? Box{options.box_low_ws, options.box_high_ws} : box_of(scene.position);
+  const ProbeScene scene = read_probe_scene(options.input, options.light, !options.no_textures);
   GridBakeSettings settings;
   settings.basis = basis_of(options.probe);
   settings.fit = fit_of(options.probe);
-  settings.grid = bake::probe::grid_in_box(options.grid, box.low, box.high);
+  settings.grid = bake::probe::grid_in_box(options.grid, options.has_box ? options.box_low_ws : scene.low_ws,
+                                           options.has_box ? options.box_high_ws : scene.high_ws);
   settings.seed = options.common.seed;
   settings.path.max_bounces = options.max_bounces;
-  settings.path.origin_offset = bake::ray_origin_offset(scene.position);
-  const bake::LitScene lit(bake::lit_triangles(std::move(scene)), read_map(options.light));
+  settings.path.origin_offset = scene.origin_offset;
 
   const auto began = Clock::now();
-  GridBake bake(lit, settings);
+  GridBake bake(*scene.lit, settings);
   const std::uint32_t samples = options.samples > 0 ? options.samples : default_samples;
   const std::uint32_t passes = (samples + settings.samples_per_pass - 1) / settings.samples_per_pass;
   const double error = refine(options, bake, passes);
@@ -111,6 +90,7 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   row["scene"] = options.input.stem().string();
   row["light"] = options.light.stem().string();
   row["probes"] = settings.grid.size();
+  row["probes_inside"] = bake.inside_count();
   const Json made_of = describe(options.probe, settings.basis);
   for (const auto& item : made_of.items()) row[item.key()] = item.value();
   row["samples_per_probe"] = bake.samples();

@@ -7,6 +7,7 @@
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/probe/bake.h"
+#include "cli/probe/scene.h"
 #include "cli/progress_bar.h"
 #include "cli/table.h"
 #include "probe/fit_error.h"

@@ -25,6 +25,12 @@ struct Grid {
   Vec3 spacing_ws{1, 1, 1};                      // metres between neighbours
 
   std::size_t size() const { return std::size_t(counts[0]) * counts[1] * counts[2]; }
+  // Of a probe; x fastest, then y, z.
+  Vec3 position_ws(std::size_t index) const {
+    const auto x = float(index % counts[0]), y = float(index / counts[0] % counts[1]),
+               z = float(index / counts[0] / counts[1]);
+    return origin_ws + Vec3{x * spacing_ws.x, y * spacing_ws.y, z * spacing_ws.z};
+  }
   bool operator==(const Grid&) const = default;
 };
 

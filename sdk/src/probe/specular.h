@@ -1,6 +1,5 @@
-// Glossy reflection of lobes: the GGX distribution of normals, as a lobe of half vectors, is warped to the
-// lobe of directions that it reflects to the eye; its product integral with each light lobe is closed.
-// Masking, Fresnel and the cosine are taken at the lobe's centre.
+// Glossy reflection of lobes: the directions that a GGX surface reflects to the eye, as one lobe of integral
+// 1, times the surface's directional albedo. Its product integral with each light lobe is closed.
 #pragma once
 
 #include <cstdint>
@@ -8,21 +7,13 @@
 
 #include "core/spherical_gaussian.h"
 #include "core/vec.h"
+#include "probe/ggx_reflection.h"
 
 namespace nook::probe {
 
 enum class SpecularForm : std::uint8_t {
   isotropic = 0,   // one spherical Gaussian (J. Wang et al., All-Frequency Rendering, 2009)
   anisotropic = 1  // an anisotropic one (K. Xu et al., Anisotropic Spherical Gaussians, 2013)
-};
-
-struct Surface {
-  Vec3 normal{0, 0, 1};       // unit
-  Vec3 view{0, 0, 1};         // unit, towards the eye
-  Vec3 tangent{1, 0, 0};      // unit, across the normal; read where alpha_x and alpha_y differ
-  float alpha_x = 0.25f;      // GGX width, roughness squared, along the tangent
-  float alpha_y = 0.25f;      // across it; the isotropic form takes their geometric mean
-  float reflectance = 0.04f;  // at normal incidence
 };
 
 // amplitude exp(-x_sharpness u^2 - y_sharpness v^2), u and v the chord from z to the direction along x and y.
@@ -36,12 +27,14 @@ struct AnisotropicGaussian {
   float amplitude = 0;
 };
 
-// The reflected lobes of a surface; amplitude is the distribution's, without masking and Fresnel.
+// The reflected lobes of a surface, of integral 1. Both are the distribution of normals warped to reflected
+// directions, not round the normal, as in the papers, but round the mean of the normals that the eye sees:
+// near the horizon a rough surface reflects from far above the mirror direction.
 SphericalGaussian warped_lobe(const Surface& surface);
 AnisotropicGaussian warped_anisotropic_lobe(const Surface& surface);
 
 // Integral of the product with a light, at its amplitude 1: exact where x_sharpness and y_sharpness are
-// equal.
+// equal, and for constant light.
 float product_integral(const AnisotropicGaussian& lobe, const SphericalGaussian& light);
 
 // Radiance that leaves towards the eye.

@@ -113,6 +113,40 @@ TEST_CASE("bake probe of a scene: a grid, refined until its error is small") {
   CHECK(measured.error.find("a grid of 12 probes") != std::string::npos);
 }
 
+TEST_CASE("evaluate probe measures a grid against path tracing of its scene") {
+  const TestFolder folder;
+  write_text(folder.path("sky.hdr"), rgbe_map(32, 16));
+  write_text(folder.path("tube.glb"), glb_tube({}, false));
+  const std::string grid = folder.path("g.nook");
+  REQUIRE(folder
+              .run({"bake", "probe", folder.path("tube.glb"), "-o", grid, "--grid", "2x2x2", "--light",
+                    folder.path("sky.hdr"), "--box", "-1,-1,-1,1,2,1", "--error", "0.05", "--quiet"})
+              .exit_code == 0);
+  const auto evaluate = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"evaluate", "probe", grid,       "--points",           "64",
+                                   "--paths",  "128",   "--report", folder.path("r.json")};
+    words.insert(words.end(), more.begin(), more.end());
+    return folder.run(words);
+  };
+  const ToolRun run = evaluate({"--scene", folder.path("tube.glb"), "--light", folder.path("sky.hdr")});
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  const Json rows = rows_of(folder, "r.json");
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0].at("places") == "on surfaces");
+  CHECK(rows[2].at("places") == "in the open");
+  for (const Json& row : rows) {
+    CHECK(row.at("probes") == 8);
+    CHECK(row.at("points") == 64);
+    // An open sky that a thin tube hardly hides; the surface of the tube shades itself.
+    CHECK(row.at("irradiance_rms_relative").get<double>() < 0.5);
+    CHECK(row.at("irradiance_worst_relative").get<double>() >
+          row.at("irradiance_rms_relative").get<double>());
+  }
+  CHECK(evaluate({"--scene", folder.path("tube.glb")}).exit_code == 2);
+  CHECK(evaluate({"--scene", folder.path("none.glb"), "--light", folder.path("sky.hdr")}).exit_code == 3);
+}
+
 TEST_CASE("a grid writes previews, and a signal leaves the latest one or nothing") {
   const TestFolder folder;
   write_text(folder.path("sky.hdr"), rgbe_map(32, 16));

@@ -22,6 +22,7 @@ class GltfBuilder {
   template <typename T>
   int add(const std::vector<T>& values, const char* type, int component_type, bool normalised = false) {
     const std::size_t components = type == std::string("SCALAR") ? 1
+                                   : type == std::string("VEC2") ? 2
                                    : type == std::string("VEC3") ? 3
                                    : type == std::string("VEC4") ? 4
                                                                  : 16;

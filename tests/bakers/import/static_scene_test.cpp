@@ -70,7 +70,6 @@ TEST_CASE("triangles of a static scene carry their material's colours") {
   CHECK(scene.surface[1].base_colour == Vec3{1, 1, 1});  // glTF's default
   CHECK(scene.surface[1].emission == Vec3{4, 2, 0});
   CHECK(scene.surface[2].base_colour == Vec3{0.8f, 0.8f, 0.8f});
-  CHECK(scene.textured == 0);
 
   primitives[0]["material"] = 2;
   CHECK(failure_of(file).find("names material 2 (file has 2)") != std::string::npos);

@@ -1,0 +1,33 @@
+// The colour textures of glTF materials, their images collected once each.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <string>
+#include <vector>
+
+#include "import/texture_use.h"
+
+namespace nook::bake {
+
+class GltfTextures {
+ public:
+  // The document must have been parsed with Images::keep and outlive this.
+  explicit GltfTextures(const tinygltf::Model& model) : model_(model) {}
+
+  // `what` names the texture in messages. Fails with BAD_FILE on indices out of range, images without bytes
+  // and coordinate sets above 1.
+  TextureUse use(const tinygltf::TextureInfo& info, const std::string& what);
+
+  // In the order of their first use, which TextureUse::image counts.
+  std::vector<EncodedImage> take_images() { return std::move(images_); }
+
+ private:
+  std::uint32_t image_of(const tinygltf::Texture& texture, const std::string& what);
+
+  const tinygltf::Model& model_;
+  std::vector<EncodedImage> images_;
+  std::vector<int> sources_;  // of images_, in the file
+};
+
+}  // namespace nook::bake

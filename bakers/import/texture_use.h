@@ -1,0 +1,35 @@
+// Colour textures as a file has them: images still encoded, and how surfaces read them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nook::bake {
+
+struct EncodedImage {
+  std::string name;  // for messages: image 2 ("wood.png")
+  std::vector<std::byte> bytes;
+};
+
+struct TexturePoint {
+  float u = 0, v = 0;  // to the right and down; [0, 1]^2 is the image
+};
+
+enum class TextureWrap : std::uint8_t { repeat, mirrored, clamped };
+
+struct TextureUse {
+  static constexpr std::uint32_t none = ~0u;
+  std::uint32_t image = none;
+  std::uint8_t uv_set = 0;  // 0 or 1
+  TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+  bool nearest = false;  // else bilinear
+  // KHR_texture_transform: rows that take (u, v, 1) of the vertices to the image's.
+  std::array<float, 6> transform{1, 0, 0, 0, 1, 0};
+
+  bool is_used() const { return image != none; }
+};
+
+}  // namespace nook::bake

@@ -1,0 +1,73 @@
+#include "probe/inside_probes.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "probe/axes.h"
+
+namespace nook::bake::probe {
+namespace {
+
+using nook::probe::Grid;
+
+constexpr std::size_t directions = 256;
+
+}  // namespace
+
+bool is_inside(const LitScene& scene, Vec3 position_ws) {
+  std::array<Vec3, directions> direction;
+  nook::probe::vogel_sphere(direction);
+  std::size_t from_behind = 0;
+  for (const Vec3 d : direction) {
+    const RayHit hit = scene.nearest(position_ws, d);
+    from_behind += std::isfinite(hit.distance) && hit.from_behind;
+  }
+  return from_behind > directions / 2;
+}
+
+std::vector<bool> inside_probes(const LitScene& scene, const Grid& grid) {
+  std::vector<char> found(grid.size());
+  tbb::parallel_for(std::size_t(0), grid.size(), [&](std::size_t p) {
+    const FlushDenormals flush;
+    found[p] = is_inside(scene, grid.position_ws(p));
+  });
+  std::vector<bool> inside(found.begin(), found.end());
+  if (std::find(inside.begin(), inside.end(), false) == inside.end()) inside.assign(grid.size(), false);
+  return inside;
+}
+
+void fill_inside(nook::probe::Probes& probes, std::vector<bool> inside) {
+  const Grid& grid = probes.grid;
+  const std::size_t row = grid.counts[0], slice = row * grid.counts[1], count = probes.basis.count;
+  const auto left = [&] { return std::find(inside.begin(), inside.end(), true) != inside.end(); };
+  while (left()) {
+    // All probes of one layer at once, so that the order in which they come does not matter.
+    const std::vector<bool> before = inside;
+    for (std::size_t p = 0; p < grid.size(); ++p) {
+      if (!before[p]) continue;
+      std::vector<Vec3> sum(count);
+      float neighbours = 0;
+      const auto add = [&](bool exists, std::size_t from) {
+        if (!exists || before[from]) return;
+        for (std::size_t i = 0; i < count; ++i) sum[i] += probes.of(from)[i];
+        ++neighbours;
+      };
+      const std::size_t x = p % row, y = p / row % grid.counts[1], z = p / slice;
+      add(x > 0, p - 1);
+      add(x + 1 < row, p + 1);
+      add(y > 0, p - row);
+      add(y + 1 < grid.counts[1], p + row);
+      add(z > 0, p - slice);
+      add(z + 1 < grid.counts[2], p + slice);
+      if (neighbours == 0) continue;
+      for (std::size_t i = 0; i < count; ++i) probes.coefficients[p * count + i] = sum[i] * (1 / neighbours);
+      inside[p] = false;
+    }
+    if (inside == before) return;  // all of them are
+  }
+}
+
+}  // namespace nook::bake::probe
