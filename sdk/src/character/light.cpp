@@ -140,7 +140,10 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
                   lobes.size(), max_light_lobes);
   for (std::size_t i = 0; i < lobes.size(); ++i) check_lobe(lobes[i], i);
   InstanceLight& light = instance.light;
-  if (!lobes.empty() && light.lobes.size() == 0) allocate(light, instance.arrays.points, scene.memory);
+  if (!lobes.empty() && light.lobes.size() == 0) {
+    allocate(light, instance.arrays.points, scene.memory);
+    ++scene.structure_revision;
+  }
   for (std::size_t i = 0; i < lobes.size(); ++i) {
     light.lobes[i] = {lobes[i].axis * lobes[i].sharpness, lobes[i].sharpness, lobes[i].amplitude, 1};
     light.lobe_bands[i] = bands_of(lobes[i].sharpness);
