@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "animation.h"
+#include "floor_light.h"
 
 namespace crowd {
 namespace {
@@ -71,7 +72,7 @@ ProbeLight probe_light(const CrowdScene& scene, const Light& light) {
   look.glsl = view.glsl;
   look.ground_light = view.light;
   const float luminance = 0.2126f * up[0] + 0.7152f * up[1] + 0.0722f * up[2];
-  look.exposure = 1.6f * 3.14159265f / std::max(luminance, 1e-6f);
+  look.exposure = 1.2f * 3.14159265f / std::max(luminance, 1e-6f);
   look.horizon = {horizon[0], horizon[1], horizon[2]};
   return look;
 }
@@ -82,6 +83,8 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
   const float radius_m = crowd_radius_m(stage.places);
   Look look;
   look.fog_start_m = 1.2f * radius_m + 8;
+  const auto floor =
+      request.light ? std::make_unique<FloorLight>(gl, stage.hero, stage.places, *request.light) : nullptr;
   FrameTimes sum;
   for (std::uint32_t frame = 0; frame < request.frames; ++frame) {
     Stopwatch watch;
@@ -105,6 +108,7 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
       ProbeLight lit = probe_light(scene, *request.light);
       lit.fog_start_m = look.fog_start_m;
       lit.screen_ao = look.screen_ao;
+      lit.floor = floor->draw(poses);
       stage.renderer.draw_probe_light(drawn, camera, lit);
     } else {
       stage.renderer.draw(drawn, camera, look, glm::vec3(0), radius_m + 1);

@@ -36,8 +36,8 @@ float texel_share(std::uint32_t y, std::uint32_t width, std::uint32_t height) {
 
 // Blue above, white at the horizon, a warm sun 30 degrees high and 15 wide, and what dry ground sends back.
 void sky_radiance(const float direction[3], float* rgb) {
-  static constexpr float zenith[3] = {0.25f, 0.45f, 0.95f}, horizon[3] = {0.85f, 0.95f, 1.1f},
-                         sun[3] = {14.0f, 10.5f, 6.5f}, ground[3] = {0.30f, 0.25f, 0.19f};
+  static constexpr float zenith[3] = {0.20f, 0.36f, 0.75f}, horizon[3] = {0.60f, 0.68f, 0.80f},
+                         sun[3] = {26.0f, 19.0f, 11.0f}, ground[3] = {0.30f, 0.25f, 0.19f};
   static constexpr float to_sun[3] = {0.62f, 0.5f, 0.605f};
   const float up = direction[1];
   float to_sun_cosine = 0;

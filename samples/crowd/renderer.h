@@ -70,6 +70,7 @@ struct ProbeLight {
   glm::vec3 ground_albedo{0.36f, 0.36f, 0.37f};
   float fog_start_m = 22;
   ScreenAo screen_ao;
+  FloorAo floor;  // what the bodies leave of the ground's irradiance, RGB
 };
 
 class Renderer {
@@ -89,7 +90,8 @@ class Renderer {
   // The same with nothing but the instances' irradiance and the floor's.
   void draw_given_light(std::span<const DrawnInstance> instances, const Camera& camera,
                         const GivenLight& light);
-  // The same with a probe's irradiance times directional AO, and times the screen's AO where that is not 1.
+  // The same with a probe's irradiance times directional AO, which on the ground is the floor's or the
+  // screen's, whichever is darker.
   void draw_probe_light(std::span<const DrawnInstance> instances, const Camera& camera,
                         const ProbeLight& light);
 

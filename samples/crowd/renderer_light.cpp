@@ -51,6 +51,7 @@ void Renderer::draw_probe_light(std::span<const DrawnInstance> instances, const 
     GLuint texture;
   } textures[] = {{GL_TEXTURE2, GL_TEXTURE_2D, light.screen_ao.texture},
                   {GL_TEXTURE3, GL_TEXTURE_2D, light.screen_ao.depth},
+                  {GL_TEXTURE4, GL_TEXTURE_2D, light.floor.texture},
                   {GL_TEXTURE5, GL_TEXTURE_BUFFER, light.texture}};
   for (const auto& t : textures) {
     gl_.ActiveTexture(t.unit);
@@ -60,7 +61,12 @@ void Renderer::draw_probe_light(std::span<const DrawnInstance> instances, const 
     program->use();
     gl_.Uniform1i(program->uniform("screen_ao"), 2);
     gl_.Uniform1i(program->uniform("screen_depth"), 3);
+    gl_.Uniform1i(program->uniform("floor_light"), 4);
     gl_.Uniform1i(program->uniform("nook_scene_lights"), 5);
+    const bool on_floor = light.floor.texture && program == ground_probe_light_.get();
+    gl_.Uniform1i(program->uniform("use_floor_light"), on_floor);
+    gl_.Uniform2fv(program->uniform("floor_first_m"), 1, glm::value_ptr(light.floor.first_m));
+    gl_.Uniform2fv(program->uniform("floor_extent_m"), 1, glm::value_ptr(light.floor.extent_m));
     gl_.Uniform1i(program->uniform("use_screen_ao"), light.screen_ao.texture != 0);
     gl_.Uniform1i(program->uniform("light"), light.ground_light);
     gl_.Uniform1f(program->uniform("ao_strength"), light.ao_strength);

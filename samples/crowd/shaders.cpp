@@ -161,6 +161,10 @@ uniform int light;
 uniform bool use_screen_ao;
 uniform sampler2D screen_ao;
 uniform sampler2D screen_depth;
+uniform bool use_floor_light;
+uniform sampler2D floor_light;
+uniform vec2 floor_first_m;
+uniform vec2 floor_extent_m;
 uniform float ao_strength;
 uniform float exposure;
 uniform float fog_start_m;
@@ -183,7 +187,10 @@ float fetch_screen_ao() {
 }
 void main() {
   vec3 occlusion = surface_light;
-  if (use_screen_ao) occlusion *= fetch_screen_ao();
+  if (use_floor_light)
+    occlusion = texture(floor_light, (surface_position_ws.xz - floor_first_m) / floor_extent_m).rgb;
+  // The screen's AO, 1 on characters, knows contacts that the floor's texels do not.
+  if (use_screen_ao) occlusion = min(occlusion, vec3(fetch_screen_ao()));
   vec3 irradiance = nook_scene_irradiance(light, normalize(surface_normal_ws), mix(vec3(1.0), occlusion, ao_strength));
   vec3 seen = 1.0 - exp(-exposure * surface_albedo * irradiance * 0.31830989);
   float distance_m = length(surface_position_ws - eye_ws);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 
+#include "floor_light.h"
 #include "frames.h"
 
 namespace crowd {
@@ -122,6 +123,7 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
   bool tier_changed = true;
   int linked = -1;
   bool lit = false;
+  const auto floor = light ? std::make_unique<FloorLight>(gl, hero, places, *light) : nullptr;
   double time_s = 0, update_ms = 0;
   auto last = Clock::now();
   while (!context.should_close()) {
@@ -172,6 +174,7 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
       probe.ao_strength = look.ao_strength;
       probe.fog_start_m = look.fog_start_m;
       probe.screen_ao = look.screen_ao;
+      probe.floor = floor->draw(poses);
       renderer.draw_probe_light(drawn, camera, probe);
     } else {
       renderer.draw(drawn, camera, look, glm::vec3(0), radius_m + 1);
