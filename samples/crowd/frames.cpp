@@ -70,7 +70,7 @@ ProbeLight probe_light(const CrowdScene& scene, const Light& light) {
   ProbeLight look;
   look.texture = view.texture;
   look.glsl = view.glsl;
-  look.ground_light = view.light;
+  look.ground_irradiance = {up[0], up[1], up[2]};
   const float luminance = 0.2126f * up[0] + 0.7152f * up[1] + 0.0722f * up[2];
   look.exposure = 1.2f * 3.14159265f / std::max(luminance, 1e-6f);
   look.horizon = {horizon[0], horizon[1], horizon[2]};

@@ -63,8 +63,8 @@ struct GivenLight {
 struct ProbeLight {
   GLuint texture = 0;  // of the lights
   const char* glsl = nullptr;
-  GLint ground_light = 0;  // the light of the ground, as DrawnInstance::light_texel
-  float exposure = 1;      // of radiance, before the roll-off
+  glm::vec3 ground_irradiance{1};  // on open ground, which is flat: no pixel looks at the lobes
+  float exposure = 1;              // of radiance, before the roll-off
   float ao_strength = 1;
   glm::vec3 horizon{0.5f};  // radiance behind everything
   glm::vec3 ground_albedo{0.36f, 0.36f, 0.37f};

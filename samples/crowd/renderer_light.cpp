@@ -6,6 +6,11 @@
 #include "shaders.h"
 
 namespace crowd {
+namespace {
+
+constexpr const char* kVersion = "#version 330 core\n";
+
+}  // namespace
 
 void Renderer::draw_given_light(std::span<const DrawnInstance> instances, const Camera& camera,
                                 const GivenLight& light) {
@@ -37,9 +42,11 @@ void Renderer::draw_probe_light(std::span<const DrawnInstance> instances, const 
   GLint viewport[4];
   gl_.GetIntegerv(GL_VIEWPORT, viewport);
   if (!character_probe_light_) {
-    const auto fragment = {"#version 330 core\n", light.glsl, kProbeLightFragment};
-    character_probe_light_ = std::make_unique<GpuProgram>(gl_, kCharacterVertex, fragment);
-    ground_probe_light_ = std::make_unique<GpuProgram>(gl_, kGroundVertex, fragment);
+    character_probe_light_ = std::make_unique<GpuProgram>(
+        gl_, kCharacterVertex, std::initializer_list<const char*>{kVersion, light.glsl, kProbeLightFragment});
+    ground_probe_light_ = std::make_unique<GpuProgram>(
+        gl_, kGroundVertex,
+        std::initializer_list<const char*>{kVersion, "#define GROUND\n", light.glsl, kProbeLightFragment});
   }
   gl_.Enable(GL_DEPTH_TEST);
   const glm::vec3 background = 1.0f - glm::exp(-light.exposure * light.horizon);
@@ -63,12 +70,10 @@ void Renderer::draw_probe_light(std::span<const DrawnInstance> instances, const 
     gl_.Uniform1i(program->uniform("screen_depth"), 3);
     gl_.Uniform1i(program->uniform("floor_light"), 4);
     gl_.Uniform1i(program->uniform("nook_scene_lights"), 5);
-    const bool on_floor = light.floor.texture && program == ground_probe_light_.get();
-    gl_.Uniform1i(program->uniform("use_floor_light"), on_floor);
+    gl_.Uniform3fv(program->uniform("ground_irradiance"), 1, glm::value_ptr(light.ground_irradiance));
     gl_.Uniform2fv(program->uniform("floor_first_m"), 1, glm::value_ptr(light.floor.first_m));
     gl_.Uniform2fv(program->uniform("floor_extent_m"), 1, glm::value_ptr(light.floor.extent_m));
     gl_.Uniform1i(program->uniform("use_screen_ao"), light.screen_ao.texture != 0);
-    gl_.Uniform1i(program->uniform("light"), light.ground_light);
     gl_.Uniform1f(program->uniform("ao_strength"), light.ao_strength);
     gl_.Uniform1f(program->uniform("exposure"), light.exposure);
     gl_.Uniform1f(program->uniform("fog_start_m"), light.fog_start_m);

@@ -161,10 +161,12 @@ uniform int light;
 uniform bool use_screen_ao;
 uniform sampler2D screen_ao;
 uniform sampler2D screen_depth;
-uniform bool use_floor_light;
+#ifdef GROUND
+uniform vec3 ground_irradiance;
 uniform sampler2D floor_light;
 uniform vec2 floor_first_m;
 uniform vec2 floor_extent_m;
+#endif
 uniform float ao_strength;
 uniform float exposure;
 uniform float fog_start_m;
@@ -186,12 +188,19 @@ float fetch_screen_ao() {
   return texelFetch(screen_ao, best, 0).r;
 }
 void main() {
+#ifdef GROUND
+  vec3 occlusion = texture(floor_light, (surface_position_ws.xz - floor_first_m) / floor_extent_m).rgb;
+#else
   vec3 occlusion = surface_light;
-  if (use_floor_light)
-    occlusion = texture(floor_light, (surface_position_ws.xz - floor_first_m) / floor_extent_m).rgb;
+#endif
   // The screen's AO, 1 on characters, knows contacts that the floor's texels do not.
   if (use_screen_ao) occlusion = min(occlusion, vec3(fetch_screen_ao()));
-  vec3 irradiance = nook_scene_irradiance(light, normalize(surface_normal_ws), mix(vec3(1.0), occlusion, ao_strength));
+  occlusion = mix(vec3(1.0), occlusion, ao_strength);
+#ifdef GROUND
+  vec3 irradiance = ground_irradiance * occlusion;
+#else
+  vec3 irradiance = nook_scene_irradiance(light, normalize(surface_normal_ws), occlusion);
+#endif
   vec3 seen = 1.0 - exp(-exposure * surface_albedo * irradiance * 0.31830989);
   float distance_m = length(surface_position_ws - eye_ws);
   float fog = 1.0 - exp(-max(distance_m - fog_start_m, 0.0) / (0.7 * fog_start_m));

@@ -18,9 +18,9 @@ extern const char* const kLitFragment;
 // Irradiance that is given, at vertices or in a texture laid on the ground, and nothing else; linear light to
 // an sRGB target, bright parts rolled off.
 extern const char* const kGivenLightFragment;
-// Behind #version and Nook's GLSL for lights: a probe's irradiance times directional AO, which the ground has
-// in a texture laid on it and from the screen-space pass; linear light to an sRGB target, bright parts rolled
-// off.
+// Behind #version, GROUND for the ground, and Nook's GLSL for lights: a probe's irradiance times directional
+// AO, which the ground has in a texture laid on it and from the screen-space pass; linear light to an sRGB
+// target, bright parts rolled off.
 extern const char* const kProbeLightFragment;
 // Depth from the key light; draws characters only.
 extern const char* const kShadowFragment;
