@@ -64,9 +64,11 @@ std::vector<DrawnInstance> drawn_crowd(const CrowdScene& scene, const std::vecto
   return drawn;
 }
 
-ProbeLight probe_light(const CrowdScene& scene, const Light& light) {
+ProbeLight probe_light(const CrowdScene& scene, const Light& light, const Camera& camera) {
   const nook_gl_light_view view = scene.light(0);
-  const std::vector<float> up = light.irradiance({0, 1, 0}), horizon = light.horizon_radiance();
+  glm::vec3 ahead = camera.target_ws - camera.eye_ws;
+  ahead = glm::normalize(glm::vec3(ahead.x, 0.4f * glm::length(glm::vec2(ahead.x, ahead.z)), ahead.z));
+  const std::vector<float> up = light.irradiance({0, 1, 0}), horizon = light.radiance(&ahead.x);
   ProbeLight look;
   look.texture = view.texture;
   look.glsl = view.glsl;
@@ -105,7 +107,7 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
     }
     stage.target.bind();
     if (request.light) {
-      ProbeLight lit = probe_light(scene, *request.light);
+      ProbeLight lit = probe_light(scene, *request.light, camera);
       lit.fog_start_m = look.fog_start_m;
       lit.screen_ao = look.screen_ao;
       lit.floor = floor->draw(poses);

@@ -42,8 +42,9 @@ float crowd_radius_m(const std::vector<Placement>& places);
 
 // The instances as they stand, with what the scene's last update left of each; lit: it saw a light of all.
 std::vector<DrawnInstance> drawn_crowd(const CrowdScene& scene, const std::vector<Bones>& poses, bool lit);
-// How a picture under the light of all characters is made; exposed for a surface that faces up.
-ProbeLight probe_light(const CrowdScene& scene, const Light& light);
+// How a picture under the light of all characters is made: exposed for a surface that faces up, behind
+// everything the light from the horizon ahead.
+ProbeLight probe_light(const CrowdScene& scene, const Light& light, const Camera& camera);
 
 // Writes frame_0000.png and so on; calls progress with the number of frames done.
 FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest& request,

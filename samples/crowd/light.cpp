@@ -36,8 +36,8 @@ float texel_share(std::uint32_t y, std::uint32_t width, std::uint32_t height) {
 
 // Blue above, white at the horizon, a warm sun 30 degrees high and 15 wide, and what dry ground sends back.
 void sky_radiance(const float direction[3], float* rgb) {
-  static constexpr float zenith[3] = {0.20f, 0.36f, 0.75f}, horizon[3] = {0.60f, 0.68f, 0.80f},
-                         sun[3] = {26.0f, 19.0f, 11.0f}, ground[3] = {0.30f, 0.25f, 0.19f};
+  static constexpr float zenith[3] = {0.16f, 0.34f, 0.80f}, horizon[3] = {0.45f, 0.58f, 0.80f},
+                         sun[3] = {40.0f, 30.0f, 18.0f}, ground[3] = {0.30f, 0.25f, 0.19f};
   static constexpr float to_sun[3] = {0.62f, 0.5f, 0.605f};
   const float up = direction[1];
   float to_sun_cosine = 0;
@@ -149,17 +149,12 @@ std::vector<float> Light::irradiance(const std::vector<float>& normals) const {
   return e;
 }
 
-std::vector<float> Light::horizon_radiance() const {
-  constexpr std::uint32_t count = 16;
-  std::vector<float> directions, rgb(3 * count), mean(3, 0.0f);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const float azimuth = 2 * kPi * float(i) / count;
-    directions.insert(directions.end(), {0.995f * std::cos(azimuth), 0.1f, 0.995f * std::sin(azimuth)});
-  }
-  nook::check(nook_probe_lobes_radiance(lobes_.data(), std::uint32_t(lobes_.size()), directions.data(),
-                                        rgb.data(), count));
-  for (std::size_t i = 0; i < rgb.size(); ++i) mean[i % 3] += std::max(rgb[i], 0.0f) / count;
-  return mean;
+std::vector<float> Light::radiance(const float direction[3]) const {
+  std::vector<float> rgb(3);
+  nook::check(
+      nook_probe_lobes_radiance(lobes_.data(), std::uint32_t(lobes_.size()), direction, rgb.data(), 1));
+  for (float& channel : rgb) channel = std::max(channel, 0.0f);
+  return rgb;
 }
 
 std::vector<float> Light::mean_irradiance() const {

@@ -29,8 +29,8 @@ class Light {
 
   // What the lobes send to surfaces with these unit normals, three floats each.
   std::vector<float> irradiance(const std::vector<float>& normals) const;
-  // What they send from directions just above the horizon, on average: RGB.
-  std::vector<float> horizon_radiance() const;
+  // What they send from a unit direction: RGB, not below 0.
+  std::vector<float> radiance(const float direction[3]) const;
   // Constant light with the lobes' mean radiance: RGB.
   std::vector<float> mean_irradiance() const;
 

@@ -170,7 +170,7 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
     gl.Viewport(0, 0, width, height);
     gl.Enable(GL_FRAMEBUFFER_SRGB);
     if (lit) {
-      ProbeLight probe = probe_light(*scene, *light);
+      ProbeLight probe = probe_light(*scene, *light, camera);
       probe.ao_strength = look.ao_strength;
       probe.fog_start_m = look.fog_start_m;
       probe.screen_ao = look.screen_ao;
