@@ -75,6 +75,18 @@ AoSource CrowdScene::ao(std::size_t character) const {
   return {view.buffer, view.offset, view.stride};
 }
 
+void CrowdScene::set_light(std::span<const nook_probe_lobe> lobes) {
+  for (const nook_instance_id id : instances_)
+    scene_.set_light(id, lobes.data(), std::uint32_t(lobes.size()));
+}
+
+nook_gl_light_view CrowdScene::light(std::size_t character) const {
+  nook_gl_light_view view{};
+  view.struct_size = sizeof view;
+  nook::check(nook_gl_scene_light(gl_.get(), scene_.get(), instances_[character], &view));
+  return view;
+}
+
 std::vector<float> CrowdScene::read_ao(std::size_t character) const {
   std::vector<float> ao(model_.info().file_vertex_count);
   nook::check(nook_gl_scene_read_ao(gl_.get(), scene_.get(), instances_[character], ao.data(),

@@ -31,6 +31,11 @@ class CrowdScene {
   // Waits for the GPU: for reports, not for frames.
   std::vector<float> read_ao(std::size_t character) const;
 
+  // Lights all characters by the same lobes from the next update on; none: no light.
+  void set_light(std::span<const nook_probe_lobe> lobes);
+  // Of the last update, which saw a light.
+  nook_gl_light_view light(std::size_t character) const;
+
   // Directional occlusion of some characters under one light, three floats a vertex, evaluated on the CPU.
   std::vector<std::vector<float>> directional_ao(std::span<const std::uint32_t> characters,
                                                  std::span<const nook_probe_lobe> lobes);

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "animation.h"
+#include "floor_light.h"
 
 namespace crowd {
 namespace {
@@ -51,12 +52,41 @@ float crowd_radius_m(const std::vector<Placement>& places) {
   return radius + 1.0f;
 }
 
+std::vector<DrawnInstance> drawn_crowd(const CrowdScene& scene, const std::vector<Bones>& poses, bool lit) {
+  std::vector<DrawnInstance> drawn(poses.size());
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    drawn[i] = {&poses[i], scene.ao(i), albedo_of(i), {}, 0};
+    if (!lit) continue;
+    const nook_gl_light_view view = scene.light(i);
+    drawn[i].light = {view.buffer, view.offset, view.stride};
+    drawn[i].light_texel = view.light;
+  }
+  return drawn;
+}
+
+ProbeLight probe_light(const CrowdScene& scene, const Light& light, const Camera& camera) {
+  const nook_gl_light_view view = scene.light(0);
+  glm::vec3 ahead = camera.target_ws - camera.eye_ws;
+  ahead = glm::normalize(glm::vec3(ahead.x, 0.4f * glm::length(glm::vec2(ahead.x, ahead.z)), ahead.z));
+  const std::vector<float> up = light.irradiance({0, 1, 0}), horizon = light.radiance(&ahead.x);
+  ProbeLight look;
+  look.texture = view.texture;
+  look.glsl = view.glsl;
+  look.ground_irradiance = {up[0], up[1], up[2]};
+  const float luminance = 0.2126f * up[0] + 0.7152f * up[1] + 0.0722f * up[2];
+  look.exposure = 1.2f * 3.14159265f / std::max(luminance, 1e-6f);
+  look.horizon = {horizon[0], horizon[1], horizon[2]};
+  return look;
+}
+
 FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest& request,
                        const std::function<void(std::uint32_t)>& progress) {
   const GladGLContext& gl = stage.context.gl();
   const float radius_m = crowd_radius_m(stage.places);
   Look look;
   look.fog_start_m = 1.2f * radius_m + 8;
+  const auto floor =
+      request.light ? std::make_unique<FloorLight>(gl, stage.hero, stage.places, *request.light) : nullptr;
   FrameTimes sum;
   for (std::uint32_t frame = 0; frame < request.frames; ++frame) {
     Stopwatch watch;
@@ -67,8 +97,7 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
     scene.update();
     gl.Finish();
     now.scene_update = watch.lap_ms();
-    std::vector<DrawnInstance> drawn(poses.size());
-    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {&poses[i], scene.ao(i), albedo_of(i), {}};
+    const std::vector<DrawnInstance> drawn = drawn_crowd(scene, poses, request.light != nullptr);
     const Camera camera = orbit(radius_m, float(frame) / float(std::max(request.frames, 24u)));
     if (stage.screen_space) {
       watch.lap_ms();
@@ -77,7 +106,15 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
       now.screen_space = watch.lap_ms();
     }
     stage.target.bind();
-    stage.renderer.draw(drawn, camera, look, glm::vec3(0), radius_m + 1);
+    if (request.light) {
+      ProbeLight lit = probe_light(scene, *request.light, camera);
+      lit.fog_start_m = look.fog_start_m;
+      lit.screen_ao = look.screen_ao;
+      lit.floor = floor->draw(poses);
+      stage.renderer.draw_probe_light(drawn, camera, lit);
+    } else {
+      stage.renderer.draw(drawn, camera, look, glm::vec3(0), radius_m + 1);
+    }
     gl.Finish();
     now.draw = watch.lap_ms();
     const platform::Image picture = stage.target.read();

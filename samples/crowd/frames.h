@@ -7,6 +7,7 @@
 
 #include "crowd_scene.h"
 #include "layout.h"
+#include "light.h"
 #include "platform/render_target.h"
 #include "screen_space.h"
 
@@ -30,6 +31,7 @@ struct FrameTimes {
 struct FrameRequest {
   std::uint32_t frames = 4;
   std::filesystem::path out;
+  const Light* light = nullptr;  // null: plain ambient light and a key light
 };
 
 std::vector<Bones> pose_crowd(const Hero& hero, const std::vector<Placement>& places, float time_s);
@@ -37,6 +39,12 @@ std::vector<Bones> pose_crowd(const Hero& hero, const std::vector<Placement>& pl
 glm::vec3 albedo_of(std::size_t character);
 // Farthest root from the origin, with room for the body.
 float crowd_radius_m(const std::vector<Placement>& places);
+
+// The instances as they stand, with what the scene's last update left of each; lit: it saw a light of all.
+std::vector<DrawnInstance> drawn_crowd(const CrowdScene& scene, const std::vector<Bones>& poses, bool lit);
+// How a picture under the light of all characters is made: exposed for a surface that faces up, behind
+// everything the light from the horizon ahead.
+ProbeLight probe_light(const CrowdScene& scene, const Light& light, const Camera& camera);
 
 // Writes frame_0000.png and so on; calls progress with the number of frames done.
 FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest& request,

@@ -4,8 +4,9 @@
 
 namespace crowd {
 
-GpuProgram::GpuProgram(const GladGLContext& gl, const char* vertex_source, const char* fragment_source)
-    : gl_(gl), name_(platform::link_program(gl, {vertex_source}, {fragment_source})) {}
+GpuProgram::GpuProgram(const GladGLContext& gl, const char* vertex_source,
+                       std::initializer_list<const char*> fragment_sources)
+    : gl_(gl), name_(platform::link_program(gl, {vertex_source}, fragment_sources)) {}
 
 GpuProgram::~GpuProgram() {
   gl_.DeleteProgram(name_);

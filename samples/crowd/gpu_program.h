@@ -3,12 +3,16 @@
 
 #include <glad/gl.h>
 
+#include <initializer_list>
+
 namespace crowd {
 
 class GpuProgram {
  public:
-  // Throws std::runtime_error with the compiler's log.
-  GpuProgram(const GladGLContext& gl, const char* vertex_source, const char* fragment_source);
+  // The fragment shader's texts are put one behind another. Throws std::runtime_error with the compiler's
+  // log.
+  GpuProgram(const GladGLContext& gl, const char* vertex_source,
+             std::initializer_list<const char*> fragment_sources);
   ~GpuProgram();
   GpuProgram(const GpuProgram&) = delete;
   GpuProgram& operator=(const GpuProgram&) = delete;

@@ -18,6 +18,9 @@ class Light {
   // are fitted. Throws std::runtime_error and nook::Error.
   Light(const nook::Context& context, const std::filesystem::path& path);
 
+  // A clear sky with a low, hazy sun over warm ground, to which 12 lobes are fitted.
+  static Light built_in_sky(const nook::Context& context);
+
   const std::string& name() const { return name_; }
   const std::vector<nook_probe_lobe>& lobes() const { return lobes_; }
   nook_bake_environment environment() const { return {rgb_.data(), width_, height_}; }
@@ -26,12 +29,18 @@ class Light {
 
   // What the lobes send to surfaces with these unit normals, three floats each.
   std::vector<float> irradiance(const std::vector<float>& normals) const;
+  // What they send from a unit direction: RGB, not below 0.
+  std::vector<float> radiance(const float direction[3]) const;
   // Constant light with the lobes' mean radiance: RGB.
   std::vector<float> mean_irradiance() const;
 
  private:
+  explicit Light(std::string name) : name_(std::move(name)) {}
   void read_probe(const nook::Context& context, const std::filesystem::path& path);
-  void fit_map(const nook::Context& context, const std::filesystem::path& path);
+  void read_map(const std::filesystem::path& path);
+  // 12 lobes to the map.
+  void fit_lobes(const nook::Context& context);
+  void measure_mean();
 
   std::string name_;
   std::vector<nook_probe_lobe> lobes_;

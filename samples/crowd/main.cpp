@@ -102,6 +102,12 @@ void compare_lights(const Stage& stage, CrowdScene& scene, const Options& o, nlo
   line.show("lights", "lights", std::uint32_t(o.lights.size()), std::uint32_t(o.lights.size()));
 }
 
+std::unique_ptr<Light> light_of_frames(const nook::Context& context, const Options& o) {
+  if (!o.probe_light) return nullptr;
+  return std::make_unique<Light>(o.lights.empty() ? Light::built_in_sky(context)
+                                                  : Light(context, o.lights.front()));
+}
+
 // The newest OpenGL that there is, down to 3.3, which is all that the crowd needs.
 std::unique_ptr<platform::Context> create_context(const Options& o) {
   platform::ContextRequest wanted;
@@ -126,7 +132,8 @@ void run(const Options& o) {
   Renderer renderer(context->gl(), character.hero);
 #ifdef CROWD_HAS_WINDOW_LOOP
   if (o.context == "window" && o.frames == 0) {
-    run_window(*context, character.hero, character.model, places, renderer, o);
+    const std::unique_ptr<Light> light = light_of_frames(scene.context(), o);
+    run_window(*context, character.hero, character.model, places, renderer, light.get(), o);
     return;
   }
 #endif
@@ -137,11 +144,16 @@ void run(const Options& o) {
     screen_space = std::make_unique<ScreenSpaceAo>(*context, scene.gl(), o.width_px, o.height_px);
   const Stage stage{*context, character.hero, places, renderer, target, screen_space.get()};
   ProgressLine line(o.quiet);
-  const FrameTimes ms = draw_frames(stage, scene, {o.frames, o.out}, [&](std::uint32_t done) {
+  const std::unique_ptr<Light> light = light_of_frames(scene.context(), o);
+  if (light) scene.set_light(light->lobes());
+  const FrameTimes ms = draw_frames(stage, scene, {o.frames, o.out, light.get()}, [&](std::uint32_t done) {
     line.show("drawing", "frames", done, o.frames);
   });
+  // What follows compares AO.
+  scene.set_light({});
   nlohmann::ordered_json report = describe(*context, scene, o);
   report["links"] = scene.stats().links;
+  report["light"] = light ? nlohmann::ordered_json(light->name()) : nlohmann::ordered_json();
   report["ms"] = {{"pose", ms.pose},
                   {"scene_update", ms.scene_update},
                   {"screen_space", ms.screen_space},

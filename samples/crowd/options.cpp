@@ -52,9 +52,11 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
       ->check(CLI::IsMember({"on", "off"}));
   app.add_option(
          "--light", o.lights,
-         "probe (.nook) or environment (.hdr, .exr) to compare occlusion of its light under; may repeat")
+         "probe (.nook) or environment (.hdr, .exr): the first lights the frames, each is compared with path "
+         "tracing; may repeat. Without one, a built-in sky lights the frames")
       ->check(CLI::ExistingFile)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_flag("!--no-light", o.probe_light, "frames in plain ambient light times AO, with a key light");
   app.add_option("--seed", o.seed, "of the places, the clips and the rays");
   app.add_option("--cache", o.cache, "folder where baked characters are kept");
   app.add_flag("!--no-sheets", o.sheets,

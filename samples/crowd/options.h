@@ -17,6 +17,7 @@ struct Options {
   std::filesystem::path out = "out/crowd", report;
   std::filesystem::path cache;
   std::vector<std::filesystem::path> lights;  // probes (.nook) or maps of the environment (.hdr, .exr)
+  bool probe_light = true;                    // frames under the first of the lights, or the built-in sky
   bool screen_space = true, sheets = true, quiet = false;
 };
 

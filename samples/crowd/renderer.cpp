@@ -11,7 +11,7 @@ namespace crowd {
 namespace {
 
 constexpr GLsizei kShadowSize_px = 2048;
-constexpr GLuint kAoSlot = 4, kIrradianceSlot = 5;
+constexpr GLuint kAoSlot = 4, kLightSlot = 5;
 
 struct Vertex {
   float position_m[3];
@@ -39,13 +39,13 @@ const void* at(std::uint64_t offset) {
 
 Renderer::Renderer(const GladGLContext& gl, const Hero& hero)
     : gl_(gl),
-      character_(gl, kCharacterVertex, kLitFragment),
-      ground_(gl, kGroundVertex, kLitFragment),
-      character_surface_(gl, kCharacterVertex, kSurfaceFragment),
-      ground_surface_(gl, kGroundVertex, kSurfaceFragment),
-      shadow_(gl, kCharacterVertex, kShadowFragment),
-      character_given_light_(gl, kCharacterVertex, kGivenLightFragment),
-      ground_given_light_(gl, kGroundVertex, kGivenLightFragment),
+      character_(gl, kCharacterVertex, {kLitFragment}),
+      ground_(gl, kGroundVertex, {kLitFragment}),
+      character_surface_(gl, kCharacterVertex, {kSurfaceFragment}),
+      ground_surface_(gl, kGroundVertex, {kSurfaceFragment}),
+      shadow_(gl, kCharacterVertex, {kShadowFragment}),
+      character_given_light_(gl, kCharacterVertex, {kGivenLightFragment}),
+      ground_given_light_(gl, kGroundVertex, {kGivenLightFragment}),
       index_count_(GLsizei(hero.triangles.size())),
       bone_texels_(3 * std::size_t(hero.bone_count())),
       to_key_ws_(glm::normalize(glm::vec3(0.5f, 0.95f, 0.35f))) {
@@ -107,15 +107,14 @@ void Renderer::upload_bones(std::span<const DrawnInstance> instances) {
   gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffers_[2]);
 }
 
-void Renderer::bind_irradiance(const AoSource& irradiance) {
-  if (irradiance.buffer == 0) {
-    gl_.DisableVertexAttribArray(kIrradianceSlot);
+void Renderer::bind_light(const AoSource& light) {
+  if (light.buffer == 0) {
+    gl_.DisableVertexAttribArray(kLightSlot);
     return;
   }
-  gl_.BindBuffer(GL_ARRAY_BUFFER, irradiance.buffer);
-  gl_.EnableVertexAttribArray(kIrradianceSlot);
-  gl_.VertexAttribPointer(kIrradianceSlot, 3, GL_FLOAT, GL_FALSE, GLsizei(irradiance.stride),
-                          at(irradiance.offset));
+  gl_.BindBuffer(GL_ARRAY_BUFFER, light.buffer);
+  gl_.EnableVertexAttribArray(kLightSlot);
+  gl_.VertexAttribPointer(kLightSlot, 3, GL_FLOAT, GL_FALSE, GLsizei(light.stride), at(light.offset));
 }
 
 void Renderer::draw_characters(const GpuProgram& program, std::span<const DrawnInstance> instances,
@@ -123,7 +122,8 @@ void Renderer::draw_characters(const GpuProgram& program, std::span<const DrawnI
   program.use();
   gl_.Uniform1i(program.uniform("bones"), 0);
   gl_.UniformMatrix4fv(program.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(view));
-  const GLint first_texel = program.uniform("first_bone_texel"), albedo = program.uniform("instance_albedo");
+  const GLint first_texel = program.uniform("first_bone_texel"), light = program.uniform("light"),
+              albedo = program.uniform("instance_albedo");
   gl_.BindVertexArray(arrays_[0]);
   for (std::size_t first = 0; first < instances.size(); first += chunk_) {
     const auto chunk = instances.subspan(first, std::min(chunk_, instances.size() - first));
@@ -139,7 +139,8 @@ void Renderer::draw_characters(const GpuProgram& program, std::span<const DrawnI
         gl_.DisableVertexAttribArray(kAoSlot);
         gl_.VertexAttrib1f(kAoSlot, 1.0f);
       }
-      bind_irradiance(chunk[i].irradiance);
+      bind_light(chunk[i].light);
+      gl_.Uniform1i(light, chunk[i].light_texel);
       gl_.Uniform1i(first_texel, GLint(i * bone_texels_));
       gl_.Uniform3fv(albedo, 1, glm::value_ptr(chunk[i].albedo));
       gl_.DrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
@@ -221,29 +222,6 @@ void Renderer::draw(std::span<const DrawnInstance> instances, const Camera& came
   draw_ground(ground_, look.ground_albedo, view);
   set_look(character_, camera, look);
   draw_characters(character_, instances, view);
-}
-
-void Renderer::draw_given_light(std::span<const DrawnInstance> instances, const Camera& camera,
-                                const GivenLight& light) {
-  GLint viewport[4];
-  gl_.GetIntegerv(GL_VIEWPORT, viewport);
-  gl_.Enable(GL_DEPTH_TEST);
-  gl_.ClearColor(light.background.r, light.background.g, light.background.b, 1);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  const glm::mat4 view = clip_from_world(camera, float(viewport[2]) / float(viewport[3]));
-  gl_.ActiveTexture(GL_TEXTURE4);
-  gl_.BindTexture(GL_TEXTURE_2D, light.floor.texture);
-  for (const GpuProgram* program : {&ground_given_light_, &character_given_light_}) {
-    program->use();
-    gl_.Uniform1i(program->uniform("floor_light"), 4);
-    gl_.Uniform1i(program->uniform("use_floor_light"), program == &ground_given_light_);
-    gl_.Uniform2fv(program->uniform("floor_first_m"), 1, glm::value_ptr(light.floor.first_m));
-    gl_.Uniform2fv(program->uniform("floor_extent_m"), 1, glm::value_ptr(light.floor.extent_m));
-    gl_.Uniform1f(program->uniform("exposure"), light.exposure);
-    gl_.Uniform3fv(program->uniform("background"), 1, glm::value_ptr(light.background));
-  }
-  if (light.floor.texture) draw_ground(ground_given_light_, glm::vec3(0.5f), view);
-  draw_characters(character_given_light_, instances, view);
 }
 
 }  // namespace crowd

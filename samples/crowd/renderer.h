@@ -4,6 +4,7 @@
 #include <glad/gl.h>
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,7 +25,9 @@ struct DrawnInstance {
   const Bones* bones = nullptr;
   AoSource ao;
   glm::vec3 albedo{0.6f};
-  AoSource irradiance;  // three floats a vertex; read by draw_given_light alone
+  AoSource
+      light;  // three floats a vertex: irradiance for draw_given_light, directional AO for draw_probe_light
+  GLint light_texel = 0;  // of Nook's view of its light; for draw_probe_light
 };
 
 // What the screen-space pass made of the same instances through the same camera; 0: no such pass.
@@ -56,6 +59,20 @@ struct GivenLight {
   glm::vec3 background{0.62f};
 };
 
+// A probe's light as Nook leaves it on the GPU.
+struct ProbeLight {
+  GLuint texture = 0;  // of the lights
+  const char* glsl = nullptr;
+  glm::vec3 ground_irradiance{1};  // on open ground, which is flat: no pixel looks at the lobes
+  float exposure = 1;              // of radiance, before the roll-off
+  float ao_strength = 1;
+  glm::vec3 horizon{0.5f};  // radiance behind everything
+  glm::vec3 ground_albedo{0.36f, 0.36f, 0.37f};
+  float fog_start_m = 22;
+  ScreenAo screen_ao;
+  FloorAo floor;  // what the bodies leave of the ground's irradiance, RGB
+};
+
 class Renderer {
  public:
   Renderer(const GladGLContext& gl, const Hero& hero);
@@ -73,9 +90,13 @@ class Renderer {
   // The same with nothing but the instances' irradiance and the floor's.
   void draw_given_light(std::span<const DrawnInstance> instances, const Camera& camera,
                         const GivenLight& light);
+  // The same with a probe's irradiance times directional AO, which on the ground is the floor's or the
+  // screen's, whichever is darker.
+  void draw_probe_light(std::span<const DrawnInstance> instances, const Camera& camera,
+                        const ProbeLight& light);
 
  private:
-  void bind_irradiance(const AoSource& irradiance);
+  void bind_light(const AoSource& light);
   void upload_bones(std::span<const DrawnInstance> instances);
   void draw_characters(const GpuProgram& program, std::span<const DrawnInstance> instances,
                        const glm::mat4& view);
@@ -86,6 +107,7 @@ class Renderer {
   const GladGLContext& gl_;
   GpuProgram character_, ground_, character_surface_, ground_surface_, shadow_;
   GpuProgram character_given_light_, ground_given_light_;
+  std::unique_ptr<GpuProgram> character_probe_light_, ground_probe_light_;  // none before the first
   GLsizei index_count_;
   std::size_t bone_texels_;
   GLuint arrays_[2] = {};   // character, ground

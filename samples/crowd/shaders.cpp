@@ -8,7 +8,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in uvec4 joints;
 layout(location = 3) in vec4 weights;
 layout(location = 4) in float ao;
-layout(location = 5) in vec3 irradiance;
+layout(location = 5) in vec3 light_value;
 uniform samplerBuffer bones;
 uniform int first_bone_texel;
 uniform mat4 clip_from_world;
@@ -17,7 +17,7 @@ out vec3 surface_position_ws;
 out vec3 surface_normal_ws;
 out vec3 surface_albedo;
 out float surface_ao;
-out vec3 surface_irradiance;
+out vec3 surface_light;
 vec4 bone_row(int bone, int row) { return texelFetch(bones, first_bone_texel + 3 * bone + row); }
 void main() {
   vec4 rows[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
@@ -28,7 +28,7 @@ void main() {
   surface_normal_ws = vec3(dot(rows[0].xyz, normal), dot(rows[1].xyz, normal), dot(rows[2].xyz, normal));
   surface_albedo = instance_albedo;
   surface_ao = ao;
-  surface_irradiance = irradiance;
+  surface_light = light_value;
   gl_Position = clip_from_world * vec4(surface_position_ws, 1.0);
 }
 )";
@@ -41,14 +41,14 @@ out vec3 surface_position_ws;
 out vec3 surface_normal_ws;
 out vec3 surface_albedo;
 out float surface_ao;
-out vec3 surface_irradiance;
+out vec3 surface_light;
 void main() {
   vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 2.0 - 1.0;
   surface_position_ws = vec3(corner.x, 0.0, corner.y) * ground_half_size_m;
   surface_normal_ws = vec3(0.0, 1.0, 0.0);
   surface_albedo = instance_albedo;
   surface_ao = 1.0;
-  surface_irradiance = vec3(0.0);
+  surface_light = vec3(1.0);
   gl_Position = clip_from_world * vec4(surface_position_ws, 1.0);
 }
 )";
@@ -130,7 +130,7 @@ void main() {
 const char* const kGivenLightFragment = R"(#version 330 core
 in vec3 surface_position_ws;
 in vec3 surface_albedo;
-in vec3 surface_irradiance;
+in vec3 surface_light;
 uniform bool use_floor_light;
 uniform sampler2D floor_light;
 uniform vec2 floor_first_m;
@@ -139,7 +139,7 @@ uniform float exposure;
 uniform vec3 background;
 out vec4 colour;
 void main() {
-  vec3 irradiance = surface_irradiance;
+  vec3 irradiance = surface_light;
   float edge = 0.0;
   if (use_floor_light) {
     vec2 uv = (surface_position_ws.xz - floor_first_m) / floor_extent_m;
@@ -149,6 +149,62 @@ void main() {
   }
   vec3 seen = 1.0 - exp(-exposure * surface_albedo * irradiance * 0.31830989);
   colour = vec4(mix(seen, background, edge), 1.0);
+}
+)";
+
+const char* const kProbeLightFragment = R"(
+in vec3 surface_position_ws;
+in vec3 surface_normal_ws;
+in vec3 surface_albedo;
+in vec3 surface_light;
+uniform int light;
+uniform bool use_screen_ao;
+uniform sampler2D screen_ao;
+uniform sampler2D screen_depth;
+#ifdef GROUND
+uniform vec3 ground_irradiance;
+uniform sampler2D floor_light;
+uniform vec2 floor_first_m;
+uniform vec2 floor_extent_m;
+#endif
+uniform float ao_strength;
+uniform float exposure;
+uniform float fog_start_m;
+uniform vec3 eye_ws;
+uniform vec3 background;
+out vec4 colour;
+// The picture is multisampled and AO is not: on an edge the texel may be another surface's. Of it and the
+// four beside it, that nearest in depth.
+float fetch_screen_ao() {
+  const ivec2 steps[5] = ivec2[5](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
+  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(screen_depth, 0) - 1, best = pixel;
+  float least = 2.0;
+  for (int i = 0; i < 5; ++i) {
+    ivec2 candidate = clamp(pixel + steps[i], ivec2(0), last);
+    float off = abs(texelFetch(screen_depth, candidate, 0).r - gl_FragCoord.z);
+    if (off < least) best = candidate;
+    least = min(least, off);
+  }
+  return texelFetch(screen_ao, best, 0).r;
+}
+void main() {
+#ifdef GROUND
+  vec3 occlusion = texture(floor_light, (surface_position_ws.xz - floor_first_m) / floor_extent_m).rgb;
+#else
+  vec3 occlusion = surface_light;
+#endif
+  // The screen's AO, 1 on characters, knows contacts that the floor's texels do not.
+  if (use_screen_ao) occlusion = min(occlusion, vec3(fetch_screen_ao()));
+  occlusion = mix(vec3(1.0), occlusion, ao_strength);
+#ifdef GROUND
+  vec3 irradiance = ground_irradiance * occlusion;
+#else
+  vec3 irradiance = nook_scene_irradiance(light, normalize(surface_normal_ws), occlusion);
+#endif
+  vec3 seen = 1.0 - exp(-exposure * surface_albedo * irradiance * 0.31830989);
+  float distance_m = length(surface_position_ws - eye_ws);
+  float fog = 1.0 - exp(-max(distance_m - fog_start_m, 0.0) / (0.7 * fog_start_m));
+  colour = vec4(mix(seen, background, fog), 1.0);
 }
 )";
 

@@ -4,7 +4,7 @@
 namespace crowd {
 
 // Characters: linear blend skinning with bones in a texture buffer, three texels a bone. ao is Nook's value;
-// irradiance is read by kGivenLightFragment alone.
+// light_value is irradiance for kGivenLightFragment, Nook's directional AO for kProbeLightFragment.
 extern const char* const kCharacterVertex;
 // One big quad on y = 0, made from gl_VertexID.
 extern const char* const kGroundVertex;
@@ -18,6 +18,10 @@ extern const char* const kLitFragment;
 // Irradiance that is given, at vertices or in a texture laid on the ground, and nothing else; linear light to
 // an sRGB target, bright parts rolled off.
 extern const char* const kGivenLightFragment;
+// Behind #version, GROUND for the ground, and Nook's GLSL for lights: a probe's irradiance times directional
+// AO, which the ground has in a texture laid on it and from the screen-space pass; linear light to an sRGB
+// target, bright parts rolled off.
+extern const char* const kProbeLightFragment;
 // Depth from the key light; draws characters only.
 extern const char* const kShadowFragment;
 

@@ -128,7 +128,7 @@ void SheetPainter::add_lit(const std::string& label, const std::vector<std::vect
   light.floor = upload(floor.patch, floor.irradiance, 3);
   std::vector<DrawnInstance> drawn;
   for (std::size_t i = 0; i < sources.size(); ++i)
-    drawn.push_back({&poses_[group_.members[i]], {}, glm::vec3(0.72f), sources[i]});
+    drawn.push_back({&poses_[group_.members[i]], {}, glm::vec3(0.72f), sources[i], 0});
   stage_.target.bind();
   stage_.renderer.draw_given_light(drawn, group_.camera, light);
   panels_.push_back(stage_.target.read());
@@ -165,7 +165,7 @@ void SheetPainter::add_panel(const std::string& label, std::span<const AoSource>
   look.floor_ao = floor_;
   std::vector<DrawnInstance> drawn;
   for (std::size_t i = 0; i < sources.size(); ++i)
-    drawn.push_back({&poses_[group_.members[i]], sources[i], glm::vec3(0.72f), {}});
+    drawn.push_back({&poses_[group_.members[i]], sources[i], glm::vec3(0.72f), {}, 0});
   if (screen_space != ScreenSpace::kOff)
     look.screen_ao = stage_.screen_space->draw(
         stage_.renderer, drawn, group_.camera,

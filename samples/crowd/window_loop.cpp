@@ -10,13 +10,15 @@
 #include <cmath>
 #include <memory>
 
+#include "floor_light.h"
 #include "frames.h"
 
 namespace crowd {
 namespace {
 
 struct Controls {
-  bool ao = true, self = true, neighbours = true, ground = true, screen_space = true, playing = true;
+  bool ao = true, probe_light = true, self = true, neighbours = true, ground = true, screen_space = true,
+       playing = true;
   float intensity = 1.0f, key = 0.5f;
   int link_count = 4;
   int tier = 0;  // 33, 43 or 0 for the best
@@ -59,7 +61,7 @@ class Gui {
 };
 
 // True if the tier was changed.
-bool show_controls(Controls& c, const CrowdScene& scene, double update_ms) {
+bool show_controls(Controls& c, const CrowdScene& scene, bool have_light, double update_ms) {
   ImGui::Begin("Nook");
   ImGui::Checkbox("ambient occlusion", &c.ao);
   ImGui::SliderFloat("intensity", &c.intensity, 0, 1);
@@ -70,7 +72,8 @@ bool show_controls(Controls& c, const CrowdScene& scene, double update_ms) {
   ImGui::Checkbox("ground", &c.ground);
   ImGui::Checkbox("screen-space AO on the floor", &c.screen_space);
   ImGui::SliderInt("nearest neighbours", &c.link_count, 0, 16);
-  ImGui::SliderFloat("key light", &c.key, 0, 1);
+  if (have_light) ImGui::Checkbox("light of a probe", &c.probe_light);
+  if (!have_light || !c.probe_light) ImGui::SliderFloat("key light", &c.key, 0, 1);
   ImGui::Checkbox("play", &c.playing);
   const int tier = scene.gl_info().tier;
   ImGui::Text("OpenGL tier:");
@@ -104,7 +107,8 @@ Camera camera_of(const Controls& c) {
 }  // namespace
 
 void run_window(platform::Context& context, const Hero& hero, std::span<const unsigned char> model,
-                const std::vector<Placement>& places, Renderer& renderer, const Options& options) {
+                const std::vector<Placement>& places, Renderer& renderer, const Light* light,
+                const Options& options) {
   using Clock = std::chrono::steady_clock;
   const GladGLContext& gl = context.gl();
   Gui gui(context.window());
@@ -118,6 +122,8 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
   std::unique_ptr<ScreenSpaceAo> screen_space;
   bool tier_changed = true;
   int linked = -1;
+  bool lit = false;
+  const auto floor = light ? std::make_unique<FloorLight>(gl, hero, places, *light) : nullptr;
   double time_s = 0, update_ms = 0;
   auto last = Clock::now();
   while (!context.should_close()) {
@@ -128,6 +134,11 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
                                       controls.tier, NOOK_COMBINE_COMPOSED};
       scene = std::make_unique<CrowdScene>(context, model, request);
       linked = controls.link_count;
+      lit = false;
+    }
+    if (const bool want = light && controls.probe_light; want != lit) {
+      scene->set_light(want ? std::span(light->lobes()) : std::span<const nook_probe_lobe>());
+      lit = want;
     }
     if (linked != controls.link_count) scene->link_nearest(std::uint32_t(linked = controls.link_count));
     const auto now = Clock::now();
@@ -138,8 +149,7 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
     const auto before = Clock::now();
     scene->update(controls.terms());
     update_ms = std::chrono::duration<double, std::milli>(Clock::now() - before).count();
-    std::vector<DrawnInstance> drawn(poses.size());
-    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {&poses[i], scene->ao(i), albedo_of(i), {}};
+    const std::vector<DrawnInstance> drawn = drawn_crowd(*scene, poses, lit);
     Look look;
     look.ao_strength = controls.ao ? controls.intensity : 0;
     look.key_strength = controls.key;
@@ -159,10 +169,19 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
     context.framebuffer();
     gl.Viewport(0, 0, width, height);
     gl.Enable(GL_FRAMEBUFFER_SRGB);
-    renderer.draw(drawn, camera, look, glm::vec3(0), radius_m + 1);
+    if (lit) {
+      ProbeLight probe = probe_light(*scene, *light, camera);
+      probe.ao_strength = look.ao_strength;
+      probe.fog_start_m = look.fog_start_m;
+      probe.screen_ao = look.screen_ao;
+      probe.floor = floor->draw(poses);
+      renderer.draw_probe_light(drawn, camera, probe);
+    } else {
+      renderer.draw(drawn, camera, look, glm::vec3(0), radius_m + 1);
+    }
     gl.Disable(GL_FRAMEBUFFER_SRGB);  // ImGui's colours are encoded already
     gui.begin();
-    tier_changed = show_controls(controls, *scene, update_ms);
+    tier_changed = show_controls(controls, *scene, light != nullptr, update_ms);
     gui.draw();
     context.present();
   }

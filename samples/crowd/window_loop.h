@@ -5,11 +5,14 @@
 
 #include "crowd_scene.h"
 #include "layout.h"
+#include "light.h"
 #include "options.h"
 
 namespace crowd {
 
+// light: of a probe, for all characters; null: none.
 void run_window(platform::Context& context, const Hero& hero, std::span<const unsigned char> model,
-                const std::vector<Placement>& places, Renderer& renderer, const Options& options);
+                const std::vector<Placement>& places, Renderer& renderer, const Light* light,
+                const Options& options);
 
 }  // namespace crowd

@@ -12,13 +12,14 @@ struct NookRecord {
   uint first_bone;
   uint first_sphere;
   uint place;  // of the instance in its chunk
+  uint light;  // 1 + its first texel in the lights; 0: none
   uint first_caster, caster_count;  // in nook_caster
   uint first_exact, exact_count;    // in nook_caster
 };
 
 NookRecord nook_read_record(uint instance) {
   uvec4 a = nook_record[2u * instance], b = nook_record[2u * instance + 1u];
-  return NookRecord(a.x, a.y, a.z, b.x, b.y, b.z, b.w);
+  return NookRecord(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
 // The smallest radius that counts, metres; min_sphere_radius of sdk/src/character/shadow_kernels.h.

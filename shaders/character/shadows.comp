@@ -1,67 +1,13 @@
-// The non-linear layer: shadow and added occlusion at the key points of an instance. One thread a key point; y is the
-// instance. Spheres pass through shared memory, which all threads of the group then read.
-#include "character/instance.glsl"
-#include "character/kernel.glsl"
+// The non-linear layer: shadow and added occlusion at the key points of an instance.
+#include "character/key_points.glsl"
 
-const uint nook_tile_size = 64u;
-layout(local_size_x = 64) in;
-
-layout(std430, binding = 2) readonly buffer NookCasters {
-  // Two for each caster: its origin minus the receiver's, first sphere; number of spheres. Or one for each exact
-  // sphere: centre, 1 / radius. Floats as bits.
-  uvec4 nook_caster[];
-};
-layout(std430, binding = 3) readonly buffer NookSpheres {
-  vec4 nook_sphere[];
-};
-layout(std430, binding = 4) readonly buffer NookWeights {
-  float nook_caster_weight[];
-};
 layout(std430, binding = 5) writeonly buffer NookShadows {
   vec2 nook_shadow[];  // shadow, added occlusion
 };
-layout(std430, binding = 6) readonly buffer NookKeyPoints {
-  vec4 nook_rest_key_point[];  // six for each: position, normal, surface position, surface normal, bones, weights
-};
-
-layout(location = 0) uniform uint nook_first_record;
-layout(location = 1) uniform uint nook_first_sphere;  // of the level of detail, in the instance's spheres
-layout(location = 2) uniform uint nook_sphere_count;
-layout(location = 3) uniform uint nook_first_key_point;  // of the level of detail
-layout(location = 4) uniform uint nook_key_point_count;
-layout(location = 5) uniform float nook_gamma;
-layout(location = 6) uniform int nook_self;      // 0: no shadow from the instance itself
-layout(location = 7) uniform int nook_composed;  // 0: added spheres join the one norm
-layout(location = 8) uniform uint nook_shadow_stride;
-layout(location = 9) uniform uint nook_shadow_offset;  // in the instance's shadows
-
-shared vec4 nook_tile[nook_tile_size];
-shared float nook_tile_weight[nook_tile_size];
-
-struct NookPoint {
-  vec3 position, normal;
-};
-
-// Height above the horizon in radii, and squared distance in radii.
-vec2 nook_see(vec4 sphere, NookPoint point) {
-  vec3 d = (sphere.xyz - point.position) * sphere.w;
-  return vec2(dot(d, point.normal), dot(d, d));
-}
 
 float nook_norm_term(vec4 sphere, NookPoint point) {
   vec2 seen = nook_see(sphere, point);
   return nook_raised(nook_shadow_term(seen.x, seen.y), nook_gamma);
-}
-
-// Every thread of the group comes here with the same arguments.
-void nook_stage(uint first, uint count) {
-  barrier();
-  uint i = gl_LocalInvocationID.x;
-  if (i < count) {
-    nook_tile[i] = nook_sphere[first + i];
-    nook_tile_weight[i] = nook_caster_weight[first + i];
-  }
-  barrier();
 }
 
 float nook_norm_sum(uint first, uint count, NookPoint point) {
@@ -85,29 +31,6 @@ float nook_depth(uint first, uint count, NookPoint point) {
     }
   }
   return sum;
-}
-
-// Linear blend of up to four bones; the normal is renormalised, and stays zero where opposite bones cancel it.
-void nook_pose(uint key_point, uint first_bone, out NookPoint fitted, out NookPoint surface) {
-  uint k = 6u * key_point;
-  vec4 bones = nook_rest_key_point[k + 4u], weights = nook_rest_key_point[k + 5u];
-  vec4 x = vec4(0.0), y = vec4(0.0), z = vec4(0.0);
-  for (int b = 0; b < 4; ++b) {
-    uint row = 3u * (first_bone + uint(bones[b]));
-    x += weights[b] * nook_bone[row];
-    y += weights[b] * nook_bone[row + 1u];
-    z += weights[b] * nook_bone[row + 2u];
-  }
-  for (uint i = 0u; i < 2u; ++i) {
-    vec4 p = vec4(nook_rest_key_point[k + 2u * i].xyz, 1.0);
-    vec3 n = nook_rest_key_point[k + 2u * i + 1u].xyz;
-    n = vec3(dot(x.xyz, n), dot(y.xyz, n), dot(z.xyz, n));
-    NookPoint posed = NookPoint(vec3(dot(x, p), dot(y, p), dot(z, p)), n * inversesqrt(max(dot(n, n), 1e-30)));
-    if (i == 0u)
-      fitted = posed;
-    else
-      surface = posed;
-  }
 }
 
 void main() {

@@ -1,4 +1,5 @@
 // The linear layer: AO of every vertex in file order from a few key points. One thread a vertex; y is the instance.
+// NOOK_LIGHT: directional occlusion, three floats a vertex; AO in all of them for an instance without light.
 #include "character/instance.glsl"
 #include "character/linear.glsl"
 
@@ -15,6 +16,11 @@ layout(std430, binding = 6) readonly buffer NookLinear {
 layout(std430, binding = 7) writeonly buffer NookAo {
   float nook_ao[];
 };
+#if NOOK_LIGHT
+layout(std430, binding = 3) readonly buffer NookColours {
+  vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow; added occlusion
+};
+#endif
 
 layout(location = 0) uniform uint nook_file_vertex_count;
 layout(location = 1) uniform uint nook_vertex_count;
@@ -29,7 +35,12 @@ void main() {
   uint first_key_point = record.place * nook_shadow_stride;
   uint word = nook_file_vertex_count + nook_linear[file_vertex];
   float bias = nook_self != 0 ? uintBitsToFloat(nook_linear[word]) : 0.0;
+#if NOOK_LIGHT
+  bool lit = record.light != 0u;
+  vec3 shadow = vec3(0.0), added = vec3(0.0);
+#else
   vec2 sum = vec2(0.0);
+#endif
   for (uint i = 0u; i < nook_influence_pairs; ++i) {
     uint pair = nook_linear[word + (1u + i) * nook_vertex_count];
     uint alpha = word + (1u + nook_influence_pairs + 2u * i) * nook_vertex_count;
@@ -37,9 +48,22 @@ void main() {
     vec2 first = vec2(uintBitsToFloat(nook_linear[alpha]), uintBitsToFloat(nook_linear[blend]));
     vec2 second = vec2(uintBitsToFloat(nook_linear[alpha + nook_vertex_count]),
                        uintBitsToFloat(nook_linear[blend + nook_vertex_count]));
+#if NOOK_LIGHT
+    uint k[2] = uint[2](first_key_point + (pair & 0xffffu), first_key_point + (pair >> 16));
+    vec2 weight[2] = vec2[2](first, second);
+    for (int j = 0; j < 2; ++j) {
+      vec2 grey = nook_shadow[k[j]];
+      shadow += weight[j].x * grey.x * (lit ? nook_colour[2u * k[j]].xyz : vec3(1.0));
+      added += weight[j].y * (lit ? nook_colour[2u * k[j] + 1u].xyz : vec3(grey.y));
+    }
+  }
+  uint vertex = 3u * (record.place * nook_file_vertex_count + file_vertex);
+  for (uint c = 0u; c < 3u; ++c) nook_ao[vertex + c] = nook_combine(shadow[c], added[c], bias);
+#else
     sum += first * nook_shadow[first_key_point + (pair & 0xffffu)] +
            second * nook_shadow[first_key_point + (pair >> 16)];
   }
   nook_ao[record.place * nook_file_vertex_count + file_vertex] =
       nook_combine(sum.x, sum.y, bias);
+#endif
 }

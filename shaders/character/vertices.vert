@@ -12,28 +12,56 @@ layout(location = 5) in vec4 nook_alpha_1;
 layout(location = 6) in vec4 nook_blend_1;
 #endif
 
-uniform samplerBuffer nook_shadows;  // shadow, added occlusion
-uniform int nook_first_texel;        // of the draw's first instance
+uniform samplerBuffer nook_shadows;  // shadow and added occlusion in one texel; NOOK_LIGHT: in two, by channel
+uniform int nook_first_key_point;    // of the draw's first instance, in the page
 uniform int nook_key_point_count;
 uniform int nook_self;
 
+#if NOOK_LIGHT
+out vec3 nook_directional_ao;
+
+struct NookSum {
+  vec3 shadow, added;
+};
+
+void nook_add(inout NookSum sum, int key_point, float alpha, float blend) {
+  sum.shadow += alpha * texelFetch(nook_shadows, 2 * key_point).xyz;
+  sum.added += blend * texelFetch(nook_shadows, 2 * key_point + 1).xyz;
+}
+#else
 out float nook_ao;
 
-// Shadow and added occlusion of four key points.
-vec2 nook_sum(uvec4 key_points, vec4 alpha, vec4 blend, int first) {
-  ivec4 texel = ivec4(key_points) + first;
-  return vec2(alpha.x, blend.x) * texelFetch(nook_shadows, texel.x).xy +
-         vec2(alpha.y, blend.y) * texelFetch(nook_shadows, texel.y).xy +
-         vec2(alpha.z, blend.z) * texelFetch(nook_shadows, texel.z).xy +
-         vec2(alpha.w, blend.w) * texelFetch(nook_shadows, texel.w).xy;
+struct NookSum {
+  float shadow, added;
+};
+
+void nook_add(inout NookSum sum, int key_point, float alpha, float blend) {
+  vec2 point = texelFetch(nook_shadows, key_point).xy;
+  sum.shadow += alpha * point.x;
+  sum.added += blend * point.y;
+}
+#endif
+
+void nook_add_four(inout NookSum sum, uvec4 key_points, vec4 alpha, vec4 blend, int first) {
+  for (int i = 0; i < 4; ++i) nook_add(sum, int(key_points[i]) + first, alpha[i], blend[i]);
 }
 
 void main() {
-  int first = nook_first_texel + gl_InstanceID * nook_key_point_count;
-  vec2 sum = nook_sum(nook_key_points_0, nook_alpha_0, nook_blend_0, first);
-#if NOOK_QUADS > 1
-  sum += nook_sum(nook_key_points_1, nook_alpha_1, nook_blend_1, first);
+  int first = nook_first_key_point + gl_InstanceID * nook_key_point_count;
+  float bias = nook_self != 0 ? nook_bias : 0.0;
+#if NOOK_LIGHT
+  NookSum sum = NookSum(vec3(0.0), vec3(0.0));
+#else
+  NookSum sum = NookSum(0.0, 0.0);
 #endif
-  nook_ao = nook_combine(sum.x, sum.y, nook_self != 0 ? nook_bias : 0.0);
+  nook_add_four(sum, nook_key_points_0, nook_alpha_0, nook_blend_0, first);
+#if NOOK_QUADS > 1
+  nook_add_four(sum, nook_key_points_1, nook_alpha_1, nook_blend_1, first);
+#endif
+#if NOOK_LIGHT
+  for (int c = 0; c < 3; ++c) nook_directional_ao[c] = nook_combine(sum.shadow[c], sum.added[c], bias);
+#else
+  nook_ao = nook_combine(sum.shadow, sum.added, bias);
+#endif
   gl_Position = vec4(0.0);
 }

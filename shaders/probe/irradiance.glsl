@@ -1,3 +1,5 @@
+#ifndef NOOK_PROBE_IRRADIANCE
+#define NOOK_PROBE_IRRADIANCE
 // Irradiance of a lobe on a surface with unit normal n; the same as sdk/src/core/spherical_gaussian.h.
 #include "probe/lobe.glsl"
 
@@ -49,3 +51,4 @@ vec3 nook_probe_lobe_irradiance(NookLobe lobe, vec3 n) {
                                       : nook_probe_unit_irradiance_fitted(lobe.sharpness, cosine);
   return lobe.amplitude * (nook_probe_lobe_integral(lobe.sharpness) * unit);
 }
+#endif

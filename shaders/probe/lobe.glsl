@@ -1,3 +1,5 @@
+#ifndef NOOK_PROBE_LOBE
+#define NOOK_PROBE_LOBE
 // Spherical Gaussians and their closed forms; the same as sdk/src/core/spherical_gaussian.h. The layout of
 // NookLobe is that of nook_probe_lobe in std140 and std430.
 struct NookLobe {
@@ -34,3 +36,4 @@ float nook_probe_lobe_product_integral(float a, float b, float apart) {
   float drop = sum > 0.0 ? -2.0 * a * b * apart / (sharpness + sum) : 0.0;
   return exp(drop) * nook_probe_lobe_integral(sharpness);
 }
+#endif

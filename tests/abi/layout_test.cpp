@@ -87,6 +87,16 @@ NOOK_AT(nook_gl_ao_view, offset, 8);
 NOOK_AT(nook_gl_ao_view, stride, 16);
 NOOK_AT(nook_gl_ao_view, count, 20);
 
+NOOK_SIZE(nook_gl_light_view, 40);
+NOOK_AT(nook_gl_light_view, struct_size, 0);
+NOOK_AT(nook_gl_light_view, buffer, 4);
+NOOK_AT(nook_gl_light_view, offset, 8);
+NOOK_AT(nook_gl_light_view, stride, 16);
+NOOK_AT(nook_gl_light_view, count, 20);
+NOOK_AT(nook_gl_light_view, texture, 24);
+NOOK_AT(nook_gl_light_view, light, 28);
+NOOK_AT(nook_gl_light_view, glsl, 32);
+
 NOOK_SIZE(nook_gl_probe_info, 24);
 NOOK_AT(nook_gl_probe_info, struct_size, 0);
 NOOK_AT(nook_gl_probe_info, texture, 4);

@@ -64,6 +64,20 @@ class Crowd {
   Crowd(const Crowd&) = delete;
   Crowd& operator=(const Crowd&) = delete;
 
+  // Twelve lobes round the crowd, each of another colour, as a probe has them.
+  void set_light() {
+    std::vector<nook_probe_lobe> lobes(12);
+    for (std::size_t i = 0; i < lobes.size(); ++i) {
+      const float y = 1 - (2 * float(i) + 1) / float(lobes.size()), r = std::sqrt(1 - y * y),
+                  turn = 2.3999632f * float(i);
+      lobes[i] = {{r * std::cos(turn), y, r * std::sin(turn)},
+                  6,
+                  {0.1f * float(i % 5), 0.3f, 0.2f * float(i % 3)},
+                  0};
+    }
+    for (const nook_instance_id id : ids_)
+      require(nook_scene_set_light(scene_, id, lobes.data(), static_cast<std::uint32_t>(lobes.size())));
+  }
   void self_only() { require(nook_scene_set_terms(scene_, NOOK_TERM_SELF)); }
   void set_poses() {
     ++frame_;
@@ -155,6 +169,30 @@ void one_character_through_the_abi(benchmark::State& state) {
   state.counters["skinning_us"] = 1e6 * skinning;
   state.counters["times_skinning"] = ao / skinning;
 }
-BENCHMARK(one_character_through_the_abi)->Arg(NOOK_ISA_AVX2)->Arg(NOOK_ISA_AVX512)->Unit(benchmark::kMicrosecond);
+BENCHMARK(one_character_through_the_abi)
+    ->Arg(NOOK_ISA_AVX2)
+    ->Arg(NOOK_ISA_AVX512)
+    ->Unit(benchmark::kMicrosecond);
+
+// Directional occlusion under 12 lobes beside plain AO: an update of an instance, alone on the ground and in
+// a crowd of five with four neighbours each. Arguments: nook_isa, instances.
+void under_a_light(benchmark::State& state) {
+  const auto count = static_cast<std::uint32_t>(state.range(1));
+  Crowd plain(count, static_cast<nook_isa>(state.range(0))),
+      lit(count, static_cast<nook_isa>(state.range(0)));
+  lit.set_light();
+  plain.set_poses();
+  lit.set_poses();
+  double without = 1e9, with = 1e9;
+  for (auto _ : state) {
+    without = std::min(without, seconds([&] { plain.update(); }));
+    with = std::min(with, seconds([&] { lit.update(); }));
+  }
+  state.counters["plain_us"] = 1e6 * without / count;
+  state.counters["lit_us"] = 1e6 * with / count;
+}
+BENCHMARK(under_a_light)
+    ->ArgsProduct({{NOOK_ISA_SCALAR, NOOK_ISA_SSE2, NOOK_ISA_AVX2, NOOK_ISA_AVX512}, {1, 5}})
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -3,11 +3,13 @@
 #include "character/directional.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "catch.h"
+#include "character/directional_bands.h"
 #include "character/kernel.h"
 #include "core/spherical_gaussian.h"
 #include "kernel_reference.h"
@@ -30,7 +32,7 @@ std::vector<LightLobe> uneven_light(std::mt19937& random, float sharpness = 6, i
                 a = 2.3999632f * float(i);
     const auto bright = [&] { return std::pow(unit(random), 4.0f); };
     const Vec3 amplitude{bright(), bright(), bright()};
-    lobes.push_back({Vec3{r * std::cos(a), y, r * std::sin(a)} * sharpness, sharpness, amplitude});
+    lobes.push_back({Vec3{r * std::cos(a), y, r * std::sin(a)} * sharpness, sharpness, amplitude, 1});
   }
   return lobes;
 }
@@ -84,14 +86,44 @@ Blocked traced(const std::vector<double>& radiance, const Pose& pose) {
   return {light_behind / light, behind / all};
 }
 
-Colour<double> ratio_of(const LightView& light, const Pose& pose, RatioForm form) {
+Colour<double> ratio_of(const LightView& light, const Pose& pose) {
   const Direction<double> n{pose.normal.x, pose.normal.y, pose.normal.z};
   const Direction<double> o{pose.offset.x, pose.offset.y, pose.offset.z};
   const double xi = dot(pose.offset, pose.normal), delta2 = dot(pose.offset, pose.offset);
   const double share = form_factor_exact(xi, delta2);
   return light_ratio(light, inverse_hemisphere(light, n), n, sight_of(n, o, xi, delta2), share,
-                     double(no_sharpest), form);
+                     double(no_sharpest));
 }
+
+LightBands bands_of(const std::vector<LightLobe>& lobes) {
+  LightBands bands;
+  bands.darkest = {1e-3f, 1e-3f, 1e-3f};
+  for (const LightLobe& lobe : lobes) {
+    const std::array<float, 5> own = gaussian_bands(lobe.sharpness);
+    const Vec3 mean = lobe.amplitude * (gaussian_integral(lobe.sharpness) / gaussian_integral(0.0f));
+    const Vec3 axis = normalised(lobe.vector);
+    const float a[3] = {axis.x, axis.y, axis.z};
+    bands.scalar += mean;
+    for (int i = 0; i < 3; ++i) {
+      bands.vector[i] += mean * (3 * own[1] * a[i]);
+      bands.tensor[i] += mean * (7.5f * own[2] * (a[i] * a[i] - 1.0f / 3));
+      bands.tensor[3 + i] += mean * (15 * own[2] * a[i] * a[(i + 1) % 3]);
+    }
+  }
+  return bands;
+}
+
+// A colour at each key point.
+struct Lanes {
+  Lanes(std::uint32_t count, float value) {
+    for (int c = 0; c < 3; ++c) {
+      values[c].assign(count, value);
+      rgb[c] = values[c].data();
+    }
+  }
+  std::vector<float> values[3];
+  float* rgb[3];
+};
 
 }  // namespace
 
@@ -121,16 +153,64 @@ TEST_CASE("lobe_norm keeps its bound over its range") {
 }
 
 TEST_CASE("under constant light every sphere takes its share") {
-  const std::vector<LightLobe> lobes = {{{}, 0, {0.2f, 1, 3}}};
+  const std::vector<LightLobe> lobes = {{{}, 0, {0.2f, 1, 3}, 1}};
   std::mt19937 random(4);
   for (int i = 0; i < 200; ++i) {
     const Pose pose{random_direction(random) * std::exp(float(i % 20) * 0.4f - 2), random_direction(random)};
-    for (const RatioForm form : {self_ratio, caster_ratio}) {
-      const Colour<double> ratio = ratio_of(view_of(lobes), pose, form);
-      CHECK(within(ratio.r, 1, 1e-6));
-      CHECK(within(ratio.g, 1, 1e-6));
-      CHECK(within(ratio.b, 1, 1e-6));
+    const Colour<double> ratio = ratio_of(view_of(lobes), pose);
+    CHECK(within(ratio.r, 1, 1e-6));
+    CHECK(within(ratio.g, 1, 1e-6));
+    CHECK(within(ratio.b, 1, 1e-6));
+    const Direction<double> n{pose.normal.x, pose.normal.y, pose.normal.z};
+    GatheredBands<double> gathered = GatheredBands<double>::none();
+    gathered.add(Direction<double>{pose.offset.x + 3 * n.x, pose.offset.y + 3 * n.y, pose.offset.z + 3 * n.z},
+                 0.4);
+    CHECK(within(coloured_sum(gathered, bands_of(lobes), n).b, 0.4, 1e-6));
+    const Colour<double> ground = ground_ratio(view_of(lobes), n, {0, 1, 0});
+    CHECK(within(ground.g, 1, 1e-6));
+  }
+}
+
+TEST_CASE("bands 0 to 2 hold the mean of broad light under a density") {
+  std::mt19937 random(8);
+  for (const float sharpness : {0.5f, 2.0f, 6.0f})
+    for (const float concentration : {2.133f, 4.0f, 12.0f}) {
+      const std::vector<LightLobe> lobes = uneven_light(random, sharpness);
+      const Vec3 b = random_direction(random) * concentration;
+      double mean = 0, mass = 0, brightest = 0;
+      for (const Vec3 s : even_directions()) {
+        const double weight = std::exp(double(dot(b, s)) - double(concentration));
+        double radiance = 0;
+        for (const LightLobe& lobe : lobes) radiance += value_at(lobe, s) * double(lobe.amplitude.y);
+        mean += weight * radiance;
+        mass += weight;
+        brightest = std::max(brightest, radiance);
+      }
+      GatheredBands<double> gathered = GatheredBands<double>::none();
+      gathered.add(Direction<double>{b.x, b.y, b.z}, 1.0);
+      INFO("sharpness " << sharpness << " concentration " << concentration);
+      // Band 3 and above, and e^(-2 |b|): 0.1 of the brightest where both are narrow.
+      const double allowed = sharpness * concentration > 24 ? 0.1 : 0.04;
+      CHECK(std::abs(gathered.light(bands_of(lobes), &Vec3::y) - mean / mass) < allowed * brightest);
     }
+}
+
+TEST_CASE("the share of a lobe below the horizon keeps its bound") {
+  for (const float sharpness : {0.01f, 0.5f, 2.0f, 4.0f, 8.0f, 30.0f, 100.0f})
+    for (float height = -1; height <= 1; height += 0.125f) {
+      const LightLobe lobe{Vec3{std::sqrt(1 - height * height), height, 0} * sharpness, sharpness, {}, 1};
+      double below = 0, all = 0;
+      for (const Vec3 s : even_directions()) {
+        const double v = value_at(lobe, s);
+        all += v;
+        if (s.y < 0) below += v;
+      }
+      INFO("sharpness " << sharpness << " height " << height);
+      CHECK(std::abs(share_below(double(height * sharpness), double(sharpness)) - below / all) < 0.017);
+    }
+  for (const float huge : {1e4f, 2e4f}) {
+    CHECK(share_below(huge, huge) < 1e-15f);
+    CHECK(share_below(-huge, huge) == 1);
   }
 }
 
@@ -153,7 +233,7 @@ TEST_CASE("a sphere over a surface takes the light that rays say it takes") {
         const Pose pose{(n * height + across * std::sqrt(1 - height * height)) * distance, n};
         const Blocked truth = traced(radiance, pose);
         if (truth.share < 0.005) continue;
-        const double error = ratio_of(view_of(lobes), pose, caster_ratio).r * truth.share - truth.light;
+        const double error = ratio_of(view_of(lobes), pose).r * truth.share - truth.light;
         squares += error * error;
         squares_without += (truth.share - truth.light) * (truth.share - truth.light);
         ++count;
@@ -165,71 +245,88 @@ TEST_CASE("a sphere over a surface takes the light that rays say it takes") {
   CHECK(squares < 0.12 * squares_without);
 }
 
-TEST_CASE("the ground under a standing surface takes the light from below") {
-  // One light straight below: a wall over black ground loses all it has, a dome above loses nothing.
-  const Pose wall{{0, -1, 0}, {1, 0, 0}};
-  const std::vector<LightLobe> below = {{{0, -6, 0}, 6, {1, 1, 1}}};
-  const std::vector<LightLobe> above = {{{0, 6, 0}, 6, {1, 1, 1}}};
-  CHECK(0.5 * ratio_of(view_of(below), wall, caster_ratio).r > 0.8);
-  CHECK(0.5 * ratio_of(view_of(above), wall, caster_ratio).r < 0.2);
+TEST_CASE("the ground takes the light from below, as rays say") {
+  // The plane y = 0 under surfaces of every slope, near enough to a sphere of a huge radius.
+  std::mt19937 random(7);
+  double squares = 0, squares_without = 0;
+  for (int light_number = 0; light_number < 6; ++light_number) {
+    const std::vector<LightLobe> lobes = uneven_light(random);
+    for (float slope = -1; slope <= 1; slope += 0.25f) {
+      const Vec3 across = normalised(cross(Vec3{0, 1, 0}, random_direction(random)));
+      const Vec3 n = Vec3{0, slope, 0} + across * std::sqrt(1 - slope * slope);
+      double light = 0, taken = 0;
+      for (const Vec3 s : even_directions()) {
+        double radiance = 0;
+        for (const LightLobe& lobe : lobes) radiance += value_at(lobe, s) * double(lobe.amplitude.x);
+        const double cosine = std::max(double(dot(s, n)), 0.0);
+        light += cosine * radiance;
+        if (s.y < 0) taken += cosine * radiance;
+      }
+      const double share = 0.5 * (1 - double(slope));
+      const Colour<double> ratio =
+          ground_ratio(view_of(lobes), Direction<double>{n.x, n.y, n.z}, Direction<double>{0, 1, 0});
+      const double error = std::min(ratio.r * share, 1.0) - taken / light;
+      squares += error * error;
+      squares_without += (share - taken / light) * (share - taken / light);
+    }
+  }
+  INFO("rms " << std::sqrt(squares / 54) << ", of the share alone " << std::sqrt(squares_without / 54));
+  // The lobe that stands for the clamped cosine reaches below the surface's own horizon.
+  CHECK(squares < 0.06 * squares_without);
 }
 
 TEST_CASE("directional sums follow the formulas on every instruction set") {
   std::mt19937 random(6);
   const std::vector<LightLobe> lobes = uneven_light(random);
   const LightView light = view_of(lobes);
+  const LightBands bands = bands_of(lobes);
   const Spheres spheres = random_spheres(random, 37);
   const Points points = random_points(random, 40);
   const SphereSoa s = spheres.view();
   const KeyPointSoa p = points.view();
+  const Vec3 up = random_direction(random);
+  const Direction<double> above{up.x, up.y, up.z};
   for (const ShadowKernels* kernels : available_kernels())
     for (const float gamma : {1.0f, 1.5f, 2.0f, 1.3f})
       for (const KernelForm form : {KernelForm::nook, KernelForm::paper, KernelForm::rational}) {
         INFO(kernels->name << " gamma " << gamma << " form " << int(form));
-        std::vector<float> norm[3], depth[3], open[3];
-        float *norms[3], *depths[3], *opens[3];
-        for (int c = 0; c < 3; ++c) {
-          norm[c].assign(p.padded_count, 0.0f);
-          depth[c].assign(p.padded_count, 0.0f);
-          open[c].assign(p.padded_count, 1.0f);
-          norms[c] = norm[c].data();
-          depths[c] = depth[c].data();
-          opens[c] = open[c].data();
-        }
-        kernels->directional_norm_sum(s, p, {form, gamma}, light, norms);
-        kernels->directional_depth(s, p, light, depths);
-        kernels->directional_open(s, p, light, opens);
+        Lanes norm(p.padded_count, 0), depth(p.padded_count, 0), open(p.padded_count, 1),
+            ground(p.padded_count, 1), inverse(p.padded_count, 0);
+        kernels->directional_norm_sum(s, p, {form, gamma}, bands, norm.rgb);
+        kernels->directional_hemisphere(p, light, inverse.rgb);
+        kernels->directional_depth(s, p, light, inverse.rgb, depth.rgb);
+        kernels->directional_open(s, p, light, inverse.rgb, open.rgb);
+        kernels->directional_ground(s, p, light, up, ground.rgb);
         double worst = 0;
+        const auto compare = [&](float found, double want) {
+          worst = std::max(worst, std::abs(double(found) - want) / std::max(1.0, want));
+        };
         for (std::uint32_t k = 0; k < points.count; ++k) {
-          double norm_k = 0, open_k = 1;
+          double open_k = 1;
           JointSight<double> joint;
           const Direction<double> n{p.nx[k], p.ny[k], p.nz[k]};
-          const Colour<double> inverse = inverse_hemisphere(light, n);
+          GatheredBands<double> gathered = GatheredBands<double>::none();
+          const Colour<double> dark = inverse_hemisphere(light, n);
           for (std::uint32_t i = 0; i < s.count; ++i) {
             const double scale = s.inverse_radius[i];
             const Direction<double> o{(double(s.x[i]) - p.x[k]) * scale, (double(s.y[i]) - p.y[k]) * scale,
                                       (double(s.z[i]) - p.z[k]) * scale};
             const View v = view_of(s, i, p, k);
-            const auto green = [&](double share, RatioForm ratio) {
-              return light_ratio(light, inverse, n, sight_of(n, o, v.xi, v.delta2), share,
-                                 double(no_sharpest), ratio)
-                  .g;
-            };
+            const Sight<double> sight = sight_of(n, o, v.xi, v.delta2);
             const double y = std::max(shadow_term(form, v.xi, v.delta2), 0.0);
-            norm_k += std::pow(y, double(gamma)) * green(y, self_ratio);
-            joint.add(sight_of(n, o, v.xi, v.delta2),
-                      form_factor_fast(v.xi, v.delta2) * double(s.caster_weight[i]));
-            const double share =
-                std::min(double(s.caster_weight[i]) * form_factor_exact(v.xi, v.delta2), 1.0);
-            open_k *= 1 - std::min(share * green(share, caster_ratio), 1.0);
+            gather(gathered, n, sight, y, std::pow(y, double(gamma)));
+            joint.add(sight, form_factor_fast(v.xi, v.delta2) * double(s.caster_weight[i]));
+            const double share = std::min(form_factor_exact(v.xi, v.delta2), 1.0);
+            open_k *=
+                1 - std::min(share * light_ratio(light, dark, n, sight, share, double(no_sharpest)).g, 1.0);
+            if (i == 0) compare(ground.rgb[1][k], 1 - std::min(share * ground_ratio(light, n, above).g, 1.0));
           }
-          const double depth_k =
-              joint.taken * light_ratio(light, inverse, n, joint.mean(n), std::min(joint.taken, 1.0),
-                                        joint.sharpest(), caster_ratio)
-                                .g;
-          worst = std::max({worst, std::abs(double(norm[1][k]) - norm_k) / std::max(1.0, norm_k),
-                            std::abs(double(depth[1][k]) - depth_k) / std::max(1.0, depth_k),
-                            std::abs(double(open[1][k]) - open_k)});
+          compare(norm.rgb[1][k], coloured_sum(gathered, bands, n).g);
+          compare(
+              depth.rgb[1][k],
+              joint.taken *
+                  light_ratio(light, dark, n, joint.mean(n), std::min(joint.taken, 1.0), joint.sharpest()).g);
+          compare(open.rgb[1][k], open_k);
         }
         // Sums of 37 terms with the estimates of roots that the plain kernels have, twice: in the term and in
         // the ratio.

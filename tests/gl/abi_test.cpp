@@ -31,6 +31,11 @@ TEST_CASE("answers about OpenGL are cut to the caller's struct") {
   check_info<nook_gl_ao_view>(24, [&](nook_gl_ao_view* view) {
     return nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], view);
   });
+  const nook_probe_lobe lobe{{0, 1, 0}, 6, {1, 1, 1}, 0};
+  NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, crowd.ids[0], &lobe, 1));
+  NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+  check_info<nook_gl_light_view>(
+      40, [&](nook_gl_light_view* view) { return nook_gl_scene_light(gl, crowd.scene, crowd.ids[0], view); });
   nook_gl_destroy(&gl);
   nook_character_model_destroy(&model);
 }

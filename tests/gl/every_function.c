@@ -26,6 +26,26 @@ static void read_ao(nook_gl gl, nook_scene scene, nook_instance_id instance, uin
   free(ao);
 }
 
+static void light_instance(nook_gl gl, nook_scene scene, nook_instance_id instance, uint32_t count) {
+  const nook_probe_lobe lobe = {{0, 1, 0}, 6, {1, 2, 3}, 0};
+  float* rgb = (float*)malloc(3 * count * sizeof(float));
+  nook_gl_light_view view;
+  uint32_t i;
+  memset(&view, 0, sizeof view);
+  view.struct_size = sizeof view;
+  EXPECT(nook_gl_scene_light(gl, scene, instance, &view) == NOOK_ERROR_INVALID_HANDLE);
+  EXPECT(nook_gl_scene_read_directional_ao(gl, scene, instance, rgb, count) == NOOK_ERROR_INVALID_HANDLE);
+  EXPECT_OK(nook_scene_set_light(scene, instance, &lobe, 1));
+  EXPECT_OK(nook_gl_scene_update(gl, scene));
+  EXPECT_OK(nook_gl_scene_light(gl, scene, instance, &view));
+  EXPECT(view.buffer != 0 && view.texture != 0 && view.stride == 3 * sizeof(float) && view.count == count);
+  EXPECT(view.light >= 0 && strstr(view.glsl, "nook_scene_irradiance"));
+  for (i = 0; i < 3 * count; ++i) rgb[i] = -1;
+  EXPECT_OK(nook_gl_scene_read_directional_ao(gl, scene, instance, rgb, count));
+  for (i = 0; i < 3 * count; ++i) EXPECT(rgb[i] >= 0 && rgb[i] <= 1);
+  free(rgb);
+}
+
 static void upload_probe(nook_context context, nook_gl gl) {
   const float coefficients[3 * 12] = {1};
   nook_probe_fit_desc fit_desc;
@@ -89,6 +109,7 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   EXPECT_OK(nook_gl_get_info(gl, &info));
   EXPECT((info.tier == 33 || info.tier == 43) && info.version && info.renderer);
   EXPECT(info.ao_bytes >= view.count * sizeof(float) && info.buffer_bytes > info.ao_bytes);
+  light_instance(gl, scene, instance, view.count);
   upload_probe(context, gl);
   EXPECT_OK(nook_gl_scene_release(gl, scene));
   EXPECT(nook_gl_scene_ao_buffer(gl, scene, instance, &view) == NOOK_ERROR_INVALID_HANDLE);

@@ -19,6 +19,8 @@ TEST_CASE("an update allocates nothing, reads nothing back and queries only to p
       options.camera = true;
       options.lod_max_interval = 3;
       Crowd crowd(host.handle, {model}, {5}, options);
+      const nook_probe_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
+      NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, crowd.ids[1], &lobe, 1));
       nook_gl gl = create_gl(host.handle, Trace::loader, &trace, tier, mode);
       NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
       NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
@@ -26,6 +28,7 @@ TEST_CASE("an update allocates nothing, reads nothing back and queries only to p
       const long allocations = host.allocations;
       for (std::uint32_t frame = 1; frame < 8; ++frame) {
         crowd.pose(frame);
+        NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, crowd.ids[1], &lobe, 1));
         NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
       }
       CHECK(host.allocations == allocations);

@@ -36,6 +36,18 @@ void walk(platform::Context& context, int tier, nook_gl_state_mode mode,
        }},
       {"view", [&] { NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], &view)); }},
       {"read", [&] { gpu_ao(gl, crowd, model, 0); }},
+      {"first light",
+       [&] {
+         const nook_probe_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
+         NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, crowd.ids[0], &lobe, 1));
+         NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+       }},
+      {"read directional AO",
+       [&] {
+         std::vector<float> rgb(3 * std::size_t(file_vertices(model)));
+         NOOK_OK_OR_FAIL(nook_gl_scene_read_directional_ao(gl, crowd.scene, crowd.ids[0], rgb.data(),
+                                                           file_vertices(model)));
+       }},
       {"later update",
        [&] {
          crowd.pose(1);

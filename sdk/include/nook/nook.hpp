@@ -338,6 +338,17 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   void read_ao(const Scene& scene, nook_instance_id id, float* out, std::uint32_t count) const {
     check(nook_gl_scene_read_ao(get(), scene.get(), id, out, count));
   }
+  nook_gl_light_view light(const Scene& scene, nook_instance_id id) const {
+    nook_gl_light_view view{};
+    view.struct_size = sizeof view;
+    check(nook_gl_scene_light(get(), scene.get(), id, &view));
+    return view;
+  }
+  // Three floats a vertex; waits for the GPU.
+  void read_directional_ao(const Scene& scene, nook_instance_id id, float* out_rgb,
+                           std::uint32_t count) const {
+    check(nook_gl_scene_read_directional_ao(get(), scene.get(), id, out_rgb, count));
+  }
   void release(const Scene& scene) { check(nook_gl_scene_release(get(), scene.get())); }
 
  private:

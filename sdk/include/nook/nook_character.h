@@ -136,13 +136,14 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
  *
  * Light that comes from few directions is darkened by what stands there, and by nothing else. With lobes set, each sphere takes
  * from its receiver, instead of its share f of the hemisphere, f * rho: rho is the mean radiance of the lobes behind the sphere
- * over their mean in the receiver's hemisphere, for each channel; the spheres of a linked instance share one rho. What comes out
- * is a colour for each vertex that takes the place of AO in albedo / pi * E * AO, E the irradiance of the same lobes. Under
- * constant light it is AO. Evaluated by nook_scene_update only, not by nook_gl_scene_update. */
+ * over their mean in the receiver's hemisphere, for each channel; the spheres of a linked instance share one rho, that of the ground
+ * is of the half-space below its plane. What comes out is a colour for each vertex that takes the place of AO in
+ * albedo / pi * E * AO, E the irradiance of the same lobes. Under constant light it is AO. Evaluated by nook_scene_update and by
+ * nook_gl_scene_update; nook_gl_scene_light says what a shader does with it. */
 
 /* Sets the light of an instance for the updates that follow: lobes such as nook_probe_read_lobes gives at its place, at most
  * NOOK_PROBE_MAX_FUNCTIONS, copied. lobe_count 0 or lobes NULL: none. With 12 lobes an update of an instance
- * takes 0.5 to 1 ms longer on one core, and 0.2 ms for each neighbour. Allocates at an instance's first light. One at a time.
+ * takes 0.1 to 0.2 ms longer on one core, and 0.1 ms for each neighbour. Allocates at an instance's first light. One at a time.
  * Errors: INVALID_ARGUMENT (names the lobe), INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_probe_lobe* lobes,
                                           uint32_t lobe_count);

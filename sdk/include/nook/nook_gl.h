@@ -83,9 +83,10 @@ NOOK_API nook_result nook_gl_get_info(nook_gl gl, nook_gl_info* info);
 NOOK_API nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene);
 
 /* Evaluates the AO of all instances, with everything that nook_scene_update evaluates, and instead of it: call one of
- * the two in a frame. Values agree with nook_scene_read_ao within 2e-3. Allocates no host memory unless instances were added
- * since the last prepare or update; never waits for the GPU. Context thread, and one at a time for the scene.
- * Errors: INVALID_ARGUMENT, UNSUPPORTED, GL, OUT_OF_MEMORY. */
+ * the two in a frame. Values agree with nook_scene_read_ao within 2e-3. Allocates no host memory unless instances were added, or
+ * got their first light, since the last prepare or update; never waits for the GPU. Context thread, and one at a time for the
+ * scene. Errors: INVALID_ARGUMENT, UNSUPPORTED (also: more lights than a texture buffer of this OpenGL holds, 12 + 2 * lobes texels
+ * each, of which every OpenGL has 65,536), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_scene_update(nook_gl gl, nook_scene scene);
 
 /* Where the AO of an instance lies: count floats in [0, 1], stride bytes apart. */
@@ -107,6 +108,43 @@ NOOK_API nook_result nook_gl_scene_ao_buffer(nook_gl gl, nook_scene scene, nook_
  * frames. Context thread. Errors: INVALID_ARGUMENT, INVALID_HANDLE (also: not yet prepared), GL. */
 NOOK_API nook_result nook_gl_scene_read_ao(nook_gl gl, nook_scene scene, nook_instance_id instance, float* out,
                                            uint32_t count);
+
+/* ---- Directional occlusion: nook_scene_set_light, by vertex on the GPU ----
+ *
+ * After nook_scene_set_light, nook_gl_scene_update leaves for each instance with a light, beside AO, its directional occlusion: a
+ * colour for each vertex that takes the place of AO. The lobes of all lights lie in a texture buffer, so that the host's
+ * shader needs no upload of its own. Put the view's glsl behind the #version line of a vertex or fragment shader, set the uniform
+ * nook_scene_lights to the unit that the texture will be bound to, bind the texture to GL_TEXTURE_BUFFER of that unit, and for each draw
+ * the values as an attribute and view.light as a uniform:
+ *     glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
+ *     glVertexAttribPointer(slot, 3, GL_FLOAT, GL_FALSE, view.stride, (const void*)(uintptr_t)view.offset);
+ * The shader, n the unit normal in world space:
+ *     vec3 e = nook_scene_irradiance(light, n, directional_ao);   // nook_scene_open_irradiance(light, n) without occlusion
+ *     colour = albedo / 3.14159265 * e;
+ * The text goes with that of nook_gl_probe_get_info into one shader, in either order. Every name begins with nook_ or Nook. */
+typedef struct nook_gl_light_view {
+  uint32_t struct_size; /* sizeof(nook_gl_light_view), set by the caller */
+  uint32_t buffer;      /* OpenGL buffer name; owned by Nook: read it, never write or delete it */
+  uint64_t offset;      /* bytes to the first value: red, green, blue, in [0, 1], floats */
+  uint32_t stride;      /* bytes */
+  uint32_t count;       /* the model's file_vertex_count */
+  uint32_t texture;     /* OpenGL name of a GL_TEXTURE_BUFFER, the same for all instances of the scene; owned by Nook */
+  int32_t light;        /* the first argument of the GLSL's functions; stays until the next update */
+  const char* glsl;     /* GLSL 3.30 without #version: uniform samplerBuffer nook_scene_lights and the functions above, the
+                           same text for every scene. Valid as long as the library is loaded */
+} nook_gl_light_view;
+
+/* The view of an instance whose light the last nook_gl_scene_update saw; buffer, offset and texture stay the same until the instance,
+ * the scene or gl is destroyed. Values agree with nook_scene_read_directional_ao within 4e-3 (two roots of estimates in each term).
+ * Ordered as AO is. Makes no OpenGL call. Context thread.
+ * Errors: INVALID_ARGUMENT, INVALID_HANDLE (also: the last update saw no light). */
+NOOK_API nook_result nook_gl_scene_light(nook_gl gl, nook_scene scene, nook_instance_id instance, nook_gl_light_view* view);
+
+/* Copies the directional occlusion of the last update to host memory, three floats a vertex; count is in vertices. WAITS FOR THE
+ * GPU: for tests and tools, not for frames. Context thread.
+ * Errors: INVALID_ARGUMENT, INVALID_HANDLE (also: the last update saw no light), GL. */
+NOOK_API nook_result nook_gl_scene_read_directional_ao(nook_gl gl, nook_scene scene, nook_instance_id instance, float* out_rgb,
+                                                       uint32_t count);
 
 /* Deletes what gl holds for a scene, before the scene itself or instead of it. Without it, the objects of a destroyed scene are
  * deleted by the next update or by nook_gl_destroy. Context thread. Errors: INVALID_ARGUMENT. */

@@ -23,7 +23,8 @@ namespace nook {
 struct LightLobe {
   Vec3 vector;
   float sharpness = 0;
-  Vec3 amplitude;  // linear RGB
+  Vec3 amplitude;   // linear RGB
+  float above = 1;  // share of it that the ground leaves: 1 - share_below
 };
 
 struct LightView {
@@ -42,15 +43,9 @@ struct Colour {
 // Sharpness of the lobe that stands for the clamped cosine; cosine_lobe_sharpness of
 // core/spherical_gaussian.h.
 inline constexpr float directional_cosine = 2.133f;
-// k = concentration sqrt(height) (1 - f^2) / f: a far sphere is a lobe of its solid angle, one that fills the
-// hemisphere is the hemisphere. Of rho, `strength` counts, the rest is 1. Measured against rays in a crowd:
-// what casters and the ground take depends on where they stand; a body's own spheres, fitted to darken from
-// all sides, say little more than a side.
-struct RatioForm {
-  float concentration, strength;
-};
-inline constexpr RatioForm caster_ratio{2.0f, 1.0f};
-inline constexpr RatioForm self_ratio{0.5f, 0.75f};
+// k = caster_concentration sqrt(height) (1 - f^2) / f: a far sphere is a lobe of its solid angle, one that
+// fills the hemisphere is the hemisphere.
+inline constexpr float caster_concentration = 2.0f;
 inline constexpr float smallest_share = 1e-4f;
 // Nothing dims its receiver by more than this times its share: a bound on the effect of one bright lobe.
 inline constexpr float largest_ratio = 8.0f;
@@ -68,7 +63,7 @@ struct Direction {
   F x, y, z;
 };
 
-// Mean of the lobes under the density of vector b.
+// Mean of the lobes, less what the ground hides of each, under the density of vector b.
 template <class F>
 Colour<F> mean_radiance(const LightView& light, const Direction<F>& b) {
   const F length_b = sqrt(fma(b.x, b.x, fma(b.y, b.y, b.z * b.z)));
@@ -77,7 +72,8 @@ Colour<F> mean_radiance(const LightView& light, const Direction<F>& b) {
     const LightLobe& lobe = light.lobes[i];
     const F x = b.x + F(lobe.vector.x), y = b.y + F(lobe.vector.y), z = b.z + F(lobe.vector.z);
     const F m = sqrt(fma(x, x, fma(y, y, z * z)));
-    const F weight = exponential(min(m - (length_b + F(lobe.sharpness)), F(0.0f))) * lobe_norm(m);
+    const F weight =
+        exponential(min(m - (length_b + F(lobe.sharpness)), F(0.0f))) * lobe_norm(m) * F(lobe.above);
     sum.r = fma(weight, F(lobe.amplitude.x), sum.r);
     sum.g = fma(weight, F(lobe.amplitude.y), sum.g);
     sum.b = fma(weight, F(lobe.amplitude.z), sum.b);
@@ -115,22 +111,33 @@ Sight<F> sight_of(const Direction<F>& n, const Direction<F>& o, F xi, F delta2) 
           height * inverse_distance};
 }
 
-// rho of what covers `share` of the hemisphere there; it is at least as wide as a lobe of sharpness
+// k of what covers the share f of the hemisphere there. sqrt(height) / f as height / sqrt(height f^2): one
+// estimate of a root in place of a root and a division.
+template <class F>
+F concentration_of(const Sight<F>& sight, F f, float concentration) {
+  const F height = max(sight.cosine, F(1e-12f)), f2 = f * f;
+  return F(concentration) * max(F(1.0f) - f2, F(0.0f)) * (height * rsqrt(height * f2));
+}
+
+template <class F>
+Colour<F> bounded_ratio(const Colour<F>& behind, const Colour<F>& inverse) {
+  const auto ratio = [](F mean, F scale) { return min(max(mean * scale, F(0.0f)), F(largest_ratio)); };
+  return {ratio(behind.r, inverse.r), ratio(behind.g, inverse.g), ratio(behind.b, inverse.b)};
+}
+
+// rho of a caster that covers `share` of the hemisphere there; it is at least as wide as a lobe of sharpness
 // `sharpest`.
 template <class F>
 Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Direction<F>& n,
-                      const Sight<F>& sight, F share, F sharpest, RatioForm form) {
+                      const Sight<F>& sight, F share, F sharpest) {
   const F f = max(share, F(smallest_share));
-  const F wide = F(form.concentration) * sqrt(max(sight.cosine, F(0.0f))) * max(F(1.0f) - f * f, F(0.0f)) / f;
-  const F k = min(wide, sharpest), h(directional_cosine);
+  const F k = min(concentration_of(sight, f, caster_concentration), sharpest), h(directional_cosine);
   const Direction<F>& d = sight.towards;
-  const Colour<F> behind =
-      mean_radiance(light, Direction<F>{fma(d.x, k, n.x * h), fma(d.y, k, n.y * h), fma(d.z, k, n.z * h)});
-  const auto ratio = [&](F mean, F scale) {
-    return fma(F(form.strength), min(max(mean * scale, F(0.0f)), F(largest_ratio)), F(1 - form.strength));
-  };
-  return {ratio(behind.r, inverse.r), ratio(behind.g, inverse.g), ratio(behind.b, inverse.b)};
+  return bounded_ratio(
+      mean_radiance(light, Direction<F>{fma(d.x, k, n.x * h), fma(d.y, k, n.y * h), fma(d.z, k, n.z * h)}),
+      inverse);
 }
+
 // Of one sphere.
 inline constexpr float no_sharpest = 1e6f;
 
@@ -160,5 +167,45 @@ struct JointSight {
  private:
   F squared_length() const { return fma(sum.x, sum.x, fma(sum.y, sum.y, sum.z * sum.z)); }
 };
+
+// Share below the horizon of a lobe of sharpness m whose vector rises `height` above it, -m to m:
+// (1 - erf(x)) / 2 with x = height / sqrt(5.09 + 2 m^2 / (m + 4)), which is exact for small m and tends to
+// the share of a narrow lobe; within 0.016. erf is Abramowitz & Stegun 7.1.27, within 5e-4.
+template <class F>
+F share_below(F height, F m) {
+  const F x = height * rsqrt(fma(m, F(2.0f) * m / (m + F(4.0f)), F(5.09f)));
+  const F a = max(x, F(0.0f) - x);
+  const F p = fma(fma(fma(fma(F(0.078108f), a, F(0.000972f)), a, F(0.230389f)), a, F(0.278393f)), a, F(1.0f));
+  const F p2 = min(p * p, F(1e9f));
+  const F tail = F(0.5f) / (p2 * p2);
+  return select(less(x, F(0.0f)), F(1.0f) - tail, tail);
+}
+
+// rho of the ground, which hides the half-space below its plane, under the density b = h n. `light` is what
+// there is without it: here `above` is not counted.
+template <class F>
+Colour<F> ground_ratio(const LightView& light, const Direction<F>& n, const Direction<F>& up) {
+  const F h(directional_cosine), zero(0.0f);
+  const Direction<F> b{n.x * h, n.y * h, n.z * h};
+  Colour<F> all{zero, zero, zero}, below{zero, zero, zero};
+  for (std::uint32_t i = 0; i < light.count; ++i) {
+    const LightLobe& lobe = light.lobes[i];
+    const F x = b.x + F(lobe.vector.x), y = b.y + F(lobe.vector.y), z = b.z + F(lobe.vector.z);
+    const F m = sqrt(fma(x, x, fma(y, y, z * z)));
+    const F weight = exponential(min(m - F(directional_cosine + lobe.sharpness), zero)) * lobe_norm(m);
+    const F hidden = weight * share_below(fma(x, up.x, fma(y, up.y, z * up.z)), m);
+    all = {fma(weight, F(lobe.amplitude.x), all.r), fma(weight, F(lobe.amplitude.y), all.g),
+           fma(weight, F(lobe.amplitude.z), all.b)};
+    below = {fma(hidden, F(lobe.amplitude.x), below.r), fma(hidden, F(lobe.amplitude.y), below.g),
+             fma(hidden, F(lobe.amplitude.z), below.b)};
+  }
+  const F norm = lobe_norm(h);
+  const F covered = share_below(fma(b.x, up.x, fma(b.y, up.y, b.z * up.z)), h);
+  const auto inverse = [&](F mean, float darkest) {
+    return F(1.0f) / (max(mean, norm * F(darkest)) * covered);
+  };
+  return bounded_ratio(below, {inverse(all.r, light.darkest.x), inverse(all.g, light.darkest.y),
+                               inverse(all.b, light.darkest.z)});
+}
 
 }  // namespace nook

@@ -39,9 +39,18 @@ inline KeyPointSoa surface_points(const PointLanes& p) {
   return {p.surface_x, p.surface_y, p.surface_z, p.surface_nx, p.surface_ny, p.surface_nz, p.padded_count};
 }
 
-// Ground and free occluders in batches on the stack; their caster weight is 1.
+// The ground's sphere, if there is one that matters.
 template <class Apply>
-void for_free_spheres(const Scene& scene, const Instance& instance, Apply&& apply) {
+void for_ground(const Instance& instance, Apply&& apply) {
+  const Sphere& ground = instance.ground_sphere;
+  if (!(ground.radius > 0)) return;
+  const float inverse_radius = inverse_sphere_radius(ground.radius);
+  apply(SphereSoa{&ground.centre.x, &ground.centre.y, &ground.centre.z, &inverse_radius, nullptr, 1});
+}
+
+// Free occluders in batches on the stack; their caster weight is 1.
+template <class Apply>
+void for_occluders(const Scene& scene, const Instance& instance, Apply&& apply) {
   constexpr std::uint32_t batch = 16;
   std::array<float, batch> x{}, y{}, z{}, inverse_radius{};
   std::uint32_t count = 0;
@@ -49,16 +58,21 @@ void for_free_spheres(const Scene& scene, const Instance& instance, Apply&& appl
     if (count > 0) apply(SphereSoa{x.data(), y.data(), z.data(), inverse_radius.data(), nullptr, count});
     count = 0;
   };
-  const auto push = [&](const Sphere& sphere) {
+  for (const std::uint32_t slot : instance.occluders) {
+    const Sphere& sphere = scene.occluders[slot].sphere;
     x[count] = sphere.centre.x;
     y[count] = sphere.centre.y;
     z[count] = sphere.centre.z;
     inverse_radius[count] = inverse_sphere_radius(sphere.radius);
     if (++count == batch) flush();
-  };
-  if (instance.ground_sphere.radius > 0) push(instance.ground_sphere);
-  for (const std::uint32_t slot : instance.occluders) push(scene.occluders[slot].sphere);
+  }
   flush();
+}
+
+template <class Apply>
+void for_free_spheres(const Scene& scene, const Instance& instance, Apply&& apply) {
+  for_ground(instance, apply);
+  for_occluders(scene, instance, apply);
 }
 
 }  // namespace nook

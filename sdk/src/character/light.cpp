@@ -1,6 +1,7 @@
 #include "character/light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -40,14 +41,34 @@ Vec3 darkest_of(std::span<const SphericalGaussian> lobes) {
 
 void allocate(InstanceLight& light, const PointLanes& points, std::pmr::memory_resource* memory) {
   AlignedArray<LightLobe> lobes(max_light_lobes, memory);
-  light.storage = AlignedArray<float>(std::size_t{12} * points.padded_count, memory);
+  AlignedArray<LobeBands> lobe_bands(max_light_lobes, memory);
+  light.storage = AlignedArray<float>(std::size_t{15} * points.padded_count, memory);
   light.lobes = std::move(lobes);
+  light.lobe_bands = std::move(lobe_bands);
   float* at = light.storage.data();
-  for (auto lanes : {&light.shadow, &light.added, &light.sum, &light.open})
+  for (auto lanes : {&light.shadow, &light.added, &light.sum, &light.open, &light.inverse})
     for (float*& lane : *lanes) {
       lane = at;
       at += points.padded_count;
     }
+}
+
+// Of a lobe's mean radiance over the sphere, the zonal factors of its own bands.
+LobeBands bands_of(float sharpness) {
+  const std::array<float, 5> band = gaussian_bands(sharpness);
+  return {gaussian_integral(sharpness) / gaussian_integral(0.0f), 3 * band[1], 7.5f * band[2]};
+}
+
+void add(LightBands& bands, const LightLobe& lobe, const LobeBands& own) {
+  const Vec3 mean = lobe.amplitude * (own.scalar * lobe.above);
+  const Vec3 d = lobe.sharpness > 0 ? lobe.vector * (1 / lobe.sharpness) : Vec3{};
+  bands.scalar += mean;
+  const float axis[3] = {d.x, d.y, d.z};
+  for (int i = 0; i < 3; ++i) {
+    bands.vector[i] += mean * (own.vector * axis[i]);
+    bands.tensor[i] += mean * (own.tensor * (axis[i] * axis[i] - 1.0f / 3));
+    bands.tensor[3 + i] += mean * (own.tensor * 2 * axis[i] * axis[(i + 1) % 3]);
+  }
 }
 
 void fill(float* const* lanes, std::uint32_t count, float value) {
@@ -79,13 +100,19 @@ void spread_added(const Instance& instance, InstanceLight& light) {
 void evaluate_composed(const Scene& scene, const Instance& instance, const PointLanes& points,
                        InstanceLight& light) {
   const KeyPointSoa surface = surface_points(points);
+  const LightView lobes = light.view();
   fill(light.sum, points.padded_count, 0.0f);
   fill(light.open, points.padded_count, 1.0f);
+  if (!instance.casters.empty() || !instance.occluders.empty())
+    scene.kernels->directional_hemisphere(surface, lobes, light.inverse);
   for (const std::uint32_t caster : instance.casters)
-    scene.kernels->directional_depth(spheres_of(scene.instances[caster], instance.level), surface,
-                                     light.view(), light.sum);
-  for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
-    scene.kernels->directional_open(spheres, surface, light.view(), light.open);
+    scene.kernels->directional_depth(spheres_of(scene.instances[caster], instance.level), surface, lobes,
+                                     light.inverse, light.sum);
+  for_ground(instance, [&](const SphereSoa& ground) {
+    scene.kernels->directional_ground(ground, surface, lobes, instance.ground.normal, light.open);
+  });
+  for_occluders(scene, instance, [&](const SphereSoa& spheres) {
+    scene.kernels->directional_open(spheres, surface, lobes, light.inverse, light.open);
   });
   for (int c = 0; c < 3; ++c)
     scene.kernels->composed_occlusion(light.sum[c], light.open[c], points.padded_count, light.sum[c]);
@@ -97,7 +124,7 @@ void join_paper_norm(const Scene& scene, const Instance& instance, const PointLa
                      InstanceLight& light) {
   const auto join = [&](const SphereSoa& spheres) {
     scene.kernels->directional_norm_sum(spheres, fitted_points(points), instance.model->model.kernel,
-                                        light.view(), light.sum);
+                                        light.bands, light.sum);
   };
   for (const std::uint32_t caster : instance.casters)
     join(spheres_of(scene.instances[caster], instance.level));
@@ -113,23 +140,42 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
                   lobes.size(), max_light_lobes);
   for (std::size_t i = 0; i < lobes.size(); ++i) check_lobe(lobes[i], i);
   InstanceLight& light = instance.light;
-  if (!lobes.empty() && light.lobes.size() == 0) allocate(light, instance.arrays.points, scene.memory);
-  for (std::size_t i = 0; i < lobes.size(); ++i)
-    light.lobes[i] = {lobes[i].axis * lobes[i].sharpness, lobes[i].sharpness, lobes[i].amplitude};
+  if (!lobes.empty() && light.lobes.size() == 0) {
+    allocate(light, instance.arrays.points, scene.memory);
+    ++scene.structure_revision;
+  }
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    light.lobes[i] = {lobes[i].axis * lobes[i].sharpness, lobes[i].sharpness, lobes[i].amplitude, 1};
+    light.lobe_bands[i] = bands_of(lobes[i].sharpness);
+  }
   light.count = static_cast<std::uint32_t>(lobes.size());
   light.darkest = darkest_of(lobes);
   if (lobes.empty()) light.evaluated = false;
 }
 
+// In the joint norm the ground is a sphere among others, and takes its light there.
+void prepare_light(const Scene& scene, Instance& instance) noexcept {
+  InstanceLight& light = instance.light;
+  const bool hides = instance.ground_sphere.radius > 0 && scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  light.bands = {};
+  light.bands.darkest = light.darkest;
+  for (std::uint32_t i = 0; i < light.count; ++i) {
+    LightLobe& lobe = light.lobes[i];
+    lobe.above = hides ? 1 - share_below(dot(lobe.vector, instance.ground.normal), lobe.sharpness) : 1;
+    add(light.bands, lobe, light.lobe_bands[i]);
+  }
+}
+
 void evaluate_directional(const Scene& scene, Instance& instance) noexcept {
   InstanceLight& light = instance.light;
   if (light.count == 0) return;
+  prepare_light(scene, instance);
   const PointLanes points = evaluated_points(instance);
   const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
   fill(light.sum, points.padded_count, 0.0f);
   if (scene.terms & NOOK_TERM_SELF)
     scene.kernels->directional_norm_sum(spheres_of(instance, instance.level), fitted_points(points),
-                                        instance.model->model.kernel, light.view(), light.sum);
+                                        instance.model->model.kernel, light.bands, light.sum);
   if (!composed) join_paper_norm(scene, instance, points, light);
   colour_shadow(instance, light);
   if (composed) evaluate_composed(scene, instance, points, light);

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "character/directional.h"
+#include "character/directional_bands.h"
 #include "core/aligned_array.h"
 #include "core/spherical_gaussian.h"
 
@@ -18,16 +19,19 @@ struct Scene;
 inline constexpr std::uint32_t max_light_lobes = NOOK_PROBE_MAX_FUNCTIONS;
 
 struct InstanceLight {
-  AlignedArray<LightLobe> lobes;  // max_light_lobes, or none before the first light
-  std::uint32_t count = 0;        // 0: no light
-  Vec3 darkest;                   // of LightView
-  bool evaluated = false;         // shadow and added are of a light, not of the one before none
+  AlignedArray<LightLobe> lobes;       // max_light_lobes, or none before the first light
+  AlignedArray<LobeBands> lobe_bands;  // the same
+  std::uint32_t count = 0;             // 0: no light
+  Vec3 darkest;                        // of LightView
+  LightBands bands;                    // of the lobes as the ground leaves them
+  bool evaluated = false;              // shadow and added are of a light, not of the one before none
 
   // By channel, PointLanes::padded_count long; pointers into storage.
-  float* shadow[3] = {};  // PointLanes::shadow
-  float* added[3] = {};   // PointLanes::added
-  float* sum[3] = {};     // scratch, of the evaluated key points
-  float* open[3] = {};    // scratch, the same
+  float* shadow[3] = {};   // PointLanes::shadow
+  float* added[3] = {};    // PointLanes::added
+  float* sum[3] = {};      // scratch, of the evaluated key points
+  float* open[3] = {};     // scratch, the same
+  float* inverse[3] = {};  // scratch, the same
   AlignedArray<float> storage;
 
   LightView view() const { return {lobes.data(), count, darkest}; }
@@ -36,6 +40,9 @@ struct InstanceLight {
 // No lobes: the instance has no light again. Throws Failure on a bad id or lobe, and std::bad_alloc, and then
 // changes nothing; allocates at the first light of an instance only.
 void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes);
+
+// After resolve_casters: what the ground leaves of each lobe, and the bands of that. Nothing without a light.
+void prepare_light(const Scene& scene, Instance& instance) noexcept;
 
 // After evaluate_shadows: the colours of its shadow and added occlusion. Nothing without a light.
 void evaluate_directional(const Scene& scene, Instance& instance) noexcept;

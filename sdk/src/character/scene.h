@@ -130,8 +130,9 @@ struct Scene {
   std::pmr::vector<std::uint32_t> free_instances;  // slots
   std::pmr::vector<Occluder> occluders;            // by slot
   std::pmr::vector<std::uint32_t> free_occluders;
-  std::uint32_t living = 0;              // instances in use
-  std::uint64_t structure_revision = 0;  // rises when instances or occluders come or go
+  std::uint32_t living = 0;  // instances in use
+  // Rises when instances or occluders come or go, or an instance gets its first light.
+  std::uint64_t structure_revision = 0;
 
   std::uint32_t nearest = 0;       // k of link_nearest; 0: off
   float nearest_max_distance = 0;  // metres

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "character/directional.h"
+#include "character/directional_bands.h"
 #include "character/kernel.h"
 #include "core/isa.h"
 #include "core/vec.h"
@@ -151,18 +152,23 @@ struct ShadowKernels {
   void (*pose_key_points)(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
                           const KeyPointTarget& out, const KeyPointTarget* surface);
 
-  // Directional occlusion (directional.h); rgb: one array of padded_count entries for each channel. With rho
-  // the share of light behind a sphere against its share of the hemisphere,
-  // rgb[k] += sum over spheres of y^gamma rho: self_norm_sum with a colour;
+  // Directional occlusion (directional.h); rgb and inverse: one array of padded_count entries for each
+  // channel. rho is the light behind a sphere against its share of the hemisphere.
+  // rgb[k] += sum over spheres of y^gamma rho, by bands (directional_bands.h): self_norm_sum with a colour;
   void (*directional_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
-                               const LightView& light, float* const* rgb);
+                               const LightBands& light, float* const* rgb);
+  // inverse[k] = inverse_hemisphere at the key point, which the next two need;
+  void (*directional_hemisphere)(const KeyPointSoa& points, const LightView& light, float* const* inverse);
   // rgb[k] += rho * sum over spheres of caster_weight * form factor: composed_depth with a colour, the
   // spheres being one caster's, with one rho for all of them;
   void (*directional_depth)(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
-                            float* const* rgb);
-  // rgb[k] *= 1 - min(1, caster_weight * form factor * rho) for each sphere: exact_open with a colour.
+                            float* const* inverse, float* const* rgb);
+  // rgb[k] *= 1 - min(1, form factor * rho) for each sphere: exact_open with a colour;
   void (*directional_open)(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
-                           float* const* rgb);
+                           float* const* inverse, float* const* rgb);
+  // the same for the one sphere of a ground whose plane has the unit normal up.
+  void (*directional_ground)(const SphereSoa& ground, const KeyPointSoa& points, const LightView& light,
+                             Vec3 up, float* const* rgb);
 };
 
 // The table of one instruction set; NULL where the processor or the build lacks it. scalar is always there.

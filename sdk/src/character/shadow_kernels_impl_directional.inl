@@ -3,20 +3,23 @@
 
 namespace {
 
+template <class F>
 struct SeenDirection {
-  Direction<Float> offset;  // to the sphere's centre, in its radii
-  Float xi, delta2;
+  Direction<F> offset;  // to the sphere's centre, in its radii
+  F xi, delta2;
 };
 
-SeenDirection see_direction(const SphereSoa& spheres, std::uint32_t i, const Points<Float>& p) {
-  const Float inverse_radius = broadcast(spheres.inverse_radius[i]);
-  const Direction<Float> o{(broadcast(spheres.x[i]) - p.x) * inverse_radius,
-                           (broadcast(spheres.y[i]) - p.y) * inverse_radius,
-                           (broadcast(spheres.z[i]) - p.z) * inverse_radius};
+template <class F>
+SeenDirection<F> see_direction(const SphereSoa& spheres, std::uint32_t i, const Points<F>& p) {
+  const F inverse_radius = F(broadcast(spheres.inverse_radius[i]));
+  const Direction<F> o{(F(broadcast(spheres.x[i])) - p.x) * inverse_radius,
+                       (F(broadcast(spheres.y[i])) - p.y) * inverse_radius,
+                       (F(broadcast(spheres.z[i])) - p.z) * inverse_radius};
   return {o, fma(o.x, p.nx, fma(o.y, p.ny, o.z * p.nz)), fma(o.x, o.x, fma(o.y, o.y, o.z * o.z))};
 }
 
-Direction<Float> normal_of(const Points<Float>& p) {
+template <class F>
+Direction<F> normal_of(const Points<F>& p) {
   return {p.nx, p.ny, p.nz};
 }
 
@@ -31,29 +34,25 @@ void store_colour(float* const* rgb, std::uint32_t k, const Colour<Float>& colou
 
 template <KernelForm Form, NormPower P>
 void directional_norm(const SphereSoa& spheres, const KeyPointSoa& points, float gamma,
-                      const LightView& light, float* const* rgb) {
+                      const LightBands& light, float* const* rgb) {
   const Float exponent = broadcast(gamma);
   for (std::uint32_t k = 0; k < points.padded_count; k += width) {
     const Points<Float> p = load_points<Float>(points, k);
     const Direction<Float> n = normal_of(p);
-    const Colour<Float> inverse = inverse_hemisphere(light, n);
-    Colour<Float> total = load_colour(rgb, k);
+    GatheredBands<Float> gathered = GatheredBands<Float>::none();
     for (std::uint32_t i = 0; i < spheres.count; ++i) {
-      const SeenDirection seen = see_direction(spheres, i, p);
+      const SeenDirection<Float> seen = see_direction(spheres, i, p);
       const Float y = shadow_term(Form, seen.xi, seen.delta2);
-      const Colour<Float> ratio =
-          light_ratio(light, inverse, n, sight_of(n, seen.offset, seen.xi, seen.delta2), y,
-                      broadcast(no_sharpest), self_ratio);
-      const Float term = raised<P>(y, exponent);
-      total = {fma(term, ratio.r, total.r), fma(term, ratio.g, total.g), fma(term, ratio.b, total.b)};
+      gather(gathered, n, sight_of(n, seen.offset, seen.xi, seen.delta2), y, raised<P>(y, exponent));
     }
-    store_colour(rgb, k, total);
+    const Colour<Float> sum = coloured_sum(gathered, light, n), before = load_colour(rgb, k);
+    store_colour(rgb, k, {before.r + sum.r, before.g + sum.g, before.b + sum.b});
   }
 }
 
 template <KernelForm Form>
 void directional_norm_of_form(const SphereSoa& spheres, const KeyPointSoa& points, float gamma,
-                              const LightView& light, float* const* rgb) {
+                              const LightBands& light, float* const* rgb) {
   switch (norm_power(gamma)) {
     case NormPower::one:
       return directional_norm<Form, NormPower::one>(spheres, points, gamma, light, rgb);
@@ -67,7 +66,7 @@ void directional_norm_of_form(const SphereSoa& spheres, const KeyPointSoa& point
 }
 
 void directional_norm_sum(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
-                          const LightView& light, float* const* rgb) {
+                          const LightBands& light, float* const* rgb) {
   switch (kernel.form) {
     case KernelForm::paper:
       return directional_norm_of_form<KernelForm::paper>(spheres, points, kernel.gamma, light, rgb);
@@ -78,46 +77,74 @@ void directional_norm_sum(const SphereSoa& spheres, const KeyPointSoa& points, c
   }
 }
 
+void directional_hemisphere(const KeyPointSoa& points, const LightView& light, float* const* inverse) {
+  for (std::uint32_t k = 0; k < points.padded_count; k += width)
+    store_colour(inverse, k, inverse_hemisphere(light, normal_of(load_points<Float>(points, k))));
+}
+
+template <class F>
+JointSight<F> joint_sight(const SphereSoa& spheres, const Points<F>& p) {
+  const Direction<F> n = normal_of(p);
+  JointSight<F> joint;
+  for (std::uint32_t i = 0; i < spheres.count; ++i) {
+    const SeenDirection<F> seen = see_direction(spheres, i, p);
+    joint.add(sight_of(n, seen.offset, seen.xi, seen.delta2),
+              form_factor_fast(seen.xi, seen.delta2) * F(broadcast(spheres.caster_weight[i])));
+  }
+  return joint;
+}
+
+void add_depth(const JointSight<Float>& joint, const Points<Float>& p, const LightView& light,
+               float* const* inverse, std::uint32_t k, float* const* rgb) {
+  const Direction<Float> n = normal_of(p);
+  const Colour<Float> ratio = light_ratio(light, load_colour(inverse, k), n, joint.mean(n),
+                                          min(joint.taken, broadcast(1.0f)), joint.sharpest());
+  const Colour<Float> total = load_colour(rgb, k);
+  store_colour(rgb, k,
+               {fma(joint.taken, ratio.r, total.r), fma(joint.taken, ratio.g, total.g),
+                fma(joint.taken, ratio.b, total.b)});
+}
+
 void directional_depth(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
-                       float* const* rgb) {
+                       float* const* inverse, float* const* rgb) {
   for (std::uint32_t k = 0; k < points.padded_count; k += width) {
     const Points<Float> p = load_points<Float>(points, k);
-    const Direction<Float> n = normal_of(p);
-    const Colour<Float> inverse = inverse_hemisphere(light, n);
-    JointSight<Float> joint;
-    for (std::uint32_t i = 0; i < spheres.count; ++i) {
-      const SeenDirection seen = see_direction(spheres, i, p);
-      joint.add(sight_of(n, seen.offset, seen.xi, seen.delta2),
-                form_factor_fast(seen.xi, seen.delta2) * broadcast(spheres.caster_weight[i]));
-    }
-    const Colour<Float> ratio = light_ratio(
-        light, inverse, n, joint.mean(n), min(joint.taken, broadcast(1.0f)), joint.sharpest(), caster_ratio);
-    const Colour<Float> total = load_colour(rgb, k);
-    store_colour(rgb, k,
-                 {fma(joint.taken, ratio.r, total.r), fma(joint.taken, ratio.g, total.g),
-                  fma(joint.taken, ratio.b, total.b)});
+    add_depth(joint_sight(spheres, p), p, light, inverse, k, rgb);
   }
 }
 
-void directional_open(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
-                      float* const* rgb) {
+Colour<Float> left_of(const Colour<Float>& open, Float share, const Colour<Float>& ratio) {
   const Float one = broadcast(1.0f);
+  return {open.r * (one - min(share * ratio.r, one)), open.g * (one - min(share * ratio.g, one)),
+          open.b * (one - min(share * ratio.b, one))};
+}
+
+void directional_open(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
+                      float* const* inverse, float* const* rgb) {
   for (std::uint32_t k = 0; k < points.padded_count; k += width) {
     const Points<Float> p = load_points<Float>(points, k);
     const Direction<Float> n = normal_of(p);
-    const Colour<Float> inverse = inverse_hemisphere(light, n);
-    Colour<Float> product = load_colour(rgb, k);
+    Colour<Float> open = load_colour(rgb, k);
     for (std::uint32_t i = 0; i < spheres.count; ++i) {
-      const SeenDirection seen = see_direction(spheres, i, p);
-      const Float weight = spheres.caster_weight ? broadcast(spheres.caster_weight[i]) : one;
-      const Float share = min(weight * form_factor_exact(seen.xi, seen.delta2), one);
-      const Colour<Float> ratio =
-          light_ratio(light, inverse, n, sight_of(n, seen.offset, seen.xi, seen.delta2), share,
-                      broadcast(no_sharpest), caster_ratio);
-      product = {product.r * (one - min(share * ratio.r, one)), product.g * (one - min(share * ratio.g, one)),
-                 product.b * (one - min(share * ratio.b, one))};
+      const SeenDirection<Float> seen = see_direction(spheres, i, p);
+      const Float share = min(form_factor_exact(seen.xi, seen.delta2), broadcast(1.0f));
+      open =
+          left_of(open, share,
+                  light_ratio(light, load_colour(inverse, k), n,
+                              sight_of(n, seen.offset, seen.xi, seen.delta2), share, broadcast(no_sharpest)));
     }
-    store_colour(rgb, k, product);
+    store_colour(rgb, k, open);
+  }
+}
+
+void directional_ground(const SphereSoa& ground, const KeyPointSoa& points, const LightView& light, Vec3 up,
+                        float* const* rgb) {
+  const Direction<Float> above{broadcast(up.x), broadcast(up.y), broadcast(up.z)};
+  for (std::uint32_t k = 0; k < points.padded_count; k += width) {
+    const Points<Float> p = load_points<Float>(points, k);
+    const SeenDirection<Float> seen = see_direction(ground, 0, p);
+    const Float share = min(form_factor_exact(seen.xi, seen.delta2), broadcast(1.0f));
+    store_colour(rgb, k, left_of(load_colour(rgb, k), share, ground_ratio(light, normal_of(p), above)));
   }
 }
 

@@ -25,9 +25,10 @@ enum : unsigned {
   X(program, everyone, "GL_CURRENT_PROGRAM", "runs the passes; default 0")                                  \
   X(array_buffer, everyone | probes, "GL_ARRAY_BUFFER_BINDING", "every upload goes through it; default 0")  \
   X(vertex_array, draws, "GL_VERTEX_ARRAY_BINDING", "inputs of the vertex pass, or none; default 0")        \
-  X(active_texture, draws | probes | materials, "GL_ACTIVE_TEXTURE", "selects units; default GL_TEXTURE0")  \
-  X(texture_unit_0, tier_33 | probes, "GL_TEXTURE_BINDING_BUFFER of unit 0",                                \
-    "shadows at key points, texels of a probe; default 0")                                                  \
+  X(active_texture, everyone | probes | materials, "GL_ACTIVE_TEXTURE",                                     \
+    "selects units; default GL_TEXTURE0")                                                                   \
+  X(texture_unit_0, characters | probes, "GL_TEXTURE_BINDING_BUFFER of unit 0",                             \
+    "shadows at key points, texels of probes and lights; default 0")                                        \
   X(texture_2d, screen, "GL_TEXTURE_BINDING_2D of units 0 to 3", "inputs of the stages; default 0")         \
   X(samplers, screen, "GL_SAMPLER_BINDING of units 0 to 3",                                                 \
     "so that no parameter of a texture counts; default 0")                                                  \

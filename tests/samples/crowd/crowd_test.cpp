@@ -37,6 +37,7 @@ TEST_CASE("a small crowd is drawn, and the more casters count the nearer it is t
   const auto report = nlohmann::json::parse(std::ifstream(out / "report.json"));
   CHECK(report["characters"] == 12);
   CHECK(report["links"] > 0);
+  CHECK(report["light"] == "sky");
   for (const char* stage : {"pose", "scene_update", "screen_space", "draw", "read"})
     CHECK(report["ms"][stage] > 0);
   const double all = mse_of(report, "all");
@@ -45,6 +46,16 @@ TEST_CASE("a small crowd is drawn, and the more casters count the nearer it is t
   CHECK(all < mse_of(report, "self_links"));
   CHECK(mse_of(report, "self_ground") < mse_of(report, "self"));
   CHECK(mse_of(report, "self") < mse_of(report, "static"));
+}
+
+TEST_CASE("frames without a probe's light are another picture") {
+  const std::filesystem::path out = CROWD_OUT "_plain";
+  std::filesystem::remove_all(out);
+  REQUIRE(
+      run("--context egl --characters 6 --frames 1 --size 160x120 --no-sheets --no-light --out '" CROWD_OUT
+          "_plain'") == 0);
+  CHECK(nlohmann::json::parse(std::ifstream(out / "report.json"))["light"].is_null());
+  CHECK(std::filesystem::file_size(out / "frame_0000.png") > 2000);
 }
 
 TEST_CASE("under a light, occlusion of each lobe is nearest to path tracing, AO alone farthest") {

@@ -48,8 +48,9 @@ Run draw_one(const std::string& context, const std::string& tier, const std::str
   const std::filesystem::path out = std::filesystem::path(CROWD_OUT) / (context + tier + screen_space);
   std::filesystem::remove_all(out);
   const std::string command =
-      "'" CROWD "' --quiet --no-sheets --characters 1 --frames 1 --size 480x360 --context " + context +
-      " --tier " + tier + " --screen-space " + screen_space + " --out '" + out.string() + "' > /dev/null";
+      "'" CROWD "' --quiet --no-sheets --no-light --characters 1 --frames 1 --size 480x360 --context " +
+      context + " --tier " + tier + " --screen-space " + screen_space + " --out '" + out.string() +
+      "' > /dev/null";
   const int status = std::system(command.c_str());
   REQUIRE(WIFEXITED(status));
   REQUIRE(WEXITSTATUS(status) == 0);

@@ -24,6 +24,12 @@ struct AoPlace {
   std::uint32_t count = 0;   // floats
 };
 
+struct LightPlace {
+  AoPlace directional_ao;  // count: vertices, three floats each
+  GLuint texture = 0;      // of the lights
+  std::uint32_t first_texel = 0;
+};
+
 // Every call may change any of the touched state; the caller holds a StateGuard where OpenGL is called.
 class CharacterGl {
  public:
@@ -34,6 +40,8 @@ class CharacterGl {
   void update(const SceneHandle& handle);
   // Throws Failure unless the instance has a place.
   AoPlace ao_place(const Scene& scene, nook_instance_id instance) const;
+  // Throws Failure unless the last update saw a light of the instance.
+  LightPlace light_place(const Scene& scene, nook_instance_id instance) const;
   void release(const Scene& scene);
   // Of scenes that the host destroyed.
   void release_destroyed();

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "gl/character/frame_stream.h"
+#include "gl/character/scene_lights.h"
 #include "gl/program.h"
 
 namespace nook::gl {
@@ -19,6 +20,10 @@ enum Binding : GLuint {
   binding_shadows = 5,
   binding_model = 6,
   binding_ao = 7,
+  // Of the passes over lights.
+  binding_colours = 5,
+  binding_lights = 7,
+  binding_vertex_colours = 3,
 };
 
 constexpr std::uint32_t groups(std::uint32_t threads, std::uint32_t group_size) {
@@ -100,17 +105,24 @@ void remember_update(SceneBuffers& buffers, const Scene& scene) {
 ComputeTier::ComputeTier(Device& device)
     : device_(device),
       spheres_(compute_program(device, "character/spheres.comp", "")),
-      vertices_(compute_program(device, "character/vertices.comp", "")) {}
+      vertices_(compute_program(device, "character/vertices.comp", "#define NOOK_LIGHT 0\n")) {}
 
-void ComputeTier::prepare(const ModelList& models) {
+void ComputeTier::prepare(const ModelList& models, const SceneBuffers& buffers) {
+  const bool lit = buffers.lights.name() != 0;
+  if (lit && lit_vertices_.name() == 0) {
+    lit_vertices_ = compute_program(device_, "character/vertices.comp", "#define NOOK_LIGHT 1\n");
+    colours_spread_ = compute_program(device_, "character/colours_spread.comp", "");
+  }
   for (const ModelBuffers& model : models) {
     if (model.level_count() > 1 && spread_.name() == 0)
       spread_ = compute_program(device_, "character/spread.comp", "");
     const auto form = static_cast<int>(model.model->model.kernel.form);
-    if (shadows_[form].name()) continue;
     char defines[40];
     std::snprintf(defines, sizeof defines, "#define NOOK_KERNEL_FORM %d\n", form);
-    shadows_[form] = compute_program(device_, "character/shadows.comp", defines);
+    if (shadows_[form].name() == 0)
+      shadows_[form] = compute_program(device_, "character/shadows.comp", defines);
+    if (lit && colours_[form].name() == 0)
+      colours_[form] = compute_program(device_, "character/colours.comp", defines);
   }
 }
 
@@ -118,17 +130,24 @@ void ComputeTier::prepare(const ModelList& models) {
 // barrier serves all.
 void ComputeTier::update(SceneBuffers& buffers, Scene& scene) const {
   const Functions& gl = device_.gl;
+  notice_lights(buffers, scene);
   resolve_for_gpu(buffers, scene);
+  for (Instance& instance : scene.instances)
+    if (instance.light.count > 0 && instance.due) prepare_light(scene, instance);
+  upload_lights(device_, buffers, scene);
   if (upload_frame(device_, buffers, scene)) {
     run_spheres(buffers);
     gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     run_shadows(buffers, scene);
+    run_colours(buffers, scene);
     gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     if (spread_.name()) {
       run_spread(buffers, scene);
+      run_colours_spread(buffers);
       gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
     run_vertices(buffers, scene);
+    run_lit_vertices(buffers, scene);
     gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                      GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   }
@@ -151,35 +170,69 @@ void ComputeTier::run_spheres(const SceneBuffers& buffers) const {
   }
 }
 
+// Binds and dispatches a pass over key points for the instances of a chunk that are due.
+void ComputeTier::run_key_points(const SceneBuffers& buffers, const Scene& scene, const Chunk& chunk) const {
+  const Functions& gl = device_.gl;
+  const ModelBuffers& model = *chunk.model;
+  bind_poses(gl, buffers, chunk);
+  bind_piece(gl, binding_casters, buffers.stream, chunk.frame.casters, chunk.frame.caster_bytes);
+  bind_whole(gl, binding_model, model.key_points_rest);
+  gl.Uniform1f(5, model.model->model.kernel.gamma);
+  gl.Uniform1i(6, uses_self(scene));
+  gl.Uniform1i(7, scene.settings.combine == NOOK_COMBINE_COMPOSED);
+  gl.Uniform1ui(8, model.shadows());
+  std::uint32_t first = 0;
+  for (std::uint32_t l = 0; l < model.level_count(); ++l) {
+    const std::uint32_t count = chunk.frame.due_at_level[l];
+    if (count == 0) continue;
+    const LevelRange& level = model.levels[l];
+    gl.Uniform1ui(0, first);
+    gl.Uniform1ui(1, level.first_sphere);
+    gl.Uniform1ui(2, level.spheres);
+    gl.Uniform1ui(3, level.first_key_point);
+    gl.Uniform1ui(4, level.key_points);
+    gl.Uniform1ui(9, l == 0 ? 0 : model.key_points());
+    gl.DispatchCompute(groups(level.key_points, 64), count, 1);
+    first += count;
+  }
+}
+
 void ComputeTier::run_shadows(const SceneBuffers& buffers, const Scene& scene) const {
   const Functions& gl = device_.gl;
   for (const Chunk& chunk : buffers.chunks) {
     if (chunk.frame.due == 0) continue;
-    const ModelBuffers& model = *chunk.model;
-    const Kernel& kernel = model.model->model.kernel;
-    gl.UseProgram(shadows_[static_cast<int>(kernel.form)].name());
-    bind_poses(gl, buffers, chunk);
-    bind_piece(gl, binding_casters, buffers.stream, chunk.frame.casters, chunk.frame.caster_bytes);
+    gl.UseProgram(shadows_[static_cast<int>(chunk.model->model->model.kernel.form)].name());
     bind_whole(gl, binding_shadows, chunk.shadows);
-    bind_whole(gl, binding_model, model.key_points_rest);
-    gl.Uniform1f(5, kernel.gamma);
-    gl.Uniform1i(6, uses_self(scene));
-    gl.Uniform1i(7, scene.settings.combine == NOOK_COMBINE_COMPOSED);
-    gl.Uniform1ui(8, model.shadows());
-    std::uint32_t first = 0;
-    for (std::uint32_t l = 0; l < model.level_count(); ++l) {
-      const std::uint32_t count = chunk.frame.due_at_level[l];
-      if (count == 0) continue;
-      const LevelRange& level = model.levels[l];
-      gl.Uniform1ui(0, first);
-      gl.Uniform1ui(1, level.first_sphere);
-      gl.Uniform1ui(2, level.spheres);
-      gl.Uniform1ui(3, level.first_key_point);
-      gl.Uniform1ui(4, level.key_points);
-      gl.Uniform1ui(9, l == 0 ? 0 : model.key_points());
-      gl.DispatchCompute(groups(level.key_points, 64), count, 1);
-      first += count;
-    }
+    run_key_points(buffers, scene, chunk);
+  }
+}
+
+void ComputeTier::run_colours(const SceneBuffers& buffers, const Scene& scene) const {
+  const Functions& gl = device_.gl;
+  for (const Chunk& chunk : buffers.chunks) {
+    if (chunk.frame.lit == 0) continue;
+    gl.UseProgram(colours_[static_cast<int>(chunk.model->model->model.kernel.form)].name());
+    bind_whole(gl, binding_colours, chunk.colours);
+    bind_whole(gl, binding_lights, buffers.lights);
+    run_key_points(buffers, scene, chunk);
+  }
+}
+
+void ComputeTier::spread_levels(const SceneBuffers& buffers, const Chunk& chunk) const {
+  const Functions& gl = device_.gl;
+  const ModelBuffers& model = *chunk.model;
+  bind_poses(gl, buffers, chunk);
+  bind_whole(gl, binding_model, model.spread);
+  gl.Uniform1ui(1, model.key_points());
+  gl.Uniform1ui(2, model.shadows());
+  std::uint32_t first = chunk.frame.due_at_level[0];
+  for (std::uint32_t l = 1; l < model.level_count(); ++l) {
+    const std::uint32_t count = chunk.frame.due_at_level[l];
+    if (count == 0) continue;
+    gl.Uniform1ui(0, first);
+    gl.Uniform1ui(4, l - 1);
+    gl.DispatchCompute(groups(model.key_points(), 64), count, 1);
+    first += count;
   }
 }
 
@@ -187,42 +240,53 @@ void ComputeTier::run_spread(const SceneBuffers& buffers, const Scene& scene) co
   const Functions& gl = device_.gl;
   gl.UseProgram(spread_.name());
   for (const Chunk& chunk : buffers.chunks) {
-    const ModelBuffers& model = *chunk.model;
     if (chunk.frame.due == chunk.frame.due_at_level[0]) continue;
-    bind_poses(gl, buffers, chunk);
     bind_whole(gl, binding_shadows, chunk.shadows);
-    bind_whole(gl, binding_model, model.spread);
-    gl.Uniform1ui(1, model.key_points());
-    gl.Uniform1ui(2, model.shadows());
     gl.Uniform1i(3, uses_self(scene));
-    std::uint32_t first = chunk.frame.due_at_level[0];
-    for (std::uint32_t l = 1; l < model.level_count(); ++l) {
-      const std::uint32_t count = chunk.frame.due_at_level[l];
-      if (count == 0) continue;
-      gl.Uniform1ui(0, first);
-      gl.Uniform1ui(4, l - 1);
-      gl.DispatchCompute(groups(model.key_points(), 64), count, 1);
-      first += count;
-    }
+    spread_levels(buffers, chunk);
   }
 }
 
-void ComputeTier::run_vertices(const SceneBuffers& buffers, const Scene& scene) const {
+void ComputeTier::run_colours_spread(const SceneBuffers& buffers) const {
   const Functions& gl = device_.gl;
-  gl.UseProgram(vertices_.name());
+  if (colours_spread_.name()) gl.UseProgram(colours_spread_.name());
   for (const Chunk& chunk : buffers.chunks) {
-    if (chunk.frame.due == 0) continue;
-    const ModelBuffers& model = *chunk.model;
-    bind_poses(gl, buffers, chunk);
-    bind_whole(gl, binding_shadows, chunk.shadows);
-    bind_whole(gl, binding_model, model.linear);
-    bind_whole(gl, binding_ao, chunk.ao);
-    gl.Uniform1ui(0, model.file_vertices());
-    gl.Uniform1ui(1, model.vertices());
-    gl.Uniform1ui(2, model.influence_pairs());
-    gl.Uniform1ui(3, model.shadows());
-    gl.Uniform1i(4, uses_self(scene));
-    gl.DispatchCompute(groups(model.file_vertices(), 128), chunk.frame.due, 1);
+    if (chunk.frame.lit == 0 || chunk.frame.due == chunk.frame.due_at_level[0]) continue;
+    bind_whole(gl, binding_colours, chunk.colours);
+    spread_levels(buffers, chunk);
+  }
+}
+
+void ComputeTier::blend_vertices(const SceneBuffers& buffers, const Scene& scene, const Chunk& chunk,
+                                 const Buffer& out) const {
+  const Functions& gl = device_.gl;
+  const ModelBuffers& model = *chunk.model;
+  bind_poses(gl, buffers, chunk);
+  bind_whole(gl, binding_shadows, chunk.shadows);
+  bind_whole(gl, binding_model, model.linear);
+  bind_whole(gl, binding_ao, out);
+  gl.Uniform1ui(0, model.file_vertices());
+  gl.Uniform1ui(1, model.vertices());
+  gl.Uniform1ui(2, model.influence_pairs());
+  gl.Uniform1ui(3, model.shadows());
+  gl.Uniform1i(4, uses_self(scene));
+  gl.DispatchCompute(groups(model.file_vertices(), 128), chunk.frame.due, 1);
+}
+
+void ComputeTier::run_vertices(const SceneBuffers& buffers, const Scene& scene) const {
+  device_.gl.UseProgram(vertices_.name());
+  for (const Chunk& chunk : buffers.chunks)
+    if (chunk.frame.due) blend_vertices(buffers, scene, chunk, chunk.ao);
+}
+
+// For all instances of a chunk where one has a light: the others get AO in all channels.
+void ComputeTier::run_lit_vertices(const SceneBuffers& buffers, const Scene& scene) const {
+  const Functions& gl = device_.gl;
+  if (lit_vertices_.name()) gl.UseProgram(lit_vertices_.name());
+  for (const Chunk& chunk : buffers.chunks) {
+    if (chunk.frame.lit == 0) continue;
+    bind_whole(gl, binding_vertex_colours, chunk.colours);
+    blend_vertices(buffers, scene, chunk, chunk.directional_ao);
   }
 }
 

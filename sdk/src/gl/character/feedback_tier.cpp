@@ -1,8 +1,9 @@
 #include "gl/character/feedback_tier.h"
 
-#include <algorithm>
+#include <cstdio>
 
 #include "core/failure.h"
+#include "gl/character/scene_lights.h"
 #include "gl/program.h"
 
 namespace nook::gl {
@@ -16,31 +17,54 @@ bool wanted(const SceneBuffers& buffers, const Chunk& chunk, std::uint32_t place
   return slot != Chunk::empty && !buffers.placements[slot].evaluated;
 }
 
-void write_shadows(const Scene& scene, const Instance& instance, float* out) {
-  const PointLanes& points = instance.arrays.points;
-  const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
-  for (std::uint32_t k = 0; k < points.count; ++k) {
-    *out++ = points.shadow[k];
-    *out++ = composed ? points.added[k] : 0.0f;
+// Two floats a key point, of the AO.
+struct Shadows {
+  static constexpr std::uint32_t floats = 2;
+  static void write(const Scene& scene, const Instance& instance, float* out) {
+    const PointLanes& points = instance.arrays.points;
+    const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+    for (std::uint32_t k = 0; k < points.count; ++k) {
+      *out++ = points.shadow[k];
+      *out++ = composed ? points.added[k] : 0.0f;
+    }
   }
-}
+};
+
+// Eight floats a key point, by channel; the same in all of them without a light.
+struct Colours {
+  static constexpr std::uint32_t floats = 8;
+  static void write(const Scene& scene, const Instance& instance, float* out) {
+    const PointLanes& points = instance.arrays.points;
+    const InstanceLight& light = instance.light;
+    const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+    for (std::uint32_t k = 0; k < points.count; ++k, out += floats) {
+      for (int c = 0; c < 3; ++c) {
+        out[c] = light.evaluated ? light.shadow[c][k] : points.shadow[k];
+        out[4 + c] = !composed ? 0.0f : light.evaluated ? light.added[c][k] : points.added[k];
+      }
+      out[3] = out[7] = 0;
+    }
+  }
+};
 
 // Sends the shadows of the wanted places from `first` on, in their order and as many as fit; returns the end
 // of these places, or `first` if none is left.
-std::uint32_t fill_page(SceneBuffers& buffers, const Scene& scene, const Chunk& chunk, std::uint32_t first) {
-  const std::uint64_t instance_bytes = std::uint64_t{chunk.model->key_points()} * 2 * sizeof(float);
-  const std::uint64_t most = buffers.page.bytes() / instance_bytes;
+template <class Kind>
+std::uint32_t fill_page(const SceneBuffers& buffers, Buffer& page, const Scene& scene, const Chunk& chunk,
+                        std::uint32_t first) {
+  const std::uint64_t instance_floats = std::uint64_t{chunk.model->key_points()} * Kind::floats;
+  const std::uint64_t most = page.bytes() / (instance_floats * sizeof(float));
   std::uint32_t end = first;
   std::uint64_t count = 0;
   for (; end < chunk.capacity && count < most; ++end) count += wanted(buffers, chunk, end);
   if (count == 0) return first;
-  auto* memory = static_cast<float*>(buffers.page.begin_write(count * instance_bytes));
+  auto* memory = static_cast<float*>(page.begin_write(count * instance_floats * sizeof(float)));
   for (std::uint32_t place = first; place < end; ++place) {
     if (!wanted(buffers, chunk, place)) continue;
-    write_shadows(scene, scene.instances[chunk.slots[place]], memory);
-    memory += instance_bytes / sizeof(float);
+    Kind::write(scene, scene.instances[chunk.slots[place]], memory);
+    memory += instance_floats;
   }
-  buffers.page.end_write();
+  page.end_write();
   return end;
 }
 
@@ -48,15 +72,9 @@ std::uint32_t fill_page(SceneBuffers& buffers, const Scene& scene, const Chunk& 
 
 FeedbackTier::FeedbackTier(Device& device) : device_(device) {
   const Functions& gl = device.gl;
-  const char* defines[] = {"#define NOOK_QUADS 1\n", "#define NOOK_QUADS 2\n"};
-  for (int i = 0; i < 2; ++i) {
-    Program& program = programs_[i];
-    program.object = feedback_program(device, "character/vertices.vert", defines[i], "nook_ao");
-    program.first_texel = uniform_location(device, program.object, "nook_first_texel");
-    program.key_point_count = uniform_location(device, program.object, "nook_key_point_count");
-    program.self = uniform_location(device, program.object, "nook_self");
-    gl.UseProgram(program.object.name());
-    gl.Uniform1i(uniform_location(device, program.object, "nook_shadows"), 0);
+  for (int quads = 1; quads <= 2; ++quads) {
+    programs_[quads - 1] = make_program(quads, false);
+    lit_programs_[quads - 1] = make_program(quads, true);
   }
   // A draw needs a complete framebuffer even if nothing is rasterised, and a surfaceless context has none.
   framebuffer_ = Object::make(device, Object::Kind::framebuffer);
@@ -75,58 +93,89 @@ FeedbackTier::FeedbackTier(Device& device) : device_(device) {
     feedback_ = Object::make(device, Object::Kind::transform_feedback);
 }
 
+FeedbackTier::Program FeedbackTier::make_program(int quads, bool lit) {
+  char defines[64];
+  std::snprintf(defines, sizeof defines, "#define NOOK_QUADS %d\n#define NOOK_LIGHT %d\n", quads, int(lit));
+  Program program;
+  program.object =
+      feedback_program(device_, "character/vertices.vert", defines, lit ? "nook_directional_ao" : "nook_ao");
+  program.first_key_point = uniform_location(device_, program.object, "nook_first_key_point");
+  program.key_point_count = uniform_location(device_, program.object, "nook_key_point_count");
+  program.self = uniform_location(device_, program.object, "nook_self");
+  device_.gl.UseProgram(program.object.name());
+  device_.gl.Uniform1i(uniform_location(device_, program.object, "nook_shadows"), 0);
+  return program;
+}
+
 void FeedbackTier::update(SceneBuffers& buffers, Scene& scene) const {
+  notice_lights(buffers, scene);
   nook::update(scene);
+  upload_lights(device_, buffers, scene);
   // Should an upload fail, the next update makes up for this one.
   for (std::size_t slot = 0; slot < buffers.placements.size(); ++slot)
     buffers.placements[slot].evaluated &= !scene.instances[slot].due;
   const Functions& gl = device_.gl;
-  const bool self = (scene.terms & NOOK_TERM_SELF) != 0;
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
   if (feedback_.name()) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback_.name());
   gl.Enable(GL_RASTERIZER_DISCARD);
   gl.Disable(GL_PRIMITIVE_RESTART);
   gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_BUFFER, buffers.page_texture.name());
 
   for (const Chunk& chunk : buffers.chunks) {
-    for (std::uint32_t first = 0, end; (end = fill_page(buffers, scene, chunk, first)) > first; first = end)
-      draw_page(buffers, chunk, first, end, self);
+    draw_chunk<Shadows>(buffers, scene, chunk,
+                        {programs_, &buffers.page, &buffers.page_texture, &chunk.ao, 1});
+    if (chunk.directional_ao.name())
+      draw_chunk<Colours>(
+          buffers, scene, chunk,
+          {lit_programs_, &buffers.colour_page, &buffers.colour_page_texture, &chunk.directional_ao, 3});
     for (const std::uint32_t slot : chunk.slots)
       if (slot != Chunk::empty) buffers.placements[slot].evaluated = true;
   }
   gl.Disable(GL_RASTERIZER_DISCARD);
 }
 
+template <class Kind>
+void FeedbackTier::draw_chunk(const SceneBuffers& buffers, const Scene& scene, const Chunk& chunk,
+                              const Target& target) const {
+  const Program& program = target.programs[chunk.model->influence_quads() - 1];
+  device_.gl.BindTexture(GL_TEXTURE_BUFFER, target.page_texture->name());
+  device_.gl.UseProgram(program.object.name());
+  device_.gl.Uniform1i(program.key_point_count, static_cast<GLint>(chunk.model->key_points()));
+  device_.gl.Uniform1i(program.self, (scene.terms & NOOK_TERM_SELF) != 0);
+  device_.gl.BindVertexArray(chunk.model->vertex_array.name());
+  std::uint32_t first = 0, end;
+  while ((end = fill_page<Kind>(buffers, *target.page, scene, chunk, first)) > first) {
+    draw_page(buffers, chunk, first, end, program, target);
+    first = end;
+  }
+}
+
 // Neighbouring places are neighbours in the page as well, and one draw serves a whole run of them.
 void FeedbackTier::draw_page(const SceneBuffers& buffers, const Chunk& chunk, std::uint32_t first,
-                             std::uint32_t end, bool self) const {
+                             std::uint32_t end, const Program& program, const Target& target) const {
   std::uint32_t drawn = 0;
   while (first < end) {
     std::uint32_t run_end = first;
     while (run_end < end && wanted(buffers, chunk, run_end)) ++run_end;
-    if (run_end > first) draw(chunk, first, run_end, drawn * chunk.model->key_points(), self);
+    if (run_end > first) {
+      device_.gl.Uniform1i(program.first_key_point, static_cast<GLint>(drawn * chunk.model->key_points()));
+      draw(chunk, first, run_end, target);
+    }
     drawn += run_end - first;
     first = run_end + 1;
   }
 }
 
-void FeedbackTier::draw(const Chunk& chunk, std::uint32_t first, std::uint32_t end, std::uint32_t texel,
-                        bool self) const {
+void FeedbackTier::draw(const Chunk& chunk, std::uint32_t first, std::uint32_t end,
+                        const Target& target) const {
   const Functions& gl = device_.gl;
-  const ModelBuffers& model = *chunk.model;
-  const Program& program = programs_[model.influence_quads() - 1];
-  const std::uint64_t instance_bytes = std::uint64_t{model.file_vertices()} * sizeof(float);
-  gl.UseProgram(program.object.name());
-  gl.Uniform1i(program.first_texel, static_cast<GLint>(texel));
-  gl.Uniform1i(program.key_point_count, static_cast<GLint>(model.key_points()));
-  gl.Uniform1i(program.self, self);
-  gl.BindVertexArray(model.vertex_array.name());
-  gl.BindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, chunk.ao.name(),
+  const std::uint32_t vertices = chunk.model->file_vertices();
+  const std::uint64_t instance_bytes = std::uint64_t{vertices} * target.channels * sizeof(float);
+  gl.BindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, target.out->name(),
                      static_cast<GLintptr>(first * instance_bytes),
                      static_cast<GLsizeiptr>((end - first) * instance_bytes));
   gl.BeginTransformFeedback(GL_POINTS);
-  gl.DrawElementsInstanced(GL_POINTS, static_cast<GLsizei>(model.file_vertices()), GL_UNSIGNED_INT, nullptr,
+  gl.DrawElementsInstanced(GL_POINTS, static_cast<GLsizei>(vertices), GL_UNSIGNED_INT, nullptr,
                            static_cast<GLsizei>(end - first));
   gl.EndTransformFeedback();
 }

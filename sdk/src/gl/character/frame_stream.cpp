@@ -59,6 +59,7 @@ std::uint64_t lay_out(const Device& device, SceneBuffers& buffers, const Scene& 
       ++frame.selected;
       if (!instance.due) return;
       ++frame.due;
+      frame.lit += instance.light.count > 0;
       ++frame.due_at_level[instance.level];
       caster_words += 2 * instance.casters.size() + exact_count(instance);
     });
@@ -130,6 +131,8 @@ void write_chunk(const SceneBuffers& buffers, const Scene& scene, const Chunk& c
     record.first_bone = written * chunk.model->bones();
     record.first_sphere = first_sphere(buffers, slot);
     record.place = buffers.placements[slot].place;
+    // no_light wraps to 0.
+    record.light = buffers.placements[slot].first_light_texel + 1;
     if (instance.due) write_casters(buffers, scene, instance, casters, next_caster, record);
     write_pose(instance, bones + record.first_bone);
     // Mapped memory is written once and in order, never read.

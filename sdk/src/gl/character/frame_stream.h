@@ -10,10 +10,10 @@ namespace nook::gl {
 
 // Two uvec4, as instance.glsl reads them.
 struct InstanceRecord {
-  std::uint32_t first_bone;    // in the chunk's poses
-  std::uint32_t first_sphere;  // in the scene's spheres
-  std::uint32_t place;         // in the chunk
-  std::uint32_t reserved;
+  std::uint32_t first_bone;                  // in the chunk's poses
+  std::uint32_t first_sphere;                // in the scene's spheres
+  std::uint32_t place;                       // in the chunk
+  std::uint32_t light;                       // 1 + its first texel in the lights; 0: none
   std::uint32_t first_caster, caster_count;  // in the chunk's casters, as uvec4
   std::uint32_t first_exact, exact_count;
 };

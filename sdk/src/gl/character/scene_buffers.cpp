@@ -3,14 +3,15 @@
 #include <algorithm>
 
 #include "core/failure.h"
+#include "gl/character/scene_lights.h"
 
 namespace nook::gl {
 namespace {
 
-// The most that one instance needs of any buffer that is bound as one piece.
+// The most that one instance, with a light, needs of any buffer that is bound as one piece.
 std::uint64_t largest_share(const ModelBuffers& model) {
-  const std::uint64_t shares[] = {std::uint64_t{model.file_vertices()} * sizeof(float),
-                                  std::uint64_t{model.shadows()} * 2 * sizeof(float),
+  const std::uint64_t shares[] = {std::uint64_t{model.file_vertices()} * 3 * sizeof(float),
+                                  std::uint64_t{model.shadows()} * 8 * sizeof(float),
                                   std::uint64_t{model.bones()} * sizeof(Mat3x4)};
   return *std::max_element(std::begin(shares), std::end(shares));
 }
@@ -172,6 +173,7 @@ void prepare(Device& device, ModelList& models, SceneBuffers& buffers, const Sce
     make_sphere_buffers(device, buffers);
   else
     make_page(device, buffers);
+  make_light_buffers(device, buffers, scene);
   device.check("preparing a scene");
   buffers.structure_revision = scene.structure_revision;
   buffers.prepared = true;

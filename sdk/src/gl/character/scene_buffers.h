@@ -30,6 +30,8 @@ struct Chunk {
   std::uint32_t first_free = 0;    // no place before it is empty
   Buffer ao;                       // capacity * file vertices
   Buffer shadows;                  // tier 43: capacity * ModelBuffers::shadows, two floats each
+  Buffer directional_ao;           // capacity * file vertices * 3; none before the first light
+  Buffer colours;                  // tier 43, the same: eight floats for each of `shadows`
   std::uint32_t first_sphere = 0;  // tier 43: of place 0, in SceneBuffers::spheres
 
   // Tier 43, of the update in progress; offsets in bytes into SceneBuffers::stream.
@@ -37,6 +39,7 @@ struct Chunk {
     // Instances that are evaluated come first, level by level; of the others only the spheres are needed.
     std::array<std::uint32_t, CharacterModel::max_levels + 1> due_at_level{};
     std::uint32_t due = 0;
+    std::uint32_t lit = 0;       // of these, those with a light
     std::uint32_t selected = 0;  // all of them
     std::uint64_t records = 0, bones = 0, casters = 0;
     std::uint64_t caster_bytes = 0;
@@ -48,9 +51,12 @@ struct Placement {
   nook_instance_id id = 0;
   Chunk* chunk = nullptr;
   std::uint32_t place = 0;
-  bool evaluated = false;                  // the AO in the chunk is of some update
-  std::uint64_t evaluated_frame = 0;       // tier 43
-  std::uint64_t transformed_revision = 0;  // tier 43: pose whose spheres the GPU has
+  static constexpr std::uint32_t no_light = UINT32_MAX;
+  bool evaluated = false;                      // the AO in the chunk is of some update
+  bool lit = false;                            // the last update saw a light
+  std::uint32_t first_light_texel = no_light;  // in SceneBuffers::lights, of the last update
+  std::uint64_t evaluated_frame = 0;           // tier 43
+  std::uint64_t transformed_revision = 0;      // tier 43: pose whose spheres the GPU has
 };
 
 struct SceneBuffers {
@@ -61,6 +67,10 @@ struct SceneBuffers {
   std::uint64_t structure_revision = 0;  // of the scene that the placements show; 0: none
   bool prepared = false;
 
+  // Of instances with a light; none before the first.
+  Buffer lights;
+  Object light_texture;
+
   // Tier 43.
   Buffer stream;          // poses and casters of one update
   Buffer spheres;         // of every place of every chunk
@@ -69,6 +79,8 @@ struct SceneBuffers {
   // Tier 33.
   Buffer page;  // shadows at key points, as many whole instances as fit in a texture buffer
   Object page_texture;
+  Buffer colour_page;  // the same by channel; none before the first light
+  Object colour_page_texture;
 };
 
 // Gives every instance a place and makes all buffers. Instances that had one keep it. Throws Failure; what

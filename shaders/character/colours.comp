@@ -1,0 +1,111 @@
+// Directional occlusion at the key points of instances with a light: the colour of their shadow and the added occlusion by
+// channel.
+#include "character/key_points.glsl"
+#include "character/light.glsl"
+
+layout(std430, binding = 5) writeonly buffer NookColours {
+  vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow; added occlusion
+};
+
+void nook_gather_sphere(inout NookBands bands, vec4 sphere, NookPoint point) {
+  vec3 o = (sphere.xyz - point.position) * sphere.w;
+  float y = nook_shadow_term(dot(o, point.normal), dot(o, o));
+  NookSight sight = nook_sight(point.normal, o);
+  float k = nook_concentration(sight, max(y, nook_smallest_share), nook_self_concentration);
+  nook_gather(bands, point.normal * nook_directional_cosine + sight.towards * k, nook_raised(y, nook_gamma));
+}
+
+NookBands nook_no_bands() { return NookBands(0.0, vec3(0.0), vec3(0.0), vec3(0.0)); }
+
+NookBands nook_gather_spheres(uint first, uint count, NookPoint point) {
+  NookBands bands = nook_no_bands();
+  for (uint begin = 0u; begin < count; begin += nook_tile_size) {
+    uint staged = min(count - begin, nook_tile_size);
+    nook_stage(first + begin, staged);
+    for (uint i = 0u; i < staged; ++i) nook_gather_sphere(bands, nook_tile[i], point);
+  }
+  return bands;
+}
+
+// The spheres of a caster as one: sum of their directions by what each takes; w is that sum's own.
+vec4 nook_joint_sight(uint first, uint count, NookPoint point) {
+  vec4 joint = vec4(0.0);
+  for (uint begin = 0u; begin < count; begin += nook_tile_size) {
+    uint staged = min(count - begin, nook_tile_size);
+    nook_stage(first + begin, staged);
+    for (uint i = 0u; i < staged; ++i) {
+      vec3 o = (nook_tile[i].xyz - point.position) * nook_tile[i].w;
+      float takes = nook_tile_weight[i] * nook_form_factor_fast(dot(o, point.normal), dot(o, o));
+      joint += vec4(nook_sight(point.normal, o).towards, 1.0) * takes;
+    }
+  }
+  return joint;
+}
+
+vec3 nook_depth(uint light, vec3 inverse, vec3 n, vec4 joint) {
+  float squared = dot(joint.xyz, joint.xyz);
+  vec3 d = joint.xyz * inversesqrt(max(squared, 1e-30));
+  float sharpest = 1.0 / max(1.0 - sqrt(squared) / max(joint.w, 1e-15), 1e-4);
+  return joint.w * nook_light_ratio(light, inverse, n, NookSight(d, dot(d, n)), min(joint.w, 1.0), sharpest);
+}
+
+vec3 nook_left(vec3 open, float share, vec3 ratio) { return open * (1.0 - min(share * ratio, 1.0)); }
+
+void main() {
+  NookRecord record = nook_read_record(nook_first_record + gl_WorkGroupID.y);
+  // All threads of a group belong to one instance.
+  if (record.light == 0u) return;
+  uint light = record.light - 1u;
+  uint key_point = min(gl_GlobalInvocationID.x, nook_key_point_count - 1u);
+  NookPoint fitted, surface;
+  nook_pose(nook_first_key_point + key_point, record.first_bone, fitted, surface);
+
+  float norm = 0.0;
+  vec3 coloured = vec3(0.0), depth = vec3(0.0), open = vec3(1.0);
+  if (nook_self != 0) {
+    NookBands own = nook_gather_spheres(record.first_sphere + nook_first_sphere, nook_sphere_count, fitted);
+    norm = own.scalar;
+    coloured = nook_coloured_sum(light, own, fitted.normal);
+  }
+  vec3 inverse = nook_inverse_hemisphere(light, surface.normal);
+  for (uint c = 0u; c < record.caster_count; ++c) {
+    uvec4 caster = nook_caster[record.first_caster + 2u * c];
+    uint spheres = nook_caster[record.first_caster + 2u * c + 1u].x;
+    vec3 offset = uintBitsToFloat(caster.xyz);
+    if (nook_composed != 0) {
+      NookPoint point = NookPoint(surface.position - offset, surface.normal);
+      depth += nook_depth(light, inverse, surface.normal, nook_joint_sight(caster.w, spheres, point));
+    } else {
+      NookBands others = nook_gather_spheres(caster.w, spheres, NookPoint(fitted.position - offset, fitted.normal));
+      norm += others.scalar;
+      coloured += nook_coloured_sum(light, others, fitted.normal);
+    }
+  }
+  uint grounds = uint(nook_light[light + 1u].w);  // 1 or 0: the first of the exact spheres is the ground
+  NookBands ground = nook_no_bands(), free = nook_no_bands();
+  for (uint i = 0u; i < record.exact_count; ++i) {
+    vec4 sphere = uintBitsToFloat(nook_caster[record.first_exact + i]);
+    vec3 o = (sphere.xyz - surface.position) * sphere.w;
+    float share = min(nook_form_factor_exact(dot(o, surface.normal), dot(o, o)), 1.0);
+    if (nook_composed == 0) {
+      if (i < grounds)
+        nook_gather_sphere(ground, sphere, fitted);
+      else
+        nook_gather_sphere(free, sphere, fitted);
+    } else if (i < grounds) {
+      open = nook_left(open, share, nook_ground_ratio(light, surface.normal));
+    } else {
+      NookSight sight = nook_sight(surface.normal, o);
+      open = nook_left(open, share, nook_light_ratio(light, inverse, surface.normal, sight, share, 1e6));
+    }
+  }
+  if (nook_composed == 0) {
+    norm += ground.scalar + free.scalar;
+    coloured += nook_coloured_sum(light, ground, fitted.normal) + nook_coloured_sum(light, free, fitted.normal);
+  }
+  if (gl_GlobalInvocationID.x < nook_key_point_count) {
+    uint place = 2u * (record.place * nook_shadow_stride + nook_shadow_offset + key_point);
+    nook_colour[place] = vec4(norm > 0.0 ? coloured / norm : vec3(1.0), 0.0);
+    nook_colour[place + 1u] = vec4(1.0 - open * exp(-depth), 0.0);
+  }
+}

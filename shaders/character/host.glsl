@@ -1,0 +1,24 @@
+// What a host's shader calls for the light of a scene's instances. `light` is that of nook_gl_light_view; normals are unit
+// vectors, world space; colours linear RGB.
+#include "probe/irradiance.glsl"
+
+// sdk/src/gl/character/scene_lights.cpp lays it out.
+uniform samplerBuffer nook_scene_lights;
+
+// Irradiance of the lobes on an open surface; fits of probes may ring a little below 0, which is cut off.
+vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
+  int count = int(texelFetch(nook_scene_lights, light).x);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < count; ++i) {
+    vec4 shape = texelFetch(nook_scene_lights, light + 12 + 2 * i);
+    vec3 amplitude = texelFetch(nook_scene_lights, light + 13 + 2 * i).xyz;
+    sum += nook_probe_lobe_irradiance(NookLobe(shape.xyz, shape.w, amplitude, 0.0), normal_ws);
+  }
+  return max(sum, 0.0);
+}
+
+// What the bodies, the ground and the occluders round the vertex leave of it; directional_ao is the vertex' value of
+// nook_gl_light_view.
+vec3 nook_scene_irradiance(int light, vec3 normal_ws, vec3 directional_ao) {
+  return nook_scene_open_irradiance(light, normal_ws) * directional_ao;
+}

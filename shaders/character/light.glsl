@@ -1,0 +1,114 @@
+// The light of an instance and what stands in it; derived in sdk/src/character/directional.h and directional_bands.h.
+#include "probe/lobe.glsl"
+
+layout(std430, binding = 7) readonly buffer NookLights {
+  vec4 nook_light[];  // sdk/src/gl/character/scene_lights.cpp lays it out
+};
+
+const float nook_directional_cosine = 2.133;
+const float nook_caster_concentration = 2.0;
+const float nook_self_concentration = 1.0, nook_self_strength = 0.75;
+const float nook_smallest_share = 1e-4, nook_largest_ratio = 8.0;
+
+float nook_lobe_norm(float v) {
+  float q = (((0.26666667 * v + 0.66666667) * v + 1.3333333) * v + 2.0) * v + 2.0;
+  return q / (v * q + 1.0);
+}
+
+// Mean of the lobes, less what the ground hides of each, under the density exp(dot(b, s)).
+vec3 nook_mean_radiance(uint light, vec3 b) {
+  float length_b = length(b);
+  int count = int(nook_light[light].x);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < count; ++i) {
+    vec4 shape = nook_light[light + 12u + 2u * uint(i)], amplitude = nook_light[light + 13u + 2u * uint(i)];
+    float m = length(b + shape.xyz * shape.w);
+    sum += exp(min(m - (length_b + shape.w), 0.0)) * nook_lobe_norm(m) * amplitude.w * amplitude.xyz;
+  }
+  return sum / nook_lobe_norm(length_b);
+}
+
+vec3 nook_inverse_hemisphere(uint light, vec3 n) {
+  return 1.0 / max(nook_mean_radiance(light, n * nook_directional_cosine), nook_light[light + 1u].xyz);
+}
+
+// Where something stands above the horizon: unit direction, and its cosine to the normal.
+struct NookSight {
+  vec3 towards;
+  float cosine;
+};
+
+NookSight nook_sight(vec3 n, vec3 o) {
+  float xi = dot(o, n), delta2 = dot(o, o);
+  float height = max(xi, 0.5 * max(xi, -1.0) + 0.5);
+  float inverse_distance = inversesqrt(max(delta2 + height * height - xi * xi, 1e-12));
+  return NookSight((o + n * (height - xi)) * inverse_distance, height * inverse_distance);
+}
+
+float nook_concentration(NookSight sight, float f, float concentration) {
+  float height = max(sight.cosine, 1e-12), f2 = f * f;
+  return concentration * max(1.0 - f2, 0.0) * (height * inversesqrt(height * f2));
+}
+
+vec3 nook_light_ratio(uint light, vec3 inverse, vec3 n, NookSight sight, float share, float sharpest) {
+  float k = min(nook_concentration(sight, max(share, nook_smallest_share), nook_caster_concentration), sharpest);
+  vec3 behind = nook_mean_radiance(light, n * nook_directional_cosine + sight.towards * k);
+  return clamp(behind * inverse, 0.0, nook_largest_ratio);
+}
+
+// Share below the horizon of a lobe of sharpness m whose vector rises `height` above it.
+float nook_share_below(float height, float m) {
+  float x = height * inversesqrt(m * 2.0 * m / (m + 4.0) + 5.09), a = abs(x);
+  float p = (((0.078108 * a + 0.000972) * a + 0.230389) * a + 0.278393) * a + 1.0;
+  float p2 = min(p * p, 1e9), tail = 0.5 / (p2 * p2);
+  return x < 0.0 ? 1.0 - tail : tail;
+}
+
+vec3 nook_ground_ratio(uint light, vec3 n) {
+  float h = nook_directional_cosine;
+  vec3 b = n * h, up = nook_light[light].yzw, all = vec3(0.0), below = vec3(0.0);
+  int count = int(nook_light[light].x);
+  for (int i = 0; i < count; ++i) {
+    vec4 shape = nook_light[light + 12u + 2u * uint(i)];
+    vec3 amplitude = nook_light[light + 13u + 2u * uint(i)].xyz, v = b + shape.xyz * shape.w;
+    float m = length(v);
+    vec3 seen = exp(min(m - (h + shape.w), 0.0)) * nook_lobe_norm(m) * amplitude;
+    all += seen;
+    below += seen * nook_share_below(dot(v, up), m);
+  }
+  vec3 inverse = 1.0 / (max(all, nook_lobe_norm(h) * nook_light[light + 1u].xyz) * nook_share_below(dot(b, up), h));
+  return clamp(below * inverse, 0.0, nook_largest_ratio);
+}
+
+// Densities of spheres, gathered over bands 0 to 2.
+struct NookBands {
+  float scalar;
+  vec3 vector, straight, mixed;  // straight: xx, yy, zz; mixed: xy, yz, zx
+};
+
+void nook_gather(inout NookBands bands, vec3 b, float weight) {
+  float t = inversesqrt(max(dot(b, b), 1.0));
+  float a1 = 1.0 - t, a2 = 1.0 - 3.0 * t * a1;
+  vec3 d = b * t;
+  bands.scalar += weight;
+  bands.vector += weight * a1 * d;
+  bands.straight += weight * a2 * d * d;
+  bands.mixed += weight * a2 * d * d.yzx;
+}
+
+vec3 nook_light_of(uint light, NookBands bands) {
+  vec3 sum = bands.scalar * nook_light[light + 2u].xyz;
+  for (uint i = 0u; i < 3u; ++i)
+    sum += bands.vector[i] * nook_light[light + 3u + i].xyz + bands.straight[i] * nook_light[light + 6u + i].xyz +
+           bands.mixed[i] * nook_light[light + 9u + i].xyz;
+  return sum;
+}
+
+// The sum of terms, each by the light that it takes.
+vec3 nook_coloured_sum(uint light, NookBands gathered, vec3 n) {
+  NookBands open = NookBands(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
+  nook_gather(open, n * nook_directional_cosine, 1.0);
+  vec3 ratio = nook_light_of(light, gathered) / max(nook_light_of(light, open), nook_light[light + 1u].xyz);
+  vec3 bounded = clamp(ratio, 0.0, nook_largest_ratio * gathered.scalar);
+  return nook_self_strength * bounded + (1.0 - nook_self_strength) * gathered.scalar;
+}

@@ -1,0 +1,356 @@
+// Directional occlusion on the GPU: every tier against the CPU, the GLSL for hosts against the CPU's
+// irradiance, and lights that come and go.
+#include <nook/nook_gl_probe.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "character/levels.h"
+#include "crowd.h"
+#include "platform/program.h"
+#include "test_context.h"
+#include "traced_loader.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+// nook_gl.h promises it.
+constexpr float promised_light_difference = 4e-3f;
+
+constexpr SampleSize body{13, 70, 150, 700, 200, 8};
+constexpr SampleSize cloak{4, 9, 37, 90, 20, 3};
+
+// Uneven, coloured, one constant; sharper and softer than a probe's.
+std::vector<nook_probe_lobe> lobes_of(std::uint32_t seed, std::size_t count = 9) {
+  Numbers numbers(seed);
+  std::vector<nook_probe_lobe> lobes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 axis = numbers.direction();
+    const float sharpness[] = {6, 0, 2, 14, 40};
+    lobes.push_back({{axis.x, axis.y, axis.z},
+                     sharpness[i % 5],
+                     {numbers.between(0, 2), numbers.between(0, 1), numbers.between(0, 3)},
+                     0});
+  }
+  return lobes;
+}
+
+void light(const Crowd& crowd, std::size_t index, const std::vector<nook_probe_lobe>& lobes) {
+  NOOK_OK_OR_FAIL(
+      nook_scene_set_light(crowd.scene, crowd.ids[index], lobes.data(), std::uint32_t(lobes.size())));
+}
+
+std::vector<float> cpu_colours(const Crowd& crowd, nook_character_model model, std::size_t index) {
+  const std::uint32_t count = file_vertices(model);
+  std::vector<float> rgb(3 * std::size_t(count));
+  NOOK_OK_OR_FAIL(nook_scene_read_directional_ao(crowd.scene, crowd.ids[index], rgb.data(), count, 0));
+  return rgb;
+}
+
+std::vector<float> gpu_colours(nook_gl gl, const Crowd& crowd, nook_character_model model,
+                               std::size_t index) {
+  const std::uint32_t count = file_vertices(model);
+  std::vector<float> rgb(3 * std::size_t(count), -1.0f);
+  NOOK_OK_OR_FAIL(nook_gl_scene_read_directional_ao(gl, crowd.scene, crowd.ids[index], rgb.data(), count));
+  return rgb;
+}
+
+nook_gl_light_view view_of(nook_gl gl, const Crowd& crowd, std::size_t index) {
+  nook_gl_light_view view{};
+  view.struct_size = sizeof view;
+  NOOK_OK_OR_FAIL(nook_gl_scene_light(gl, crowd.scene, crowd.ids[index], &view));
+  return view;
+}
+
+nook_result ask_view(nook_gl gl, const Crowd& crowd, std::size_t index) {
+  nook_gl_light_view view{};
+  view.struct_size = sizeof view;
+  return nook_gl_scene_light(gl, crowd.scene, crowd.ids[index], &view);
+}
+
+struct Cast {
+  explicit Cast(KernelForm form = KernelForm::nook, float gamma = 1, bool levels = false) {
+    for (const SampleSize& size : {body, cloak}) {
+      CharacterModel model = sample_model(std::uint32_t(60 + models.size()), size);
+      model.kernel = {form, gamma};
+      if (levels) add_levels(model);
+      models.push_back(load_model(context.handle, model));
+      bone_counts.push_back(size.bones);
+    }
+  }
+  ~Cast() {
+    for (nook_character_model& model : models) nook_character_model_destroy(&model);
+  }
+  void add_levels(CharacterModel& model) {
+    Numbers numbers(3);
+    std::vector<std::vector<Mat3x4>> poses;
+    for (int i = 0; i < 12; ++i) poses.push_back(random_pose(numbers, model.bone_count()));
+    for (const CharacterLevel& level : make_levels(model, poses)) model.levels.push_back(level);
+    coarsest_error = model.levels.back().error_rms;
+  }
+  nook_character_model model_of(std::size_t index) const { return models[index % models.size()]; }
+
+  CountedContext context;
+  std::vector<nook_character_model> models;
+  std::vector<std::uint32_t> bone_counts;
+  float coarsest_error = 0;
+};
+
+// Two instances in three have a light, each its own; three frames.
+void check_agreement(platform::Context& context, const Cast& cast, const CrowdOptions& options,
+                     std::uint32_t terms = NOOK_TERM_ALL) {
+  for (const int tier : tiers_of(context)) {
+    INFO("tier " << tier);
+    Crowd on_cpu(cast.context.handle, cast.models, cast.bone_counts, options);
+    Crowd on_gpu(cast.context.handle, cast.models, cast.bone_counts, options);
+    for (const Crowd* crowd : {&on_cpu, &on_gpu}) {
+      NOOK_OK_OR_FAIL(nook_scene_set_terms(crowd->scene, terms));
+      for (std::size_t i = 0; i < crowd->ids.size(); ++i)
+        if (i % 3) light(*crowd, i, lobes_of(std::uint32_t(i)));
+    }
+    nook_gl gl = create_gl(cast.context.handle, platform::Context::loader, &context, tier);
+    float largest = 0, ao_largest = 0, colourful = 0;
+    for (std::uint32_t frame = 0; frame < 3; ++frame) {
+      on_cpu.pose(frame);
+      on_gpu.pose(frame);
+      NOOK_OK_OR_FAIL(nook_scene_update(on_cpu.scene));
+      NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, on_gpu.scene));
+      for (std::size_t i = 0; i < on_cpu.ids.size(); ++i) {
+        const nook_character_model model = cast.model_of(i);
+        const std::vector<float> ao = cpu_ao(on_cpu, model, i);
+        ao_largest = std::max(ao_largest, largest_difference(gpu_ao(gl, on_gpu, model, i), ao));
+        if (i % 3 == 0) {
+          CHECK(ask_view(gl, on_gpu, i) == NOOK_ERROR_INVALID_HANDLE);
+          continue;
+        }
+        const std::vector<float> want = cpu_colours(on_cpu, model, i);
+        largest = std::max(largest, largest_difference(gpu_colours(gl, on_gpu, model, i), want));
+        for (std::size_t v = 0; v < want.size(); ++v)
+          colourful = std::max(colourful, std::abs(want[v] - ao[v / 3]));
+      }
+    }
+    CHECK(largest < promised_light_difference);
+    CHECK(ao_largest < promised_difference);
+    // Were the light left out, the picture would be the AO's; the ground alone changes least.
+    CHECK(colourful > 0.03f);
+    nook_gl_destroy(&gl);
+    CHECK(take_debug_messages().empty());
+    CHECK(context.gl().GetError() == GL_NO_ERROR);
+  }
+}
+
+const char* const vertex_text =
+    "#version 330 core\n"
+    "void main() { gl_Position = vec4(4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0.0, 1.0); }\n";
+const char* const fragment_text =
+    "uniform samplerBuffer normals; uniform int light; out vec4 answer;\n"
+    "void main() {\n"
+    "  vec3 n = texelFetch(normals, int(gl_FragCoord.x)).xyz;\n"
+    "  answer = vec4(nook_scene_irradiance(light, n, vec3(1.0, 0.5, 0.25)), 1.0);\n"
+    "}\n";
+
+// Occluded irradiance of each normal in a host's shader, made of `texts`, four floats each.
+std::vector<float> ask(const GladGLContext& gl, const nook_gl_light_view& view,
+                       const std::vector<float>& texels, std::initializer_list<const char*> texts) {
+  const int width = int(texels.size() / 4);
+  GLuint names[2], buffer, framebuffer, array;
+  gl.GenTextures(2, names);
+  gl.GenBuffers(1, &buffer);
+  gl.GenFramebuffers(1, &framebuffer);
+  gl.GenVertexArrays(1, &array);
+  gl.BindBuffer(GL_TEXTURE_BUFFER, buffer);
+  gl.BufferData(GL_TEXTURE_BUFFER, GLsizeiptr(4 * texels.size()), texels.data(), GL_STATIC_DRAW);
+  gl.ActiveTexture(GL_TEXTURE1);
+  gl.BindTexture(GL_TEXTURE_BUFFER, names[0]);
+  gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, names[1]);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, 1, 0, GL_RGBA, GL_FLOAT, nullptr);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, names[1], 0);
+  gl.Viewport(0, 0, width, 1);
+  const GLuint program = platform::link_program(gl, {vertex_text}, texts);
+  gl.UseProgram(program);
+  gl.BindTexture(GL_TEXTURE_BUFFER, view.texture);
+  gl.Uniform1i(gl.GetUniformLocation(program, "nook_scene_lights"), 0);
+  gl.Uniform1i(gl.GetUniformLocation(program, "normals"), 1);
+  gl.Uniform1i(gl.GetUniformLocation(program, "light"), view.light);
+  gl.BindVertexArray(array);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  std::vector<float> answers(texels.size());
+  gl.ReadPixels(0, 0, width, 1, GL_RGBA, GL_FLOAT, answers.data());
+  gl.BindTexture(GL_TEXTURE_BUFFER, 0);
+  gl.UseProgram(0);
+  gl.BindVertexArray(0);
+  gl.BindBuffer(GL_TEXTURE_BUFFER, 0);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl.DeleteProgram(program);
+  gl.DeleteVertexArrays(1, &array);
+  gl.DeleteFramebuffers(1, &framebuffer);
+  gl.DeleteBuffers(1, &buffer);
+  gl.DeleteTextures(2, names);
+  return answers;
+}
+
+// What hosts include for probes.
+std::string probe_glsl(nook_context context, nook_gl gl) {
+  nook_probe_fit_desc desc;
+  NOOK_OK_OR_FAIL(nook_probe_fit_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  nook_probe_fit fit = nullptr;
+  NOOK_OK_OR_FAIL(nook_probe_fit_create(context, &desc, &fit));
+  const float up[3] = {0, 1, 0}, white[3] = {1, 1, 1};
+  NOOK_OK_OR_FAIL(nook_probe_fit_add_samples(fit, up, white, nullptr, 1));
+  nook_probe probe = nullptr;
+  NOOK_OK_OR_FAIL(nook_probe_fit_solve(fit, &probe));
+  nook_gl_probe uploaded = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, probe, &uploaded));
+  nook_gl_probe_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_gl_probe_get_info(uploaded, &info));
+  nook_gl_probe_destroy(&uploaded);
+  nook_probe_destroy(&probe);
+  nook_probe_fit_destroy(&fit);
+  return info.glsl;
+}
+
+}  // namespace
+
+TEST_CASE("GPU and CPU agree on directional occlusion for every kernel and way to combine") {
+  NOOK_NEED_CONTEXT(context);
+  for (const KernelForm form : {KernelForm::paper, KernelForm::nook, KernelForm::rational})
+    for (const float gamma : {1.0f, 1.7f}) {
+      const Cast cast(form, gamma);
+      for (const nook_combine combine : {NOOK_COMBINE_COMPOSED, NOOK_COMBINE_PAPER}) {
+        INFO("form " << static_cast<int>(form) << ", gamma " << gamma << ", combine " << combine);
+        CrowdOptions options;
+        options.combine = combine;
+        check_agreement(context, cast, options);
+      }
+    }
+}
+
+TEST_CASE("GPU and CPU agree on directional occlusion for each kind of caster and at every level of detail") {
+  NOOK_NEED_CONTEXT(context);
+  const Cast plain;
+  for (const std::uint32_t term : {NOOK_TERM_SELF, NOOK_TERM_LINKS, NOOK_TERM_GROUND, NOOK_TERM_OCCLUDERS}) {
+    INFO("term " << term);
+    check_agreement(context, plain, {}, term);
+  }
+  const Cast cast(KernelForm::nook, 1.5f, true);
+  CrowdOptions options;
+  options.camera = true;
+  options.lod_error = cast.coarsest_error / 2.5f;
+  check_agreement(context, cast, options);
+}
+
+TEST_CASE("the GLSL for hosts gives the irradiance of an instance's lobes") {
+  NOOK_NEED_CONTEXT(context);
+  const Cast cast;
+  Crowd crowd(cast.context.handle, cast.models, cast.bone_counts, {});
+  Numbers numbers(5);
+  std::vector<float> normals, texels;
+  for (int i = 0; i < 64; ++i) {
+    const Vec3 n = numbers.direction();
+    normals.insert(normals.end(), {n.x, n.y, n.z});
+    texels.insert(texels.end(), {n.x, n.y, n.z, 0});
+  }
+  for (const int tier : tiers_of(context)) {
+    nook_gl gl = create_gl(cast.context.handle, platform::Context::loader, &context, tier);
+    const std::string probes = probe_glsl(cast.context.handle, gl);
+    for (const std::size_t i : {1, 4}) light(crowd, i, lobes_of(std::uint32_t(20 + i)));
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    for (const std::size_t i : {1, 4}) {
+      const std::vector<nook_probe_lobe> lobes = lobes_of(std::uint32_t(20 + i));
+      std::vector<float> want(normals.size());
+      NOOK_OK_OR_FAIL(nook_probe_lobes_irradiance(lobes.data(), std::uint32_t(lobes.size()),
+                                                  NOOK_PROBE_IRRADIANCE_BANDS, normals.data(), want.data(),
+                                                  64));
+      const float largest = *std::ranges::max_element(want);
+      const nook_gl_light_view view = view_of(gl, crowd, i);
+      const char* const version = "#version 330 core\n";
+      // Beside the text for probes, in either order.
+      for (const std::vector<float>& found :
+           {ask(context.gl(), view, texels, {version, view.glsl, fragment_text}),
+            ask(context.gl(), view, texels, {version, probes.c_str(), view.glsl, fragment_text}),
+            ask(context.gl(), view, texels, {version, view.glsl, probes.c_str(), fragment_text})})
+        for (std::size_t v = 0; v < 64; ++v)
+          for (std::size_t c = 0; c < 3; ++c) {
+            const float occlusion = 1 / float(1 << c);
+            // nook_gl_probe.h's promise for the same functions.
+            CHECK(std::abs(found[4 * v + c] - occlusion * std::max(want[3 * v + c], 0.0f)) < 1e-4f * largest);
+          }
+    }
+    nook_gl_destroy(&gl);
+  }
+}
+
+TEST_CASE("lights come, move and go") {
+  NOOK_NEED_CONTEXT(context);
+  const Cast cast;
+  CrowdOptions options;
+  // Distant instances take turns: a new light does not wait for its own.
+  options.camera = true;
+  options.lod_max_interval = 8;
+  for (const int tier : tiers_of(context)) {
+    INFO("tier " << tier);
+    Crowd crowd(cast.context.handle, cast.models, cast.bone_counts, options);
+    nook_gl gl = create_gl(cast.context.handle, platform::Context::loader, &context, tier);
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    nook_gl_ao_view before{}, after{};
+    before.struct_size = after.struct_size = sizeof before;
+    NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[8], &before));
+    CHECK(ask_view(gl, crowd, 8) == NOOK_ERROR_INVALID_HANDLE);
+    light(crowd, 8, lobes_of(1));
+    CHECK(ask_view(gl, crowd, 8) == NOOK_ERROR_INVALID_HANDLE);
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    const nook_gl_light_view first = view_of(gl, crowd, 8);
+    NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[8], &after));
+    CHECK(after.buffer == before.buffer);
+    CHECK(after.offset == before.offset);
+    const std::vector<float> lit = gpu_colours(gl, crowd, cast.model_of(8), 8);
+    CHECK(*std::ranges::min_element(lit) < 0.9f);
+    // An instance before it: its light moves in the texture, its values stay.
+    light(crowd, 2, lobes_of(2));
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    const nook_gl_light_view second = view_of(gl, crowd, 8);
+    CHECK(second.light > first.light);
+    CHECK(second.buffer == first.buffer);
+    CHECK(second.offset == first.offset);
+    light(crowd, 8, {});
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    CHECK(ask_view(gl, crowd, 8) == NOOK_ERROR_INVALID_HANDLE);
+    CHECK(ask_view(gl, crowd, 2) == NOOK_OK);
+    NOOK_OK_OR_FAIL(nook_scene_remove_instance(crowd.scene, crowd.ids[2]));
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    CHECK(ask_view(gl, crowd, 2) == NOOK_ERROR_INVALID_HANDLE);
+    nook_gl_destroy(&gl);
+    CHECK(context.gl().GetError() == GL_NO_ERROR);
+  }
+}
+
+TEST_CASE("lights beyond a texture buffer are refused, and fewer are fine again") {
+  NOOK_NEED_CONTEXT(context);
+  Trace trace(context);
+  trace.limits[GL_MAX_TEXTURE_BUFFER_SIZE] = 65536;
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(9, {3, 4, 20, 30, 5, 2}));
+  CrowdOptions options;
+  options.instances = 480;  // 12 + 2 * 64 texels each
+  options.links = options.nearest = false;
+  for (const int tier : tiers_of(context)) {
+    Crowd crowd(host.handle, {model}, {3}, options);
+    for (std::size_t i = 0; i < crowd.ids.size(); ++i) light(crowd, i, lobes_of(1, 64));
+    nook_gl gl = create_gl(host.handle, Trace::loader, &trace, tier);
+    CHECK(nook_gl_scene_update(gl, crowd.scene) == NOOK_ERROR_UNSUPPORTED);
+    CHECK(std::string(nook_last_message()).find("use fewer lobes") != std::string::npos);
+    for (std::size_t i = 0; i < crowd.ids.size(); ++i) light(crowd, i, lobes_of(1, 12));
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    const std::vector<float> on_gpu = gpu_colours(gl, crowd, model, 479);
+    NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
+    CHECK(largest_difference(on_gpu, cpu_colours(crowd, model, 479)) < promised_light_difference);
+    nook_gl_destroy(&gl);
+  }
+  nook_character_model_destroy(&model);
+}
