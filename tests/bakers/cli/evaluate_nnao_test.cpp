@@ -45,9 +45,12 @@ TEST_CASE("evaluate nnao measures every method on the thin scene and draws a she
   REQUIRE(report.at("rows").size() == 2 * (5 + 3 + 3 + 3 + 6 + 6));
   for (const auto& row : report.at("rows"))
     for (const char* key : {"method", "taps", "blurred", "scene", "resolution", "gpu", "mse", "rmse", "ssim",
-                            "r", "flicker", "fetches", "ms", "ratio_to_nnao"})
+                            "r", "border_bias", "flicker", "fetches", "ms", "ratio_to_nnao"})
       CHECK(row.contains(key));
   CHECK(report.at("rows").at(0).at("resolution") == "64x48");
+  REQUIRE(report.at("borders").size() == 5 + 3 + 3 + 3 + 6 + 6);
+  for (const char* border : {"left", "right", "bottom", "top"})
+    CHECK(report.at("borders").at(0).at(border).size() == 3);
 }
 
 TEST_CASE("evaluate nnao tells of several scenes each and their mean, with another network beside") {
