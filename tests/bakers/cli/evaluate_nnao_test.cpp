@@ -57,8 +57,8 @@ TEST_CASE("evaluate nnao tells of several scenes each and their mean, with anoth
   const TestFolder folder;
   write_text(folder.path("corner.gltf"), corner_gltf);
   REQUIRE(folder
-              .run({"train", "nnao", "--form", "paper", "-o", folder.path("paper.nook"), "--scenes", "16",
-                    "--views", "16", "--points", "16", "--rays", "4", "--epochs", "1"})
+              .run({"train", "nnao", "--form", "paper", "-o", folder.path("paper.nook"), "--scenes", "20",
+                    "--views", "20", "--points", "16", "--rays", "4", "--epochs", "1"})
               .exit_code == 0);
   auto arguments = tiny({folder.path("corner.gltf"), "--thin", "--camera=thin:0.6,1.1,1.6,0.2,0.4,-0.7,55",
                          "--camera=corner:0,1.5,1.5,0,0,-2,60", "--radius=corner:0.8"},
