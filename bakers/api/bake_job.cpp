@@ -2,28 +2,23 @@
 
 namespace nook::bake {
 
-BakeJob::BakeJob(std::shared_ptr<const ImportedCharacter> character, Recipe recipe,
-                 std::vector<Pose> extra_poses, std::size_t threads, Listener listener)
+BakeJob::BakeJob(Bake bake, std::size_t threads, Listener listener)
     : listener_(std::move(listener)),
-      thread_([this, character = std::move(character), recipe = std::move(recipe),
-               extra_poses = std::move(extra_poses),
-               threads] { run(*character, recipe, extra_poses, threads); }) {}
+      thread_([this, bake = std::move(bake), threads] { run(bake, threads); }) {}
 
 BakeJob::~BakeJob() {
   cancel();
   thread_.join();
 }
 
-void BakeJob::run(const ImportedCharacter& character, const Recipe& recipe,
-                  const std::vector<Pose>& extra_poses, std::size_t threads) {
+void BakeJob::run(const Bake& bake, std::size_t threads) {
   BakedFile file;
   api::Outcome outcome;
   try {
     run_with_threads(threads, [&] {
-      file = bake_by_recipe(character, recipe, extra_poses,
-                            [this](BakeStage stage, std::size_t done, std::size_t total) {
-                              return report(stage, done, total);
-                            });
+      file = bake([this](nook_bake_stage stage, std::size_t done, std::size_t total) {
+        return report(stage, done, total);
+      });
     });
     // A request that came after the last chance to stop still holds: whoever cancels does not want the file.
     if (cancelled_) throw Failure(NOOK_ERROR_CANCELLED, "cancelled when the bake was nearly done");
@@ -34,11 +29,12 @@ void BakeJob::run(const ImportedCharacter& character, const Recipe& recipe,
   file_ = std::move(file);
   outcome_ = outcome;
   progress_.finished = true;
+  progress_.stage = NOOK_BAKE_STAGE_DONE;
   changed_.notify_all();
 }
 
-bool BakeJob::report(BakeStage stage, std::size_t done, std::size_t total) {
-  JobProgress now{true, false, stage, done, total};
+bool BakeJob::report(nook_bake_stage stage, std::size_t done, std::size_t total) {
+  JobProgress now{false, stage, done, total};
   {
     const std::lock_guard lock(mutex_);
     progress_ = now;

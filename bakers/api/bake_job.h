@@ -4,12 +4,10 @@
 #include <atomic>
 #include <condition_variable>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <thread>
-#include <vector>
 
-#include "api/bake_pipeline.h"
+#include "api/baked_file.h"
 #include "api/entry.h"
 #include "api/worker_arena.h"
 
@@ -17,8 +15,8 @@ namespace nook::bake {
 
 // What a job is at; finished once its result is known.
 struct JobProgress {
-  bool started = false, finished = false;
-  BakeStage stage = BakeStage::raytrace;
+  bool finished = false;
+  nook_bake_stage stage = NOOK_BAKE_STAGE_WAITING;
   std::size_t done = 0, total = 0;
 };
 
@@ -27,8 +25,10 @@ class BakeJob {
   using Listener =
       std::function<bool(const JobProgress&)>;  // false cancels; never called once the job has finished
 
-  BakeJob(std::shared_ptr<const ImportedCharacter> character, Recipe recipe, std::vector<Pose> extra_poses,
-          std::size_t threads, Listener listener);
+  // bake runs once, on `threads` threads (0: all cores), and is destroyed with the job.
+  using Bake = std::function<BakedFile(const StageReport&)>;
+
+  BakeJob(Bake bake, std::size_t threads, Listener listener);
   ~BakeJob();  // cancels and waits
 
   JobProgress progress() const;
@@ -41,9 +41,8 @@ class BakeJob {
   const api::Outcome& outcome() const { return outcome_; }
 
  private:
-  void run(const ImportedCharacter& character, const Recipe& recipe, const std::vector<Pose>& extra_poses,
-           std::size_t threads);
-  bool report(BakeStage stage, std::size_t done, std::size_t total);
+  void run(const Bake& bake, std::size_t threads);
+  bool report(nook_bake_stage stage, std::size_t done, std::size_t total);
 
   Listener listener_;
   std::atomic<bool> cancelled_{false};

@@ -19,6 +19,20 @@ std::size_t peak_bytes() {
   return std::size_t(usage.ru_maxrss) * 1024;
 }
 
+nook_bake_stage stage_of(BakeStage stage) {
+  switch (stage) {
+    case BakeStage::raytrace:
+      return NOOK_BAKE_STAGE_RAYTRACE;
+    case BakeStage::initialise:
+      return NOOK_BAKE_STAGE_INITIALISE;
+    case BakeStage::fit:
+      return NOOK_BAKE_STAGE_FIT;
+    case BakeStage::casters:
+      break;
+  }
+  return NOOK_BAKE_STAGE_CASTERS;
+}
+
 std::string report_text(const ImportedCharacter& character, const Recipe& recipe, const CharacterModel& model,
                         std::size_t model_bytes, const BakeReport& report) {
   Json j;
@@ -57,10 +71,13 @@ std::string report_text(const ImportedCharacter& character, const Recipe& recipe
 }  // namespace
 
 BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recipe,
-                         std::span<const Pose> extra_poses, const BakeProgress& progress) {
+                         std::span<const Pose> extra_poses, const StageReport& progress) {
   std::vector<Pose> poses = recipe_poses(character, recipe);
   poses.insert(poses.end(), extra_poses.begin(), extra_poses.end());
-  BakeResult baked = bake_character(character.mesh, poses, recipe.settings, progress);
+  BakeResult baked = bake_character(character.mesh, poses, recipe.settings,
+                                    [&](BakeStage stage, std::size_t done, std::size_t total) {
+                                      return progress(stage_of(stage), done, total);
+                                    });
   baked.model.recipe = recipe_text(character, recipe);
   BakedFile file;
   file.model = write_character_model(baked.model);

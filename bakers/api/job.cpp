@@ -1,8 +1,10 @@
 // Bake jobs: descriptor to recipe, and the life of a job.
 #include <nook/nook_bake.h>
 
+#include "api/bake_pipeline.h"
 #include "api/entry.h"
 #include "api/handles.h"
+#include "api/job_progress.h"
 #include "api/job_recipe.h"
 #include "api/pose_arrays.h"
 #include "core/descriptors.h"
@@ -23,26 +25,6 @@ nook_bake_job_desc default_job_desc() {
   desc.pose_mode = NOOK_BAKE_POSES_ALL;
   desc.seed = 1;
   return desc;
-}
-
-nook_bake_stage stage_of(const JobProgress& p) {
-  if (p.finished) return NOOK_BAKE_STAGE_DONE;
-  if (!p.started) return NOOK_BAKE_STAGE_WAITING;
-  switch (p.stage) {
-    case BakeStage::raytrace:
-      return NOOK_BAKE_STAGE_RAYTRACE;
-    case BakeStage::initialise:
-      return NOOK_BAKE_STAGE_INITIALISE;
-    case BakeStage::fit:
-      return NOOK_BAKE_STAGE_FIT;
-    case BakeStage::casters:
-      break;
-  }
-  return NOOK_BAKE_STAGE_CASTERS;
-}
-
-nook_bake_progress public_progress(const JobProgress& p) {
-  return {std::uint32_t(sizeof(nook_bake_progress)), stage_of(p), p.done, p.total};
 }
 
 const BakeJob& get(nook_bake_job job) {
@@ -69,20 +51,16 @@ nook_result nook_bake_job_start(nook_bake_character character, const nook_bake_j
     Recipe recipe = api::recipe_of(settings, imported);
     std::vector<Pose> extra =
         api::read_poses(settings.extra_poses_3x4, settings.extra_pose_count, imported.mesh.bones.size());
-    BakeJob::Listener listener;
-    if (settings.progress)
-      listener = [call = settings.progress, user = settings.progress_user](const JobProgress& p) {
-        const nook_bake_progress now = public_progress(p);
-        return call(user, &now) != 0;
-      };
-    *out = new nook_bake_job_s{BakeJob(character->character, std::move(recipe), std::move(extra),
-                                       settings.threads, std::move(listener))};
+    auto bake = [shared = character->character, recipe = std::move(recipe), extra = std::move(extra)](
+                    const StageReport& report) { return bake_by_recipe(*shared, recipe, extra, report); };
+    *out = new nook_bake_job_s{BakeJob(std::move(bake), settings.threads,
+                                       api::listener_of(settings.progress, settings.progress_user))};
   });
 }
 
 nook_result nook_bake_job_poll(nook_bake_job job, nook_bake_progress* progress) {
   return api::enter("nook_bake_job_poll",
-                    [&] { write_info(progress, first_progress, public_progress(get(job).progress())); });
+                    [&] { write_info(progress, first_progress, api::public_progress(get(job).progress())); });
 }
 
 nook_result nook_bake_job_cancel(nook_bake_job job) {

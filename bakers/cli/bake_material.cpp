@@ -33,7 +33,7 @@ using Clock = std::chrono::steady_clock;
 struct Options {
   CommonOptions common;
   CompressionOptions compression;
-  std::string meso;
+  std::string meso, visibility_mapping;
   std::filesystem::path btf, raw, output, keep_raw, images;
   std::uint32_t directions = 100, lights = 0, texels = 0;
   float max_tilt_deg = default_max_tilt_deg;
@@ -102,10 +102,15 @@ Json bake(const Options& o, OutputFile& output, std::optional<OutputFile>& raw_f
   if (raw_file) raw_file->commit(write_raw_material(raw));
   CompressionSettings settings = compression_settings(o.compression, raw);
   settings.seed = o.common.seed;
+  if (!o.visibility_mapping.empty())
+    settings.mapping = visibility_mapping(o.visibility_mapping, settings.visibility);
 
   start = Clock::now();
   nook::material::Material material = compress(raw, settings, stage_progress(bar, "compressing the "));
   const double seconds_compress = seconds();
+  if (!o.common.quiet && settings.method == Method::k_cta && settings.map_side == 0)
+    std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
+                 std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);
   const Json recipe = {{"source", recipe_of_trace(o)}, {"compression", describe(settings)}};
   material.recipe = recipe.dump().c_str();
   const std::vector<std::byte> file = nook::material::write_material(material);
@@ -219,7 +224,15 @@ void add_bake_material(CLI::App& bake) {
       ->check(CLI::IsMember({"distance", "binary", "none"}))
       ->type_name("NAME");
   command
-      ->add_option("--view-map", s.map_side, "cells along the side of K-CTA's resampled view maps; 0: none")
+      ->add_option(
+          "--visibility-mapping", o.visibility_mapping,
+          "threshold and weight that make visibility of the VOTF's values; paper: 0.5,1 of masks, 0.05,12 of "
+          "distances. Default: 0.5,1 of masks; of distances T half a texel, W = 1 / T")
+      ->type_name("T,W|paper");
+  command
+      ->add_option("--view-map", s.map_side,
+                   "cells along the side of K-CTA's resampled view maps; 0: none, decoding then "
+                   "mixes the three nearest views, for up to three times the work")
       ->check(CLI::Range(0, 512))
       ->capture_default_str();
   add_compression_options(*command, o.compression);

@@ -1,5 +1,5 @@
 // nook bake probe: one probe of an environment map, or a grid of them in a path-traced scene.
-#include "cli/bake_probe.h"
+#include "cli/probe/bake.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -5,6 +5,7 @@
 
 #include "character/casters.h"
 #include "character/pose_sets.h"
+#include "cli/character/baked_character.h"
 #include "cli/commands.h"
 #include "cli/evaluation.h"
 #include "cli/interrupt.h"

@@ -15,6 +15,8 @@
 #include "cli/progress_bar.h"
 #include "material/material_file.h"
 #include "material/raw_file.h"
+#include "material/tables.h"
+#include "material/unseen_views.h"
 
 namespace nook::cli {
 namespace {
@@ -26,7 +28,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path raw, material, images;
+  std::filesystem::path raw, material, unseen, images;
   std::vector<std::uint32_t> sweep;
   std::vector<std::string> methods;  // peers; empty: all, where peers are asked for
   bool peers = false, seeding = false;
@@ -67,16 +69,31 @@ bool wanted(const Options& o, const std::string& name) {
   return o.methods.empty() ? o.peers : std::find(o.methods.begin(), o.methods.end(), name) != o.methods.end();
 }
 
-void add_peers(const RawMaterial& raw, const CompressionSettings& settings, std::size_t btf_bytes,
-               const Options& o, ProgressBar& bar, Json& rows) {
+// The raw material in views that the fit has not seen; without directions where none is given.
+RawMaterial read_unseen(const Options& o) {
+  if (o.unseen.empty()) return {};
+  return naming_file(o.unseen, [&] { return read_raw_material(read_file(o.unseen)); });
+}
+
+void add_unseen(const RawMaterial& unseen, const Material& material, const Options& o, MethodRow& row) {
+  if (unseen.views.empty()) return;
+  const UnseenError error = naming_file(o.unseen, [&] { return measure_unseen(unseen, material); });
+  row.se_db_unseen = error.se_db;
+  row.error_texels_unseen = error.error_texels;
+}
+
+void add_peers(const RawMaterial& raw, const RawMaterial& unseen, const CompressionSettings& settings,
+               std::size_t btf_bytes, const Options& o, ProgressBar& bar, Json& rows) {
   for (const Peer& peer : peers) {
     CompressionSettings s = settings;
     s.method = peer.method;
     s.mixture = peer.mixture;
+    if (!unseen.views.empty()) s.map_side = nook::material::default_map_side;
     if (!wanted(o, peer.name) || (s.method == Method::k_cta && s.mixture > s.cluster_count())) continue;
     Material material;
-    rows.push_back(report_row(
-        raw.name, measure_method(raw, s, stage_progress(bar, std::string(peer.name) + ", "), &material)));
+    MethodRow row = measure_method(raw, s, stage_progress(bar, std::string(peer.name) + ", "), &material);
+    add_unseen(unseen, material, o, row);
+    rows.push_back(report_row(raw.name, row));
     if (!o.images.empty())
       bake::write_png(o.images / (raw.name + "_" + peer.name + ".png"), difference_sheet(raw, material));
   }
@@ -123,9 +140,11 @@ Json evaluate(const Options& o) {
       naming_file(o.material, [&] { return nook::material::read_material(read_file(o.material)); });
   if (!o.images.empty()) std::filesystem::create_directories(o.images);
   bar.show("measuring", "files", 0, 1);
-  Json rows = Json::array(
-      {report_row(raw.name, naming_file(o.material, [&] { return measure_material(raw, material); }))});
-  rows.back()["method"] = "file: " + rows.back()["method"].get<std::string>();
+  const RawMaterial unseen = read_unseen(o);
+  MethodRow own = naming_file(o.material, [&] { return measure_material(raw, material); });
+  own.method = "file: " + own.method;
+  add_unseen(unseen, material, o, own);
+  Json rows = Json::array({report_row(raw.name, own)});
   if (!o.images.empty()) {
     bake::write_png(o.images / (raw.name + "_raw.png"), raw_sheet(raw));
     bake::write_png(o.images / (raw.name + "_file.png"), difference_sheet(raw, material));
@@ -134,7 +153,7 @@ Json evaluate(const Options& o) {
   Json report;
   const std::size_t btf_bytes =
       light_basis_bytes(raw.lights.size(), material.btf.shape) + compressed_bytes(material.btf.shape);
-  add_peers(raw, settings, btf_bytes, o, bar, rows);
+  add_peers(raw, unseen, settings, btf_bytes, o, bar, rows);
   report["rows"] = rows;
   report["settings"] = describe(settings);
   if (o.seeding) add_seedings(raw, settings, bar, report);
@@ -160,6 +179,9 @@ void add_evaluate_material(CLI::App& evaluate_command) {
       ->delimiter(',')
       ->check(CLI::IsMember(names))
       ->type_name("NAME,...");
+  command->add_option(
+      "--unseen", o.unseen,
+      "a raw material of the same lights and other views, for the error between sampled views");
   command->add_flag("--compare-seeding", o.seeding,
                     "CTA and K-CTA from clusters of directions and of values");
   command->add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")

@@ -4,12 +4,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/bake_probe.h"
 #include "cli/commands.h"
 #include "cli/evaluation.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "cli/probe/bake.h"
 #include "cli/progress_bar.h"
 #include "probe/comparison.h"
 #include "probe/map_bake.h"

@@ -67,7 +67,7 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
     second.light_basis = whole.light_basis;
     second.btf = whole.btf;
     second.visibility = other.visibility;
-    second.mapping = nook::material::default_mapping(other.visibility);
+    second.mapping = nook::material::paper_mapping(other.visibility);
     second.votf = compress_votf(raw, votf_values(raw, other.visibility), other, progress);
     second = nook::material::quantise(second);
     (other.visibility == VisibilityForm::binary ? row.error_texels_binary : row.error_texels_distance) =

@@ -19,8 +19,6 @@ using nook::material::Material;
 using nook::material::VisibilityForm;
 using tensor::Matrix;
 
-constexpr float distance_threshold = 0.5f / 3, distance_weight = 1 / distance_threshold;
-
 tensor::TensorView btf_view(const RawMaterial& raw) {
   return {{raw.light_rows(), raw.views.size(), raw.width, raw.height}, raw.btf.data()};
 }
@@ -44,6 +42,7 @@ struct FitTask {
   tensor::TensorView values;
   std::size_t view_mode;
   std::vector<std::size_t> ranks;  // total in the view mode
+  tensor::Pursuit pursuit;         // of K-CTA
   const CompressionSettings& settings;
   const StageProgress& progress;
   const char* stage;
@@ -68,6 +67,7 @@ tensor::ClusteredFit fit_clusters(const FitTask& task) {
   settings.ranks[task.view_mode] = s.cluster_rank_view;
   settings.clusters = s.cluster_count();
   settings.mixture = s.method == Method::cta ? 1 : s.mixture;
+  settings.pursuit = task.pursuit;
   if (task.view_mode > 0) settings.global_modes = {0};
   const Matrix points = s.seeding == Seeding::directions
                             ? as_rows(task.raw.views)
@@ -135,11 +135,21 @@ ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task
   if (task.progress && !task.progress("view map", 0, 1)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
   const Matrix projections = tensor::atom_projections(fitted, task.values);
   t.map.side = side;
-  t.map.rows = view_rows(tensor::resample(fitted, projections, spline_weights(task.raw.views, side)));
+  t.map.rows = view_rows(tensor::resample(fitted, projections, spline_weights(task.raw.views, side),
+                                           tensor::Pursuit::exchange));
   return t;
 }
 
 }  // namespace
+
+nook::material::VisibilityMapping default_mapping(VisibilityForm form, std::uint32_t width,
+                                                  std::uint32_t height) {
+  if (form != VisibilityForm::distance) return nook::material::paper_mapping(form);
+  const float half_texel = 0.5f / (distance_cut * float(std::max(width, height)));
+  // A texture so small that distances are cut within half a texel.
+  const float threshold = std::min(half_texel, 1.0f);
+  return {threshold, 1 / threshold};
+}
 
 void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
   const auto check = [](std::size_t got, std::size_t most, const char* what, const char* of) {
@@ -155,6 +165,11 @@ void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
     check(s.votf_rank_x, raw.width, "the VOTF's x rank", "the width in texels");
     check(s.votf_rank_y, raw.height, "the VOTF's y rank", "the height in texels");
   }
+  if (s.mapping && !(s.mapping->threshold >= 0 && s.mapping->threshold <= nook::material::max_number &&
+                     s.mapping->weight >= 0 && s.mapping->weight <= nook::material::max_number))
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT, "a visibility mapping of threshold %g and weight %g; need 0 to %g each",
+        double(s.mapping->threshold), double(s.mapping->weight), double(nook::material::max_number));
   if (s.method == Method::n_svd) return;
   check(s.cluster_rank_view, views, "the view rank of a cluster", "the number of views");
   check(s.cluster_count(), views, "the number of clusters", "the number of views");
@@ -169,8 +184,9 @@ void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
 CompressedBtf compress_btf(const RawMaterial& raw, const CompressionSettings& s,
                            const StageProgress& progress) {
   check_settings(s, raw);
-  const FitTask task{raw, btf_view(raw), 1,    {s.rank_light, s.rank_view, s.rank_x, s.rank_y},
-                     s,   progress,      "BTF"};
+  const FitTask task{
+      raw, btf_view(raw), 1,    {s.rank_light, s.rank_view, s.rank_x, s.rank_y}, tensor::Pursuit::greedy,
+      s,   progress,      "BTF"};
   const tensor::ClusteredFit fitted = fit(task);
   return {light_basis_of(fitted), with_map(fitted, task), int(fitted.objective.size()) - 1};
 }
@@ -178,8 +194,16 @@ CompressedBtf compress_btf(const RawMaterial& raw, const CompressionSettings& s,
 ClusteredTensor compress_votf(const RawMaterial& raw, const std::vector<float>& values,
                               const CompressionSettings& s, const StageProgress& progress) {
   check_settings(s, raw);
-  const FitTask task{
-      raw, votf_view(raw, values), 0, {s.rank_view, s.votf_rank_x, s.votf_rank_y}, s, progress, "VOTF"};
+  // A small tensor, for which the better search costs little: a fifth fewer error texels on fiber. The BTF
+  // gains nothing by it.
+  const FitTask task{raw,
+                     votf_view(raw, values),
+                     0,
+                     {s.rank_view, s.votf_rank_x, s.votf_rank_y},
+                     tensor::Pursuit::exchange,
+                     s,
+                     progress,
+                     "VOTF"};
   return with_map(fit(task), task);
 }
 
@@ -196,9 +220,7 @@ Material compress(const RawMaterial& raw, const CompressionSettings& s, const St
   material.btf = std::move(btf.tensor);
   if (raw.mask.empty() || s.visibility == VisibilityForm::none) return material;
   material.visibility = s.visibility;
-  material.mapping = s.visibility == VisibilityForm::distance
-                         ? nook::material::VisibilityMapping{distance_threshold, distance_weight}
-                         : nook::material::default_mapping(s.visibility);
+  material.mapping = s.mapping ? *s.mapping : default_mapping(s.visibility, raw.width, raw.height);
   material.votf = compress_votf(raw, votf_values(raw, s.visibility), s, progress);
   return material;
 }

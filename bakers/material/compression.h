@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct CompressionSettings {
   std::uint32_t mixture = 3;   // K of K-CTA
   Seeding seeding = Seeding::directions;
   nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;
+  std::optional<nook::material::VisibilityMapping> mapping;  // none: default_mapping() below
   std::uint32_t map_side = 256;  // cells of the resampled view maps of K-CTA; 0: none
   std::uint64_t seed = 1;
 
@@ -40,6 +42,12 @@ struct CompressionSettings {
 
 // Returns false to stop. stage names what goes on.
 using StageProgress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
+
+// What (26) reads of a VOTF where no other mapping is asked for: masks as in the seed, T = 0.5 and W = 1. Of
+// distances, visibility rises steadily over half a texel inwards from the boundary: T is that distance, 1/6
+// at 96 texels, and W = 1 / T. The seed's T = 0.05 and W = 12, sdk's paper_mapping(), jump from 0.6 to 1.
+nook::material::VisibilityMapping default_mapping(nook::material::VisibilityForm form, std::uint32_t width,
+                                                  std::uint32_t height);
 
 // Ranks, clusters and mixture against the material's sizes; throws Failure(INVALID_ARGUMENT) that names the
 // first that does not fit.

@@ -1,5 +1,5 @@
 // Raw materials as files, so that what was compressed can be judged later. A .nook container of the kind
-// "MRAW" with the sections
+// "MRAW", version 2 (in version 1 the BTF was black where views pass through), with the sections
 //   HEAD  u32 lights, views, width, height; u32 1 with a VOTF; u32 length and bytes of the name
 //   DIRS  f32 x, y, z of the lights, then of the views
 //   BTF_  half floats, in the order of RawMaterial::btf
@@ -13,7 +13,7 @@
 
 namespace nook::bake::material {
 
-inline constexpr ContainerKind raw_kind{four_letters("MRAW"), "raw material", 1, 1};
+inline constexpr ContainerKind raw_kind{four_letters("MRAW"), "raw material", 2, 2};
 
 std::vector<std::byte> write_raw_material(const RawMaterial& raw);
 

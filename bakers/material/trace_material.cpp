@@ -8,6 +8,7 @@
 
 #include "core/failure.h"
 #include "core/half.h"
+#include "material/fill_gaps.h"
 #include "material/shading.h"
 #include "raytrace/ray_scene.h"
 
@@ -38,8 +39,13 @@ void check(const TraceSettings& s, std::span<const Vec3> lights, std::span<const
 class Column {
  public:
   Column(const MesoSurface& surface, const TiledScene& scene, const InterReflection& indirect,
-         RawMaterial& raw, std::uint32_t samples)
-      : surface_(surface), scene_(scene), indirect_(indirect), raw_(raw), samples_(samples) {}
+         RawMaterial& raw, std::vector<float>& coverage, std::uint32_t samples)
+      : surface_(surface),
+        scene_(scene),
+        indirect_(indirect),
+        raw_(raw),
+        coverage_(coverage),
+        samples_(samples) {}
 
   void trace(std::size_t view, std::uint32_t x) const {
     const std::size_t rows = raw_.light_rows(), height = raw_.height,
@@ -57,6 +63,7 @@ class Column {
         shade(surface_, scene_, indirect_, hit, raw_.views[view], raw_.lights, value, scratch);
         for (std::size_t r = 0; r < rows; ++r) sum[r * height + y] += value[r] / per_texel;
       }
+      coverage_[first + y] = float(met) / per_texel;
       raw_.mask[first + y] = 2 * met >= samples_ * samples_ ? 1.0f : 0.0f;
     }
     for (std::size_t r = 0; r < rows; ++r)
@@ -77,6 +84,7 @@ class Column {
   const TiledScene& scene_;
   const InterReflection& indirect_;
   RawMaterial& raw_;
+  std::vector<float>& coverage_;
   std::uint32_t samples_;
 };
 
@@ -103,7 +111,8 @@ RawMaterial trace_material(const MesoSurface& surface, std::vector<Vec3> lights,
   const TiledScene scene(surface);
   const InterReflection indirect(surface, scene, raw.lights, settings.bounce_rays, settings.bounces,
                                  settings.seed);
-  const Column column(surface, scene, indirect, raw, settings.samples);
+  std::vector<float> coverage(raw.mask.size());
+  const Column column(surface, scene, indirect, raw, coverage, settings.samples);
   for (std::size_t view = 0; view < raw.views.size(); ++view) {
     if (progress && !progress(view, raw.views.size())) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
     tbb::parallel_for(std::uint32_t{0}, raw.width, [&](std::uint32_t x) {
@@ -111,6 +120,7 @@ RawMaterial trace_material(const MesoSurface& surface, std::vector<Vec3> lights,
       column.trace(view, x);
     });
   }
+  fill_gaps(raw, coverage);
   if (progress) progress(raw.views.size(), raw.views.size());
   round_to_halves(raw);
   return raw;

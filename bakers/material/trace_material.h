@@ -16,10 +16,10 @@ struct TraceSettings {
 };
 
 // A view ray passes through its texel on the plane z = 0, comes in above the structure and leaves below it.
-// The BTF is the mean over the texel's samples, black for those that meet nothing; the mask tells whether
-// half of them or more meet the structure. Progress counts views. The same bits on any number of threads.
-// Throws Failure(NOOK_ERROR_CANCELLED) when progress returns false, Failure(INVALID_ARGUMENT) for settings or
-// directions that make no sense.
+// The BTF is the mean over the texel's samples that meet the structure, filled from around where none does;
+// the mask tells whether half of them or more do. Progress counts views. The same bits on any number of
+// threads. Throws Failure(NOOK_ERROR_CANCELLED) when progress returns false, Failure(INVALID_ARGUMENT) for
+// settings or directions that make no sense.
 RawMaterial trace_material(const MesoSurface& surface, std::vector<Vec3> lights, std::vector<Vec3> views,
                            const TraceSettings& settings, const Progress& progress = {});
 

@@ -28,9 +28,11 @@ struct ClusteredSettings {
   // The cluster of each mode-m sub-tensor to begin with, none empty: see tensor/seed_clusters.h.
   std::vector<std::uint32_t> seeds;
 
-  int iterations = 40;      // of Algorithm 1, at most; 0: the start, one cluster a sub-tensor
-  double tolerance = 1e-4;  // ends when the sum of the cores' norms changes by less than this share
-  int sweeps = 1;           // of the N-SVD of one cluster in an update stage; more change little
+  int iterations = 40;  // of Algorithm 1, at most; 0: the start, one cluster a sub-tensor
+  // Ends when an iteration lowers the squared error by less than this share of it. Algorithm 1 watches the
+  // sum of the cores' norms, which for K > 1 can stand still by chance while the error goes on falling.
+  double tolerance = 3e-4;
+  int sweeps = 1;  // of the N-SVD of one cluster in an update stage; more change little
   Pursuit pursuit = Pursuit::greedy;
   // A sub-tensor keeps the clusters that it had where the search found worse ones; false: Algorithm 1 to the
   // letter, which then has to undo iterations more often.

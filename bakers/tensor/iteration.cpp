@@ -2,7 +2,6 @@
 
 #include <sys/resource.h>
 
-#include <cmath>
 #include <utility>
 
 #include "tensor/check.h"
@@ -17,13 +16,6 @@ std::size_t peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return std::size_t(usage.ru_maxrss) * 1024;
-}
-
-// By which Algorithm 1 stops: the sum over clusters of || Z_c ||.
-double sum_of_core_norms(const WorkingFit& fit) {
-  double sum = 0;
-  for (const WorkingCluster& cluster : fit.clusters) sum += std::sqrt(squared_norm(cluster.parts.core));
-  return sum;
 }
 
 ClusteredFit as_result(WorkingFit&& fit, Reduction&& reduction, const TensorView& a,
@@ -57,22 +49,21 @@ ClusteredFit iterate(const TensorView& a, const ClusteredSettings& settings, con
   Reduction reduction = reduce_global_modes(a, settings, progress);
   WorkingFit fit;
   std::vector<double> objective{reduction.lost + fit_seeds(fit, reduction.view, settings, progress)};
-  double norms = sum_of_core_norms(fit);
   bool undone = false;
   std::size_t splits = 0;
   for (int iteration = 1; iteration <= settings.iterations; ++iteration) {
     WorkingFit before = fit;
     const StepResult stepped = step(fit, reduction.view, iteration, objective.back());
     const double now = reduction.lost + stepped.error;
-    if (now > objective.back()) {
+    const double before_error = objective.back();
+    if (now > before_error) {
       fit = std::move(before);
       undone = true;
       break;
     }
     splits += stepped.splits;
     objective.push_back(now);
-    const double norms_before = std::exchange(norms, sum_of_core_norms(fit));
-    if (std::abs(norms - norms_before) <= settings.tolerance * norms_before) break;
+    if (before_error - now <= settings.tolerance * before_error) break;
   }
   ClusteredFit result = as_result(std::move(fit), std::move(reduction), a, settings);
   result.objective = std::move(objective);

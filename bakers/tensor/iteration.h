@@ -15,8 +15,8 @@ struct StepResult {
 using Step =
     std::function<StepResult(WorkingFit& fit, const TensorView& reduced, int iteration, double objective)>;
 
-// Checks the input, reduces global modes, fits the seeds, and then steps until the sum of the cores' norms
-// converges, or a step makes the error rise, which is undone and ends it.
+// Checks the input, reduces global modes, fits the seeds, and then steps until the error hardly falls any
+// more, or a step makes it rise, which is undone and ends it.
 ClusteredFit iterate(const TensorView& a, const ClusteredSettings& settings, const OnClustered& progress,
                      const Step& step);
 

@@ -6,6 +6,10 @@ uniform int nook_blur_reach;  // texels; 0: none
 // A box of 4 between the pixels, then (1, 2, 1) / 4: any noise with a period of 4 pixels averages out exactly.
 const float nook_blur_weights[4] = float[4](1.0, 0.875, 0.5, 0.125);
 
+float nook_ao_at(ivec2 texel) {
+  return texelFetch(nook_ao, texel + nook_ao_origin, 0).r;
+}
+
 // How much a texel at `offset` from the pixel has to do with the pixel's surface: 0 off its plane, or round a corner. Within a
 // quarter of the radius a little is left, for pixels whose normal nobody shares.
 float nook_same_surface(ivec2 at, float depth, vec3 position, vec3 normal, float radius) {
@@ -19,7 +23,7 @@ float nook_same_surface(ivec2 at, float depth, vec3 position, vec3 normal, float
 }
 
 float nook_blurred(ivec2 texel) {
-  float centre = texelFetch(nook_ao, texel, 0).r;
+  float centre = nook_ao_at(texel);
   float depth = nook_surface_depth(texel);
   if (depth == nook_no_surface || nook_blur_reach == 0) return centre;
   vec3 position = nook_position(nook_surface_rays, texel, depth);
@@ -32,7 +36,7 @@ float nook_blurred(ivec2 texel) {
       float at_depth = nook_surface_depth(at);
       if (at_depth == nook_no_surface) continue;
       float weight = nook_blur_weights[i] * nook_same_surface(at, at_depth, position, normal, radius);
-      sum += weight * texelFetch(nook_ao, at, 0).r;
+      sum += weight * nook_ao_at(at);
       weights += weight;
     }
   // A surface of one pixel, seen from the side or with a normal that went wrong, follows its neighbourhood.

@@ -23,7 +23,7 @@ float nook_upsampled(ivec2 pixel, float depth) {
     vec3 away = position - nook_position(nook_surface_rays, at, at_depth);
     float off_plane = dot(away, nook_surface_normal(at)) / tolerance;
     float weight = (lerp.x * lerp.y + 1.0e-3) / (1.0e-3 + off_plane * off_plane);
-    sum += weight * texelFetch(nook_ao, at, 0).r;
+    sum += weight * nook_ao_at(at);
     weights += weight;
   }
   return weights > 0.0 ? sum / weights : 1.0;

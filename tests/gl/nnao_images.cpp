@@ -257,6 +257,11 @@ nnao::Network mild_network(nnao::NetworkForm form, std::uint32_t seed) {
   return network;
 }
 
+std::vector<nook_nnao_path> paths_of(const platform::Context& context) {
+  if (version_of(context) < 43) return {NOOK_NNAO_PATH_FRAGMENT};
+  return {NOOK_NNAO_PATH_FRAGMENT, NOOK_NNAO_PATH_COMPUTE};
+}
+
 nook_nnao_desc pass_desc(int width, int height) {
   nook_nnao_desc desc;
   NOOK_OK_OR_FAIL(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));

@@ -104,6 +104,9 @@ struct NnaoFixture {
 // The network's output stays well inside [0, 1], so that no difference is clamped away.
 nnao::Network mild_network(nnao::NetworkForm form, std::uint32_t seed = 1);
 
+// What a pass can run as on this context.
+std::vector<nook_nnao_path> paths_of(const platform::Context& context);
+
 nook_nnao_desc pass_desc(int width, int height);
 nook_nnao create_pass(nook_gl gl, nook_nnao_desc desc, const nnao::Network& network);
 nook_nnao create_pass(nook_gl gl, const nook_nnao_desc& desc);

@@ -49,17 +49,24 @@ struct Stage {
 
 using Check = std::function<void(const char*, Poison&, const std::function<void()>&)>;
 
-void walk(platform::Context& context, nook_gl_state_mode mode, const Check& check) {
+unsigned users_of(nook_nnao_path path) {
+  return path == NOOK_NNAO_PATH_COMPUTE ? gl::screen | gl::screen_compute : gl::screen;
+}
+
+void walk_path(platform::Context& context, nook_gl_state_mode mode, nook_nnao_path path, const Check& check) {
   for (const nnao::NetworkForm form : {nnao::NetworkForm::horizon, nnao::NetworkForm::paper})
     for (const int half : {0, 1}) {
       // The state is the same for both forms but for the filters' texture.
       if (mode != NOOK_GL_STATE_PRESERVE && half == int(form == nnao::NetworkForm::paper)) continue;
+      // Both paths bind that alike.
+      if (path == NOOK_NNAO_PATH_COMPUTE && form == nnao::NetworkForm::paper) continue;
       Stage stage(context, mode);
       const nnao::Network network = mild_network(form);
       nook_nnao_desc desc = pass_desc(width, height);
       desc.taps = 16;
       desc.half_resolution = half;
       desc.timers = 1;
+      desc.path = path;
       nook_nnao calm = create_pass(stage.fixture.gl, desc, network);
       const nook_nnao_frame_desc frame = stage.frame();
       NOOK_OK_OR_FAIL(nook_nnao_render(calm, &frame));
@@ -86,8 +93,8 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
            }},
       };
       for (const auto& [name, call] : steps) {
-        Poison poison(context, gl::screen);
-        INFO("form " << int(form) << ", half " << half);
+        Poison poison(context, users_of(path));
+        INFO("form " << int(form) << ", half " << half << ", path " << path);
         check(name, poison, call);
         CHECK(context.gl().GetError() == GL_NO_ERROR);
       }
@@ -97,11 +104,15 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
         check("timings", poison, [&] { NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings)); });
       }
       {
-        Poison poison(context, gl::screen);
+        Poison poison(context, users_of(path));
         check("destroy", poison, [&] { nook_nnao_destroy(&pass); });
       }
       CHECK(context.gl().GetError() == GL_NO_ERROR);
     }
+}
+
+void walk(platform::Context& context, nook_gl_state_mode mode, const Check& check) {
+  for (const nook_nnao_path path : paths_of(context)) walk_path(context, mode, path, check);
 }
 
 }  // namespace
@@ -179,43 +190,56 @@ TEST_CASE("nnao: no parameter of the host's textures and samplers changes") {
 
 TEST_CASE("nnao: a frame allocates nothing, reads nothing back and asks OpenGL only to preserve") {
   NOOK_NEED_CONTEXT(context);
-  for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_HOST})
-    for (const int half : {0, 1}) {
-      Stage stage(context, mode);
-      Trace trace(context);
-      nook_gl gl = create_gl(stage.fixture.host.handle, Trace::loader, &trace, 0, mode);
-      nook_nnao_desc desc = pass_desc(width, height);
-      desc.half_resolution = half;
-      desc.timers = 1;
-      nook_nnao pass = create_pass(gl, desc);
-      nook_nnao_frame_desc frame = stage.frame();
+  const nook_nnao_path best = paths_of(context).back();
+  const struct {
+    nook_gl_state_mode mode;
+    int half;
+    nook_nnao_path path;
+  } settings[] = {{NOOK_GL_STATE_PRESERVE, 0, best},
+                  {NOOK_GL_STATE_PRESERVE, 1, NOOK_NNAO_PATH_FRAGMENT},
+                  {NOOK_GL_STATE_HOST, 0, NOOK_NNAO_PATH_FRAGMENT},
+                  {NOOK_GL_STATE_HOST, 1, best}};
+  for (const auto& [mode, half, path] : settings) {
+    Stage stage(context, mode);
+    Trace trace(context);
+    nook_gl gl = create_gl(stage.fixture.host.handle, Trace::loader, &trace, 0, mode);
+    nook_nnao_desc desc = pass_desc(width, height);
+    desc.half_resolution = half;
+    desc.timers = 1;
+    desc.path = path;
+    nook_nnao pass = create_pass(gl, desc);
+    const int dispatches = path == NOOK_NNAO_PATH_COMPUTE;
+    nook_nnao_frame_desc frame = stage.frame();
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+    nook_nnao_timings timings{};
+    timings.struct_size = sizeof timings;
+    trace.reset();
+    const long allocations = stage.fixture.host.allocations;
+    for (int i = 0; i < 6; ++i) {
+      frame.viewport[2] = width - i;
+      frame.viewport[3] = height - i;
       NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
-      nook_nnao_timings timings{};
-      timings.struct_size = sizeof timings;
-      trace.reset();
-      const long allocations = stage.fixture.host.allocations;
-      for (int i = 0; i < 6; ++i) {
-        frame.viewport[2] = width - i;
-        frame.viewport[3] = height - i;
-        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
-      }
-      CHECK(stage.fixture.host.allocations == allocations);
-      // Normals, AO, blur along x, at half resolution along y, resolve.
-      CHECK(trace.calls("glDrawArrays") == 6 * (half ? 5 : 4));
-      for (const char* forbidden : {"glGen", "glTexImage", "glBufferData", "glGetBufferSubData", "glGetError",
-                                    "glGetTexLevel", "glGetFramebuffer", "glCheckFramebuffer", "glGetQuery"})
-        CHECK(trace.calls_that_begin(forbidden) == 0);
-      const int asked = trace.calls_that_begin("glGet") + trace.calls_that_begin("glIs");
-      if (mode == NOOK_GL_STATE_PRESERVE)
-        CHECK(asked > 0);
-      else
-        CHECK(asked == 0);
-      // Finished stages are found without waiting; whether one is finished by now is the driver's affair.
-      NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings));
-      context.gl().Finish();
-      NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings));
-      CHECK(timings.valid == 1);
-      nook_nnao_destroy(&pass);
-      nook_gl_destroy(&gl);
     }
+    CHECK(stage.fixture.host.allocations == allocations);
+    // Normals, AO, blur along x, at half resolution along y, resolve.
+    CHECK(trace.calls("glDrawArrays") == 6 * ((half ? 5 : 4) - dispatches));
+    CHECK(trace.calls("glDispatchCompute") == 6 * dispatches);
+    // Before the dispatch and after it.
+    CHECK(trace.calls("glMemoryBarrier") == 12 * dispatches);
+    for (const char* forbidden : {"glGen", "glTexImage", "glBufferData", "glGetBufferSubData", "glGetError",
+                                  "glGetTexLevel", "glGetFramebuffer", "glCheckFramebuffer", "glGetQuery"})
+      CHECK(trace.calls_that_begin(forbidden) == 0);
+    const int asked = trace.calls_that_begin("glGet") + trace.calls_that_begin("glIs");
+    if (mode == NOOK_GL_STATE_PRESERVE)
+      CHECK(asked > 0);
+    else
+      CHECK(asked == 0);
+    // Finished stages are found without waiting; whether one is finished by now is the driver's affair.
+    NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings));
+    context.gl().Finish();
+    NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings));
+    CHECK(timings.valid == 1);
+    nook_nnao_destroy(&pass);
+    nook_gl_destroy(&gl);
+  }
 }

@@ -64,6 +64,17 @@ struct Readers {
   Values samplers() const { return of_units(GL_SAMPLER_BINDING); }
   Values filter_texture() const { return of_unit(gl::filter_unit, GL_TEXTURE_BINDING_BUFFER); }
   Values texture_2d_array() const { return of_unit(0, GL_TEXTURE_BINDING_2D_ARRAY); }
+  Values image_unit() const { return image_unit_of(gl::image_unit_index); }
+  Values image_unit_of(GLuint unit) const {
+    Values values;
+    for (const GLenum name : {GL_IMAGE_BINDING_NAME, GL_IMAGE_BINDING_LEVEL, GL_IMAGE_BINDING_LAYERED,
+                              GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT}) {
+      GLint value = 0;
+      if (version() >= 42) gl.GetIntegeri_v(name, unit, &value);
+      values.push_back(value);
+    }
+    return values;
+  }
   Values pixel_store() const {
     Values values;
     for (const GLenum name : gl::pixel_store_names) values.push_back(integers(gl, name)[0]);
@@ -191,6 +202,9 @@ Poison::Poison(platform::Context& context, unsigned users)
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, o.texture_array);
   gl.ActiveTexture(GL_TEXTURE5);
+  if (gl.VERSION_4_2)
+    for (const GLuint unit : {GLuint{gl::image_unit_index}, GLuint{gl::image_unit_index} + 1})
+      gl.BindImageTexture(unit, o.texture_array, 1, GL_TRUE, 3, GL_READ_WRITE, GL_RGBA16F);
   for (const GLenum name : gl::pixel_store_names) gl.PixelStorei(name, name == GL_UNPACK_ALIGNMENT ? 8 : 1);
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, o.buffers[0]);
   gl.Viewport(3, 4, 5, 6);
@@ -256,6 +270,7 @@ void Poison::reset_touched() {
   for (const GLenum test : gl::fragment_tests) gl.Disable(test);
   gl.Enable(GL_DITHER);
   if (gl.VERSION_4_4) gl.BindBuffer(GL_QUERY_BUFFER, 0);
+  if (gl.VERSION_4_2) gl.BindImageTexture(gl::image_unit_index, 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R8);
   if (gl.VERSION_4_3)
     for (GLuint i = 0; i < gl::storage_binding_count; ++i) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, i, 0);
 }
@@ -274,6 +289,7 @@ Poison::~Poison() {
   for (const GLenum target : {GL_PIXEL_PACK_BUFFER, GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER})
     gl.BindBuffer(target, 0);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, 0);
+  if (gl.VERSION_4_2) gl.BindImageTexture(gl::image_unit_index + 1, 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R8);
   gl.DepthMask(GL_TRUE);
   gl.StencilMask(~0u);
   gl.DepthFunc(GL_LESS);
@@ -314,6 +330,7 @@ StateValues Poison::defaults() const {
       {"active_texture", {GL_TEXTURE0}},
       {"blend", {GL_FALSE, GL_ONE, GL_ZERO, GL_ONE, GL_ZERO, GL_FUNC_ADD, GL_FUNC_ADD}},
       {"color_mask", {GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE}},
+      {"image_unit", {0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R8}},
       {"pixel_store", {0, 0, 0, 0, 0, 0, 0, 4}},
       {"polygon_mode", {GL_FILL}},
       {"dither", {GL_TRUE}}};
@@ -345,6 +362,7 @@ StateValues Poison::untouched() const {
   }
   keep("blend 1", {gl_.IsEnabledi(GL_BLEND, 1)});
   keep("color mask 1", read.color_mask_of(1));
+  keep("image unit 1", read.image_unit_of(gl::image_unit_index + 1));
   if (gl_.VERSION_4_0)
     for (const GLenum name : {GL_BLEND_SRC_RGB, GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB}) {
       GLint value = 0;

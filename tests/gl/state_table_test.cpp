@@ -11,10 +11,13 @@
 namespace {
 
 std::string names_of(unsigned users) {
-  const std::pair<unsigned, const char*> all[] = {
-      {nook::gl::tier_33, "33"},         {nook::gl::tier_43, "43"},
-      {nook::gl::screen, "nnao"},        {nook::gl::screen_timers, "nook_nnao_get_timings"},
-      {nook::gl::materials, "material"}, {nook::gl::probes, "probe"}};
+  const std::pair<unsigned, const char*> all[] = {{nook::gl::tier_33, "33"},
+                                                  {nook::gl::tier_43, "43"},
+                                                  {nook::gl::screen, "nnao"},
+                                                  {nook::gl::screen_timers, "nook_nnao_get_timings"},
+                                                  {nook::gl::materials, "material"},
+                                                  {nook::gl::probes, "probe"},
+                                                  {nook::gl::screen_compute, "nnao, compute path"}};
   std::string names;
   for (const auto& [user, name] : all)
     if (users & user) names += (names.empty() ? "" : ", ") + std::string(name);
@@ -34,7 +37,8 @@ std::string table() {
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
   out << "\nWho: 33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions, nnao is "
-         "nook_nnao_create and nook_nnao_render, material is nook_gl_material_create, probe is "
+         "nook_nnao_create and nook_nnao_render (compute path: the latter, where nook_nnao_info.path says "
+         "so), material is nook_gl_material_create, probe is "
          "nook_gl_probe_create and nook_gl_probe_update.\n"
          "Nothing else changes: no parameter of a host's texture or sampler, no other pixel-store value, no "
          "depth, stencil or scissor "

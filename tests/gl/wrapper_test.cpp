@@ -114,6 +114,7 @@ TEST_CASE("the C++ wrapper draws the screen-space pass") {
   nook::Nnao pass = std::move(made);
   CHECK_FALSE(made);
   CHECK(pass.info().texture_bytes == nook::nnao_memory(desc));
+  CHECK(pass.info().path != NOOK_NNAO_PATH_AUTOMATIC);
   CHECK(pass.timings().valid == 0);
 
   nook_nnao_frame_desc frame = nook::nnao_frame_desc();

@@ -137,11 +137,3 @@ TEST_CASE("one, two and three directions in a line are enough") {
     }
   }
 }
-
-TEST_CASE("the nearest direction is the nearest") {
-  const auto directions = rings();
-  for (const Vec3 d : test::hemisphere(50)) {
-    const std::size_t nearest = nearest_direction(directions, d);
-    for (const Vec3 other : directions) CHECK(length(other - d) >= length(directions[nearest] - d) - 1e-6f);
-  }
-}

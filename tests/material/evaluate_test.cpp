@@ -33,10 +33,8 @@ struct Weighted {
   double weight = 0;
 };
 
-// Rows of the material's views that a cell stands for, by the definition of each form.
-std::vector<Weighted> rows_of_cell(const Material& material, const ClusteredTensor& tensor,
-                                   ParabolicPoint p) {
-  if (tensor.shape.mixture > 1) return {{nearest_direction(material.views, from_parabolic(p)), 1}};
+// Rows of the material's views that a cell stands for.
+std::vector<Weighted> rows_of_cell(const Material& material, ParabolicPoint p) {
   const DirectionMesh mesh(material.views);
   std::size_t hint = 0;
   const DirectionMix mix = mesh.locate(p, hint);
@@ -49,21 +47,29 @@ double expected(const Material& material, const ClusteredTensor& tensor, std::ui
     return test::value(tensor, tensor.map.rows, std::size_t(row) * tensor.map.side + column, light, x, y);
   double sum = 0;
   const ParabolicPoint p = to_parabolic(from_parabolic(cell_centre(column, row, side)));
-  for (const auto& [view, weight] : rows_of_cell(material, tensor, p))
+  for (const auto& [view, weight] : rows_of_cell(material, p))
     sum += weight * test::value(tensor, tensor.rows, view, light, x, y);
   return sum;
 }
 
-// The light basis at a direction, R_l numbers of one channel.
+// The light basis at a direction of the upper hemisphere, R_l numbers of one channel.
 std::vector<float> light_modes(const Material& material, Vec3 light, std::uint32_t channel) {
   const DirectionMesh mesh(material.lights);
   std::size_t hint = 0;
   const DirectionMix mix = mesh.locate(to_parabolic(light), hint);
   const std::uint32_t rank = material.btf.shape.rank_light;
   std::vector<float> modes(rank);
+  ParabolicPoint nearest{};
+  for (int i = 0; i < 3; ++i) {
+    const ParabolicPoint p = to_parabolic(material.lights[mix.index[i]]);
+    nearest = {nearest.x + mix.weight[i] * p.x, nearest.y + mix.weight[i] * p.y};
+  }
   for (int i = 0; i < 3; ++i)
     for (std::uint32_t a = 0; a < rank; ++a)
       modes[a] += mix.weight[i] * material.light_basis[(3 * std::size_t(mix.index[i]) + channel) * rank + a];
+  // Beyond the lights, by the ratio of cosines.
+  const float share = std::min(light.z / from_parabolic(nearest).z, 1.0f);
+  for (float& mode : modes) mode *= share;
   return modes;
 }
 
@@ -105,11 +111,13 @@ TEST_CASE("decoding gives the sums of equations (24) and (25)") {
   }
 }
 
-TEST_CASE("K-CTA takes the nearest view, CTA and N-SVD the three nearest") {
+TEST_CASE("without a view map the clusters of the three nearest views are mixed, with one its own") {
   const Material k_cta = test::sample_material(4),
                  cta = test::sample_material(4, {.clusters = 5, .mixture = 1}),
                  n_svd = test::sample_material(4, {.clusters = 1, .mixture = 1});
-  CHECK(cell_terms(k_cta.btf) == 2);
+  CHECK(cell_terms(k_cta.btf) == 3);  // of three clusters
+  CHECK(cell_terms(test::sample_material(4, {.clusters = 8}).btf) == 6);
+  CHECK(cell_terms(test::sample_material(4, {.map_side = 4}).btf) == 2);
   CHECK(cell_terms(cta.btf) == 3);
   CHECK(cell_terms(n_svd.btf) == 1);
   CHECK(cell_terms(test::sample_material(4, {.clusters = 2, .mixture = 1}).btf) == 2);
@@ -177,13 +185,31 @@ TEST_CASE("light from below the horizon gives black, and a view from below count
   CHECK(evaluate_btf(tables, sample).red == horizon.red);
 }
 
+TEST_CASE("beyond the lowest lights, light falls off as its cosine") {
+  Material material = test::sample_material(4, {.lights = 6});
+  for (std::size_t i = 0; i < 5; ++i) {
+    const float phi = 1.2566371f * float(i);
+    material.lights[i] = {std::sqrt(0.75f) * std::cos(phi), std::sqrt(0.75f) * std::sin(phi), 0.5f};
+  }
+  material.lights[5] = {0, 0, 1};
+  const MaterialTables tables = tables_of(material);
+  Sample sample{0.3f, 0.4f, 0, {0, 0, 1}, material.lights[0]};
+  const float rim = evaluate_btf(tables, sample).red;
+  REQUIRE(std::abs(rim) > 1e-3f);
+  for (const float z : {0.4f, 0.25f, 0.1f, 0.01f}) {
+    sample.light = {std::sqrt(1 - z * z), 0, z};
+    // The map's cells are 1/32 wide, over which a share of 2 z changes by 0.06; between them it is linear.
+    CHECK(std::abs(evaluate_btf(tables, sample).red / rim - 2 * z) < 0.03f);
+  }
+}
+
 TEST_CASE("the visibility mapping is equation (26) with both sets of parameters") {
-  const VisibilityMapping distance = default_mapping(VisibilityForm::distance);
+  const VisibilityMapping distance = paper_mapping(VisibilityForm::distance);
   CHECK(visibility_of(VisibilityForm::distance, distance, 0.05f) == 1);
   CHECK(std::abs(visibility_of(VisibilityForm::distance, distance, 0.02f) - 0.24f) < 1e-6f);
   CHECK(visibility_of(VisibilityForm::distance, distance, 0) == 0);
   CHECK(visibility_of(VisibilityForm::distance, distance, -0.4f) == 0);
-  const VisibilityMapping binary = default_mapping(VisibilityForm::binary);
+  const VisibilityMapping binary = paper_mapping(VisibilityForm::binary);
   CHECK(visibility_of(VisibilityForm::binary, binary, 0.5f) == 1);
   CHECK(visibility_of(VisibilityForm::binary, binary, 0.3f) == 0.3f);
   CHECK(visibility_of(VisibilityForm::binary, binary, -0.1f) == 0);

@@ -79,7 +79,7 @@ inline Material sample_material(std::uint32_t seed = 1, const SampleSize& size =
   fill(material.light_basis, 3 * size.lights * size.rank_light, 1, numbers);
   material.visibility = size.visibility;
   if (size.visibility != VisibilityForm::none) {
-    material.mapping = default_mapping(size.visibility);
+    material.mapping = paper_mapping(size.visibility);
     TensorShape votf = shape;
     votf.rank_light = 1;
     fill_tensor(material.votf, votf, size.map_side, numbers);

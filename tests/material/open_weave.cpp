@@ -139,7 +139,7 @@ Material open_weave(const WeaveSize& size) {
   for (std::uint32_t a = 0; a < rank; ++a) material.light_basis[std::size_t(a) * rank + a] = 1;
   material.btf.cores.resize(std::size_t(size.views) * rank * texels);
   material.visibility = size.visibility;
-  material.mapping = default_mapping(size.visibility);
+  material.mapping = paper_mapping(size.visibility);
   material.votf.shape = material.btf.shape;
   material.votf.shape.rank_light = 1;
   material.votf.cores.resize(std::size_t(size.views) * texels);

@@ -4,6 +4,7 @@
 
 #include "material/material_file.h"
 #include "material/raw_file.h"
+#include "material/view_cells.h"
 
 namespace nook::cli {
 namespace {
@@ -14,6 +15,7 @@ void describe_tensor(Row& row, const std::string& name, const material::Clustere
   row[name + "_clusters"] = shape.clusters;
   row[name + "_mixture"] = shape.mixture;
   row[name + "_view_map"] = tensor.map.side;
+  row[name + "_terms"] = material::cell_terms(tensor);
 }
 
 }  // namespace
@@ -32,7 +34,10 @@ Row describe_material(std::span<const std::byte> bytes) {
   row["height"] = material.btf.shape.height;
   describe_tensor(row, "btf", material.btf);
   row["visibility"] = forms[std::size_t(material.visibility)];
-  if (material.visibility != material::VisibilityForm::none) describe_tensor(row, "votf", material.votf);
+  if (material.visibility != material::VisibilityForm::none) {
+    row["visibility_mapping"] = Row::array({material.mapping.threshold, material.mapping.weight});
+    describe_tensor(row, "votf", material.votf);
+  }
   add_recipe(row, material.recipe);
   return row;
 }

@@ -1,29 +1,19 @@
 #include "cli/material/options.h"
 
-#include <sys/resource.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <map>
 
 #include "cli/interrupt.h"
 #include "cli/tool_error.h"
+#include "material/builtin_ranks.h"
 
 namespace nook::cli {
 namespace {
 
 using namespace bake::material;
 using nook::material::VisibilityForm;
-
-struct DefaultRanks {
-  const char* material;
-  std::uint32_t light, view, x, y, votf_x, votf_y;
-};
-
-// The seed's Table I for the first two, for 96 x 96 texels.
-constexpr DefaultRanks builtin_ranks[] = {{"fiber", 16, 80, 64, 64, 80, 80},
-                                          {"roughhole", 28, 44, 96, 96, 80, 80},
-                                          {"weave", 20, 40, 48, 48, 48, 48}};
 
 std::vector<std::uint32_t> read_numbers(const std::string& text, std::size_t count, const char* option) {
   std::vector<std::uint32_t> numbers;
@@ -40,26 +30,6 @@ std::vector<std::uint32_t> read_numbers(const std::string& text, std::size_t cou
                                             std::to_string(count) +
                                             " whole numbers with commas between them");
   return numbers;
-}
-
-// Ranks that a smaller version of a built-in material allows, multiples of 4 where there is room.
-std::uint32_t at_most(std::uint32_t rank, std::size_t size) {
-  if (rank <= size) return rank;
-  return size >= 4 ? std::uint32_t(size / 4 * 4) : std::uint32_t(size);
-}
-
-bool set_builtin(CompressionSettings& s, const RawMaterial& raw) {
-  for (const DefaultRanks& d : builtin_ranks) {
-    if (raw.name != d.material) continue;
-    s.rank_light = at_most(d.light, raw.light_rows());
-    s.rank_view = at_most(d.view, raw.views.size());
-    s.rank_x = at_most(d.x, raw.width);
-    s.rank_y = at_most(d.y, raw.height);
-    s.votf_rank_x = at_most(d.votf_x, raw.width);
-    s.votf_rank_y = at_most(d.votf_y, raw.height);
-    return true;
-  }
-  return false;
 }
 
 }  // namespace
@@ -105,7 +75,7 @@ CompressionSettings compression_settings(const CompressionOptions& options, cons
     s.rank_y = r[3];
     s.votf_rank_x = std::min(s.votf_rank_x, raw.width);
     s.votf_rank_y = std::min(s.votf_rank_y, raw.height);
-  } else if (options.ranks == "auto" || !set_builtin(s, raw)) {
+  } else if (options.ranks == "auto" || !set_builtin_ranks(raw, s)) {
     s = ranks_by_threshold(raw, options.threshold, s);
   }
   if (!options.votf_ranks.empty()) {
@@ -119,37 +89,14 @@ CompressionSettings compression_settings(const CompressionOptions& options, cons
   return s;
 }
 
-nlohmann::ordered_json report_row(const std::string& material, const MethodRow& row) {
-  nlohmann::ordered_json json = {{"material", material}, {"method", row.method}, {"k", row.mixture},
-                                 {"bytes", row.bytes},   {"se_db", row.se_db},   {"psnr_db", row.psnr_db}};
-  const auto texels = [&](const char* key, const std::optional<std::size_t>& count) {
-    json[key] = count ? nlohmann::ordered_json(*count) : nlohmann::ordered_json();
-  };
-  texels("votf_error_texels_binary", row.error_texels_binary);
-  texels("votf_error_texels_distance", row.error_texels_distance);
-  json["seconds"] = row.seconds;
-  json["peak_bytes"] = peak_bytes();
-  return json;
-}
-
-nlohmann::ordered_json describe(const CompressionSettings& s) {
-  return {{"method", method_name(s.method)},
-          {"ranks", {s.rank_light, s.rank_view, s.rank_x, s.rank_y}},
-          {"votf_ranks", {s.votf_rank_x, s.votf_rank_y}},
-          {"cluster_rank", s.method == Method::n_svd ? s.rank_view : s.cluster_rank_view},
-          {"clusters", s.method == Method::n_svd ? 1 : s.cluster_count()},
-          {"mixture", s.method == Method::k_cta ? s.mixture : 1},
-          {"seeding", s.seeding == Seeding::directions ? "directions" : "values"},
-          {"votf", s.visibility == VisibilityForm::none     ? "none"
-                   : s.visibility == VisibilityForm::binary ? "binary"
-                                                            : "distance"},
-          {"seed", s.seed}};
-}
-
-std::size_t peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::size_t(usage.ru_maxrss) * 1024;
+nook::material::VisibilityMapping visibility_mapping(const std::string& text, VisibilityForm form) {
+  if (text == "paper") return nook::material::paper_mapping(form);
+  nook::material::VisibilityMapping mapping;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%f,%f%c", &mapping.threshold, &mapping.weight, &rest) != 2)
+    throw ToolError(exit_bad_arguments,
+                    "--visibility-mapping: got " + text + ", need T,W, such as 0.05,12, or paper");
+  return mapping;
 }
 
 StageProgress stage_progress(ProgressBar& bar, std::string prefix) {

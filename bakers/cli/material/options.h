@@ -1,11 +1,10 @@
-// What the commands on materials share: the options of compression, and what a report says.
+// What the commands on materials share: the options of compression.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/progress_bar.h"
-#include "material/comparison.h"
+#include "material/report.h"
 
 namespace CLI {
 class App;
@@ -26,11 +25,9 @@ void add_compression_options(CLI::App& command, CompressionOptions& options);
 bake::material::CompressionSettings compression_settings(const CompressionOptions& options,
                                                          const bake::material::RawMaterial& raw);
 
-nlohmann::ordered_json report_row(const std::string& material, const bake::material::MethodRow& row);
-nlohmann::ordered_json describe(const bake::material::CompressionSettings& settings);
-
-// The most memory that the process has held so far.
-std::size_t peak_bytes();
+// "T,W", or "paper": the paper's numbers for the form. Throws ToolError for a text that is neither.
+nook::material::VisibilityMapping visibility_mapping(const std::string& text,
+                                                     nook::material::VisibilityForm form);
 
 // Shows stages on a bar and stops at Ctrl-C.
 bake::material::StageProgress stage_progress(ProgressBar& bar, std::string prefix);

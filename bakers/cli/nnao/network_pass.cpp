@@ -49,6 +49,7 @@ NetworkPass::NetworkPass(const NookGl& gl, int width, int height, int taps,
   desc.max_height = height;
   desc.taps = taps;
   desc.blur_sharpness = blur_sharpness;
+  desc.path = NOOK_NNAO_PATH_FRAGMENT;  // as the peers, so that times compare
   desc.network = network.empty() ? nullptr : network.data();
   desc.network_size = network.size();
   succeed(nook_nnao_create(gl.get(), &desc, &pass_));

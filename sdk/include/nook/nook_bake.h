@@ -1,7 +1,8 @@
-/* The bakers as a library, nook_bake: characters in from glTF or from memory, poses, baking as jobs, ray-traced truth.
+/* The bakers as a library, nook_bake: characters in from glTF or from memory, poses, materials from built-in structures or
+ * from measurements, baking as jobs, ray-traced truth.
  *
  * Offline: nook_bake links Embree, oneTBB and more; the runtime library, nook, never needs it. What it makes are the bytes of
- * .nook files, which nook_character_model_load takes.
+ * .nook files, which nook_character_model_load and nook_material_load take.
  *
  * Matrices of poses are those of nook_scene_set_pose: one 3x4 matrix per bone, row-major, rest space to world, metres.
  * Vertices are in the imported file's order, all primitives in a row, as the runtime gives their AO back. Contracts,
@@ -180,11 +181,14 @@ typedef int32_t nook_bake_fit;
 
 enum {
   NOOK_BAKE_STAGE_WAITING = 0,
-  NOOK_BAKE_STAGE_RAYTRACE = 1,   /* done and total count poses */
+  NOOK_BAKE_STAGE_RAYTRACE = 1,   /* done and total count poses, of a material views */
   NOOK_BAKE_STAGE_INITIALISE = 2,
   NOOK_BAKE_STAGE_FIT = 3,        /* steps */
   NOOK_BAKE_STAGE_CASTERS = 4,    /* how spheres darken other instances */
-  NOOK_BAKE_STAGE_DONE = 5        /* finished, failed or cancelled: nook_bake_job_wait returns at once and tells which */
+  NOOK_BAKE_STAGE_DONE = 5,       /* finished, failed or cancelled: nook_bake_job_wait returns at once and tells which */
+  NOOK_BAKE_STAGE_BTF = 6,        /* compressing a material: steps */
+  NOOK_BAKE_STAGE_VOTF = 7,
+  NOOK_BAKE_STAGE_VIEW_MAP = 8    /* after each of the two */
 };
 typedef int32_t nook_bake_stage;
 
@@ -258,6 +262,72 @@ NOOK_API nook_result nook_bake_job_get_report(nook_bake_job job, const char** js
 
 /* Cancels and waits if the job still runs; sets *job to NULL. One at a time. */
 NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
+
+/* ---- Materials: jobs as above, from a built-in meso-structure or from measured data ---- */
+
+enum {
+  NOOK_BAKE_METHOD_K_CTA = 0, /* K-clustered tensor approximation */
+  NOOK_BAKE_METHOD_CTA = 1,
+  NOOK_BAKE_METHOD_N_SVD = 2
+};
+typedef int32_t nook_bake_method;
+
+/* Directions are unit vectors in tangent space, away from the surface, z >= 0; no two of a set alike. What a material is, and what
+ * ranks cost: docs/materials.md. Numbers are at most 1024 directions, 1024 texels a side and 6 GiB of floats. */
+typedef struct nook_bake_material_desc {
+  uint32_t struct_size;            /* set by nook_bake_material_desc_init */
+  uint32_t header_version;         /* set by nook_bake_material_desc_init */
+  const void* next;                /* NULL */
+  const char* meso;                /* "fiber", "roughhole" or "weave", ray traced; NULL: btf is measured */
+  const float* btf;                /* light_count x view_count x height x width x RGB, the last fastest; row 0 at v = 0.
+                                      Linear radiance for an irradiance of 1 on a plane that faces the light, of what the
+                                      view meets; finite. NULL with meso. Copied by nook_bake_material_start */
+  const float* coverage;           /* view_count x height x width: the share of a texel that the view meets, 0 to 1; colours
+                                      where it is 0 are not read. The mask of the VOTF is where it is 0.5 or more. NULL: all
+                                      1, and no VOTF. NULL with meso. Copied */
+  const float* lights;             /* 3 a direction; NULL only with meso: a spiral down to max_tilt_degrees. Copied */
+  const float* views;              /* the same */
+  uint32_t light_count;            /* default 100 */
+  uint32_t view_count;             /* default 100 */
+  uint32_t width;                  /* texels, default 96 */
+  uint32_t height;                 /* default 96 */
+  float max_tilt_degrees;          /* of the spirals, default 75 */
+  uint32_t samples;                /* of meso: view rays along a texel's side, default 2 */
+  uint32_t bounces;                /* of meso: diffuse inter-reflections, default 2 */
+  uint32_t bounce_rays;            /* of meso: from each vertex, default 64 */
+  nook_bake_method method;         /* default K_CTA */
+  int32_t visibility;              /* a nook_material_visibility: 0 no VOTF, 1 masks, 2 (default) signed distances */
+  uint32_t rank_light;             /* ranks of the BTF's modes; all four 0 (default): those of docs/materials.md for a built-in
+                                      structure, else by threshold */
+  uint32_t rank_view;              /* in total over the clusters */
+  uint32_t rank_x;
+  uint32_t rank_y;
+  uint32_t votf_rank_x;            /* both 0 (default): as for the BTF */
+  uint32_t votf_rank_y;
+  uint32_t cluster_rank_view;      /* view rank of one cluster, default 4 */
+  uint32_t clusters;               /* default 0: rank_view / cluster_rank_view */
+  uint32_t mixture;                /* K, clusters that a view is mixed from, default 3 */
+  uint32_t view_map_side;          /* cells of K-CTA's resampled view maps, default 256; 0: none, and decoding mixes the three
+                                      nearest views, for up to three times the work */
+  float rank_threshold;            /* squared error that ranks by threshold allow in each mode, a share of the square norm,
+                                      default 0.01 */
+  float visibility_threshold;      /* of the visibility mapping (26); both 0 (default): 0.5, 1 of masks; of distances half a
+                                      texel and 1 over that. The paper has 0.05, 12 for these */
+  float visibility_weight;
+  uint32_t threads;                /* default 0: all cores */
+  uint64_t seed;                   /* default 1; the same seed gives the same bytes on any number of threads */
+  nook_bake_progress_fn progress;  /* NULL: poll instead */
+  void* progress_user;
+} nook_bake_material_desc;
+
+/* Fills *desc with defaults, as nook_context_desc_init does. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+NOOK_API nook_result nook_bake_material_desc_init(nook_bake_material_desc* desc, size_t size, uint32_t header_version);
+
+/* Checks the arguments, copies the arrays and begins to bake. The job is one as those of characters: nook_bake_job_get_model
+ * gives a material's file; the report has its recipe, sizes, times, signal-to-error ratio in dB and error texels. What only
+ * the data tell, such as ranks that the sizes do not allow, is an error here too. On failure *out is NULL. Any thread.
+ * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_bake_material_start(const nook_bake_material_desc* desc, nook_bake_job* out);
 
 /* ---- Ray-traced ambient occlusion of a scene ---- */
 

@@ -56,15 +56,14 @@ typedef struct nook_material_tensor {
   uint32_t rank_y;        /* R_y */
   uint32_t clusters;      /* C */
   uint32_t mixture;       /* K */
-  uint32_t view_map_side; /* cells of the view map that the file holds; 0: none, the views themselves are used: by K-CTA the
-                             nearest, by CTA and N-SVD the three nearest, mixed linearly */
-  uint32_t terms;         /* clusters that a pixel mixes: K, or up to 3 of CTA without a view map */
+  uint32_t view_map_side; /* cells of the view map that the file holds; 0: none, the three nearest views are mixed linearly */
+  uint32_t terms;         /* clusters that a pixel mixes: K with a view map, up to 3 K without (3 of CTA, 1 of N-SVD) */
 } nook_material_tensor;
 
 typedef struct nook_material_info {
   uint32_t struct_size;                /* sizeof(nook_material_info), set by the caller */
   nook_material_visibility visibility;
-  float visibility_threshold;          /* of the visibility mapping (26) */
+  float visibility_threshold;          /* of the visibility mapping (26), as it was baked */
   float visibility_weight;
   uint32_t light_count;                /* I_l, sampled directions */
   uint32_t view_count;                 /* I_v */
@@ -135,7 +134,8 @@ typedef struct nook_gl_material_info {
                              materials of the same sizes and mapping, which may share a program. Every name begins
                              with nook_ or NOOK_.
                              uniform vec2 nook_visibility_mapping, threshold and weight, begins with the material's
-                             own. Valid while the material lives */
+                             own; the paper has 0.5, 1 for masks and 0.05, 12 for distances. Valid while the material
+                             lives */
 } nook_gl_material_info;
 /* Makes no OpenGL call. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_material_get_info(nook_gl_material material, nook_gl_material_info* info);

@@ -17,6 +17,9 @@
  * and in the shader that lights, times the ambient term (not the direct light):
  *     float ao = texelFetch(nook_ao, ivec2(gl_FragCoord.xy), 0).r;
  *
+ * What the host wrote to an input by image stores needs its own glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT) before the call.
+ * The result is drawn, whatever the path: reading it needs no barrier.
+ *
  * View space is OpenGL's: x right, y up, the camera looks along -z, metres. Images count from their lower left corner.
  * Every function that takes a nook_gl or a nook_nnao, except nook_nnao_get_info, makes OpenGL calls and belongs to the
  * context thread; nook_gl.h says what of OpenGL's state is touched and what may not be active. */
@@ -31,6 +34,15 @@ extern "C" {
 
 typedef struct nook_nnao_s* nook_nnao;
 
+/* How the network's stage runs; the others are draws in any case. Both paths give the same AO, on Mesa's llvmpipe the same
+ * bits. There compute takes 0.87 to 0.99 of a frame's processor time by fragments (docs/nnao.md); no GPU was measured. */
+enum {
+  NOOK_NNAO_PATH_AUTOMATIC = 0, /* compute where it can be had, else fragment */
+  NOOK_NNAO_PATH_FRAGMENT = 1,  /* a draw; OpenGL 3.3 */
+  NOOK_NNAO_PATH_COMPUTE = 2    /* a dispatch; OpenGL 4.3, glBindImageTexture and no lower max_tier in nook_gl_desc */
+};
+typedef int32_t nook_nnao_path;
+
 typedef struct nook_nnao_desc {
   uint32_t struct_size;    /* set by nook_nnao_desc_init */
   uint32_t header_version; /* set by nook_nnao_desc_init */
@@ -42,7 +54,7 @@ typedef struct nook_nnao_desc {
   int32_t blur;            /* 1 (default): bilateral blur over 7 x 7 pixels, by depth and normal */
   float blur_sharpness;    /* the blur ends at 1 / blur_sharpness radii off the pixel's plane; above 0, default 16 */
   int32_t timers;          /* 1: each stage is timed, see nook_nnao_get_timings. Default 0 */
-  int32_t reserved;        /* 0 */
+  nook_nnao_path path;     /* default NOOK_NNAO_PATH_AUTOMATIC */
   const void* network;     /* a .nook file of `nook train nnao`, of either form; NULL (default): the embedded network */
   size_t network_size;     /* bytes */
 } nook_nnao_desc;
@@ -56,7 +68,8 @@ NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* byte
 
 /* Makes textures and shaders; the network's bytes are not needed afterwards. On failure *out is NULL and no OpenGL
  * object is left. Context thread.
- * Errors: INVALID_ARGUMENT, UNSUPPORTED (larger than this OpenGL's textures), BAD_FILE, FILE_VERSION, GL, OUT_OF_MEMORY. */
+ * Errors: INVALID_ARGUMENT, UNSUPPORTED (larger than this OpenGL's textures; a path that this OpenGL does not have),
+ * BAD_FILE, FILE_VERSION, GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, nook_nnao* out);
 
 /* Deletes every OpenGL object of the pass and sets *pass to NULL; NULL is fine, and so is a nook_gl that was destroyed
@@ -163,10 +176,12 @@ typedef struct nook_nnao_info {
   uint32_t struct_size;   /* sizeof(nook_nnao_info), set by the caller */
   uint32_t texture;       /* the pass's own texture: GL_R8, max_width x max_height, AO of pixel (x, y) in texel (x, y). Owned
                              by Nook: read it, never write or delete it. 1 everywhere before the first frame; later frames
-                             write their viewport alone */
+                             write their viewport alone, those with another target something undefined */
   uint64_t texture_bytes; /* of all textures of the pass */
   int32_t taps;
   int32_t horizon_form;   /* 1: the network has the horizon form; 0: the paper's */
+  nook_nnao_path path;    /* what runs: NOOK_NNAO_PATH_FRAGMENT or NOOK_NNAO_PATH_COMPUTE */
+  int32_t reserved;       /* 0 */
 } nook_nnao_info;
 /* Context thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_nnao_get_info(nook_nnao pass, nook_nnao_info* info);

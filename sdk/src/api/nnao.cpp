@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "core/descriptors.h"
 #include "api/entry.h"
 #include "api/gl_handle.h"
+#include "core/descriptors.h"
 #include "gl/nnao/pass.h"
 #include "nnao/network_file.h"
 #include "nnao/taps.h"
@@ -17,6 +17,11 @@ struct nook_nnao_s : RefCounted {
       : gl(made_by), desc(known), horizon_form(network.form == nnao::NetworkForm::horizon) {
     gl->device.report_host_errors();
     gl->guarded(gl::screen, [&] { pass.emplace(gl->device, known, network); });
+  }
+
+  // Of the state that a frame touches.
+  unsigned users() const {
+    return pass->path() == NOOK_NNAO_PATH_COMPUTE ? gl::screen | gl::screen_compute : gl::screen;
   }
 
   nook_gl_s* gl;
@@ -74,8 +79,9 @@ nook_nnao_desc checked(const nook_nnao_desc* given) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.blur_sharpness is out of range (got %g, need more than 0)",
                   double(desc.blur_sharpness));
-  if (desc.reserved != 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %d, need 0", desc.reserved);
+  if (desc.path < NOOK_NNAO_PATH_AUTOMATIC || desc.path > NOOK_NNAO_PATH_COMPUTE)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.path is unknown (got %d, need 0 to %d)", desc.path,
+                  NOOK_NNAO_PATH_COMPUTE);
   if (!desc.network && desc.network_size != 0)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
@@ -140,7 +146,7 @@ nook_result nook_nnao_render(nook_nnao pass, const nook_nnao_frame_desc* frame) 
     const nook_nnao_frame_desc known =
         read_descriptor(frame, "nook_nnao_frame_desc_init", first_frame, default_frame());
     gl::check_frame(known, pass->desc);
-    pass->gl->guarded(gl::screen, [&] { pass->pass->render(known); });
+    pass->gl->guarded(pass->users(), [&] { pass->pass->render(known); });
   });
 }
 
@@ -155,6 +161,7 @@ nook_result nook_nnao_get_info(nook_nnao pass, nook_nnao_info* info) {
     known.texture_bytes = gl::texture_bytes(pass->desc);
     known.taps = pass->desc.taps;
     known.horizon_form = pass->horizon_form;
+    known.path = pass->pass->path();
     write_info(info, first_info, known);
   });
 }

@@ -42,6 +42,7 @@ Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier) {
 #define NOOK_X(name) load_required(gl.name, get_proc, user, "gl" #name, "4.3");
     NOOK_GL_FUNCTIONS_43(NOOK_X)
 #undef NOOK_X
+    load_optional(gl.BindImageTexture, get_proc, user, "glBindImageTexture");
   }
   // A loader may return a stub for what the context lacks, so the version decides before the pointer does.
   if (gl.version >= 40) {

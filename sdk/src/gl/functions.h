@@ -112,6 +112,7 @@ namespace nook::gl {
 
 // Used where present, done without where absent.
 #define NOOK_GL_FUNCTIONS_OPTIONAL(X) \
+  X(BindImageTexture)                 \
   X(BindTransformFeedback)            \
   X(BlendEquationSeparatei)           \
   X(BlendFuncSeparatei)               \

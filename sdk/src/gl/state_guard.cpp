@@ -1,5 +1,7 @@
 #include "gl/state_guard.h"
 
+#include <utility>
+
 #include "gl/state_access.h"
 
 namespace nook::gl {
@@ -78,6 +80,18 @@ void restore_texture_2d_array(const Functions& gl, const SavedState& s) {
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, s.texture_2d_array);
   gl.ActiveTexture(s.active_texture);
+}
+
+void query_image_unit(const Functions& gl, SavedState& s) {
+  const std::pair<GLenum, GLint*> values[] = {
+      {GL_IMAGE_BINDING_NAME, &s.image_unit.texture},    {GL_IMAGE_BINDING_LEVEL, &s.image_unit.level},
+      {GL_IMAGE_BINDING_LAYERED, &s.image_unit.layered}, {GL_IMAGE_BINDING_LAYER, &s.image_unit.layer},
+      {GL_IMAGE_BINDING_ACCESS, &s.image_unit.access},   {GL_IMAGE_BINDING_FORMAT, &s.image_unit.format}};
+  for (const auto& [name, value] : values) gl.GetIntegeri_v(name, image_unit_index, value);
+}
+void restore_image_unit(const Functions& gl, const SavedState& s) {
+  const auto [texture, level, layered, layer, access, format] = s.image_unit;
+  gl.BindImageTexture(image_unit_index, texture, level, layered != GL_FALSE, layer, access, format);
 }
 
 void set_pixel_store(const Functions& gl, const PixelStore& store) {

@@ -50,6 +50,10 @@ struct PixelStore {
   GLint values[std::size(pixel_store_names)] = {0, 0, 0, 0, 0, 0, 0, 4};
 };
 
+struct ImageUnit {
+  GLint texture = 0, level = 0, layered = GL_FALSE, layer = 0, access = GL_READ_ONLY, format = GL_R8;
+};
+
 struct SavedState {
   GLint program = 0;
   GLint array_buffer = 0;
@@ -70,6 +74,7 @@ struct SavedState {
   GLint texture_2d[texture_unit_count] = {};
   GLint samplers[texture_unit_count] = {};
   GLint filter_texture = 0;
+  ImageUnit image_unit;
   GLint texture_2d_array = 0;
   GLint pixel_unpack_buffer = 0;
   PixelStore pixel_store;

@@ -5,7 +5,7 @@
 namespace nook::gl {
 
 // Who touches an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload of
-// probes and materials.
+// probes and materials, the screen-space pass where its network runs as a compute shader.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
@@ -13,6 +13,7 @@ enum : unsigned {
   screen_timers = 8,
   materials = 16,
   probes = 32,
+  screen_compute = 64,
   characters = tier_33 | tier_43,
   everyone = characters | screen,
   draws = tier_33 | screen,
@@ -32,6 +33,8 @@ enum : unsigned {
     "so that no parameter of a texture counts; default 0")                                                  \
   X(filter_texture, screen, "GL_TEXTURE_BINDING_BUFFER of unit 2",                                          \
     "filters of the paper's network; default 0")                                                            \
+  X(image_unit, screen_compute, "GL_IMAGE_BINDING_NAME, LEVEL, LAYERED, LAYER, ACCESS, FORMAT of unit 0",   \
+    "what a compute shader writes; default 0, GL_READ_ONLY, GL_R8")                                         \
   X(texture_2d_array, materials, "GL_TEXTURE_BINDING_2D_ARRAY of unit 0", "uploads; default 0")             \
   X(pixel_unpack_buffer, screen | materials, "GL_PIXEL_UNPACK_BUFFER_BINDING",                              \
     "in nook_nnao_create and nook_gl_material_create only; default 0")                                      \
@@ -72,5 +75,6 @@ enum : unsigned {
 inline constexpr int storage_binding_count = 8;
 inline constexpr int texture_unit_count = 4;  // of the screen-space pass
 inline constexpr int filter_unit = 2;
+inline constexpr int image_unit_index = 0;
 
 }  // namespace nook::gl

@@ -120,11 +120,4 @@ DirectionMix DirectionMesh::locate(ParabolicPoint at, std::size_t& hint) const {
   return nearest;
 }
 
-std::size_t nearest_direction(std::span<const Vec3> directions, Vec3 d) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < directions.size(); ++i)
-    if (dot(directions[i], d) > dot(directions[best], d)) best = i;
-  return best;
-}
-
 }  // namespace nook::material

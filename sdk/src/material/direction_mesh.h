@@ -49,7 +49,4 @@ class DirectionMesh {
   std::pmr::vector<Edge> cavity_;  // of an insertion
 };
 
-// The direction of the set that is nearest to d.
-std::size_t nearest_direction(std::span<const Vec3> directions, Vec3 d);
-
 }  // namespace nook::material

@@ -69,7 +69,7 @@ struct VisibilityMapping {
   float weight = 0;
 };
 // The paper's parameters.
-constexpr VisibilityMapping default_mapping(VisibilityForm form) {
+constexpr VisibilityMapping paper_mapping(VisibilityForm form) {
   return form == VisibilityForm::binary ? VisibilityMapping{0.5f, 1} : VisibilityMapping{0.05f, 12};
 }
 

@@ -109,6 +109,20 @@ void make_spatial(const ClusteredTensor& tensor, std::uint32_t light_modes, int 
     ClusterPacking(tensor, c, std::ldexp(1.0f, exponent), tables, memory).run(parallel);
 }
 
+// What a light beyond the outermost sampled ones, `mix` being what lies nearest to it, sends of what these
+// send: its cosine over theirs, so that light fades to nothing at the horizon. 1 between the samples.
+float low_light_share(std::span<const Vec3> lights, const DirectionMix& mix, float z) {
+  ParabolicPoint nearest{};
+  for (int i = 0; i < 3; ++i) {
+    const ParabolicPoint p = to_parabolic(lights[mix.index[i]]);
+    nearest.x += mix.weight[i] * p.x;
+    nearest.y += mix.weight[i] * p.y;
+  }
+  const float cosine = from_parabolic(nearest).z;
+  // Between the samples the two are the same but for rounding.
+  return z < cosine - 1e-5f ? std::max(z, 0.0f) / cosine : 1.0f;
+}
+
 void make_light_map(const Material& material, float scale, MaterialTables& tables,
                     std::pmr::memory_resource* memory) {
   const std::uint32_t side = MaterialTables::light_side, rank = material.btf.shape.rank_light;
@@ -120,13 +134,14 @@ void make_light_map(const Material& material, float scale, MaterialTables& table
     for (std::uint32_t column = 0; column < side; ++column) {
       const Vec3 direction = from_parabolic(cell_centre(column, row, side));
       const DirectionMix mix = mesh.locate(to_parabolic(direction), hint);
+      const float share = low_light_share(material.lights, mix, direction.z);
       for (std::uint32_t channel = 0; channel < 3; ++channel)
         for (std::uint32_t a = 0; a < rank; ++a) {
           float sum = 0;
           for (int i = 0; i < 3; ++i)
             sum += mix.weight[i] * material.light_basis[(3 * std::size_t(mix.index[i]) + channel) * rank + a];
           const std::size_t layer = channel * fours + a / 4;
-          tables.light[((layer * side + row) * side + column) * 4 + a % 4] = sum * scale;
+          tables.light[((layer * side + row) * side + column) * 4 + a % 4] = sum * scale * share;
         }
     }
 }

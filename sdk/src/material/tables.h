@@ -52,7 +52,8 @@ struct MaterialTables {
   VisibilityMapping mapping;
 
   static constexpr std::uint32_t light_side = 64;
-  // The light basis over the hemisphere, linear between the lights: layers x side x side x 4 floats, at layer
+  // The light basis over the hemisphere, linear between the lights; beyond the outermost, theirs by the ratio
+  // of cosines, down to 0 at the horizon: layers x side x side x 4 floats, at layer
   // channel light_modes / 4 + a / 4. Takes back the power of two of the BTF's spatial modes.
   std::pmr::vector<float> light;
 };

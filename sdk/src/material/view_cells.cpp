@@ -17,15 +17,18 @@ Cell cell_at(ViewCells& cells, std::size_t number, std::uint32_t rank) {
           &cells.rows.coefficients[number * cells.terms * rank]};
 }
 
-// Adds `weight` times a view's only term to the term of the same cluster, or to the next free one.
-void add_term(const ClusteredTensor& tensor, std::size_t view, float weight, Cell cell, std::uint32_t& used) {
-  const std::uint32_t rank = tensor.shape.rank_view;
-  const std::uint16_t cluster = tensor.rows.membership[view];
-  const auto* const term = std::find(cell.membership, cell.membership + used, cluster);
-  const auto number = static_cast<std::uint32_t>(term - cell.membership);
-  if (number == used) cell.membership[used++] = cluster;
-  for (std::uint32_t b = 0; b < rank; ++b)
-    cell.coefficients[number * rank + b] += weight * tensor.rows.coefficients[view * rank + b];
+// Adds `weight` times each term of a view to the term of the same cluster, or to the next free one.
+void add_terms(const ClusteredTensor& tensor, std::size_t view, float weight, Cell cell,
+               std::uint32_t& used) {
+  const std::uint32_t rank = tensor.shape.rank_view, mixture = tensor.shape.mixture;
+  for (std::size_t row = view * mixture; row < (view + 1) * mixture; ++row) {
+    const std::uint16_t cluster = tensor.rows.membership[row];
+    const auto* const term = std::find(cell.membership, cell.membership + used, cluster);
+    const auto number = static_cast<std::uint32_t>(term - cell.membership);
+    if (number == used) cell.membership[used++] = cluster;
+    for (std::uint32_t b = 0; b < rank; ++b)
+      cell.coefficients[number * rank + b] += weight * tensor.rows.coefficients[row * rank + b];
+  }
 }
 
 void mix_three(const ClusteredTensor& tensor, std::span<const Vec3> views, ViewCells& cells,
@@ -39,19 +42,8 @@ void mix_three(const ClusteredTensor& tensor, std::span<const Vec3> views, ViewC
       std::uint32_t used = 0;
       for (int i = 0; i < 3; ++i)
         if (mix.weight[i] > 0)
-          add_term(tensor, mix.index[i], mix.weight[i],
-                   cell_at(cells, std::size_t(row) * cells.side + column, tensor.shape.rank_view), used);
-    }
-}
-
-void take_nearest(const ClusteredTensor& tensor, std::span<const Vec3> views, ViewCells& cells) {
-  const std::uint32_t terms = cells.terms, length = terms * tensor.shape.rank_view;
-  for (std::uint32_t row = 0; row < cells.side; ++row)
-    for (std::uint32_t column = 0; column < cells.side; ++column) {
-      const std::size_t view = nearest_direction(views, from_parabolic(cell_centre(column, row, cells.side)));
-      const Cell cell = cell_at(cells, std::size_t(row) * cells.side + column, tensor.shape.rank_view);
-      std::copy_n(&tensor.rows.membership[view * terms], terms, cell.membership);
-      std::copy_n(&tensor.rows.coefficients[view * length], length, cell.coefficients);
+          add_terms(tensor, mix.index[i], mix.weight[i],
+                    cell_at(cells, std::size_t(row) * cells.side + column, tensor.shape.rank_view), used);
     }
 }
 
@@ -59,7 +51,7 @@ void take_nearest(const ClusteredTensor& tensor, std::span<const Vec3> views, Vi
 
 std::uint32_t cell_terms(const ClusteredTensor& tensor) {
   const TensorShape& s = tensor.shape;
-  return s.mixture == 1 && tensor.map.side == 0 ? std::min(s.clusters, 3u) : s.mixture;
+  return tensor.map.side == 0 ? std::min(s.clusters, 3 * s.mixture) : s.mixture;
 }
 
 ViewCells view_cells(const ClusteredTensor& tensor, std::span<const Vec3> views, std::uint32_t side,
@@ -76,10 +68,7 @@ ViewCells view_cells(const ClusteredTensor& tensor, std::span<const Vec3> views,
   const std::size_t terms = std::size_t(side) * side * cells.terms;
   cells.rows.membership.resize(terms);
   cells.rows.coefficients.resize(terms * tensor.shape.rank_view);
-  if (tensor.shape.mixture == 1)
-    mix_three(tensor, views, cells, memory);
-  else
-    take_nearest(tensor, views, cells);
+  mix_three(tensor, views, cells, memory);
   return cells;
 }
 

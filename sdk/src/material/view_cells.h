@@ -1,7 +1,7 @@
 // The view mode as decoding reads it: for every cell of a parabolic map the clusters and coefficients of that
-// direction. A resampled map is taken as it is. Where there is none, K-CTA takes the nearest view's row, and
-// N-SVD and CTA mix the rows of the three nearest views linearly: of CTA, whose rows may name three clusters,
-// that comes out as a row of up to three terms, so that all three are decoded alike.
+// direction. A resampled map is taken as it is. Where there is none, the rows of the three nearest views are
+// mixed linearly: with the clusters of all three that comes out as a row of up to 3 K terms, so that N-SVD,
+// CTA and K-CTA are decoded alike.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct ViewCells {
   ViewRows rows;            // side x side; a term that is not needed has coefficients 0
 };
 
-// Terms that cells need: 1 of N-SVD, min(3, C) of CTA without a map, else K.
+// Terms that cells need: K with a map, min(3 K, C) without: 1 of N-SVD, 3 of CTA.
 std::uint32_t cell_terms(const ClusteredTensor& tensor);
 
 // `side` where the tensor has no map of its own.

@@ -11,6 +11,7 @@ TEST_CASE("init functions fill what fits into the caller's struct, of every rele
   check_init(nook_bake_job_desc_init, 128);
   check_init(nook_bake_trace_desc_init, 72);
   check_init(nook_bake_irradiance_desc_init, 88);
+  check_init(nook_bake_material_desc_init, 176);
 
   nook_bake_mesh_desc desc;
   CHECK(nook_bake_mesh_desc_init(nullptr, sizeof desc, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
@@ -58,6 +59,16 @@ TEST_CASE("descriptors of every release are read, and what a newer one adds is r
   check_use(light_desc, 88, [](const nook_bake_irradiance_desc* desc) {
     float irradiance[3];
     return nook_bake_trace_irradiance(desc, irradiance, 1);
+  });
+
+  nook_bake_material_desc material_desc;
+  REQUIRE(nook_bake_material_desc_init(&material_desc, sizeof material_desc, NOOK_VERSION) == NOOK_OK);
+  material_desc.meso = "weave";
+  check_use(material_desc, 176, [](const nook_bake_material_desc* desc) {
+    nook_bake_job job = nullptr;
+    const nook_result result = nook_bake_material_start(desc, &job);
+    nook_bake_job_destroy(&job);
+    return result;
   });
 }
 

@@ -169,6 +169,26 @@ static int call_irradiance_functions(const tube* t) {
   return wrong;
 }
 
+static int call_material_functions(void) {
+  nook_bake_material_desc desc;
+  nook_bake_job job = NULL;
+  const void* bytes = NULL;
+  size_t size = 0;
+  int calls = 0, wrong = nook_bake_material_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  desc.meso = "weave";
+  desc.light_count = desc.view_count = 8;
+  desc.width = desc.height = 8;
+  desc.bounces = 0;
+  desc.view_map_side = 8;
+  desc.progress = keep_going;
+  desc.progress_user = &calls;
+  wrong += nook_bake_material_start(&desc, &job) != NOOK_OK;
+  wrong += nook_bake_job_wait(job) != NOOK_OK;
+  wrong += nook_bake_job_get_model(job, &bytes, &size) != NOOK_OK || size < 100;
+  nook_bake_job_destroy(&job);
+  return wrong + (job != NULL || calls == 0);
+}
+
 int call_every_function(void) {
   tube t;
   nook_bake_mesh_desc desc;
@@ -186,6 +206,7 @@ int call_every_function(void) {
   wrong += call_job_functions(character);
   wrong += call_trace_functions(&t);
   wrong += call_irradiance_functions(&t);
+  wrong += call_material_functions();
   nook_bake_character_destroy(&character);
   return wrong + (character != NULL);
 }

@@ -171,3 +171,23 @@ TEST_CASE("compression can be stopped, and a material without a mask has no VOTF
   raw.mask.clear();
   CHECK(compress(raw, s).visibility == VisibilityForm::none);
 }
+
+TEST_CASE("the visibility mapping is half a texel's, or what is asked for") {
+  using nook::material::VisibilityForm;
+  // Distances are cut at 1/32 of the side: 3 texels of 96, half a texel is a sixth of that.
+  const auto at_96 = default_mapping(VisibilityForm::distance, 96, 64);
+  CHECK(at_96.threshold == Approx(1.0f / 6));
+  CHECK(at_96.weight == Approx(6));
+  CHECK(default_mapping(VisibilityForm::distance, 8, 8).threshold == 1);
+  CHECK(default_mapping(VisibilityForm::binary, 96, 96).threshold == 0.5f);
+  const RawMaterial raw = test::small_material();
+  CompressionSettings s;
+  s.method = Method::n_svd;
+  s.rank_light = s.rank_view = s.rank_x = s.rank_y = s.votf_rank_x = s.votf_rank_y = 4;
+  s.mapping = nook::material::paper_mapping(VisibilityForm::distance);
+  const auto material = nook::material::quantise(compress(raw, s));
+  CHECK(material.mapping.threshold == 0.05f);
+  CHECK(material.mapping.weight == 12);
+  s.mapping->weight = -1;
+  CHECK_THROWS_AS(compress(raw, s), Failure);
+}

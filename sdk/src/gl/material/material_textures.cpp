@@ -35,7 +35,7 @@ void check_limits(const Functions& gl, const MaterialTables& tables, std::uint32
       throw Failure(
           NOOK_ERROR_UNSUPPORTED,
           "the material's coefficients need more layers than this OpenGL has (got %u, need at most %u); "
-          "bake it with a smaller view rank",
+          "bake it with a view map or a smaller view rank",
           t->terms * t->view_fours, layers);
   }
   const std::size_t count =

@@ -11,6 +11,11 @@ enum Unit : GLuint { unit_depth = 0, unit_surface = 1, unit_ao = 2, unit_layer =
 static_assert(unit_layer < texture_unit_count);
 
 constexpr int blur_reach = 3;  // texels
+constexpr int group_side = 8;  // threads, as occlusion.comp has them
+
+constexpr GLuint groups(int texels) {
+  return static_cast<GLuint>((texels + group_side - 1) / group_side);
+}
 
 // AO times what is there; alpha stays.
 constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE, GL_FUNC_ADD, GL_FUNC_ADD};
@@ -47,24 +52,49 @@ void NnaoPass::bind_texture(GLuint unit, GLuint texture) const {
   device_.gl.BindTexture(GL_TEXTURE_2D, texture);
 }
 
+void NnaoPass::set_frame(const Stage& stage, const FrameConstants& constants) const {
+  device_.gl.UseProgram(stage.program.name());
+  device_.gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4),
+                        constants.values.data());
+}
+
 void NnaoPass::draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
                     const Viewport& viewport) const {
   const Functions& gl = device_.gl;
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
-  gl.UseProgram(stage.program.name());
-  gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
+  set_frame(stage, constants);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void NnaoPass::draw_blur(const FrameConstants& constants, const Viewport& surface, GLuint texture,
-                         bool vertical, const RenderTexture& into) const {
+void NnaoPass::run_network(const FrameConstants& constants, const RenderTexture& into,
+                           const Viewport& into_place) const {
   const Functions& gl = device_.gl;
-  bind_texture(unit_ao, texture);
+  gl.UseProgram(occlusion_.program.name());
+  gl.Uniform2i(occlusion_.ao_origin, into_place.x, into_place.y);
+  if (path_ == NOOK_NNAO_PATH_FRAGMENT) {
+    draw(occlusion_, constants, into.framebuffer(), into_place);
+    return;
+  }
+  set_frame(occlusion_, constants);
+  // As occlusion.comp declares it; OpenGL 4.3 guarantees images of this format.
+  gl.BindImageTexture(image_unit_index, into.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R8);
+  // Reading and drawing that is under way, the host's too, ends before the texture is written.
+  gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  gl.DispatchCompute(groups(into_place.width), groups(into_place.height), 1);
+  // It is read by the next stage and, where it is the own texture, drawn into by the last.
+  gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+}
+
+void NnaoPass::draw_blur(const FrameConstants& constants, const RenderTexture& from,
+                         const Viewport& from_place, bool vertical, const RenderTexture& into) const {
+  const Functions& gl = device_.gl;
+  bind_texture(unit_ao, from.texture());
   gl.UseProgram(blur_.program.name());
+  gl.Uniform2i(blur_.ao_origin, from_place.x, from_place.y);
   gl.Uniform2i(blur_.blur_axis, !vertical, vertical);
   gl.Uniform1i(blur_.blur_reach, blur_reach);
-  draw(blur_, constants, into.framebuffer(), surface);
+  draw(blur_, constants, into.framebuffer(), {0, 0, from_place.width, from_place.height});
 }
 
 void NnaoPass::draw_resolve(const nook_nnao_frame_desc& frame, const FrameConstants& constants,
@@ -116,18 +146,20 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
     gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
     gl.BindTexture(GL_TEXTURE_BUFFER, filter_texture_.name());
   }
-  // At full resolution the result takes the own texture's place last, so AO lies in the other one before.
+  // At full resolution the result takes the own texture's place last, so AO lies in the other one before. In
+  // the own texture nothing but the viewport may change.
   const RenderTexture& first = half() || !blurs(frame) ? ao_[0] : own_;
   const RenderTexture& second = half() ? ao_[1] : ao_[0];
-  draw(occlusion_, constants, first.framebuffer(), surface);
+  const Viewport& place = &first == &own_ ? viewport : surface;
+  run_network(constants, first, place);
   end_stage();
 
   const RenderTexture* result = &first;
   if (blurs(frame)) {
-    draw_blur(constants, surface, first.texture(), false, second);
+    draw_blur(constants, first, place, false, second);
     result = &second;
     if (half()) {
-      draw_blur(constants, surface, second.texture(), true, first);
+      draw_blur(constants, second, surface, true, first);
       result = &first;
     }
   }

@@ -1,5 +1,6 @@
 // The screen-space pass on the GPU: normals, the network, the blur, and what the host asked for.
 //
+// The AO stage, which is the network, is a draw or a dispatch; the others are draws.
 //   full resolution  host depth -> normals -> AO -> blur along x -> blur along y and resolve
 //   half resolution  host depth -> depth and normals -> AO -> blur along x -> along y -> upsample and resolve
 #pragma once
@@ -29,15 +30,17 @@ class NnaoPass {
   void render(const nook_nnao_frame_desc& frame);
   void recheck() { checked_.reset(); }
 
+  // Of the network's stage: FRAGMENT or COMPUTE.
+  nook_nnao_path path() const { return path_; }
   GLuint ao_texture() const { return own_.texture(); }
   const std::optional<StageTimer>& timer() const { return timer_; }
 
  private:
   struct Stage {
     Object program;
-    GLint frame = -1, blur_axis = -1, blur_reach = -1;
+    GLint frame = -1, ao_origin = -1, blur_axis = -1, blur_reach = -1;
   };
-  Stage make_stage(const char* fragment_path, const char* defines) const;
+  Stage make_stage(Object program) const;
   void make_programs(const nnao::Network& network);
   void make_textures();
   void upload_filters(const nnao::Network& network);
@@ -46,10 +49,14 @@ class NnaoPass {
   bool blurs(const nook_nnao_frame_desc& frame) const;
   bool half() const { return desc_.half_resolution != 0; }
   void bind_texture(GLuint unit, GLuint texture) const;
+  void set_frame(const Stage& stage, const FrameConstants& constants) const;
   void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
             const Viewport& viewport) const;
-  void draw_blur(const FrameConstants& constants, const Viewport& surface, GLuint texture, bool vertical,
-                 const RenderTexture& into) const;
+  // into_place: where the surface lies in the texture.
+  void run_network(const FrameConstants& constants, const RenderTexture& into,
+                   const Viewport& into_place) const;
+  void draw_blur(const FrameConstants& constants, const RenderTexture& from, const Viewport& from_place,
+                 bool vertical, const RenderTexture& into) const;
   void draw_resolve(const nook_nnao_frame_desc& frame, const FrameConstants& constants,
                     const RenderTexture& ao);
   void end_stage() {
@@ -58,6 +65,7 @@ class NnaoPass {
 
   Device& device_;
   nook_nnao_desc desc_;  // network and next are gone
+  nook_nnao_path path_;
   Stage normals_, occlusion_, blur_, resolve_;
   RenderTexture surface_;  // normals, and at half resolution depth
   RenderTexture ao_[2];    // of the surface; at full resolution the second is not used, own_ takes its part

@@ -3,6 +3,7 @@
 #include "core/failure.h"
 #include "gl/nnao/network_constants.h"
 #include "gl/nnao/pass.h"
+#include "gl/nnao/path.h"
 #include "gl/program.h"
 #include "gl/state_guard.h"
 #include "nnao/taps.h"
@@ -40,7 +41,7 @@ std::uint64_t texture_bytes(const nook_nnao_desc& desc) {
 }
 
 NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network)
-    : device_(device), desc_(desc) {
+    : device_(device), desc_(desc), path_(chosen_path(device.gl, desc.path)) {
   desc_.network = desc_.next = nullptr;
   GLint largest = 0;
   device.gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -62,11 +63,12 @@ NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Netwo
   device.check("making the screen-space pass");
 }
 
-NnaoPass::Stage NnaoPass::make_stage(const char* fragment_path, const char* defines) const {
+NnaoPass::Stage NnaoPass::make_stage(Object program) const {
   const Functions& gl = device_.gl;
   Stage stage;
-  stage.program = draw_program(device_, "nnao/screen.vert", fragment_path, defines);
+  stage.program = std::move(program);
   stage.frame = uniform_location(device_, stage.program, "nook_frame");
+  stage.ao_origin = uniform_location(device_, stage.program, "nook_ao_origin");
   stage.blur_axis = uniform_location(device_, stage.program, "nook_blur_axis");
   stage.blur_reach = uniform_location(device_, stage.program, "nook_blur_reach");
   gl.UseProgram(stage.program.name());
@@ -88,10 +90,15 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   std::snprintf(defines, sizeof defines,
                 "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_STEPS %u\n", half(), horizon,
                 grid.steps);
-  normals_ = make_stage("nnao/normals.frag", defines);
-  occlusion_ = make_stage("nnao/occlusion.frag", defines);
-  blur_ = make_stage("nnao/blur.frag", defines);
-  resolve_ = make_stage("nnao/resolve.frag", defines);
+  const auto drawn = [&](const char* path) {
+    return make_stage(draw_program(device_, "nnao/screen.vert", path, defines));
+  };
+  normals_ = drawn("nnao/normals.frag");
+  occlusion_ = path_ == NOOK_NNAO_PATH_COMPUTE
+                   ? make_stage(compute_program(device_, "nnao/occlusion.comp", defines))
+                   : drawn("nnao/occlusion.frag");
+  blur_ = drawn("nnao/blur.frag");
+  resolve_ = drawn("nnao/resolve.frag");
   // Both forms take their taps in as many groups of as many.
   device_.gl.UseProgram(occlusion_.program.name());
   device_.gl.Uniform1i(uniform_location(device_, occlusion_.program, "nook_tap_groups"),

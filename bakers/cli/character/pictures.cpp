@@ -1,4 +1,4 @@
-#include "cli/evaluation_pictures.h"
+#include "cli/character/pictures.h"
 
 #include <algorithm>
 #include <cmath>

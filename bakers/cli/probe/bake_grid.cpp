@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli/bake_probe.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "cli/probe/bake.h"
 #include "cli/progress_bar.h"
 #include "cli/table.h"
 #include "import/static_scene.h"

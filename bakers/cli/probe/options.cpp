@@ -1,4 +1,4 @@
-#include "cli/probe_options.h"
+#include "cli/probe/options.h"
 
 #include <CLI/CLI.hpp>
 #include <vector>

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli/bake_probe.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "cli/probe/bake.h"
 #include "cli/progress_bar.h"
 #include "cli/table.h"
 #include "probe/fit_error.h"

@@ -1,9 +1,9 @@
-#include "cli/evaluated_poses.h"
+#include "cli/character/evaluated_poses.h"
 
 #include <algorithm>
 
 #include "character/pose_sets.h"
-#include "cli/clip_names.h"
+#include "cli/character/clip_names.h"
 #include "cli/tool_error.h"
 
 namespace nook::cli {

@@ -1,4 +1,4 @@
-#include "cli/clip_names.h"
+#include "cli/character/clip_names.h"
 
 #include <algorithm>
 

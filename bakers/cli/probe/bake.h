@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "cli/common_options.h"
-#include "cli/probe_options.h"
+#include "cli/probe/options.h"
 #include "core/vec.h"
 #include "raytrace/environment.h"
 

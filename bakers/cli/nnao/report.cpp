@@ -1,4 +1,4 @@
-#include "cli/nnao_report.h"
+#include "cli/nnao/report.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "cli/nnao_scenes.h"
+#include "cli/nnao/scenes.h"
 
 #include <cmath>
 #include <cstdio>

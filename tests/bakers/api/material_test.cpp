@@ -1,0 +1,256 @@
+// Material jobs, judged by what the runtime decodes from their files.
+#include <nook/nook_material.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "catch.h"
+#include "handles.h"
+
+namespace {
+
+constexpr std::uint32_t lights = 5, views = 6, width = 6, height = 4;
+
+// Along the normal, and round it at 45 degrees.
+std::vector<float> fan(std::uint32_t count) {
+  std::vector<float> directions{0, 0, 1};
+  for (std::uint32_t i = 1; i < count; ++i) {
+    const float phi = 6.2831853f * float(i) / float(count - 1);
+    directions.insert(directions.end(),
+                      {std::sqrt(0.5f) * std::cos(phi), std::sqrt(0.5f) * std::sin(phi), std::sqrt(0.5f)});
+  }
+  return directions;
+}
+
+float planted(std::uint32_t light, std::uint32_t view, std::uint32_t x, std::uint32_t y,
+              std::uint32_t channel) {
+  return 0.2f + 0.1f * float(channel) + 0.05f * float(x) + 0.15f * float(y * y % 3) + 0.02f * float(light) +
+         0.03f * float(view % 2) * float((x + y) % 2);
+}
+// The lower half has holes: a column of each other row.
+bool met(std::uint32_t x, std::uint32_t y) {
+  return y != 0 || x % 3 != 1;
+}
+
+struct Measured {
+  std::vector<float> light_set = fan(lights), view_set = fan(views), btf, coverage;
+  nook_bake_material_desc desc;
+
+  Measured() {
+    for (std::uint32_t l = 0; l < lights; ++l)
+      for (std::uint32_t v = 0; v < views; ++v)
+        for (std::uint32_t y = 0; y < height; ++y)
+          for (std::uint32_t x = 0; x < width; ++x)
+            for (std::uint32_t c = 0; c < 3; ++c)
+              btf.push_back(met(x, y) ? planted(l, v, x, y, c) : std::numeric_limits<float>::quiet_NaN());
+    for (std::uint32_t v = 0; v < views; ++v)
+      for (std::uint32_t y = 0; y < height; ++y)
+        for (std::uint32_t x = 0; x < width; ++x) coverage.push_back(met(x, y) ? 1.0f : 0.0f);
+    nook_bake_material_desc_init(&desc, sizeof desc, NOOK_VERSION);
+    desc.light_count = lights;
+    desc.view_count = views;
+    desc.width = desc.rank_x = desc.votf_rank_x = width;
+    desc.height = desc.rank_y = desc.votf_rank_y = height;
+    desc.rank_light = 3 * lights;
+    desc.rank_view = views;
+    desc.method = NOOK_BAKE_METHOD_N_SVD;
+  }
+  nook_result start(nook_bake_job* job) {
+    desc.btf = btf.data();
+    desc.coverage = coverage.data();
+    desc.lights = light_set.data();
+    desc.views = view_set.data();
+    return nook_bake_material_start(&desc, job);
+  }
+};
+
+nook_bake_material_desc small_weave() {
+  nook_bake_material_desc desc;
+  nook_bake_material_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  desc.meso = "weave";
+  desc.light_count = desc.view_count = 12;
+  desc.width = desc.height = 12;
+  desc.bounces = 1;
+  desc.bounce_rays = 2;
+  desc.view_map_side = 8;
+  return desc;
+}
+
+std::vector<char> file_of(const Job& job) {
+  const nook_result result = nook_bake_job_wait(job.get());
+  INFO(nook_bake_last_message());
+  REQUIRE(result == NOOK_OK);
+  const void* bytes = nullptr;
+  std::size_t size = 0;
+  REQUIRE(nook_bake_job_get_model(job.get(), &bytes, &size) == NOOK_OK);
+  const char* first = static_cast<const char*>(bytes);
+  return {first, first + size};
+}
+
+Job start(const nook_bake_material_desc& desc) {
+  nook_bake_job job = nullptr;
+  const nook_result result = nook_bake_material_start(&desc, &job);
+  INFO(nook_bake_last_message());
+  CHECK(result == NOOK_OK);
+  return Job(job);
+}
+
+bool refused(const nook_bake_material_desc& desc, const char* text) {
+  nook_bake_job job = nullptr;
+  const nook_result result = nook_bake_material_start(&desc, &job);
+  INFO(nook_bake_last_message());
+  CHECK(job == nullptr);
+  nook_bake_job_destroy(&job);
+  return result == NOOK_ERROR_INVALID_ARGUMENT && message_has(text);
+}
+
+// Loads a file with the runtime and decodes samples.
+std::vector<nook_material_value> decode(const std::vector<char>& file,
+                                        const std::vector<nook_material_sample>& samples) {
+  nook_context_desc context_desc;
+  nook_context context = nullptr;
+  nook_material material = nullptr;
+  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
+  REQUIRE(nook_material_load(context, file.data(), file.size(), &material) == NOOK_OK);
+  std::vector<nook_material_value> values(samples.size());
+  CHECK(nook_material_evaluate(material, samples.data(), std::uint32_t(samples.size()), values.data()) ==
+        NOOK_OK);
+  nook_material_destroy(&material);
+  nook_context_destroy(&context);
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("measured data come back at their texels, colours and directions, and gaps as gaps") {
+  Measured measured;
+  nook_bake_job handle = nullptr;
+  const nook_result result = measured.start(&handle);
+  INFO(nook_bake_last_message());
+  REQUIRE(result == NOOK_OK);
+  const Job job(handle);
+  // Copied: what the caller does with them afterwards does not matter.
+  measured.btf.assign(measured.btf.size(), 1e30f);
+  const std::vector<char> file = file_of(job);
+  std::vector<nook_material_sample> samples;
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x) {
+      // The third light and the fifth view.
+      nook_material_sample s{
+          {(float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height)}, 0, {}, {}};
+      for (std::size_t i = 0; i < 3; ++i) {
+        s.light[i] = measured.light_set[3 * 2 + i];
+        s.view[i] = measured.view_set[3 * 4 + i];
+      }
+      samples.push_back(s);
+    }
+  const std::vector<nook_material_value> values = decode(file, samples);
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x) {
+      const nook_material_value& value = values[y * width + x];
+      INFO("texel " << x << " " << y);
+      CHECK((value.visibility > 0.5f) == met(x, y));
+      for (std::uint32_t c = 0; c < 3 && met(x, y); ++c)
+        // Cells of the light map are 1/32 wide; round the outermost lights some lie beyond, where the cosine
+        // over theirs is up to 3 % less.
+        CHECK(std::fabs(value.radiance[c] - planted(2, 4, x, y, c)) < 0.03f * value.radiance[c]);
+    }
+  const char* report = nullptr;
+  REQUIRE(nook_bake_job_get_report(job.get(), &report) == NOOK_OK);
+  const auto json = nlohmann::json::parse(report);
+  CHECK(json["method"] == "N-SVD");
+  // Full ranks: what is left are half floats, of 11 bits.
+  CHECK(json["se_db"].get<double>() > 50);
+  CHECK(json["votf_error_texels_distance"] == 0);
+  CHECK(json["recipe"]["source"]["measured"] == true);
+}
+
+TEST_CASE("a built-in structure: the same bytes on any number of threads, another seed another file") {
+  nook_bake_material_desc desc = small_weave();
+  desc.threads = 1;
+  const std::vector<char> one = file_of(start(desc));
+  desc.threads = 2;
+  CHECK(file_of(start(desc)) == one);
+  desc.seed = 2;
+  CHECK(file_of(start(desc)) != one);
+}
+
+TEST_CASE("a material job goes through its stages and stops where it is told to") {
+  struct Watch {
+    std::vector<nook_bake_stage> stages;
+    nook_bake_stage stop_at = -1;
+    static std::int32_t call(void* user, const nook_bake_progress* progress) {
+      Watch& w = *static_cast<Watch*>(user);
+      if (w.stages.empty() || w.stages.back() != progress->stage) w.stages.push_back(progress->stage);
+      return progress->stage != w.stop_at;
+    }
+  };
+  nook_bake_material_desc desc = small_weave();
+  desc.progress = Watch::call;
+  Watch all;
+  desc.progress_user = &all;
+  file_of(start(desc));
+  CHECK(all.stages == std::vector<nook_bake_stage>{NOOK_BAKE_STAGE_RAYTRACE, NOOK_BAKE_STAGE_BTF,
+                                                   NOOK_BAKE_STAGE_VIEW_MAP, NOOK_BAKE_STAGE_VOTF,
+                                                   NOOK_BAKE_STAGE_VIEW_MAP});
+  for (const nook_bake_stage stage :
+       {NOOK_BAKE_STAGE_RAYTRACE, NOOK_BAKE_STAGE_BTF, NOOK_BAKE_STAGE_VIEW_MAP, NOOK_BAKE_STAGE_VOTF}) {
+    Watch stopped;
+    stopped.stop_at = stage;
+    desc.progress_user = &stopped;
+    const Job job = start(desc);
+    CHECK(nook_bake_job_wait(job.get()) == NOOK_ERROR_CANCELLED);
+    const void* bytes = nullptr;
+    std::size_t size = 0;
+    CHECK(nook_bake_job_get_model(job.get(), &bytes, &size) == NOOK_ERROR_CANCELLED);
+  }
+}
+
+TEST_CASE("what a material cannot be baked from is named") {
+  nook_bake_material_desc desc = small_weave();
+  desc.meso = "marble";
+  CHECK(refused(desc, "marble"));
+  desc = small_weave();
+  desc.method = 7;
+  CHECK(refused(desc, "desc.method"));
+  desc = small_weave();
+  desc.rank_light = 4;
+  CHECK(refused(desc, "give all of them, or none"));
+  desc.rank_view = desc.rank_x = 4;
+  desc.rank_y = 13;
+  CHECK(refused(desc, "the y rank is 13"));
+  desc = small_weave();
+  desc.width = 0;
+  CHECK(refused(desc, "desc.width"));
+  desc = small_weave();
+  desc.light_count = desc.view_count = desc.width = desc.height = 1024;
+  CHECK(refused(desc, "MiB"));
+  const float one = 1;
+  desc = small_weave();
+  desc.btf = &one;
+  CHECK(refused(desc, "one or the other"));
+
+  Measured measured;
+  nook_bake_job job = nullptr;
+  measured.coverage.assign(measured.coverage.size(), 1.0f);
+  // Light 0, view 0, row 0, column 1 is a gap, which is no number.
+  CHECK(measured.start(&job) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("texel (1, 0) is not a finite number"));
+  measured = Measured();
+  measured.coverage[3] = 1.5f;
+  CHECK(measured.start(&job) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("desc.coverage of view 0 at texel (3, 0)"));
+  measured = Measured();
+  measured.view_set[5] = 0;
+  CHECK(measured.start(&job) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("no unit vector"));
+  measured = Measured();
+  measured.desc.light_count = lights;
+  measured.desc.lights = nullptr;
+  measured.desc.btf = measured.btf.data();
+  CHECK(refused(measured.desc, "desc.lights is NULL"));
+  CHECK(nook_bake_material_start(&desc, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+}
