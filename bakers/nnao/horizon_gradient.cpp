@@ -4,8 +4,8 @@ namespace nook::bake::nnao {
 namespace {
 
 constexpr int units = HorizonNetwork::units, tap_inputs = HorizonNetwork::tap_inputs;
-constexpr int direction_inputs = HorizonBatch::direction_inputs,
-              pooled_inputs = 2 * units + direction_inputs, joined_inputs = units + 2;
+constexpr int direction_inputs = HorizonBatch::direction_inputs, pooled_inputs = 2 * units + direction_inputs,
+              joined_inputs = units + 2;
 
 // Where each layer begins among the parameters.
 constexpr int tap_layer = 0;
@@ -41,7 +41,6 @@ void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNo
     const float angle = direction_angle(d, grid.directions, noise);
     const float cosine = std::cos(angle), sine = std::sin(angle);
     const float across = dot(point.normal, across_viewer(viewer, cosine, sine));
-    float off_screen = 0;
     for (std::uint32_t s = 0; s < grid.steps; ++s) {
       const std::size_t t = std::size_t(d) * grid.steps + s;
       const float distance_px = step_distance_px(s, grid.steps, noise, radius_px);
@@ -51,13 +50,11 @@ void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNo
           texel.on_screen ? horizon_tap_input(view, texel, position, point.normal, viewer, point.radius)
                           : plane_tap_input(across, facing, distance_px / radius_px);
       for (int i = 0; i < tap_inputs; ++i) tap[t * tap_inputs + std::size_t(i)][lane] = input[std::size_t(i)];
-      off_screen += float(!texel.on_screen);
+      taps_off_screen += float(!texel.on_screen);
     }
     Lanes* const inputs = &direction[d * direction_inputs];
     inputs[0][lane] = across;
     inputs[1][lane] = facing;
-    inputs[2][lane] = off_screen / float(grid.steps);
-    taps_off_screen += off_screen;
   }
   join[0][lane] = facing;
   join[1][lane] = taps_off_screen / float(grid.directions * grid.steps);
@@ -113,7 +110,7 @@ NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& b
   backward<units, 1>(parameters + out_layer, trace.join_output, trace.out_before, &output_gradient,
                      gradient + out_layer, g_join);
   backward<joined_inputs, units>(parameters + join_layer, trace.joined, trace.join_before, g_join,
-                             gradient + join_layer, g_joined);
+                                 gradient + join_layer, g_joined);
   // The tap layer's gradient is summed here: the loop over taps is where the time goes.
   Lanes g_tap_layer[LayerOrder<tap_inputs, units>::count] = {};
   for (std::uint32_t d = 0; d < directions; ++d) {

@@ -17,7 +17,7 @@ using nook::nnao::TapNoise;
 // Inputs of sixteen samples with the same number of taps.
 struct HorizonBatch {
   // dot(n, t), dot(n, o), share of its steps off the screen.
-  static constexpr int direction_inputs = 3;
+  static constexpr int direction_inputs = 2;
 
   explicit HorizonBatch(TapGrid tap_grid);
 

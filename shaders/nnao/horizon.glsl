@@ -1,13 +1,13 @@
 // The horizon form; network.h defines it. Eight units are two vec4.
-uniform vec4 nook_network[89];  // tap, direction, join, out, in the order of network.h
+uniform vec4 nook_network[87];  // tap, direction, join, out, in the order of network.h
 // Directions. Not a constant: compilers would unroll them all, into more code than caches hold.
 uniform int nook_tap_groups;
 
 // Where each layer begins, and its bias, of two vec4, after which negative and positive slopes follow.
 const int nook_tap_layer = 0, nook_tap_bias = 10;
-const int nook_direction_layer = 16, nook_direction_bias = 54;
-const int nook_join_layer = 60, nook_join_bias = 80;
-const int nook_out_layer = 86;
+const int nook_direction_layer = 16, nook_direction_bias = 52;
+const int nook_join_layer = 58, nook_join_bias = 78;
+const int nook_out_layer = 84;
 
 struct nook_units {
   vec4 low, high;
@@ -59,12 +59,11 @@ nook_units nook_tap_units(vec3 tap_input) {
   return nook_prelu(x, nook_tap_bias);
 }
 
-// off_screen receives the share of the steps that lie off the screen.
+// Adds the steps that lie off the screen to taps_off_screen.
 nook_units nook_direction_units(ivec2 texel, vec2 direction, vec2 noise, vec3 position, vec3 normal, vec3 viewer,
-                                vec2 scale, vec2 radius, out float off_screen) {
+                                vec2 scale, vec2 radius, inout float taps_off_screen) {
   nook_units most = nook_units(vec4(-nook_no_surface), vec4(-nook_no_surface));
   nook_units sum = nook_units(vec4(0.0), vec4(0.0));
-  off_screen = 0.0;
   vec3 along = vec3(direction, 0.0);
   vec3 across_viewer = normalize(along - dot(along, viewer) * viewer);
   float across = dot(normal, across_viewer), facing = dot(normal, viewer);
@@ -76,7 +75,7 @@ nook_units nook_direction_units(ivec2 texel, vec2 direction, vec2 noise, vec3 po
       tap_input = nook_tap_input(at, position, normal, viewer, radius.x);
     } else {
       tap_input = nook_plane_tap_input(across, facing, distance_px / radius.y);
-      off_screen += 1.0 / float(NOOK_STEPS);
+      taps_off_screen += 1.0;
     }
     nook_units hidden = nook_tap_units(tap_input);
     most = nook_units(max(most.low, hidden.low), max(most.high, hidden.high));
@@ -89,7 +88,6 @@ nook_units nook_direction_units(ivec2 texel, vec2 direction, vec2 noise, vec3 po
   nook_add(x, sum.high / float(NOOK_STEPS), nook_direction_layer + 24);
   nook_add(x, across, nook_direction_layer + 32);
   nook_add(x, facing, nook_direction_layer + 34);
-  nook_add(x, off_screen, nook_direction_layer + 36);
   return nook_prelu(x, nook_direction_bias);
 }
 
@@ -100,20 +98,18 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
   float taps_off_screen = 0.0;
   for (int i = 0; i < nook_tap_groups; ++i) {
     float angle = nook_direction_angle(i, nook_tap_groups, noise);
-    float off_screen;
     nook_units x = nook_direction_units(texel, vec2(cos(angle), sin(angle)), noise, position, normal, viewer, scale,
-                                        radius, off_screen);
+                                        radius, taps_off_screen);
     sum = nook_units(sum.low + x.low, sum.high + x.high);
-    taps_off_screen += off_screen;
   }
-  float directions = float(nook_tap_groups);
+  float directions = float(nook_tap_groups), taps = directions * float(NOOK_STEPS);
   // A screen of a pixel or two: nothing is known of any occluder.
-  if (taps_off_screen > directions - 0.5 / float(NOOK_STEPS)) return 1.0;
+  if (taps_off_screen == taps) return 1.0;
   nook_units joined = nook_bias(nook_join_bias);
   nook_add(joined, sum.low / directions, nook_join_layer);
   nook_add(joined, sum.high / directions, nook_join_layer + 8);
   nook_add(joined, dot(normal, viewer), nook_join_layer + 16);
-  nook_add(joined, taps_off_screen / directions, nook_join_layer + 18);
+  nook_add(joined, taps_off_screen / taps, nook_join_layer + 18);
   joined = nook_prelu(joined, nook_join_bias);
   vec4 last = nook_network[nook_out_layer + 2];  // bias, negative slope, positive slope
   float y = dot(joined.low, nook_network[nook_out_layer]) + dot(joined.high, nook_network[nook_out_layer + 1]) + last.x;

@@ -97,16 +97,15 @@ HorizonUnits horizon_units(const HorizonNetwork& network, const View& view, Vec3
   for (std::uint32_t d = 0; d < grid.directions; ++d) {
     const float angle = direction_angle(d, grid.directions, noise);
     const float cosine = std::cos(angle), sine = std::sin(angle);
-    std::array<float, 2 * units + 3> pooled{};
+    std::array<float, 2 * units + 2> pooled{};
     float* const most = pooled.data();
     float* const mean = pooled.data() + units;
     const float across = dot(centre.normal, across_viewer(centre.viewer, cosine, sine));
-    std::uint32_t off_screen = 0;
     for (std::uint32_t s = 0; s < grid.steps; ++s) {
       const float distance_px = step_distance_px(s, grid.steps, noise, centre.radius.px);
       const TappedTexel texel =
           tapped_texel(view, x, y, horizon_tap(cosine, sine, distance_px, centre.scale));
-      off_screen += !texel.on_screen;
+      taps_off_screen += !texel.on_screen;
       const auto hidden = through(
           network.tap, texel.on_screen ? horizon_tap_input(view, texel, centre.position, centre.normal,
                                                            centre.viewer, centre.radius.metres)
@@ -118,10 +117,8 @@ HorizonUnits horizon_units(const HorizonNetwork& network, const View& view, Vec3
     }
     pooled[2 * units] = across;
     pooled[2 * units + 1] = facing;
-    pooled[2 * units + 2] = float(off_screen) / float(grid.steps);
     const auto out = through(network.direction, pooled);
     for (int u = 0; u < units; ++u) joined.value[u] += out[u] / float(grid.directions);
-    taps_off_screen += off_screen;
   }
   joined.known = taps_off_screen < sampling.taps;
   joined.value[units] = facing;

@@ -47,21 +47,21 @@ struct PaperNetwork {
 };
 
 // Nook's network: the taps lie along `directions` half-lines on the screen, `steps` on each. With v = p_t -
-// p, the direction to the viewer o = -p / |p| (orthographic: +z), the elevation s = dot(v, n) / |v|, the angle
-// c = dot(v, o) / |v| and the nearness w = max(1 - |v| / 2r, 0), a tap's hidden units are tap(input) of
+// p, the direction to the viewer o = -p / |p| (orthographic: +z), the elevation s = dot(v, n) / |v|, the
+// angle c = dot(v, o) / |v| and the nearness w = max(1 - |v| / 2r, 0), a tap's hidden units are tap(input) of
 //   input = (s, c, w, s w, c w).
-// The sky is a surface infinitely far away; off the screen the pixel's own plane is taken to go on, and what
-// share of it is so is told. Over the steps of a direction the units' maximum and their mean, with the
-// direction's own (dot(n, t), dot(n, o), share of its steps off the screen), t the unit vector across o in
-// the plane of the direction, go through `direction`; the mean over directions, with dot(n, o) and the share
-// of all steps off the screen, through `join` and `out`.
+// The sky is a surface infinitely far away; off the screen the pixel's own plane is taken to go on, and the
+// share of taps for which it is, is told. Over the steps of a direction the units' maximum and their mean,
+// with the direction's own (dot(n, t), dot(n, o)), t the unit vector across o in the plane of the direction,
+// go through `direction`; the mean over directions, with dot(n, o) and the share of all taps off the screen,
+// through `join` and `out`.
 struct HorizonNetwork {
   static constexpr int revision = 3;  // of what the numbers mean
   static constexpr int tap_inputs = 5;
   static constexpr int units = 8;
 
   Dense<tap_inputs, units> tap;
-  Dense<2 * units + 3, units> direction;
+  Dense<2 * units + 2, units> direction;
   Dense<units + 2, units> join;
   Dense<units, 1> out;
 };
