@@ -142,7 +142,7 @@ Json evaluate(const Options& options) {
   const auto context = make_context();
   const std::string resolution =
       std::to_string(options.truth.width) + "x" + std::to_string(options.truth.height);
-  Json report{{"rows", Json::array()}, {"scenes", Json::array()}};
+  Json report{{"rows", Json::array()}, {"scenes", Json::array()}, {"borders", Json::array()}};
   Json& rows = report["rows"];
   for (const SceneRequest& scene : scenes) {
     const std::vector<MeasuredView> views =
@@ -156,6 +156,7 @@ Json evaluate(const Options& options) {
     }
     for (const Json& row : nnao_rows(comparison, scene.name, resolution, context->renderer()))
       rows.push_back(row);
+    for (const Json& row : nnao_border_rows(comparison, scene.name)) report["borders"].push_back(row);
     double noise = 0;
     for (const MeasuredView& view : views) noise += view.noise / double(views.size());
     report["scenes"].push_back({{"scene", scene.name},

@@ -11,8 +11,8 @@
 namespace nook::bake::nnao {
 
 struct DatasetSettings {
-  std::uint32_t scenes = 96;  // at least 16: two of each family
-  std::uint32_t views = 576;
+  std::uint32_t scenes = 120;  // at least 20: two of each family
+  std::uint32_t views = 720;
   std::uint32_t points_per_view = 1000;
   std::uint32_t rays = 128;  // a point
   std::uint32_t width = 480, height = 270;

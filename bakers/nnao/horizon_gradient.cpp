@@ -4,13 +4,14 @@ namespace nook::bake::nnao {
 namespace {
 
 constexpr int units = HorizonNetwork::units, tap_inputs = HorizonNetwork::tap_inputs;
-constexpr int pooled_inputs = 2 * units + 2;
+constexpr int direction_inputs = HorizonBatch::direction_inputs, pooled_inputs = 2 * units + direction_inputs,
+              joined_inputs = units + 2;
 
 // Where each layer begins among the parameters.
 constexpr int tap_layer = 0;
 constexpr int direction_layer = tap_layer + LayerOrder<tap_inputs, units>::count;
 constexpr int join_layer = direction_layer + LayerOrder<pooled_inputs, units>::count;
-constexpr int out_layer = join_layer + LayerOrder<units + 1, units>::count;
+constexpr int out_layer = join_layer + LayerOrder<joined_inputs, units>::count;
 static_assert(out_layer + LayerOrder<units, 1>::count == sizeof(HorizonNetwork) / sizeof(float));
 
 typedef int LaneInts __attribute__((vector_size(4 * lane_count)));
@@ -20,8 +21,7 @@ typedef int LaneInts __attribute__((vector_size(4 * lane_count)));
 HorizonBatch::HorizonBatch(TapGrid tap_grid)
     : grid(tap_grid),
       tap(lane_array(std::size_t(grid.directions) * grid.steps * tap_inputs)),
-      direction(lane_array(2 * std::size_t(grid.directions))),
-      share(lane_array(grid.directions)) {}
+      direction(lane_array(direction_inputs * std::size_t(grid.directions))) {}
 
 HorizonTrace::HorizonTrace(TapGrid grid)
     : pooled(lane_array(std::size_t(grid.directions) * pooled_inputs)),
@@ -35,14 +35,12 @@ void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNo
   const Vec3 viewer = to_viewer(view.rays, position);
   const PixelScale scale = pixel_scale(view.rays, depth);
   const float radius_px = point.radius * std::abs(scale.y);
-  facing[lane] = dot(point.normal, viewer);
-  float taps_on_screen = 0;
+  const float facing = dot(point.normal, viewer);
+  float taps_off_screen = 0;
   for (std::uint32_t d = 0; d < grid.directions; ++d) {
     const float angle = direction_angle(d, grid.directions, noise);
     const float cosine = std::cos(angle), sine = std::sin(angle);
-    direction[2 * d][lane] = dot(point.normal, across_viewer(viewer, cosine, sine));
-    direction[2 * d + 1][lane] = facing[lane];
-    float on_screen = 0;
+    const float across = dot(point.normal, across_viewer(viewer, cosine, sine));
     for (std::uint32_t s = 0; s < grid.steps; ++s) {
       const std::size_t t = std::size_t(d) * grid.steps + s;
       const float distance_px = step_distance_px(s, grid.steps, noise, radius_px);
@@ -50,20 +48,22 @@ void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNo
           tapped_texel(view, point.x, point.y, horizon_tap(cosine, sine, distance_px, scale));
       const HorizonTapInput input =
           texel.on_screen ? horizon_tap_input(view, texel, position, point.normal, viewer, point.radius)
-                          : plane_tap_input(direction[2 * d][lane], facing[lane], distance_px / radius_px);
+                          : plane_tap_input(across, facing, distance_px / radius_px);
       for (int i = 0; i < tap_inputs; ++i) tap[t * tap_inputs + std::size_t(i)][lane] = input[std::size_t(i)];
-      on_screen += float(texel.on_screen);
+      taps_off_screen += float(!texel.on_screen);
     }
-    share[d][lane] = on_screen;
-    taps_on_screen += on_screen;
+    Lanes* const inputs = &direction[d * direction_inputs];
+    inputs[0][lane] = across;
+    inputs[1][lane] = facing;
   }
-  for (std::uint32_t d = 0; d < grid.directions; ++d) share[d][lane] /= std::max(taps_on_screen, 1.0f);
+  join[0][lane] = facing;
+  join[1][lane] = taps_off_screen / float(grid.directions * grid.steps);
 }
 
 NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace,
                                  Lanes& output) {
   const auto [directions, steps] = batch.grid;
-  for (int u = 0; u <= units; ++u) trace.joined[u] = Lanes{};
+  for (int u = 0; u < units; ++u) trace.joined[u] = Lanes{};
   for (std::uint32_t d = 0; d < directions; ++d) {
     Lanes* const pooled = &trace.pooled[d * pooled_inputs];
     LaneInts most_step[units] = {};
@@ -89,31 +89,33 @@ NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& ba
       __builtin_memcpy(&trace.most_step[(d * units + std::size_t(u)) * lane_count], &most_step[u],
                        sizeof(LaneInts));
     }
-    pooled[2 * units] = batch.direction[2 * d];
-    pooled[2 * units + 1] = batch.direction[2 * d + 1];
+    for (int i = 0; i < direction_inputs; ++i)
+      pooled[2 * units + i] = batch.direction[d * direction_inputs + std::size_t(i)];
     Lanes out[units];
     forward<pooled_inputs, units>(parameters + direction_layer, pooled, &trace.direction_before[d * units],
                                   out);
-    for (int u = 0; u < units; ++u) trace.joined[u] += out[u] * batch.share[d];
+    for (int u = 0; u < units; ++u) trace.joined[u] += out[u];
   }
-  trace.joined[units] = batch.facing;
-  forward<units + 1, units>(parameters + join_layer, trace.joined, trace.join_before, trace.join_output);
+  for (int u = 0; u < units; ++u) trace.joined[u] *= 1 / float(directions);
+  trace.joined[units] = batch.join[0];
+  trace.joined[units + 1] = batch.join[1];
+  forward<joined_inputs, units>(parameters + join_layer, trace.joined, trace.join_before, trace.join_output);
   forward<units, 1>(parameters + out_layer, trace.join_output, trace.out_before, &output);
 }
 
 NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& batch,
                                   const HorizonTrace& trace, const Lanes& output_gradient, Lanes* gradient) {
   const auto [directions, steps] = batch.grid;
-  Lanes g_join[units], g_joined[units + 1];
+  Lanes g_join[units], g_joined[joined_inputs];
   backward<units, 1>(parameters + out_layer, trace.join_output, trace.out_before, &output_gradient,
                      gradient + out_layer, g_join);
-  backward<units + 1, units>(parameters + join_layer, trace.joined, trace.join_before, g_join,
-                             gradient + join_layer, g_joined);
+  backward<joined_inputs, units>(parameters + join_layer, trace.joined, trace.join_before, g_join,
+                                 gradient + join_layer, g_joined);
   // The tap layer's gradient is summed here: the loop over taps is where the time goes.
   Lanes g_tap_layer[LayerOrder<tap_inputs, units>::count] = {};
   for (std::uint32_t d = 0; d < directions; ++d) {
     Lanes g_pooled[pooled_inputs], g_out[units];
-    for (int u = 0; u < units; ++u) g_out[u] = g_joined[u] * batch.share[d];
+    for (int u = 0; u < units; ++u) g_out[u] = g_joined[u] * (1 / float(directions));
     backward<pooled_inputs, units>(parameters + direction_layer, &trace.pooled[d * pooled_inputs],
                                    &trace.direction_before[d * units], g_out, gradient + direction_layer,
                                    g_pooled);

@@ -16,13 +16,15 @@ using nook::nnao::TapNoise;
 
 // Inputs of sixteen samples with the same number of taps.
 struct HorizonBatch {
+  // dot(n, t), dot(n, o), share of its steps off the screen.
+  static constexpr int direction_inputs = 2;
+
   explicit HorizonBatch(TapGrid tap_grid);
 
   TapGrid grid;
   LaneArray tap;        // tap_inputs a tap, direction by direction
-  LaneArray direction;  // dot(n, t), dot(n, o) of each direction
-  LaneArray share;      // one a direction: its share of the taps on the screen
-  Lanes facing{};       // dot(n, o)
+  LaneArray direction;  // direction_inputs of each direction
+  Lanes join[2]{};      // dot(n, o), share of the taps off the screen
 
   void set(int lane, const View& view, const DataPoint& point, TapNoise noise);
 };
@@ -33,7 +35,7 @@ struct HorizonTrace {
 
   LaneArray pooled, direction_before;
   std::vector<int> most_step;  // the step of each direction's maximum, by unit and lane
-  Lanes joined[HorizonNetwork::units + 1], join_before[HorizonNetwork::units],
+  Lanes joined[HorizonNetwork::units + 2], join_before[HorizonNetwork::units],
       join_output[HorizonNetwork::units], out_before[1];
 };
 

@@ -78,7 +78,7 @@ void start_horizon(std::span<float> parameters, float mean_ao, Random& random) {
   constexpr int units = HorizonNetwork::units;
   float* next = start_layer<HorizonNetwork::tap_inputs, units>(parameters.data(), 0, random);
   next = start_layer<2 * units + 2, units>(next, 0, random);
-  next = start_layer<units + 1, units>(next, 0, random);
+  next = start_layer<units + 2, units>(next, 0, random);
   start_layer<units, 1>(next, mean_ao, random);
 }
 

@@ -18,16 +18,18 @@ struct TrainingScene {
   Box subject;  // what it looks at
 };
 
-TrainingScene make_clutter(Random& random);    // heaps of boxes, balls and drums
-TrainingScene make_foliage(Random& random);    // grass, bushes, trees
-TrainingScene make_machinery(Random& random);  // pipes, tanks, wheels, cables
-TrainingScene make_people(Random& random);     // figures with fingers, standing and sitting
-TrainingScene make_railings(Random& random);   // fences, grilles, bars
-TrainingScene make_room(Random& random);       // walls, furniture, shelves
-TrainingScene make_stairs(Random& random);     // flights, landings, balustrades
-TrainingScene make_terrain(Random& random);    // rolling ground, rocks, caves
+TrainingScene make_clutter(Random& random);      // heaps of boxes, balls and drums
+TrainingScene make_dining_room(Random& random);  // a laid table, shell chairs, lamps
+TrainingScene make_foliage(Random& random);      // grass, bushes, trees
+TrainingScene make_hull(Random& random);         // bodies of plates with wings and engines
+TrainingScene make_machinery(Random& random);    // pipes, tanks, wheels, cables
+TrainingScene make_people(Random& random);       // figures with fingers, standing and sitting
+TrainingScene make_railings(Random& random);     // fences, grilles, bars
+TrainingScene make_room(Random& random);         // walls, furniture, shelves
+TrainingScene make_stairs(Random& random);       // flights, landings, balustrades
+TrainingScene make_terrain(Random& random);      // rolling ground, rocks, caves
 
-inline constexpr std::uint32_t family_count = 8;
+inline constexpr std::uint32_t family_count = 10;
 // The families take turns.
 TrainingScene make_scene(std::uint64_t seed, std::uint32_t index);
 

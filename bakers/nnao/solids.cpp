@@ -97,6 +97,15 @@ void add_ellipsoid(TriangleSoup& soup, const Mat3x4& frame, Vec3 half, int sides
   });
 }
 
+void add_lathe(TriangleSoup& soup, const Mat3x4& frame, const std::vector<std::array<float, 2>>& profile,
+               int sides) {
+  add_net(soup, int(profile.size()) - 1, sides, [&](int ring, int side) {
+    const float angle = turn * float(side) / float(sides);
+    const auto [radius, height] = profile[std::size_t(ring)];
+    return transform_point(frame, {radius * std::cos(angle), height, radius * std::sin(angle)});
+  });
+}
+
 void add_torus(TriangleSoup& soup, const Mat3x4& frame, float radius, float tube_radius, int sides) {
   add_net(soup, sides, 10, [&](int ring, int side) {
     const float angle = turn * float(ring) / float(sides), round = turn * float(side) / 10;

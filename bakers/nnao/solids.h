@@ -1,6 +1,9 @@
 // Simple solids added to a triangle soup: what the training scenes are built of. World space, metres, y up.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "core/vec.h"
 #include "nnao/random.h"
 #include "raytrace/ray_scene.h"
@@ -25,6 +28,10 @@ void add_capsule(TriangleSoup& soup, Vec3 from, Vec3 to, float radius, int sides
 
 // The unit sphere in the frame's axes times half.
 void add_ellipsoid(TriangleSoup& soup, const Mat3x4& frame, Vec3 half, int sides = 16);
+
+// A thin sheet of revolution about the frame's y axis through points (radius, height), open where they end.
+void add_lathe(TriangleSoup& soup, const Mat3x4& frame, const std::vector<std::array<float, 2>>& profile,
+               int sides = 18);
 
 // A ring in the frame's x-z plane.
 void add_torus(TriangleSoup& soup, const Mat3x4& frame, float radius, float tube_radius, int sides = 20);

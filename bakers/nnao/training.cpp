@@ -32,7 +32,7 @@ constexpr std::size_t live_points = 8000;
 
 TrainingSettings with_defaults(TrainingSettings settings) {
   const bool paper = settings.form == NetworkForm::paper;
-  if (settings.epochs == 0) settings.epochs = paper ? 12 : 80;
+  if (settings.epochs == 0) settings.epochs = paper ? 12 : 40;
   if (settings.batch == 0) settings.batch = paper ? 64 : 256;
   if (settings.rate == 0) settings.rate = paper ? 1e-3f : 4e-3f;
   return settings;

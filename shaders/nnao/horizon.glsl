@@ -1,13 +1,13 @@
 // The horizon form; network.h defines it. Eight units are two vec4.
-uniform vec4 nook_network[81];  // tap, direction, join, out, in the order of network.h
+uniform vec4 nook_network[87];  // tap, direction, join, out, in the order of network.h
 // Directions. Not a constant: compilers would unroll them all, into more code than caches hold.
 uniform int nook_tap_groups;
 
 // Where each layer begins, and its bias, of two vec4, after which negative and positive slopes follow.
-const int nook_tap_layer = 0, nook_tap_bias = 6;
-const int nook_direction_layer = 12, nook_direction_bias = 48;
-const int nook_join_layer = 54, nook_join_bias = 72;
-const int nook_out_layer = 78;
+const int nook_tap_layer = 0, nook_tap_bias = 10;
+const int nook_direction_layer = 16, nook_direction_bias = 52;
+const int nook_join_layer = 58, nook_join_bias = 78;
+const int nook_out_layer = 84;
 
 struct nook_units {
   vec4 low, high;
@@ -37,34 +37,33 @@ nook_units nook_prelu(nook_units x, int bias) {
 // Where nothing is, something far beyond any radius; its square is still a float.
 const float nook_sky_depth = 1.0e15;
 
-// What the network reads of a tap on the screen.
+// A tap on the screen: its elevation, its angle, its distance in radii.
 vec3 nook_tap_input(ivec2 at, vec3 position, vec3 normal, vec3 viewer, float radius) {
   float depth = min(nook_surface_depth(at), nook_sky_depth);
   vec3 v = nook_position(nook_surface_rays, at, depth) - position;
   float away = max(length(v), 1.0e-12);
-  return vec3(dot(v, normal) / away, dot(v, viewer) / away, min(away / radius, 2.0));
+  return vec3(dot(v, normal) / away, dot(v, viewer) / away, away / radius);
 }
 
 // And off the screen, where the pixel's own plane is taken to go on.
 vec3 nook_plane_tap_input(float across, float facing, float distance_r) {
   float slope = across / max(facing, 0.05), stretch = sqrt(1.0 + slope * slope);
-  return vec3(0.0, -slope / stretch, min(distance_r * stretch, 2.0));
+  return vec3(0.0, -slope / stretch, distance_r * stretch);
 }
 
 nook_units nook_tap_units(vec3 tap_input) {
+  float nearness = max(1.0 - 0.5 * tap_input.z, 0.0);
   nook_units x = nook_bias(nook_tap_bias);
-  nook_add(x, tap_input.x, nook_tap_layer);
-  nook_add(x, tap_input.y, nook_tap_layer + 2);
-  nook_add(x, tap_input.z, nook_tap_layer + 4);
+  nook_add(x, vec4(tap_input.xy, nearness, tap_input.x * nearness), nook_tap_layer);
+  nook_add(x, tap_input.y * nearness, nook_tap_layer + 8);
   return nook_prelu(x, nook_tap_bias);
 }
 
-// Weighted by the steps that lie on the screen, whose number on_screen receives.
+// Adds the steps that lie off the screen to taps_off_screen.
 nook_units nook_direction_units(ivec2 texel, vec2 direction, vec2 noise, vec3 position, vec3 normal, vec3 viewer,
-                                vec2 scale, vec2 radius, out float on_screen) {
+                                vec2 scale, vec2 radius, inout float taps_off_screen) {
   nook_units most = nook_units(vec4(-nook_no_surface), vec4(-nook_no_surface));
   nook_units sum = nook_units(vec4(0.0), vec4(0.0));
-  on_screen = 0.0;
   vec3 along = vec3(direction, 0.0);
   vec3 across_viewer = normalize(along - dot(along, viewer) * viewer);
   float across = dot(normal, across_viewer), facing = dot(normal, viewer);
@@ -74,9 +73,9 @@ nook_units nook_direction_units(ivec2 texel, vec2 direction, vec2 noise, vec3 po
     vec3 tap_input;
     if (nook_inside(at, nook_surface_size)) {
       tap_input = nook_tap_input(at, position, normal, viewer, radius.x);
-      on_screen += 1.0;
     } else {
       tap_input = nook_plane_tap_input(across, facing, distance_px / radius.y);
+      taps_off_screen += 1.0;
     }
     nook_units hidden = nook_tap_units(tap_input);
     most = nook_units(max(most.low, hidden.low), max(most.high, hidden.high));
@@ -89,29 +88,28 @@ nook_units nook_direction_units(ivec2 texel, vec2 direction, vec2 noise, vec3 po
   nook_add(x, sum.high / float(NOOK_STEPS), nook_direction_layer + 24);
   nook_add(x, across, nook_direction_layer + 32);
   nook_add(x, facing, nook_direction_layer + 34);
-  x = nook_prelu(x, nook_direction_bias);
-  return nook_units(x.low * on_screen, x.high * on_screen);
+  return nook_prelu(x, nook_direction_bias);
 }
 
 float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 radius) {
   vec2 noise = nook_tap_noise(texel);
   vec3 viewer = nook_to_viewer(position);
   nook_units sum = nook_units(vec4(0.0), vec4(0.0));
-  float taps_on_screen = 0.0;
+  float taps_off_screen = 0.0;
   for (int i = 0; i < nook_tap_groups; ++i) {
     float angle = nook_direction_angle(i, nook_tap_groups, noise);
-    float on_screen;
     nook_units x = nook_direction_units(texel, vec2(cos(angle), sin(angle)), noise, position, normal, viewer, scale,
-                                        radius, on_screen);
+                                        radius, taps_off_screen);
     sum = nook_units(sum.low + x.low, sum.high + x.high);
-    taps_on_screen += on_screen;
   }
+  float directions = float(nook_tap_groups), taps = directions * float(NOOK_STEPS);
   // A screen of a pixel or two: nothing is known of any occluder.
-  if (taps_on_screen == 0.0) return 1.0;
+  if (taps_off_screen == taps) return 1.0;
   nook_units joined = nook_bias(nook_join_bias);
-  nook_add(joined, sum.low / taps_on_screen, nook_join_layer);
-  nook_add(joined, sum.high / taps_on_screen, nook_join_layer + 8);
+  nook_add(joined, sum.low / directions, nook_join_layer);
+  nook_add(joined, sum.high / directions, nook_join_layer + 8);
   nook_add(joined, dot(normal, viewer), nook_join_layer + 16);
+  nook_add(joined, taps_off_screen / taps, nook_join_layer + 18);
   joined = nook_prelu(joined, nook_join_bias);
   vec4 last = nook_network[nook_out_layer + 2];  // bias, negative slope, positive slope
   float y = dot(joined.low, nook_network[nook_out_layer]) + dot(joined.high, nook_network[nook_out_layer + 1]) + last.x;

@@ -132,9 +132,9 @@ TEST_CASE("nnao: a plane has one value, to the borders of the screen") {
                      << inside.low << " to " << inside.high << ", all " << all.low << " to " << all.high);
       // The embedded network is not exact on a plane: a few steps of 8 bits.
       CHECK(inside.low > 1 - 8 * step);
-      // Beyond the border the plane goes on, but directions count by what the screen shows of them, and on a
-      // turned plane it takes all of them to make 1.
-      CHECK(all.low > inside.low - 9 * step);
+      // Beyond the border the plane goes on, but the network is told the share that does, and where that is half
+      // or more it expects some occluder there: at most 5 %, in a corner of the screen.
+      CHECK(all.low > inside.low - 6 * step);
     }
 }
 
@@ -257,9 +257,6 @@ TEST_CASE("nnao: half resolution is near full resolution") {
   const Picture picture = look(camera, still_life(), 161, 91);
   Drawing drawing;
   drawing.taps = 64;
-  // Some 12 texels of half resolution; where it were fewer than a direction has steps, taps would overshoot
-  // it.
-  drawing.radius = 1;
   const std::vector<float> full = draw(fixture, camera, picture, drawing, nullptr);
   drawing.half = 1;
   const std::vector<float> half = draw(fixture, camera, picture, drawing, nullptr);

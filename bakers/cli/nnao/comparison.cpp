@@ -60,6 +60,7 @@ ComparisonRow measure(const GladGLContext& gl, const Method& method, bool blurre
                       std::span<const MeasuredView> views, const std::deque<ViewOnGpu>& images,
                       AoRequest request, std::vector<KeptImage>* kept) {
   ImageError error;
+  bake::nnao::BorderBias border;
   std::vector<double> ms;
   double flicker = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
@@ -72,6 +73,7 @@ ComparisonRow measure(const GladGLContext& gl, const Method& method, bool blurre
       ms.push_back(timed_draw(gl, [&] { texture = method.draw(view, request, blurred); }));
     const std::vector<float> ao = read_red(gl, texture, view.width, view.height);
     error.add(ao, views[v].truth, views[v].view.depth, std::uint32_t(view.width));
+    border.add(ao, views[v].truth, views[v].view.depth, std::uint32_t(view.width));
     texture = method.draw(images[v].slid, request, blurred);
     flicker += change_when_slid(ao, read_red(gl, texture, view.width, view.height), views[v]);
     if (kept) kept->push_back({method.name, method.taps, v, ao});
@@ -82,6 +84,7 @@ ComparisonRow measure(const GladGLContext& gl, const Method& method, bool blurre
           error.mse(),
           error.ssim(),
           error.correlation(),
+          border,
           flicker / double(views.size()),
           blurred ? method.fetches_blurred : method.fetches_raw,
           median(ms)};

@@ -9,6 +9,7 @@
 
 #include "cli/nnao/measured_view.h"
 #include "cli/nnao/network_pass.h"
+#include "nnao/border_bias.h"
 
 namespace nook::cli {
 
@@ -17,6 +18,7 @@ struct ComparisonRow {
   int taps = 0;
   bool blurred = false;
   double mse = 0, ssim = 0, correlation = 0;
+  bake::nnao::BorderBias border;
   double flicker = 0;  // mean |change| of a surface's AO when the image slides by one pixel
   int fetches = 0;     // a pixel
   double ms = 0;       // median wall clock of a frame, round glFinish

@@ -21,7 +21,7 @@ MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene, 
 std::vector<MeasuredView> tuning_views(std::uint64_t seed,
                                        const std::function<bool(std::size_t, std::size_t)>& progress) {
   constexpr float radii[] = {0.25f, 0.5f, 1.0f};
-  constexpr std::size_t count = family_count;
+  constexpr std::size_t count = 8;
   std::vector<MeasuredView> views;
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!progress(i, count)) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing");

@@ -28,8 +28,8 @@ struct TruthSettings {
 MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene,
                           const bake::nnao::Camera& camera, const TruthSettings& settings);
 
-// A view of one training scene of each family, radii of 0.25, 0.5 and 1 metre in turn: what the peers are
-// tuned on. Returns false from progress to stop, which throws Failure(CANCELLED).
+// A view of one training scene of each of the first eight families, radii of 0.25, 0.5 and 1 metre in turn:
+// what the peers are tuned on. Returns false from progress to stop, which throws Failure(CANCELLED).
 std::vector<MeasuredView> tuning_views(std::uint64_t seed,
                                        const std::function<bool(std::size_t, std::size_t)>& progress);
 

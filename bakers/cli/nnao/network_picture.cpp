@@ -58,8 +58,9 @@ platform::Image horizon_units(const HorizonNetwork& network) {
     return [&network, u](int x, int y) {
       const auto share = [](int at) { return (float(at) + 0.5f) / tile_px; };
       const auto& tap = network.tap;
-      const float sum =
-          tap.bias[u] + tap.weights[u] * (2 * share(y) - 1) + tap.weights[2 * units + u] * (2 * share(x));
+      const float elevation = 2 * share(y) - 1, nearness = 1 - share(x);
+      const float sum = tap.bias[u] + tap.weights[u] * elevation + tap.weights[2 * units + u] * nearness +
+                        tap.weights[3 * units + u] * elevation * nearness;
       return sum * (sum > 0 ? tap.positive_slope[u] : tap.negative_slope[u]);
     };
   });

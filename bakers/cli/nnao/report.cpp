@@ -65,15 +65,15 @@ std::string scene_table(const Json& rows) {
 }
 
 std::string mean_table(const Json& rows) {
-  std::string text = head(
-      {"method", "taps", "blurred", "mse", "rmse", "ssim", "r", "flicker", "fetches", "ms", "ratio_to_nnao"});
+  std::string text = head({"method", "taps", "blurred", "mse", "rmse", "ssim", "r", "border_bias", "flicker",
+                           "fetches", "ms", "ratio_to_nnao"});
   const std::string shown = scenes_of(rows).back();
   for (const Json& row : rows)
     if (row["scene"] == shown)
       text += line({row["method"], row["taps"].dump(), row["blurred"] ? "yes" : "no", short_power(row["mse"]),
                     decimals(row["rmse"], 3), decimals(row["ssim"], 3), decimals(row["r"], 3),
-                    decimals(row["flicker"], 4), row["fetches"].dump(), decimals(row["ms"], 0),
-                    decimals(row["ratio_to_nnao"], 2)});
+                    decimals(row["border_bias"], 3), decimals(row["flicker"], 4), row["fetches"].dump(),
+                    decimals(row["ms"], 0), decimals(row["ratio_to_nnao"], 2)});
   return text;
 }
 
@@ -96,10 +96,28 @@ Json nnao_rows(const Comparison& comparison, const std::string& scene, const std
                     {"rmse", std::sqrt(r.mse)},
                     {"ssim", r.ssim},
                     {"r", r.correlation},
+                    {"border_bias", r.border.rim()},
                     {"flicker", r.flicker},
                     {"fetches", r.fetches},
                     {"ms", r.ms},
                     {"ratio_to_nnao", r.ms / reference}});
+  }
+  return rows;
+}
+
+Json nnao_border_rows(const Comparison& comparison, const std::string& scene) {
+  using namespace bake::nnao;
+  Json rows = Json::array();
+  for (const ComparisonRow& r : comparison.rows) {
+    if (!r.blurred) continue;
+    Json row{{"method", r.method}, {"taps", r.taps}, {"scene", scene}};
+    for (std::size_t border = 0; border < border_names.size(); ++border) {
+      Json& bands = row[border_names[border]] = Json::array();
+      for (std::size_t band = 0; band < border_bands_px.size(); ++band)
+        bands.push_back(r.border.at(border, band));
+    }
+    row["inside"] = r.border.inside();
+    rows.push_back(row);
   }
   return rows;
 }
@@ -110,7 +128,7 @@ Json nnao_mean_rows(const Json& rows) {
     if (method["scene"] != rows.front()["scene"]) continue;
     Json mean = method;
     mean["scene"] = mean_scene;
-    for (const char* key : {"mse", "rmse", "ssim", "r", "flicker", "ms", "ratio_to_nnao"}) {
+    for (const char* key : {"mse", "rmse", "ssim", "r", "border_bias", "flicker", "ms", "ratio_to_nnao"}) {
       double sum = 0, count = 0;
       for (const Json& row : rows)
         if (same_method(row, method)) {

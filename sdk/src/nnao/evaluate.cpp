@@ -49,6 +49,12 @@ Vec3 texel_position(const View& view, TappedTexel texel) {
                        texel.surface ? view.depth[view.at(texel.x, texel.y)] : sky_depth);
 }
 
+// s, c of network.h, and the distance in radii.
+HorizonTapInput tap_input(float elevation, float angle, float distance_r) {
+  const float nearness = std::max(1 - 0.5f * distance_r, 0.0f);
+  return {elevation, angle, nearness, elevation * nearness, angle * nearness};
+}
+
 using PaperUnits = std::array<float, PaperNetwork::units>;
 
 // The first layer's units.
@@ -74,10 +80,10 @@ PaperUnits paper_units(const PaperNetwork& network, const View& view, Vec3 norma
   return sum;
 }
 
-// The mean of the directions' units, and dot(n, o).
+// The mean of the directions' units, dot(n, o), and the share of the taps off the screen.
 struct HorizonUnits {
   bool known = false;  // false where no tap lies on the screen
-  std::array<float, HorizonNetwork::units + 1> value{};
+  std::array<float, HorizonNetwork::units + 2> value{};
 };
 
 HorizonUnits horizon_units(const HorizonNetwork& network, const View& view, Vec3 normal,
@@ -87,7 +93,7 @@ HorizonUnits horizon_units(const HorizonNetwork& network, const View& view, Vec3
   const TapGrid grid = horizon_grid(sampling.taps);
   const float facing = dot(centre.normal, centre.viewer);
   HorizonUnits joined;
-  std::uint32_t taps_on_screen = 0;
+  std::uint32_t taps_off_screen = 0;
   for (std::uint32_t d = 0; d < grid.directions; ++d) {
     const float angle = direction_angle(d, grid.directions, noise);
     const float cosine = std::cos(angle), sine = std::sin(angle);
@@ -95,12 +101,11 @@ HorizonUnits horizon_units(const HorizonNetwork& network, const View& view, Vec3
     float* const most = pooled.data();
     float* const mean = pooled.data() + units;
     const float across = dot(centre.normal, across_viewer(centre.viewer, cosine, sine));
-    std::uint32_t on_screen = 0;
     for (std::uint32_t s = 0; s < grid.steps; ++s) {
       const float distance_px = step_distance_px(s, grid.steps, noise, centre.radius.px);
       const TappedTexel texel =
           tapped_texel(view, x, y, horizon_tap(cosine, sine, distance_px, centre.scale));
-      on_screen += texel.on_screen;
+      taps_off_screen += !texel.on_screen;
       const auto hidden = through(
           network.tap, texel.on_screen ? horizon_tap_input(view, texel, centre.position, centre.normal,
                                                            centre.viewer, centre.radius.metres)
@@ -113,12 +118,11 @@ HorizonUnits horizon_units(const HorizonNetwork& network, const View& view, Vec3
     pooled[2 * units] = across;
     pooled[2 * units + 1] = facing;
     const auto out = through(network.direction, pooled);
-    for (int u = 0; u < units; ++u) joined.value[u] += out[u] * float(on_screen);
-    taps_on_screen += on_screen;
+    for (int u = 0; u < units; ++u) joined.value[u] += out[u] / float(grid.directions);
   }
-  joined.known = taps_on_screen > 0;
-  for (int u = 0; u < units; ++u) joined.value[u] /= std::max(float(taps_on_screen), 1.0f);
+  joined.known = taps_off_screen < sampling.taps;
   joined.value[units] = facing;
+  joined.value[units + 1] = float(taps_off_screen) / float(sampling.taps);
   return joined;
 }
 
@@ -151,13 +155,13 @@ HorizonTapInput horizon_tap_input(const View& view, TappedTexel texel, Vec3 posi
   const Vec3 v = texel_position(view, texel) - position;
   // The pixel itself, where pixels are not square, is a tap on its own plane.
   const float away = std::max(length(v), 1e-12f);
-  return {dot(v, normal) / away, dot(v, viewer) / away, std::min(away / radius, 2.0f)};
+  return tap_input(dot(v, normal) / away, dot(v, viewer) / away, away / radius);
 }
 
 HorizonTapInput plane_tap_input(float across, float facing, float distance_r) {
   // In the plane of a direction the tangent plane goes along t - slope o.
   const float slope = across / std::max(facing, 0.05f), stretch = std::sqrt(1 + slope * slope);
-  return {0, -slope / stretch, std::min(distance_r * stretch, 2.0f)};
+  return tap_input(0, -slope / stretch, distance_r * stretch);
 }
 
 bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal, float radius,

@@ -47,21 +47,22 @@ struct PaperNetwork {
 };
 
 // Nook's network: the taps lie along `directions` half-lines on the screen, `steps` on each. With v = p_t -
-// p, the direction to the viewer o = -p / |p| (orthographic: +z) and the tap's distance d = |v| / r, a tap's
-// hidden units are tap(input) of
-//   input = (dot(v, n) / |v|, dot(v, o) / |v|, min(d, 2)).
-// The sky is a surface infinitely far away; off the screen the pixel's own plane is taken to go on. Over the
-// steps of a direction the units' maximum and their mean, with the direction's own (dot(n, t), dot(n, o)), t
-// the unit vector across o in the plane of the direction, go through `direction`; the mean over directions,
-// each weighted by its steps on the screen, with dot(n, o), through `join` and `out`.
+// p, the direction to the viewer o = -p / |p| (orthographic: +z), the elevation s = dot(v, n) / |v|, the
+// angle c = dot(v, o) / |v| and the nearness w = max(1 - |v| / 2r, 0), a tap's hidden units are tap(input) of
+//   input = (s, c, w, s w, c w).
+// The sky is a surface infinitely far away; off the screen the pixel's own plane is taken to go on, and the
+// share of taps for which it is, is told. Over the steps of a direction the units' maximum and their mean,
+// with the direction's own (dot(n, t), dot(n, o)), t the unit vector across o in the plane of the direction,
+// go through `direction`; the mean over directions, with dot(n, o) and the share of all taps off the screen,
+// through `join` and `out`.
 struct HorizonNetwork {
-  static constexpr int revision = 2;  // of what the numbers mean
-  static constexpr int tap_inputs = 3;
+  static constexpr int revision = 3;  // of what the numbers mean
+  static constexpr int tap_inputs = 5;
   static constexpr int units = 8;
 
   Dense<tap_inputs, units> tap;
   Dense<2 * units + 2, units> direction;
-  Dense<units + 1, units> join;
+  Dense<units + 2, units> join;
   Dense<units, 1> out;
 };
 

@@ -45,17 +45,20 @@ TEST_CASE("evaluate nnao measures every method on the thin scene and draws a she
   REQUIRE(report.at("rows").size() == 2 * (5 + 3 + 3 + 3 + 6 + 6));
   for (const auto& row : report.at("rows"))
     for (const char* key : {"method", "taps", "blurred", "scene", "resolution", "gpu", "mse", "rmse", "ssim",
-                            "r", "flicker", "fetches", "ms", "ratio_to_nnao"})
+                            "r", "border_bias", "flicker", "fetches", "ms", "ratio_to_nnao"})
       CHECK(row.contains(key));
   CHECK(report.at("rows").at(0).at("resolution") == "64x48");
+  REQUIRE(report.at("borders").size() == 5 + 3 + 3 + 3 + 6 + 6);
+  for (const char* border : {"left", "right", "bottom", "top"})
+    CHECK(report.at("borders").at(0).at(border).size() == 3);
 }
 
 TEST_CASE("evaluate nnao tells of several scenes each and their mean, with another network beside") {
   const TestFolder folder;
   write_text(folder.path("corner.gltf"), corner_gltf);
   REQUIRE(folder
-              .run({"train", "nnao", "--form", "paper", "-o", folder.path("paper.nook"), "--scenes", "16",
-                    "--views", "16", "--points", "16", "--rays", "4", "--epochs", "1"})
+              .run({"train", "nnao", "--form", "paper", "-o", folder.path("paper.nook"), "--scenes", "20",
+                    "--views", "20", "--points", "16", "--rays", "4", "--epochs", "1"})
               .exit_code == 0);
   auto arguments = tiny({folder.path("corner.gltf"), "--thin", "--camera=thin:0.6,1.1,1.6,0.2,0.4,-0.7,55",
                          "--camera=corner:0,1.5,1.5,0,0,-2,60", "--radius=corner:0.8"},

@@ -7,7 +7,7 @@
 namespace {
 
 std::vector<std::string> tiny_training(const std::string& output, const std::string& threads) {
-  return {"train",    "nnao", "-o",     output, "--scenes", "16", "--views",   "16",
+  return {"train",    "nnao", "-o",     output, "--scenes", "20", "--views",   "20",
           "--points", "64",   "--rays", "16",   "--epochs", "2",  "--threads", threads};
 }
 

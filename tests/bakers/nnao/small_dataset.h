@@ -7,8 +7,8 @@ namespace nook::test {
 
 inline bake::nnao::DatasetSettings small_settings(std::uint64_t seed = 1) {
   bake::nnao::DatasetSettings settings;
-  settings.scenes = 16;
-  settings.views = 16;
+  settings.scenes = 20;
+  settings.views = 20;
   settings.points_per_view = 256;
   settings.rays = 64;
   settings.width = 192;
