@@ -252,8 +252,8 @@ TEST_CASE("the embedded network leaves open planes open and darkens a corner") {
       corner.normal[corner.view().at(x, y)] = normalised(wall ? Vec3{0, -1, 1} : Vec3{0, 1, 1});
     }
   for (const std::uint32_t taps : horizon_tap_counts) {
-    // What a blur shows: the mean over a period of the noise along the foot. The network was trained to a root
-    // mean square error of 0.05.
+    // What a blur shows: the mean over a period of the noise along the foot. The network was trained to a
+    // root mean square error of 0.05.
     float ao = 0;
     for (std::uint32_t x = 48; x < 52; ++x)
       ao += evaluate_pixel(network, corner.view(), {1, 256, taps}, x, 31) / 4;
