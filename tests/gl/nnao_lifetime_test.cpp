@@ -8,8 +8,8 @@ using namespace nook::test;
 
 namespace {
 
-// Names are small numbers handed out from 1 on, on every driver that the tests run on.
-// Names grow past 2,000 in a run of all tests.
+// Names are numbers handed out from 1 on, on every driver that the tests run on; a run of all tests passes
+// 2,000.
 int living_objects(const GladGLContext& gl) {
   int count = 0;
   for (GLuint name = 1; name < 10000; ++name)

@@ -13,8 +13,8 @@
  * The i-th value belongs to the i-th vertex of the imported file, all primitives in a row; the first value of a primitive is
  * at nook_character_model_primitive.
  *
- * Every function here except nook_gl_desc_init, nook_gl_context_lost and nook_gl_get_info makes OpenGL calls and belongs to
- * the context thread. At each call no transform feedback without pause, no conditional rendering and no query that counts
+ * Every function here except nook_gl_desc_init, nook_gl_context_lost and nook_gl_get_info belongs to the context thread, and
+ * makes OpenGL calls unless it says otherwise. At each call no transform feedback without pause, no conditional rendering and no query that counts
  * primitives or samples may be active. OpenGL errors that the host left are reported to the log by calls that allocate;
  * the others neither read nor clear them. */
 #ifndef NOOK_GL_H

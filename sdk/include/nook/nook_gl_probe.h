@@ -3,6 +3,7 @@
  * In an engine, once: load a probe of lobes, nook_gl_probe_create; put the GLSL of nook_gl_probe_get_info behind the #version
  * line of a fragment or vertex shader; set the uniform nook_probe_texels to the unit that the texture will be bound to. Each
  * draw: bind the texture to GL_TEXTURE_BUFFER of that unit. The shader:
+ *     NookProbeSurface surface = NookProbeSurface(normal_ws, view_ws, tangent_ws, vec2(alpha_x, alpha_y), reflectance);
  *     NookProbePlace place = nook_probe_place(position_ws);             // once: the probes round a point
  *     vec3 e = nook_probe_irradiance(place, normal_ws);
  *     colour = nook_probe_ambient(albedo, e, vec3(ao));                 // or a directional occlusion in place of ao

@@ -21,8 +21,8 @@
  * The result is drawn, whatever the path: reading it needs no barrier.
  *
  * View space is OpenGL's: x right, y up, the camera looks along -z, metres. Images count from their lower left corner.
- * Every function that takes a nook_gl or a nook_nnao, except nook_nnao_get_info, makes OpenGL calls and belongs to the
- * context thread; nook_gl.h says what of OpenGL's state is touched and what may not be active. */
+ * Every function that takes a nook_gl or a nook_nnao, except nook_nnao_get_info, belongs to the context thread, and makes
+ * OpenGL calls unless it says otherwise; nook_gl.h says what of OpenGL's state is touched and what may not be active. */
 #ifndef NOOK_NNAO_H
 #define NOOK_NNAO_H
 
