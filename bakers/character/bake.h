@@ -15,7 +15,7 @@ namespace nook::bake {
 
 enum class FitMethod : std::uint8_t {
   nook,   // mini-batches over both layers at once, with linear solves between
-  paper,  // block coordinate descent with L-BFGS, as the seed describes
+  paper,  // block coordinate descent with L-BFGS, as the paper describes
 };
 
 struct BakeSettings {

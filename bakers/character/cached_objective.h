@@ -10,7 +10,7 @@
 namespace nook::bake {
 
 // E = sum over poses of  shadow^T A shadow - 2 B_t^T shadow + constant, divided by poses * vertices, with
-// A = sum_i w_i alpha_i alpha_i^T and B_t = sum_i w_i alpha_i (1 - beta_i - target_ti). The seed prints + 2 for the linear
+// A = sum_i w_i alpha_i alpha_i^T and B_t = sum_i w_i alpha_i (1 - beta_i - target_ti). The paper prints + 2 for the linear
 // term; from its own definition of B it is - 2.
 struct CachedObjective {
   using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

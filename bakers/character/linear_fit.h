@@ -27,7 +27,7 @@ struct LinearFitSettings {
 };
 
 // Solves for alpha and bias of every vertex over the fitted poses of the set. The Gram matrix of the shadows is shared by all
-// vertices (the seed's caching, slides 55 to 57, seen from the linear layer): a vertex costs no more than its candidates.
+// vertices (the paper's caching, slides 55 to 57, seen from the linear layer): a vertex costs no more than its candidates.
 LinearLayerFit fit_linear_layer(std::span<const float> shadows, std::size_t padded, const TrainingSet& set,
                                 const Candidates& candidates, const LinearFitSettings& settings);
 

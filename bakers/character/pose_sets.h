@@ -39,7 +39,7 @@ ClipSplit split_families(const ImportedCharacter& character, std::span<const std
 std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh);
 
 // Each such joint alone on a steps^3 grid of Euler rotations (x, then y, then z about its local axes) over +-range radians
-// (the seed's training set, slide 9). The rest pose is in it once.
+// (the paper's training set, slide 9). The rest pose is in it once.
 std::vector<Pose> single_joint_poses(const SkinnedMesh& mesh, int steps, float range_radians);
 
 }  // namespace nook::bake

@@ -8,7 +8,7 @@ struct DefaultRanks {
   std::uint32_t light, view, x, y, votf_x, votf_y;
 };
 
-// The seed's Table I for the first two, for 96 x 96 texels.
+// The paper's Table I for the first two, for 96 x 96 texels.
 constexpr DefaultRanks builtin_ranks[] = {{"fiber", 16, 80, 64, 64, 80, 80},
                                           {"roughhole", 28, 44, 96, 96, 80, 80},
                                           {"weave", 20, 40, 48, 48, 48, 48}};

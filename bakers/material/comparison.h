@@ -1,4 +1,4 @@
-// Methods beside each other: one row of the seed's Table I.
+// Methods beside each other: one row of the paper's Table I.
 #pragma once
 
 #include <optional>

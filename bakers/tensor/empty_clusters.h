@@ -1,4 +1,4 @@
-// Clusters that no sub-tensor chose (the seed's 5.3).
+// Clusters that no sub-tensor chose (the paper's 5.3).
 #pragma once
 
 #include <cstddef>

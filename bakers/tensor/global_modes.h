@@ -1,4 +1,4 @@
-// Modes with one basis for all clusters (the seed's 5.2).
+// Modes with one basis for all clusters (the paper's 5.2).
 #pragma once
 
 #include "tensor/clustered_fit.h"

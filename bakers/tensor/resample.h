@@ -1,4 +1,4 @@
-// New sub-tensors of the clustered mode in the clusters that a fit has found (the seed's 6.3.2).
+// New sub-tensors of the clustered mode in the clusters that a fit has found (the paper's 6.3.2).
 #pragma once
 
 #include "tensor/clustered_fit.h"

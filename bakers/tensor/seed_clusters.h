@@ -1,4 +1,4 @@
-// The clusters to begin with (the seed's 5.1): k-means of points, one for each sub-tensor of the clustered
+// The clusters to begin with (the paper's 5.1): k-means of points, one for each sub-tensor of the clustered
 // mode.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace nook::bake::tensor {
 
 // Groups rows by k-means, no group empty: the best of a few starts, each drawn as Arthur & Vassilvitskii 2007
 // (k-means++), with Lloyd's iterations. Returns the group of each row. With the directions of the clustered
-// mode as rows, unit vectors, this is the clustering in the parametric space that the seed prefers. The same
+// mode as rows, unit vectors, this is the clustering in the parametric space that the paper prefers. The same
 // groups for the same seed. Throws INVALID_ARGUMENT for 0 clusters, more clusters than distinct rows, or an
 // entry that is not finite.
 std::vector<std::uint32_t> seed_clusters(const Matrix& points, std::size_t clusters, std::uint64_t seed = 1);

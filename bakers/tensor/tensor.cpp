@@ -34,7 +34,7 @@ void need_same_size(const TensorView& a, const TensorView& b) {
                   a.order(), b.order());
 }
 
-// Calls body(row, column, entry in memory) for each entry of the unfolding. The seed's order of columns,
+// Calls body(row, column, entry in memory) for each entry of the unfolding. The paper's order of columns,
 // modes behind n before those ahead of it, the first the slowest, is r * outer + o.
 template <class Body>
 void for_each_unfolded(const ModeLayout& l, const Body& body) {

@@ -43,7 +43,7 @@ double squared_norm(const TensorView& a);
 // || A - B ||^2.
 double squared_distance(const TensorView& a, const TensorView& b);
 
-// uf_n(A), I_n x (I_{n+1} ... I_N I_1 ... I_{n-1}): the seed's order of columns (De Lathauwer 2000), the
+// uf_n(A), I_n x (I_{n+1} ... I_N I_1 ... I_{n-1}): the paper's order of columns (De Lathauwer 2000), the
 // index of mode n + 1 the slowest, of mode n - 1 the fastest.
 Matrix unfold(const TensorView& a, std::size_t mode);
 // The tensor of these dimensions whose unfolding is given.

@@ -20,7 +20,7 @@ struct ComparisonRequest {
   int tier = 0;
   std::uint64_t seed = 1;
   std::filesystem::path out;
-  std::span<const unsigned char> gamma_2_model;  // the same character fitted with gamma 2, the seed's
+  std::span<const unsigned char> gamma_2_model;  // the same character fitted with gamma 2, the paper's
   std::span<const unsigned char> model;
 };
 

@@ -1,4 +1,4 @@
-// Errors over the total view rank: the seed's Figure 5.
+// Errors over the total view rank: the paper's Figure 5.
 #pragma once
 
 #include <nlohmann/json.hpp>

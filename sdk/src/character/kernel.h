@@ -24,7 +24,7 @@ inline constexpr int kernel_form_count = 3;
 
 struct Kernel {
   KernelForm form = KernelForm::nook;
-  // Exponent of the norm over spheres, >= 1; slide 20. The seed's larger ones keep spheres of neighbours from darkening twice;
+  // Exponent of the norm over spheres, >= 1; slide 20. The paper's larger ones keep spheres of neighbours from darkening twice;
   // in the composed form these have a term of their own, and the plain sum fits self-shadow best.
   float gamma = 1;
 };
