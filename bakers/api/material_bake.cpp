@@ -40,7 +40,6 @@ CompressionSettings settings_for(const api::MaterialTask& task, const RawMateria
     s.votf_rank_x = task.settings.votf_rank_x;
     s.votf_rank_y = task.settings.votf_rank_y;
   }
-  s.clusters = task.settings.clusters;
   if (s.method == Method::k_cta && s.clusters == 0) s.mixture = std::min(s.mixture, s.cluster_count());
   check_settings(s, raw);
   return s;

@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "core/failure.h"
+#include "material/builtin_ranks.h"
 #include "material/check.h"
 #include "material/directions.h"
 #include "material/raw_file.h"
@@ -44,7 +45,14 @@ std::vector<Vec3> directions_of(const char* name, const float* xyz, std::uint32_
     return spiral_directions(count, desc.max_tilt_degrees);
   }
   std::vector<Vec3> directions(count);
-  for (std::uint32_t i = 0; i < count; ++i) directions[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    directions[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+    for (std::uint32_t j = 0; j < i; ++j)
+      if (length(directions[j] - directions[i]) < nook::material::min_distance)
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "directions %u and %u of %s are the same (%g %g %g); leave one out", j, i, name,
+                      double(xyz[3 * i]), double(xyz[3 * i + 1]), double(xyz[3 * i + 2]));
+  }
   return directions;
 }
 
@@ -101,7 +109,15 @@ void read_meso(const nook_bake_material_desc& desc, MaterialTask& task) {
   in_range("desc.samples", desc.samples, 1, 16);
   in_range("desc.bounces", desc.bounces, 0, 16);
   in_range("desc.bounce_rays", desc.bounce_rays, 1, 4096);
+  for (const auto& set : {task.raw.lights, task.raw.views})
+    for (const Vec3 d : set)
+      if (!(d.z >= lowest_traced_z))
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "desc.lights or desc.views: (%g, %g, %g) is more than 85 degrees from the normal, and "
+                      "desc.meso is traced",
+                      double(d.x), double(d.y), double(d.z));
   task.meso = meso_parameters(desc.meso);
+  task.raw.name = task.meso->name;
   task.meso->seed = desc.seed;
   task.trace = {desc.width, desc.height, desc.samples, desc.bounces, desc.bounce_rays, desc.seed};
 }
@@ -131,6 +147,21 @@ bool given(const char* names, std::initializer_list<std::uint32_t> ranks) {
   if (zeros != 0 && zeros != ranks.size())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "some of %s are 0; give all of them, or none", names);
   return zeros == 0;
+}
+
+// Settings as far as they are known before the data: ranks by threshold can still be as low as one cluster's.
+CompressionSettings known_settings(const MaterialTask& task) {
+  CompressionSettings s = task.settings;
+  if (!set_builtin_ranks(task.raw, s)) {
+    s.rank_light = s.rank_x = s.rank_y = 1;
+    s.rank_view = std::min(s.cluster_rank_view, std::uint32_t(task.raw.views.size()));
+  }
+  if (task.votf_ranks_given) {
+    s.votf_rank_x = task.settings.votf_rank_x;
+    s.votf_rank_y = task.settings.votf_rank_y;
+  }
+  if (s.method == Method::k_cta && s.clusters == 0) s.mixture = std::min(s.mixture, s.cluster_count());
+  return s;
 }
 
 }  // namespace
@@ -171,7 +202,10 @@ MaterialTask material_task_of(const nook_bake_material_desc& desc) {
     s.votf_rank_x = std::min(s.votf_rank_x, desc.width);
     s.votf_rank_y = std::min(s.votf_rank_y, desc.height);
   }
-  if (!task.ranks_given) return task;
+  if (!task.ranks_given) {
+    check_settings(known_settings(task), task.raw);
+    return task;
+  }
   s.rank_light = desc.rank_light;
   s.rank_view = desc.rank_view;
   s.rank_x = desc.rank_x;

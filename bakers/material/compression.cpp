@@ -140,6 +140,27 @@ ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task
   return t;
 }
 
+// What a file can hold, known before hours of tracing and fitting: check_shape() in sdk's material/check.h.
+void check_file_limits(const CompressionSettings& s, const RawMaterial& raw) {
+  const bool clustered = s.method != Method::n_svd;
+  const std::uint64_t rank = clustered ? s.cluster_rank_view : s.rank_view;
+  const std::uint64_t row = rank * (s.method == Method::k_cta ? s.mixture : 1);
+  if (row > nook::material::max_row)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "%llu coefficients a view (its clusters times their view rank); the file format allows %u",
+                  static_cast<unsigned long long>(row), nook::material::max_row);
+  const auto in_fours = [](std::uint64_t n) { return (n + 3) / 4 * 4; };
+  const std::uint64_t expanded =
+      (clustered ? s.cluster_count() : 1) * in_fours(s.rank_light) * in_fours(rank) * raw.width * raw.height;
+  if (expanded > nook::material::max_expanded)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "%llu expanded numbers (light rank times view rank times texels); the file format allows %llu: "
+        "use lower ranks or fewer texels",
+        static_cast<unsigned long long>(expanded),
+        static_cast<unsigned long long>(nook::material::max_expanded));
+}
+
 }  // namespace
 
 nook::material::VisibilityMapping default_mapping(VisibilityForm form, std::uint32_t width,
@@ -170,15 +191,16 @@ void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT, "a visibility mapping of threshold %g and weight %g; need 0 to %g each",
         double(s.mapping->threshold), double(s.mapping->weight), double(nook::material::max_number));
+  check_file_limits(s, raw);
   if (s.method == Method::n_svd) return;
   check(s.cluster_rank_view, views, "the view rank of a cluster", "the number of views");
   check(s.cluster_count(), views, "the number of clusters", "the number of views");
   if (s.method == Method::k_cta)
     check(s.mixture, std::min(s.cluster_count(), nook::material::max_mixture), "the mixture K",
           "the number of clusters, and the file format,");
-  if (s.map_side > nook::material::max_map_side)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a view map of %u cells a side; need at most %u", s.map_side,
-                  nook::material::max_map_side);
+  if (s.map_side == 1 || s.map_side > nook::material::max_map_side)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a view map of %u cells a side; need 2 to %u, or 0 for none",
+                  s.map_side, nook::material::max_map_side);
 }
 
 CompressedBtf compress_btf(const RawMaterial& raw, const CompressionSettings& s,
@@ -231,7 +253,6 @@ CompressionSettings ranks_by_threshold(const RawMaterial& raw, double share, Com
   s.rank_view = std::uint32_t(btf[1]);
   s.rank_x = std::uint32_t(btf[2]);
   s.rank_y = std::uint32_t(btf[3]);
-  s.clusters = 0;
   if (raw.mask.empty() || s.visibility == VisibilityForm::none) return s;
   const std::vector<float> values = votf_values(raw, s.visibility);
   const auto votf = tensor::ranks_for_error(votf_view(raw, values), std::vector<double>(3, share));

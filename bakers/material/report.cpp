@@ -39,6 +39,7 @@ nlohmann::ordered_json describe(const CompressionSettings& s) {
           {"votf", s.visibility == nook::material::VisibilityForm::none     ? "none"
                    : s.visibility == nook::material::VisibilityForm::binary ? "binary"
                                                                             : "distance"},
+          {"view_map", s.method == Method::k_cta ? s.map_side : 0},
           {"seed", s.seed}};
 }
 

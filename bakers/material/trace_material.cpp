@@ -29,7 +29,7 @@ void check(const TraceSettings& s, std::span<const Vec3> lights, std::span<const
                   lights.size(), views.size());
   for (const auto& set : {lights, views})
     for (const Vec3 d : set)
-      if (!(std::abs(length(d) - 1) < 1e-3f) || d.z < 0.08f)
+      if (!(std::abs(length(d) - 1) < 1e-3f) || d.z < lowest_traced_z)
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                       "direction (%g, %g, %g) is no unit vector within 85 degrees of the normal", double(d.x),
                       double(d.y), double(d.z));

@@ -7,6 +7,9 @@
 
 namespace nook::bake::material {
 
+// Directions lie within 85 degrees of the normal: rays near the horizon would cross very many tiles.
+inline constexpr float lowest_traced_z = 0.08f;
+
 struct TraceSettings {
   std::uint32_t width = 96, height = 96;  // texels
   std::uint32_t samples = 2;              // a texel's side: samples^2 view rays in it

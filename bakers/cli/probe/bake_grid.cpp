@@ -98,7 +98,8 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   row["error_reached"] = error <= options.error;
   row["bytes"] = bytes.size();
   row["seconds"] = seconds_since(began);
-  row["paths_per_s"] = double(bake.samples()) * double(settings.grid.size()) / seconds_since(began);
+  row["paths_per_s"] =
+      double(bake.samples()) * double(settings.grid.size() - bake.inside_count()) / seconds_since(began);
   output.commit(bytes);
   const Json rows = Json::array({row});
   if (report) report->commit(Json{{"rows", rows}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -55,7 +55,7 @@ void append_grid(const EvaluateGridOptions& options, const CommonOptions& common
              {"lobes", probes.basis.count},
              {"floats", 3 * probes.basis.count},
              {"points", places.normal.size()},
-             {"paths", options.paths}};
+             {"paths", options.paths / 2 * 2}};
     row.update(error_row(error));
     rows.push_back(row);
   }

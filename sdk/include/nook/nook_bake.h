@@ -285,7 +285,8 @@ typedef struct nook_bake_material_desc {
   const float* coverage;           /* view_count x height x width: the share of a texel that the view meets, 0 to 1; colours
                                       where it is 0 are not read. The mask of the VOTF is where it is 0.5 or more. NULL: all
                                       1, and no VOTF. NULL with meso. Copied */
-  const float* lights;             /* 3 a direction; NULL only with meso: a spiral down to max_tilt_degrees. Copied */
+  const float* lights;             /* 3 a direction; NULL only with meso: a spiral down to max_tilt_degrees. Copied.
+                                      z >= 0, with meso 0.08 (85 degrees); 1e-3 apart or more */
   const float* views;              /* the same */
   uint32_t light_count;            /* default 100 */
   uint32_t view_count;             /* default 100 */

@@ -148,6 +148,8 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
     light.lobes[i] = {lobes[i].axis * lobes[i].sharpness, lobes[i].sharpness, lobes[i].amplitude, 1};
     light.lobe_bands[i] = bands_of(lobes[i].sharpness);
   }
+  // A distant instance does not wait for its turn to show its first light.
+  if (light.count == 0 && !lobes.empty()) instance.evaluated_frame = 0;
   light.count = static_cast<std::uint32_t>(lobes.size());
   light.darkest = darkest_of(lobes);
   if (lobes.empty()) light.evaluated = false;

@@ -110,10 +110,10 @@ FeedbackTier::Program FeedbackTier::make_program(int quads, bool lit) {
 void FeedbackTier::update(SceneBuffers& buffers, Scene& scene) const {
   notice_lights(buffers, scene);
   nook::update(scene);
-  upload_lights(device_, buffers, scene);
   // Should an upload fail, the next update makes up for this one.
   for (std::size_t slot = 0; slot < buffers.placements.size(); ++slot)
     buffers.placements[slot].evaluated &= !scene.instances[slot].due;
+  upload_lights(device_, buffers, scene);
   const Functions& gl = device_.gl;
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
   if (feedback_.name()) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback_.name());

@@ -1,7 +1,6 @@
 #include "gl/character/scene_lights.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/failure.h"
 #include "gl/program.h"
