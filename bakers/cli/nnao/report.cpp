@@ -44,8 +44,10 @@ std::string head(const std::vector<std::string>& names) {
 
 std::vector<std::string> scenes_of(const Json& rows) {
   std::vector<std::string> scenes;
-  for (const Json& row : rows)
-    if (scenes.empty() || scenes.back() != row["scene"]) scenes.push_back(row["scene"]);
+  for (const Json& row : rows) {
+    const auto scene = row["scene"].get<std::string>();
+    if (scenes.empty() || scenes.back() != scene) scenes.push_back(scene);
+  }
   return scenes;
 }
 
