@@ -1,5 +1,4 @@
 // The CPU and the tiers of OpenGL give the same AO, whatever a scene is made of.
-#include "character/levels.h"
 #include "crowd.h"
 #include "test_context.h"
 #include "traced_loader.h"
@@ -8,37 +7,6 @@ using namespace nook;
 using namespace nook::test;
 
 namespace {
-
-constexpr SampleSize body{13, 70, 150, 700, 200, 8};
-constexpr SampleSize cloak{4, 9, 37, 90, 20, 3};
-
-struct Cast {
-  explicit Cast(KernelForm form = KernelForm::nook, float gamma = 1.5f, bool levels = false) {
-    for (const SampleSize& size : {body, cloak}) {
-      CharacterModel model = sample_model(static_cast<std::uint32_t>(40 + models.size()), size);
-      model.kernel = {form, gamma};
-      if (levels) add_levels(model);
-      models.push_back(load_model(context.handle, model));
-      bone_counts.push_back(size.bones);
-    }
-  }
-  ~Cast() {
-    for (nook_character_model& model : models) nook_character_model_destroy(&model);
-  }
-  void add_levels(CharacterModel& model) {
-    Numbers numbers(3);
-    std::vector<std::vector<Mat3x4>> poses;
-    for (int i = 0; i < 12; ++i) poses.push_back(random_pose(numbers, model.bone_count()));
-    for (const CharacterLevel& level : make_levels(model, poses)) model.levels.push_back(level);
-    coarsest_error = model.levels.back().error_rms;
-  }
-  nook_character_model model_of(std::size_t index) const { return models[index % models.size()]; }
-
-  CountedContext context;
-  std::vector<nook_character_model> models;
-  std::vector<std::uint32_t> bone_counts;
-  float coarsest_error = 0;  // of the last model
-};
 
 float difference(nook_gl gl, const Crowd& on_gpu, const Crowd& on_cpu, const Cast& cast) {
   float largest = 0;

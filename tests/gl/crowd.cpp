@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "character/levels.h"
 #include "character/model_file.h"
 
 namespace nook::test {
@@ -116,6 +117,34 @@ void Crowd::pose_one(std::size_t index, std::uint32_t frame) {
       random_pose(numbers, bone_counts_[index % bone_counts_.size()], at, options.scale);
   NOOK_OK_OR_FAIL(
       nook_scene_set_pose(scene, ids[index], bones.data()->m, static_cast<std::uint32_t>(bones.size())));
+}
+
+namespace {
+
+// Returns the error of the coarsest.
+float add_levels(CharacterModel& model) {
+  Numbers numbers(3);
+  std::vector<std::vector<Mat3x4>> poses;
+  for (int i = 0; i < 12; ++i) poses.push_back(random_pose(numbers, model.bone_count()));
+  for (const CharacterLevel& level : make_levels(model, poses)) model.levels.push_back(level);
+  return model.levels.back().error_rms;
+}
+
+}  // namespace
+
+Cast::Cast(KernelForm form, float gamma, bool levels) {
+  constexpr SampleSize body{13, 70, 150, 700, 200, 8}, cloak{4, 9, 37, 90, 20, 3};
+  for (const SampleSize& size : {body, cloak}) {
+    CharacterModel model = sample_model(static_cast<std::uint32_t>(40 + models.size()), size);
+    model.kernel = {form, gamma};
+    if (levels) coarsest_error = add_levels(model);
+    models.push_back(load_model(context.handle, model));
+    bone_counts.push_back(size.bones);
+  }
+}
+
+Cast::~Cast() {
+  for (nook_character_model& model : models) nook_character_model_destroy(&model);
 }
 
 nook_scene_stats stats_of(const Crowd& crowd) {

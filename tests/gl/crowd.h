@@ -72,6 +72,21 @@ struct Crowd {
   std::vector<std::uint32_t> bone_counts_;
 };
 
+// The models of a crowd: a body and a cloak, in turns.
+struct Cast {
+  explicit Cast(KernelForm form = KernelForm::nook, float gamma = 1.5f, bool levels = false);
+  ~Cast();
+  Cast(const Cast&) = delete;
+  Cast& operator=(const Cast&) = delete;
+
+  nook_character_model model_of(std::size_t index) const { return models[index % models.size()]; }
+
+  CountedContext context;
+  std::vector<nook_character_model> models;
+  std::vector<std::uint32_t> bone_counts;
+  float coarsest_error = 0;  // of the last model
+};
+
 nook_scene_stats stats_of(const Crowd& crowd);
 std::uint32_t file_vertices(nook_character_model model);
 std::vector<float> cpu_ao(const Crowd& crowd, nook_character_model model, std::size_t index);

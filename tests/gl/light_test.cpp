@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "character/levels.h"
 #include "crowd.h"
 #include "platform/program.h"
 #include "test_context.h"
@@ -18,9 +17,6 @@ namespace {
 
 // nook_gl.h promises it.
 constexpr float promised_light_difference = 4e-3f;
-
-constexpr SampleSize body{13, 70, 150, 700, 200, 8};
-constexpr SampleSize cloak{4, 9, 37, 90, 20, 3};
 
 // Uneven, coloured, one constant; sharper and softer than a probe's.
 std::vector<nook_probe_lobe> lobes_of(std::uint32_t seed, std::size_t count = 9) {
@@ -69,34 +65,6 @@ nook_result ask_view(nook_gl gl, const Crowd& crowd, std::size_t index) {
   view.struct_size = sizeof view;
   return nook_gl_scene_light(gl, crowd.scene, crowd.ids[index], &view);
 }
-
-struct Cast {
-  explicit Cast(KernelForm form = KernelForm::nook, float gamma = 1, bool levels = false) {
-    for (const SampleSize& size : {body, cloak}) {
-      CharacterModel model = sample_model(std::uint32_t(60 + models.size()), size);
-      model.kernel = {form, gamma};
-      if (levels) add_levels(model);
-      models.push_back(load_model(context.handle, model));
-      bone_counts.push_back(size.bones);
-    }
-  }
-  ~Cast() {
-    for (nook_character_model& model : models) nook_character_model_destroy(&model);
-  }
-  void add_levels(CharacterModel& model) {
-    Numbers numbers(3);
-    std::vector<std::vector<Mat3x4>> poses;
-    for (int i = 0; i < 12; ++i) poses.push_back(random_pose(numbers, model.bone_count()));
-    for (const CharacterLevel& level : make_levels(model, poses)) model.levels.push_back(level);
-    coarsest_error = model.levels.back().error_rms;
-  }
-  nook_character_model model_of(std::size_t index) const { return models[index % models.size()]; }
-
-  CountedContext context;
-  std::vector<nook_character_model> models;
-  std::vector<std::uint32_t> bone_counts;
-  float coarsest_error = 0;
-};
 
 // Two instances in three have a light, each its own; three frames.
 void check_agreement(platform::Context& context, const Cast& cast, const CrowdOptions& options,
@@ -233,7 +201,7 @@ TEST_CASE("GPU and CPU agree on directional occlusion for every kernel and way t
 
 TEST_CASE("GPU and CPU agree on directional occlusion for each kind of caster and at every level of detail") {
   NOOK_NEED_CONTEXT(context);
-  const Cast plain;
+  const Cast plain(KernelForm::nook, 1);
   for (const std::uint32_t term : {NOOK_TERM_SELF, NOOK_TERM_LINKS, NOOK_TERM_GROUND, NOOK_TERM_OCCLUDERS}) {
     INFO("term " << term);
     check_agreement(context, plain, {}, term);
@@ -247,7 +215,7 @@ TEST_CASE("GPU and CPU agree on directional occlusion for each kind of caster an
 
 TEST_CASE("the GLSL for hosts gives the irradiance of an instance's lobes") {
   NOOK_NEED_CONTEXT(context);
-  const Cast cast;
+  const Cast cast(KernelForm::nook, 1);
   Crowd crowd(cast.context.handle, cast.models, cast.bone_counts, {});
   Numbers numbers(5);
   std::vector<float> normals, texels;
@@ -288,7 +256,7 @@ TEST_CASE("the GLSL for hosts gives the irradiance of an instance's lobes") {
 
 TEST_CASE("lights come, move and go") {
   NOOK_NEED_CONTEXT(context);
-  const Cast cast;
+  const Cast cast(KernelForm::nook, 1);
   CrowdOptions options;
   // Distant instances take turns: a new light does not wait for its own.
   options.camera = true;
