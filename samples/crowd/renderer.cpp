@@ -39,8 +39,8 @@ const void* at(std::uint64_t offset) {
 
 Renderer::Renderer(const GladGLContext& gl, const Hero& hero)
     : gl_(gl),
-      character_(gl, kCharacterVertex, {kLitFragment}),
-      ground_(gl, kGroundVertex, {kLitFragment}),
+      character_(gl, kCharacterVertex, {kVersion, kScreenAo, kLitFragment}),
+      ground_(gl, kGroundVertex, {kVersion, kScreenAo, kLitFragment}),
       character_surface_(gl, kCharacterVertex, {kSurfaceFragment}),
       ground_surface_(gl, kGroundVertex, {kSurfaceFragment}),
       shadow_(gl, kCharacterVertex, {kShadowFragment}),

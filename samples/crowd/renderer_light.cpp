@@ -6,11 +6,6 @@
 #include "shaders.h"
 
 namespace crowd {
-namespace {
-
-constexpr const char* kVersion = "#version 330 core\n";
-
-}  // namespace
 
 void Renderer::draw_given_light(std::span<const DrawnInstance> instances, const Camera& camera,
                                 const GivenLight& light) {
@@ -43,10 +38,12 @@ void Renderer::draw_probe_light(std::span<const DrawnInstance> instances, const 
   gl_.GetIntegerv(GL_VIEWPORT, viewport);
   if (!character_probe_light_) {
     character_probe_light_ = std::make_unique<GpuProgram>(
-        gl_, kCharacterVertex, std::initializer_list<const char*>{kVersion, light.glsl, kProbeLightFragment});
+        gl_, kCharacterVertex,
+        std::initializer_list<const char*>{kVersion, light.glsl, kScreenAo, kProbeLightFragment});
     ground_probe_light_ = std::make_unique<GpuProgram>(
         gl_, kGroundVertex,
-        std::initializer_list<const char*>{kVersion, "#define GROUND\n", light.glsl, kProbeLightFragment});
+        std::initializer_list<const char*>{kVersion, "#define GROUND\n", light.glsl, kScreenAo,
+                                           kProbeLightFragment});
   }
   gl_.Enable(GL_DEPTH_TEST);
   const glm::vec3 background = 1.0f - glm::exp(-light.exposure * light.horizon);

@@ -64,7 +64,29 @@ void main() {
 }
 )";
 
-const char* const kLitFragment = R"(#version 330 core
+const char* const kVersion = "#version 330 core\n";
+
+const char* const kScreenAo = R"(
+uniform bool use_screen_ao;
+uniform sampler2D screen_ao;
+uniform sampler2D screen_depth;
+// The picture is multisampled and AO is not: on an edge the texel may be another surface's. Of it and the
+// four beside it, that nearest in depth.
+float fetch_screen_ao() {
+  const ivec2 steps[5] = ivec2[5](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
+  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(screen_depth, 0) - 1, best = pixel;
+  float least = 2.0;
+  for (int i = 0; i < 5; ++i) {
+    ivec2 candidate = clamp(pixel + steps[i], ivec2(0), last);
+    float off = abs(texelFetch(screen_depth, candidate, 0).r - gl_FragCoord.z);
+    if (off < least) best = candidate;
+    least = min(least, off);
+  }
+  return texelFetch(screen_ao, best, 0).r;
+}
+)";
+
+const char* const kLitFragment = R"(
 in vec3 surface_position_ws;
 in vec3 surface_normal_ws;
 in vec3 surface_albedo;
@@ -74,9 +96,6 @@ uniform mat4 shadow_from_world;
 uniform vec3 to_key_ws;
 uniform float key_strength;
 uniform float ao_strength;
-uniform bool use_screen_ao;
-uniform sampler2D screen_ao;
-uniform sampler2D screen_depth;
 uniform bool use_floor_ao;
 uniform sampler2D floor_ao;
 uniform vec2 floor_first_m;
@@ -95,20 +114,6 @@ float key_visibility(vec3 n) {
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x) sum += texture(shadow_map, vec3(uvz.xy + vec2(x, y) * texel, uvz.z - 0.0008));
   return sum / 9.0;
-}
-// The picture is multisampled and AO is not: on an edge the texel may be another surface's. Of it and the
-// four beside it, that nearest in depth.
-float fetch_screen_ao() {
-  const ivec2 steps[5] = ivec2[5](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
-  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(screen_depth, 0) - 1, best = pixel;
-  float least = 2.0;
-  for (int i = 0; i < 5; ++i) {
-    ivec2 candidate = clamp(pixel + steps[i], ivec2(0), last);
-    float off = abs(texelFetch(screen_depth, candidate, 0).r - gl_FragCoord.z);
-    if (off < least) best = candidate;
-    least = min(least, off);
-  }
-  return texelFetch(screen_ao, best, 0).r;
 }
 void main() {
   vec3 n = normalize(surface_normal_ws);
@@ -158,9 +163,6 @@ in vec3 surface_normal_ws;
 in vec3 surface_albedo;
 in vec3 surface_light;
 uniform int light;
-uniform bool use_screen_ao;
-uniform sampler2D screen_ao;
-uniform sampler2D screen_depth;
 #ifdef GROUND
 uniform vec3 ground_irradiance;
 uniform sampler2D floor_light;
@@ -173,20 +175,6 @@ uniform float fog_start_m;
 uniform vec3 eye_ws;
 uniform vec3 background;
 out vec4 colour;
-// The picture is multisampled and AO is not: on an edge the texel may be another surface's. Of it and the
-// four beside it, that nearest in depth.
-float fetch_screen_ao() {
-  const ivec2 steps[5] = ivec2[5](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
-  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(screen_depth, 0) - 1, best = pixel;
-  float least = 2.0;
-  for (int i = 0; i < 5; ++i) {
-    ivec2 candidate = clamp(pixel + steps[i], ivec2(0), last);
-    float off = abs(texelFetch(screen_depth, candidate, 0).r - gl_FragCoord.z);
-    if (off < least) best = candidate;
-    least = min(least, off);
-  }
-  return texelFetch(screen_ao, best, 0).r;
-}
 void main() {
 #ifdef GROUND
   vec3 occlusion = texture(floor_light, (surface_position_ws.xz - floor_first_m) / floor_extent_m).rgb;
