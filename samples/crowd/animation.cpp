@@ -1,4 +1,4 @@
-#include "animation.h"
+#include "samples/crowd/animation.h"
 
 #include <cmath>
 

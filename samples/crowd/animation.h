@@ -1,7 +1,7 @@
 // Poses of placed characters.
 #pragma once
 
-#include "layout.h"
+#include "samples/crowd/layout.h"
 
 namespace crowd {
 

@@ -1,4 +1,4 @@
-#include "baked_hero.h"
+#include "samples/crowd/baked_hero.h"
 
 #include <chrono>
 #include <cstdio>
@@ -6,9 +6,9 @@
 #include <string>
 #include <thread>
 
-#include "file_bytes.h"
-#include "mannequin/mannequin.h"
-#include "progress_line.h"
+#include "samples/crowd/file_bytes.h"
+#include "samples/crowd/progress_line.h"
+#include "samples/mannequin/mannequin.h"
 
 namespace crowd {
 namespace {

@@ -1,4 +1,4 @@
-#include "body_spheres.h"
+#include "samples/crowd/body_spheres.h"
 
 #include <algorithm>
 #include <cmath>

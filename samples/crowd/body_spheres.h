@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "hero.h"
+#include "samples/crowd/hero.h"
 
 namespace crowd {
 

@@ -1,4 +1,4 @@
-#include "camera.h"
+#include "samples/crowd/camera.h"
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>

@@ -1,11 +1,11 @@
-#include "comparison.h"
+#include "samples/crowd/comparison.h"
 
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "sheets.h"
-#include "truth.h"
+#include "samples/crowd/sheets.h"
+#include "samples/crowd/truth.h"
 
 namespace crowd {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 
-#include "frames.h"
+#include "samples/crowd/frames.h"
 
 namespace crowd {
 

@@ -1,4 +1,4 @@
-#include "crowd_scene.h"
+#include "samples/crowd/crowd_scene.h"
 
 #include <tbb/parallel_for.h>
 

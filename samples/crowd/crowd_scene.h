@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "hero.h"
 #include "platform/platform.h"
-#include "renderer.h"
+#include "samples/crowd/hero.h"
+#include "samples/crowd/renderer.h"
 
 namespace crowd {
 

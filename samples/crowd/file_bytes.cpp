@@ -1,4 +1,4 @@
-#include "file_bytes.h"
+#include "samples/crowd/file_bytes.h"
 
 #include <fstream>
 #include <iterator>

@@ -1,11 +1,11 @@
-#include "floor_light.h"
+#include "samples/crowd/floor_light.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "frames.h"
+#include "samples/crowd/frames.h"
 
 namespace crowd {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <vector>
 
-#include "body_spheres.h"
-#include "layout.h"
-#include "light.h"
-#include "renderer.h"
+#include "samples/crowd/body_spheres.h"
+#include "samples/crowd/layout.h"
+#include "samples/crowd/light.h"
+#include "samples/crowd/renderer.h"
 
 namespace crowd {
 

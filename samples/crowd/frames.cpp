@@ -1,4 +1,4 @@
-#include "frames.h"
+#include "samples/crowd/frames.h"
 
 #include <glad/gl.h>
 #include <tbb/parallel_for.h>
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "animation.h"
-#include "floor_light.h"
+#include "samples/crowd/animation.h"
+#include "samples/crowd/floor_light.h"
 
 namespace crowd {
 namespace {

@@ -5,11 +5,11 @@
 #include <functional>
 #include <vector>
 
-#include "crowd_scene.h"
-#include "layout.h"
-#include "light.h"
 #include "platform/render_target.h"
-#include "screen_space.h"
+#include "samples/crowd/crowd_scene.h"
+#include "samples/crowd/layout.h"
+#include "samples/crowd/light.h"
+#include "samples/crowd/screen_space.h"
 
 namespace crowd {
 

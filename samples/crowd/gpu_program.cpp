@@ -1,4 +1,4 @@
-#include "gpu_program.h"
+#include "samples/crowd/gpu_program.h"
 
 #include "platform/program.h"
 

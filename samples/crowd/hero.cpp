@@ -1,4 +1,4 @@
-#include "hero.h"
+#include "samples/crowd/hero.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "label.h"
+#include "samples/crowd/label.h"
 
 #include <algorithm>
 #include <array>

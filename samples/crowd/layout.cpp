@@ -1,4 +1,4 @@
-#include "layout.h"
+#include "samples/crowd/layout.h"
 
 #include <algorithm>
 #include <cmath>

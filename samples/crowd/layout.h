@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hero.h"
+#include "samples/crowd/hero.h"
 
 namespace crowd {
 

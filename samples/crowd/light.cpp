@@ -1,12 +1,12 @@
-#include "light.h"
+#include "samples/crowd/light.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-#include "file_bytes.h"
 #include "platform/platform.h"
+#include "samples/crowd/file_bytes.h"
 
 namespace crowd {
 namespace {

@@ -1,13 +1,13 @@
-#include "light_comparison.h"
+#include "samples/crowd/light_comparison.h"
 
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "comparison.h"
-#include "sheets.h"
-#include "truth.h"
+#include "samples/crowd/comparison.h"
+#include "samples/crowd/sheets.h"
+#include "samples/crowd/truth.h"
 
 namespace crowd {
 namespace {

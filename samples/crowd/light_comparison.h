@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
-#include "frames.h"
-#include "light.h"
+#include "samples/crowd/frames.h"
+#include "samples/crowd/light.h"
 
 namespace crowd {
 

@@ -5,16 +5,16 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "baked_hero.h"
-#include "comparison.h"
-#include "file_bytes.h"
-#include "frames.h"
-#include "layout.h"
-#include "light_comparison.h"
-#include "options.h"
-#include "progress_line.h"
+#include "samples/crowd/baked_hero.h"
+#include "samples/crowd/comparison.h"
+#include "samples/crowd/file_bytes.h"
+#include "samples/crowd/frames.h"
+#include "samples/crowd/layout.h"
+#include "samples/crowd/light_comparison.h"
+#include "samples/crowd/options.h"
+#include "samples/crowd/progress_line.h"
 #ifdef CROWD_HAS_WINDOW_LOOP
-#include "window_loop.h"
+#include "samples/crowd/window_loop.h"
 #endif
 
 namespace crowd {

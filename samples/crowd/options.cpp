@@ -1,4 +1,4 @@
-#include "options.h"
+#include "samples/crowd/options.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

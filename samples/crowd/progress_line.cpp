@@ -1,4 +1,4 @@
-#include "progress_line.h"
+#include "samples/crowd/progress_line.h"
 
 #include <unistd.h>
 

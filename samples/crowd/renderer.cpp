@@ -1,11 +1,11 @@
-#include "renderer.h"
+#include "samples/crowd/renderer.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "shaders.h"
+#include "samples/crowd/shaders.h"
 
 namespace crowd {
 namespace {

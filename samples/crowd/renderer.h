@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "camera.h"
-#include "gpu_program.h"
-#include "hero.h"
+#include "samples/crowd/camera.h"
+#include "samples/crowd/gpu_program.h"
+#include "samples/crowd/hero.h"
 
 namespace crowd {
 

@@ -2,8 +2,8 @@
 // it.
 #include <glm/gtc/type_ptr.hpp>
 
-#include "renderer.h"
-#include "shaders.h"
+#include "samples/crowd/renderer.h"
+#include "samples/crowd/shaders.h"
 
 namespace crowd {
 

@@ -1,4 +1,4 @@
-#include "screen_space.h"
+#include "samples/crowd/screen_space.h"
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>

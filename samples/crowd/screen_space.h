@@ -7,7 +7,7 @@
 #include <nook/nook.hpp>
 
 #include "platform/platform.h"
-#include "renderer.h"
+#include "samples/crowd/renderer.h"
 
 namespace crowd {
 

@@ -1,4 +1,4 @@
-#include "shaders.h"
+#include "samples/crowd/shaders.h"
 
 namespace crowd {
 

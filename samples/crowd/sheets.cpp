@@ -1,11 +1,11 @@
-#include "sheets.h"
+#include "samples/crowd/sheets.h"
 
 #include <glad/gl.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "label.h"
+#include "samples/crowd/label.h"
 
 namespace crowd {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "frames.h"
-#include "truth.h"
+#include "samples/crowd/frames.h"
+#include "samples/crowd/truth.h"
 
 namespace crowd {
 

@@ -1,4 +1,4 @@
-#include "truth.h"
+#include "samples/crowd/truth.h"
 
 #include <algorithm>
 #include <cmath>

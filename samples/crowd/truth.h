@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "hero.h"
+#include "samples/crowd/hero.h"
 
 namespace crowd {
 

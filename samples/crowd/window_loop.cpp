@@ -1,4 +1,4 @@
-#include "window_loop.h"
+#include "samples/crowd/window_loop.h"
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -10,8 +10,8 @@
 #include <cmath>
 #include <memory>
 
-#include "floor_light.h"
-#include "frames.h"
+#include "samples/crowd/floor_light.h"
+#include "samples/crowd/frames.h"
 
 namespace crowd {
 namespace {

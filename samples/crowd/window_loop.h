@@ -3,10 +3,10 @@
 
 #include <span>
 
-#include "crowd_scene.h"
-#include "layout.h"
-#include "light.h"
-#include "options.h"
+#include "samples/crowd/crowd_scene.h"
+#include "samples/crowd/layout.h"
+#include "samples/crowd/light.h"
+#include "samples/crowd/options.h"
 
 namespace crowd {
 

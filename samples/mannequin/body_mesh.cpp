@@ -1,12 +1,12 @@
-#include "body_mesh.h"
+#include "samples/mannequin/body_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "ramp.h"
-#include "remesher.h"
-#include "skeleton.h"
-#include "surface_mesher.h"
+#include "samples/mannequin/ramp.h"
+#include "samples/mannequin/remesher.h"
+#include "samples/mannequin/skeleton.h"
+#include "samples/mannequin/surface_mesher.h"
 
 namespace nook_samples::mannequin {
 namespace {

@@ -3,7 +3,7 @@
 #include <variant>
 #include <vector>
 
-#include "shape_primitives.h"
+#include "samples/mannequin/shape_primitives.h"
 
 namespace nook_samples::mannequin {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pose.h"
+#include "samples/mannequin/pose.h"
 
 namespace nook_samples::mannequin {
 

@@ -1,4 +1,4 @@
-#include "glb_writer.h"
+#include "samples/mannequin/glb_writer.h"
 
 #include <tiny_gltf.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "triangle_mesh.h"
+#include "samples/mannequin/triangle_mesh.h"
 
 namespace nook_samples::mannequin {
 

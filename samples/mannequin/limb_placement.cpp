@@ -1,4 +1,4 @@
-#include "limb_placement.h"
+#include "samples/mannequin/limb_placement.h"
 
 #include <algorithm>
 #include <cmath>

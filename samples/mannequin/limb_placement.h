@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pose.h"
+#include "samples/mannequin/pose.h"
 
 namespace nook_samples::mannequin {
 

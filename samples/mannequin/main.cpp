@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "mannequin.h"
+#include "samples/mannequin/mannequin.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "skeleton.h"
+#include "samples/mannequin/skeleton.h"
 
 namespace nook_samples::mannequin {
 

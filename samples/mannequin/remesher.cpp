@@ -1,9 +1,9 @@
-#include "remesher.h"
+#include "samples/mannequin/remesher.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "half_edge_mesh.h"
+#include "samples/mannequin/half_edge_mesh.h"
 
 namespace nook_samples::mannequin {
 namespace {

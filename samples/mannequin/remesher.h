@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "body_sdf.h"
-#include "triangle_mesh.h"
+#include "samples/mannequin/body_sdf.h"
+#include "samples/mannequin/triangle_mesh.h"
 
 namespace nook_samples::mannequin {
 

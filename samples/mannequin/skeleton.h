@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shape_primitives.h"
+#include "samples/mannequin/shape_primitives.h"
 
 namespace nook_samples::mannequin {
 

@@ -1,9 +1,9 @@
-#include "skin_weights.h"
+#include "samples/mannequin/skin_weights.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "weight_seeds.h"
+#include "samples/mannequin/weight_seeds.h"
 
 namespace nook_samples::mannequin {
 namespace {

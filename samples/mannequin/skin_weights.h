@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "skeleton.h"
-#include "triangle_mesh.h"
+#include "samples/mannequin/skeleton.h"
+#include "samples/mannequin/triangle_mesh.h"
 
 namespace nook_samples::mannequin {
 

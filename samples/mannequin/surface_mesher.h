@@ -1,7 +1,7 @@
 #pragma once
 
-#include "body_sdf.h"
-#include "triangle_mesh.h"
+#include "samples/mannequin/body_sdf.h"
+#include "samples/mannequin/triangle_mesh.h"
 
 namespace nook_samples::mannequin {
 

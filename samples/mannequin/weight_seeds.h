@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "skeleton.h"
+#include "samples/mannequin/skeleton.h"
 
 namespace nook_samples::mannequin {
 

@@ -1,4 +1,4 @@
-#include "frames.h"
+#include "samples/material/frames.h"
 
 #include <algorithm>
 #include <chrono>

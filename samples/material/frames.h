@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "material_program.h"
-#include "mesh.h"
 #include "platform/render_target.h"
+#include "samples/material/material_program.h"
+#include "samples/material/mesh.h"
 
 namespace material {
 

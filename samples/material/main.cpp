@@ -6,8 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "frames.h"
-#include "options.h"
+#include "samples/material/frames.h"
+#include "samples/material/options.h"
 
 namespace material {
 namespace {

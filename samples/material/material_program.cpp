@@ -1,4 +1,4 @@
-#include "material_program.h"
+#include "samples/material/material_program.h"
 
 #include <glm/gtc/type_ptr.hpp>
 

@@ -7,7 +7,7 @@
 #include <nook/nook.hpp>
 #include <vector>
 
-#include "scene.h"
+#include "samples/material/scene.h"
 
 namespace material {
 

@@ -3,7 +3,7 @@
 
 #include <glad/gl.h>
 
-#include "shapes.h"
+#include "samples/material/shapes.h"
 
 namespace material {
 

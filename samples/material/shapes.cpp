@@ -1,4 +1,4 @@
-#include "shapes.h"
+#include "samples/material/shapes.h"
 
 #include <cmath>
 #include <functional>

@@ -1,7 +1,7 @@
 /* The frame of main.c with the result left on the GPU, for an engine that has OpenGL 3.3 or newer.
  *
  * The OpenGL functions come in as pointers because this file includes no loader; an engine calls its own. */
-#include "minimal_gl.h"
+#include "samples/minimal/minimal_gl.h"
 
 /* ---- 1. Once for each OpenGL context ---- */
 nook_result minimal_gl_start(nook_context context, nook_gl_proc_fn get_proc, void* user, nook_gl* gl) {

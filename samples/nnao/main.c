@@ -11,9 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "offscreen.h"
-#include "picture.h"
-#include "room.h"
+#include "samples/nnao/room.h"
+#include "samples/offscreen/offscreen.h"
+#include "samples/offscreen/picture.h"
 
 enum { width = 960, height = 540 };
 

@@ -1,4 +1,4 @@
-#include "room.h"
+#include "samples/nnao/room.h"
 
 #include <math.h>
 #include <stdlib.h>

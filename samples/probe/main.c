@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "offscreen.h"
-#include "picture.h"
-#include "shapes.h"
+#include "samples/offscreen/offscreen.h"
+#include "samples/offscreen/picture.h"
+#include "samples/probe/shapes.h"
 
 enum { width = 1280, height = 540, samples_across = 2 }; /* drawn twice as large and averaged */
 

@@ -1,4 +1,4 @@
-#include "shapes.h"
+#include "samples/probe/shapes.h"
 
 #include <math.h>
 #include <nook/nook_bake.h>

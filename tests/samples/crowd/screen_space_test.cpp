@@ -12,8 +12,8 @@
 #include <optional>
 
 #include "catch.h"
-#include "crowd/animation.h"
-#include "crowd/camera.h"
+#include "samples/crowd/animation.h"
+#include "samples/crowd/camera.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "picture.h"
+#include "samples/offscreen/picture.h"
 
 #include <stdint.h>
 #include <stdio.h>
