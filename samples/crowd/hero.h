@@ -52,7 +52,6 @@ class Hero {
   std::vector<std::uint32_t> triangles;     // three a triangle
   std::vector<std::uint16_t> joints;        // four a vertex
   std::vector<float> weights;               // four a vertex
-  float height_m() const { return info_.bounds_high[1] - info_.bounds_low[1]; }
 
  private:
   struct Release {

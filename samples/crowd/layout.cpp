@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <random>
 
 namespace crowd {
@@ -123,48 +122,6 @@ std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::ui
       place_beside(outlines, crowd, leader, next_member(), random);
   }
   return crowd;
-}
-
-std::vector<std::uint32_t> with_neighbour_within(const std::vector<Placement>& crowd, float distance_m) {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < crowd.size(); ++i)
-    for (std::uint32_t j = 0; j < crowd.size(); ++j)
-      if (i != j && squared_distance(crowd[i], crowd[j]) <= distance_m * distance_m) {
-        found.push_back(i);
-        break;
-      }
-  return found;
-}
-
-std::vector<std::uint32_t> nearest_to(const std::vector<Placement>& crowd, float x_m, float z_m,
-                                      std::size_t count) {
-  Placement point;
-  point.x_m = x_m;
-  point.z_m = z_m;
-  std::vector<std::uint32_t> order(crowd.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return squared_distance(crowd[a], point) < squared_distance(crowd[b], point);
-  });
-  order.resize(std::min(count, order.size()));
-  return order;
-}
-
-std::uint32_t busiest(const std::vector<Placement>& crowd, float distance_m) {
-  std::uint32_t best = 0;
-  float best_score = -1;
-  for (std::uint32_t i = 0; i < crowd.size(); ++i) {
-    float score = 0;
-    for (const Placement& other : crowd)
-      if (squared_distance(crowd[i], other) <= distance_m * distance_m) score += 1;
-    // Less than one neighbour's worth: only breaks ties.
-    score -= 0.5f * std::min(1.0f, std::hypot(crowd[i].x_m, crowd[i].z_m) / 100);
-    if (score > best_score) {
-      best_score = score;
-      best = i;
-    }
-  }
-  return best;
 }
 
 }  // namespace crowd

@@ -30,14 +30,4 @@ std::vector<Outline> clip_outlines(const Hero& hero);
 std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::uint32_t count,
                                    std::uint32_t seed);
 
-// Indices of the placements whose nearest other root is within distance_m.
-std::vector<std::uint32_t> with_neighbour_within(const std::vector<Placement>& crowd, float distance_m);
-
-// Indices, nearest to a point of the ground plane first, at most count.
-std::vector<std::uint32_t> nearest_to(const std::vector<Placement>& crowd, float x_m, float z_m,
-                                      std::size_t count);
-
-// The member with the most others within distance_m; the one nearest to the middle if there are several.
-std::uint32_t busiest(const std::vector<Placement>& crowd, float distance_m);
-
 }  // namespace crowd

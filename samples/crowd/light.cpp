@@ -157,14 +157,4 @@ std::vector<float> Light::radiance(const float direction[3]) const {
   return rgb;
 }
 
-std::vector<float> Light::mean_irradiance() const {
-  std::vector<float> mean(3, 0.0f);
-  for (const nook_probe_lobe& lobe : lobes_) {
-    float integral[3];
-    nook::check(nook_probe_lobe_integral(&lobe, integral));
-    for (int c = 0; c < 3; ++c) mean[c] += integral[c] / 4;  // pi / (4 pi)
-  }
-  return mean;
-}
-
 }  // namespace crowd

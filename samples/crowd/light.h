@@ -31,8 +31,6 @@ class Light {
   std::vector<float> irradiance(const std::vector<float>& normals) const;
   // What they send from a unit direction: RGB, not below 0.
   std::vector<float> radiance(const float direction[3]) const;
-  // Constant light with the lobes' mean radiance: RGB.
-  std::vector<float> mean_irradiance() const;
 
  private:
   explicit Light(std::string name) : name_(std::move(name)) {}

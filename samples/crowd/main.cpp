@@ -10,7 +10,6 @@
 #include "samples/crowd/file_bytes.h"
 #include "samples/crowd/frames.h"
 #include "samples/crowd/layout.h"
-#include "samples/crowd/light_comparison.h"
 #include "samples/crowd/options.h"
 #include "samples/crowd/progress_line.h"
 #ifdef CROWD_HAS_WINDOW_LOOP
@@ -76,10 +75,10 @@ void compare_with_rays(platform::Context& context, const Stage& stage, CrowdScen
                        const Character& character, nlohmann::ordered_json& report, ProgressLine& line) {
   const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
   scene.set_poses(poses);
-  ComparisonRequest request{o.neighbours, o.tier, o.seed, o.out, {}, character.model};
-  measure_errors(stage, scene, poses, request, report);
+  ComparisonRequest request{o.neighbours, o.tier, o.seed, o.out, character.model, {}};
+  measure_ao(stage, scene, poses, request, report);
   line.show("comparing", "parts", 1, 3);
-  write_comparison_sheet(stage, scene, poses, request);
+  write_ao_sheet(stage, scene, poses, request);
   line.show("comparing", "parts", 2, 3);
   const std::vector<unsigned char> gamma_2 =
       cached_model(stage.hero, {character.source_hash, o.cache, 2.0f, o.quiet});
@@ -92,12 +91,11 @@ void compare_lights(const Stage& stage, CrowdScene& scene, const Options& o, nlo
                     ProgressLine& line) {
   const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
   scene.set_poses(poses);
-  const LightComparisonRequest request{o.seed, o.out};
+  const ComparisonRequest request{o.neighbours, o.tier, o.seed, o.out, {}, {}};
   for (std::size_t i = 0; i < o.lights.size(); ++i) {
     line.show("lights", "lights", std::uint32_t(i), std::uint32_t(o.lights.size()));
     const Light light(scene.context(), o.lights[i]);
-    measure_light(stage, scene, poses, light, request, report);
-    write_light_sheet(stage, scene, poses, light, request);
+    compare_light(stage, scene, poses, light, request, report);
   }
   line.show("lights", "lights", std::uint32_t(o.lights.size()), std::uint32_t(o.lights.size()));
 }

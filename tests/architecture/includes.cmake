@@ -37,7 +37,10 @@ forbid(bakers/material "\"(api|cli|character|nnao)/" "the bakers know neither th
 forbid(bakers/nnao "\"(api|cli)/" "the bakers know neither their api nor the tool")
 forbid(bakers/probe "\"(api|cli)/" "the bakers know neither their api nor the tool")
 forbid(bakers/api "\"cli/" "the api does not know the tool")
-forbid(samples "\"(core|character|api|gl|import|raytrace)/" "samples see public headers only")
+forbid(bakers/measure/crowd "\"(sdk|samples|core|character|nnao|probe|material|gl|api|import|raytrace|tensor|cli)/|\"bakers/[^m]|glad"
+       "what measures the crowd sees public headers only and never the sample")
+forbid(samples "\"(sdk|core|character|api|gl|import|raytrace)/|\"bakers/([^m]|measure/(character|nnao|probe|material))"
+       "samples see public headers and what measures the crowd")
 if(violations)
   message(FATAL_ERROR "architecture: a room includes what it must not know\n${violations}")
 endif()

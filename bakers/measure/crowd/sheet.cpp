@@ -1,14 +1,15 @@
-#include "samples/crowd/label.h"
+#include "bakers/measure/crowd/sheet.h"
 
 #include <algorithm>
 #include <array>
 
-namespace crowd {
+namespace nook::measure::crowd {
 namespace {
 
 constexpr int kDot_px = 2, kGap_px = 4;
 
-// Columns from left to right, lowest bit on top; from the space on in ASCII order.
+// The columns of each letter from left to right, with the lowest bit on top. Letters are in ASCII order and
+// begin with the space.
 constexpr std::array<std::array<std::uint8_t, 5>, 95> kGlyphs{{
     {0x00, 0x00, 0x00, 0x00, 0x00}, {0x00, 0x00, 0x5F, 0x00, 0x00}, {0x00, 0x07, 0x00, 0x07, 0x00},
     {0x14, 0x7F, 0x14, 0x7F, 0x14}, {0x24, 0x2A, 0x7F, 0x2A, 0x12}, {0x23, 0x13, 0x08, 0x64, 0x62},
@@ -87,4 +88,4 @@ platform::Image tile(const std::vector<platform::Image>& pictures, int columns) 
   return sheet;
 }
 
-}  // namespace crowd
+}  // namespace nook::measure::crowd
