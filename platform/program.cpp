@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace platform {
 namespace {
@@ -43,6 +44,16 @@ GLuint link_program(const GladGLContext& gl, std::initializer_list<const char*> 
     throw;
   }
   return program;
+}
+
+Program::Program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
+                 std::initializer_list<const char*> fragment)
+    : gl_(gl), name_(link_program(gl, vertex, fragment)) {}
+
+Program::Program(Program&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
+
+Program::~Program() {
+  gl_.DeleteProgram(name_);
 }
 
 }  // namespace platform

@@ -12,4 +12,23 @@ namespace platform {
 GLuint link_program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
                     std::initializer_list<const char*> fragment);
 
+// A linked program that deletes itself.
+class Program {
+ public:
+  // The texts are those of link_program. The context must outlive this object.
+  Program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
+          std::initializer_list<const char*> fragment);
+  Program(Program&& other) noexcept;
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  void use() const { gl_.UseProgram(name_); }
+  GLint uniform(const char* name) const { return gl_.GetUniformLocation(name_, name); }
+
+ private:
+  const GladGLContext& gl_;
+  GLuint name_ = 0;
+};
+
 }  // namespace platform

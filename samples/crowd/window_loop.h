@@ -1,4 +1,4 @@
-// The crowd in a window, with controls; until the window is closed.
+// The crowd in a window with controls.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace crowd {
 
-// light: of a probe, for all characters; null: none.
+// Returns when the window is closed. The light of a probe is for all characters; it may be null.
 void run_window(platform::Context& context, const Hero& hero, std::span<const unsigned char> model,
                 const std::vector<Placement>& places, Renderer& renderer, const Light* light,
                 const Options& options);
