@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Writes beside the target and renames, so that a failed run leaves no half file.
+/// Writes beside the target and renames, so that a failed run leaves no half-written file.
 void write_file(const std::filesystem::path& path, const std::vector<unsigned char>& bytes) {
   std::filesystem::path partial = path;
   partial += ".part";

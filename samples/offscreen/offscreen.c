@@ -21,7 +21,7 @@ int offscreen_start(void) {
                                       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                       EGL_NONE};
   PFNEGLGETPLATFORMDISPLAYEXTPROC platform_display;
-  /* The only way from a data pointer to a function's that every C compiler takes. */
+  /* This is the one conversion from a data pointer to a function pointer that every C compiler accepts. */
   *(void**)(&platform_display) = (void*)eglGetProcAddress("eglGetPlatformDisplayEXT");
   if (!platform_display) return fail("EGL has no platform displays; install libegl1");
   display = platform_display(EGL_PLATFORM_SURFACELESS_MESA, (void*)EGL_DEFAULT_DISPLAY, NULL);

@@ -19,7 +19,8 @@ static unsigned char* put_32(unsigned char* out, uint32_t value) {
   return out;
 }
 
-/* length and name before, checksum after the `size` bytes that lie at chunk + 8. */
+/* Puts length and name before the `size` bytes that lie at chunk + 8 and the checksum after them, and writes
+ * all. */
 static int write_chunk(FILE* file, unsigned char* chunk, const char* name, size_t size) {
   put_32(chunk, (uint32_t)size);
   memcpy(chunk + 4, name, 4);
@@ -27,7 +28,7 @@ static int write_chunk(FILE* file, unsigned char* chunk, const char* name, size_
   return fwrite(chunk, 1, size + 12, file) == size + 12;
 }
 
-/* A zlib stream of stored blocks: larger than a packed one, and nothing to depend on. */
+/* Makes a zlib stream of stored blocks. It is larger than a compressed one and needs no library. */
 static size_t store(unsigned char* out, const unsigned char* bytes, size_t count) {
   unsigned char* const begin = out;
   uint32_t a = 1, b = 0;
