@@ -7,8 +7,8 @@
 
 namespace platform {
 
-// A linked program; the texts of a stage follow each other, the first with its #version line. The caller
-// deletes it. Throws std::runtime_error with the compiler's or the linker's log.
+// Makes a linked program. The texts of a stage follow each other, and the first one begins with the #version
+// line. The caller deletes the program. Throws std::runtime_error with the log of the compiler or the linker.
 GLuint link_program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
                     std::initializer_list<const char*> fragment);
 

@@ -14,7 +14,7 @@
 #include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "cli/table.h"
 #include "cli/tool_error.h"
 
@@ -94,7 +94,7 @@ class Follower {
     }
   }
 
-  ProgressBar bar_;
+  platform::ProgressBar bar_;
 };
 
 Job start(const Options& options, nook_bake_character character, Follower& follower) {

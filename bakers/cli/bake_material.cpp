@@ -14,7 +14,7 @@
 #include "cli/material/options.h"
 #include "cli/material/pictures.h"
 #include "cli/output_file.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "cli/table.h"
 #include "material/directions.h"
 #include "material/material_file.h"
@@ -74,7 +74,7 @@ Json recipe_of_trace(const Options& o) {
           {"seed", o.common.seed}};
 }
 
-RawMaterial obtain(const Options& o, ProgressBar& bar) {
+RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
   const auto progress = [&](const char* label, const char* unit) {
     return [&bar, label, unit](std::size_t done, std::size_t total) {
       bar.show(label, unit, done, total);
@@ -94,7 +94,7 @@ RawMaterial obtain(const Options& o, ProgressBar& bar) {
 }
 
 Json bake(const Options& o, OutputFile& output, std::optional<OutputFile>& raw_file) {
-  ProgressBar bar(o.common.quiet);
+  platform::ProgressBar bar(o.common.quiet);
   auto start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   const RawMaterial raw = obtain(o, bar);

@@ -9,7 +9,7 @@
 #include "cli/commands.h"
 #include "cli/evaluation.h"
 #include "cli/interrupt.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 
 namespace nook::cli {
 namespace {
@@ -35,7 +35,7 @@ Json evaluate(const Options& options) {
   if (poses.empty()) poses.push_back(rest_pose(character));
   CasterStudy study = options.study;
   study.seed = options.common.seed;
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const std::vector<CasterRow> rows =
       measure_casters(character.mesh, baked.model, poses, study, [&](std::size_t done, std::size_t total) {
         bar.show("ray tracing neighbours", "pairs", done, total);

@@ -19,7 +19,7 @@
 #include "cli/evaluation.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "import/skinning.h"
 
 namespace nook::cli {
@@ -52,7 +52,7 @@ class Tracing {
   }
 
  private:
-  ProgressBar bar_;
+  platform::ProgressBar bar_;
 };
 
 std::optional<Recipe> recipe_of(const ImportedCharacter& character, const CharacterModel& model,

@@ -12,7 +12,7 @@
 #include "cli/material/pictures.h"
 #include "cli/material/sweep.h"
 #include "cli/output_file.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "material/material_file.h"
 #include "material/raw_file.h"
 #include "material/tables.h"
@@ -83,7 +83,7 @@ void add_unseen(const RawMaterial& unseen, const Material& material, const Optio
 }
 
 void add_peers(const RawMaterial& raw, const RawMaterial& unseen, const CompressionSettings& settings,
-               std::size_t btf_bytes, const Options& o, ProgressBar& bar, Json& rows) {
+               std::size_t btf_bytes, const Options& o, platform::ProgressBar& bar, Json& rows) {
   for (const Peer& peer : peers) {
     CompressionSettings s = settings;
     s.method = peer.method;
@@ -102,7 +102,7 @@ void add_peers(const RawMaterial& raw, const RawMaterial& unseen, const Compress
   rows.push_back(report_row(raw.name, measure_pca(raw, btf_bytes, settings.seed)));
 }
 
-void add_seedings(const RawMaterial& raw, const CompressionSettings& settings, ProgressBar& bar,
+void add_seedings(const RawMaterial& raw, const CompressionSettings& settings, platform::ProgressBar& bar,
                   Json& report) {
   Json rows = Json::array();
   for (const Seeding seeding : {Seeding::directions, Seeding::values})
@@ -121,7 +121,7 @@ void add_seedings(const RawMaterial& raw, const CompressionSettings& settings, P
 }
 
 void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, const Options& o,
-               ProgressBar& bar, Json& report) {
+               platform::ProgressBar& bar, Json& report) {
   const Sweep sweep = measure_sweep(raw, settings, o.sweep, bar);
   report["sweep"] = sweep_rows(sweep, raw.name);
   report["crossing_rank_n_svd"] = crossing_rank(sweep.series[0]);
@@ -134,7 +134,7 @@ void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, cons
 }
 
 Json evaluate(const Options& o) {
-  ProgressBar bar(o.common.quiet);
+  platform::ProgressBar bar(o.common.quiet);
   const RawMaterial raw = naming_file(o.raw, [&] { return read_raw_material(read_file(o.raw)); });
   const Material material =
       naming_file(o.material, [&] { return nook::material::read_material(read_file(o.material)); });

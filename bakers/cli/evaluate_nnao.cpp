@@ -16,7 +16,7 @@
 #include "cli/nnao/sheet.h"
 #include "cli/nnao/tuning.h"
 #include "cli/output_file.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "nnao/network_file.h"
 
 namespace nook::cli {
@@ -119,7 +119,7 @@ Comparison compare_views(const Options& options, platform::Context& context, con
   settings.methods = options.methods;
   settings.request.max_radius_px =
       options.max_radius_px > 0 ? options.max_radius_px : 0.5f * float(options.truth.height);
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const std::string label = views.front().scene + ", measuring";
   return compare(
       context, views, settings,
@@ -174,7 +174,7 @@ Json evaluate(const Options& options) {
 }
 
 Json tune(const Options& options) {
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const std::vector<MeasuredView> views =
       tuning_views(options.common.seed, [&](std::size_t done, std::size_t total) {
         bar.show("ray tracing", "views", done, total);

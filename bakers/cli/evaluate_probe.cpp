@@ -11,7 +11,7 @@
 #include "cli/output_file.h"
 #include "cli/probe/evaluate_grid.h"
 #include "cli/probe/scene.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "probe/comparison.h"
 #include "probe/map_bake.h"
 #include "probe/map_picture.h"
@@ -60,7 +60,7 @@ Json method_row(const std::string& map, const char* domain, const MethodError& e
 }
 
 void append_methods(const Options& options, const std::string& name, const bake::Environment& map,
-                    ProgressBar& bar, Json& rows) {
+                    platform::ProgressBar& bar, Json& rows) {
   for (const auto& [domain, region] : domains) {
     const std::string label = name + ", " + domain;
     const std::vector<MethodError> errors =
@@ -115,7 +115,7 @@ Json evaluate(const Options& options) {
   if (!options.grid.scene.empty()) return evaluate_grids(options.grid, options.common, options.files);
   Json report;
   report["rows"] = Json::array();
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   std::string name;
   std::unique_ptr<bake::Environment> map;
   for (const std::filesystem::path& path : options.files) {

@@ -14,7 +14,7 @@
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "cli/table.h"
 #include "cli/tool_error.h"
 #include "nnao/checkpoint.h"
@@ -68,7 +68,7 @@ TrainingState starting_state(const Options& options, const Dataset& data, const 
 
 Network train_with_progress(const Options& options, const Dataset& data, const std::string& recipe) {
   TrainingState state = starting_state(options, data, recipe);
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   // A new label begins a new line of the bar: one for every tenth of the epochs.
   const std::uint32_t tenth = std::max(1u, options.training.epochs / 10);
   std::string label = "training";
@@ -118,7 +118,7 @@ void run_in_arena(Options& options) {
   const std::string recipe = recipe_of(options).dump();
   auto start = std::chrono::steady_clock::now();
   const Dataset data = [&] {
-    ProgressBar bar(options.common.quiet);
+    platform::ProgressBar bar(options.common.quiet);
     return make_dataset(options.data, [&](std::size_t done, std::size_t total) {
       bar.show("ray tracing", "scenes", done, total);
       return !interrupted();

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "platform/file_bytes.h"
-#include "samples/crowd/progress_line.h"
+#include "platform/progress_bar.h"
 #include "samples/mannequin/mannequin.h"
 
 namespace crowd {
@@ -56,14 +56,14 @@ const char* stage_label(nook_bake_stage stage) {
 
 // Shows a job's progress until it is done.
 void follow(nook_bake_job job, bool quiet) {
-  ProgressLine line(quiet);
+  platform::ProgressBar bar(quiet);
   for (;;) {
     nook_bake_progress progress{};
     progress.struct_size = sizeof progress;
     check(nook_bake_job_poll(job, &progress));
     if (progress.stage == NOOK_BAKE_STAGE_DONE) return;
-    line.show(stage_label(progress.stage), progress.stage == NOOK_BAKE_STAGE_RAYTRACE ? "poses" : "steps",
-              progress.done, progress.total);
+    bar.show(stage_label(progress.stage), progress.stage == NOOK_BAKE_STAGE_RAYTRACE ? "poses" : "steps",
+             progress.done, progress.total);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 }

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/file_bytes.h"
+#include "platform/progress_bar.h"
 #include "samples/crowd/comparison.h"
 #include "samples/crowd/frames.h"
 #include "samples/crowd/layout.h"
 #include "samples/crowd/options.h"
-#include "samples/crowd/progress_line.h"
 #ifdef CROWD_HAS_WINDOW_LOOP
 #include "samples/crowd/window_loop.h"
 #endif
@@ -60,31 +60,31 @@ nlohmann::ordered_json describe(const ScreenSpaceQuality& quality) {
 
 void compare_with_rays(platform::Context& context, const Stage& stage, CrowdScene& scene, const Options& o,
                        std::span<const unsigned char> model, nlohmann::ordered_json& report,
-                       ProgressLine& line) {
+                       platform::ProgressBar& bar) {
   const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
   scene.set_poses(poses);
   ComparisonRequest request{o.neighbours, o.tier, o.seed, o.out, model, {}};
   measure_ao(stage, scene, poses, request, report);
-  line.show("comparing", "parts", 1, 3);
+  bar.show("comparing", "parts", 1, 3);
   write_ao_sheet(stage, scene, poses, request);
-  line.show("comparing", "parts", 2, 3);
+  bar.show("comparing", "parts", 2, 3);
   const std::vector<unsigned char> gamma_2 = cached_model(stage.hero, {o.cache, 2.0f, o.quiet});
   request.gamma_2_model = gamma_2;
   write_double_shadowing_sheet(context, stage, scene, poses, request);
-  line.show("comparing", "parts", 3, 3);
+  bar.show("comparing", "parts", 3, 3);
 }
 
 void compare_lights(const Stage& stage, CrowdScene& scene, const Options& o, nlohmann::ordered_json& report,
-                    ProgressLine& line) {
+                    platform::ProgressBar& bar) {
   const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
   scene.set_poses(poses);
   const ComparisonRequest request{o.neighbours, o.tier, o.seed, o.out, {}, {}};
   for (std::size_t i = 0; i < o.lights.size(); ++i) {
-    line.show("lights", "lights", std::uint32_t(i), std::uint32_t(o.lights.size()));
+    bar.show("lights", "lights", i, o.lights.size());
     const Light light(scene.context(), o.lights[i]);
     compare_light(stage, scene, poses, light, request, report);
   }
-  line.show("lights", "lights", std::uint32_t(o.lights.size()), std::uint32_t(o.lights.size()));
+  bar.show("lights", "lights", o.lights.size(), o.lights.size());
 }
 
 std::unique_ptr<Light> light_of_frames(const nook::Context& context, const Options& o) {
@@ -130,11 +130,11 @@ void run(const Options& o) {
   if (o.screen_space)
     screen_space = std::make_unique<ScreenSpaceAo>(*context, scene.gl(), o.width_px, o.height_px);
   const Stage stage{*context, hero, places, renderer, target, screen_space.get()};
-  ProgressLine line(o.quiet);
+  platform::ProgressBar bar(o.quiet);
   const std::unique_ptr<Light> light = light_of_frames(scene.context(), o);
   if (light) scene.set_light(light->lobes());
   const FrameTimes ms = draw_frames(stage, scene, {o.frames, o.out, light.get()}, [&](std::uint32_t done) {
-    line.show("drawing", "frames", done, o.frames);
+    bar.show("drawing", "frames", done, o.frames);
   });
   // The comparisons below set their own lights.
   scene.set_light({});
@@ -148,8 +148,8 @@ void run(const Options& o) {
                   {"read", ms.read}};
   report["screen_space"] = screen_space ? describe(screen_space->quality()) : nlohmann::ordered_json();
   report["rows"] = nlohmann::ordered_json::array();
-  if (o.sheets) compare_with_rays(*context, stage, scene, o, model, report, line);
-  if (!o.lights.empty()) compare_lights(stage, scene, o, report, line);
+  if (o.sheets) compare_with_rays(*context, stage, scene, o, model, report, bar);
+  if (!o.lights.empty()) compare_lights(stage, scene, o, report, bar);
   const std::string text = report.dump(2) + "\n";
   platform::write_file(o.report, text.data(), text.size());
   std::printf("pictures: %s\nreport:   %s\n", std::filesystem::absolute(o.out).c_str(),

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/file_bytes.h"
+#include "platform/progress_bar.h"
 #include "samples/material/frames.h"
 #include "samples/material/options.h"
 
@@ -96,12 +97,12 @@ void run(const Options& o) {
               {"width", o.width_px},
               {"height", o.height_px},
               {"rows", Json::array()}};
+  platform::ProgressBar bar(o.quiet);
   for (const std::filesystem::path& path : o.files) {
     const Loaded loaded(host, gl, *context, path);
     const FrameTimes times =
-        draw_frames(stage, loaded.program, {o.frames, o.out, loaded.name}, [&](std::uint32_t done) {
-          if (!o.quiet) std::fprintf(stderr, "%s: %u of %u pictures\n", loaded.name.c_str(), done, o.frames);
-        });
+        draw_frames(stage, loaded.program, {o.frames, o.out, loaded.name},
+                    [&](std::uint32_t done) { bar.show(loaded.name, "pictures", done, o.frames); });
     report["rows"].push_back(describe(loaded, times));
   }
   const std::string text = report.dump(2) + "\n";

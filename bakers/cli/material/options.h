@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "material/report.h"
 
 namespace CLI {
@@ -30,6 +30,6 @@ nook::material::VisibilityMapping visibility_mapping(const std::string& text,
                                                      nook::material::VisibilityForm form);
 
 // Shows stages on a bar and stops at Ctrl-C.
-bake::material::StageProgress stage_progress(ProgressBar& bar, std::string prefix);
+bake::material::StageProgress stage_progress(platform::ProgressBar& bar, std::string prefix);
 
 }  // namespace nook::cli

@@ -23,7 +23,7 @@ ChartLine line_of(const Sweep::Series& s, std::string label, bool dashed, const 
 }  // namespace
 
 Sweep measure_sweep(const RawMaterial& raw, const CompressionSettings& settings,
-                    std::span<const std::uint32_t> ranks, ProgressBar& bar) {
+                    std::span<const std::uint32_t> ranks, platform::ProgressBar& bar) {
   for (const std::uint32_t rank : ranks)
     if (rank == 0 || rank % settings.cluster_rank_view != 0 || rank > raw.views.size())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "cli/material/chart.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "material/comparison.h"
 
 namespace nook::cli {
@@ -26,7 +26,7 @@ struct Sweep {
 // fit.
 Sweep measure_sweep(const bake::material::RawMaterial& raw,
                     const bake::material::CompressionSettings& settings, std::span<const std::uint32_t> ranks,
-                    ProgressBar& bar);
+                    platform::ProgressBar& bar);
 
 // S/E, error texels of distances, and both forms of the VOTF by K-CTA with K = 3 and N-SVD.
 std::vector<Chart> sweep_charts(const Sweep& sweep, const std::string& material);

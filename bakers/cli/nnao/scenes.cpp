@@ -5,7 +5,7 @@
 
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "import/static_scene.h"
 #include "nnao/thin_scene.h"
 
@@ -108,7 +108,7 @@ std::vector<MeasuredView> trace_views(const SceneRequest& request, TruthSettings
     Random random(bake::mix_bits(truth.seed) + i);
     cameras.push_back(place_camera(rays, scene, random, truth.width, truth.height));
   }
-  ProgressBar bar(common.quiet);
+  platform::ProgressBar bar(common.quiet);
   std::vector<MeasuredView> views;
   const std::string label = request.name + ", ray tracing";
   for (const Camera& camera : cameras) {

@@ -10,7 +10,7 @@
 #include "cli/output_file.h"
 #include "cli/probe/bake.h"
 #include "cli/probe/scene.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "cli/table.h"
 #include "probe/grid_bake.h"
 #include "probe/probe_file.h"
@@ -44,7 +44,7 @@ std::vector<std::byte> file_of(const BakeProbeOptions& options, GridBake& bake, 
 
 // Passes until the error is small enough, the samples are used up, or the user stops it.
 double refine(const BakeProbeOptions& options, GridBake& bake, std::uint32_t most_passes) {
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   double error = 1;
   auto previewed = Clock::now();
   while (bake.passes() < most_passes && error > options.error) {

@@ -8,7 +8,7 @@
 #include "cli/output_file.h"
 #include "cli/probe/bake.h"
 #include "cli/probe/scene.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "cli/table.h"
 #include "probe/fit_error.h"
 #include "probe/map_bake.h"
@@ -63,7 +63,7 @@ void bake_probe_of_map(const BakeProbeOptions& options) {
   if (!options.picture.empty()) picture.emplace(options.picture);
   const bake::Environment map = read_map(options.input);
 
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const auto began = std::chrono::steady_clock::now();
   probe::Probes probes;
   probes.basis = settings.basis;

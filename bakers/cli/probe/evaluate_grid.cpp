@@ -3,7 +3,7 @@
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/probe/scene.h"
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "probe/grid_error.h"
 #include "probe/inside_probes.h"
 #include "probe/probe_file.h"
@@ -24,7 +24,7 @@ Json error_row(const GridError& e) {
 }
 
 void append_grid(const EvaluateGridOptions& options, const CommonOptions& common, const ProbeScene& scene,
-                 const std::filesystem::path& path, ProgressBar& bar, Json& rows) {
+                 const std::filesystem::path& path, platform::ProgressBar& bar, Json& rows) {
   const std::vector<std::byte> bytes = read_file(path);
   const nook::probe::Probes probes = naming_file(path, [&] { return nook::probe::read_probes(bytes); });
   const std::vector<bool> inside = inside_probes(*scene.lit, probes.grid);
@@ -68,7 +68,7 @@ Json evaluate_grids(const EvaluateGridOptions& options, const CommonOptions& com
   const ProbeScene scene = read_probe_scene(options.scene, options.light, !options.no_textures);
   Json report;
   report["rows"] = Json::array();
-  ProgressBar bar(common.quiet);
+  platform::ProgressBar bar(common.quiet);
   for (const std::filesystem::path& grid : grids)
     append_grid(options, common, scene, grid, bar, report["rows"]);
   report["seed"] = common.seed;

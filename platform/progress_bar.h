@@ -1,20 +1,21 @@
-// Progress of long work on the error stream: a bar on a terminal, plain lines elsewhere.
+// Shows the progress of long work on the error stream: a bar on a terminal, and plain lines elsewhere.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
 #include <string>
 
-namespace nook::cli {
+namespace platform {
 
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet);
-  ~ProgressBar();  // leaves the cursor on a fresh line
+  ~ProgressBar();  // leaves the cursor on a new line
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  // One call at a time. unit names what is counted, such as "poses". A new label begins a new line.
+  // The unit names what is counted, for example "poses". A new label begins a new line. Calls must not
+  // overlap.
   void show(const std::string& label, const char* unit, std::size_t done, std::size_t total);
 
  private:
@@ -31,7 +32,7 @@ class ProgressBar {
   bool line_open_ = false;
 };
 
-// "12 s", "3 min 05 s", "1 h 02 min".
+// A duration such as "12 s", "3 min 05 s" or "1 h 02 min".
 std::string duration_text(double seconds);
 
-}  // namespace nook::cli
+}  // namespace platform

@@ -1,4 +1,4 @@
-#include "cli/progress_bar.h"
+#include "platform/progress_bar.h"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstdio>
 
-namespace nook::cli {
+namespace platform {
 namespace {
 
 constexpr double seconds_between_draws = 0.1;
-constexpr double seconds_before_rate = 0.3;  // earlier it is mostly noise
+constexpr double seconds_before_rate = 0.3;  // the rate is mostly noise before that
 
 int terminal_columns() {
   winsize size{};
@@ -72,7 +72,7 @@ void ProgressBar::show(const std::string& label, const char* unit, std::size_t d
     draw(unit, rate, left);
     return;
   }
-  // Elsewhere a line at the start and at every tenth: short enough for a log.
+  // A log gets one line at the start and one for each tenth of the work.
   const std::size_t tenths = total > 0 ? 10 * done / total : 0;
   if (drawn_ != Clock::time_point{} && tenths <= tenths_) return;
   drawn_ = now;
@@ -94,11 +94,11 @@ void ProgressBar::draw(const char* unit, double rate, double seconds_left) {
   const int width = std::clamp(terminal_columns() - int(label_.size() + std::string(tail).size()) - 4, 5, 40);
   const double share = total_ > 0 ? double(done_) / double(total_) : 0;
   const int filled = std::clamp(int(std::lround(share * width)), 0, width);
-  // Carriage return, then erase to the end: the line before may have been longer.
+  // The last code erases to the end of the line, because the text before may have been longer.
   std::fprintf(stderr, "\r%s [%s%s]%s\x1b[K", label_.c_str(), std::string(std::size_t(filled), '#').c_str(),
                std::string(std::size_t(width - filled), '.').c_str(), tail);
   std::fflush(stderr);
   line_open_ = true;
 }
 
-}  // namespace nook::cli
+}  // namespace platform
