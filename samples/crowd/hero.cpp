@@ -80,7 +80,7 @@ std::vector<unsigned char> bake(const Hero& hero, const ModelRequest& request) {
   check(nook_bake_job_wait(handle));
   const void* bytes = nullptr;
   std::size_t size = 0;
-  check(nook_bake_job_get_model(handle, &bytes, &size));
+  check(nook_bake_job_model(handle, &bytes, &size));
   const auto* const first = static_cast<const unsigned char*>(bytes);
   return {first, first + size};
 }
@@ -114,7 +114,7 @@ Hero::Hero(const std::filesystem::path& path) : source_hash_(hash_of(platform::r
 
 void Hero::read() {
   info_.struct_size = sizeof info_;
-  check(nook_bake_character_get_info(handle(), &info_));
+  check(nook_bake_character_describe(handle(), &info_));
   const std::uint32_t n = vertex_count();
   positions_m.resize(3 * n);
   normals.resize(3 * n);

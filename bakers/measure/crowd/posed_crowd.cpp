@@ -12,7 +12,7 @@ PosedCrowd::PosedCrowd(nook_bake_character character, std::span<const Bones> pos
     : character_(character), poses_(poses) {
   nook_bake_character_info info{};
   info.struct_size = sizeof info;
-  check_bake(nook_bake_character_get_info(character, &info));
+  check_bake(nook_bake_character_describe(character, &info));
   vertex_count_ = info.file_vertex_count;
   triangles_.resize(3 * std::size_t(info.triangle_count));
   check_bake(

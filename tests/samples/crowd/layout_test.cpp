@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "catch.h"
+#include "tests/catch.h"
 
 using namespace crowd;
 

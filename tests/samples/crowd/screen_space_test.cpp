@@ -11,9 +11,9 @@
 #include <numeric>
 #include <optional>
 
-#include "catch.h"
 #include "samples/crowd/camera.h"
 #include "samples/crowd/layout.h"
+#include "tests/catch.h"
 
 namespace {
 
