@@ -17,7 +17,7 @@ Image read_pixels(const Context& context, int width, int height, int channels) {
     gl.PixelStorei(name, 0);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.ReadPixels(0, 0, width, height, channels == 4 ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
-  // OpenGL's first row is the lowest.
+  // The first row of OpenGL is the lowest one.
   const std::size_t row = static_cast<std::size_t>(width) * channels;
   for (int y = 0; y < height / 2; ++y)
     std::swap_ranges(image.pixels.begin() + y * row, image.pixels.begin() + (y + 1) * row,
@@ -32,7 +32,7 @@ FloatImage read_float_image(const std::filesystem::path& path) {
   const auto input = OIIO::ImageInput::open(path.string());
   if (!input) fail(OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
-  if (!spec.format.is_floating_point()) fail("it holds no floating-point values; use .hdr or .exr");
+  if (!spec.format.is_floating_point()) fail("it has no floating-point values; use .hdr or .exr");
   if (spec.nchannels < 3 || spec.depth > 1) fail("it is not a flat image of three channels");
   FloatImage image{spec.width, spec.height, {}};
   image.rgb.resize(3 * std::size_t(spec.width) * std::size_t(spec.height));

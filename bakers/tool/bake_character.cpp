@@ -14,9 +14,9 @@
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/output_file.h"
-#include "bakers/tool/progress_bar.h"
 #include "bakers/tool/table.h"
 #include "bakers/tool/tool_error.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -94,7 +94,7 @@ class Follower {
     }
   }
 
-  ProgressBar bar_;
+  platform::ProgressBar bar_;
 };
 
 Job start(const Options& options, nook_bake_character character, Follower& follower) {

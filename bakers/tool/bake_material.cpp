@@ -17,8 +17,8 @@
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/material/options.h"
 #include "bakers/tool/output_file.h"
-#include "bakers/tool/progress_bar.h"
 #include "bakers/tool/table.h"
+#include "platform/progress_bar.h"
 #include "sdk/src/material/material_file.h"
 
 namespace nook::tool {
@@ -73,7 +73,7 @@ Json recipe_of_trace(const Options& o) {
           {"seed", o.common.seed}};
 }
 
-RawMaterial obtain(const Options& o, ProgressBar& bar) {
+RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
   const auto progress = [&](const char* label, const char* unit) {
     return [&bar, label, unit](std::size_t done, std::size_t total) {
       bar.show(label, unit, done, total);
@@ -91,7 +91,7 @@ RawMaterial obtain(const Options& o, ProgressBar& bar) {
 }
 
 Json bake(const Options& o, OutputFile& output, std::optional<OutputFile>& raw_file) {
-  ProgressBar bar(o.common.quiet);
+  platform::ProgressBar bar(o.common.quiet);
   auto start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   const RawMaterial raw = obtain(o, bar);

@@ -13,7 +13,7 @@
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -47,7 +47,7 @@ Json evaluate(const Options& options) {
   const std::optional<bake::Recipe> recipe = known_recipe(baked, options);
   const EvaluatedPoses measured = choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);
 
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const auto stage = [&bar](const char* label) {
     return [&bar, label](std::size_t done, std::size_t total) {
       bar.show(label, "poses", done, total);

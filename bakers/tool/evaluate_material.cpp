@@ -11,7 +11,7 @@
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/material/options.h"
 #include "bakers/tool/output_file.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -47,7 +47,7 @@ RawMaterial read_raw(const std::filesystem::path& path) {
 }
 
 Json evaluate(const Options& o) {
-  ProgressBar bar(o.common.quiet);
+  platform::ProgressBar bar(o.common.quiet);
   const measure::MethodProgress progress = [&bar](const std::string& method) {
     return stage_progress(bar, method);
   };

@@ -18,7 +18,7 @@
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/nnao/scenes.h"
 #include "bakers/tool/output_file.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/progress_bar.h"
 #include "sdk/src/nnao/network_file.h"
 
 namespace nook::tool {
@@ -122,7 +122,7 @@ Comparison compare_views(const Options& options, platform::Context& context, con
   settings.methods = options.methods;
   settings.request.max_radius_px =
       options.max_radius_px > 0 ? options.max_radius_px : 0.5f * float(options.truth.height);
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const std::string label = views.front().scene + ", measuring";
   return compare(
       context, views, settings,
@@ -134,7 +134,7 @@ Comparison compare_views(const Options& options, platform::Context& context, con
 }
 
 std::vector<MeasuredView> traced_views(const SceneRequest& scene, const Options& options) {
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const std::string label = scene.name + ", ray tracing";
   return naming_file(scene.file, [&] {
     return trace_views(scene, options.truth, options.placed_cameras,
@@ -188,7 +188,7 @@ Json evaluate(const Options& options) {
 }
 
 Json tune(const Options& options) {
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const std::vector<MeasuredView> views =
       tuning_views(options.common.seed, [&](std::size_t done, std::size_t total) {
         bar.show("ray tracing", "views", done, total);

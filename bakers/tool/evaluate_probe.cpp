@@ -14,7 +14,7 @@
 #include "bakers/tool/output_file.h"
 #include "bakers/tool/probe/evaluate_grid.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -32,7 +32,7 @@ struct Options {
 };
 
 void append_methods(const Options& options, const std::string& name, const bake::Environment& map,
-                    ProgressBar& bar, Json& rows) {
+                    platform::ProgressBar& bar, Json& rows) {
   for (const bool hemisphere : {false, true}) {
     const std::string label = name + (hemisphere ? ", hemisphere" : ", sphere");
     const Json measured = measure::probe_method_rows(map, name, options.lobes, hemisphere, options.comparison,
@@ -67,7 +67,7 @@ Json evaluate(const Options& options) {
   if (!options.grid.scene.empty()) return evaluate_grids(options.grid, options.common, options.files);
   Json report;
   report["rows"] = Json::array();
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   std::string name;
   std::unique_ptr<bake::Environment> map;
   for (const std::filesystem::path& path : options.files) {

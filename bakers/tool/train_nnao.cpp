@@ -16,9 +16,9 @@
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/output_file.h"
-#include "bakers/tool/progress_bar.h"
 #include "bakers/tool/table.h"
 #include "bakers/tool/tool_error.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -53,7 +53,7 @@ TrainingState starting_state(const Options& options, const Dataset& data, const 
 
 Network train_with_progress(const Options& options, const Dataset& data, const std::string& recipe) {
   TrainingState state = starting_state(options, data, recipe);
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   // A new label begins a new line of the bar: one for every tenth of the epochs.
   const std::uint32_t tenth = std::max(1u, options.training.epochs / 10);
   std::string label = "training";
@@ -82,7 +82,7 @@ void run_in_arena(Options& options) {
   const std::string recipe = bake::network_recipe(options.data, options.training);
   auto start = std::chrono::steady_clock::now();
   const Dataset data = [&] {
-    ProgressBar bar(options.common.quiet);
+    platform::ProgressBar bar(options.common.quiet);
     return make_dataset(options.data, [&](std::size_t done, std::size_t total) {
       bar.show("ray tracing", "scenes", done, total);
       return !interrupted();

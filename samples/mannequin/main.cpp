@@ -5,11 +5,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "mannequin.h"
+#include "samples/mannequin/mannequin.h"
 
 namespace {
 
-/// Writes beside the target and renames, so that a failed run leaves no half file.
+/// Writes beside the target and renames, so that a failed run leaves no half-written file.
 void write_file(const std::filesystem::path& path, const std::vector<unsigned char>& bytes) {
   std::filesystem::path partial = path;
   partial += ".part";

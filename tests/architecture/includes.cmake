@@ -70,6 +70,7 @@ room(bakers/measure/nnao bakers/measure/nnao bakers/nnao platform ${ground} sdk/
 room(bakers/measure/probe bakers/measure/probe bakers/probe ${ground} sdk/src/probe)
 room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor ${ground}
      sdk/src/material)
+room(bakers/measure/crowd bakers/measure/crowd platform)
 room(bakers/job bakers/job bakers/measure ${makers})
 room(bakers/api bakers/api bakers/job ${makers})
 room(bakers/tool bakers/tool bakers/job bakers/measure bakers/images platform ${systems} sdk/src/core)
@@ -84,7 +85,15 @@ endforeach()
 foreach(folder import raytrace tensor character nnao probe material job api measure tool)
   forbid(bakers/${folder} "OpenImageIO" "only images knows OpenImageIO")
 endforeach()
-forbid(samples "\"(sdk|bakers)/" "samples see public headers only")
+forbid(bakers/measure/crowd "nook_gl|glad" "the sample draws what is measured")
+foreach(sample offscreen mannequin minimal)
+  room(samples/${sample} samples/${sample})
+endforeach()
+foreach(sample nnao probe)
+  room(samples/${sample} samples/${sample} samples/offscreen)
+endforeach()
+room(samples/material samples/material platform)
+room(samples/crowd samples/crowd samples/mannequin bakers/measure/crowd platform)
 
 # Sources are listed in their own room.
 file(GLOB_RECURSE lists ${ROOT}/sdk/CMakeLists.txt ${ROOT}/bakers/CMakeLists.txt ${ROOT}/platform/CMakeLists.txt

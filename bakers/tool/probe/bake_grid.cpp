@@ -11,8 +11,8 @@
 #include "bakers/tool/output_file.h"
 #include "bakers/tool/probe/bake.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/tool/progress_bar.h"
 #include "bakers/tool/table.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -42,7 +42,7 @@ std::vector<std::byte> file_of(const BakeProbeOptions& options, GridBake& grid, 
 
 // Passes until the error is small enough, the samples are used up, or the user stops it.
 double refine(const BakeProbeOptions& options, GridBake& grid, std::uint32_t max_passes) {
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   bake::GridRefinement refinement;
   refinement.max_passes = max_passes;
   refinement.error = options.error;

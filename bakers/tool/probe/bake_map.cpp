@@ -11,8 +11,8 @@
 #include "bakers/tool/output_file.h"
 #include "bakers/tool/probe/bake.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/tool/progress_bar.h"
 #include "bakers/tool/table.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -54,7 +54,7 @@ void bake_probe_of_map(const BakeProbeOptions& options) {
   if (!options.picture.empty()) picture.emplace(options.picture);
   const bake::Environment map = read_map(options.input);
 
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const auto began = std::chrono::steady_clock::now();
   bake::MapProbe baked = bake::bake_map_probe(map, settings, [&](std::size_t done, std::size_t total) {
     bar.show("fitting", "samples", done, total);
