@@ -98,7 +98,7 @@ def mannequin(run, glb):
              8, "--key-points", 16]
     run.bake("mannequin_paper", "bake character", glb, *small, "--kernel", "paper", "--fit", "paper")
     run.bake("mannequin_learned", "bake character", glb, *small, "--kernel", "rational", "--gamma", "learned",
-             "--poses", "single-joint")
+             "--poses", "auto")
 
 
 def maps(run, name, sky):
@@ -184,7 +184,7 @@ def main():
     run.bake("fiber", "bake material", "--meso", "fiber", "--texels", 12, "--directions", 16, "--samples", 1,
              "--bounces", 0, "--ranks", "4,8,6,6", "--votf-ranks", "6,6", "--detail", 0.3)
     if assets:
-        characters(run, "fox", assets / "characters/fox_CC-BY.glb")
+        characters(run, "fox", assets / "characters/fox_CC-BY.glb", "--poses", "single-joint")
         maps(run, "potsdamer", assets / "hdr/potsdamer_platz_1k.hdr")
         grid(run, "cornell", assets / "scenes/CornellBox-Sphere.glb", assets / "hdr/potsdamer_platz_1k.hdr",
              "--max-bounces", 3)
