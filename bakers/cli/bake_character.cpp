@@ -14,6 +14,7 @@
 #include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "cli/printable.h"
 #include "cli/progress_bar.h"
 #include "cli/table.h"
 #include "cli/tool_error.h"
@@ -59,7 +60,7 @@ Character import_character(const Options& options) {
   Character character(handle);
   if (!options.common.quiet)
     for (std::uint32_t i = 0; const char* text = nook_bake_character_warning(handle, i); ++i)
-      std::fprintf(stderr, "%s: %s\n", options.input.c_str(), text);
+      std::fprintf(stderr, "%s: %s\n", printable(options.input).c_str(), printable(text).c_str());
   std::vector<std::string> present;
   for (std::uint32_t i = 0; const char* name = nook_bake_character_clip_name(handle, i); ++i)
     present.emplace_back(name);

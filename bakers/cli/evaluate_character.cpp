@@ -19,6 +19,7 @@
 #include "cli/evaluation.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
+#include "cli/printable.h"
 #include "cli/progress_bar.h"
 #include "import/skinning.h"
 
@@ -62,7 +63,7 @@ std::optional<Recipe> recipe_of(const ImportedCharacter& character, const Charac
       naming_file(options.model, [&] { return read_recipe(character, std::string_view(model.recipe)); });
   if (recipe.source_hash != character.source_hash && !options.common.quiet)
     std::fprintf(stderr, "%s: the character file has changed since the bake; the numbers mix old and new\n",
-                 options.model.c_str());
+                 printable(options.model.string()).c_str());
   return recipe;
 }
 

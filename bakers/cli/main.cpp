@@ -2,9 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <new>
+#include <sstream>
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/printable.h"
 #include "cli/tool_error.h"
 #include "core/failure.h"
 
@@ -37,7 +39,11 @@ int run(int argc, char** argv) {
   try {
     tool.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return tool.exit(e) == 0 ? nook::cli::exit_done : nook::cli::exit_bad_arguments;
+    std::ostringstream out, error;
+    const bool done = tool.exit(e, out, error) == 0;
+    std::fputs(nook::cli::printable_lines(out.str()).c_str(), stdout);
+    std::fputs(nook::cli::printable_lines(error.str()).c_str(), stderr);
+    return done ? nook::cli::exit_done : nook::cli::exit_bad_arguments;
   }
   return nook::cli::exit_done;
 }
@@ -47,7 +53,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   nook::cli::watch_for_interrupt();
   const auto fail = [](int code, const char* text) {
-    std::fprintf(stderr, "nook: %s\n", text);
+    std::fprintf(stderr, "nook: %s\n", nook::cli::printable_lines(text).c_str());
     return code;
   };
   try {

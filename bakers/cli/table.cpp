@@ -4,12 +4,15 @@
 #include <cstdio>
 #include <vector>
 
+#include "cli/printable.h"
+
 namespace nook::cli {
 namespace {
 
 std::string cell_text(const nlohmann::ordered_json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (!value.is_number_float()) return value.is_null() ? "-" : value.dump();
+  if (value.is_string()) return printable(value.get<std::string>());
+  if (!value.is_number_float())
+    return value.is_null() ? "-" : printable(value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value.get<double>());
   return text;
@@ -28,6 +31,7 @@ std::string table_text(const nlohmann::ordered_json& rows) {
       cells.back().push_back(row.contains(key) ? cell_text(row.at(key)) : "-");
   }
   std::string text;
+  for (std::string& key : keys) key = printable(key);
   // One row reads better downwards.
   if (cells.size() == 1) {
     std::size_t width = 0;

@@ -14,6 +14,7 @@
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "cli/printable.h"
 #include "cli/progress_bar.h"
 #include "cli/table.h"
 #include "cli/tool_error.h"
@@ -61,7 +62,7 @@ TrainingState starting_state(const Options& options, const Dataset& data, const 
     return read_checkpoint(read_file(options.resume()), recipe, options.training.form);
   });
   if (!options.common.quiet)
-    std::fprintf(stderr, "%s: going on after %u of %u epochs\n", options.resume().c_str(), state.epochs_done,
+    std::fprintf(stderr, "%s: going on after %u of %u epochs\n", printable(options.resume()).c_str(), state.epochs_done,
                  options.training.epochs);
   return state;
 }
