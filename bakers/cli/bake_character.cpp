@@ -12,6 +12,7 @@
 #include "cli/character/clip_names.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/distinct_files.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/printable.h"
@@ -135,6 +136,9 @@ void print_summary(const char* report) {
 }
 
 void run(const Options& options) {
+  require_distinct_files({{{"the input", options.input}},
+                          {{"-o", options.output}, {"--report", options.common.report}},
+                          {}});
   const Character character = import_character(options);
   OutputFile output(options.output);
   std::optional<OutputFile> report_file;

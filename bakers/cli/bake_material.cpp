@@ -9,11 +9,13 @@
 #include "api/worker_arena.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/distinct_files.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/material/options.h"
 #include "cli/material/pictures.h"
 #include "cli/output_file.h"
+#include "cli/picture_file.h"
 #include "cli/progress_bar.h"
 #include "cli/table.h"
 #include "material/directions.h"
@@ -112,16 +114,15 @@ Json bake(const Options& o, OutputFile& output, std::optional<OutputFile>& raw_f
     std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
                  std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);
   const Json recipe = {{"source", recipe_of_trace(o)}, {"compression", describe(settings)}};
-  material.recipe = recipe.dump().c_str();
+  material.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
   const std::vector<std::byte> file = nook::material::write_material(material);
   material = nook::material::read_material(file);
   MethodRow row = measure_material(raw, material);
   row.method = method_name(settings.method);
   row.seconds = seconds_compress;
   if (!o.images.empty()) {
-    std::filesystem::create_directories(o.images);
-    bake::write_png(o.images / (raw.name + "_raw.png"), raw_sheet(raw));
-    bake::write_png(o.images / (raw.name + "_difference.png"), difference_sheet(raw, material));
+    write_png(o.images / (as_file_name(raw.name) + "_raw.png"), raw_sheet(raw));
+    write_png(o.images / (as_file_name(raw.name) + "_difference.png"), difference_sheet(raw, material));
   }
   Json json = report_row(raw.name, row);
   json["lights"] = raw.lights.size();
@@ -138,6 +139,10 @@ Json bake(const Options& o, OutputFile& output, std::optional<OutputFile>& raw_f
 void run(Options& o) {
   if (int(!o.meso.empty()) + int(!o.btf.empty()) + int(!o.raw.empty()) != 1)
     throw ToolError(exit_bad_arguments, "bake material: one of --meso, --btf and --raw is needed");
+  require_distinct_files(
+      {{{"--btf", o.btf}, {"--raw", o.raw}},
+       {{"-o", o.output}, {"--keep-raw", o.keep_raw}, {"--report", o.common.report}},
+       o.images});
   if (!o.meso.empty()) meso_parameters(o.meso);
   if (o.texels) o.trace.width = o.trace.height = o.texels;
   o.trace.seed = o.common.seed;
@@ -145,6 +150,7 @@ void run(Options& o) {
   std::optional<OutputFile> raw_file, report_file;
   if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);
   if (!o.common.report.empty()) report_file.emplace(o.common.report);
+  make_image_folder(o.images);
   Json report;
   try {
     bake::run_with_threads(o.common.threads, [&] { report = bake(o, output, raw_file); });
@@ -152,7 +158,7 @@ void run(Options& o) {
     if (failure.code() != NOOK_ERROR_CANCELLED) throw;
     throw ToolError(exit_other, "stopped; no material was written");
   }
-  if (report_file) report_file->commit(report.dump(2) + "\n");
+  if (report_file) report_file->commit(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   if (!o.common.quiet) std::fputs(table_text(report["rows"]).c_str(), stdout);
 }
 

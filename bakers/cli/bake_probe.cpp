@@ -8,6 +8,7 @@
 
 #include "api/worker_arena.h"
 #include "cli/commands.h"
+#include "cli/distinct_files.h"
 #include "cli/tool_error.h"
 #include "core/failure.h"
 
@@ -43,6 +44,10 @@ void parse_box(const std::string& text, BakeProbeOptions& options) {
 }
 
 void run(const BakeProbeOptions& options) {
+  require_distinct_files(
+      {{{"the input", options.input}, {"--light", options.light}},
+       {{"-o", options.output}, {"--picture", options.picture}, {"--report", options.common.report}},
+       {}});
   const bool is_grid = options.grid[0] > 0;
   if (is_grid != !options.light.empty())
     throw ToolError(exit_bad_arguments,

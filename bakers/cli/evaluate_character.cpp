@@ -180,7 +180,10 @@ void add_evaluate_character(CLI::App& evaluate_command) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_common_options(*command, o.common);
-  command->callback([options] { run_evaluation(options->common, [&] { return evaluate(*options); }); });
+  command->callback([options] {
+    run_evaluation(options->common, {evaluated_files(*options), {}, options->images},
+                   [&] { return evaluate(*options); });
+  });
 }
 
 }  // namespace nook::cli

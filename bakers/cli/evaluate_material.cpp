@@ -12,6 +12,7 @@
 #include "cli/material/pictures.h"
 #include "cli/material/sweep.h"
 #include "cli/output_file.h"
+#include "cli/picture_file.h"
 #include "cli/progress_bar.h"
 #include "material/material_file.h"
 #include "material/raw_file.h"
@@ -95,7 +96,7 @@ void add_peers(const RawMaterial& raw, const RawMaterial& unseen, const Compress
     add_unseen(unseen, material, o, row);
     rows.push_back(report_row(raw.name, row));
     if (!o.images.empty())
-      bake::write_png(o.images / (raw.name + "_" + peer.name + ".png"), difference_sheet(raw, material));
+      write_png(o.images / (as_file_name(raw.name) + "_" + peer.name + ".png"), difference_sheet(raw, material));
   }
   if (!wanted(o, pca_name)) return;
   bar.show("principal components", "steps", 0, 1);
@@ -130,7 +131,7 @@ void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, cons
   const char* names[] = {"se", "distance", "forms"};
   const std::vector<Chart> charts = sweep_charts(sweep, raw.name);
   for (std::size_t i = 0; i < charts.size(); ++i)
-    OutputFile(o.images / (raw.name + "_sweep_" + names[i] + ".svg")).commit(chart_svg(charts[i]));
+    OutputFile(o.images / (as_file_name(raw.name) + "_sweep_" + names[i] + ".svg")).commit(chart_svg(charts[i]));
 }
 
 Json evaluate(const Options& o) {
@@ -138,7 +139,6 @@ Json evaluate(const Options& o) {
   const RawMaterial raw = naming_file(o.raw, [&] { return read_raw_material(read_file(o.raw)); });
   const Material material =
       naming_file(o.material, [&] { return nook::material::read_material(read_file(o.material)); });
-  if (!o.images.empty()) std::filesystem::create_directories(o.images);
   bar.show("measuring", "files", 0, 1);
   const RawMaterial unseen = read_unseen(o);
   MethodRow own = naming_file(o.material, [&] { return measure_material(raw, material); });
@@ -146,8 +146,8 @@ Json evaluate(const Options& o) {
   add_unseen(unseen, material, o, own);
   Json rows = Json::array({report_row(raw.name, own)});
   if (!o.images.empty()) {
-    bake::write_png(o.images / (raw.name + "_raw.png"), raw_sheet(raw));
-    bake::write_png(o.images / (raw.name + "_file.png"), difference_sheet(raw, material));
+    write_png(o.images / (as_file_name(raw.name) + "_raw.png"), raw_sheet(raw));
+    write_png(o.images / (as_file_name(raw.name) + "_file.png"), difference_sheet(raw, material));
   }
   const CompressionSettings settings = settings_of(material, o);
   Json report;
@@ -188,7 +188,13 @@ void add_evaluate_material(CLI::App& evaluate_command) {
       ->delimiter(',');
   command->add_option("--images", o.images, "write pictures and plots to this folder");
   add_common_options(*command, o.common);
-  command->callback([options] { run_evaluation(options->common, [&] { return evaluate(*options); }); });
+  command->callback([options] {
+    const CommandFiles files{
+        {{"the raw material", options->raw}, {"the material", options->material}, {"--unseen", options->unseen}},
+        {},
+        options->images};
+    run_evaluation(options->common, files, [&] { return evaluate(*options); });
+  });
 }
 
 }  // namespace nook::cli

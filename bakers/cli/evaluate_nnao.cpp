@@ -149,7 +149,6 @@ Json evaluate(const Options& options) {
         trace_views(scene, options.truth, options.placed_cameras, options.common);
     const Comparison comparison = compare_views(options, *context, networks, views);
     if (!options.images.empty()) {
-      std::filesystem::create_directories(options.images);
       write_sheets(options.images, views, comparison.images);
       write_network_pictures(options.images, "nnao", networks.embedded, views);
       if (!networks.file.empty()) write_network_pictures(options.images, "other", networks.other, views);
@@ -209,7 +208,10 @@ void run(Options& options) {
   if (has_scenes == !options.tune.empty())
     throw ToolError(exit_bad_arguments, "evaluate nnao: need scenes (files or --thin) or else --tune");
   options.truth.seed = options.common.seed;
-  run_evaluation(options.common, [&] { return !options.tune.empty() ? tune(options) : evaluate(options); });
+  CommandFiles files{{{"--network", options.network}}, {{"--markdown", options.markdown}}, options.images};
+  for (const std::filesystem::path& scene : options.scenes.files) files.inputs.push_back({"a scene", scene});
+  run_evaluation(options.common, files,
+                 [&] { return !options.tune.empty() ? tune(options) : evaluate(options); });
 }
 
 }  // namespace

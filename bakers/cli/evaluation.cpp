@@ -5,14 +5,19 @@
 
 #include "api/worker_arena.h"
 #include "cli/output_file.h"
+#include "cli/picture_file.h"
 #include "cli/table.h"
 #include "cli/tool_error.h"
 #include "core/failure.h"
 
 namespace nook::cli {
 
-void run_evaluation(const CommonOptions& options, const std::function<nlohmann::ordered_json()>& evaluate) {
+void run_evaluation(const CommonOptions& options, CommandFiles files,
+                    const std::function<nlohmann::ordered_json()>& evaluate) {
   using Json = nlohmann::ordered_json;
+  files.outputs.push_back({"--report", options.report});
+  require_distinct_files(files);
+  make_image_folder(files.images);
   std::optional<OutputFile> report_file;
   if (!options.report.empty()) report_file.emplace(options.report);
   Json report;

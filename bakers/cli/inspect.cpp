@@ -7,6 +7,7 @@
 #include "character/model_file.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/distinct_files.h"
 #include "cli/input_file.h"
 #include "cli/inspect/describe.h"
 #include "cli/output_file.h"
@@ -56,6 +57,7 @@ Row describe(std::span<const std::byte> bytes) {
 }
 
 void run(const Options& options) {
+  require_distinct_files({{{"the input", options.input}}, {{"--report", options.common.report}}, {}});
   const std::vector<std::byte> bytes = read_file(options.input);
   std::optional<OutputFile> report;
   if (!options.common.report.empty()) report.emplace(options.common.report);

@@ -11,6 +11,7 @@
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
+#include "cli/distinct_files.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
@@ -35,7 +36,8 @@ struct Options {
   DatasetSettings data;
   TrainingSettings training;
 
-  std::string resume() const { return output + ".resume"; }
+  // Empty: the output is a device or a pipe, and no checkpoint is kept.
+  std::string resume;
 };
 
 // Everything that the network's bits depend on, besides the program itself.
@@ -57,12 +59,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 TrainingState starting_state(const Options& options, const Dataset& data, const std::string& recipe) {
-  if (!std::filesystem::exists(options.resume())) return start_training(data, options.training);
-  const auto state = naming_file(options.resume(), [&] {
-    return read_checkpoint(read_file(options.resume()), recipe, options.training.form);
+  if (options.resume.empty() || !std::filesystem::exists(options.resume)) return start_training(data, options.training);
+  const auto state = naming_file(options.resume, [&] {
+    return read_checkpoint(read_file(options.resume), recipe, options.training.form);
   });
   if (!options.common.quiet)
-    std::fprintf(stderr, "%s: going on after %u of %u epochs\n", printable(options.resume()).c_str(), state.epochs_done,
+    std::fprintf(stderr, "%s: going on after %u of %u epochs\n", printable(options.resume).c_str(), state.epochs_done,
                  options.training.epochs);
   return state;
 }
@@ -87,7 +89,7 @@ Network train_with_progress(const Options& options, const Dataset& data, const s
     return in_time && !interrupted();
   };
   return train(data, options.training, state, show, [&](const TrainingState& s) {
-    OutputFile(options.resume()).commit(write_checkpoint(s, recipe));
+    if (!options.resume.empty()) OutputFile(options.resume).commit(write_checkpoint(s, recipe));
   });
 }
 
@@ -114,6 +116,7 @@ Json validation_rows(const Options& options, const Network& network, const Datas
 
 void run_in_arena(Options& options) {
   OutputFile output(options.output);
+  if (output.is_regular()) options.resume = options.output + ".resume";
   std::optional<OutputFile> report_file;
   if (!options.common.report.empty()) report_file.emplace(options.common.report);
   const std::string recipe = recipe_of(options).dump();
@@ -134,7 +137,7 @@ void run_in_arena(Options& options) {
   const Json rows = validation_rows(options, network, data);
   output.commit(file);
   std::error_code gone;
-  std::filesystem::remove(options.resume(), gone);
+  if (!options.resume.empty()) std::filesystem::remove(options.resume, gone);
   if (report_file) {
     Json report = {{"rows", rows},
                    {"recipe", recipe_of(options)},
@@ -149,6 +152,11 @@ void run_in_arena(Options& options) {
 }
 
 void run(Options& options) {
+  require_distinct_files({{},
+                          {{"-o", options.output},
+                           {"the checkpoint of -o", options.output + ".resume"},
+                           {"--report", options.common.report}},
+                          {}});
   options.training.seed = options.data.seed = options.common.seed;
   options.training = with_defaults(options.training);
   options.data.normals = options.training.form == NetworkForm::paper;
@@ -158,8 +166,8 @@ void run(Options& options) {
     arena.execute([&] { run_in_arena(options); });
   } catch (const Failure& failure) {
     if (failure.code() != NOOK_ERROR_CANCELLED) throw;
-    throw ToolError(exit_other, std::filesystem::exists(options.resume())
-                                    ? "stopped; the same command goes on from " + options.resume()
+    throw ToolError(exit_other, !options.resume.empty() && std::filesystem::exists(options.resume)
+                                    ? "stopped; the same command goes on from " + options.resume
                                     : std::string("stopped; nothing was written"));
   }
 }

@@ -157,16 +157,4 @@ std::vector<std::byte> png_bytes(const Picture& picture) {
   return {first, first + bytes.size()};
 }
 
-void write_png(const std::filesystem::path& path, const Picture& picture) {
-  const std::string name = path.string();
-  const auto out = OIIO::ImageOutput::create("png");
-  const OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
-  // write_image before a successful open crashes.
-  if (!out || !out->open(name, spec))
-    throw Failure(NOOK_ERROR_INTERNAL, "%s cannot be written: %s", name.c_str(),
-                  (out ? out->geterror() : OIIO::geterror()).c_str());
-  if (!out->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) || !out->close())
-    throw Failure(NOOK_ERROR_INTERNAL, "%s cannot be written: %s", name.c_str(), out->geterror().c_str());
-}
-
 }  // namespace nook::bake

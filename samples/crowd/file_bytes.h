@@ -9,7 +9,7 @@
 namespace crowd {
 
 std::vector<unsigned char> read_file(const std::filesystem::path& path);
-// Writes beside the target and renames, so that a failed run leaves no half file. Makes the folder.
+// A failed run leaves no half file. Makes the folder.
 void write_file(const std::filesystem::path& path, const void* bytes, std::size_t size);
 // FNV-1a of 64 bits: names a cached file after what it was made from.
 std::uint64_t hash_bytes(const void* bytes, std::size_t size);

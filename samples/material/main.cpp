@@ -8,6 +8,7 @@
 
 #include "frames.h"
 #include "options.h"
+#include "platform/output_file.h"
 
 namespace material {
 namespace {
@@ -19,15 +20,6 @@ std::vector<char> read_file(const std::filesystem::path& path) {
   std::vector<char> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (!in) throw std::runtime_error("material: " + path.string() + " cannot be read");
   return bytes;
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path beside = path.string() + ".part";
-  std::ofstream out(beside, std::ios::binary);
-  if (!(out << text) || !out.flush())
-    throw std::runtime_error("material: " + beside.string() + " cannot be written");
-  out.close();
-  std::filesystem::rename(beside, path);
 }
 
 struct Loaded {
@@ -119,7 +111,7 @@ void run(const Options& o) {
         });
     report["rows"].push_back(describe(loaded, times));
   }
-  write_text(o.report, report.dump(2) + "\n");
+  platform::OutputFile(o.report).commit(report.dump(2) + "\n");
   std::printf("pictures: %s\nreport:   %s\n", std::filesystem::absolute(o.out).c_str(),
               std::filesystem::absolute(o.report).c_str());
 }

@@ -31,6 +31,10 @@ void add_evaluated_files(CLI::App& command, EvaluationOptions& options) {
   command.add_option("model", options.model, "the .nook file")->required();
 }
 
+std::vector<NamedFile> evaluated_files(const EvaluationOptions& options) {
+  return {{"the character", options.character}, {"the model", options.model}};
+}
+
 BakedCharacter read_baked_character(const EvaluationOptions& options) {
   BakedCharacter baked;
   baked.character = naming_file(options.character, [&] { return bake::import_gltf(options.character); });

@@ -7,6 +7,7 @@
 
 #include "character/model.h"
 #include "cli/common_options.h"
+#include "cli/distinct_files.h"
 #include "import/gltf.h"
 
 namespace nook::cli {
@@ -18,6 +19,9 @@ struct EvaluationOptions {
 
 // The two files, as a command's positional arguments.
 void add_evaluated_files(CLI::App& command, EvaluationOptions& options);
+
+// As inputs of the command.
+std::vector<NamedFile> evaluated_files(const EvaluationOptions& options);
 
 struct BakedCharacter {
   bake::ImportedCharacter character;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "character/evaluate.h"
+#include "cli/picture_file.h"
 #include "import/skinning.h"
 #include "raytrace/ambient_occlusion.h"
 #include "raytrace/picture.h"
@@ -46,7 +47,6 @@ Picture draw_rms(const SkinnedMesh& mesh, std::span<const float> vertex_rms) {
 void write_pictures(const std::filesystem::path& directory, const SkinnedMesh& mesh,
                     const CharacterModel& model, std::span<const Pose> poses, std::size_t count,
                     std::span<const float> vertex_rms, std::uint32_t rays, std::uint64_t seed) {
-  std::filesystem::create_directories(directory);
   std::vector<Pose> picked;
   count = std::min(count, poses.size());
   for (std::size_t i = 0; i < count; ++i) picked.push_back(poses[(2 * i + 1) * poses.size() / (2 * count)]);

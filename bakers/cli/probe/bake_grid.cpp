@@ -12,6 +12,7 @@
 #include "cli/probe/scene.h"
 #include "cli/progress_bar.h"
 #include "cli/table.h"
+#include "cli/tool_error.h"
 #include "probe/grid_bake.h"
 #include "probe/probe_file.h"
 
@@ -70,6 +71,10 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   OutputFile output(options.output);
   std::optional<OutputFile> report;
   if (!options.common.report.empty()) report.emplace(options.common.report);
+  if (options.preview_every_s > 0 && !output.is_regular())
+    throw ToolError(exit_bad_arguments, "--preview-every: -o is a device or a pipe, where no later version can replace "
+                                        "a preview (got " +
+                                            options.output.string() + "); give a file");
   const ProbeScene scene = read_probe_scene(options.input, options.light, !options.no_textures);
   GridBakeSettings settings;
   settings.basis = basis_of(options.probe);
