@@ -38,7 +38,8 @@ bool same_file(const struct stat& a, const struct stat& b) {
 // The number N of /proc/self/fd/N, where a path such as /dev/stdout ends; -1 for other paths.
 int own_descriptor(const fs::path& path) {
   struct stat folder, own;
-  if (stat(folder_of(path).c_str(), &folder) != 0 || stat("/proc/self/fd", &own) != 0 || !same_file(folder, own))
+  if (stat(folder_of(path).c_str(), &folder) != 0 || stat("/proc/self/fd", &own) != 0 ||
+      !same_file(folder, own))
     return -1;
   const std::string name = path.filename().string();
   int number = -1;
@@ -69,19 +70,22 @@ void remove_if_abandoned(const fs::path& part) {
 
 void remove_abandoned_parts(const fs::path& target) {
   std::error_code error;
-  for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end; entry.increment(error))
+  for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end;
+       entry.increment(error))
     if (is_part_of(entry->path().filename().string(), target.filename().string()))
       remove_if_abandoned(entry->path());
 }
 
-// A descriptor of a new part, locked; -1 where one of this name is there, or another process has just removed it.
+// A descriptor of a new part, locked; -1 where one of this name is there, or another process has just removed
+// it.
 int try_part(const fs::path& part, const fs::path& named) {
   const int descriptor = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0 && errno != EEXIST) fail(named, errno);
   if (descriptor < 0) return -1;
   const bool locked = lock(descriptor) || errno != EWOULDBLOCK;  // some file systems have no locks
   struct stat opened, there;
-  if (locked && fstat(descriptor, &opened) == 0 && lstat(part.c_str(), &there) == 0 && same_file(opened, there))
+  if (locked && fstat(descriptor, &opened) == 0 && lstat(part.c_str(), &there) == 0 &&
+      same_file(opened, there))
     return descriptor;
   close(descriptor);
   return -1;
@@ -145,8 +149,8 @@ void OutputFile::write(std::span<const std::byte> bytes) {
 void OutputFile::commit(std::span<const std::byte> bytes) {
   write(bytes);
   if (is_regular()) {
-    // The bytes are on the disk before they take the place of an older file. Some file systems cannot synchronise,
-    // which is no fault.
+    // The bytes are on the disk before they take the place of an older file. Some file systems cannot
+    // synchronise, which is no fault.
     if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail(named_, errno);
     if (rename(part_.c_str(), target_.c_str()) != 0) fail(named_, errno);
   }

@@ -8,12 +8,12 @@
 
 namespace platform {
 
-// A regular file is written to a part beside its target, TARGET.part-PID, which commit() renames to the target; without
-// commit() the part is removed. A symbolic link keeps its place: the file that it points to is replaced. Devices, pipes
-// and the program's own streams (/dev/stdout) are never replaced: commit() writes to them.
-// Everything is opened by the constructor, so that a place where nothing can be written is known before the work begins.
-// It also removes the parts that dead processes left beside the target. Failures are std::runtime_error with a text
-// that names the file.
+// A regular file is written to a part beside its target, TARGET.part-PID, which commit() renames to the
+// target; without commit() the part is removed. A symbolic link keeps its place: the file that it points to
+// is replaced. Devices, pipes and the program's own streams (/dev/stdout) are never replaced: commit() writes
+// to them. Everything is opened by the constructor, so that a place where nothing can be written is known
+// before the work begins. It also removes the parts that dead processes left beside the target. Failures are
+// std::runtime_error with a text that names the file.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path target);
@@ -37,8 +37,8 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
-// The file that a path stands for once its symbolic links are followed; it need not exist. Throws std::runtime_error
-// where the links form a circle.
+// The file that a path stands for once its symbolic links are followed; it need not exist. Throws
+// std::runtime_error where the links form a circle.
 std::filesystem::path followed(const std::filesystem::path& path);
 
 }  // namespace platform

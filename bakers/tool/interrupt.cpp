@@ -1,0 +1,36 @@
+#include "bakers/tool/interrupt.h"
+
+#include <csignal>
+#include <initializer_list>
+
+namespace nook::tool {
+namespace {
+
+// A signal handler can reach nothing but static storage.
+volatile std::sig_atomic_t signalled = 0;
+
+extern "C" void note_signal(int) {
+  signalled = 1;
+}
+
+}  // namespace
+
+void watch_for_interrupt() {
+  struct sigaction action = {};
+  action.sa_handler = note_signal;
+  action.sa_flags = int(SA_RESETHAND);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before = {};
+    sigaction(signal, nullptr, &before);
+    // Under nohup, and in the background of a script, the work goes on.
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
+  // A reader that went away makes a write fail, which is told; it does not end the process.
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+bool interrupted() {
+  return signalled != 0;
+}
+
+}  // namespace nook::tool
