@@ -4,6 +4,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "platform/output_file.h"
+
 namespace platform {
 
 std::vector<unsigned char> read_file(const std::filesystem::path& path) {
@@ -15,18 +17,7 @@ std::vector<unsigned char> read_file(const std::filesystem::path& path) {
 
 void write_file(const std::filesystem::path& path, const void* bytes, std::size_t size) {
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-  std::filesystem::path partial = path;
-  partial += ".part";
-  std::ofstream file(partial, std::ios::binary);
-  file.write(static_cast<const char*>(bytes), std::streamsize(size));
-  file.close();
-  if (!file) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw std::runtime_error("write_file: " + path.string() +
-                             " cannot be written; check the folder and the space left");
-  }
-  std::filesystem::rename(partial, path);
+  OutputFile(path).commit({static_cast<const std::byte*>(bytes), size});
 }
 
 }  // namespace platform

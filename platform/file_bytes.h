@@ -8,7 +8,7 @@
 namespace platform {
 
 std::vector<unsigned char> read_file(const std::filesystem::path& path);
-// Writes beside the target and renames, so that a failed run leaves no half-written file. Makes the folder.
+// A failed run leaves no half-written file. Makes the folder.
 void write_file(const std::filesystem::path& path, const void* bytes, std::size_t size);
 
 }  // namespace platform

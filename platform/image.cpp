@@ -1,9 +1,12 @@
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 
+#include "platform/output_file.h"
 #include "platform/platform.h"
 
 namespace platform {
@@ -41,22 +44,15 @@ FloatImage read_float_image(const std::filesystem::path& path) {
 }
 
 void write_image(const std::filesystem::path& path, const Image& image) {
-  std::filesystem::path partial = path;
-  partial.replace_filename(path.stem().string() + ".part" + path.extension().string());
-  const auto fail = [&](const std::string& why) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw std::runtime_error("write_image: " + path.string() + " cannot be written (" + why + ")");
-  };
-  const auto output = OIIO::ImageOutput::create(partial.string());
-  if (!output) fail(OIIO::geterror());
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto output = OIIO::ImageOutput::create(path.string());
   const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
-  if (!output->open(partial.string(), spec) ||
+  if (!output || !output->set_ioproxy(&memory) || !output->open(path.string(), spec) ||
       !output->write_image(OIIO::TypeDesc::UINT8, image.pixels.data()) || !output->close())
-    fail(output->geterror());
-  std::error_code error;
-  std::filesystem::rename(partial, path, error);
-  if (error) fail(error.message());
+    throw std::runtime_error("write_image: " + path.string() + " cannot be written (" +
+                             (output ? output->geterror() : OIIO::geterror()) + ")");
+  OutputFile(path).commit(std::as_bytes(std::span(bytes)));
 }
 
 }  // namespace platform

@@ -93,7 +93,7 @@ FloatImage read_float_image(const std::filesystem::path& path);
 // Reads the framebuffer that is bound for reading. Waits for the GPU. Pixel-pack state is set and not
 // restored.
 Image read_pixels(const Context& context, int width, int height, int channels = 3);
-// The extension decides the format. The file is written beside its target and then renamed.
+// The format follows the file's extension, such as .png. A failed run leaves no half-written file.
 void write_image(const std::filesystem::path& path, const Image& image);
 
 }  // namespace platform

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "platform/printable.h"
+
 namespace platform {
 namespace {
 
@@ -45,6 +47,7 @@ ProgressBar::~ProgressBar() {
 void ProgressBar::begin(const std::string& label, std::size_t done) {
   end_line();
   label_ = label;
+  shown_label_ = printable(label);
   first_ = done;
   began_ = Clock::now();
   drawn_ = {};
@@ -78,10 +81,10 @@ void ProgressBar::show(const std::string& label, const char* unit, std::size_t d
   drawn_ = now;
   tenths_ = tenths;
   if (rate > 0 && done < total)
-    std::fprintf(stderr, "%s: %zu of %zu %s, %s left\n", label_.c_str(), done, total, unit,
+    std::fprintf(stderr, "%s: %zu of %zu %s, %s left\n", shown_label_.c_str(), done, total, unit,
                  duration_text(left).c_str());
   else
-    std::fprintf(stderr, "%s: %zu of %zu %s\n", label_.c_str(), done, total, unit);
+    std::fprintf(stderr, "%s: %zu of %zu %s\n", shown_label_.c_str(), done, total, unit);
 }
 
 void ProgressBar::draw(const char* unit, double rate, double seconds_left) {
@@ -91,11 +94,13 @@ void ProgressBar::draw(const char* unit, double rate, double seconds_left) {
   else
     std::snprintf(tail, sizeof tail, " %zu/%zu %s, %.3g/s, %s left", done_, total_, unit, rate,
                   duration_text(seconds_left).c_str());
-  const int width = std::clamp(terminal_columns() - int(label_.size() + std::string(tail).size()) - 4, 5, 40);
+  const int width =
+      std::clamp(terminal_columns() - int(shown_label_.size() + std::string(tail).size()) - 4, 5, 40);
   const double share = total_ > 0 ? double(done_) / double(total_) : 0;
   const int filled = std::clamp(int(std::lround(share * width)), 0, width);
   // The last code erases to the end of the line, because the text before may have been longer.
-  std::fprintf(stderr, "\r%s [%s%s]%s\x1b[K", label_.c_str(), std::string(std::size_t(filled), '#').c_str(),
+  std::fprintf(stderr, "\r%s [%s%s]%s\x1b[K", shown_label_.c_str(),
+               std::string(std::size_t(filled), '#').c_str(),
                std::string(std::size_t(width - filled), '.').c_str(), tail);
   std::fflush(stderr);
   line_open_ = true;

@@ -26,7 +26,7 @@ class ProgressBar {
   void draw(const char* unit, double rate, double seconds_left);
 
   bool quiet_, terminal_;
-  std::string label_;
+  std::string label_, shown_label_;  // as it was given, and as it is printed
   std::size_t first_ = 0, done_ = 0, total_ = 0, tenths_ = 0;
   Clock::time_point began_, drawn_;
   bool line_open_ = false;

@@ -60,7 +60,10 @@ void add_evaluate_casters(CLI::App& evaluate_command) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_common_options(*command, o.common);
-  command->callback([options] { run_evaluation(options->common, [&] { return evaluate(*options); }); });
+  command->callback([options] {
+    run_evaluation(options->common, {evaluated_files(options->character, options->model), {}, {}},
+                   [&] { return evaluate(*options); });
+  });
 }
 
 }  // namespace nook::tool

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/file_bytes.h"
+#include "platform/output_file.h"
 #include "platform/progress_bar.h"
 #include "samples/material/frames.h"
 #include "samples/material/options.h"
@@ -105,8 +106,7 @@ void run(const Options& o) {
                     [&](std::uint32_t done) { bar.show(loaded.name, "pictures", done, o.frames); });
     report["rows"].push_back(describe(loaded, times));
   }
-  const std::string text = report.dump(2) + "\n";
-  platform::write_file(o.report, text.data(), text.size());
+  platform::OutputFile(o.report).commit(report.dump(2) + "\n");
   std::printf("pictures: %s\nreport:   %s\n", std::filesystem::absolute(o.out).c_str(),
               std::filesystem::absolute(o.report).c_str());
 }

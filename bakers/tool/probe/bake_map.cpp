@@ -8,10 +8,10 @@
 #include "bakers/job/probe_bake.h"
 #include "bakers/measure/probe/report.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/output_file.h"
 #include "bakers/tool/probe/bake.h"
 #include "bakers/tool/probe/scene.h"
 #include "bakers/tool/table.h"
+#include "platform/output_file.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {
@@ -48,8 +48,8 @@ void bake_probe_of_map(const BakeProbeOptions& options) {
   settings.sampling = sampling_of(options.sampling);
   if (options.samples > 0) settings.samples = options.samples;
   settings.seed = options.common.seed;
-  OutputFile output(options.output);
-  std::optional<OutputFile> report, picture;
+  platform::OutputFile output(options.output);
+  std::optional<platform::OutputFile> report, picture;
   if (!options.common.report.empty()) report.emplace(options.common.report);
   if (!options.picture.empty()) picture.emplace(options.picture);
   const bake::Environment map = read_map(options.input);
