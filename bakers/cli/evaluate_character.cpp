@@ -66,6 +66,10 @@ std::optional<Recipe> recipe_of(const ImportedCharacter& character, const Charac
   return recipe;
 }
 
+double ratio(double error, double baseline) {
+  return baseline > 0 ? error / baseline : 0;
+}
+
 Json model_row(const Options& options, const EvaluatedPoses& measured, const ImportedCharacter& character,
                const CharacterModel& model, std::span<const std::byte> bytes, const CharacterEvaluation& e) {
   Json row;
@@ -80,6 +84,11 @@ Json model_row(const Options& options, const EvaluatedPoses& measured, const Imp
   row["poses"] = e.poses;
   row["rays"] = e.rays;
   row["noise_floor_mse"] = e.noise_floor_mse;
+  row["visible_share"] = e.visible_share;
+  row["mse_visible"] = e.model.mse_visible;
+  row["mse_static_visible"] = e.static_bake.mse_visible;
+  row["mse_oracle_visible"] = e.oracle.mse_visible;
+  row["ratio_to_static_visible"] = ratio(e.model.mse_visible, e.static_bake.mse_visible);
   row["mse"] = e.model.mse;
   row["rmse"] = std::sqrt(e.model.mse);
   row["mse_area"] = e.model.mse_area;
@@ -89,8 +98,8 @@ Json model_row(const Options& options, const EvaluatedPoses& measured, const Imp
   row["mse_area_static"] = e.static_bake.mse_area;
   row["mse_oracle"] = e.oracle.mse;
   row["mse_area_oracle"] = e.oracle.mse_area;
-  row["ratio_to_static"] = e.static_bake.mse > 0 ? e.model.mse / e.static_bake.mse : 0;
-  row["ratio_to_static_area"] = e.static_bake.mse_area > 0 ? e.model.mse_area / e.static_bake.mse_area : 0;
+  row["ratio_to_static"] = ratio(e.model.mse, e.static_bake.mse);
+  row["ratio_to_static_area"] = ratio(e.model.mse_area, e.static_bake.mse_area);
   return row;
 }
 
@@ -111,6 +120,7 @@ void add_peers(Json& row, const Options& options, const ImportedCharacter& chara
   const auto measure = [&](const char* name, const std::unique_ptr<PoseRegression>& peer) {
     const RegressionError error = measure_regression(*peer, measured, truth, area);
     row[std::string("mse_") + name] = error.mse;
+    row[std::string("mse_") + name + "_visible"] = error.mse_visible;
     row[std::string("mse_area_") + name] = error.mse_area;
     row[std::string("bytes_") + name] = peer->model_bytes();
     row[std::string("tuned_") + name] = peer->description();
@@ -147,7 +157,9 @@ void add_evaluate_character(CLI::App& evaluate_command) {
   CLI::App* command =
       evaluate_command.add_subcommand("character",
                                       "measure a baked character against ray tracing.\n"
-                                      "mse is over all vertices and poses; mse_area weights vertices by "
+                                      "mse is over all vertices and poses, mse_visible over those that ray "
+                                      "tracing does not find black (AO of at least 0.01; visible_share is "
+                                      "their share); mse_area weights vertices by "
                                       "area; mse_static is the AO baked in the rest pose, "
                                       "mse_oracle the best that any static bake could do");
   const auto options = std::make_shared<Options>();
