@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
+#include "character/clip_families.h"
 #include "character/rotation.h"
 
 namespace nook::bake {
 namespace {
 
-// "T-Pose", "t_pose", "TPose", "A-Pose", "Armature|A pose": a name whose letters end in tpose or apose as a word.
+// "T-Pose", "t_pose", "TPose", "A-Pose", "Armature|A pose": a name whose letters end in tpose or apose as a
+// word.
 bool is_reference_pose(const std::string& name) {
   std::string letters;
   for (char c : name) {
@@ -33,8 +36,10 @@ Pose turn_joints(const SkinnedMesh& mesh, std::span<const JointRotation> turns) 
   }
   for (std::size_t b = 0; b < pose.size(); ++b) {
     const std::int32_t parent = mesh.bones[b].parent;
-    if (parent >= 0) pose[b] = turned[b] ? pose[std::size_t(parent)] * local[b] : pose[std::size_t(parent)];
-    else pose[b] = local[b];
+    if (parent >= 0)
+      pose[b] = turned[b] ? pose[std::size_t(parent)] * local[b] : pose[std::size_t(parent)];
+    else
+      pose[b] = local[b];
   }
   return pose;
 }
@@ -45,8 +50,8 @@ std::vector<Pose> clip_poses(const ImportedCharacter& character, std::span<const
   poses.reserve(clips.size() * samples_per_clip);
   for (std::size_t clip : clips)
     for (std::size_t i = 0; i < samples_per_clip; ++i)
-      poses.push_back(sample_clip(character, clip,
-                                  (float(i) + 0.5f) / float(samples_per_clip) * character.clips[clip].duration_s));
+      poses.push_back(sample_clip(
+          character, clip, (float(i) + 0.5f) / float(samples_per_clip) * character.clips[clip].duration_s));
   return poses;
 }
 
@@ -61,20 +66,18 @@ std::vector<std::size_t> motion_clips(const ImportedCharacter& character) {
 
 ClipSplit split_clips(std::span<const std::size_t> clips) {
   ClipSplit split;
-  for (std::size_t i = 0; i < clips.size(); ++i) (i % 2 == 0 ? split.fitted : split.measured).push_back(clips[i]);
+  for (std::size_t i = 0; i < clips.size(); ++i)
+    (i % 2 == 0 ? split.fitted : split.measured).push_back(clips[i]);
   return split;
 }
 
 ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips) {
-  const auto family = [&](std::size_t clip) {
-    const std::string_view name = character.clips[clip].name;
-    return name.substr(0, name.find('_'));
-  };
   ClipSplit split;
-  std::size_t families = 0;
-  for (std::size_t i = 0; i < clips.size(); ++i) {
-    families += i > 0 && family(clips[i]) != family(clips[i - 1]);
-    (families % 2 == 0 ? split.fitted : split.measured).push_back(clips[i]);
+  std::map<std::string, std::size_t> number;  // of a family; its clips need not stand together in byte order
+  for (const std::size_t clip : clips) {
+    const std::size_t family =
+        number.emplace(clip_family(character.clips[clip].name), number.size()).first->second;
+    (family % 2 == 0 ? split.fitted : split.measured).push_back(clip);
   }
   return split;
 }
@@ -87,7 +90,8 @@ std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh) {
     std::fill(touches.begin(), touches.end(), char(0));
     for (int s = 0; s < SkinWeights::max_bones; ++s) {
       if (w.weight[s] <= 0) continue;
-      for (std::int32_t b = w.bone[s]; b >= 0 && !touches[std::size_t(b)]; b = mesh.bones[std::size_t(b)].parent)
+      for (std::int32_t b = w.bone[s]; b >= 0 && !touches[std::size_t(b)];
+           b = mesh.bones[std::size_t(b)].parent)
         touches[std::size_t(b)] = 1;
     }
     for (std::size_t b = 0; b < bones; ++b) moved[b] += std::size_t(touches[b]);
@@ -102,7 +106,9 @@ std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh) {
 
 std::vector<Pose> single_joint_poses(const SkinnedMesh& mesh, int steps, float range_radians) {
   std::vector<Pose> poses{Pose(mesh.bones.size())};
-  const auto angle = [&](int i) { return steps > 1 ? range_radians * (2 * float(i) / float(steps - 1) - 1) : 0.0f; };
+  const auto angle = [&](int i) {
+    return steps > 1 ? range_radians * (2 * float(i) / float(steps - 1) - 1) : 0.0f;
+  };
   for (std::uint32_t joint : posable_joints(mesh))
     for (int x = 0; x < steps; ++x)
       for (int y = 0; y < steps; ++y)

@@ -162,7 +162,10 @@ typedef int32_t nook_bake_pose_mode;
 enum {
   NOOK_BAKE_SPLIT_ALL = 0, /* every clip that shows motion (T- and A-poses, by name, do not) */
   NOOK_BAKE_SPLIT_HALF = 1, /* every second of them in byte order of the names, the first included: the others can measure */
-  NOOK_BAKE_SPLIT_FAMILIES = 2 /* the same with families in place of clips: names alike up to the first underscore */
+  /* The same with families in place of clips: names that begin with the same word, in upper or lower case. A word
+   * ends at a digit, at a sign and before a capital; what stands before the last | or : does not count. A file
+   * whose clips are one family is refused. */
+  NOOK_BAKE_SPLIT_FAMILIES = 2
 };
 typedef int32_t nook_bake_clip_split;
 
