@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "character/kernel.h"
+#include "character/model_check.h"
 #include "core/failure.h"
 #include "import/skinning.h"
 #include "raytrace/ambient_occlusion.h"
@@ -95,7 +96,8 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
   Eigen::VectorXd weight = Eigen::VectorXd::Constant(n, common);
   for (int sweep = 0; sweep < 400; ++sweep)
     for (Eigen::Index h = 0; h < n; ++h)
-      weight[h] = std::max(0.0, weight[h] + (right[h] - gram.row(h).dot(weight)) / gram(h, h));
+      weight[h] = std::clamp(weight[h] + (right[h] - gram.row(h).dot(weight)) / gram(h, h), 0.0,
+                             double(max_coefficient));
   for (std::size_t h = 0; h < spheres; ++h) model.spheres[h].caster_weight = float(weight[Eigen::Index(h)]);
 }
 

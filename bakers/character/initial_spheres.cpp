@@ -8,15 +8,26 @@
 namespace nook::bake {
 namespace {
 
+// A flat bone's spheres stand for patches of a surface, and those of a bone whose vertices lie on a line for
+// stretches of it: as small as its thickness they would cast no shadow at all. These shares of its breadth
+// and length are thinner than any limb, ear or finger.
+float least_radius(const float (&spread)[3]) {
+  return std::max({0.05f * spread[1], 0.02f * spread[2], 1e-4f});
+}
+
 struct BoneShape {
   double area = 0;
   Vec3 mean;
-  Vec3 axis;           // of the largest spread, unit length
-  float spread[3]{};   // standard deviations, ascending, metres
+  Vec3 axis;          // of the largest spread, unit length
+  float spread[3]{};  // standard deviations, ascending, metres
 };
 
-Eigen::Vector3d to_eigen(Vec3 v) { return {double(v.x), double(v.y), double(v.z)}; }
-Vec3 from_eigen(const Eigen::Vector3d& v) { return {float(v.x()), float(v.y()), float(v.z())}; }
+Eigen::Vector3d to_eigen(Vec3 v) {
+  return {double(v.x), double(v.y), double(v.z)};
+}
+Vec3 from_eigen(const Eigen::Vector3d& v) {
+  return {float(v.x()), float(v.y()), float(v.z())};
+}
 
 std::vector<BoneShape> bone_shapes(const SkinnedMesh& mesh, std::span<const float> vertex_area) {
   const std::size_t bones = mesh.bones.size();
@@ -43,7 +54,8 @@ std::vector<BoneShape> bone_shapes(const SkinnedMesh& mesh, std::span<const floa
     shapes[b].area = area[b];
     shapes[b].mean = from_eigen(mean);
     shapes[b].axis = from_eigen(solver.eigenvectors().col(2));
-    for (int i = 0; i < 3; ++i) shapes[b].spread[i] = float(std::sqrt(std::max(0.0, solver.eigenvalues()[i])));
+    for (int i = 0; i < 3; ++i)
+      shapes[b].spread[i] = float(std::sqrt(std::max(0.0, solver.eigenvalues()[i])));
   }
   return shapes;
 }
@@ -77,7 +89,7 @@ std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<co
     const auto more = std::size_t(std::floor(carried + 1e-9));
     carried -= double(more);
     const std::size_t count = 1 + more;
-    const float radius = std::max(s.spread[0], 1e-4f);
+    const float radius = std::max(s.spread[0], least_radius(s.spread));
     // Uniform density over a length l has standard deviation l / sqrt(12).
     const float half = 0.5f * std::sqrt(12.0f) * s.spread[2] * (1 - 1 / float(count + 1));
     for (std::size_t j = 0; j < count; ++j) {
