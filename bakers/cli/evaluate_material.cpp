@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "cli/commands.h"
 #include "cli/evaluation.h"
@@ -15,8 +16,8 @@
 #include "cli/progress_bar.h"
 #include "material/material_file.h"
 #include "material/raw_file.h"
-#include "material/tables.h"
 #include "material/unseen_views.h"
+#include "material/whole_file.h"
 
 namespace nook::cli {
 namespace {
@@ -48,7 +49,7 @@ CompressionSettings settings_of(const Material& material, const Options& o) {
     s.votf_rank_x = votf.rank_x;
     s.votf_rank_y = votf.rank_y;
   }
-  s.map_side = 0;
+  if (btf.clusters > 1 && btf.mixture > 1) s.map_side = material.btf.map.side;
   s.seed = o.common.seed;
   return s;
 }
@@ -63,7 +64,7 @@ constexpr Peer peers[] = {{"n-svd", Method::n_svd, 1},
                           {"k-cta-2", Method::k_cta, 2},
                           {"k-cta-3", Method::k_cta, 3},
                           {"k-cta-4", Method::k_cta, 4}};
-constexpr const char* pca_name = "pca";
+constexpr const char *pca_name = "pca", *n_svd_filled_name = "n-svd-filled";
 
 bool wanted(const Options& o, const std::string& name) {
   return o.methods.empty() ? o.peers : std::find(o.methods.begin(), o.methods.end(), name) != o.methods.end();
@@ -82,24 +83,51 @@ void add_unseen(const RawMaterial& unseen, const Material& material, const Optio
   row.error_texels_unseen = error.error_texels;
 }
 
-void add_peers(const RawMaterial& raw, const RawMaterial& unseen, const CompressionSettings& settings,
-               std::size_t btf_bytes, const Options& o, ProgressBar& bar, Json& rows) {
+// The view rank at which an N-SVD takes as many bytes as a file, its recipe counted: the text of the greatest
+// rank is the longest.
+std::uint32_t filling_view_rank(const RawMaterial& raw, CompressionSettings s, std::size_t file_bytes) {
+  s.method = Method::n_svd;
+  s.rank_view = std::uint32_t(raw.views.size());
+  const std::size_t recipe = describe(s).dump().size();
+  return file_bytes > recipe ? n_svd_view_rank(raw, s, file_bytes - recipe) : 0;
+}
+
+// What the compared file is measured against.
+struct Compared {
+  const RawMaterial &raw, &unseen;
+  std::span<const std::byte> file;
+  CompressionSettings settings;
+};
+
+void add_tensor(const Compared& c, const CompressionSettings& s, const char* name, const Options& o,
+                ProgressBar& bar, Json& rows) {
+  Material material;
+  MethodRow row = measure_method(c.raw, s, stage_progress(bar, std::string(name) + ", "), &material);
+  add_unseen(c.unseen, material, o, row);
+  rows.push_back(report_row(c.raw.name, row));
+  if (!o.images.empty())
+    bake::write_png(o.images / (c.raw.name + "_" + name + ".png"), difference_sheet(c.raw, material));
+}
+
+void add_peers(const Compared& c, const Options& o, ProgressBar& bar, Json& rows) {
   for (const Peer& peer : peers) {
-    CompressionSettings s = settings;
+    CompressionSettings s = c.settings;
     s.method = peer.method;
     s.mixture = peer.mixture;
-    if (!unseen.views.empty()) s.map_side = nook::material::default_map_side;
     if (!wanted(o, peer.name) || (s.method == Method::k_cta && s.mixture > s.cluster_count())) continue;
-    Material material;
-    MethodRow row = measure_method(raw, s, stage_progress(bar, std::string(peer.name) + ", "), &material);
-    add_unseen(unseen, material, o, row);
-    rows.push_back(report_row(raw.name, row));
-    if (!o.images.empty())
-      bake::write_png(o.images / (raw.name + "_" + peer.name + ".png"), difference_sheet(raw, material));
+    add_tensor(c, s, peer.name, o, bar, rows);
+  }
+  const std::uint32_t rank = filling_view_rank(c.raw, c.settings, c.file.size());
+  if (wanted(o, n_svd_filled_name) && rank > 0) {
+    CompressionSettings s = c.settings;
+    s.method = Method::n_svd;
+    s.rank_view = rank;
+    add_tensor(c, s, n_svd_filled_name, o, bar, rows);
+    rows.back()["method"] = "N-SVD, equal bytes";
   }
   if (!wanted(o, pca_name)) return;
   bar.show("principal components", "steps", 0, 1);
-  rows.push_back(report_row(raw.name, measure_pca(raw, btf_bytes, settings.seed)));
+  rows.push_back(report_row(c.raw.name, measure_pca(c.raw, c.file, c.settings.seed)));
 }
 
 void add_seedings(const RawMaterial& raw, const CompressionSettings& settings, ProgressBar& bar,
@@ -136,13 +164,14 @@ void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, cons
 Json evaluate(const Options& o) {
   ProgressBar bar(o.common.quiet);
   const RawMaterial raw = naming_file(o.raw, [&] { return read_raw_material(read_file(o.raw)); });
-  const Material material =
-      naming_file(o.material, [&] { return nook::material::read_material(read_file(o.material)); });
+  const std::vector<std::byte> file = read_file(o.material);
+  const Material material = naming_file(o.material, [&] { return nook::material::read_material(file); });
   if (!o.images.empty()) std::filesystem::create_directories(o.images);
   bar.show("measuring", "files", 0, 1);
   const RawMaterial unseen = read_unseen(o);
   MethodRow own = naming_file(o.material, [&] { return measure_material(raw, material); });
   own.method = "file: " + own.method;
+  own.file_bytes = file.size();
   add_unseen(unseen, material, o, own);
   Json rows = Json::array({report_row(raw.name, own)});
   if (!o.images.empty()) {
@@ -151,9 +180,7 @@ Json evaluate(const Options& o) {
   }
   const CompressionSettings settings = settings_of(material, o);
   Json report;
-  const std::size_t btf_bytes =
-      light_basis_bytes(raw.lights.size(), material.btf.shape) + compressed_bytes(material.btf.shape);
-  add_peers(raw, unseen, settings, btf_bytes, o, bar, rows);
+  add_peers({raw, unseen, file, settings}, o, bar, rows);
   report["rows"] = rows;
   report["settings"] = describe(settings);
   if (o.seeding) add_seedings(raw, settings, bar, report);
@@ -170,12 +197,15 @@ void add_evaluate_material(CLI::App& evaluate_command) {
   Options& o = *options;
   command->add_option("raw", o.raw, "the raw material, written by `bake material --keep-raw`")->required();
   command->add_option("material", o.material, "the .nook file")->required();
-  std::vector<std::string> names = {pca_name};
+  std::vector<std::string> names = {pca_name, n_svd_filled_name};
   for (const Peer& peer : peers) names.emplace_back(peer.name);
-  command->add_flag(
-      "--peers", o.peers,
-      "compress by N-SVD, CTA, K-CTA with K = 2, 3, 4 at the file's ranks, and PCA at its bytes");
-  command->add_option("--methods", o.methods, "only these peers: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, pca")
+  command->add_flag("--peers", o.peers,
+                    "compress by N-SVD, CTA, K-CTA with K = 2, 3, 4 at the file's ranks, and by N-SVD and "
+                    "PCA at the bytes of the "
+                    "whole file");
+  command
+      ->add_option("--methods", o.methods,
+                   "only these peers: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca")
       ->delimiter(',')
       ->check(CLI::IsMember(names))
       ->type_name("NAME,...");

@@ -311,7 +311,7 @@ typedef struct nook_bake_material_desc {
   uint32_t cluster_rank_view;      /* view rank of one cluster, default 4 */
   uint32_t clusters;               /* default 0: rank_view / cluster_rank_view */
   uint32_t mixture;                /* K, clusters that a view is mixed from, default 3 */
-  uint32_t view_map_side;          /* cells of K-CTA's resampled view maps, default 256; 0: none, and decoding mixes the three
+  uint32_t view_map_side;          /* cells of K-CTA's resampled view maps, default 64; 0: none, and decoding mixes the three
                                       nearest views, for up to three times the work */
   float rank_threshold;            /* squared error that ranks by threshold allow in each mode, a share of the square norm,
                                       default 0.01 */
