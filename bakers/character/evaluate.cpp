@@ -118,7 +118,7 @@ std::vector<float> predict_ao(const CharacterModel& model, std::span<const Mat3x
 CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
                                        const Progress& progress) {
-  const AoTargets targets = trace_character_ao(mesh, poses, rays, seed, progress);
+  AoTargets targets = trace_character_ao(mesh, poses, rays, seed, progress);
   const FitState state = state_of_model(model);
   const std::vector<float> shadows = shadows_of(state, poses);
   const std::size_t padded = state.structure.padded_count(), vertices = mesh.vertex_count();
@@ -158,6 +158,7 @@ CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterM
     }
     result.vertex_rms[i] = float(std::sqrt(sum / double(poses.size())));
   });
+  result.truth = std::move(targets);
   return result;
 }
 

@@ -33,6 +33,7 @@ struct CharacterEvaluation {
   // The oracle is the best static bake of each column: the mean truth of a vertex over all poses, in
   // mse_visible over those in which the vertex is visible.
   ErrorColumns model, static_bake, oracle;
+  AoTargets truth;                // what was measured against, for baselines on the same
   std::vector<float> vertex_rms;  // of the model, a value a welded vertex: what a picture of the error shows
 };
 

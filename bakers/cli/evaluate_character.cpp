@@ -105,7 +105,7 @@ Json model_row(const Options& options, const EvaluatedPoses& measured, const Imp
 
 // Fits the peers to the model's own training poses and measures them on the same targets.
 void add_peers(Json& row, const Options& options, const ImportedCharacter& character, const Recipe* recipe,
-               std::span<const Pose> measured, Tracing& tracing) {
+               std::span<const Pose> measured, const AoTargets& truth, Tracing& tracing) {
   const std::vector<Pose> training = recipe ? recipe_poses(character, *recipe) : std::vector<Pose>();
   if (training.empty())
     throw ToolError(exit_bad_arguments,
@@ -114,9 +114,6 @@ void add_peers(Json& row, const Options& options, const ImportedCharacter& chara
   const std::vector<float> area = vertex_areas(mesh, mesh.position);
   const AoTargets fitted = trace_character_ao(mesh, training, recipe->settings.rays, recipe->settings.seed,
                                               tracing.showing("ray tracing the peers' training poses"));
-  // The same rays as the model's own evaluation, so that all columns have the same truth.
-  const AoTargets truth = trace_character_ao(mesh, measured, options.rays, ray_seed(options),
-                                             tracing.showing("ray tracing again for the peers"));
   const auto measure = [&](const char* name, const std::unique_ptr<PoseRegression>& peer) {
     const RegressionError error = measure_regression(*peer, measured, truth, area);
     row[std::string("mse_") + name] = error.mse;
@@ -140,7 +137,9 @@ Json evaluate(const Options& options) {
   const CharacterEvaluation evaluation = evaluate_character(
       character.mesh, model, measured.poses, options.rays, ray_seed(options), tracing.showing("ray tracing"));
   Json row = model_row(options, measured, character, model, baked.model_bytes, evaluation);
-  if (options.peers) add_peers(row, options, character, recipe ? &*recipe : nullptr, measured.poses, tracing);
+  if (options.peers)
+    add_peers(row, options, character, recipe ? &*recipe : nullptr, measured.poses, evaluation.truth,
+              tracing);
   if (!options.images.empty())
     write_pictures(options.images, character.mesh, model, measured.poses, options.image_count,
                    evaluation.vertex_rms, options.rays, ray_seed(options));

@@ -77,6 +77,7 @@ TEST_CASE("errors over visible vertex-poses leave out what ray tracing finds bla
 
   const CharacterEvaluation e = evaluate_character(mesh, model, poses, rays, seed);
   const AoTargets truth = trace_character_ao(mesh, poses, rays, seed);
+  CHECK(e.truth.value == truth.value);
   Mean all, visible, visible_static;
   for (std::size_t t = 0; t < poses.size(); ++t) {
     const std::vector<float> ao = predict_ao(model, poses[t]);
