@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Bakes the built-in materials, compares the methods of compression, and prints the tables of docs/materials.md.
 
-    docs/material_tables.py --out out/material_tables
+    docs/material_tables.py --out out/material_tables [--write]
 
 A step whose report is in the output folder already is not repeated: remove the folder to measure anew. Raw materials of
 the full size take 0.5 GB of disk each and 3 GB of memory while they are baked.
@@ -11,6 +11,8 @@ import json
 import pathlib
 import subprocess
 import sys
+
+from markdown_table import show, table
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Name: options of its bake.
@@ -53,14 +55,6 @@ class Bench:
                         self.path(f"{material}.nook"), *options)
 
 
-def table(columns, rows):
-    print("| " + " | ".join(columns) + " |")
-    print("|" + "---|" * len(columns))
-    for row in rows:
-        print("| " + " | ".join(row) + " |")
-    print()
-
-
 def mib(bytes_):
     return f"{bytes_ / 2**20:.2f}"
 
@@ -73,31 +67,31 @@ def mixture(row):
     return str(row["k"]) if "K-CTA" in row["method"] else "-"
 
 
-def print_methods(reports):
-    table(["material", "method", "K", "view rank", "file, MiB", "numbers, MiB", "S/E, dB", "error texels (B)", "(S)"],
-          [[material, r["method"], mixture(r), count(r["view_rank"]), mib(r["file_bytes"]), mib(r["bytes"]),
-            f"{r['se_db']:.2f}", count(r["votf_error_texels_binary"]), count(r["votf_error_texels_distance"])]
-           for material, report in reports.items() for r in report["rows"][1:]])
+def methods_table(reports):
+    return table(["material", "method", "K", "view rank", "file, MiB", "numbers, MiB", "S/E, dB", "error texels (B)", "(S)"],
+                 [[material, r["method"], mixture(r), count(r["view_rank"]), mib(r["file_bytes"]), mib(r["bytes"]),
+                   f"{r['se_db']:.2f}", count(r["votf_error_texels_binary"]), count(r["votf_error_texels_distance"])]
+                  for material, report in reports.items() for r in report["rows"][1:]])
 
 
-def print_unseen(reports, views, unseen_views):
+def unseen_table(reports, views, unseen_views):
     """Error texels are of 10,000."""
     def share(texels, of):
         return "-" if texels is None else f"{1e4 * texels / (of * 96 * 96):.0f}"
-    table(["material", "method", "K", "file, MiB", "S/E, dB: fitted views", "unseen views",
-           "error texels (S), of 10,000: fitted", "unseen"],
-          [[material, r["method"], mixture(r), mib(r["file_bytes"]), f"{r['se_db']:.2f}", f"{r['se_db_unseen']:.2f}",
-            share(r["votf_error_texels_distance"], views), share(r.get("votf_error_texels_unseen"), unseen_views)]
-           for material, report in reports.items() for r in report["rows"] if "se_db_unseen" in r])
+    return table(["material", "method", "K", "file, MiB", "S/E, dB: fitted views", "unseen views",
+                  "error texels (S), of 10,000: fitted", "unseen"],
+                 [[material, r["method"], mixture(r), mib(r["file_bytes"]), f"{r['se_db']:.2f}", f"{r['se_db_unseen']:.2f}",
+                   share(r["votf_error_texels_distance"], views), share(r.get("votf_error_texels_unseen"), unseen_views)]
+                  for material, report in reports.items() for r in report["rows"] if "se_db_unseen" in r])
 
 
-def print_maps(maps):
-    table(["material", "cells a side", "file, MiB", "S/E, dB, unseen views", "error texels (S), unseen views"],
-          [[material, str(side), mib(r["file_bytes"]), f"{r['se_db_unseen']:.2f}", count(r["votf_error_texels_unseen"])]
-           for material, side, r in maps])
+def maps_table(maps):
+    return table(["material", "cells a side", "file, MiB", "S/E, dB, unseen views", "error texels (S), unseen views"],
+                 [[material, str(side), mib(r["file_bytes"]), f"{r['se_db_unseen']:.2f}", count(r["votf_error_texels_unseen"])]
+                  for material, side, r in maps])
 
 
-def print_sweep(report):
+def sweep_table(report):
     rows = {}
     for r in report["sweep"]:
         label = r["method"] + (f" ({r['k']})" if r["method"] == "K-CTA" else "")
@@ -105,33 +99,45 @@ def print_sweep(report):
     columns = {"file, KiB": lambda r: f"{r['file_bytes'] / 1024:.0f}", "S/E, dB": lambda r: f"{r['se_db']:.2f}",
                "(B)": lambda r: count(r["votf_error_texels_binary"]),
                "(S)": lambda r: count(r["votf_error_texels_distance"])}
-    table(["total view rank", *map(str, SWEEP)],
-          [[f"{label}, {name}", *(show(of[rank]) if rank in of else "-" for rank in SWEEP)]
-           for label, of in rows.items() for name, show in columns.items()])
+    return table(["total view rank", *map(str, SWEEP)],
+                 [[f"{label}, {name}", *(show(of[rank]) if rank in of else "-" for rank in SWEEP)]
+                  for label, of in rows.items() for name, show in columns.items()])
 
 
-def print_thresholds(reports):
+def thresholds_table(reports):
     rows = []
     for material, threshold, report in reports:
         compression, r = report["recipe"]["compression"], report["rows"][0]
         ranks = ", ".join(map(str, compression["ranks"])) + "; " + ", ".join(map(str, compression["votf_ranks"]))
         rows.append([material, f"{100 * threshold:g} %", ranks, str(compression["clusters"]),
                      f"{r['file_bytes'] / 1024:.0f}", f"{r['se_db']:.2f}", count(r["votf_error_texels_distance"])])
-    table(["material", "threshold", "ranks: light, view, x, y; VOTF x, y", "C", "file, KiB", "S/E, dB",
-           "error texels (S)"], rows)
+    return table(["material", "threshold", "ranks: light, view, x, y; VOTF x, y", "C", "file, KiB", "S/E, dB",
+                  "error texels (S)"], rows)
 
 
-def print_seeding(report):
-    table(["first clusters", "method", "file, KiB", "S/E, dB", "error texels (B)", "(S)"],
-          [[r["seeding"], r["method"] + (" (3)" if r["method"] == "K-CTA" else ""), f"{r['file_bytes'] / 1024:.0f}",
-            f"{r['se_db']:.2f}", count(r["votf_error_texels_binary"]), count(r["votf_error_texels_distance"])]
-           for r in report["seeding"]])
+def seeding_table(report):
+    return table(["first clusters", "method", "file, KiB", "S/E, dB", "error texels (B)", "(S)"],
+                 [[r["seeding"], r["method"] + (" (3)" if r["method"] == "K-CTA" else ""), f"{r['file_bytes'] / 1024:.0f}",
+                   f"{r['se_db']:.2f}", count(r["votf_error_texels_binary"]), count(r["votf_error_texels_distance"])]
+                  for r in report["seeding"]])
+
+
+def summary_table(reports):
+    """Signal to error of the methods, each with its file."""
+    def cell(rows, method, mixture):
+        row = next(r for r in rows if r["method"] == method and r["k"] == mixture)
+        return f"{row['se_db']:.2f} ({mib(row['file_bytes'])})"
+    columns = {"PCA": ("PCA", 1), "N-SVD": ("N-SVD, equal bytes", 1), "CTA": ("CTA", 1), "K-CTA": ("K-CTA", 3)}
+    return table(["", "raw", *columns],
+                        [[material, "1.03 GiB", *(cell(report["rows"], *of) for of in columns.values())]
+                         for material, report in reports.items()])
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/cli/nook")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for materials and reports")
+    parser.add_argument("--write", action="store_true", help="put the tables into the documents instead of printing them")
     options = parser.parse_args()
     bench = Bench(options.tool, options.out)
 
@@ -157,13 +163,11 @@ def main():
             maps.append((material, side, report["rows"][0]))
         methods[material] = bench.evaluate(material, "peers", ["--peers", "--unseen", unseen, "--images",
                                                                bench.path("images")])
-    for title, show in (("Methods", lambda: print_methods({**methods, "weave": weave})),
-                        ("Unseen views", lambda: print_unseen(methods, 100, 37)),
-                        ("View maps", lambda: print_maps(maps)), ("Over the view rank", lambda: print_sweep(sweep)),
-                        ("Ranks by threshold", lambda: print_thresholds(thresholds)),
-                        ("Clusters to begin with", lambda: print_seeding(seeding))):
-        print(f"{title}:\n")
-        show()
+    show(ROOT / "docs/materials.md", pathlib.Path(__file__).name,
+         {"methods": methods_table({**methods, "weave": weave}), "unseen views": unseen_table(methods, 100, 37),
+          "view maps": maps_table(maps), "view ranks": sweep_table(sweep), "thresholds": thresholds_table(thresholds),
+          "first clusters": seeding_table(seeding)}, options.write)
+    show(ROOT / "README.md", pathlib.Path(__file__).name, {"materials": summary_table(methods)}, options.write)
 
 
 if __name__ == "__main__":
