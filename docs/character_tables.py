@@ -89,7 +89,7 @@ def baselines(results):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/cli/nook")
+    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook")
     parser.add_argument("--assets", type=pathlib.Path, default=ROOT.parent / "shared/assets")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for models and reports")
     parser.add_argument("--without-baselines", action="store_true",

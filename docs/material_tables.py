@@ -135,7 +135,7 @@ def summary_table(reports):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/cli/nook")
+    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for materials and reports")
     parser.add_argument("--write", action="store_true", help="put the tables into the documents instead of printing them")
     options = parser.parse_args()

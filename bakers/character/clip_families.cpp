@@ -1,4 +1,4 @@
-#include "character/clip_families.h"
+#include "bakers/character/clip_families.h"
 
 namespace nook::bake {
 namespace {

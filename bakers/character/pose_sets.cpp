@@ -1,11 +1,11 @@
-#include "character/pose_sets.h"
+#include "bakers/character/pose_sets.h"
 
 #include <algorithm>
 #include <cctype>
 #include <map>
 
-#include "character/clip_families.h"
-#include "character/rotation.h"
+#include "bakers/character/clip_families.h"
+#include "bakers/character/rotation.h"
 
 namespace nook::bake {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "import/gltf.h"
+#include "bakers/import/gltf.h"
 
 namespace nook::bake {
 

@@ -1,9 +1,9 @@
-#include "character/model_check.h"
+#include "sdk/src/character/model_check.h"
 
 #include <cmath>
 
-#include "core/failure.h"
-#include "core/place.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {
