@@ -128,7 +128,6 @@ Json bake(const Options& o, platform::OutputFile& output, std::optional<platform
   json["width"] = raw.width;
   json["height"] = raw.height;
   json["raw_bytes"] = sizeof(float) * raw.btf.size();
-  json["file_bytes"] = file.size();
   json["seconds_source"] = seconds_obtain;
   output.commit(file);
   return {{"rows", Json::array({json})}, {"recipe", recipe}};

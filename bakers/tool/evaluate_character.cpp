@@ -75,7 +75,9 @@ void add_evaluate_character(CLI::App& evaluate_command) {
   CLI::App* command =
       evaluate_command.add_subcommand("character",
                                       "measure a baked character against ray tracing.\n"
-                                      "mse is over all vertices and poses; mse_area weights vertices by "
+                                      "mse is over all vertices and poses, mse_visible over those that ray "
+                                      "tracing does not find black (AO of at least 0.01; visible_share is "
+                                      "their share); mse_area weights vertices by "
                                       "area; mse_static is the AO baked in the rest pose, "
                                       "mse_oracle the best that any static bake could do");
   const auto options = std::make_shared<Options>();

@@ -54,8 +54,9 @@ Json evaluate(const Options& o) {
     return stage_progress(bar, method);
   };
   const RawMaterial raw = read_raw(o.raw);
-  const Material material =
-      naming_file(o.material, [&] { return nook::material::read_material(read_file(o.material)); });
+  const std::vector<std::byte> bytes = read_file(o.material);
+  const Material material = naming_file(o.material, [&] { return nook::material::read_material(bytes); });
+  const measure::MaterialFile file{bytes, material};
   bar.show("measuring", "files", 0, 1);
   RawMaterial unseen_material;
   const RawMaterial* unseen = nullptr;
@@ -63,8 +64,8 @@ Json evaluate(const Options& o) {
     unseen_material = read_raw(o.unseen);
     unseen = &unseen_material;
   }
-  Json rows = Json::array(
-      {naming_file(o.material, [&] { return measure::material_file_row(raw, material, unseen); })});
+  Json rows =
+      Json::array({naming_file(o.material, [&] { return measure::material_file_row(raw, file, unseen); })});
   if (!o.images.empty()) {
     bake::write_png(o.images / (as_file_name(raw.name) + "_raw.png"), measure::raw_sheet(raw));
     bake::write_png(o.images / (as_file_name(raw.name) + "_file.png"),
@@ -80,7 +81,7 @@ Json evaluate(const Options& o) {
       bake::write_png(o.images / (as_file_name(raw.name) + "_" + name + ".png"),
                       measure::difference_sheet(raw, compressed));
     };
-  for (const Json& row : measure::material_baseline_rows(raw, material, o.common.seed, request))
+  for (const Json& row : measure::material_baseline_rows(raw, file, o.common.seed, request))
     rows.push_back(row);
   const CompressionSettings settings = measure::settings_of(material, o.common.seed);
   Json report;
@@ -102,8 +103,11 @@ void add_evaluate_material(CLI::App& evaluate_command) {
   command->add_option("material", o.material, "the .nook file")->required();
   command->add_flag(
       "--peers", o.peers,
-      "compress by N-SVD, CTA, K-CTA with K = 2, 3, 4 at the file's ranks, and PCA at its bytes");
-  command->add_option("--methods", o.methods, "only these peers: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, pca")
+      "compress by N-SVD, CTA, K-CTA with K = 2, 3, 4 at the file's ranks, and by N-SVD and PCA at the bytes "
+      "of the whole file");
+  command
+      ->add_option("--methods", o.methods,
+                   "only these peers: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca")
       ->delimiter(',')
       ->check(CLI::IsMember(measure::material_baseline_names()))
       ->type_name("NAME,...");

@@ -162,7 +162,10 @@ typedef int32_t nook_bake_pose_mode;
 enum {
   NOOK_BAKE_SPLIT_ALL = 0, /* every clip that shows motion (T- and A-poses, by name, do not) */
   NOOK_BAKE_SPLIT_HALF = 1, /* every second of them in byte order of the names, the first included: the others can measure */
-  NOOK_BAKE_SPLIT_FAMILIES = 2 /* the same with families in place of clips: names alike up to the first underscore */
+  /* The same with families in place of clips: names that begin with the same word, in upper or lower case. A word
+   * ends at a digit, at a sign and before a capital; what stands before the last | or : does not count. A file
+   * whose clips are one family is refused. */
+  NOOK_BAKE_SPLIT_FAMILIES = 2
 };
 typedef int32_t nook_bake_clip_split;
 
@@ -308,7 +311,7 @@ typedef struct nook_bake_material_desc {
   uint32_t cluster_rank_view;      /* view rank of one cluster, default 4 */
   uint32_t clusters;               /* default 0: rank_view / cluster_rank_view */
   uint32_t mixture;                /* K, clusters that a view is mixed from, default 3 */
-  uint32_t view_map_side;          /* cells of K-CTA's resampled view maps, default 256; 0: none, and decoding mixes the three
+  uint32_t view_map_side;          /* cells of K-CTA's resampled view maps, default 64; 0: none, and decoding mixes the three
                                       nearest views, for up to three times the work */
   float rank_threshold;            /* squared error that ranks by threshold allow in each mode, a share of the square norm,
                                       default 0.01 */
