@@ -1,12 +1,12 @@
-#include "nnao/checkpoint.h"
+#include "bakers/nnao/checkpoint.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <cmath>
 
-#include "core/failure.h"
-#include "nnao/network_file.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/nnao/network_file.h"
 
 namespace nook::bake::nnao {
 namespace {

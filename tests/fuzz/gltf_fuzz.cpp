@@ -68,7 +68,7 @@ Arrays read_arrays(nook_bake_character character, const nook_bake_character_info
   std::uint32_t next = 0;
   for (std::uint32_t p = 0; p < info.primitive_count; ++p) {
     nook_bake_primitive primitive{};
-    require(ok(nook_bake_character_get_primitive(character, p, &primitive)) && primitive.first_vertex == next);
+    require(ok(nook_bake_character_describe_primitive(character, p, &primitive)) && primitive.first_vertex == next);
     next += primitive.vertex_count;
   }
   return a;
@@ -134,7 +134,7 @@ void import_character(const std::uint8_t* data, std::size_t size) {
   }
   nook_bake_character_info info{};
   info.struct_size = sizeof info;
-  require(ok(nook_bake_character_get_info(character, &info)));
+  require(ok(nook_bake_character_describe(character, &info)));
   if (is_small(info)) {
     read_texts(character, info);
     const Arrays arrays = read_arrays(character, info);

@@ -10,9 +10,9 @@
 #include <fstream>
 #include <span>
 
-#include "bakers/probe/environment_file.h"
-#include "bakers/material/ubo_reader.h"
-#include "bakers/raytrace/texture_file.h"
+#include "bakers/images/environment_file.h"
+#include "bakers/images/ubo_reader.h"
+#include "bakers/images/texture_file.h"
 #include "sdk/src/core/failure.h"
 #include "tests/fuzz/image_kinds.h"
 

@@ -69,11 +69,11 @@ void upload(nook_gl gl, nook_material material, Script& script) {
   if (!ok(nook_gl_material_create(gl, material, script.below(2) ? &desc : nullptr, &uploaded))) return;
   nook_gl_material_info info{};
   info.struct_size = sizeof info;
-  require(ok(nook_gl_material_get_info(uploaded, &info)) && info.texture_count <= 16);
+  require(ok(nook_gl_material_describe(uploaded, &info)) && info.texture_count <= 16);
   for (std::uint32_t i = 0; i < info.texture_count; ++i) {
     nook_gl_material_texture texture{};
     texture.struct_size = sizeof texture;
-    require(ok(nook_gl_material_get_texture(uploaded, i, &texture)) && texture.uniform);
+    require(ok(nook_gl_material_describe_texture(uploaded, i, &texture)) && texture.uniform);
   }
   nook_gl_material_destroy(&uploaded);
 }
@@ -91,7 +91,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   nook_material_info info{};
   info.struct_size = sizeof info;
-  require(ok(nook_material_get_info(material, &info)) && info.width > 0 && info.view_count > 0);
+  require(ok(nook_material_describe(material, &info)) && info.width > 0 && info.view_count > 0);
   upload(gl_of_tier(settings & 2 ? 43 : 33), material, input.script);
   evaluate_directions(material, input.script);
   nook_material_destroy(&material);

@@ -147,7 +147,7 @@ void update(Crowd& crowd, Script&) {
   for (const nook_instance_id id : crowd.instances) read(crowd, id);
   nook_scene_stats stats{};
   stats.struct_size = sizeof stats;
-  require(ok(nook_scene_get_stats(crowd.scene, &stats)) && stats.instances == crowd.instances.size());
+  require(ok(nook_scene_read_stats(crowd.scene, &stats)) && stats.instances == crowd.instances.size());
 }
 
 void update_on_gl(Crowd& crowd, Script& script) {
@@ -241,7 +241,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   crowd.info.struct_size = sizeof crowd.info;
-  require(ok(nook_character_model_get_info(crowd.model, &crowd.info)));
+  require(ok(nook_character_model_describe(crowd.model, &crowd.info)));
   if (is_small(crowd.info)) {
     ask_about(crowd);
     crowd.scene = make_scene(context, input.script);

@@ -118,10 +118,10 @@ void render(const std::vector<std::byte>& file, Script& script) {
   } while (++frames < 4 && !script.at_end());
   nook_nnao_info info{};
   info.struct_size = sizeof info;
-  require(ok(nook_nnao_get_info(pass, &info)) && info.texture_bytes >= bytes);
+  require(ok(nook_nnao_describe(pass, &info)) && info.texture_bytes >= bytes);
   nook_nnao_timings timings{};
   timings.struct_size = sizeof timings;
-  ok(nook_nnao_get_timings(pass, &timings));
+  ok(nook_nnao_read_timings(pass, &timings));
   nook_nnao_destroy(&pass);
 }
 

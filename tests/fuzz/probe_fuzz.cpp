@@ -83,7 +83,7 @@ void use_lobes(Script& script, std::vector<nook_probe_lobe>& lobes) {
 void use_probe(nook_context context, nook_probe probe, Script& script) {
   nook_probe_info info{};
   info.struct_size = sizeof info;
-  require(ok(nook_probe_get_info(probe, &info)) && info.function_count <= NOOK_PROBE_MAX_FUNCTIONS);
+  require(ok(nook_probe_describe(probe, &info)) && info.function_count <= NOOK_PROBE_MAX_FUNCTIONS);
   std::vector<float> coefficients(3 * std::size_t(info.function_count));
   require(ok(nook_probe_read_coefficients(probe, info.probe_count - 1, coefficients.data(), info.function_count)));
   require(!ok(nook_probe_read_coefficients(probe, info.probe_count, coefficients.data(), info.function_count)));
@@ -175,7 +175,7 @@ void add_samples(nook_probe_fit fit, Script& script) {
 void use_fit(nook_context context, nook_probe_fit fit, Script& script) {
   nook_probe_fit_info info{};
   info.struct_size = sizeof info;
-  require(ok(nook_probe_fit_get_info(fit, &info)) &&
+  require(ok(nook_probe_fit_describe(fit, &info)) &&
           info.skipped == info.skipped_direction + info.skipped_radiance + info.skipped_weight);
   std::vector<float> coefficients(3 * std::size_t(info.function_count));
   require(ok(nook_probe_fit_read(fit, coefficients.data(), info.function_count)));
