@@ -15,6 +15,7 @@
 namespace nook::bake::probe {
 namespace {
 
+using nook::probe::Constraint;
 using nook::probe::Denominator;
 using nook::probe::Fit;
 using nook::probe::FitMethod;
@@ -24,9 +25,10 @@ using nook::probe::Step;
 constexpr std::size_t few_samples = 1024, many_samples = 20000;
 constexpr std::size_t seeding_share = 64;  // of the samples that go to the short run of a seeded fit
 
-FitSettings settings_of(FitMethod method) {
+FitSettings settings_of(FitMethod method, Constraint constraint = Constraint::none) {
   FitSettings settings;
   settings.method = method;
+  settings.constraint = constraint;
   return settings;
 }
 
@@ -100,11 +102,19 @@ std::vector<ProbeMethod> probe_methods(std::uint32_t lobes, const Region& region
   add("moments", gaussians, settings_of(FitMethod::moments));
   add("least_squares", gaussians, settings_of(FitMethod::least_squares));
   add("non_negative_least_squares", gaussians, settings_of(FitMethod::non_negative_least_squares));
+  constexpr std::pair<const char*, FitMethod> with_bands[] = {
+      {"running_average, bands", FitMethod::running_average},
+      {"running_average_non_negative, bands", FitMethod::running_average_non_negative},
+      {"moments, bands", FitMethod::moments},
+      {"least_squares, bands", FitMethod::least_squares},
+      {"non_negative_least_squares, bands", FitMethod::non_negative_least_squares}};
+  for (const auto& [name, method] : with_bands) add(name, gaussians, settings_of(method, Constraint::bands));
   if (region.domain == Domain::hemisphere) return methods;
   add("running_average, ambient", with_ambient, running);
   add("least_squares, ambient", with_ambient, settings_of(FitMethod::least_squares));
   add("non_negative_least_squares, ambient", with_ambient,
       settings_of(FitMethod::non_negative_least_squares));
+  add("least_squares, ambient, bands", with_ambient, settings_of(FitMethod::least_squares, Constraint::bands));
   add("sh_l1", nook::probe::harmonic_basis(1), settings_of(FitMethod::least_squares));
   add("sh_l2", nook::probe::harmonic_basis(2), settings_of(FitMethod::least_squares));
   add("ambient_dice", nook::probe::dice_basis(), settings_of(FitMethod::least_squares));

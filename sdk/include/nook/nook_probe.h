@@ -74,6 +74,16 @@ enum {
 typedef int32_t nook_probe_method;
 
 enum {
+  /* Lobes agree with the light in its spherical harmonics of bands 0 to 2, which are 99 % of what irradiance sees of a light:
+   * the total light is exact, and irradiance has about a third of the error that least squares alone leaves. Coefficients
+   * minimise the square error of radiance under that condition. Where it cannot be met (fewer than 9 lobes, coefficients that
+   * may not be negative, a hemisphere) they come near it. Naive and original forms, harmonics and dice ignore it. */
+  NOOK_PROBE_CONSTRAINT_BANDS = 0,
+  NOOK_PROBE_CONSTRAINT_NONE = 1 /* least squares alone, for lobes so sharp that they leave gaps */
+};
+typedef int32_t nook_probe_constraint;
+
+enum {
   NOOK_PROBE_DENOMINATOR_LOCKSTEP = 0,   /* averaged from the same samples, never below the true integral */
   NOOK_PROBE_DENOMINATOR_PRECOMPUTED = 1 /* the true integral */
 };
@@ -91,7 +101,8 @@ typedef struct nook_probe_fit_desc {
   uint32_t struct_size;               /* set by nook_probe_fit_desc_init */
   uint32_t header_version;            /* set by nook_probe_fit_desc_init */
   const void* next;                   /* NULL */
-  nook_probe_method method;           /* default NOOK_PROBE_RUNNING_AVERAGE */
+  nook_probe_method method;           /* default NOOK_PROBE_LEAST_SQUARES */
+  nook_probe_constraint constraint;   /* default NOOK_PROBE_CONSTRAINT_BANDS */
   nook_probe_basis basis;             /* default NOOK_PROBE_GAUSSIANS */
   nook_probe_domain domain;           /* default NOOK_PROBE_SPHERE */
   float up[3];                        /* the hemisphere's axis, unit to 1e-3; default (0, 0, 1), a tangent space */
