@@ -8,6 +8,7 @@
 
 #include "api/worker_arena.h"
 #include "cli/commands.h"
+#include "cli/probe/scene.h"
 #include "cli/tool_error.h"
 #include "core/failure.h"
 
@@ -110,6 +111,12 @@ void add_bake_probe(CLI::App& bake_command) {
                    "of a scene: seconds after which the output is written as far as it is")
       ->check(CLI::Range(0.0, 1e9));
   command->add_option("--max-bounces", o.max_bounces, "of a scene: reflections that count; default all");
+  command
+      ->add_option("--direct", o.direct,
+                   "of a scene: what probes hold of the map's light that reaches them straight: none, the sky without suns, "
+                   "or all; reflected light always counts, and the report names the suns that are left to the host")
+      ->check(CLI::IsMember(direct_names))
+      ->capture_default_str();
   command->add_flag("--no-textures", o.no_textures,
                     "of a scene: colour factors stand for textures, and alpha masks are solid");
   add_common_options(*command, o.common);

@@ -10,4 +10,7 @@ namespace nook::cli {
 // where they are no integers.
 std::string table_text(const nlohmann::ordered_json& rows);
 
+// A ratio to nothing, such as an error relative to a black map, is no number: null in reports, "-" in tables.
+nlohmann::ordered_json number_or_null(double value);
+
 }  // namespace nook::cli

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "core/failure.h"
 #include "probe/map_bake.h"
 #include "probe/map_samples.h"
 #include "raytrace/hemisphere.h"
+#include "raytrace/path_tracer.h"
 
 namespace nook::bake::probe {
 namespace {
@@ -64,7 +66,7 @@ SampledError measure(const ProbeMethod& method, const ExactFit& exact, const Irr
   });
   SampledError all;
   all.irradiance_minimum = std::numeric_limits<double>::infinity();
-  all.mean_worst = 1;
+  all.mean_worst = of_seed.front().mean_worst;
   for (const SampledError& e : of_seed) {
     all.excess_mse += e.excess_mse / double(seeds.size());
     all.distance += e.distance / double(seeds.size());
@@ -73,6 +75,36 @@ SampledError measure(const ProbeMethod& method, const ExactFit& exact, const Irr
     all.irradiance_minimum = std::min(all.irradiance_minimum, e.irradiance_minimum);
   }
   return all;
+}
+
+// Uniform over all rotations: a unit quaternion (K. Shoemake 1992).
+Basis rotated(Basis basis, PathRandom& random) {
+  const double share = random.next_double(), turn = 2 * std::numbers::pi * random.next_double(),
+               other = 2 * std::numbers::pi * random.next_double();
+  const auto x = float(std::sqrt(1 - share) * std::sin(turn)), y = float(std::sqrt(1 - share) * std::cos(turn)),
+             z = float(std::sqrt(share) * std::sin(other)), w = float(std::sqrt(share) * std::cos(other));
+  const Vec3 v{x, y, z};
+  for (std::uint32_t i = 0; i < basis.count; ++i) {
+    const Vec3 a = basis.axis[i], across = cross(v, a) * 2.0f;
+    basis.axis[i] = normalised(a + across * w + cross(v, across));
+  }
+  return basis;
+}
+
+std::vector<double> rotated_errors(const ProbeMethod& method, const Samples& texels, const IrradianceTruth& truth,
+                                   const ComparisonSettings& settings) {
+  if (method.basis.kind != nook::probe::BasisKind::gaussians || method.basis.domain == Domain::hemisphere ||
+      nook::probe::is_running(method.fit.method))
+    return {};
+  std::vector<double> errors(settings.rotations);
+  tbb::parallel_for(std::size_t(0), errors.size(), [&](std::size_t r) {
+    PathRandom random(mix_bits(settings.seed) + r);
+    MapBakeSettings bake;
+    bake.basis = rotated(method.basis, random);
+    bake.fit = method.fit;
+    errors[r] = truth.error(bake.basis, bake_map(bake, texels)).rms / truth.mean();
+  });
+  return errors;
 }
 
 }  // namespace
@@ -156,6 +188,8 @@ std::vector<MethodError> compare_methods(const Environment& map, const std::vect
     error.irradiance_rms_inner_product = truth.error(method.basis, b, IrradianceForm::inner_product).rms;
     error.mean_ratio = exact->mean_ratio(b);
     error.irradiance_minimum = irradiance.minimum;
+    error.irradiance_mean = truth.mean();
+    error.rotated = rotated_errors(method, texels, truth, settings);
     error.uniform_1024 = measure(method, *exact, truth, seeds, &SeedSamples::uniform, few_samples);
     error.uniform_20000 = measure(method, *exact, truth, seeds, &SeedSamples::uniform, many_samples);
     error.luminance_20000 = measure(method, *exact, truth, seeds, &SeedSamples::luminance, many_samples);

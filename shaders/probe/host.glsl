@@ -1,5 +1,6 @@
 // What a host's shader calls. Directions are unit vectors, world space as the probe's lobes; colours linear RGB.
 #include "probe/grid.glsl"
+#include "probe/harmonics.glsl"
 #include "probe/irradiance.glsl"
 #include "probe/specular.glsl"
 

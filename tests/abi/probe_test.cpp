@@ -321,3 +321,16 @@ TEST_CASE("samples, reading and evaluation allocate nothing") {
     nook_probe_fit_destroy(&fit);
   }
 }
+
+TEST_CASE("harmonics refuse what is no light") {
+  const float c[75] = {1, 1, 1}, bad[27] = {1, NAN, 1}, up[3] = {0, 0, 1};
+  float out[15];
+  CHECK(nook_probe_harmonics_irradiance(c, 0, up, out, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_harmonics_irradiance(c, 5, up, out, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_harmonics_radiance(nullptr, 2, up, out, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_harmonics_radiance(c, 2, nullptr, out, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_harmonics_to_zonal(bad, out) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_harmonics_to_zonal(c, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_zonal_irradiance(c, up, nullptr, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_zonal_radiance(c, nullptr, nullptr, 0) == NOOK_OK);
+}

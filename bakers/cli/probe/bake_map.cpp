@@ -40,9 +40,10 @@ Json row_of(const BakeProbeOptions& options, const bake::Environment& map, const
   for (const auto& item : made_of.items()) row[item.key()] = item.value();
   row["radiance_rms"] = exact.rms(probes.of(0));
   row["irradiance_rms"] = irradiance.rms;
-  row["excess_mse"] = exact.excess(probes.of(0));
-  row["mean_ratio"] = exact.mean_ratio(probes.of(0));
-  row["irradiance_minimum"] = irradiance.minimum;
+  row["irradiance_relative"] = number_or_null(irradiance.rms / truth.mean());
+  row["excess_mse"] = number_or_null(exact.excess(probes.of(0)));
+  row["mean_ratio"] = number_or_null(exact.mean_ratio(probes.of(0)));
+  row["irradiance_minimum"] = number_or_null(irradiance.minimum);
   row["bytes"] = bytes;
   row["seconds_fit"] = seconds;
   return row;

@@ -1,9 +1,12 @@
 #include "cli/probe/evaluate_grid.h"
 
+#include <algorithm>
+
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/probe/scene.h"
 #include "cli/progress_bar.h"
+#include "cli/table.h"
 #include "probe/grid_error.h"
 #include "probe/inside_probes.h"
 #include "probe/probe_file.h"
@@ -17,10 +20,18 @@ using namespace bake::probe;
 Json error_row(const GridError& e) {
   return {{"irradiance_mean", e.mean},
           {"irradiance_rms", e.rms},
-          {"irradiance_rms_relative", e.rms / e.mean},
-          {"irradiance_bias_relative", e.bias / e.mean},
-          {"irradiance_worst_relative", e.worst / e.mean},
-          {"noise_rms_relative", e.noise / e.mean}};
+          {"irradiance_rms_relative", number_or_null(e.rms / e.mean)},
+          {"irradiance_bias_relative", number_or_null(e.bias / e.mean)},
+          {"irradiance_worst_relative", number_or_null(e.worst / e.mean)},
+          {"noise_rms_relative", number_or_null(e.noise / e.mean)}};
+}
+
+// What the grid's recipe says, which files of other tools lack.
+std::string direct_of_recipe(const nook::probe::Probes& probes) {
+  const Json recipe = Json::parse(probes.recipe, nullptr, false);
+  const auto direct = recipe.is_object() ? recipe.find("direct") : recipe.end();
+  const std::string name = direct != recipe.end() && direct->is_string() ? direct->get<std::string>() : "all";
+  return std::ranges::count(direct_names, name) ? name : "all";
 }
 
 void append_grid(const EvaluateGridOptions& options, const CommonOptions& common, const ProbeScene& scene,
@@ -28,7 +39,8 @@ void append_grid(const EvaluateGridOptions& options, const CommonOptions& common
   const std::vector<std::byte> bytes = read_file(path);
   const nook::probe::Probes probes = naming_file(path, [&] { return nook::probe::read_probes(bytes); });
   const std::vector<bool> inside = inside_probes(*scene.lit, probes.grid);
-  const bake::PathSettings trace{options.max_bounces, scene.origin_offset};
+  const std::string direct = options.direct.empty() ? direct_of_recipe(probes) : options.direct;
+  const bake::PathSettings trace{options.max_bounces, scene.origin_offset, direct_of(direct)};
   const Places surfaces = naming_file(path, [&] {
     return places_on_surfaces(*scene.lit, scene.soup, probes.grid, inside, scene.origin_offset,
                               options.points, common.seed);
@@ -49,6 +61,7 @@ void append_grid(const EvaluateGridOptions& options, const CommonOptions& common
     Json row{{"scene", options.scene.stem().string()},
              {"light", options.light.stem().string()},
              {"grid", path.filename().string()},
+             {"direct", direct},
              {"places", name},
              {"probes", probes.grid.size()},
              {"probes_inside", std::count(inside.begin(), inside.end(), true)},

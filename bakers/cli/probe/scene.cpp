@@ -45,4 +45,18 @@ ProbeScene read_probe_scene(const std::filesystem::path& path, const std::filesy
   return scene;
 }
 
+bake::DirectLight direct_of(const std::string& name) {
+  return bake::DirectLight(std::find(direct_names.begin(), direct_names.end(), name) - direct_names.begin());
+}
+
+nlohmann::ordered_json describe_suns(const bake::Environment& map) {
+  constexpr std::size_t max_suns = 4;
+  auto suns = nlohmann::ordered_json::array();
+  for (const bake::Sun& sun : bake::find_suns(map, max_suns))
+    suns.push_back({{"direction", {sun.direction.x, sun.direction.y, sun.direction.z}},
+                    {"irradiance", {sun.irradiance.x, sun.irradiance.y, sun.irradiance.z}},
+                    {"solid_angle", sun.solid_angle}});
+  return suns;
+}
+
 }  // namespace nook::cli

@@ -3,9 +3,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "core/vec.h"
 #include "raytrace/lit_scene.h"
+#include "raytrace/path_tracer.h"
 
 namespace nook::cli {
 
@@ -23,5 +27,12 @@ ProbeScene read_probe_scene(const std::filesystem::path& scene, const std::files
 
 // Of a latitude-longitude map, the same.
 bake::Environment read_map(const std::filesystem::path& path);
+
+// In the order of bake::DirectLight.
+inline const std::vector<std::string> direct_names{"none", "sky", "all"};
+bake::DirectLight direct_of(const std::string& name);
+
+// Direction, irradiance and solid angle of the map's suns, the brightest four.
+nlohmann::ordered_json describe_suns(const bake::Environment& map);
 
 }  // namespace nook::cli

@@ -307,6 +307,26 @@ NOOK_API nook_result nook_probe_lobes_rotate(nook_probe_lobe* lobes, uint32_t lo
 NOOK_API nook_result nook_probe_lobes_to_harmonics(const nook_probe_lobe* lobes, uint32_t lobe_count, uint32_t order,
                                                    float* coefficients);
 
+/* ---- Light as spherical harmonics, plain arrays: for diffuse light, the least error for its size. No allocation. Any thread.
+ * Errors: INVALID_ARGUMENT ----
+ *
+ * Coefficients are (order + 1)^2 x RGB as nook_probe_lobes_to_harmonics writes them, from lobes, or nook_probe_fit_read of a fit
+ * of NOOK_PROBE_HARMONICS, from samples. shaders/probe/harmonics.glsl evaluates bands 0 to 2 (27 floats), and ZH3 (15). */
+
+/* Radiance from unit directions, and irradiance on unit normals, exact for these bands. Not cut off at 0: opposite a sun
+ * harmonics ring below it. order: 1 to 4. */
+NOOK_API nook_result nook_probe_harmonics_radiance(const float* coefficients, uint32_t order, const float* directions,
+                                                   float* rgb, size_t count);
+NOOK_API nook_result nook_probe_harmonics_irradiance(const float* coefficients, uint32_t order, const float* normals,
+                                                     float* rgb, size_t count);
+
+/* Quadratic zonal harmonics, ZH3 (Roughton et al. 2024): of bands 0 to 2, 9 x RGB, the first two bands and the part of band 2
+ * that is symmetric round the direction of band 1's luminance, 5 x RGB: bands 0 and 1 as they were, then the zonal
+ * coefficient. They may be interpolated and packed like any others. */
+NOOK_API nook_result nook_probe_harmonics_to_zonal(const float* coefficients, float* zonal);
+NOOK_API nook_result nook_probe_zonal_radiance(const float* zonal, const float* directions, float* rgb, size_t count);
+NOOK_API nook_result nook_probe_zonal_irradiance(const float* zonal, const float* normals, float* rgb, size_t count);
+
 #ifdef __cplusplus
 }
 #endif
