@@ -83,8 +83,8 @@ TEST_CASE("direct light is the map's, its sky's or none; reflected light stays")
   const Vec3 away{-1, 0, 0};
   const double all = irradiance(away, DirectLight::all), sky = irradiance(away, DirectLight::sky);
   CHECK(irradiance(away, DirectLight::none) == 0);
-  CHECK(std::abs(sky / 3.14159 - 1) < 0.05);  // a sky of 1, and what is left of a sun
-  CHECK(all > 1.5 * sky);
+  CHECK(std::abs(sky / 3.14159 - 1) < 0.08);  // a sky of 1, and a tenth of the sun at that side, which is half as much
+  CHECK(all > 1.3 * sky);
   // To the wall, which fills most of the hemisphere: nearly all is reflected, the sun's light too.
   const Vec3 to_wall{1, 0, 0};
   const double reflected = irradiance(to_wall, DirectLight::none), both = irradiance(to_wall, DirectLight::all);
