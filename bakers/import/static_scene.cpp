@@ -1,4 +1,4 @@
-#include "import/static_scene.h"
+#include "bakers/import/static_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,12 @@
 #include <iterator>
 #include <limits>
 
-#include "core/failure.h"
-#include "import/accessor.h"
-#include "import/gltf_document.h"
-#include "import/gltf_textures.h"
-#include "import/primitive_triangles.h"
-#include "import/validate.h"
+#include "bakers/import/accessor.h"
+#include "bakers/import/gltf_document.h"
+#include "bakers/import/gltf_textures.h"
+#include "bakers/import/primitive_triangles.h"
+#include "bakers/import/validate.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {
@@ -22,8 +22,8 @@ Vec3 read_colour(const std::vector<double>& rgb, double most, std::size_t materi
                   what, rgb.size());
   for (std::size_t i = 0; i < 3; ++i)
     if (!(rgb[i] >= 0 && rgb[i] <= max_emission))
-      throw Failure(NOOK_ERROR_BAD_FILE, "material %zu has a %s out of range (got %g, need 0 to %g)", material,
-                    what, rgb[i], max_emission);
+      throw Failure(NOOK_ERROR_BAD_FILE, "material %zu has a %s out of range (got %g, need 0 to %g)",
+                    material, what, rgb[i], max_emission);
   const auto channel = [&](std::size_t i) { return float(std::min(rgb[i], most)); };
   return {channel(0), channel(1), channel(2)};
 }

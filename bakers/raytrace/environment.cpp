@@ -1,10 +1,10 @@
-#include "raytrace/environment.h"
+#include "bakers/raytrace/environment.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {
@@ -23,7 +23,8 @@ Environment::Environment(std::uint32_t width, std::uint32_t height, std::vector<
   for (std::size_t i = 0; i < rgb_.size(); ++i)
     if (!(rgb_[i] >= 0 && double(rgb_[i]) <= max_radiance))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "an environment's texel is out of range (got %g in row %zu, column %zu, need 0 to %g); repair the map "
+                    "an environment's texel is out of range (got %g in row %zu, column %zu, need 0 to %g); "
+                    "repair the map "
                     "or scale its light down",
                     double(rgb_[i]), i / 3 / width, i / 3 % width, max_radiance);
 }

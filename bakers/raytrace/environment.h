@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake {
 
-// The largest radiance of a map's texel and of a surface's own light: sums of squares over any number of paths stay far
-// below what a float holds.
+// The largest radiance of a map's texel and of a surface's own light: sums of squares over any number of
+// paths stay far below what a float holds.
 inline constexpr double max_radiance = 1e15;
 
 // Rows go from +y down to -y, columns once round y: the middle column looks along +x, a quarter further right
@@ -55,8 +55,8 @@ struct LightSample {
 // + uniform / (4 pi).
 class LightSampler {
  public:
-  // The environment must outlive the sampler. uniform_share in [0, 1]; a map that is black, or so dark that its
-  // density has no float, is sampled uniformly.
+  // The environment must outlive the sampler. uniform_share in [0, 1]; a map that is black, or so dark that
+  // its density has no float, is sampled uniformly.
   explicit LightSampler(const Environment& environment, float uniform_share = 0);
 
   // Four numbers in [0, 1); choice in double, which reaches every texel of large maps.

@@ -1,4 +1,4 @@
-#include "raytrace/path_tracer.h"
+#include "bakers/raytrace/path_tracer.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -9,8 +9,8 @@
 #include <mutex>
 #include <numbers>
 
-#include "core/failure.h"
-#include "core/spherical_gaussian.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/spherical_gaussian.h"
 
 namespace nook::bake {
 namespace {
@@ -40,7 +40,8 @@ Vec3 direct_radiance(const LitScene& scene, Vec3 radiance, DirectLight direct) {
 
 // Light of the environment at a surface, by a direction that the light chose, weighed by the balance
 // heuristic (Veach 1997) against the cosine's choice of the same direction.
-Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, DirectLight direct, PathRandom& random) {
+Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, DirectLight direct,
+                        PathRandom& random) {
   const double choice = random.next_double();
   const float alias = random.next(), u = random.next(), v = random.next();
   const LightSample light = scene.light().sample(choice, alias, u, v);
@@ -62,8 +63,9 @@ Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 dir
     if (std::isinf(hit.distance)) {
       const float density = std::max(dot(direction, normal), 0.0f) / pi;
       if (density > 0)
-        irradiance += by_channel(share, direct_radiance(scene, scene.environment().radiance(direction), direct)) *
-                      (pi * density / (density + scene.light().density(direction)));
+        irradiance +=
+            by_channel(share, direct_radiance(scene, scene.environment().radiance(direction), direct)) *
+            (pi * density / (density + scene.light().density(direction)));
       return irradiance;
     }
     const SurfaceColours surface = scene.colours(hit);

@@ -5,13 +5,13 @@
 #include <functional>
 #include <vector>
 
-#include "raytrace/ambient_occlusion.h"
-#include "raytrace/lit_scene.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "bakers/raytrace/lit_scene.h"
 
 namespace nook::bake {
 
-// What counts of the environment's light that comes straight to the point that is asked about. Its light by way of surfaces
-// always counts, suns included, and so does light that surfaces emit.
+// What counts of the environment's light that comes straight to the point that is asked about. Its light by
+// way of surfaces always counts, suns included, and so does light that surfaces emit.
 enum class DirectLight : std::uint8_t {
   none = 0,
   sky = 1,  // the environment without its suns, see suns.h
@@ -35,7 +35,8 @@ class PathRandom {
   std::uint64_t state_;
 };
 
-// One estimate of the radiance that arrives at a point from a unit direction; of settings.direct, straight from there.
+// One estimate of the radiance that arrives at a point from a unit direction; of settings.direct, straight
+// from there.
 Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const PathSettings& settings,
                     PathRandom& random);
 

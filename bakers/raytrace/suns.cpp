@@ -1,4 +1,4 @@
-#include "raytrace/suns.h"
+#include "bakers/raytrace/suns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,8 @@ double mean_luminance(const Environment& environment, double limit) {
   for (std::uint32_t row = 0; row < environment.height(); ++row) {
     double of_row = 0;
     for (std::uint32_t column = 0; column < environment.width(); ++column)
-      of_row += std::min(double(luminance(environment.texel(std::size_t(row) * environment.width() + column))), limit);
+      of_row += std::min(
+          double(luminance(environment.texel(std::size_t(row) * environment.width() + column))), limit);
     sum += of_row * environment.solid_angle(row);
   }
   return sum / (4 * std::numbers::pi);
@@ -52,8 +53,8 @@ Gathered gather(const Environment& environment, float limit, std::size_t first, 
 }  // namespace
 
 float sun_limit(const Environment& environment) {
-  // Each round takes away light that was above the limit; it ends with the suns outside the mean, or with no light at all
-  // where all of it is sun.
+  // Each round takes away light that was above the limit; it ends with the suns outside the mean, or with no
+  // light at all where all of it is sun.
   double limit = sun_ratio * mean_luminance(environment, INFINITY);
   for (int round = 0; round < 32; ++round) {
     const double next = sun_ratio * mean_luminance(environment, limit);
@@ -84,8 +85,9 @@ std::vector<Sun> find_suns(const Environment& environment, std::size_t max_count
     const Gathered group = gather(environment, limit, i, sun);
     suns.push_back({normalised(group.direction), group.irradiance, group.solid_angle});
   }
-  std::stable_sort(suns.begin(), suns.end(),
-                   [](const Sun& a, const Sun& b) { return luminance(a.irradiance) > luminance(b.irradiance); });
+  std::stable_sort(suns.begin(), suns.end(), [](const Sun& a, const Sun& b) {
+    return luminance(a.irradiance) > luminance(b.irradiance);
+  });
   suns.resize(std::min(suns.size(), max_count));
   return suns;
 }

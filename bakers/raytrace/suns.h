@@ -1,9 +1,10 @@
-// The suns of an environment: sources so small and bright that a host draws them as lights of their own, with shadows.
+// The suns of an environment: sources so small and bright that a host draws them as lights of their own, with
+// shadows.
 #pragma once
 
 #include <vector>
 
-#include "raytrace/environment.h"
+#include "bakers/raytrace/environment.h"
 
 namespace nook::bake {
 
@@ -22,8 +23,8 @@ Environment without_suns(const Environment& environment);
 
 // Texels above the limit that touch each other.
 struct Sun {
-  Vec3 direction;       // unit, towards the middle of its light
-  Vec3 irradiance;      // RGB on a surface that faces it, of its light above the limit
+  Vec3 direction;      // unit, towards the middle of its light
+  Vec3 irradiance;     // RGB on a surface that faces it, of its light above the limit
   double solid_angle;  // steradians
 };
 // The brightest ones, by luminance.

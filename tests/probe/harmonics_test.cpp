@@ -2,12 +2,12 @@
 #include <cmath>
 #include <vector>
 
-#include "catch.h"
-#include "probe/evaluate.h"
-#include "probe/harmonics.h"
-#include "probe/zonal_harmonics.h"
-#include "samples.h"
-#include "sphere_quadrature.h"
+#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/harmonics.h"
+#include "sdk/src/probe/zonal_harmonics.h"
+#include "tests/catch.h"
+#include "tests/probe/samples.h"
+#include "tests/probe/sphere_quadrature.h"
 
 using namespace nook;
 using namespace nook::probe;

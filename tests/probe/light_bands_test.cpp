@@ -1,14 +1,15 @@
-// Lobes that agree with a light's bands 0 to 2: what they agree in, what it is worth, and what is left to least squares.
-#include "probe/light_bands.h"
+// Lobes that agree with a light's bands 0 to 2: what they agree in, what it is worth, and what is left to
+// least squares.
+#include "sdk/src/probe/light_bands.h"
 
-#include "catch.h"
-#include "probe/convert.h"
-#include "probe/evaluate.h"
-#include "probe/fit.h"
-#include "probe/harmonics.h"
-#include "probe/probe.h"
-#include "samples.h"
-#include "sphere_quadrature.h"
+#include "sdk/src/probe/convert.h"
+#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/fit.h"
+#include "sdk/src/probe/harmonics.h"
+#include "sdk/src/probe/probe.h"
+#include "tests/catch.h"
+#include "tests/probe/samples.h"
+#include "tests/probe/sphere_quadrature.h"
 
 using namespace nook;
 using namespace nook::probe;
@@ -23,8 +24,8 @@ Vec3 light(Vec3 d) {
   return Vec3{sky + glow, sky + 0.8f * glow, sky * (1.5f + 0.5f * d.x) + 0.5f * glow};
 }
 
-// The integral of what the light is over directions, by samples that a rule of 128 x 128 directions weighs: its error on this
-// light is below 1e-4.
+// The integral of what the light is over directions, by samples that a rule of 128 x 128 directions weighs:
+// its error on this light is below 1e-4.
 test::Samples rule_of(Domain domain) {
   test::Samples samples;
   const auto add = [&](double x, double y, double z, double weight) {
@@ -44,7 +45,8 @@ test::Samples rule_of(Domain domain) {
   return samples;
 }
 
-Coefficients fitted(const Basis& basis, FitMethod method, Constraint constraint, const test::Samples& samples) {
+Coefficients fitted(const Basis& basis, FitMethod method, Constraint constraint,
+                    const test::Samples& samples) {
   FitSettings settings;
   settings.method = method;
   settings.constraint = constraint;
@@ -79,7 +81,8 @@ double largest_gap(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 }
 
 // Root mean square over normals and channels, relative to the mean.
-double irradiance_error(const Basis& basis, const Coefficients& b, const test::Samples& samples, Domain domain) {
+double irradiance_error(const Basis& basis, const Coefficients& b, const test::Samples& samples,
+                        Domain domain) {
   test::Directions directions(3, domain);
   double square = 0, mean = 0;
   constexpr int normals = 200;
@@ -107,14 +110,14 @@ TEST_CASE("lobes have the light's harmonics of bands 0 to 2") {
     for (const FitMethod method : {FitMethod::least_squares, FitMethod::moments})
       // Sums in float over 65,536 samples, and the rule's error in the functions' own bands.
       CHECK(largest_gap(bands_of(basis, fitted(basis, method, Constraint::bands, samples)), truth) < 1e-3);
-    CHECK(largest_gap(bands_of(basis, fitted(basis, FitMethod::least_squares, Constraint::none, samples)), truth) >
-          0.05);
+    CHECK(largest_gap(bands_of(basis, fitted(basis, FitMethod::least_squares, Constraint::none, samples)),
+                      truth) > 0.05);
   }
 }
 
 TEST_CASE("what the bands leave free is least squares") {
-  // Of all coefficients with these bands no others have less square error: its slope, G b - m, has no part along directions
-  // that leave the bands alone, and is a sum of the bands' rows.
+  // Of all coefficients with these bands no others have less square error: its slope, G b - m, has no part
+  // along directions that leave the bands alone, and is a sum of the bands' rows.
   const Basis basis = vogel_basis(12);
   const test::Samples samples = rule_of(Domain::sphere);
   const Coefficients b = fitted(basis, FitMethod::moments, Constraint::bands, samples),
@@ -187,15 +190,16 @@ TEST_CASE("the total light is exact, with few lobes and without negative ones") 
   for (const std::uint32_t lobes : {6u, 12u, 24u})
     CHECK(total(vogel_basis(lobes), FitMethod::non_negative_least_squares, Constraint::bands) < 2e-3);
   CHECK(total(vogel_basis(12), FitMethod::non_negative_least_squares, Constraint::none) > 0.02);
-  for (const Vec3 b : fitted(vogel_basis(12), FitMethod::non_negative_least_squares, Constraint::bands, samples))
+  for (const Vec3 b :
+       fitted(vogel_basis(12), FitMethod::non_negative_least_squares, Constraint::bands, samples))
     CHECK((b.x >= 0 && b.y >= 0 && b.z >= 0));
 }
 
 TEST_CASE("bands merge, start from a short run, and are forgotten") {
   const Basis basis = vogel_basis(12);
   const test::Samples samples = test::sample(5, 4000, light);
-  for (const FitMethod method : {FitMethod::moments, FitMethod::least_squares,
-                                 FitMethod::non_negative_least_squares}) {
+  for (const FitMethod method :
+       {FitMethod::moments, FitMethod::least_squares, FitMethod::non_negative_least_squares}) {
     FitSettings settings;
     settings.method = method;
     Fit whole(basis, settings), first(basis, settings), second(basis, settings);

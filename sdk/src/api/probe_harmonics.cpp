@@ -5,11 +5,11 @@
 #include <cmath>
 #include <span>
 
-#include "api/entry.h"
-#include "core/descriptors.h"
-#include "probe/evaluate.h"
-#include "probe/harmonics.h"
-#include "probe/zonal_harmonics.h"
+#include "sdk/src/api/entry.h"
+#include "sdk/src/core/descriptors.h"
+#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/harmonics.h"
+#include "sdk/src/probe/zonal_harmonics.h"
 
 using namespace nook;
 using namespace nook::probe;

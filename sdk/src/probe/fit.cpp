@@ -1,12 +1,12 @@
-#include "probe/fit.h"
+#include "sdk/src/probe/fit.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/failure.h"
-#include "probe/dense.h"
-#include "probe/harmonics.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/dense.h"
+#include "sdk/src/probe/harmonics.h"
 
 namespace nook::probe {
 namespace {
@@ -92,7 +92,8 @@ Fit::Fit(const Basis& basis, const FitSettings& settings, std::pmr::memory_resou
   running_.dual = row(dual);
   sums_ = AlignedArray<double>(std::size_t(3 + n) * padded_, memory);
   if (meets_bands(basis, settings))
-    bands_ = AlignedArray<double>(3 * std::size_t(band_stride) + std::size_t(band_functions) * padded_, memory);
+    bands_ =
+        AlignedArray<double>(3 * std::size_t(band_stride) + std::size_t(band_functions) * padded_, memory);
   scratch_ = AlignedArray<double>(2 * std::size_t(n) * n + 6 * std::size_t(n), memory);
   prepare_gram(memory);
 }
@@ -204,8 +205,8 @@ void Fit::fit_samples(const Sample* samples, std::uint32_t count) {
   if (!bands_.empty()) sum_bands(samples, values.data(), count);
 }
 
-// Harmonic by harmonic: the light's moment, and for forms with a Gram matrix of their samples the sum of its products with
-// every function, so that a light which lobes make exactly leaves no noise in the bands.
+// Harmonic by harmonic: the light's moment, and for forms with a Gram matrix of their samples the sum of its
+// products with every function, so that a light which lobes make exactly leaves no noise in the bands.
 void Fit::sum_bands(const Sample* samples, const float* values, std::uint32_t count) {
   alignas(64) std::array<float, std::size_t(chunk) * band_stride> harmonics{};
   for (std::uint32_t k = 0; k < count; ++k) {

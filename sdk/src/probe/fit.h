@@ -18,11 +18,11 @@
 #include <memory_resource>
 #include <span>
 
-#include "core/aligned_array.h"
-#include "core/vec.h"
-#include "probe/basis.h"
-#include "probe/fit_kernels.h"
-#include "probe/light_bands.h"
+#include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/probe/basis.h"
+#include "sdk/src/probe/fit_kernels.h"
+#include "sdk/src/probe/light_bands.h"
 
 namespace nook::probe {
 
@@ -41,7 +41,7 @@ enum class Constraint : std::uint8_t { bands = 0, none = 1 };
 
 struct FitSettings {
   FitMethod method = FitMethod::least_squares;
-  Step step = Step::fast;                           // running averages, but the original form
+  Step step = Step::fast;  // running averages, but the original form
   Constraint constraint = Constraint::bands;
   Denominator denominator = Denominator::lockstep;  // of the plain step
   float growing_samples = 0;                        // sample k weighs 1 - exp(-k / this) more; 0: as it is
@@ -53,8 +53,8 @@ constexpr bool is_running(FitMethod method) {
          method == FitMethod::running_average_non_negative;
 }
 
-// Whether coefficients are drawn to the light's bands 0 to 2, see light_bands.h: Gaussians, but the two forms that
-// are there for comparison.
+// Whether coefficients are drawn to the light's bands 0 to 2, see light_bands.h: Gaussians, but the two forms
+// that are there for comparison.
 constexpr bool meets_bands(const Basis& basis, const FitSettings& settings) {
   return settings.constraint == Constraint::bands && basis.kind == BasisKind::gaussians &&
          settings.method != FitMethod::naive && settings.method != FitMethod::running_average_original;
@@ -133,7 +133,8 @@ class Fit {
   AlignedArray<double> factor_;   // its Cholesky factor
   AlignedArray<double> row_sum_;  // of gram_; the naive form's denominators
   AlignedArray<double> sums_;     // 3 x padded moments, or coefficients; count x padded Gram of the samples
-  AlignedArray<double> bands_;    // 3 x band_stride moments of the harmonics, then 9 x padded of function and harmonic
+  AlignedArray<double>
+      bands_;  // 3 x band_stride moments of the harmonics, then 9 x padded of function and harmonic
   AlignedArray<double> scratch_;  // for solving
 };
 

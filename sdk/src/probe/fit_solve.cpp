@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 
-#include "core/failure.h"
-#include "probe/dense.h"
-#include "probe/fit.h"
-#include "probe/probe.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/dense.h"
+#include "sdk/src/probe/fit.h"
+#include "sdk/src/probe/probe.h"
 
 namespace nook::probe {
 namespace {
@@ -87,9 +87,9 @@ void Fit::solve_samples(double* b) {
   }
 }
 
-// The non-negative coefficients nearest to b in the mean square over the domain, and to the light's bands. As b tends to
-// least squares, they tend to its non-negative form. With the plain step and no bands they are b itself: no sample has left
-// it a negative one.
+// The non-negative coefficients nearest to b in the mean square over the domain, and to the light's bands. As
+// b tends to least squares, they tend to its non-negative form. With the plain step and no bands they are b
+// itself: no sample has left it a negative one.
 void Fit::make_non_negative(double* b) {
   const std::uint32_t n = basis_.count;
   bool negative = false;
@@ -119,8 +119,8 @@ double Fit::band_weight() const {
   return non_negative || basis_.domain == Domain::hemisphere ? soft_bands : exact_bands;
 }
 
-// As integrals: of the light under each harmonic, and of the functions under it over the same directions. What lies below a
-// hemisphere's horizon is dark, and counts.
+// As integrals: of the light under each harmonic, and of the functions under it over the same directions.
+// What lies below a hemisphere's horizon is dark, and counts.
 LightBands Fit::light_bands() const {
   LightBands bands;
   const std::uint32_t n = basis_.count;

@@ -1,10 +1,10 @@
-#include "probe/light_bands.h"
+#include "sdk/src/probe/light_bands.h"
 
 #include <cmath>
 
-#include "core/spherical_gaussian.h"
-#include "probe/dense.h"
-#include "probe/harmonics.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/probe/dense.h"
+#include "sdk/src/probe/harmonics.h"
 
 namespace nook::probe {
 namespace {
@@ -40,13 +40,14 @@ void project_functions(const Basis& basis, double* function) {
   }
 }
 
-// The minimum is b + K y with K = G^-1 C^T and (C K + 1 / weights) y = s - C b: nine equations, well conditioned however
-// large the weight is.
-void meet_bands(const LightBands& bands, const double* factor, std::uint32_t count, double weight, double* b) {
+// The minimum is b + K y with K = G^-1 C^T and (C K + 1 / weights) y = s - C b: nine equations, well
+// conditioned however large the weight is.
+void meet_bands(const LightBands& bands, const double* factor, std::uint32_t count, double weight,
+                double* b) {
   constexpr std::size_t rows = band_functions;
   std::array<double, rows * max_functions> k;  // K transposed: a row for each harmonic
   std::array<double, rows * rows> system;
-  std::array<double, rows * 3> y = bands.light;
+  std::array<double, rows* 3> y = bands.light;
   const double* const c = bands.function.data();
   for (std::size_t j = 0; j < rows; ++j) {
     double* const row = k.data() + j * count;
@@ -62,7 +63,8 @@ void meet_bands(const LightBands& bands, const double* factor, std::uint32_t cou
     }
   }
   if (cholesky(system.data(), rows, 0) < rows) return;  // no digits are left of functions that nearly vanish
-  for (std::size_t channel = 0; channel < 3; ++channel) cholesky_solve(system.data(), rows, y.data() + channel, 3);
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    cholesky_solve(system.data(), rows, y.data() + channel, 3);
   for (std::size_t j = 0; j < rows; ++j)
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t channel = 0; channel < 3; ++channel)
@@ -73,14 +75,17 @@ void add_bands(const LightBands& bands, std::uint32_t count, double weight, doub
   for (std::size_t j = 0; j < band_functions; ++j) {
     const double* const row = bands.function.data() + j * count;
     for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t k = 0; k < count; ++k) gram[i * count + k] += weight * harmonic_weight[j] * row[i] * row[k];
+      for (std::size_t k = 0; k < count; ++k)
+        gram[i * count + k] += weight * harmonic_weight[j] * row[i] * row[k];
   }
 }
 
-void add_bands(const LightBands& bands, std::uint32_t count, double weight, std::size_t channel, double* moments) {
+void add_bands(const LightBands& bands, std::uint32_t count, double weight, std::size_t channel,
+               double* moments) {
   for (std::size_t j = 0; j < band_functions; ++j)
     for (std::size_t i = 0; i < count; ++i)
-      moments[i] += weight * harmonic_weight[j] * bands.function[j * count + i] * bands.light[3 * j + channel];
+      moments[i] +=
+          weight * harmonic_weight[j] * bands.function[j * count + i] * bands.light[3 * j + channel];
 }
 
 }  // namespace nook::probe

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "probe/basis.h"
+#include "sdk/src/probe/basis.h"
 
 namespace nook::probe {
 
@@ -15,8 +15,8 @@ inline constexpr std::uint32_t band_stride = 16;    // the same in whole vectors
 
 // How strongly coefficients are drawn to the light's bands; see meet_bands.
 inline constexpr double exact_bands = 1e6;  // equal, to 1e-5 of the light or better
-// Where coefficients may not be negative, or lobes end at a horizon, equality has no answer or a bad one. From
-// here on irradiance gains little more, and radiance loses.
+// Where coefficients may not be negative, or lobes end at a horizon, equality has no answer or a bad one.
+// From here on irradiance gains little more, and radiance loses.
 inline constexpr double soft_bands = 100;
 
 // Projections on the harmonics, in steradians times their coefficients' unit.
@@ -28,16 +28,18 @@ struct LightBands {
 // The functions' rows over the whole sphere, exact. Gaussians only.
 void project_functions(const Basis& basis, double* function);
 
-// With C the functions' rows, s the light and G the Gram matrix, the coefficients b become those that minimise
+// With C the functions' rows, s the light and G the Gram matrix, the coefficients b become those that
+// minimise
 //   (b' - b)^T G (b' - b) + weight |C b' - s|^2,
-// where the difference of band l counts by the square of the clamped cosine's factor of that band, which is its share of
-// irradiance, and band 0 a thousand times more, so that the total light stays exact. factor: Cholesky's of G.
-// b: function by function, RGB.
+// where the difference of band l counts by the square of the clamped cosine's factor of that band, which is
+// its share of irradiance, and band 0 a thousand times more, so that the total light stays exact. factor:
+// Cholesky's of G. b: function by function, RGB.
 void meet_bands(const LightBands& bands, const double* factor, std::uint32_t count, double weight, double* b);
 
-// The same objective as a quadratic form, for solvers with constraints of their own: adds it to the Gram matrix, and to one
-// channel of the moments.
+// The same objective as a quadratic form, for solvers with constraints of their own: adds it to the Gram
+// matrix, and to one channel of the moments.
 void add_bands(const LightBands& bands, std::uint32_t count, double weight, double* gram);
-void add_bands(const LightBands& bands, std::uint32_t count, double weight, std::size_t channel, double* moments);
+void add_bands(const LightBands& bands, std::uint32_t count, double weight, std::size_t channel,
+               double* moments);
 
 }  // namespace nook::probe

@@ -1,9 +1,9 @@
-#include "probe/zonal_harmonics.h"
+#include "sdk/src/probe/zonal_harmonics.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "probe/harmonics.h"
+#include "sdk/src/probe/harmonics.h"
 
 namespace nook::probe {
 namespace {
@@ -14,7 +14,8 @@ float luminance(Vec3 rgb) {
   return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
 }
 
-// Where the light comes from: the direction of band 1's luminance, whose harmonics are y, z, x. +z where there is none.
+// Where the light comes from: the direction of band 1's luminance, whose harmonics are y, z, x. +z where
+// there is none.
 Vec3 axis_of(std::span<const Vec3> c) {
   const Vec3 axis{luminance(c[3]), luminance(c[1]), luminance(c[2])};
   const float size = length(axis);

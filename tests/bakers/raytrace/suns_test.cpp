@@ -1,11 +1,11 @@
 // Suns: what is one, what the sky keeps, and that both together are the light.
-#include "raytrace/suns.h"
+#include "bakers/raytrace/suns.h"
 
 #include <cmath>
 
-#include "bakers/probe/small_maps.h"
-#include "catch.h"
-#include "raytrace/path_tracer.h"
+#include "bakers/raytrace/path_tracer.h"
+#include "tests/bakers/probe/small_maps.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -83,11 +83,13 @@ TEST_CASE("direct light is the map's, its sky's or none; reflected light stays")
   const Vec3 away{-1, 0, 0};
   const double all = irradiance(away, DirectLight::all), sky = irradiance(away, DirectLight::sky);
   CHECK(irradiance(away, DirectLight::none) == 0);
-  CHECK(std::abs(sky / 3.14159 - 1) < 0.08);  // a sky of 1, and a tenth of the sun at that side, which is half as much
+  CHECK(std::abs(sky / 3.14159 - 1) <
+        0.08);  // a sky of 1, and a tenth of the sun at that side, which is half as much
   CHECK(all > 1.3 * sky);
   // To the wall, which fills most of the hemisphere: nearly all is reflected, the sun's light too.
   const Vec3 to_wall{1, 0, 0};
-  const double reflected = irradiance(to_wall, DirectLight::none), both = irradiance(to_wall, DirectLight::all);
+  const double reflected = irradiance(to_wall, DirectLight::none),
+               both = irradiance(to_wall, DirectLight::all);
   CHECK(reflected > 0);
   CHECK(reflected > 0.9 * both);
   // A path that begins at a point sees the same.
