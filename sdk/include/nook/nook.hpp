@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "sdk/include/nook/nook_character.h"
-#include "sdk/include/nook/nook_gl.h"
-#include "sdk/include/nook/nook_gl_probe.h"
-#include "sdk/include/nook/nook_material.h"
-#include "sdk/include/nook/nook_nnao.h"
-#include "sdk/include/nook/nook_probe.h"
+#include "nook_character.h"
+#include "nook_gl.h"
+#include "nook_gl_probe.h"
+#include "nook_material.h"
+#include "nook_nnao.h"
+#include "nook_probe.h"
 
 namespace nook {
 // A namespace within, so that these names never meet the library's own at link time. Write nook::Scene all

@@ -10,7 +10,7 @@
 #ifndef NOOK_BAKE_H
 #define NOOK_BAKE_H
 
-#include "sdk/include/nook/nook.h"
+#include "nook.h"
 
 #ifdef __cplusplus
 extern "C" {

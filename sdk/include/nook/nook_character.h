@@ -6,8 +6,8 @@
 #ifndef NOOK_CHARACTER_H
 #define NOOK_CHARACTER_H
 
-#include "sdk/include/nook/nook.h"
-#include "sdk/include/nook/nook_probe.h"
+#include "nook.h"
+#include "nook_probe.h"
 
 #ifdef __cplusplus
 extern "C" {

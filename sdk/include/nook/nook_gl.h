@@ -20,7 +20,7 @@
 #ifndef NOOK_GL_H
 #define NOOK_GL_H
 
-#include "sdk/include/nook/nook_character.h"
+#include "nook_character.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -14,8 +14,8 @@
 #ifndef NOOK_GL_PROBE_H
 #define NOOK_GL_PROBE_H
 
-#include "sdk/include/nook/nook_gl.h"
-#include "sdk/include/nook/nook_probe.h"
+#include "nook_gl.h"
+#include "nook_probe.h"
 
 #ifdef __cplusplus
 extern "C" {

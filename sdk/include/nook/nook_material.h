@@ -24,7 +24,7 @@
 #ifndef NOOK_MATERIAL_H
 #define NOOK_MATERIAL_H
 
-#include "sdk/include/nook/nook_gl.h"
+#include "nook_gl.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -26,7 +26,7 @@
 #ifndef NOOK_NNAO_H
 #define NOOK_NNAO_H
 
-#include "sdk/include/nook/nook_gl.h"
+#include "nook_gl.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -20,7 +20,7 @@
 #ifndef NOOK_PROBE_H
 #define NOOK_PROBE_H
 
-#include "sdk/include/nook/nook.h"
+#include "nook.h"
 
 #ifdef __cplusplus
 extern "C" {
