@@ -285,8 +285,9 @@ typedef struct nook_probe_surface {
 /* Radiance that a GGX surface reflects to the eye: Smith masking of both directions, Schlick Fresnel, single scattering; its
  * directional albedo times the light's mean over the lobe that it reflects. rgb: one colour for each surface. Seen from 0.02
  * to 1, the cosine between normal and view: under constant light within 5 % of the integral from reflectance 0.02 on, and
- * under 12 lobes of sharpness 6 within 7 % (anisotropic form: 6 % at alpha 0.05 and 0.1, 13 % at 0.2, 7 % above). Surfaces of
- * two widths, anisotropic form: 22 %; under constant light 6 % at reflectance 1, 26 % at 0.04. */
+ * under 12 lobes of sharpness 6 whose amplitudes differ by up to 1 : 9 within 10 % (anisotropic form: 6 % at alpha 0.05, 10 % at
+ * 0.1, 17 % at 0.2, 9 % above), where one lobe outshines all others by 1 : 20 within 40 %. Surfaces of two widths, anisotropic
+ * form: 32 %; under constant light 6 % at reflectance 1, 26 % at 0.04. */
 NOOK_API nook_result nook_probe_lobes_specular(const nook_probe_lobe* lobes, uint32_t lobe_count,
                                                nook_probe_specular_form form, const nook_probe_surface* surfaces,
                                                float* rgb, size_t count);
