@@ -32,14 +32,15 @@ struct Options {
 };
 
 void append_methods(const Options& options, const std::string& name, const bake::Environment& map,
-                    platform::ProgressBar& bar, Json& rows) {
+                    platform::ProgressBar& bar, Json& rows, measure::OverMaps& over_maps) {
   for (const bool hemisphere : {false, true}) {
     const std::string label = name + (hemisphere ? ", hemisphere" : ", sphere");
+    const auto progress = [&](std::size_t done, std::size_t total) {
+      bar.show(label, "methods", done, total);
+      return !interrupted();
+    };
     const Json measured = measure::probe_method_rows(map, name, options.lobes, hemisphere, options.comparison,
-                                                     [&](std::size_t done, std::size_t total) {
-                                                       bar.show(label, "methods", done, total);
-                                                       return !interrupted();
-                                                     });
+                                                     progress, &over_maps);
     for (const Json& row : measured) rows.push_back(row);
   }
 }
@@ -69,6 +70,7 @@ Json evaluate(const Options& options) {
   platform::ProgressBar bar(options.common.quiet);
   std::string name;
   std::unique_ptr<bake::Environment> map;
+  measure::OverMaps over_maps;
   for (const std::filesystem::path& path : options.files) {
     if (path.extension() == ".nook") {
       if (!map)
@@ -78,9 +80,10 @@ Json evaluate(const Options& options) {
     }
     name = path.stem().string();
     map = std::make_unique<bake::Environment>(read_map(path));
-    append_methods(options, name, *map, bar, report["rows"]);
+    append_methods(options, name, *map, bar, report["rows"], over_maps);
     if (!options.images.empty()) write_picture(options, name, *map);
   }
+  for (const Json& row : over_maps.rows()) report["rows"].push_back(row);
   report["seeds"] = options.comparison.seeds;
   report["seed"] = options.common.seed;
   return report;
@@ -112,6 +115,11 @@ void add_evaluate_probe(CLI::App& evaluate_command) {
       ->check(CLI::Range(2u, 1u << 24))
       ->capture_default_str();
   command->add_option("--max-bounces", o.grid.max_bounces, "of grids: reflections that count; default all");
+  command
+      ->add_option("--direct", o.grid.direct,
+                   "of grids: what both sides hold of the map's light that comes straight: none, the sky "
+                   "without suns, or all; default as the grid was baked")
+      ->check(CLI::IsMember(measure::direct_names()));
   command->add_flag("--no-textures", o.grid.no_textures,
                     "of grids: colour factors stand for textures, and alpha masks are solid");
   command->add_option("--lobes", o.lobes, "spherical Gaussians of the forms that are fitted here")
@@ -120,7 +128,14 @@ void add_evaluate_probe(CLI::App& evaluate_command) {
   command->add_option("--seeds", o.comparison.seeds, "independent sets of samples")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--images", o.images, "write a picture of each map and its running average here");
+  command
+      ->add_option(
+          "--rotations", o.comparison.rotations,
+          "solve the lobes' forms again with their axes rotated at random, this often, and report the "
+          "spread")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command->add_option("--images", o.images, "write a picture of each map and its lobes here");
   add_common_options(*command, o.common);
   command->callback([options] {
     options->comparison.seed = options->common.seed;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "bakers/job/probe_bake.h"
+#include "bakers/measure/probe/report.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/probe/bake.h"
 #include "bakers/tool/probe/scene.h"
@@ -34,6 +35,7 @@ std::vector<std::byte> file_of(const BakeProbeOptions& options, GridBake& grid, 
   Json recipe = describe(options.probe, probes.basis);
   recipe["source"] = options.input.filename().string();
   recipe["light"] = options.light.filename().string();
+  recipe["direct"] = options.direct;
   recipe["samples"] = grid.samples();
   recipe["error"] = error;
   recipe["seed"] = options.common.seed;
@@ -81,6 +83,7 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   settings.seed = options.common.seed;
   settings.path.max_bounces = options.max_bounces;
   settings.path.origin_offset = scene.origin_offset;
+  settings.path.direct = measure::direct_of(options.direct);
 
   const auto began = Clock::now();
   GridBake bake(*scene.lit, settings);
@@ -95,6 +98,9 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   row["probes_inside"] = bake.inside_count();
   const Json made_of = describe(options.probe, settings.basis);
   for (const auto& item : made_of.items()) row[item.key()] = item.value();
+  row["direct"] = options.direct;
+  if (settings.path.direct != bake::DirectLight::all)
+    row["suns"] = measure::sun_rows(scene.lit->environment());
   row["samples_per_probe"] = bake.samples();
   row["error"] = error;
   row["error_reached"] = error <= options.error;

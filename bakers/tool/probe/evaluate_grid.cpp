@@ -23,9 +23,10 @@ void append_grid(const EvaluateGridOptions& options, const CommonOptions& common
     };
   };
   const Json measured = naming_file(path, [&] {
-    return measure::grid_rows(
-        *scene.lit, scene.soup, probe::read_probes(bytes),
-        {options.points, options.paths, options.max_bounces, scene.origin_offset, common.seed}, progress);
+    return measure::grid_rows(*scene.lit, scene.soup, probe::read_probes(bytes),
+                              {options.points, options.paths, options.max_bounces, scene.origin_offset,
+                               common.seed, options.direct},
+                              progress);
   });
   for (const Json& row : measured) {
     Json named{

@@ -371,7 +371,7 @@ NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float*
 /* A latitude-longitude map of linear radiance. Rows go from +y down to -y, columns once round y: the middle column looks along
  * +x, a quarter further right along +z. Radiance is constant over a texel. */
 typedef struct nook_bake_environment {
-  const float* rgb; /* 3 a texel, rows from the top; finite, 0 or above. NULL only with width 0: black */
+  const float* rgb; /* 3 a texel, rows from the top; each 0 to 1e15. NULL only with width 0: black */
   uint32_t width;   /* at most 16384 */
   uint32_t height;  /* at most 8192 */
 } nook_bake_environment;
@@ -383,7 +383,7 @@ typedef struct nook_bake_lit_mesh {
   uint32_t vertex_count;
   uint32_t index_count;
   float base_colour[3];    /* RGB, the share of light that it sends back, 0 to 1; 0: it only occludes */
-  float emission[3];       /* RGB, radiance of its own, 0 or above */
+  float emission[3];       /* RGB, radiance of its own, 0 to 1e15 */
 } nook_bake_lit_mesh;
 
 typedef struct nook_bake_irradiance_desc {
