@@ -137,10 +137,10 @@ void choose_detail(const Scene& scene, std::uint32_t slot, Instance& instance) {
 
 void resolve_casters(Scene& scene) noexcept {
   if (scene.nearest > 0) {
-    clear_grid(scene.neighbours);
+    clear_tree(scene.neighbours);
     for (std::uint32_t slot = 0; slot < scene.instances.size(); ++slot)
-      if (scene.instances[slot].id) add_to_grid(scene.neighbours, slot, scene.instances[slot].bound.centre);
-    finish_grid(scene.neighbours, scene.nearest, scene.nearest_max_distance);
+      if (scene.instances[slot].id) add_to_tree(scene.neighbours, slot, scene.instances[slot].bound.centre);
+    build_tree(scene.neighbours);
   }
   auto resolve = [&](std::uint32_t slot) noexcept {
     Instance& instance = scene.instances[slot];

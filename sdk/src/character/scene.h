@@ -136,7 +136,7 @@ struct Scene {
 
   std::uint32_t nearest = 0;       // k of link_nearest; 0: off
   float nearest_max_distance = 0;  // metres
-  NeighbourGrid neighbours;
+  NeighbourTree neighbours;
   bool has_camera = false;
   Vec3 camera;
   std::uint32_t terms = NOOK_TERM_ALL;

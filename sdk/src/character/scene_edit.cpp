@@ -160,7 +160,7 @@ nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model) {
   added.pose_revision = 1;
   derive_bound(added, 1);
   const std::size_t slots = scene.instances.size() + (fresh ? 1 : 0);
-  if (scene.nearest) reserve_grid(scene.neighbours, std::bit_ceil(slots));
+  if (scene.nearest) reserve_tree(scene.neighbours, std::bit_ceil(slots));
   if (fresh) {
     scene.instances.push_back(std::move(added));
   } else {
@@ -228,7 +228,7 @@ void link_nearest(Scene& scene, std::uint32_t k, float max_distance) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "max_distance is out of range (got %g, need finite metres above 0)", double(max_distance));
   for (Instance& instance : scene.instances) instance.casters.reserve(instance.linked.size() + k);
-  if (k > 0) reserve_grid(scene.neighbours, std::bit_ceil(scene.instances.size()));
+  if (k > 0) reserve_tree(scene.neighbours, std::bit_ceil(scene.instances.size()));
   scene.nearest = k;
   scene.nearest_max_distance = max_distance;
 }
