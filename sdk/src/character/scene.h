@@ -65,7 +65,7 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, std::pmr::memory_r
 
 struct Instance {
   explicit Instance(std::pmr::memory_resource* memory)
-      : bones(memory), linked(memory), casters(memory), occluders(memory) {}
+      : bones(memory), linked(memory), receivers(memory), casters(memory), occluders(memory) {}
 
   nook_instance_id id = 0;       // 0: this slot is free, and everything below but `generation` is empty
   std::uint32_t generation = 0;  // how often the slot was used before, part of the id
@@ -77,6 +77,8 @@ struct Instance {
   bool has_ground = false;
   Plane ground;
   std::pmr::vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
+  // Slots of the instances that have this one in `linked`, ascending: what a removal must visit.
+  std::pmr::vector<std::uint32_t> receivers;
 
   InstanceLight light;
 
@@ -85,7 +87,8 @@ struct Instance {
   Sphere bound;
   float scale = 1;
 
-  // What resolve_casters decides, for this update.
+  // What resolve_casters decides for this update. Of an instance that is not due the lists are of an earlier
+  // one, may name free slots and must not be read.
   std::pmr::vector<std::uint32_t> casters;    // slots, ascending, each once; capacity reserved by the edits
   std::pmr::vector<std::uint32_t> occluders;  // slots of free occluders that matter here
   Sphere ground_sphere;                       // radius 0: no ground, or too far to matter
