@@ -58,13 +58,14 @@ std::uint32_t fill_page(const SceneBuffers& buffers, Buffer& page, const Scene& 
   std::uint64_t count = 0;
   for (; end < chunk.capacity && count < most; ++end) count += wanted(buffers, chunk, end);
   if (count == 0) return first;
-  auto* memory = static_cast<float*>(page.begin_write(count * instance_floats * sizeof(float)));
-  for (std::uint32_t place = first; place < end; ++place) {
-    if (!wanted(buffers, chunk, place)) continue;
-    Kind::write(scene, scene.instances[chunk.slots[place]], memory);
-    memory += instance_floats;
-  }
-  page.end_write();
+  page.write(count * instance_floats * sizeof(float), [&](void* memory) {
+    auto* out = static_cast<float*>(memory);
+    for (std::uint32_t place = first; place < end; ++place) {
+      if (!wanted(buffers, chunk, place)) continue;
+      Kind::write(scene, scene.instances[chunk.slots[place]], out);
+      out += instance_floats;
+    }
+  });
   return end;
 }
 

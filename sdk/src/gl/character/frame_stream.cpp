@@ -145,10 +145,10 @@ void write_chunk(const SceneBuffers& buffers, const Scene& scene, const Chunk& c
 bool upload_frame(const Device& device, SceneBuffers& buffers, const Scene& scene) {
   const std::uint64_t bytes = lay_out(device, buffers, scene);
   if (bytes == 0) return false;
-  auto* const memory = static_cast<std::byte*>(buffers.stream.begin_write(bytes));
-  for (const Chunk& chunk : buffers.chunks)
-    if (chunk.frame.selected) write_chunk(buffers, scene, chunk, memory);
-  buffers.stream.end_write();
+  buffers.stream.write(bytes, [&](void* memory) {
+    for (const Chunk& chunk : buffers.chunks)
+      if (chunk.frame.selected) write_chunk(buffers, scene, chunk, static_cast<std::byte*>(memory));
+  });
   return true;
 }
 

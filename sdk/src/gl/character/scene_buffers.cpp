@@ -137,9 +137,8 @@ void make_page(Device& device, SceneBuffers& buffers) {
 Buffer ao_buffer(Device& device, const ModelBuffers& model, std::uint32_t capacity) {
   const std::uint64_t bytes = std::uint64_t{capacity} * model.file_vertices() * sizeof(float);
   Buffer buffer(device, "nook: AO", bytes, nullptr, GL_DYNAMIC_COPY, BufferUse::ao);
-  auto* const values = static_cast<float*>(buffer.begin_write(bytes));
-  std::fill_n(values, bytes / sizeof(float), 1.0f);
-  buffer.end_write();
+  buffer.write(bytes,
+               [&](void* memory) { std::fill_n(static_cast<float*>(memory), bytes / sizeof(float), 1.0f); });
   return buffer;
 }
 

@@ -47,8 +47,8 @@ bool has_light(const Scene& scene, std::uint32_t slot) {
 Buffer open_buffer(Device& device, std::uint64_t floats) {
   Buffer buffer(device, "nook: directional AO", floats * sizeof(float), nullptr, GL_DYNAMIC_COPY,
                 BufferUse::ao);
-  std::fill_n(static_cast<float*>(buffer.begin_write(floats * sizeof(float))), floats, 1.0f);
-  buffer.end_write();
+  buffer.write(floats * sizeof(float),
+               [&](void* memory) { std::fill_n(static_cast<float*>(memory), floats, 1.0f); });
   return buffer;
 }
 
@@ -131,15 +131,16 @@ void upload_lights(const Device& device, SceneBuffers& buffers, const Scene& sce
                   "the lights of the scene need %llu texels, a texture buffer of this OpenGL holds %u; light "
                   "fewer instances or use fewer lobes",
                   static_cast<unsigned long long>(texels), device.max_texels);
-  auto* const memory = static_cast<Texel*>(buffers.lights.begin_write(texels * sizeof(Texel)));
-  Texel* next = memory;
-  for (std::size_t slot = 0; slot < buffers.placements.size(); ++slot) {
-    const Instance& instance = scene.instances[slot];
-    if (instance.light.count == 0) continue;
-    buffers.placements[slot].first_light_texel = static_cast<std::uint32_t>(next - memory);
-    next = write_light(instance, next);
-  }
-  buffers.lights.end_write();
+  buffers.lights.write(texels * sizeof(Texel), [&](void* memory) {
+    auto* const first = static_cast<Texel*>(memory);
+    Texel* next = first;
+    for (std::size_t slot = 0; slot < buffers.placements.size(); ++slot) {
+      const Instance& instance = scene.instances[slot];
+      if (instance.light.count == 0) continue;
+      buffers.placements[slot].first_light_texel = static_cast<std::uint32_t>(next - first);
+      next = write_light(instance, next);
+    }
+  });
 }
 
 const char* scene_light_glsl() {
