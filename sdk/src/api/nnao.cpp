@@ -5,6 +5,7 @@
 #include "api/entry.h"
 #include "api/gl_handle.h"
 #include "core/descriptors.h"
+#include "gl/nnao/frame_check.h"
 #include "gl/nnao/pass.h"
 #include "nnao/network_file.h"
 #include "nnao/taps.h"
