@@ -26,7 +26,7 @@ constexpr std::uint32_t padded_key_points(std::uint32_t count) {
 
 // Spheres smaller than this count as this large, so that the squares of distances in radii stay finite: 1
 // micrometre.
-inline constexpr float min_sphere_radius = 1e-6f;
+inline constexpr float min_sphere_radius = float(NOOK_MIN_SPHERE_RADIUS);
 // Coordinates up to this many metres from the origin give finite results; float resolution ends far before.
 inline constexpr float max_coordinate = 1e9f;
 constexpr float inverse_sphere_radius(float radius) {

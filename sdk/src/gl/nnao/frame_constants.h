@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "shaders/nnao/layout.h"
+
 namespace nook::gl {
 
 // x, y, width, height in pixels of the host's textures.
@@ -20,7 +22,7 @@ constexpr int surface_length(int length, bool half) {
 
 // The uniform array nook_frame of frame.glsl.
 struct FrameConstants {
-  std::array<float, 11 * 4> values{};
+  std::array<float, NOOK_FRAME_VEC4S * 4> values{};
 };
 
 // The frame must have passed check_frame.
