@@ -3,6 +3,7 @@
 
 #include <nook/nook_gl.h>
 
+#include <optional>
 #include <string>
 
 #include "api/handles.h"

@@ -170,9 +170,26 @@ inline constexpr std::uint32_t max_slots = (1u << id_slot_bits) - 1;
 
 // ---- Steps of an update, in order; none allocates or throws ----
 
-// Levels of detail and who is due, then casters, occluders and ground sphere of each instance that is due:
-// explicit links and the k nearest, less those below the cut-off. Needs the poses only.
-void resolve_casters(Scene& scene) noexcept;
+// Whether whoever evaluates the scene, the CPU or a GPU, holds results of the instance in a slot. References
+// a function object that outlives it.
+class HasResult {
+ public:
+  template <class Function>
+  HasResult(const Function& function)
+      : function_(&function), ask_([](const void* of, std::uint32_t slot) {
+          return bool((*static_cast<const Function*>(of))(slot));
+        }) {}
+  bool operator()(std::uint32_t slot) const { return ask_(function_, slot); }
+
+ private:
+  const void* function_;
+  bool (*ask_)(const void* of, std::uint32_t slot);
+};
+
+// Levels of detail and who is due, at once where there is no result; then casters, occluders and ground
+// sphere of each instance that is due: explicit links and the k nearest, less those below the cut-off. Needs
+// the poses only.
+void resolve_casters(Scene& scene, HasResult has_result) noexcept;
 // World-space spheres of an instance at all levels, which it and its receivers need.
 void transform_spheres(const Scene& scene, Instance& instance) noexcept;
 // World-space key points of an instance that is due, at its level.
