@@ -1,7 +1,7 @@
 // What a host's shader calls for the light of a scene's instances. `light` is that of nook_gl_light_view; normals are unit
 // vectors, world space; colours linear RGB.
-#include "character/layout.h"
-#include "probe/irradiance.glsl"
+#include "shaders/character/layout.h"
+#include "shaders/probe/irradiance.glsl"
 
 uniform samplerBuffer nook_scene_lights;
 

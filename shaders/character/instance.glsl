@@ -1,7 +1,7 @@
 // What the compute passes share: where an instance's data lies. Positions are relative to the instance's origin, so that a
 // scene far from the world's origin keeps its digits.
-#include "character/constants.h"
-#include "character/layout.h"
+#include "shaders/character/constants.h"
+#include "shaders/character/layout.h"
 
 layout(std430, binding = NOOK_BINDING_RECORDS) readonly buffer NookRecords {
   uvec4 nook_record[];  // two for each instance, see NookRecord

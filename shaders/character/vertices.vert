@@ -1,7 +1,7 @@
 // The linear layer of OpenGL 3.3: the shadows at key points come in a texture buffer, AO leaves by transform feedback. One
 // point a file vertex; its index picks the welded vertex whose attributes it reads.
-#include "character/layout.h"
-#include "character/linear.glsl"
+#include "shaders/character/layout.h"
+#include "shaders/character/linear.glsl"
 
 layout(location = NOOK_ATTRIBUTE_BIAS) in float nook_bias;
 layout(location = NOOK_ATTRIBUTE_FIRST_QUAD) in uvec4 nook_key_points_0;

@@ -1,5 +1,5 @@
 // Half of a separable bilateral blur: along one axis.
-#include "nnao/layout.h"
+#include "shaders/nnao/layout.h"
 
 uniform sampler2D nook_ao;
 uniform ivec2 nook_blur_axis;

@@ -1,7 +1,7 @@
 // What is the same for every pixel of a frame; frame_constants.h fills it.
 // Pixels are those of the viewport, (0, 0) at its lower left corner. The surface is the viewport at the resolution that AO
 // is computed at: itself, or every second pixel of every second row.
-#include "nnao/layout.h"
+#include "shaders/nnao/layout.h"
 uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
 
 #define nook_screen_rays nook_frame[NOOK_FRAME_SCREEN_RAYS]   // x_scale, x_offset, y_scale, y_offset, for pixels of the screen

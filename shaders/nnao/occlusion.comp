@@ -1,5 +1,5 @@
 // The network's stage as a dispatch: one thread a texel of the surface. The groups at the border reach beyond it.
-#include "nnao/occlusion.glsl"
+#include "shaders/nnao/occlusion.glsl"
 
 layout(local_size_x = NOOK_OCCLUSION_GROUP_SIZE, local_size_y = NOOK_OCCLUSION_GROUP_SIZE) in;
 layout(r8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;

@@ -1,6 +1,6 @@
 // Where the taps of a pixel lie; the same as sdk/src/nnao/taps.h.
 
-#include "nnao/layout.h"
+#include "shaders/nnao/layout.h"
 
 // rotation, offset: each takes 16 values over 4 x 4 pixels.
 vec2 nook_tap_noise(ivec2 texel) {

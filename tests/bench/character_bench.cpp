@@ -7,11 +7,11 @@
 #include <chrono>
 #include <vector>
 
-#include "character/linear_layer.h"
-#include "character/shadow_kernels_rest.h"
-#include "plain_loop.h"
-#include "sample_character.h"
-#include "skinning.h"
+#include "sdk/src/character/linear_layer.h"
+#include "sdk/src/character/shadow_kernels_rest.h"
+#include "tests/bench/plain_loop.h"
+#include "tests/bench/sample_character.h"
+#include "tests/bench/skinning.h"
 
 namespace {
 

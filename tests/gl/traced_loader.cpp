@@ -1,11 +1,11 @@
-#include "traced_loader.h"
+#include "tests/gl/traced_loader.h"
 
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <vector>
 
-#include "gl/functions.h"
+#include "sdk/src/gl/functions.h"
 
 namespace nook::test {
 namespace {

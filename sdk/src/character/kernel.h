@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-#include "core/simd_scalar.h"
+#include "sdk/src/core/simd_scalar.h"
 #include "shaders/character/constants.h"
 
 namespace nook {

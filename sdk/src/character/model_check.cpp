@@ -1,8 +1,8 @@
-#include "character/model_check.h"
+#include "sdk/src/character/model_check.h"
 
 #include <cmath>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook {
 namespace {

@@ -1,4 +1,4 @@
-#include "gl/character/character_gl.h"
+#include "sdk/src/gl/character/character_gl.h"
 
 #include <algorithm>
 

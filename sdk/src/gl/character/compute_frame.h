@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "gl/character/compute_scene.h"
+#include "sdk/src/gl/character/compute_scene.h"
 
 namespace nook::gl {
 

@@ -1,4 +1,4 @@
-#include "gl/character/compute_model.h"
+#include "sdk/src/gl/character/compute_model.h"
 
 #include <bit>
 #include <cstring>

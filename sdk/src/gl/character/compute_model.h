@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "gl/character/model_data.h"
+#include "sdk/src/gl/character/model_data.h"
 
 namespace nook::gl {
 

@@ -1,4 +1,4 @@
-#include "gl/character/compute_scene.h"
+#include "sdk/src/gl/character/compute_scene.h"
 
 namespace nook::gl {
 

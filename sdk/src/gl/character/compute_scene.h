@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "gl/character/compute_model.h"
-#include "gl/character/placed_scene.h"
+#include "sdk/src/gl/character/compute_model.h"
+#include "sdk/src/gl/character/placed_scene.h"
 #include "shaders/character/layout.h"
 
 namespace nook::gl {

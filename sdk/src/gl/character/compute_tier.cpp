@@ -1,9 +1,9 @@
-#include "gl/character/compute_tier.h"
+#include "sdk/src/gl/character/compute_tier.h"
 
 #include <cstdio>
 
-#include "gl/character/compute_frame.h"
-#include "gl/program.h"
+#include "sdk/src/gl/character/compute_frame.h"
+#include "sdk/src/gl/program.h"
 #include "shaders/character/layout.h"
 
 namespace nook::gl {

@@ -1,8 +1,8 @@
 // The tier of OpenGL 4.3: spheres, shadows and vertices of a scene in compute shaders.
 #pragma once
 
-#include "gl/character/compute_scene.h"
-#include "gl/character/tier.h"
+#include "sdk/src/gl/character/compute_scene.h"
+#include "sdk/src/gl/character/tier.h"
 
 namespace nook::gl {
 

@@ -1,4 +1,4 @@
-#include "gl/character/feedback_model.h"
+#include "sdk/src/gl/character/feedback_model.h"
 
 #include <cstring>
 

@@ -1,7 +1,7 @@
 // A character model as the transform-feedback tier keeps it: what does not change while it lives.
 #pragma once
 
-#include "gl/character/model_data.h"
+#include "sdk/src/gl/character/model_data.h"
 
 namespace nook::gl {
 

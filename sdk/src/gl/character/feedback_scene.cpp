@@ -1,4 +1,4 @@
-#include "gl/character/feedback_scene.h"
+#include "sdk/src/gl/character/feedback_scene.h"
 
 #include "shaders/character/layout.h"
 

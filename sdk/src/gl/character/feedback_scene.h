@@ -2,8 +2,8 @@
 // points to the GPU.
 #pragma once
 
-#include "gl/character/feedback_model.h"
-#include "gl/character/placed_scene.h"
+#include "sdk/src/gl/character/feedback_model.h"
+#include "sdk/src/gl/character/placed_scene.h"
 
 namespace nook::gl {
 

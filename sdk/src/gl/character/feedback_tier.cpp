@@ -1,8 +1,8 @@
-#include "gl/character/feedback_tier.h"
+#include "sdk/src/gl/character/feedback_tier.h"
 
 #include <cstdio>
 
-#include "gl/program.h"
+#include "sdk/src/gl/program.h"
 
 namespace nook::gl {
 namespace {

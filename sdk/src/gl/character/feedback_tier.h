@@ -1,8 +1,8 @@
 // The tier of OpenGL 3.3: shadows at key points on the CPU; vertices by transform feedback on the GPU.
 #pragma once
 
-#include "gl/character/feedback_scene.h"
-#include "gl/character/tier.h"
+#include "sdk/src/gl/character/feedback_scene.h"
+#include "sdk/src/gl/character/tier.h"
 
 namespace nook::gl {
 

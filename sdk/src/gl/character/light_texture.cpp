@@ -1,9 +1,9 @@
-#include "gl/character/light_texture.h"
+#include "sdk/src/gl/character/light_texture.h"
 
 #include <algorithm>
 
-#include "core/failure.h"
-#include "gl/program.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/program.h"
 #include "shaders/character/layout.h"
 
 namespace nook::gl {

@@ -4,8 +4,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "character/scene.h"
-#include "gl/object.h"
+#include "sdk/src/character/scene.h"
+#include "sdk/src/gl/object.h"
 
 namespace nook::gl {
 

@@ -1,6 +1,6 @@
-#include "gl/character/model_data.h"
+#include "sdk/src/gl/character/model_data.h"
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::gl {
 

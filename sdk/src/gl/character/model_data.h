@@ -7,8 +7,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "character/loaded_model.h"
-#include "gl/object.h"
+#include "sdk/src/character/loaded_model.h"
+#include "sdk/src/gl/object.h"
 
 namespace nook::gl {
 

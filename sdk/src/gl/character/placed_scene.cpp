@@ -1,4 +1,4 @@
-#include "gl/character/placed_scene.h"
+#include "sdk/src/gl/character/placed_scene.h"
 
 namespace nook::gl {
 namespace {

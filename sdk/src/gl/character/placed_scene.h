@@ -7,11 +7,11 @@
 #include <memory_resource>
 #include <vector>
 
-#include "character/scene.h"
-#include "core/failure.h"
-#include "gl/character/light_texture.h"
-#include "gl/character/model_data.h"
-#include "gl/character/tier.h"
+#include "sdk/src/character/scene.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/character/light_texture.h"
+#include "sdk/src/gl/character/model_data.h"
+#include "sdk/src/gl/character/tier.h"
 
 namespace nook::gl {
 

@@ -3,8 +3,8 @@
 // kind, such as OpenGL ES or WebGL 2, is one more implementation.
 #pragma once
 
-#include "character/scene.h"
-#include "gl/device.h"
+#include "sdk/src/character/scene.h"
+#include "sdk/src/gl/device.h"
 
 namespace nook::gl {
 

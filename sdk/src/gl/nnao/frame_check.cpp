@@ -1,10 +1,10 @@
-#include "gl/nnao/frame_check.h"
+#include "sdk/src/gl/nnao/frame_check.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/failure.h"
-#include "gl/nnao/frame_constants.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/nnao/frame_constants.h"
 
 namespace nook::gl {
 namespace {
