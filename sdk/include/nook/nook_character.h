@@ -112,8 +112,8 @@ NOOK_API nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver
 NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
 /* From the next update on, each instance is also darkened by its k nearest instances within max_distance (metres between
- * bounding-sphere centres), found anew each update by a grid, so that the cost grows linearly with the crowd. k = 0 turns
- * it off; k <= 16. May allocate here, not in the update. One at a time.
+ * bounding-sphere centres), found anew each update by a tree: for n instances the cost grows as n log n, wherever
+ * they stand. k = 0 turns it off; k <= 16. May allocate here, not in the update. One at a time.
  * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance);
 

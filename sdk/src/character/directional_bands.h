@@ -27,8 +27,8 @@ struct LobeBands {
 
 // Of the self-shadow this share follows the light, the rest is shadow of all of it; k as caster_concentration
 // has it. Both measured against rays in a crowd.
-inline constexpr float self_strength = 0.75f;
-inline constexpr float self_concentration = 1.0f;
+inline constexpr float self_strength = float(NOOK_SELF_STRENGTH);
+inline constexpr float self_concentration = float(NOOK_SELF_CONCENTRATION);
 
 template <class F>
 struct GatheredBands {

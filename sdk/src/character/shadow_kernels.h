@@ -3,7 +3,7 @@
 //
 // A character's frame: pose_spheres and pose_key_points bring the model to world space; self_norm_sum and
 // norm_root give the shadow at each key point; composed_depth, exact_open and composed_occlusion give what
-// other casters take away; linear_layer blends both to vertices; scatter writes them in the file's order.
+// other casters take away; linear_layer blends both to vertices.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ constexpr std::uint32_t padded_key_points(std::uint32_t count) {
 
 // Spheres smaller than this count as this large, so that the squares of distances in radii stay finite: 1
 // micrometre.
-inline constexpr float min_sphere_radius = 1e-6f;
+inline constexpr float min_sphere_radius = float(NOOK_MIN_SPHERE_RADIUS);
 // Coordinates up to this many metres from the origin give finite results; float resolution ends far before.
 inline constexpr float max_coordinate = 1e9f;
 constexpr float inverse_sphere_radius(float radius) {
@@ -137,10 +137,6 @@ struct ShadowKernels {
   // layer's slot order, 16 entries a block. occlusion NULL: self only. Whatever the inputs, ao is a number in
   // [0, 1].
   void (*linear_layer)(const LinearView& layer, const float* shadow, const float* occlusion, float* ao);
-  // For i < count: the float at (char*)out + i * stride_bytes = values[index[i]]. With
-  // LinearLayer::file_to_slot this is file order.
-  void (*scatter)(const float* values, const std::uint32_t* index, std::uint32_t count, float* out,
-                  std::size_t stride_bytes);
 
   // World space from rest space; bones are rest space to world, rigid or with uniform scale, which scales
   // radii. offset_ws is subtracted: a scene far from the world's origin keeps its digits by working near the

@@ -119,7 +119,7 @@ class StateGuard {
 
 // The items that evaluating characters touches.
 inline unsigned character_users(const Functions& gl) {
-  return gl.tier == 43 ? tier_43 : tier_33;
+  return gl.can.compute ? tier_43 : tier_33;
 }
 
 // One query and one restore for each item of the list; a restore of a fresh SavedState is the reset.

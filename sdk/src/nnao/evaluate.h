@@ -51,7 +51,7 @@ struct View {
 struct Sampling {
   float radius = 1;           // metres
   float max_radius_px = 256;  // where the radius covers more pixels, it shrinks
-  std::uint32_t taps = 64;    // horizon form: one of horizon_tap_counts; paper form: 1 to 961
+  std::uint32_t taps = 64;    // horizon form: a count that horizon_grid knows; paper form: 1 to 961
 };
 
 // The radius of one pixel after the clamp.
