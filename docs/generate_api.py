@@ -59,7 +59,8 @@ def comment_lines(lines):
 
 
 def parse(text):
-    """The comment at the top, then sections (strings) and items in the header's order."""
+    """The comment at the top, then sections (their title, and their text as a list of lines) and items in the
+    header's order."""
     blocks, comment, code, depth = [], [], [], 0
 
     def close():
@@ -84,8 +85,14 @@ def parse(text):
             close()
             comment = comment_lines(found)
             section = re.match(r"-+ (.*?) -+$", comment[0])
-            if section or not blocks:
-                blocks.append(section.group(1) if section else comment)
+            if not blocks:
+                blocks.append(comment)
+                comment = []
+            elif section:
+                blocks.append(section.group(1))
+                # The text of a section follows its title.
+                if len(comment) > 1:
+                    blocks.append(comment[1:])
                 comment = []
         elif line.strip():
             code.append(line)
@@ -125,6 +132,8 @@ def page(name, blocks, places):
     out = [f"# {name}.h", "", f"Made from `sdk/include/nook/{name}.h` by `docs/generate_api.py`.", "",
            prose(blocks[0], link_from(None)), ""]
     for block in blocks[1:]:
+        if isinstance(block, list):
+            continue
         if isinstance(block, str):
             out += ["", f"**{block}**", ""]
             continue
@@ -133,6 +142,9 @@ def page(name, blocks, places):
     for block in blocks[1:]:
         if isinstance(block, str):
             out += ["", f"## {block}"]
+            continue
+        if isinstance(block, list):
+            out += ["", prose(block, link_from(None))]
             continue
         out += ["", f"### {block.title()}", ""]
         if block.comment:
