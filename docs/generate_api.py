@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADERS = sorted((ROOT / "sdk/include/nook").glob("*.h"))
 PAGES = ROOT / "docs/api"
 NAME = re.compile(r"\b((?:nook|NOOK)_\w+)(?:\(\))?")
-# First sentences that say nothing of what a function is for.
+# First sentences that do not describe the function.
 CONTRACT = re.compile(r"(Any thread|One at a time|Context thread|On failure|Errors)\b")
 
 
@@ -43,7 +43,7 @@ class Item:
 
 
 def declared_names(code):
-    """What a block of declarations is called: functions and types, or constants where nothing else has a name."""
+    """The names of a block of declarations: functions and types, or constants if nothing else has a name."""
     code = re.sub(r"/\*.*?\*/", "", code, flags=re.S)
     functions = re.findall(r"^NOOK_API [^;(]*?(nook_\w+)\(", code, re.M)
     types = re.findall(r"^typedef [^;{]*\(\*(nook_\w+)\)", code, re.M)
@@ -71,7 +71,7 @@ def parse(text):
 
     lines = iter(text.split("\n"))
     for line in lines:
-        # Depth 1 is the include guard; below it is plumbing for compilers.
+        # Depth 1 is the include guard; deeper levels only serve compilers.
         if re.match(r"#\s*if", line):
             depth += 1
         elif re.match(r"#\s*endif", line):
@@ -103,12 +103,12 @@ def parse(text):
 
 
 def escape(text):
-    """Text that Markdown shows as it is."""
+    """Escapes the characters that have a meaning in Markdown."""
     return re.sub(r"([*<\[])", r"\\\1", text)
 
 
 def prose(lines, link):
-    """Comment lines as Markdown; what is indented in the comment keeps its lines."""
+    """Comment lines as Markdown; indented text keeps its lines."""
     out = []
     for indented, run in itertools.groupby(lines, key=lambda line: line.startswith("  ")):
         if indented:

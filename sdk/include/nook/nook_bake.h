@@ -420,7 +420,7 @@ typedef struct nook_bake_material_desc {
   /* 3 floats for each direction, at least 1e-3 apart; z >= 0, and with meso z >= 0.08 (85 degrees).
    * nook_bake_material_start copies the array. NULL, which needs meso: a spiral down to max_tilt_degrees. */
   const float* lights;
-  /* As lights. */
+  /* View directions, in the same form as lights. */
   const float* views;
   /* Default 100. */
   uint32_t light_count;

@@ -76,7 +76,7 @@ NOOK_API nook_result nook_character_model_static_ao(nook_character_model model, 
 
 /* ---- Scenes ---- */
 
-/* How casters that were not part of the bake combine with self-shadow. */
+/* The combination of self-shadow with casters that were not part of the bake. */
 enum {
   /* Added casters form a cosine-weighted term of their own: AO = self * (1 - added). */
   NOOK_COMBINE_COMPOSED = 0,
@@ -145,7 +145,7 @@ NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id inst
 /* Links two instances, so that caster darkens receiver until nook_scene_unlink; a second call for the same
  * pair changes nothing. The call allocates.
  * One at a time. Errors: INVALID_ARGUMENT (receiver and caster are the same), INVALID_HANDLE, OUT_OF_MEMORY.
- * */
+ *   */
 NOOK_API nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
 /* Removes a link of nook_scene_link.

@@ -35,7 +35,7 @@ typedef struct nook_gl_s* nook_gl;
  * inside nook_gl_create. */
 typedef void* (*nook_gl_proc_fn)(void* user, const char* name);
 
-/* What happens to the OpenGL state that Nook touches; docs/gl_state.md lists all of it. */
+/* The treatment of the OpenGL state that Nook touches; docs/gl_state.md lists all of it. */
 enum {
   /* Each call queries the state and restores it. A query may stall a threaded driver. */
   NOOK_GL_STATE_PRESERVE = 0,

@@ -39,7 +39,7 @@ extern "C" {
 typedef struct nook_material_s* nook_material;
 typedef struct nook_gl_material_s* nook_gl_material;
 
-/* What the VOTF of a material stores. */
+/* The contents of a material's VOTF. */
 enum {
   /* There is no VOTF; the surface is visible everywhere. */
   NOOK_MATERIAL_VISIBILITY_NONE = 0,

@@ -37,8 +37,8 @@ extern "C" {
 
 typedef struct nook_nnao_s* nook_nnao;
 
-/* How the network is evaluated; the other stages are draws in any case. Both paths give the same AO, on
- * Mesa's llvmpipe the same bits. There a frame with compute takes 0.87 to 0.99 of the processor time of a
+/* The stage that evaluates the network; the other stages are draws in any case. Both paths give the same AO,
+ * on Mesa's llvmpipe the same bits. There a frame with compute takes 0.87 to 0.99 of the processor time of a
  * frame with fragments (docs/nnao.md). No GPU was measured. */
 enum {
   /* Compute if it is available, else fragments. */
@@ -83,9 +83,9 @@ typedef struct nook_nnao_desc {
  * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 NOOK_API nook_result nook_nnao_desc_init(nook_nnao_desc* desc, size_t size, uint32_t header_version);
 
-/* Computes the texture memory of a pass with this descriptor: 6 bytes a pixel, or 3.5 at half resolution,
- * which at 3840 x 2160 is 50 MB and 29 MB. The filters of the paper's form take another 62 kB. The call makes
- * no OpenGL call.
+/* Computes the texture memory of a pass with this descriptor: 6 bytes for each pixel, or 3.5 at half
+ * resolution, which at 3840 x 2160 is 50 MB and 29 MB. The filters of the paper's form take another 62 kB.
+ * The call makes no OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes);
 
@@ -101,10 +101,10 @@ NOOK_API nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, no
  * Context thread. */
 NOOK_API void nook_nnao_destroy(nook_nnao* pass);
 
-/* What a depth texture holds. */
+/* The contents of a depth texture. */
 enum {
-  /* What OpenGL wrote under `projection` and glDepthRange(0, 1): a texture of a depth format, or a copy of it
-   * in the red channel of a 32-bit float texture. */
+  /* The depth that OpenGL wrote under `projection` and glDepthRange(0, 1): a texture of a depth format, or a
+   * copy of it in the red channel of a 32-bit float texture. */
   NOOK_NNAO_DEPTH_HARDWARE = 0,
   /* -z of view space in metres, in the red channel of a float texture. */
   NOOK_NNAO_DEPTH_LINEAR = 1
@@ -120,9 +120,9 @@ enum {
 };
 typedef int32_t nook_nnao_clip;
 
-/* How the result s of the pass and a layer texture combine. c is the layer's red channel: AO of another kind,
- * such as that of nook_gl_scene_update, which the host draws (1 where there is none). w is its green channel,
- * a weight. */
+/* The combination of the result s of the pass with a layer texture. c is the layer's red channel: AO of
+ * another kind, such as that of nook_gl_scene_update, which the host draws (1 where there is none). w is its
+ * green channel, a weight. */
 enum {
   /* s. */
   NOOK_NNAO_LAYER_NONE = 0,
@@ -147,7 +147,7 @@ enum {
 };
 typedef int32_t nook_nnao_target;
 
-/* How the result changes its target. */
+/* The change that the result makes to its target. */
 enum {
   /* The target becomes (ao, ao, ao, 1). */
   NOOK_NNAO_WRITE = 0,
@@ -156,7 +156,7 @@ enum {
 };
 typedef int32_t nook_nnao_blend;
 
-/* What the pass shows, for debug views. */
+/* The quantity that the pass shows, for debug views. */
 enum {
   /* The result. */
   NOOK_NNAO_VIEW_AO = 0,
@@ -204,7 +204,7 @@ typedef struct nook_nnao_frame_desc {
   /* Column-major, as OpenGL takes it; required. Perspective, off-centre, orthographic, reversed-depth and
    * infinite projections are all supported. */
   float projection[16];
-  /* For hardware depth only. Default NOOK_NNAO_CLIP_NEGATIVE_ONE_TO_ONE. */
+  /* Only hardware depth uses it. Default NOOK_NNAO_CLIP_NEGATIVE_ONE_TO_ONE. */
   nook_nnao_clip clip;
   /* Metres, > 0; required. Geometry beyond this distance does not occlude. */
   float radius;

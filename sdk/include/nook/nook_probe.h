@@ -141,9 +141,9 @@ typedef struct nook_probe_fit_desc {
   int32_t ambient;
   /* For harmonics: the highest band, 1 to 4; default 2. */
   uint32_t order;
-  /* For the plain step. Default NOOK_PROBE_DENOMINATOR_LOCKSTEP. */
+  /* Only the plain step uses it. Default NOOK_PROBE_DENOMINATOR_LOCKSTEP. */
   nook_probe_denominator denominator;
-  /* For running averages. Default NOOK_PROBE_STEP_FAST. */
+  /* Only running averages use it. Default NOOK_PROBE_STEP_FAST. */
   nook_probe_step step;
   /* Samples, >= 0, default 0: every sample has its own weight. Above 0, the weight of sample k, counted from
    * 1, is multiplied by 1 - exp(-k / growing_samples), for samples whose first radiances are noisy. */
@@ -272,7 +272,7 @@ NOOK_API nook_result nook_probe_load(nook_context context, const void* bytes, si
  * Any thread. */
 NOOK_API void nook_probe_destroy(nook_probe* probe);
 
-/* How a file stores an RGB coefficient. */
+/* The storage of an RGB coefficient in a file. */
 enum {
   /* 12 bytes, exact. */
   NOOK_PROBE_PACKING_FLOAT = 0,
@@ -329,7 +329,7 @@ NOOK_API nook_result nook_probe_read_coefficients(nook_probe probe, uint32_t ind
 NOOK_API nook_result nook_probe_read_lobes(nook_probe probe, const float* position_ws, nook_probe_lobe* lobes,
                                            uint32_t function_count);
 
-/* How the irradiance of a lobe is computed. */
+/* The method that computes the irradiance of a lobe. */
 enum {
   /* S. Hill's fit of a lobe under the clamped cosine. Its error is at most 1.6 % of the irradiance of a light
    * that is perpendicular to the surface. Below sharpness 3, where the fit is not defined, the bands are
