@@ -1,10 +1,10 @@
-// Directional occlusion at the key points of instances with a light: the colour of their shadow and the added occlusion by
-// channel.
+// Directional occlusion at the key points of instances with a light: the colour of their shadow, and the
+// added occlusion of each channel.
 #include "character/key_points.glsl"
 #include "character/light.glsl"
 
 layout(std430, binding = 5) writeonly buffer NookColours {
-  vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow; added occlusion
+  vec4 nook_colour[];  // two for each key point: a colour that multiplies the shadow; added occlusion
 };
 
 void nook_gather_sphere(inout NookBands bands, vec4 sphere, NookPoint point) {
@@ -27,7 +27,8 @@ NookBands nook_gather_spheres(uint first, uint count, NookPoint point) {
   return bands;
 }
 
-// The spheres of a caster as one: sum of their directions by what each takes; w is that sum's own.
+// The spheres of a caster as one: the sum of their directions, weighted by their shares; w is the sum of the
+// shares.
 vec4 nook_joint_sight(uint first, uint count, NookPoint point) {
   vec4 joint = vec4(0.0);
   for (uint begin = 0u; begin < count; begin += nook_tile_size) {
@@ -81,7 +82,7 @@ void main() {
       coloured += nook_coloured_sum(light, others, fitted.normal);
     }
   }
-  uint grounds = uint(nook_light[light + 1u].w);  // 1 or 0: the first of the exact spheres is the ground
+  uint grounds = uint(nook_light[light + 1u].w);  // 1 if the first of the exact spheres is the ground, else 0
   NookBands ground = nook_no_bands(), free = nook_no_bands();
   for (uint i = 0u; i < record.exact_count; ++i) {
     vec4 sphere = uintBitsToFloat(nook_caster[record.first_exact + i]);

@@ -1,10 +1,11 @@
-// The colours of key points that a coarser level of detail evaluates to all of them. One thread a key point; y is the instance.
+// Derives the colours of all key points from those that a coarser level of detail evaluates. There is one
+// thread for each key point; y is the instance.
 #include "character/instance.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 5) buffer NookColours {
-  vec4 nook_colour[];  // two for each of all key points, then for the evaluated ones
+  vec4 nook_colour[];  // two for each key point: first all of them, then the evaluated ones
 };
 layout(std430, binding = 6) readonly buffer NookSpread {
   uint nook_spread[];  // for each level and key point: evaluated key point, scale, offset

@@ -1,11 +1,12 @@
-// What a host's shader calls for the light of a scene's instances. `light` is that of nook_gl_light_view; normals are unit
-// vectors, world space; colours linear RGB.
+// The functions of a host's shader for the light of a scene's instances. `light` is that of
+// nook_gl_light_view; normals are unit vectors in world space; colours are linear RGB.
 #include "probe/irradiance.glsl"
 
-// sdk/src/gl/character/scene_lights.cpp lays it out.
+// sdk/src/gl/character/scene_lights.cpp defines the layout.
 uniform samplerBuffer nook_scene_lights;
 
-// Irradiance of the lobes on an open surface; fits of probes may ring a little below 0, which is cut off.
+// Returns the irradiance of the lobes on an open surface. Fits of probes may ring slightly below 0; negative
+// values are clamped.
 vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
   int count = int(texelFetch(nook_scene_lights, light).x);
   vec3 sum = vec3(0.0);
@@ -17,8 +18,8 @@ vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
   return max(sum, 0.0);
 }
 
-// What the bodies, the ground and the occluders round the vertex leave of it; directional_ao is the vertex' value of
-// nook_gl_light_view.
+// Returns the irradiance that remains with the occlusion by bodies, ground and occluders. directional_ao is
+// the vertex' value of nook_gl_light_view.
 vec3 nook_scene_irradiance(int light, vec3 normal_ws, vec3 directional_ao) {
   return nook_scene_open_irradiance(light, normal_ws) * directional_ao;
 }

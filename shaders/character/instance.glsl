@@ -1,5 +1,5 @@
-// What the compute passes share: where an instance's data lies. Positions are relative to the instance's origin, so that a
-// scene far from the world's origin keeps its digits.
+// Declarations that the compute passes share: the places of an instance's data. Positions are relative to the
+// instance's origin, so that a scene far from the world's origin keeps its precision.
 
 layout(std430, binding = 0) readonly buffer NookRecords {
   uvec4 nook_record[];  // two for each instance, see NookRecord
@@ -22,5 +22,5 @@ NookRecord nook_read_record(uint instance) {
   return NookRecord(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
-// The smallest radius that counts, metres; min_sphere_radius of sdk/src/character/shadow_kernels.h.
+// The minimum radius in metres, min_sphere_radius of sdk/src/character/shadow_kernels.h.
 const float nook_min_sphere_radius = 1e-6;

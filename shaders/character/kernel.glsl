@@ -1,5 +1,6 @@
-// What one sphere does to one key point; the same formulas, and the same names, as sdk/src/character/kernel.h.
-// delta2: squared distance of the centre in radii; xi: height of the centre above the key point's horizon in radii.
+// The effect of one sphere on one key point, with the formulas and names of sdk/src/character/kernel.h.
+// delta2 is the squared distance of the centre in radii, and xi is the height of the centre above the key
+// point's horizon in radii.
 
 float nook_visibility_paper(float xi) { return max(xi * inversesqrt(4.0 * xi * xi + 1.0) + 0.5, 0.0); }
 
@@ -10,7 +11,8 @@ float nook_shadow_term(float xi, float delta2) {
   float inside = max(-e, 0.0);
   return (0.75 + 6.0 * inside) / (1.0 + 4.0 * max(e, inside)) * nook_visibility_paper(xi);
 #elif NOOK_KERNEL_FORM == 1
-  // Below the horizon xi + sqrt(xi^2 + 1) cancels; rounding must not leave a negative number for the powers.
+  // Below the horizon xi + sqrt(xi^2 + 1) cancels, and rounding must not give a negative number to the
+  // powers.
   float t = inversesqrt(delta2 + 0.6);
   return max(0.5 * (xi + sqrt(xi * xi + 1.0)), 0.0) * t * t * t;
 #else
@@ -18,7 +20,7 @@ float nook_shadow_term(float xi, float delta2) {
 #endif
 }
 
-// Powers of the norm, slide 20. The usual exponents need no logarithm.
+// Powers of the norm (slide 20). The usual exponents need no logarithm.
 float nook_raised(float y, float gamma) {
   if (gamma == 1.5) return y * sqrt(y);
   if (gamma == 2.0) return y * y;
@@ -27,14 +29,14 @@ float nook_raised(float y, float gamma) {
 }
 float nook_norm_root(float sum, float gamma) { return sum > 0.0 ? pow(sum, 1.0 / gamma) : 0.0; }
 
-// acos within 7e-5 (Abramowitz and Stegun 4.4.45); the precision of GLSL's own is not specified.
+// acos within 7e-5 (Abramowitz and Stegun 4.4.45). GLSL does not specify the precision of its own acos.
 float nook_arc_cosine(float x) {
   float a = abs(x);
   float r = sqrt(max(1.0 - a, 0.0)) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - 0.0187293 * a)));
   return x < 0.0 ? 3.14159265 - r : r;
 }
 
-// Share of the cosine-weighted hemisphere that a sphere covers, clipped at the horizon.
+// Returns the share of the cosine-weighted hemisphere that a sphere covers, clipped at the horizon.
 float nook_form_factor_exact(float xi, float delta2) {
   float h2 = max(delta2, 1.0);
   float inverse_h = inversesqrt(h2);
@@ -48,7 +50,8 @@ float nook_form_factor_exact(float xi, float delta2) {
   return f + max(1.0 - f, 0.0) * max(1.0 - delta2, 0.0);
 }
 
-// The same without angles, for the many spheres of a caster; derived in sdk/src/character/kernel.h.
+// Returns the same share without angles, for the many spheres of a caster; sdk/src/character/kernel.h has the
+// derivation.
 float nook_form_factor_fast(float xi, float delta2) {
   float a = inversesqrt(max(delta2, 1.0));
   float a2 = a * a;

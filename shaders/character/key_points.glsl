@@ -1,5 +1,5 @@
-// What the passes over key points share: one thread a key point, y is the instance. Spheres pass through shared memory, which
-// all threads of the group then read.
+// Declarations that the passes over key points share. There is one thread for each key point; y is the
+// instance. Spheres are copied to shared memory, from which all threads of the group read.
 #include "character/instance.glsl"
 #include "character/kernel.glsl"
 
@@ -7,8 +7,8 @@ const uint nook_tile_size = 64u;
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 2) readonly buffer NookCasters {
-  // Two for each caster: its origin minus the receiver's, first sphere; number of spheres. Or one for each exact
-  // sphere: centre, 1 / radius. Floats as bits.
+  // Each caster has two entries: its origin minus the receiver's, and its first sphere; its number of
+  // spheres. Each exact sphere has one: centre, 1 / radius. Floats are stored as bits.
   uvec4 nook_caster[];
 };
 layout(std430, binding = 3) readonly buffer NookSpheres {
@@ -28,7 +28,7 @@ layout(location = 3) uniform uint nook_first_key_point;  // of the level of deta
 layout(location = 4) uniform uint nook_key_point_count;
 layout(location = 5) uniform float nook_gamma;
 layout(location = 6) uniform int nook_self;      // 0: no shadow from the instance itself
-layout(location = 7) uniform int nook_composed;  // 0: added spheres join the one norm
+layout(location = 7) uniform int nook_composed;  // 0: added spheres join the norm of the self-shadow
 layout(location = 8) uniform uint nook_shadow_stride;
 layout(location = 9) uniform uint nook_shadow_offset;  // in the instance's shadows
 
@@ -39,13 +39,13 @@ struct NookPoint {
   vec3 position, normal;
 };
 
-// Height above the horizon in radii, and squared distance in radii.
+// Returns the height above the horizon and the squared distance, both in radii.
 vec2 nook_see(vec4 sphere, NookPoint point) {
   vec3 d = (sphere.xyz - point.position) * sphere.w;
   return vec2(dot(d, point.normal), dot(d, d));
 }
 
-// Every thread of the group comes here with the same arguments.
+// Every thread of the group must call this with the same arguments.
 void nook_stage(uint first, uint count) {
   barrier();
   uint i = gl_LocalInvocationID.x;
@@ -56,7 +56,8 @@ void nook_stage(uint first, uint count) {
   barrier();
 }
 
-// Linear blend of up to four bones; the normal is renormalised, and stays zero where opposite bones cancel it.
+// Blends up to four bones linearly. The normal is renormalised, and stays zero where opposite bones cancel
+// it.
 void nook_pose(uint key_point, uint first_bone, out NookPoint fitted, out NookPoint surface) {
   uint k = 6u * key_point;
   vec4 bones = nook_rest_key_point[k + 4u], weights = nook_rest_key_point[k + 5u];

@@ -1,8 +1,9 @@
-// The light of an instance and what stands in it; derived in sdk/src/character/directional.h and directional_bands.h.
+// The light of an instance and its occlusion; sdk/src/character/directional.h and directional_bands.h have
+// the derivation.
 #include "probe/lobe.glsl"
 
 layout(std430, binding = 7) readonly buffer NookLights {
-  vec4 nook_light[];  // sdk/src/gl/character/scene_lights.cpp lays it out
+  vec4 nook_light[];  // sdk/src/gl/character/scene_lights.cpp defines the layout
 };
 
 const float nook_directional_cosine = 2.133;
@@ -15,7 +16,8 @@ float nook_lobe_norm(float v) {
   return q / (v * q + 1.0);
 }
 
-// Mean of the lobes, less what the ground hides of each, under the density exp(dot(b, s)).
+// Returns the mean of the lobes under the density exp(dot(b, s)), without the part of each lobe that the
+// ground hides.
 vec3 nook_mean_radiance(uint light, vec3 b) {
   float length_b = length(b);
   int count = int(nook_light[light].x);
@@ -32,7 +34,7 @@ vec3 nook_inverse_hemisphere(uint light, vec3 n) {
   return 1.0 / max(nook_mean_radiance(light, n * nook_directional_cosine), nook_light[light + 1u].xyz);
 }
 
-// Where something stands above the horizon: unit direction, and its cosine to the normal.
+// The direction to the part of a caster above the horizon, a unit vector, and its cosine to the normal.
 struct NookSight {
   vec3 towards;
   float cosine;
@@ -56,7 +58,7 @@ vec3 nook_light_ratio(uint light, vec3 inverse, vec3 n, NookSight sight, float s
   return clamp(behind * inverse, 0.0, nook_largest_ratio);
 }
 
-// Share below the horizon of a lobe of sharpness m whose vector rises `height` above it.
+// Returns the share below the horizon of a lobe of sharpness m whose vector rises `height` above it.
 float nook_share_below(float height, float m) {
   float x = height * inversesqrt(m * 2.0 * m / (m + 4.0) + 5.09), a = abs(x);
   float p = (((0.078108 * a + 0.000972) * a + 0.230389) * a + 0.278393) * a + 1.0;
@@ -80,7 +82,7 @@ vec3 nook_ground_ratio(uint light, vec3 n) {
   return clamp(below * inverse, 0.0, nook_largest_ratio);
 }
 
-// Densities of spheres, gathered over bands 0 to 2.
+// The densities of spheres, summed in bands 0 to 2.
 struct NookBands {
   float scalar;
   vec3 vector, straight, mixed;  // straight: xx, yy, zz; mixed: xy, yz, zx
@@ -104,7 +106,7 @@ vec3 nook_light_of(uint light, NookBands bands) {
   return sum;
 }
 
-// The sum of terms, each by the light that it takes.
+// Sums the terms, each times the light that it takes.
 vec3 nook_coloured_sum(uint light, NookBands gathered, vec3 n) {
   NookBands open = NookBands(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
   nook_gather(open, n * nook_directional_cosine, 1.0);

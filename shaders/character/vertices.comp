@@ -1,5 +1,6 @@
-// The linear layer: AO of every vertex in file order from a few key points. One thread a vertex; y is the instance.
-// NOOK_LIGHT: directional occlusion, three floats a vertex; AO in all of them for an instance without light.
+// The linear layer: AO of every vertex in file order from a few key points. There is one thread for each
+// vertex; y is the instance. With NOOK_LIGHT the result is directional occlusion, three floats for each
+// vertex, which are all AO for an instance without light.
 #include "character/instance.glsl"
 #include "character/linear.glsl"
 
@@ -9,8 +10,8 @@ layout(std430, binding = 5) readonly buffer NookShadows {
   vec2 nook_shadow[];
 };
 layout(std430, binding = 6) readonly buffer NookLinear {
-  // Welded vertex of each file vertex, then for each welded vertex: bias, two key points in a word for each pair of
-  // influences, the alphas and the blend weights; each of these as an array over the welded vertices.
+  // First the welded vertex of each file vertex. Then arrays over the welded vertices: bias, two key points
+  // in a word for each pair of influences, the alphas and the blend weights.
   uint nook_linear[];
 };
 layout(std430, binding = 7) writeonly buffer NookAo {
@@ -18,7 +19,7 @@ layout(std430, binding = 7) writeonly buffer NookAo {
 };
 #if NOOK_LIGHT
 layout(std430, binding = 3) readonly buffer NookColours {
-  vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow; added occlusion
+  vec4 nook_colour[];  // two for each key point: a colour that multiplies the shadow; added occlusion
 };
 #endif
 

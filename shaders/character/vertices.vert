@@ -1,5 +1,6 @@
-// The linear layer of OpenGL 3.3: the shadows at key points come in a texture buffer, AO leaves by transform feedback. One
-// point a file vertex; its index picks the welded vertex whose attributes it reads.
+// The linear layer of OpenGL 3.3: the shadows at key points are in a texture buffer, and transform feedback
+// writes AO. There is one point for each file vertex; its index selects the welded vertex whose attributes it
+// reads.
 #include "character/linear.glsl"
 
 layout(location = 0) in float nook_bias;
@@ -12,7 +13,8 @@ layout(location = 5) in vec4 nook_alpha_1;
 layout(location = 6) in vec4 nook_blend_1;
 #endif
 
-uniform samplerBuffer nook_shadows;  // shadow and added occlusion in one texel; NOOK_LIGHT: in two, by channel
+// One texel: shadow and added occlusion; with NOOK_LIGHT two texels, by channel.
+uniform samplerBuffer nook_shadows;
 uniform int nook_first_key_point;    // of the draw's first instance, in the page
 uniform int nook_key_point_count;
 uniform int nook_self;

@@ -1,6 +1,6 @@
-// What is the same for every pixel of a frame; frame_constants.h fills it.
-// Pixels are those of the viewport, (0, 0) at its lower left corner. The surface is the viewport at the resolution that AO
-// is computed at: itself, or every second pixel of every second row.
+// The values that are equal for all pixels of a frame; frame_constants.h fills them. Pixels are those of the
+// viewport, with (0, 0) at its lower left corner. The surface is the viewport at the resolution at which AO
+// is computed: itself, or every second pixel of every second row.
 uniform vec4 nook_frame[11];
 
 #define nook_screen_rays nook_frame[0]   // x_scale, x_offset, y_scale, y_offset, for pixels of the screen
@@ -25,14 +25,14 @@ uniform vec4 nook_frame[11];
 #define nook_view_mode int(nook_frame[7].w)
 #define nook_normal_matrix mat3(nook_frame[8].xyz, nook_frame[9].xyz, nook_frame[10].xyz)
 
-// Depth where there is no surface: sky, far plane, off the screen.
+// The depth where there is no surface: sky, far plane, off the screen.
 const float nook_no_surface = 1.0e30;
 
 bool nook_inside(ivec2 texel, ivec2 size) {
   return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
 }
 
-// The view-space position of a pixel's centre at a depth.
+// Returns the view-space position of a pixel's centre at a depth.
 vec3 nook_position(vec4 rays, ivec2 pixel, float depth) {
   vec2 ray = rays.xz * (vec2(pixel) + 0.5) + rays.yw;
   return vec3(ray * (nook_orthographic ? 1.0 : depth), -depth);
@@ -42,12 +42,12 @@ vec3 nook_to_viewer(vec3 position) {
   return nook_orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-position);
 }
 
-// Texels of the surface per metre at a depth.
+// Returns the texels of the surface per metre at a depth.
 vec2 nook_pixel_scale(float depth) {
   return 1.0 / (nook_surface_rays.xz * (nook_orthographic ? 1.0 : depth));
 }
 
-// The radius of a pixel: metres, texels. Where it would cover too many texels it shrinks.
+// Returns the radius of a pixel in metres and in texels. It shrinks where it would cover too many texels.
 vec2 nook_pixel_radius(vec2 scale) {
   float per_metre = abs(scale.y);
   float texels = min(nook_radius * per_metre, nook_max_radius_px);

@@ -1,4 +1,4 @@
-// The surface: normals for every pixel, or depth and normal of every second pixel of every second row.
+// Writes the surface: normals for every pixel, or depth and normal of every second pixel of every second row.
 #include "nnao/normal.glsl"
 #include "nnao/octahedral.glsl"
 

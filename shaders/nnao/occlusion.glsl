@@ -1,4 +1,5 @@
-// AO of a texel of the surface by the network, not yet blurred: the same for the fragment and the compute path.
+// The AO of a texel of the surface by the network, before the blur. The fragment and the compute path share
+// this file.
 #include "nnao/depth.glsl"
 #include "nnao/surface.glsl"
 #include "nnao/taps.glsl"

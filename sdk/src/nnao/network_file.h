@@ -2,7 +2,7 @@
 //   HEAD  u8 form, then the form's fixed sizes (u16: paper grid_size, tap_inputs, units; horizon tap_inputs,
 //         units)
 //   FILT  the paper's filters, half floats (paper form only)
-//   LAYR  the layers in the order of network.h, 32-bit floats: weights, bias, negative slopes, positive slopes
+//   LAYR  the layers in the order of network.h, 32-bit floats: weights, bias, negative and positive slopes
 //   RECP  recipe
 #pragma once
 
