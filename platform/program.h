@@ -7,8 +7,8 @@
 
 namespace platform {
 
-// A linked program; the texts of a stage follow each other, the first with its #version line. The caller
-// deletes it. Throws std::runtime_error with the compiler's or the linker's log.
+// Returns a linked program, which the caller deletes. The texts of a stage are concatenated; the first has
+// the #version line. Throws std::runtime_error with the log of the compiler or the linker.
 GLuint link_program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
                     std::initializer_list<const char*> fragment);
 

@@ -26,7 +26,7 @@ RenderTarget::RenderTarget(const Context& context, int width_px, int height_px)
   const GladGLContext& gl = context.gl();
   GLint most = 0;
   gl.GetIntegerv(GL_MAX_SAMPLES, &most);
-  // Softpipe has no multisampling: a plain framebuffer then.
+  // Softpipe has no multisampling, and gets a framebuffer without it.
   const GLint samples = most >= 4 ? 4 : 0;
   gl.GenFramebuffers(2, framebuffers_);
   gl.GenRenderbuffers(3, renderbuffers_);
@@ -70,7 +70,7 @@ void RenderTarget::show(unsigned framebuffer, int width_px, int height_px) const
   resolve();
   const GladGLContext& gl = context_.gl();
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  // The pixels are encoded already.
+  // The pixels are already encoded.
   gl.Disable(GL_FRAMEBUFFER_SRGB);
   gl.BlitFramebuffer(0, 0, width_px_, height_px_, 0, 0, width_px, height_px, GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }

@@ -1,4 +1,4 @@
-// What the samples draw pictures into: an sRGB framebuffer of four samples where OpenGL has them, and the one
+// The framebuffers of the samples: an sRGB framebuffer with four samples if OpenGL supports them, and the one
 // it is resolved to.
 #pragma once
 
@@ -15,12 +15,12 @@ class RenderTarget {
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
-  void bind() const;     // for drawing, viewport and sRGB encoding set
+  void bind() const;     // for drawing, with viewport and sRGB encoding set
   void resolve() const;  // leaves the resolved picture bound for reading
-  // Resolves, waits for the GPU, returns rows from top to bottom.
+  // Resolves, waits for the GPU, and returns rows from top to bottom.
   Image read() const;
-  // Resolves onto a framebuffer that shows its bytes as they are, such as a window's; filtered where sizes
-  // differ.
+  // Resolves onto a framebuffer that shows its bytes unchanged, such as a window's. The picture is filtered
+  // if the sizes differ.
   void show(unsigned framebuffer, int width_px, int height_px) const;
 
  private:
