@@ -17,7 +17,7 @@ struct TexturePlan {
   const char* label;
 };
 
-// surface, AO, AO at half resolution, own.
+// The textures of a pass: surface, AO, AO at half resolution, own.
 struct PassPlan {
   TexturePlan textures[4];
 };
@@ -77,7 +77,7 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
     GLint unit;
   } samplers[] = {{"nook_depth", 0}, {"nook_surface", 1}, {"nook_host_normal", 1},
                   {"nook_ao", 2},    {"nook_filters", 2}, {"nook_layer", 3}};
-  // Where a stage has no such sampler the location is -1, which OpenGL ignores.
+  // If a stage has no such sampler, the location is -1, which OpenGL ignores.
   for (const auto& sampler : samplers)
     gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
   return stage;
@@ -99,7 +99,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
                    : drawn("nnao/occlusion.frag");
   blur_ = drawn("nnao/blur.frag");
   resolve_ = drawn("nnao/resolve.frag");
-  // Both forms take their taps in as many groups of as many.
+  // Both forms have the same number of groups with the same number of taps.
   device_.gl.UseProgram(occlusion_.program.name());
   device_.gl.Uniform1i(uniform_location(device_, occlusion_.program, "nook_tap_groups"),
                        static_cast<GLint>(grid.directions));
