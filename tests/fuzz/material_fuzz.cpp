@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   repair_checksum(bytes);
   try {
     const Material material = read_material(bytes);
-    // What a small file may expand to is bounded, but not worth a fuzzer's time.
+    // The expansion of a small file is bounded, but takes too long for a fuzzer.
     const TensorShape &btf = material.btf.shape, &votf = material.votf.shape;
     const auto expanded = [](const TensorShape& s) {
       return std::uint64_t(s.clusters) * s.rank_light * s.rank_view * s.width * s.height;

@@ -9,6 +9,7 @@ top-level folder; sdk/include and sdk/src are parts of their own. The exit code 
   check.py --lower         writes the counts that are below their limits as the new limits
 """
 import argparse
+import bisect
 import collections
 import io
 import json
@@ -28,7 +29,7 @@ COMMENT_OR_STRING = re.compile(
 
 
 def words():
-    """The expressions of words.txt by kind."""
+    """The expressions of words.txt, all of a kind as one."""
     kinds, kind = {}, None
     for line in (HERE / "words.txt").read_text(encoding="utf-8").splitlines():
         line = line.split("  #")[0].strip()
@@ -36,15 +37,16 @@ def words():
             kind = line[1:-1]
             kinds[kind] = []
         elif line and not line.startswith("#"):
-            kinds[kind].append(re.compile(line))
-    return kinds
+            kinds[kind].append(f"(?i:{line[4:]})" if line.startswith("(?i)") else f"(?:{line})")
+    return {kind: re.compile("|".join(expressions)) for kind, expressions in kinds.items()}
 
 
 def c_texts(text):
     """(line number, text) of each comment, where adjoining line comments are one, and of each string."""
     run, run_line, last_line = [], 0, -2
+    line_ends = [match.start() for match in re.finditer("\n", text)]
     for match in COMMENT_OR_STRING.finditer(text):
-        line = text.count("\n", 0, match.start()) + 1
+        line = bisect.bisect(line_ends, match.start()) + 1
         alone = text[text.rfind("\n", 0, match.start()) + 1:match.start()].strip() == ""
         if match.group("line") is not None:
             if run and alone and line == last_line + 1:
@@ -118,10 +120,9 @@ def matches(path, kinds):
     for line, text in texts_of(path):
         # An expression may go across the end of a line.
         flat = re.sub(r"\s+", " ", text.strip())
-        for kind, expressions in kinds.items():
-            for expression in expressions:
-                for match in expression.finditer(flat):
-                    yield line, kind, flat[max(0, match.start() - 30):match.end() + 30].replace("\0", "")
+        for kind, expression in kinds.items():
+            for match in expression.finditer(flat):
+                yield line, kind, flat[max(0, match.start() - 30):match.end() + 30].replace("\0", "")
 
 
 def files_of(part):

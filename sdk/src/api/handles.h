@@ -33,7 +33,7 @@ struct nook_scene_s : nook::RefCounted {
       : context(made_by), scene(settings, made_by->parallel(), made_by->memory()) {}
 
   nook_context_s* context;             // kept alive by this object's owner reference
-  // The host destroyed the handle; objects that others hold for the scene are no longer used.
+  // The host destroyed the scene; objects that others hold for it are invalid.
   std::atomic<bool> destroyed{false};
   nook::Scene scene;
 };
