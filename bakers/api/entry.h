@@ -1,5 +1,4 @@
-// Every C function that can fail runs its body through here: whatever is thrown becomes a result and this
-// thread's message.
+// Every C function that can fail runs its body here; an exception becomes a result and this thread's message.
 #pragma once
 
 #include <nook/nook.h>
@@ -16,10 +15,10 @@ struct Outcome {
   char text[480] = "";
 };
 
-// What an exception means to a caller.
+// Returns the result and the message of an exception.
 Outcome outcome_of(const std::exception_ptr& exception) noexcept;
 
-// Keeps "function: text" as this thread's last message and returns the code.
+// Stores "function: text" as this thread's last message and returns the code.
 nook_result fail(const char* function, const Outcome& outcome) noexcept;
 
 template <class Body>

@@ -1,4 +1,4 @@
-// Bake jobs: descriptor to recipe, and the life of a job.
+// Bake jobs: the conversion of a descriptor to a recipe, and the life of a job.
 #include <nook/nook_bake.h>
 
 #include "api/bake_pipeline.h"

@@ -1,4 +1,4 @@
-// Material jobs: how they begin. The rest of their life is in job.cpp.
+// The start of material jobs; job.cpp has the other functions of jobs.
 #include <nook/nook_bake.h>
 
 #include "api/entry.h"

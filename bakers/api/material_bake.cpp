@@ -32,7 +32,7 @@ RawMaterial obtain(api::MaterialTask& task, const StageReport& progress) {
   return raw;
 }
 
-// As `nook bake material` chooses where nothing is asked for.
+// Returns the settings of `nook bake material`, which apply where the descriptor has none.
 CompressionSettings settings_for(const api::MaterialTask& task, const RawMaterial& raw) {
   CompressionSettings s = task.settings;
   if (!task.ranks_given && !set_builtin_ranks(raw, s)) s = ranks_by_threshold(raw, task.rank_threshold, s);

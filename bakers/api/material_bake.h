@@ -1,4 +1,4 @@
-// From a material task to the bytes of a .nook file and a report.
+// Makes the bytes of a .nook file and a report from a material task.
 #pragma once
 
 #include "api/baked_file.h"
@@ -6,8 +6,8 @@
 
 namespace nook::bake {
 
-// Consumes the task's measured data. Throws Failure: INVALID_ARGUMENT (ranks that the data do not allow, a
-// structure that cannot be built), CANCELLED.
+// Consumes the task's measured data. Throws Failure: INVALID_ARGUMENT (the data do not allow the ranks, or a
+// structure cannot be built), CANCELLED.
 BakedFile bake_material(api::MaterialTask& task, const StageReport& progress);
 
 }  // namespace nook::bake
