@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "character/initialise.h"
+#include "bakers/character/initialise.h"
 
 namespace nook::bake {
 namespace {
@@ -11,12 +11,16 @@ namespace {
 struct BoneShape {
   double area = 0;
   Vec3 mean;
-  Vec3 axis;           // of the largest spread, unit length
-  float spread[3]{};   // standard deviations, ascending, metres
+  Vec3 axis;          // of the largest spread, unit length
+  float spread[3]{};  // standard deviations, ascending, metres
 };
 
-Eigen::Vector3d to_eigen(Vec3 v) { return {double(v.x), double(v.y), double(v.z)}; }
-Vec3 from_eigen(const Eigen::Vector3d& v) { return {float(v.x()), float(v.y()), float(v.z())}; }
+Eigen::Vector3d to_eigen(Vec3 v) {
+  return {double(v.x), double(v.y), double(v.z)};
+}
+Vec3 from_eigen(const Eigen::Vector3d& v) {
+  return {float(v.x()), float(v.y()), float(v.z())};
+}
 
 std::vector<BoneShape> bone_shapes(const SkinnedMesh& mesh, std::span<const float> vertex_area) {
   const std::size_t bones = mesh.bones.size();
@@ -43,7 +47,8 @@ std::vector<BoneShape> bone_shapes(const SkinnedMesh& mesh, std::span<const floa
     shapes[b].area = area[b];
     shapes[b].mean = from_eigen(mean);
     shapes[b].axis = from_eigen(solver.eigenvectors().col(2));
-    for (int i = 0; i < 3; ++i) shapes[b].spread[i] = float(std::sqrt(std::max(0.0, solver.eigenvalues()[i])));
+    for (int i = 0; i < 3; ++i)
+      shapes[b].spread[i] = float(std::sqrt(std::max(0.0, solver.eigenvalues()[i])));
   }
   return shapes;
 }

@@ -1,10 +1,10 @@
-#include "import/clip.h"
+#include "bakers/import/clip.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/failure.h"
-#include "import/gltf.h"
+#include "bakers/import/gltf.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

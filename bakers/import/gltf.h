@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "import/clip.h"
-#include "import/node_tree.h"
-#include "import/skinned_mesh.h"
+#include "bakers/import/clip.h"
+#include "bakers/import/node_tree.h"
+#include "bakers/import/skinned_mesh.h"
 
 namespace nook::bake {
 

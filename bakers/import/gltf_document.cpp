@@ -1,10 +1,10 @@
-#include "import/gltf_document.h"
+#include "bakers/import/gltf_document.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

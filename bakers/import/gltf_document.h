@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "import/node_tree.h"
+#include "bakers/import/node_tree.h"
 
 namespace nook::bake {
 

@@ -1,10 +1,10 @@
-#include "import/gltf_textures.h"
+#include "bakers/import/gltf_textures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

@@ -1,4 +1,4 @@
-#include "import/static_scene.h"
+#include "bakers/import/static_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,12 @@
 #include <iterator>
 #include <limits>
 
-#include "core/failure.h"
-#include "import/accessor.h"
-#include "import/gltf_document.h"
-#include "import/gltf_textures.h"
-#include "import/primitive_triangles.h"
-#include "import/validate.h"
+#include "bakers/import/accessor.h"
+#include "bakers/import/gltf_document.h"
+#include "bakers/import/gltf_textures.h"
+#include "bakers/import/primitive_triangles.h"
+#include "bakers/import/validate.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

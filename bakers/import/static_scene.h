@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "core/vec.h"
-#include "import/texture_use.h"
+#include "bakers/import/texture_use.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake {
 

@@ -1,9 +1,9 @@
-#include "import/validate.h"
+#include "bakers/import/validate.h"
 
 #include <cmath>
 
-#include "core/failure.h"
-#include "import/weld.h"
+#include "bakers/import/weld.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

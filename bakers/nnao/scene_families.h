@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "nnao/solids.h"
+#include "bakers/nnao/solids.h"
 
 namespace nook::bake::nnao {
 

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "core/vec.h"
-#include "import/skinned_mesh.h"
-#include "raytrace/hemisphere.h"
-#include "raytrace/ray_scene.h"
+#include "bakers/import/skinned_mesh.h"
+#include "bakers/raytrace/hemisphere.h"
+#include "bakers/raytrace/ray_scene.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake {
 

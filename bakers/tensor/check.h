@@ -1,7 +1,7 @@
 // Checks of settings, with messages that name them.
 #pragma once
 
-#include "tensor/clustered_fit.h"
+#include "bakers/tensor/clustered_fit.h"
 
 namespace nook::bake::tensor {
 

@@ -1,8 +1,8 @@
 // Reports the progress of a clustered fit to its caller.
 #pragma once
 
-#include "core/failure.h"
-#include "tensor/clustered_fit.h"
+#include "bakers/tensor/clustered_fit.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 

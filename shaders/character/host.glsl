@@ -1,6 +1,6 @@
 // The functions of a host's shader for the light of a scene's instances. `light` is that of
 // nook_gl_light_view; normals are unit vectors in world space; colours are linear RGB.
-#include "probe/irradiance.glsl"
+#include "shaders/probe/irradiance.glsl"
 
 // sdk/src/gl/character/scene_lights.cpp defines the layout.
 uniform samplerBuffer nook_scene_lights;

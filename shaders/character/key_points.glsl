@@ -1,7 +1,7 @@
 // Declarations that the passes over key points share. There is one thread for each key point; y is the
 // instance. Spheres are copied to shared memory, from which all threads of the group read.
-#include "character/instance.glsl"
-#include "character/kernel.glsl"
+#include "shaders/character/instance.glsl"
+#include "shaders/character/kernel.glsl"
 
 const uint nook_tile_size = 64u;
 layout(local_size_x = 64) in;

@@ -1,6 +1,6 @@
 // The light of an instance and its occlusion; sdk/src/character/directional.h and directional_bands.h have
 // the derivation.
-#include "probe/lobe.glsl"
+#include "shaders/probe/lobe.glsl"
 
 layout(std430, binding = 7) readonly buffer NookLights {
   vec4 nook_light[];  // sdk/src/gl/character/scene_lights.cpp defines the layout

@@ -1,6 +1,6 @@
 // Transforms the proxy spheres of every instance that moved from rest space to the instance's own space.
 // There is one thread for each sphere; y is the instance.
-#include "character/instance.glsl"
+#include "shaders/character/instance.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -1,6 +1,6 @@
 // Derives the shadows of all key points from those that a coarser level of detail evaluates. There is one
 // thread for each key point; y is the instance.
-#include "character/instance.glsl"
+#include "shaders/character/instance.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -1,8 +1,8 @@
 // The linear layer: AO of every vertex in file order from a few key points. There is one thread for each
 // vertex; y is the instance. With NOOK_LIGHT the result is directional occlusion, three floats for each
 // vertex, which are all AO for an instance without light.
-#include "character/instance.glsl"
-#include "character/linear.glsl"
+#include "shaders/character/instance.glsl"
+#include "shaders/character/linear.glsl"
 
 layout(local_size_x = 128) in;
 

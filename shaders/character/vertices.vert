@@ -1,7 +1,7 @@
 // The linear layer of OpenGL 3.3: the shadows at key points are in a texture buffer, and transform feedback
 // writes AO. There is one point for each file vertex; its index selects the welded vertex whose attributes it
 // reads.
-#include "character/linear.glsl"
+#include "shaders/character/linear.glsl"
 
 layout(location = 0) in float nook_bias;
 layout(location = 1) in uvec4 nook_key_points_0;

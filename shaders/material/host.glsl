@@ -4,7 +4,7 @@
 //   vec4 nook_votf_mode(int layer, vec2 uv, float level)
 // before this text, for the sizes of a material. sdk/src/material/tables.h defines the layout of layers and
 // numbers, and sdk/src/material/evaluate.cpp has the same functions.
-#include "material/parabolic.glsl"
+#include "shaders/material/parabolic.glsl"
 
 // Returns the mipmap level of a pixel with the sides dx and dy. All fetches share it, so that they need no
 // derivatives, which is faster and works in branches.

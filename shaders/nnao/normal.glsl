@@ -1,5 +1,5 @@
 // The normal of a pixel: that of the host, or one that is reconstructed from depth.
-#include "nnao/depth.glsl"
+#include "shaders/nnao/depth.glsl"
 
 uniform sampler2D nook_host_normal;
 

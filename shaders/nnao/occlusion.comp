@@ -1,6 +1,6 @@
 // The network as a dispatch, with one thread for each texel of the surface. The groups at the border extend
 // beyond it.
-#include "nnao/occlusion.glsl"
+#include "shaders/nnao/occlusion.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(r8, binding = 0) writeonly uniform image2D nook_out;

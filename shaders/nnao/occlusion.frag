@@ -1,5 +1,5 @@
 // The network as a draw.
-#include "nnao/occlusion.glsl"
+#include "shaders/nnao/occlusion.glsl"
 
 out float nook_out;
 

@@ -1,12 +1,12 @@
 // The AO of a texel of the surface by the network, before the blur. The fragment and the compute path share
 // this file.
-#include "nnao/depth.glsl"
-#include "nnao/surface.glsl"
-#include "nnao/taps.glsl"
+#include "shaders/nnao/depth.glsl"
+#include "shaders/nnao/surface.glsl"
+#include "shaders/nnao/taps.glsl"
 #if NOOK_HORIZON
-#include "nnao/horizon.glsl"
+#include "shaders/nnao/horizon.glsl"
 #else
-#include "nnao/paper.glsl"
+#include "shaders/nnao/paper.glsl"
 #endif
 
 float nook_occlusion(ivec2 texel) {

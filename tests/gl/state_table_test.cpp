@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "catch.h"
-#include "gl/touched_state.h"
+#include "sdk/src/gl/touched_state.h"
+#include "tests/catch.h"
 
 namespace {
 
@@ -14,7 +14,7 @@ std::string names_of(unsigned users) {
   const std::pair<unsigned, const char*> all[] = {{nook::gl::tier_33, "33"},
                                                   {nook::gl::tier_43, "43"},
                                                   {nook::gl::screen, "nnao"},
-                                                  {nook::gl::screen_timers, "nook_nnao_get_timings"},
+                                                  {nook::gl::screen_timers, "nook_nnao_read_timings"},
                                                   {nook::gl::materials, "material"},
                                                   {nook::gl::probes, "probe"},
                                                   {nook::gl::screen_compute, "nnao, compute path"}};
@@ -36,11 +36,13 @@ std::string table() {
   out << "| " << what << " | " << names_of(users) << " | " << note << " |\n";
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
-  out << "\n33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions. nnao is nook_nnao_create "
+  out << "\n33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions. nnao is "
+         "nook_nnao_create "
          "and nook_nnao_render; its compute path is that of nook_nnao_render if nook_nnao_info.path is "
          "NOOK_NNAO_PATH_COMPUTE. material is nook_gl_material_create. probe is nook_gl_probe_create and "
          "nook_gl_probe_update.\n\n"
-         "No other state changes: no parameter of a host's texture or sampler, no other pixel-store value, and "
+         "No other state changes: no parameter of a host's texture or sampler, no other pixel-store value, "
+         "and "
          "no depth, stencil or scissor parameter. Viewports and draw buffers other than the first keep their "
          "state, viewports from OpenGL 4.1 on and draw buffers from 4.0 on.\n\n"
          "With `NOOK_GL_STATE_PRESERVE`, each call queries this state once and restores it. With "

@@ -1,12 +1,12 @@
-#include "nnao/evaluate.h"
+#include "sdk/src/nnao/evaluate.h"
 
 #include <limits>
 #include <vector>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "network_sample.h"
-#include "nnao/network_file.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/nnao/network_file.h"
+#include "tests/catch.h"
+#include "tests/nnao/network_sample.h"
 
 using namespace nook;
 using namespace nook::nnao;
@@ -112,7 +112,8 @@ TEST_CASE("sky is exactly 1, and to its neighbours the same as a surface far awa
   }
 }
 
-TEST_CASE("off the screen the pixel's own plane continues, and the share of such taps is an input of the network") {
+TEST_CASE(
+    "off the screen the pixel's own plane continues, and the share of such taps is an input of the network") {
   const Sampling sampling{0.5f, 256, 64};
   for (const Vec3 tilt : {Vec3{0, 0, 1}, Vec3{0.3f, 0.5f, 1}}) {
     // Orthographic: what a pixel sees of the whole plane does not depend on the pixel but for its noise,

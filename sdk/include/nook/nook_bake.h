@@ -115,7 +115,7 @@ typedef struct nook_bake_character_info {
 
 /* Describes a character.
  * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_bake_character_get_info(nook_bake_character character,
+NOOK_API nook_result nook_bake_character_describe(nook_bake_character character,
                                                   nook_bake_character_info* info);
 
 /* Returns the name of a bone, or NULL for an index out of range. The text is valid while the character lives.
@@ -144,8 +144,8 @@ NOOK_API nook_result nook_bake_character_read_bones(nook_bake_character characte
 
 /* Gives the vertex range of a primitive.
  * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_bake_character_get_primitive(nook_bake_character character, uint32_t primitive,
-                                                       nook_bake_primitive* out);
+NOOK_API nook_result nook_bake_character_describe_primitive(nook_bake_character character, uint32_t primitive,
+                                                            nook_bake_primitive* out);
 
 /* Gives the length of a clip in seconds.
  * Any thread. Errors: INVALID_ARGUMENT. */
@@ -372,12 +372,12 @@ NOOK_API nook_result nook_bake_job_wait(nook_bake_job job);
 
 /* Gives the bytes of the .nook file, which are valid until the job is destroyed.
  * Any thread. Errors: INVALID_ARGUMENT (the job is not finished), or the result of a job that failed. */
-NOOK_API nook_result nook_bake_job_get_model(nook_bake_job job, const void** bytes, size_t* size);
+NOOK_API nook_result nook_bake_job_model(nook_bake_job job, const void** bytes, size_t* size);
 
 /* Gives the report, a JSON object with the settings, times, errors and the curve of the fit. The text is
  * valid until the job is destroyed.
- * Any thread. Errors: those of nook_bake_job_get_model. */
-NOOK_API nook_result nook_bake_job_get_report(nook_bake_job job, const char** json);
+ * Any thread. Errors: those of nook_bake_job_model. */
+NOOK_API nook_result nook_bake_job_report(nook_bake_job job, const char** json);
 
 /* Destroys a job and sets *job to NULL. A job that still runs is cancelled, and the call waits for its end.
  * One at a time. */
@@ -483,7 +483,7 @@ NOOK_API nook_result nook_bake_material_desc_init(nook_bake_material_desc* desc,
                                                   uint32_t header_version);
 
 /* Checks the descriptor, copies its arrays, starts to bake and returns at once. Faults that only the data
- * show, such as ranks that exceed the sizes, fail here as well. nook_bake_job_get_model gives the material's
+ * show, such as ranks that exceed the sizes, fail here as well. nook_bake_job_model gives the material's
  * file. The report holds the settings, sizes, times, the signal-to-error ratio in dB and the share of wrong
  * texels. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, VERSION, OUT_OF_MEMORY. */

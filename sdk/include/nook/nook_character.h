@@ -55,7 +55,7 @@ typedef struct nook_character_model_info {
 
 /* Describes a model.
  * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_character_model_get_info(nook_character_model model,
+NOOK_API nook_result nook_character_model_describe(nook_character_model model,
                                                    nook_character_model_info* info);
 
 /* Returns the name of a bone, so that a host can map its skeleton to the model's order, or NULL for an index
@@ -259,7 +259,7 @@ typedef struct nook_scene_stats {
 
 /* Gives the counts of the last update.
  * One at a time. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_scene_get_stats(nook_scene scene, nook_scene_stats* stats);
+NOOK_API nook_result nook_scene_read_stats(nook_scene scene, nook_scene_stats* stats);
 
 #ifdef __cplusplus
 }

@@ -80,7 +80,7 @@ NOOK_API nook_result nook_gl_create(nook_context context, const nook_gl_desc* de
 NOOK_API void nook_gl_destroy(nook_gl* gl);
 
 /* Tells Nook that the OpenGL context is gone: gl forgets all OpenGL names without an OpenGL call. Afterwards
- * nook_gl_get_info and nook_gl_destroy still work, and functions that need the OpenGL context fail with
+ * nook_gl_describe and nook_gl_destroy still work, and functions that need the OpenGL context fail with
  * NOOK_ERROR_GL.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_context_lost(nook_gl gl);
@@ -101,7 +101,7 @@ typedef struct nook_gl_info {
 
 /* Describes gl. The call makes no OpenGL call.
  * One at a time. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_gl_get_info(nook_gl gl, nook_gl_info* info);
+NOOK_API nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info);
 
 /* Creates the OpenGL objects that the scene's instances need, so that the next nook_gl_scene_update allocates
  * nothing. The call is optional, because an update does the same when instances were added. Existing
@@ -162,7 +162,7 @@ NOOK_API nook_result nook_gl_scene_read_ao(nook_gl gl, nook_scene scene, nook_in
  *     vec3 e = nook_scene_irradiance(light, n, directional_ao);
  *     colour = albedo / 3.14159265 * e;
  * nook_scene_open_irradiance(light, n) is the irradiance without occlusion. A shader may hold this text and
- * that of nook_gl_probe_get_info, in either order. Every name in it begins with nook_ or Nook. */
+ * that of nook_gl_probe_describe, in either order. Every name in it begins with nook_ or Nook. */
 typedef struct nook_gl_light_view {
   /* sizeof(nook_gl_light_view); the caller sets it. */
   uint32_t struct_size;

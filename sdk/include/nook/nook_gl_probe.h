@@ -1,7 +1,7 @@
 /* Probes in the host's shaders: a probe or a grid as one texture, and the GLSL that evaluates it.
  *
  * An engine loads a probe of lobes and calls nook_gl_probe_create once. It puts the GLSL of
- * nook_gl_probe_get_info after the #version line of a fragment or vertex shader, and sets the uniform
+ * nook_gl_probe_describe after the #version line of a fragment or vertex shader, and sets the uniform
  * nook_probe_texels to a texture unit. For each draw it binds the texture to GL_TEXTURE_BUFFER of that unit.
  * The shader:
  *     NookProbeSurface surface =
@@ -60,7 +60,7 @@ typedef struct nook_gl_probe_info {
 
 /* Describes the texture. The call makes no OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_gl_probe_get_info(nook_gl_probe gl_probe, nook_gl_probe_info* info);
+NOOK_API nook_result nook_gl_probe_describe(nook_gl_probe gl_probe, nook_gl_probe_info* info);
 
 #ifdef __cplusplus
 }

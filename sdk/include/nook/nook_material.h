@@ -15,7 +15,7 @@
  * along the normal.
  *
  * An engine loads a material and calls nook_gl_material_create once. It puts the GLSL of
- * nook_gl_material_get_info after the #version line of a fragment shader, and sets the uniform of each
+ * nook_gl_material_describe after the #version line of a fragment shader, and sets the uniform of each
  * texture to a texture unit. For each draw it binds the textures, with no sampler object on their units. The
  * shader:
  *     vec4 modes[NOOK_LIGHT_FOURS];
@@ -117,7 +117,7 @@ typedef struct nook_material_info {
 
 /* Describes a material.
  * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_material_get_info(nook_material material, nook_material_info* info);
+NOOK_API nook_result nook_material_describe(nook_material material, nook_material_info* info);
 
 typedef struct nook_material_sample {
   /* Texture coordinates; 0 to 1 is one tile, and the tile repeats. */
@@ -195,7 +195,7 @@ typedef struct nook_gl_material_info {
 
 /* Describes the textures of a material. The call makes no OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_gl_material_get_info(nook_gl_material material, nook_gl_material_info* info);
+NOOK_API nook_result nook_gl_material_describe(nook_gl_material material, nook_gl_material_info* info);
 
 typedef struct nook_gl_material_texture {
   /* sizeof(nook_gl_material_texture); the caller sets it. */
@@ -210,8 +210,8 @@ typedef struct nook_gl_material_texture {
 
 /* Gives one of the texture_count textures. The call makes no OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_gl_material_get_texture(nook_gl_material material, uint32_t index,
-                                                  nook_gl_material_texture* texture);
+NOOK_API nook_result nook_gl_material_describe_texture(nook_gl_material material, uint32_t index,
+                                                       nook_gl_material_texture* texture);
 
 #ifdef __cplusplus
 }

@@ -69,7 +69,7 @@ typedef struct nook_nnao_desc {
   /* > 0, default 16. The blur takes no pixels that lie more than 1 / blur_sharpness radii off the pixel's
    * plane. */
   float blur_sharpness;
-  /* 1: every stage is timed for nook_nnao_get_timings. Default 0. */
+  /* 1: every stage is timed for nook_nnao_read_timings. Default 0. */
   int32_t timers;
   /* Default NOOK_NNAO_PATH_AUTOMATIC. */
   nook_nnao_path path;
@@ -266,7 +266,7 @@ typedef struct nook_nnao_info {
 
 /* Describes a pass. The call makes no OpenGL call.
  * Context thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_nnao_get_info(nook_nnao pass, nook_nnao_info* info);
+NOOK_API nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info);
 
 /* The time that the GPU took for each stage of the newest finished frame, in milliseconds. */
 typedef struct nook_nnao_timings {
@@ -287,7 +287,7 @@ typedef struct nook_nnao_timings {
 
 /* Gives the newest times; the call never waits.
  * Context thread. Errors: INVALID_ARGUMENT, GL. */
-NOOK_API nook_result nook_nnao_get_timings(nook_nnao pass, nook_nnao_timings* timings);
+NOOK_API nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* timings);
 
 #ifdef __cplusplus
 }

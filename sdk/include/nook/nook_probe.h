@@ -229,7 +229,7 @@ typedef struct nook_probe_fit_info {
 
 /* Describes a fit and counts its samples.
  * One at a time. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_probe_fit_get_info(nook_probe_fit fit, nook_probe_fit_info* info);
+NOOK_API nook_result nook_probe_fit_describe(nook_probe_fit fit, nook_probe_fit_info* info);
 
 /* ---- Probes: immutable, one or a grid of them with common functions, shared by threads ---- */
 
@@ -315,7 +315,7 @@ typedef struct nook_probe_info {
 
 /* Describes a probe.
  * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_probe_get_info(nook_probe probe, nook_probe_info* info);
+NOOK_API nook_result nook_probe_describe(nook_probe probe, nook_probe_info* info);
 
 /* Writes the coefficients of one probe of the grid, function_count x RGB.
  * Any thread. Errors: INVALID_ARGUMENT. */

@@ -5,9 +5,9 @@
 
 #include <atomic>
 
-#include "character/loaded_model.h"
-#include "character/scene.h"
-#include "core/context.h"
+#include "sdk/src/character/loaded_model.h"
+#include "sdk/src/character/scene.h"
+#include "sdk/src/core/context.h"
 
 struct nook_context_s final : nook::Context {
   using Context::Context;
@@ -32,7 +32,7 @@ struct nook_scene_s : nook::RefCounted {
   nook_scene_s(nook_context_s* made_by, const nook::SceneSettings& settings)
       : context(made_by), scene(settings, made_by->parallel(), made_by->memory()) {}
 
-  nook_context_s* context;             // kept alive by this object's owner reference
+  nook_context_s* context;  // kept alive by this object's owner reference
   // The host destroyed the scene; objects that others hold for it are invalid.
   std::atomic<bool> destroyed{false};
   nook::Scene scene;

@@ -9,7 +9,7 @@
 // All functions are templates over a number type F, as in kernel.h.
 #pragma once
 
-#include "character/directional.h"
+#include "sdk/src/character/directional.h"
 
 namespace nook {
 

@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-#include "core/simd_scalar.h"
+#include "sdk/src/core/simd_scalar.h"
 
 namespace nook {
 

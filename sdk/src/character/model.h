@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "character/kernel.h"
-#include "core/vec.h"
+#include "sdk/src/character/kernel.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook {
 
@@ -47,7 +47,9 @@ struct CharacterLevel {
       : spheres(memory), evaluated(memory), source(memory), scale(memory), offset(memory) {}
   CharacterLevel(const CharacterLevel&) = default;
   CharacterLevel(CharacterLevel&&) = default;
-  CharacterLevel(const CharacterLevel& other, const allocator_type& memory) : CharacterLevel(memory) { *this = other; }
+  CharacterLevel(const CharacterLevel& other, const allocator_type& memory) : CharacterLevel(memory) {
+    *this = other;
+  }
   CharacterLevel(CharacterLevel&& other, const allocator_type& memory) : CharacterLevel(memory) {
     *this = std::move(other);
   }
@@ -67,8 +69,18 @@ struct CharacterLevel {
 
 struct CharacterModel {
   explicit CharacterModel(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : bone_names(memory), spheres(memory), key_points(memory), influence(memory), alpha(memory), bias(memory),
-        blend(memory), static_ao(memory), file_to_welded(memory), primitives(memory), levels(memory), recipe(memory) {}
+      : bone_names(memory),
+        spheres(memory),
+        key_points(memory),
+        influence(memory),
+        alpha(memory),
+        bias(memory),
+        blend(memory),
+        static_ao(memory),
+        file_to_welded(memory),
+        primitives(memory),
+        levels(memory),
+        recipe(memory) {}
 
   static constexpr std::uint32_t max_influences = 8;
 
@@ -79,7 +91,7 @@ struct CharacterModel {
 
   // Linear layer: the AO of welded vertex i is 1 - (sum_s alpha[i * influences + s] * shadow[influence[...]]
   // + bias[i]).
-  std::uint32_t influences = 0;               // entries per vertex, 1 to max_influences; unused ones have alpha 0
+  std::uint32_t influences = 0;  // entries per vertex, 1 to max_influences; unused ones have alpha 0
   std::pmr::vector<std::uint16_t> influence;  // key-point indices
   std::pmr::vector<float> alpha;              // >= 0; at least one entry of each vertex is > 0
   std::pmr::vector<float> bias;
@@ -96,9 +108,9 @@ struct CharacterModel {
   static constexpr std::size_t max_levels = 4;
   std::pmr::vector<CharacterLevel> levels;  // from fine to coarse, without full detail; may be empty
 
-  float bounding_radius = 0;         // metres, of the rest pose around bounding_centre
+  float bounding_radius = 0;  // metres, of the rest pose around bounding_centre
   Vec3 bounding_centre;
-  std::uint16_t root_bone = 0;       // the bone that the ground and the bounding sphere follow
+  std::uint16_t root_bone = 0;  // the bone that the ground and the bounding sphere follow
 
   std::pmr::string recipe;  // JSON text of the bake's settings; the runtime does not read it
 

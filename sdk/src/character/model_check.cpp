@@ -1,8 +1,8 @@
-#include "character/model_check.h"
+#include "sdk/src/character/model_check.h"
 
 #include <cmath>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook {
 namespace {
@@ -14,7 +14,7 @@ constexpr float max_metres = 1e6f;
 constexpr float max_gamma = 64;
 // Bound of alpha, bias and caster weight, far above all fitted values.
 constexpr float max_coefficient = 1e4f;
-constexpr float max_blend = 16;          // far above the values that a file can hold
+constexpr float max_blend = 16;             // far above the values that a file can hold
 constexpr std::size_t max_indexed = 65536;  // the number of 16-bit indices
 
 bool within(float value, float low, float high) {

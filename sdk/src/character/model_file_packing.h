@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "character/model.h"
-#include "core/bytes.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/core/bytes.h"
 
 namespace nook {
 
@@ -124,7 +124,8 @@ inline float decode_blend(std::uint32_t code) {
 }
 inline std::uint32_t encode_blend(float weight) {
   const double last = Range::last_code(CharacterBits::blend);
-  return static_cast<std::uint32_t>(std::min(std::max(std::round(double(weight) * blend_one) - blend_low, 0.0), last));
+  return static_cast<std::uint32_t>(
+      std::min(std::max(std::round(double(weight) * blend_one) - blend_low, 0.0), last));
 }
 
 }  // namespace nook

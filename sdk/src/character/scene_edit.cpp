@@ -2,8 +2,8 @@
 #include <bit>
 #include <cmath>
 
-#include "character/scene.h"
-#include "core/failure.h"
+#include "sdk/src/character/scene.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook {
 namespace {
@@ -191,7 +191,7 @@ void set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) 
   Instance& instance = instance_of(scene, id);
   if (bones.size() != instance.bones.size())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "bone_count is not the model's (got %zu, need %zu); see nook_character_model_get_info",
+                  "bone_count is not the model's (got %zu, need %zu); see nook_character_model_describe",
                   bones.size(), instance.bones.size());
   float largest = 0;
   for (std::size_t b = 0; b < bones.size(); ++b) largest = std::max(largest, check_bone_matrix(bones[b], b));

@@ -1,7 +1,7 @@
 // Reads and sets single pieces of OpenGL state for the guard.
 #pragma once
 
-#include "gl/functions.h"
+#include "sdk/src/gl/functions.h"
 
 namespace nook::gl {
 

@@ -2,7 +2,7 @@
 // multiply-adds are those of single numbers.
 #pragma once
 
-#include "material/tables.h"
+#include "sdk/src/material/tables.h"
 
 namespace nook::material {
 

@@ -2,8 +2,8 @@
 // shaders/material.
 #pragma once
 
-#include "core/vec.h"
-#include "material/tables.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/material/tables.h"
 
 namespace nook::material {
 
@@ -11,7 +11,7 @@ struct Sample {
   float u = 0, v = 0;  // the tile repeats
   // Mipmap level: 0 where a texel of the material has the size of a pixel, 1 where it has half that size.
   float level = 0;
-  Vec3 view;           // unit vectors in tangent space, away from the surface
+  Vec3 view;  // unit vectors in tangent space, away from the surface
   Vec3 light;
 };
 

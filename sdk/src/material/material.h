@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "core/vec.h"
-#include "material/shape.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/material/shape.h"
 
 namespace nook::material {
 
@@ -59,8 +59,8 @@ struct ClusteredTensor {
 };
 
 enum class VisibilityForm : std::uint32_t {
-  none = 0,      // there is no VOTF; the surface is visible everywhere
-  binary = 1,    // 1 where the view meets the meso-structure, 0 where it passes through
+  none = 0,    // there is no VOTF; the surface is visible everywhere
+  binary = 1,  // 1 where the view meets the meso-structure, 0 where it passes through
   // Distance to the boundary of that mask, positive where the view meets the structure, scaled to [-1, 1].
   distance = 2,
 };

@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "catch.h"
-#include "import/gltf.h"
-#include "import/skinning.h"
+#include "bakers/import/gltf.h"
+#include "bakers/import/skinning.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

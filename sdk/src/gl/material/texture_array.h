@@ -1,7 +1,7 @@
 // A texture array of a material and its contents.
 #pragma once
 
-#include "gl/object.h"
+#include "sdk/src/gl/object.h"
 
 namespace nook::gl {
 

@@ -1,0 +1,14 @@
+// The recipe of a job's descriptor, with the preset's values filled in.
+#pragma once
+
+#include <nook/nook_bake.h>
+
+#include "bakers/character/recipe.h"
+
+namespace nook::bake {
+
+// Throws INVALID_ARGUMENT for unknown enum values, numbers out of range, unknown clips, and if there are no
+// poses.
+Recipe recipe_of(const nook_bake_job_desc& desc, const ImportedCharacter& character);
+
+}  // namespace nook::bake
