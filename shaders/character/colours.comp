@@ -1,5 +1,5 @@
-// Directional occlusion at the key points of instances with a light: the colour of their shadow and the added occlusion by
-// channel.
+// Directional occlusion at the key points of instances with a light: the colour of their shadow, and the
+// added occlusion of each channel.
 #include "shaders/character/key_points.glsl"
 #include "shaders/character/light.glsl"
 
@@ -27,7 +27,8 @@ NookBands nook_gather_spheres(uint first, uint count, NookPoint point) {
   return bands;
 }
 
-// The spheres of a caster as one: sum of their directions by what each takes; w is that sum's own.
+// The spheres of a caster as one: the sum of their directions, weighted by their shares; w is the sum of the
+// shares.
 vec4 nook_joint_sight(uint first, uint count, NookPoint point) {
   vec4 joint = vec4(0.0);
   for (uint begin = 0u; begin < count; begin += nook_tile_size) {

@@ -1,4 +1,5 @@
-// The colours of key points that a coarser level of detail evaluates to all of them. One thread a key point; y is the instance.
+// Derives the colours of all key points from those that a coarser level of detail evaluates. There is one
+// thread for each key point; y is the instance.
 #include "shaders/character/instance.glsl"
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;

@@ -3,9 +3,11 @@
 #include "shaders/character/layout.h"
 #include "shaders/probe/irradiance.glsl"
 
+// sdk/src/gl/character/scene_lights.cpp defines the layout.
 uniform samplerBuffer nook_scene_lights;
 
-// Irradiance of the lobes on an open surface; fits of probes may ring a little below 0, which is cut off.
+// Returns the irradiance of the lobes on an open surface. Fits of probes may ring slightly below 0; negative
+// values are clamped.
 vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
   int count = int(texelFetch(nook_scene_lights, light + NOOK_LIGHT_HEAD).x);
   vec3 sum = vec3(0.0);
@@ -18,8 +20,8 @@ vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
   return max(sum, 0.0);
 }
 
-// What the bodies, the ground and the occluders round the vertex leave of it; directional_ao is the vertex' value of
-// nook_gl_light_view.
+// Returns the irradiance that remains with the occlusion by bodies, ground and occluders. directional_ao is
+// the vertex' value of nook_gl_light_view.
 vec3 nook_scene_irradiance(int light, vec3 normal_ws, vec3 directional_ao) {
   return nook_scene_open_irradiance(light, normal_ws) * directional_ao;
 }

@@ -19,7 +19,7 @@ float nook_shadow_term(float xi, float delta2) {
 #endif
 }
 
-// Powers of the norm, slide 20. The usual exponents need no logarithm.
+// Powers of the norm (slide 20). The usual exponents need no logarithm.
 float nook_raised(float y, float gamma) {
   if (gamma == 1.5) return y * sqrt(y);
   if (gamma == 2.0) return y * y;
@@ -28,14 +28,14 @@ float nook_raised(float y, float gamma) {
 }
 float nook_norm_root(float sum, float gamma) { return sum > 0.0 ? pow(sum, 1.0 / gamma) : 0.0; }
 
-// acos within 7e-5 (Abramowitz and Stegun 4.4.45); the precision of GLSL's own is not specified.
+// acos within 7e-5 (Abramowitz and Stegun 4.4.45). GLSL does not specify the precision of its own acos.
 float nook_arc_cosine(float x) {
   float a = abs(x);
   float r = sqrt(max(1.0 - a, 0.0)) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - 0.0187293 * a)));
   return x < 0.0 ? 3.14159265 - r : r;
 }
 
-// Share of the cosine-weighted hemisphere that a sphere covers, clipped at the horizon.
+// Returns the share of the cosine-weighted hemisphere that a sphere covers, clipped at the horizon.
 float nook_form_factor_exact(float xi, float delta2) {
   float h2 = max(delta2, 1.0);
   float inverse_h = inversesqrt(h2);
@@ -49,7 +49,8 @@ float nook_form_factor_exact(float xi, float delta2) {
   return f + max(1.0 - f, 0.0) * max(1.0 - delta2, 0.0);
 }
 
-// The same without angles, for the many spheres of a caster; derived in sdk/src/character/kernel.h.
+// Returns the same share without angles, for the many spheres of a caster; sdk/src/character/kernel.h has the
+// derivation.
 float nook_form_factor_fast(float xi, float delta2) {
   float a = inversesqrt(max(delta2, 1.0));
   float a2 = a * a;

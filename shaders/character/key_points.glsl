@@ -1,5 +1,5 @@
-// What the passes over key points share: one thread a key point, y is the instance. Spheres pass through shared memory, which
-// all threads of the group then read.
+// Declarations that the passes over key points share. There is one thread for each key point; y is the
+// instance. Spheres are copied to shared memory, from which all threads of the group read.
 #include "shaders/character/instance.glsl"
 #include "shaders/character/kernel.glsl"
 
@@ -39,13 +39,13 @@ struct NookPoint {
   vec3 position, normal;
 };
 
-// Height above the horizon in radii, and squared distance in radii.
+// Returns the height above the horizon and the squared distance, both in radii.
 vec2 nook_see(vec4 sphere, NookPoint point) {
   vec3 d = (sphere.xyz - point.position) * sphere.w;
   return vec2(dot(d, point.normal), dot(d, d));
 }
 
-// Every thread of the group comes here with the same arguments.
+// Every thread of the group must call this with the same arguments.
 void nook_stage(uint first, uint count) {
   barrier();
   uint i = gl_LocalInvocationID.x;
@@ -56,7 +56,8 @@ void nook_stage(uint first, uint count) {
   barrier();
 }
 
-// Linear blend of up to four bones; the normal is renormalised, and stays zero where opposite bones cancel it.
+// Blends up to four bones linearly. The normal is renormalised, and stays zero where opposite bones cancel
+// it.
 void nook_pose(uint key_point, uint first_bone, out NookPoint fitted, out NookPoint surface) {
   uint k = uint(NOOK_KEY_POINT_VEC4S) * key_point;
   vec4 bones = nook_rest_key_point[k + 4u], weights = nook_rest_key_point[k + 5u];

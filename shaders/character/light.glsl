@@ -12,7 +12,8 @@ float nook_lobe_norm(float v) {
   return q / (v * q + 1.0);
 }
 
-// Mean of the lobes, less what the ground hides of each, under the density exp(dot(b, s)).
+// Returns the mean of the lobes under the density exp(dot(b, s)), without the part of each lobe that the
+// ground hides.
 vec3 nook_mean_radiance(uint light, vec3 b) {
   float length_b = length(b);
   int count = int(nook_light[light].x);
@@ -30,7 +31,7 @@ vec3 nook_inverse_hemisphere(uint light, vec3 n) {
   return 1.0 / max(nook_mean_radiance(light, n * NOOK_DIRECTIONAL_COSINE), nook_light[light + uint(NOOK_LIGHT_DARKEST)].xyz);
 }
 
-// Where something stands above the horizon: unit direction, and its cosine to the normal.
+// The direction to the part of a caster above the horizon, a unit vector, and its cosine to the normal.
 struct NookSight {
   vec3 towards;
   float cosine;
@@ -54,7 +55,7 @@ vec3 nook_light_ratio(uint light, vec3 inverse, vec3 n, NookSight sight, float s
   return clamp(behind * inverse, 0.0, NOOK_LARGEST_RATIO);
 }
 
-// Share below the horizon of a lobe of sharpness m whose vector rises `height` above it.
+// Returns the share below the horizon of a lobe of sharpness m whose vector rises `height` above it.
 float nook_share_below(float height, float m) {
   float x = height * inversesqrt(m * 2.0 * m / (m + 4.0) + NOOK_BELOW_WIDTH), a = abs(x);
   float p = (((NOOK_BELOW_4 * a + NOOK_BELOW_3) * a + NOOK_BELOW_2) * a + NOOK_BELOW_1) * a + 1.0;
@@ -79,7 +80,7 @@ vec3 nook_ground_ratio(uint light, vec3 n) {
   return clamp(below * inverse, 0.0, NOOK_LARGEST_RATIO);
 }
 
-// Densities of spheres, gathered over bands 0 to 2.
+// The densities of spheres, summed in bands 0 to 2.
 struct NookBands {
   float scalar;
   vec3 vector, straight, mixed;  // straight: xx, yy, zz; mixed: xy, yz, zx
@@ -103,7 +104,7 @@ vec3 nook_light_of(uint light, NookBands bands) {
   return sum;
 }
 
-// The sum of terms, each by the light that it takes.
+// Sums the terms, each times the light that it takes.
 vec3 nook_coloured_sum(uint light, NookBands gathered, vec3 n) {
   NookBands open = NookBands(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
   nook_gather(open, n * NOOK_DIRECTIONAL_COSINE, 1.0);

@@ -35,7 +35,7 @@ float nook_depth(uint first, uint count, NookPoint point) {
 
 void main() {
   NookRecord record = nook_read_record(nook_first_record + gl_WorkGroupID.y);
-  // Threads beyond the end work on the last key point, so that all reach every barrier.
+  // Threads beyond the end evaluate the last key point, so that all of them reach every barrier.
   uint key_point = min(gl_GlobalInvocationID.x, nook_key_point_count - 1u);
   NookPoint fitted, surface;
   nook_pose(nook_first_key_point + key_point, record.first_bone, fitted, surface);

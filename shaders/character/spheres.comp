@@ -1,4 +1,5 @@
-// Proxy spheres of every instance that moved, rest space to the instance's own space. One thread a sphere; y is the instance.
+// Transforms the proxy spheres of every instance that moved from rest space to the instance's own space.
+// There is one thread for each sphere; y is the instance.
 #include "shaders/character/instance.glsl"
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;
@@ -26,7 +27,7 @@ void main() {
   vec4 p = vec4(rest.xyz, 1.0);
   vec4 x = nook_bone[row];
   vec3 centre = vec3(dot(x, p), dot(nook_bone[row + 1u], p), dot(nook_bone[row + 2u], p));
-  // Under rigid or uniformly scaled matrices every row of the linear part is as long as the scale.
+  // Under rigid or uniformly scaled matrices, the length of every row of the linear part is the scale.
   float radius = rest.w * length(x.xyz);
   nook_sphere[record.first_sphere + s] = vec4(centre, 1.0 / max(radius, NOOK_MIN_SPHERE_RADIUS));
   nook_caster_weight[record.first_sphere + s] = rider.y;

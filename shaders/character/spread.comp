@@ -1,4 +1,5 @@
-// From the key points that a coarser level of detail evaluates to all of them. One thread a key point; y is the instance.
+// Derives the shadows of all key points from those that a coarser level of detail evaluates. There is one
+// thread for each key point; y is the instance.
 #include "shaders/character/instance.glsl"
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;
@@ -23,7 +24,7 @@ void main() {
   uint first = record.place * nook_shadow_stride;
   uint rule = uint(NOOK_SPREAD_WORDS) * (nook_level * nook_key_point_count + k);
   vec2 source = nook_shadow[first + nook_key_point_count + nook_spread[rule]];
-  // Scale and offset belong to self-shadow.
+  // Scale and offset apply to self-shadow only.
   if (nook_self != 0)
     source.x = max(uintBitsToFloat(nook_spread[rule + 1u]) * source.x + uintBitsToFloat(nook_spread[rule + 2u]), 0.0);
   nook_shadow[first + k] = source;

@@ -1,5 +1,6 @@
-// The linear layer: AO of every vertex in file order from a few key points. One thread a vertex; y is the instance.
-// NOOK_LIGHT: directional occlusion, three floats a vertex; AO in all of them for an instance without light.
+// The linear layer: AO of every vertex in file order from a few key points. There is one thread for each
+// vertex; y is the instance. With NOOK_LIGHT the result is directional occlusion, three floats for each
+// vertex, which are all AO for an instance without light.
 #include "shaders/character/instance.glsl"
 #include "shaders/character/linear.glsl"
 

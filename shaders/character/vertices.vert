@@ -13,7 +13,8 @@ layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + NOOK_ATTRIBUTES_PER_QUAD + 1) in v
 layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + NOOK_ATTRIBUTES_PER_QUAD + 2) in vec4 nook_blend_1;
 #endif
 
-uniform samplerBuffer nook_shadows;  // shadow and added occlusion in one texel; NOOK_LIGHT: in two, by channel
+// One texel: shadow and added occlusion; with NOOK_LIGHT two texels, by channel.
+uniform samplerBuffer nook_shadows;
 uniform int nook_first_key_point;    // of the draw's first instance, in the page
 uniform int nook_key_point_count;
 uniform int nook_self;

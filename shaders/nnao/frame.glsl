@@ -26,14 +26,14 @@ uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_view_mode int(nook_frame[NOOK_FRAME_SURFACE].w)
 #define nook_normal_matrix mat3(nook_frame[NOOK_FRAME_NORMAL_MATRIX].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].xyz)
 
-// Depth where there is no surface: sky, far plane, off the screen.
+// The depth where there is no surface: sky, far plane, off the screen.
 const float nook_no_surface = 1.0e30;
 
 bool nook_inside(ivec2 texel, ivec2 size) {
   return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
 }
 
-// The view-space position of a pixel's centre at a depth.
+// Returns the view-space position of a pixel's centre at a depth.
 vec3 nook_position(vec4 rays, ivec2 pixel, float depth) {
   vec2 ray = rays.xz * (vec2(pixel) + 0.5) + rays.yw;
   return vec3(ray * (nook_orthographic ? 1.0 : depth), -depth);
@@ -43,12 +43,12 @@ vec3 nook_to_viewer(vec3 position) {
   return nook_orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-position);
 }
 
-// Texels of the surface per metre at a depth.
+// Returns the texels of the surface per metre at a depth.
 vec2 nook_pixel_scale(float depth) {
   return 1.0 / (nook_surface_rays.xz * (nook_orthographic ? 1.0 : depth));
 }
 
-// The radius of a pixel: metres, texels. Where it would cover too many texels it shrinks.
+// Returns the radius of a pixel in metres and in texels. It shrinks where it would cover too many texels.
 vec2 nook_pixel_radius(vec2 scale) {
   float per_metre = abs(scale.y);
   float texels = min(nook_radius * per_metre, nook_max_radius_px);

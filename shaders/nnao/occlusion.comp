@@ -1,4 +1,5 @@
-// The network's stage as a dispatch: one thread a texel of the surface. The groups at the border reach beyond it.
+// The network as a dispatch, with one thread for each texel of the surface. The groups at the border extend
+// beyond it.
 #include "shaders/nnao/occlusion.glsl"
 
 layout(local_size_x = NOOK_OCCLUSION_GROUP_SIZE, local_size_y = NOOK_OCCLUSION_GROUP_SIZE) in;

@@ -1,4 +1,4 @@
-// The paper's network; network.h defines it. A tap's input is
+// The paper's network, which network.h defines. A tap's input is
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
 uniform samplerBuffer nook_filters;  // for each cell of the grid four texels, one an input, of four units
 uniform vec4 nook_network[NOOK_PAPER_VEC4S];  // the other layers, in the order of network.h
@@ -9,7 +9,7 @@ vec4 nook_prelu(vec4 x, int slopes) {
   return max(x, 0.0) * nook_network[slopes + 1] + min(x, 0.0) * nook_network[slopes];
 }
 
-// What one tap adds to the four sums.
+// Returns the contribution of one tap to the four sums.
 vec4 nook_tap_sum(ivec2 texel, int cell, int taps, vec2 noise, vec3 position, vec3 normal, vec2 scale, float radius) {
   ivec2 at = nook_tapped_texel(texel, nook_paper_tap(cell, taps, noise, radius, scale));
   float depth = nook_surface_depth(at);

@@ -1,4 +1,4 @@
-// What one character costs on one core: the shadow kernels against a plain loop, and the whole AO against
+// The cost of one character on one core: the shadow kernels against a plain loop, and the whole AO against
 // skinning. Ratios come from turns taken side by side, because a shared machine changes its speed between one
 // row and the next.
 #include <benchmark/benchmark.h>

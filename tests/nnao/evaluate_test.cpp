@@ -112,7 +112,8 @@ TEST_CASE("sky is exactly 1, and to its neighbours the same as a surface far awa
   }
 }
 
-TEST_CASE("off the screen the pixel's own plane goes on, and the network is told how much of it does") {
+TEST_CASE(
+    "off the screen the pixel's own plane continues, and the share of such taps is an input of the network") {
   const Sampling sampling{0.5f, 256, 64};
   for (const Vec3 tilt : {Vec3{0, 0, 1}, Vec3{0.3f, 0.5f, 1}}) {
     // Orthographic: what a pixel sees of the whole plane does not depend on the pixel but for its noise,
@@ -132,13 +133,13 @@ TEST_CASE("off the screen the pixel's own plane goes on, and the network is told
     CHECK(off(open, 0) < 0.1 * off(sky_below, 32));
     // The share of taps off the screen is the last input of the third layer.
     const auto at = [&](std::uint32_t y) { return unclamped(network, open.view(), sampling, 48, y, {}); };
-    const float told = at(0), inside = at(32);
+    const float outside = at(0), inside = at(32);
     std::fill_n(network.horizon.join.weights.end() - HorizonNetwork::units, HorizonNetwork::units, 0.0f);
-    CHECK(at(0) != told);
+    CHECK(at(0) != outside);
     CHECK(at(32) == inside);
   }
 
-  // A screen of one pixel knows no occluder.
+  // A screen of one pixel contains no occluder.
   const Network network = test::sample_network(NetworkForm::horizon);
   const std::vector<float> depth{2};
   const std::vector<Vec3> normal{{0, 0, 1}};

@@ -27,11 +27,11 @@ std::uint32_t block_count_of(std::size_t vertices) {
   return static_cast<std::uint32_t>((vertices + linear_block_vertices - 1) / linear_block_vertices);
 }
 
-// The columns of all blocks one after another: the key points that a block's vertices use, ascending, each
-// once.
+// The columns of all blocks, one block after another: the key points that the vertices of a block use, each
+// once and in ascending order.
 struct Columns {
   std::pmr::vector<std::uint16_t> key_point;
-  std::pmr::vector<std::uint32_t> first;  // per block, and the end
+  std::pmr::vector<std::uint32_t> first;  // for each block, and the end
 
   Columns(const CharacterModel& model, const std::pmr::vector<std::uint32_t>& order,
           std::pmr::memory_resource* memory)

@@ -10,7 +10,7 @@ namespace {
 
 // A gamma-norm beyond this is the maximum norm to float precision.
 constexpr float max_gamma = 64;
-constexpr float max_blend = 16;          // far above what a file can hold
+constexpr float max_blend = 16;             // far above what a file can hold
 constexpr std::size_t max_indexed = 65536;  // what 16-bit indices reach
 
 bool within(float value, float low, float high) {
@@ -107,7 +107,7 @@ void check_linear_layer(const CharacterModel& model, const Check& check) {
     for (std::size_t e = i * model.influences; e < (i + 1) * model.influences; ++e)
       check.that(model.alpha[e] > 0 || model.blend[e] == 0, "blend weight of vertex", i, model.blend[e],
                  "0 where alpha is 0");
-    // Eight additions of numbers up to 16.
+    // The sum has eight additions of numbers up to 16.
     check.that(within(blend_sum, 1 - 1e-4f, 1 + 1e-4f), "sum of blend weights of vertex", i, blend_sum, "1");
     check.that(within(std::abs(model.bias[i]), 0, max_coefficient), "bias of vertex", i, model.bias[i],
                "-1e4 to 1e4");

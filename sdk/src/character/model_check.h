@@ -1,4 +1,4 @@
-// Is a character model sound? Whatever passes can be evaluated without further checks.
+// The check of a character model. A model that passes can be evaluated without further checks.
 #pragma once
 
 #include <nook/nook.h>

@@ -58,7 +58,7 @@ float check_bone_matrix(const Mat3x4& matrix, std::size_t bone) {
   const float shear = std::max({std::abs(dot(x, y)), std::abs(dot(y, z)), std::abs(dot(z, x))});
   if (shear > most * 0.0101f)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the matrix of bone %zu is sheared (cosine between axes %g, need at most 0.01); bone_3x4 "
+                  "the matrix of bone %zu is sheared (cosine between axes %g, need at most 0.01); bones_3x4 "
                   "is row-major, "
                   "transposing may help",
                   bone, double(shear / most));

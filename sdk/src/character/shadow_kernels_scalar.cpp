@@ -1,5 +1,4 @@
-// The reference: plain float arithmetic in the order the formulas are written, and what processors without
-// x86 SIMD run.
+// The reference: plain float arithmetic in the order of the formulas. Processors without x86 SIMD run it.
 #include <cstdint>
 
 #include "sdk/src/character/directional.h"
@@ -14,7 +13,7 @@ namespace nook::isa_scalar {
 
 using Float = float;
 constexpr std::uint32_t width = 1;
-using Wide = Float;  // what the loops over spheres run on
+using Wide = Float;  // the vector of the loops over spheres
 
 namespace {
 Float broadcast(float a) {

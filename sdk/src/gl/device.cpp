@@ -22,7 +22,7 @@ Device::Device(Context& host, const nook_gl_desc& desc)
 }
 
 void Device::report_host_errors() const {
-  // A context that is lost or not current may answer with errors for ever.
+  // A context that is lost or not current may return errors forever.
   for (int i = 0; i < 16; ++i) {
     const GLenum error = gl.GetError();
     if (error == GL_NO_ERROR) return;

@@ -47,7 +47,8 @@ Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier) {
     load_optional(gl.BindImageTexture, get_proc, user, "glBindImageTexture");
     gl.can.compute_images = gl.BindImageTexture != nullptr;
   }
-  // A loader may return a stub for what the context lacks, so the version decides before the pointer does.
+  // A loader may return a stub for a function that the context lacks, so the version is tested before the
+  // pointer.
   if (gl.version >= 40) {
     load_optional(gl.BindTransformFeedback, get_proc, user, "glBindTransformFeedback");
     load_optional(gl.DeleteTransformFeedbacks, get_proc, user, "glDeleteTransformFeedbacks");

@@ -1,4 +1,4 @@
-// Saving and restoring what the screen-space pass draws with.
+// Saves and restores the state of the screen-space pass's draws.
 #include "sdk/src/gl/state_guard.h"
 
 #include "sdk/src/gl/state_access.h"
@@ -6,7 +6,7 @@
 namespace nook::gl {
 namespace {
 
-// With an index, only that of draw buffer 0 or viewport 0 changes.
+// Changes only the value of draw buffer 0 or viewport 0.
 void set_enabled_0(const Functions& gl, GLenum capability, bool enabled) {
   enabled ? gl.Enablei(capability, 0) : gl.Disablei(capability, 0);
 }
@@ -140,7 +140,7 @@ void restore_color_mask(const Functions& gl, const SavedState& s) {
 }
 
 void query_polygon_mode(const Functions& gl, SavedState& s) {
-  // Some drivers answer with two values, front and back, which core profiles keep equal.
+  // Some drivers return two values, front and back, which are equal in core profiles.
   GLint modes[2] = {GL_FILL, GL_FILL};
   gl.GetIntegerv(GL_POLYGON_MODE, modes);
   s.polygon_mode = modes[0];

@@ -19,7 +19,7 @@ void read_values(nook_gl_s& gl, const gl::VertexValues& values, std::uint32_t co
   gl.guarded([&] { gl.characters->read(values, out); });
 }
 
-// Runs body on both objects, whose OpenGL context lives.
+// Runs body if both handles are valid and the OpenGL context is not lost.
 template <class Body>
 nook_result with_scene(const char* function, nook_gl gl, nook_scene scene, Body&& body) noexcept {
   return api::enter(function, [&] {

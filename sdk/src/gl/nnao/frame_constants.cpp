@@ -7,10 +7,10 @@
 namespace nook::gl {
 namespace {
 
-// Depth = (x + y stored) / (z + w stored), and where the far plane lies.
+// Depth = (x + y stored) / (z + w stored), and the stored value of the far plane.
 struct DepthDecode {
   float x = 0, y = 1, z = 1, w = 0;
-  float far_stored = 1e30f;  // so far away is no surface
+  float far_stored = 1e30f;  // values from here on are no surface
   float far_sign = 1;
 };
 
@@ -18,7 +18,7 @@ bool perspective(const nook_nnao_frame_desc& frame) {
   return frame.projection[11] < 0;
 }
 
-// The matrix is known up to a factor; here clip w is -z or 1.
+// The matrix is defined up to a factor; here clip w is -z or 1.
 double factor(const nook_nnao_frame_desc& frame) {
   return 1.0 / (perspective(frame) ? -double(frame.projection[11]) : double(frame.projection[15]));
 }
@@ -57,7 +57,7 @@ nnao::ScreenRays rays_of(const nook_nnao_frame_desc& frame, const Viewport& view
   return nnao::screen_rays(projection, std::uint32_t(viewport.width), std::uint32_t(viewport.height));
 }
 
-// Texel i of the half-size surface lies on pixel 2 i: its centre i + 0.5 on 2 i + 0.5.
+// Texel i of the half-size surface is pixel 2 i: its centre i + 0.5 is at 2 i + 0.5.
 nnao::ScreenRays half_rays(nnao::ScreenRays rays) {
   rays.x_offset -= 0.5f * rays.x_scale;
   rays.y_offset -= 0.5f * rays.y_scale;

@@ -1,4 +1,4 @@
-// What the shaders of the screen-space pass need to know of a frame, from the host's description of it.
+// The uniforms of the screen-space pass that depend on the frame, from the host's descriptor.
 #pragma once
 
 #include <nook/nook_nnao.h>
@@ -9,13 +9,13 @@
 
 namespace nook::gl {
 
-// x, y, width, height in pixels of the host's textures.
+// x, y, width and height in pixels of the host's textures.
 struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
 };
 Viewport viewport_of(const nook_nnao_frame_desc& frame);
 
-// The surface: the resolution at which AO is computed.
+// The length of the surface, which is the image at the resolution at which AO is computed.
 constexpr int surface_length(int length, bool half) {
   return half ? (length + 1) / 2 : length;
 }

@@ -5,7 +5,7 @@
 namespace nook::gl {
 namespace {
 
-// After a bind that OpenGL refused: takes away the error it left. An error of the host's own goes to the log.
+// Clears the error of a bind that OpenGL refused. An earlier error of the host goes to the log.
 void clear_refusal(const Device& device) {
   for (int i = 0; i < 16; ++i) {
     const GLenum error = device.gl.GetError();
@@ -104,7 +104,7 @@ void check_complete(const Functions& gl, const HostImages& images) {
         images.target_name, status);
 }
 
-// An input that is the target, or a part of it.
+// Throws if an input is the target or a part of it.
 void check_apart(const HostImages& images, std::uint32_t target, const char* target_field) {
   const struct {
     std::uint32_t name;
@@ -146,7 +146,7 @@ void check_framebuffer(const Device& device, const HostImages& images) {
         "frame.target_name draws into nothing (its first draw buffer is GL_NONE); call glDrawBuffer");
   if (images.target_name == 0) return;
   check_apart(images, attached_texture(gl, static_cast<GLenum>(buffer)), "attached to frame.target_name");
-  // With its depth attached, the depth texture would be read while it is drawn into, which OpenGL leaves
+  // If its depth were attached, the depth texture would be read while it is drawn into, which OpenGL leaves
   // undefined.
   check_apart(images, attached_texture(gl, GL_DEPTH_ATTACHMENT), "attached to frame.target_name");
 }

@@ -14,7 +14,7 @@ void add(Floats& out, const std::array<float, count>& values) {
   out.insert(out.end(), values.begin(), values.end());
 }
 
-// Layers of one unit end with their three numbers and a zero, so that each begins at a vec4.
+// Layers of one unit end with their three numbers and a zero, so that each layer starts at a vec4.
 template <int inputs, int units>
 void add(Floats& out, const nnao::Dense<inputs, units>& layer) {
   add(out, layer.weights);

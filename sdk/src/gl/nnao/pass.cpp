@@ -11,7 +11,7 @@ constexpr GLuint groups(int texels) {
   return static_cast<GLuint>((texels + NOOK_OCCLUSION_GROUP_SIZE - 1) / NOOK_OCCLUSION_GROUP_SIZE);
 }
 
-// AO times what is there; alpha stays.
+// Multiplies the target by AO; alpha stays.
 constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE, GL_FUNC_ADD, GL_FUNC_ADD};
 
 }  // namespace
@@ -71,12 +71,12 @@ void NnaoPass::run_network(const FrameConstants& constants, const RenderTexture&
     return;
   }
   set_frame(occlusion_, constants);
-  // As occlusion.comp declares it; OpenGL 4.3 guarantees images of this format.
+  // occlusion.comp declares the image in this way. OpenGL 4.3 guarantees images of this format.
   gl.BindImageTexture(image_unit_index, into.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R8);
-  // Reading and drawing that is under way, the host's too, ends before the texture is written.
+  // Pending reads and draws, also of the host, end before the texture is written.
   gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   gl.DispatchCompute(groups(into_place.width), groups(into_place.height), 1);
-  // It is read by the next stage and, where it is the own texture, drawn into by the last.
+  // The next stage reads the texture. If it is the own texture, the last stage also draws into it.
   gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
@@ -112,7 +112,7 @@ void NnaoPass::draw_resolve(const nook_nnao_frame_desc& frame, const FrameConsta
     gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, frame.target_name, 0);
   }
   draw(resolve_, constants, framebuffer, viewport_of(frame));
-  // Kept attached, a texture that the host deletes would live on.
+  // If it stayed attached, a texture that the host deletes would live on.
   if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
 }
 
@@ -140,8 +140,8 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
     gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
     gl.BindTexture(GL_TEXTURE_BUFFER, filter_texture_.name());
   }
-  // At full resolution the result takes the own texture's place last, so AO lies in the other one before. In
-  // the own texture nothing but the viewport may change.
+  // At full resolution the last stage writes the own texture, so that AO is in the other texture before. Only
+  // the viewport may change in the own texture.
   const RenderTexture& first = half() || !blurs(frame) ? ao_[0] : own_;
   const RenderTexture& second = half() ? ao_[1] : ao_[0];
   const Viewport& place = &first == &own_ ? viewport : surface;

@@ -18,7 +18,7 @@ struct TexturePlan {
   const char* label;
 };
 
-// surface, AO, AO at half resolution, own.
+// The textures of a pass: surface, AO, AO at half resolution, own.
 struct PassPlan {
   TexturePlan textures[4];
 };
@@ -104,7 +104,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
                    : drawn("nnao/occlusion.frag");
   blur_ = drawn("nnao/blur.frag");
   resolve_ = drawn("nnao/resolve.frag");
-  // Both forms take their taps in as many groups of as many.
+  // Both forms have the same number of groups with the same number of taps.
   device_.gl.UseProgram(occlusion_.program.name());
   device_.gl.Uniform1i(uniform_location(device_, occlusion_.program, "nook_tap_groups"),
                        static_cast<GLint>(grid.directions));

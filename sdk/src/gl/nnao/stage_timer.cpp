@@ -10,7 +10,7 @@ StageTimer::StageTimer(Device& device) : device_(device) {
 }
 
 void StageTimer::mark(int stage) {
-  // Time stamps rather than spans: the host may be timing something of its own.
+  // Time stamps are used instead of elapsed-time queries, because the host may have one of these active.
   device_.gl.QueryCounter(marks_[frames_ % kept_frames][std::size_t(stage)].name(), GL_TIMESTAMP);
 }
 
