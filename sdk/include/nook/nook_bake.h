@@ -543,8 +543,8 @@ NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float*
  * columns around y: the middle column looks along +x, and the column a quarter of the width to its right
  * along +z. */
 typedef struct nook_bake_environment {
-  /* 3 finite floats >= 0 for each texel, rows from the top. NULL only if width is 0; then the environment is
-   * black. */
+  /* 3 floats for each texel, each 0 to 1e15, rows from the top. NULL only if width is 0; then the environment
+   * is black. */
   const float* rgb;
   /* Texels, up to 16384. */
   uint32_t width;
@@ -562,7 +562,7 @@ typedef struct nook_bake_lit_mesh {
   uint32_t index_count;
   /* RGB, the share of light that the surface reflects, in [0, 1]. A surface with 0 only occludes. */
   float base_colour[3];
-  /* RGB, the radiance that the surface emits, >= 0. */
+  /* RGB, the radiance that the surface emits, 0 to 1e15. */
   float emission[3];
 } nook_bake_lit_mesh;
 

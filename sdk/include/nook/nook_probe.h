@@ -94,21 +94,25 @@ enum {
 };
 typedef int32_t nook_probe_method;
 
-/* D_i of the running average's plain step. */
+/* What a fit of lobes keeps beside its least squares. */
 enum {
-  /* Lobes agree with the light in its spherical harmonics of bands 0 to 2, which are 99 % of what irradiance
-   * sees of a light: the total light is exact, and irradiance has about a third of the error that least
-   * squares alone leaves. Coefficients minimise the square error of radiance under that condition. Where it
-   * cannot be met (fewer than 9 lobes, coefficients that may not be negative, a hemisphere) they come near
-   * it. Naive and original forms, harmonics and dice ignore it. */
+  /* The lobes agree with the light in its spherical harmonics of bands 0 to 2, which hold 99 % of what
+   * irradiance depends on: the total light is exact, and irradiance has about a third of the error of least
+   * squares alone. The coefficients minimise the squared error of radiance under that condition. Where the
+   * condition cannot be met (fewer than 9 lobes, coefficients that may not be negative, a hemisphere) it is
+   * a penalty. The naive and the original form, harmonics and dice ignore it. */
   NOOK_PROBE_CONSTRAINT_BANDS = 0,
-  NOOK_PROBE_CONSTRAINT_NONE = 1 /* least squares alone, for lobes so sharp that they leave gaps */
+  /* Least squares alone, for lobes so sharp that they leave gaps. */
+  NOOK_PROBE_CONSTRAINT_NONE = 1
 };
 typedef int32_t nook_probe_constraint;
 
+/* D_i of the running average's plain step. */
 enum {
-  NOOK_PROBE_DENOMINATOR_LOCKSTEP = 0,   /* averaged from the same samples, never below the true integral */
-  NOOK_PROBE_DENOMINATOR_PRECOMPUTED = 1 /* the true integral */
+  /* The average from the same samples, which is never below the exact integral. */
+  NOOK_PROBE_DENOMINATOR_LOCKSTEP = 0,
+  /* The exact integral. */
+  NOOK_PROBE_DENOMINATOR_PRECOMPUTED = 1
 };
 typedef int32_t nook_probe_denominator;
 
@@ -124,28 +128,45 @@ enum {
 typedef int32_t nook_probe_step;
 
 typedef struct nook_probe_fit_desc {
-  uint32_t struct_size;             /* set by nook_probe_fit_desc_init */
-  uint32_t header_version;          /* set by nook_probe_fit_desc_init */
-  const void* next;                 /* NULL */
-  nook_probe_method method;         /* default NOOK_PROBE_LEAST_SQUARES */
-  nook_probe_constraint constraint; /* default NOOK_PROBE_CONSTRAINT_BANDS */
-  nook_probe_basis basis;           /* default NOOK_PROBE_GAUSSIANS */
-  nook_probe_domain domain;         /* default NOOK_PROBE_SPHERE */
-  float up[3];         /* the hemisphere's axis, unit to 1e-3; default (0, 0, 1), a tangent space */
-  uint32_t lobe_count; /* Gaussians: 1 to 64, with the ambient term; default 12 */
-  float sharpness;     /* of lobes without one of their own: above 0 to 10,000; 0 (default): by lobe_count, so
-                          that neighbours overlap alike. 6 for 12 lobes on the sphere */
-  const float* axes;   /* lobe_count directions, unit to 1e-3, copied; NULL (default): a Vogel spiral */
-  const float*
-      sharpnesses; /* lobe_count values above 0 to 10,000, copied; NULL (default): `sharpness` for all */
-  int32_t ambient; /* 1: a constant term follows the lobes. Default 0 */
-  uint32_t order;  /* harmonics: the highest band, 1 to 4; default 2 */
-  nook_probe_denominator denominator; /* of the plain step; default NOOK_PROBE_DENOMINATOR_LOCKSTEP */
-  nook_probe_step step;               /* running averages; default NOOK_PROBE_STEP_FAST */
-  float growing_samples; /* above 0: sample k, from 1, weighs 1 - exp(-k / this) times as much, against noise
-                            in the first samples' radiance; >= 0, default 0: all alike */
-  nook_isa isa;          /* default NOOK_ISA_AUTO; a better one than the processor has: UNSUPPORTED */
-  uint32_t reserved;     /* 0 */
+  /* nook_probe_fit_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t header_version;
+  /* NULL. */
+  const void* next;
+  /* Default NOOK_PROBE_LEAST_SQUARES. */
+  nook_probe_method method;
+  /* Default NOOK_PROBE_CONSTRAINT_BANDS. */
+  nook_probe_constraint constraint;
+  /* Default NOOK_PROBE_GAUSSIANS. */
+  nook_probe_basis basis;
+  /* Default NOOK_PROBE_SPHERE. */
+  nook_probe_domain domain;
+  /* The axis of the hemisphere, of unit length to 1e-3. Default (0, 0, 1), for a tangent space. */
+  float up[3];
+  /* The number of lobes, 1 to 64 together with the ambient term. Default 12. */
+  uint32_t lobe_count;
+  /* The sharpness of all lobes if sharpnesses is NULL: above 0 to 10,000. The default 0 takes it from
+   * lobe_count, so that neighbours overlap equally: 6 for 12 lobes on the sphere. */
+  float sharpness;
+  /* lobe_count directions, of unit length to 1e-3, which the call copies. Default NULL: a Vogel spiral. */
+  const float* axes;
+  /* lobe_count values above 0 to 10,000, which the call copies. Default NULL: sharpness for all lobes. */
+  const float* sharpnesses;
+  /* 1: a constant term follows the lobes. Default 0. */
+  int32_t ambient;
+  /* The maximum band of harmonics, 1 to 4. Default 2. */
+  uint32_t order;
+  /* Of the plain step. Default NOOK_PROBE_DENOMINATOR_LOCKSTEP. */
+  nook_probe_denominator denominator;
+  /* Of running averages. Default NOOK_PROBE_STEP_FAST. */
+  nook_probe_step step;
+  /* If above 0, sample k, from 1, has its weight multiplied by 1 - exp(-k / growing_samples), against noise
+   * in the radiance of the first samples. >= 0; default 0, equal weights. */
+  float growing_samples;
+  /* Default NOOK_ISA_AUTO. A set that the processor does not have is UNSUPPORTED. */
+  nook_isa isa;
+  /* 0. */
+  uint32_t reserved;
 } nook_probe_fit_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does.
