@@ -55,7 +55,7 @@ Picture side_by_side(std::span<const Picture> pictures);
 // The bytes of a .png file. Throws Failure(INTERNAL) with the reason.
 std::vector<std::byte> png_bytes(const Picture& picture);
 
-// Throws Failure(INTERNAL) with the reason where the file cannot be written.
+// Throws std::runtime_error with the reason where the file cannot be written.
 void write_png(const std::filesystem::path& path, const Picture& picture);
 
 }  // namespace nook::bake

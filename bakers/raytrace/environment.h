@@ -11,11 +11,15 @@
 
 namespace nook::bake {
 
+// The largest radiance of a map's texel and of a surface's own light: sums of squares over any number of
+// paths stay far below what a float holds.
+inline constexpr double max_radiance = 1e15;
+
 // Rows go from +y down to -y, columns once round y: the middle column looks along +x, a quarter further right
 // along +z. Radiance is constant over a texel, so that integrals over the map are sums over its texels.
 class Environment {
  public:
-  // rgb: 3 floats a texel, rows from the top, each finite and 0 or above; width and height 1 or more.
+  // rgb: 3 floats a texel, rows from the top, each 0 to max_radiance; width and height 1 or more.
   Environment(std::uint32_t width, std::uint32_t height, std::vector<float> rgb);
 
   std::uint32_t width() const { return width_; }
@@ -51,7 +55,8 @@ struct LightSample {
 // + uniform / (4 pi).
 class LightSampler {
  public:
-  // The environment must outlive the sampler. uniform_share in [0, 1]; a black map is sampled uniformly.
+  // The environment must outlive the sampler. uniform_share in [0, 1]; a map that is black, or so dark that
+  // its density has no float, is sampled uniformly.
   explicit LightSampler(const Environment& environment, float uniform_share = 0);
 
   // Four numbers in [0, 1); choice in double, which reaches every texel of large maps.

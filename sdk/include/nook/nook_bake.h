@@ -162,7 +162,10 @@ typedef int32_t nook_bake_pose_mode;
 enum {
   NOOK_BAKE_SPLIT_ALL = 0, /* every clip that shows motion (T- and A-poses, by name, do not) */
   NOOK_BAKE_SPLIT_HALF = 1, /* every second of them in byte order of the names, the first included: the others can measure */
-  NOOK_BAKE_SPLIT_FAMILIES = 2 /* the same with families in place of clips: names alike up to the first underscore */
+  /* The same with families in place of clips: names that begin with the same word, in upper or lower case. A word
+   * ends at a digit, at a sign and before a capital; what stands before the last | or : does not count. A file
+   * whose clips are one family is refused. */
+  NOOK_BAKE_SPLIT_FAMILIES = 2
 };
 typedef int32_t nook_bake_clip_split;
 
@@ -308,7 +311,7 @@ typedef struct nook_bake_material_desc {
   uint32_t cluster_rank_view;      /* view rank of one cluster, default 4 */
   uint32_t clusters;               /* default 0: rank_view / cluster_rank_view */
   uint32_t mixture;                /* K, clusters that a view is mixed from, default 3 */
-  uint32_t view_map_side;          /* cells of K-CTA's resampled view maps, default 256; 0: none, and decoding mixes the three
+  uint32_t view_map_side;          /* cells of K-CTA's resampled view maps, default 64; 0: none, and decoding mixes the three
                                       nearest views, for up to three times the work */
   float rank_threshold;            /* squared error that ranks by threshold allow in each mode, a share of the square norm,
                                       default 0.01 */
@@ -368,7 +371,7 @@ NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float*
 /* A latitude-longitude map of linear radiance. Rows go from +y down to -y, columns once round y: the middle column looks along
  * +x, a quarter further right along +z. Radiance is constant over a texel. */
 typedef struct nook_bake_environment {
-  const float* rgb; /* 3 a texel, rows from the top; finite, 0 or above. NULL only with width 0: black */
+  const float* rgb; /* 3 a texel, rows from the top; each 0 to 1e15. NULL only with width 0: black */
   uint32_t width;   /* at most 16384 */
   uint32_t height;  /* at most 8192 */
 } nook_bake_environment;
@@ -380,7 +383,7 @@ typedef struct nook_bake_lit_mesh {
   uint32_t vertex_count;
   uint32_t index_count;
   float base_colour[3];    /* RGB, the share of light that it sends back, 0 to 1; 0: it only occludes */
-  float emission[3];       /* RGB, radiance of its own, 0 or above */
+  float emission[3];       /* RGB, radiance of its own, 0 to 1e15 */
 } nook_bake_lit_mesh;
 
 typedef struct nook_bake_irradiance_desc {

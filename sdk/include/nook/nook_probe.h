@@ -74,6 +74,16 @@ enum {
 typedef int32_t nook_probe_method;
 
 enum {
+  /* Lobes agree with the light in its spherical harmonics of bands 0 to 2, which are 99 % of what irradiance sees of a light:
+   * the total light is exact, and irradiance has about a third of the error that least squares alone leaves. Coefficients
+   * minimise the square error of radiance under that condition. Where it cannot be met (fewer than 9 lobes, coefficients that
+   * may not be negative, a hemisphere) they come near it. Naive and original forms, harmonics and dice ignore it. */
+  NOOK_PROBE_CONSTRAINT_BANDS = 0,
+  NOOK_PROBE_CONSTRAINT_NONE = 1 /* least squares alone, for lobes so sharp that they leave gaps */
+};
+typedef int32_t nook_probe_constraint;
+
+enum {
   NOOK_PROBE_DENOMINATOR_LOCKSTEP = 0,   /* averaged from the same samples, never below the true integral */
   NOOK_PROBE_DENOMINATOR_PRECOMPUTED = 1 /* the true integral */
 };
@@ -91,7 +101,8 @@ typedef struct nook_probe_fit_desc {
   uint32_t struct_size;               /* set by nook_probe_fit_desc_init */
   uint32_t header_version;            /* set by nook_probe_fit_desc_init */
   const void* next;                   /* NULL */
-  nook_probe_method method;           /* default NOOK_PROBE_RUNNING_AVERAGE */
+  nook_probe_method method;           /* default NOOK_PROBE_LEAST_SQUARES */
+  nook_probe_constraint constraint;   /* default NOOK_PROBE_CONSTRAINT_BANDS */
   nook_probe_basis basis;             /* default NOOK_PROBE_GAUSSIANS */
   nook_probe_domain domain;           /* default NOOK_PROBE_SPHERE */
   float up[3];                        /* the hemisphere's axis, unit to 1e-3; default (0, 0, 1), a tangent space */
@@ -274,8 +285,9 @@ typedef struct nook_probe_surface {
 /* Radiance that a GGX surface reflects to the eye: Smith masking of both directions, Schlick Fresnel, single scattering; its
  * directional albedo times the light's mean over the lobe that it reflects. rgb: one colour for each surface. Seen from 0.02
  * to 1, the cosine between normal and view: under constant light within 5 % of the integral from reflectance 0.02 on, and
- * under 12 lobes of sharpness 6 within 7 % (anisotropic form: 6 % at alpha 0.05 and 0.1, 13 % at 0.2, 7 % above). Surfaces of
- * two widths, anisotropic form: 22 %; under constant light 6 % at reflectance 1, 26 % at 0.04. */
+ * under 12 lobes of sharpness 6 whose amplitudes differ by up to 1 : 9 within 10 % (anisotropic form: 6 % at alpha 0.05, 10 % at
+ * 0.1, 17 % at 0.2, 9 % above), where one lobe outshines all others by 1 : 20 within 40 %. Surfaces of two widths, anisotropic
+ * form: 32 %; under constant light 6 % at reflectance 1, 26 % at 0.04. */
 NOOK_API nook_result nook_probe_lobes_specular(const nook_probe_lobe* lobes, uint32_t lobe_count,
                                                nook_probe_specular_form form, const nook_probe_surface* surfaces,
                                                float* rgb, size_t count);
@@ -295,6 +307,26 @@ NOOK_API nook_result nook_probe_lobes_rotate(nook_probe_lobe* lobes, uint32_t lo
  * m = -l to l, no Condon-Shortley phase: 0.282095, 0.488603 (y, z, x), ... */
 NOOK_API nook_result nook_probe_lobes_to_harmonics(const nook_probe_lobe* lobes, uint32_t lobe_count, uint32_t order,
                                                    float* coefficients);
+
+/* ---- Light as spherical harmonics, plain arrays: for diffuse light, the least error for its size. No allocation. Any thread.
+ * Errors: INVALID_ARGUMENT ----
+ *
+ * Coefficients are (order + 1)^2 x RGB as nook_probe_lobes_to_harmonics writes them, from lobes, or nook_probe_fit_read of a fit
+ * of NOOK_PROBE_HARMONICS, from samples. shaders/probe/harmonics.glsl evaluates bands 0 to 2 (27 floats), and ZH3 (15). */
+
+/* Radiance from unit directions, and irradiance on unit normals, exact for these bands. Not cut off at 0: opposite a sun
+ * harmonics ring below it. order: 1 to 4. */
+NOOK_API nook_result nook_probe_harmonics_radiance(const float* coefficients, uint32_t order, const float* directions,
+                                                   float* rgb, size_t count);
+NOOK_API nook_result nook_probe_harmonics_irradiance(const float* coefficients, uint32_t order, const float* normals,
+                                                     float* rgb, size_t count);
+
+/* Quadratic zonal harmonics, ZH3 (Roughton et al. 2024): of bands 0 to 2, 9 x RGB, the first two bands and the part of band 2
+ * that is symmetric round the direction of band 1's luminance, 5 x RGB: bands 0 and 1 as they were, then the zonal
+ * coefficient. They may be interpolated and packed like any others. */
+NOOK_API nook_result nook_probe_harmonics_to_zonal(const float* coefficients, float* zonal);
+NOOK_API nook_result nook_probe_zonal_radiance(const float* zonal, const float* directions, float* rgb, size_t count);
+NOOK_API nook_result nook_probe_zonal_irradiance(const float* zonal, const float* normals, float* rgb, size_t count);
 
 #ifdef __cplusplus
 }

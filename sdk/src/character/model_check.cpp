@@ -3,26 +3,19 @@
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {
 
-// Rest-space coordinates beyond a million metres are no character; the bound keeps every later product
-// finite.
-constexpr float max_metres = 1e6f;
 // A gamma-norm beyond this is the maximum norm to float precision.
 constexpr float max_gamma = 64;
-constexpr float max_coefficient = 1e4f;  // of alpha, bias and caster weight: far above anything a fit gives
 constexpr float max_blend = 16;          // far above what a file can hold
 constexpr std::size_t max_indexed = 65536;  // what 16-bit indices reach
 
 bool within(float value, float low, float high) {
   return value >= low && value <= high;
 }  // false for NaN
-bool is_place(Vec3 p) {
-  return within(std::abs(p.x), 0, max_metres) && within(std::abs(p.y), 0, max_metres) &&
-         within(std::abs(p.z), 0, max_metres);
-}
 // 1e-3: far above rounding and quantisation, far below anything that could be meant.
 bool is_unit(Vec3 n) {
   return within(dot(n, n), 1 - 2e-3f, 1 + 2e-3f);

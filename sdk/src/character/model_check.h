@@ -7,6 +7,9 @@
 
 namespace nook {
 
+// Of alpha, bias and caster weight: far above what a fit gives, but where the spheres are far too small.
+constexpr float max_coefficient = 1e4f;
+
 // Throws Failure with `code` and the first fault found: a count out of bounds, an index out of range, a
 // number that is not finite or outside its range, weights that do not sum to one.
 void check_model(const CharacterModel& model, nook_result code);

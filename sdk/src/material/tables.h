@@ -60,7 +60,7 @@ struct MaterialTables {
 
 inline constexpr std::uint32_t default_map_side = 256;
 
-// A sound material's. map_side: cells of the view maps where the material has none of its own.
+// A sound material's. map_side: cells of the view maps, see view_cells.h.
 MaterialTables make_tables(const Material& material, const Parallel& parallel,
                            std::pmr::memory_resource* memory, std::uint32_t map_side = default_map_side);
 

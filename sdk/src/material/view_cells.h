@@ -1,7 +1,8 @@
 // The view mode as decoding reads it: for every cell of a parabolic map the clusters and coefficients of that
-// direction. A resampled map is taken as it is. Where there is none, the rows of the three nearest views are
-// mixed linearly: with the clusters of all three that comes out as a row of up to 3 K terms, so that N-SVD,
-// CTA and K-CTA are decoded alike.
+// direction. A resampled map is refined where it is coarser than what decoding reads, so that a small map in
+// a file does not step from cell to cell as the view moves. Where there is none, the rows of the three
+// nearest views are mixed linearly: with the clusters of all three that comes out as a row of up to 3 K
+// terms, so that N-SVD, CTA and K-CTA are decoded alike.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,8 @@ struct ViewCells {
 // Terms that cells need: K with a map, min(3 K, C) without: 1 of N-SVD, 3 of CTA.
 std::uint32_t cell_terms(const ClusteredTensor& tensor);
 
-// `side` where the tensor has no map of its own.
+// side: cells of the result, or the greatest multiple of those of the tensor's own map below that, but no
+// fewer than these.
 ViewCells view_cells(const ClusteredTensor& tensor, std::span<const Vec3> views, std::uint32_t side,
                      std::pmr::memory_resource* memory);
 
