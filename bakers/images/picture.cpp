@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "bakers/raytrace/embree.h"
+#include "platform/output_file.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -159,15 +160,7 @@ std::vector<std::byte> png_bytes(const Picture& picture) {
 }
 
 void write_png(const std::filesystem::path& path, const Picture& picture) {
-  const std::string name = path.string();
-  const auto out = OIIO::ImageOutput::create("png");
-  const OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
-  // write_image crashes without a successful open.
-  if (!out || !out->open(name, spec))
-    throw Failure(NOOK_ERROR_INTERNAL, "%s cannot be written: %s", name.c_str(),
-                  (out ? out->geterror() : OIIO::geterror()).c_str());
-  if (!out->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) || !out->close())
-    throw Failure(NOOK_ERROR_INTERNAL, "%s cannot be written: %s", name.c_str(), out->geterror().c_str());
+  platform::OutputFile(path).commit(png_bytes(picture));
 }
 
 }  // namespace nook::bake

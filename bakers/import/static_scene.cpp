@@ -21,9 +21,9 @@ Vec3 read_colour(const std::vector<double>& rgb, double most, std::size_t materi
     throw Failure(NOOK_ERROR_BAD_FILE, "material %zu has a %s of %zu numbers (need 3 or more)", material,
                   what, rgb.size());
   for (std::size_t i = 0; i < 3; ++i)
-    if (!(rgb[i] >= 0) || !std::isfinite(float(rgb[i])))
-      throw Failure(NOOK_ERROR_BAD_FILE, "material %zu has a %s that is negative or not finite", material,
-                    what);
+    if (!(rgb[i] >= 0 && rgb[i] <= max_emission))
+      throw Failure(NOOK_ERROR_BAD_FILE, "material %zu has a %s out of range (got %g, need 0 to %g)",
+                    material, what, rgb[i], max_emission);
   const auto channel = [&](std::size_t i) { return float(std::min(rgb[i], most)); };
   return {channel(0), channel(1), channel(2)};
 }
@@ -52,7 +52,7 @@ void read_surfaces(const tinygltf::Model& model, SceneTextures textures, StaticS
     surface.base_colour = read_colour(material.pbrMetallicRoughness.baseColorFactor, 1, m, "baseColorFactor");
     std::vector<double> emission = material.emissiveFactor;
     for (double& channel : emission) channel *= emissive_strength(material);
-    surface.emission = read_colour(emission, std::numeric_limits<float>::max(), m, "emission");
+    surface.emission = read_colour(emission, max_emission, m, "emission");
     if (textures == SceneTextures::read) {
       const std::string what = "material " + std::to_string(m);
       surface.base_colour_texture =

@@ -13,10 +13,13 @@
 
 namespace nook::bake {
 
+// The largest radiance that a surface may send of its own.
+inline constexpr double max_emission = 1e15;
+
 // A diffuse surface, the same from both sides. RGB.
 struct Surface {
   Vec3 base_colour{0.8f, 0.8f, 0.8f};  // share of light that it sends back, each in [0, 1]
-  Vec3 emission;                       // radiance of its own, 0 or above
+  Vec3 emission;                       // radiance of its own, 0 to max_emission
   TextureUse base_colour_texture = {}, emission_texture = {};  // they multiply
   float alpha = 1;                                             // multiplies that of base_colour_texture
   float alpha_cutoff = 0;                                      // less alpha is a hole; 0: none

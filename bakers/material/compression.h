@@ -32,7 +32,7 @@ struct CompressionSettings {
   Seeding seeding = Seeding::directions;
   nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;
   std::optional<nook::material::VisibilityMapping> mapping;  // none: default_mapping() below
-  std::uint32_t map_side = 256;  // cells of the resampled view maps of K-CTA; 0: none
+  std::uint32_t map_side = 64;  // cells of the resampled view maps of K-CTA; 0: none
   std::uint64_t seed = 1;
 
   std::uint32_t cluster_count() const {

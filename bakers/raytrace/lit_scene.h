@@ -8,6 +8,7 @@
 #include "bakers/import/static_scene.h"
 #include "bakers/raytrace/environment.h"
 #include "bakers/raytrace/ray_scene.h"
+#include "bakers/raytrace/suns.h"
 #include "bakers/raytrace/texture.h"
 
 namespace nook::bake {
@@ -39,6 +40,7 @@ class LitScene {
 
   const Environment& environment() const { return environment_; }
   const LightSampler& light() const { return light_; }
+  float sun_limit() const { return sun_limit_; }  // of the environment, see suns.h
 
  private:
   const Surface& surface(const RayHit& hit) const { return surface_[triangle_surface_[hit.triangle]]; }
@@ -54,6 +56,7 @@ class LitScene {
   bool masked_ = false;
   Environment environment_;
   LightSampler light_;
+  float sun_limit_;
 };
 
 // textures are the decoded ones of scene.image.

@@ -10,9 +10,18 @@
 
 namespace nook::bake {
 
+// What counts of the environment's light that comes straight to the point that is asked about. Its light by
+// way of surfaces always counts, suns included, and so does light that surfaces emit.
+enum class DirectLight : std::uint8_t {
+  none = 0,
+  sky = 1,  // the environment without its suns, see suns.h
+  all = 2
+};
+
 struct PathSettings {
   std::uint32_t max_bounces = ~0u;  // maximum number of reflections; 0: direct light only
   float origin_offset = 1e-4f;      // metres along the normal, of rays that leave a surface
+  DirectLight direct = DirectLight::all;
 };
 
 // A stream of numbers in [0, 1) that depends only on its key, so that paths do not depend on the thread that
@@ -27,7 +36,8 @@ class PathRandom {
   std::uint64_t state_;
 };
 
-// Returns one estimate of the radiance that arrives at a point from a unit direction.
+// Returns one estimate of the radiance that arrives at a point from a unit direction. settings.direct selects
+// the part of the map's light that arrives without a reflection.
 Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const PathSettings& settings,
                     PathRandom& random);
 

@@ -7,7 +7,9 @@
 #include <memory>
 
 #include "bakers/job/worker_arena.h"
+#include "bakers/measure/probe/report.h"
 #include "bakers/tool/commands.h"
+#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/tool_error.h"
 #include "sdk/src/core/failure.h"
 
@@ -43,6 +45,10 @@ void parse_box(const std::string& text, BakeProbeOptions& options) {
 }
 
 void run(const BakeProbeOptions& options) {
+  require_distinct_files(
+      {{{"the input", options.input}, {"--light", options.light}},
+       {{"-o", options.output}, {"--picture", options.picture}, {"--report", options.common.report}},
+       {}});
   const bool is_grid = options.grid[0] > 0;
   if (is_grid != !options.light.empty())
     throw ToolError(exit_bad_arguments,
@@ -110,6 +116,14 @@ void add_bake_probe(CLI::App& bake_command) {
                    "of a scene: seconds after which the output is written as far as it is")
       ->check(CLI::Range(0.0, 1e9));
   command->add_option("--max-bounces", o.max_bounces, "of a scene: reflections that count; default all");
+  command
+      ->add_option(
+          "--direct", o.direct,
+          "of a scene: what probes hold of the map's light that reaches them straight: none, the sky without "
+          "suns, "
+          "or all; reflected light always counts, and the report names the suns that are left to the host")
+      ->check(CLI::IsMember(measure::direct_names()))
+      ->capture_default_str();
   command->add_flag("--no-textures", o.no_textures,
                     "of a scene: colour factors stand for textures, and alpha masks are solid");
   add_common_options(*command, o.common);

@@ -94,6 +94,19 @@ enum {
 };
 typedef int32_t nook_probe_method;
 
+/* A condition on the coefficients of lobes. Naive and original forms, harmonics and dice ignore it. */
+enum {
+  /* The lobes agree with the light in its spherical harmonics of bands 0 to 2, which make up 99 % of the
+   * irradiance of a light. The total light is exact, and the error of irradiance is about a third of that of
+   * least squares alone. The coefficients minimise the squared error of radiance under this condition. If it
+   * cannot be satisfied (fewer than 9 lobes, coefficients that may not be negative, a hemisphere), they come
+   * close to it. */
+  NOOK_PROBE_CONSTRAINT_BANDS = 0,
+  /* Least squares alone, for lobes so sharp that there are gaps between them. */
+  NOOK_PROBE_CONSTRAINT_NONE = 1
+};
+typedef int32_t nook_probe_constraint;
+
 /* D_i of the running average's plain step. */
 enum {
   /* An average over the same samples that is never below the exact integral. */
@@ -120,8 +133,10 @@ typedef struct nook_probe_fit_desc {
   uint32_t header_version;
   /* Must be NULL. */
   const void* next;
-  /* Default NOOK_PROBE_RUNNING_AVERAGE. */
+  /* Default NOOK_PROBE_LEAST_SQUARES. */
   nook_probe_method method;
+  /* Default NOOK_PROBE_CONSTRAINT_BANDS. */
+  nook_probe_constraint constraint;
   /* Default NOOK_PROBE_GAUSSIANS. */
   nook_probe_basis basis;
   /* Default NOOK_PROBE_SPHERE. */
@@ -399,9 +414,10 @@ typedef struct nook_probe_surface {
  * both directions, Schlick Fresnel, single scattering. The result is the directional albedo times the mean of
  * the light over the reflected lobe. The following errors hold where the cosine between normal and view is
  * 0.02 to 1. Under constant light the result is within 5 % of the integral for reflectances from 0.02 on.
- * Under 12 lobes of sharpness 6 it is within 7 %; the anisotropic form is within 6 % at alpha 0.05 and 0.1,
- * 13 % at 0.2 and 7 % above. Surfaces with two widths are within 22 % in the anisotropic form; under constant
- * light they are within 6 % at reflectance 1 and 26 % at 0.04.
+ * Under 12 lobes of sharpness 6 whose amplitudes differ by up to 1 : 9 it is within 10 %; the anisotropic
+ * form is within 6 % at alpha 0.05, 10 % at 0.1, 17 % at 0.2 and 9 % above. If one lobe is 20 times as bright
+ * as all others it is within 40 %. Surfaces with two widths are within 32 % in the anisotropic form; under
+ * constant light they are within 6 % at reflectance 1 and 26 % at 0.04.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_lobes_specular(const nook_probe_lobe* lobes, uint32_t lobe_count,
                                                nook_probe_specular_form form,
@@ -438,6 +454,40 @@ NOOK_API nook_result nook_probe_lobes_rotate(nook_probe_lobe* lobes, uint32_t lo
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_lobes_to_harmonics(const nook_probe_lobe* lobes, uint32_t lobe_count,
                                                    uint32_t order, float* coefficients);
+
+/* ---- Light as spherical harmonics: plain arrays, with the lowest error of diffuse light for their size ----
+ *
+ * Coefficients are (order + 1)^2 x RGB in the order of nook_probe_lobes_to_harmonics, which gives them from
+ * lobes; nook_probe_fit_read of a fit of NOOK_PROBE_HARMONICS gives them from samples. No call allocates.
+ * shaders/probe/harmonics.glsl evaluates bands 0 to 2 (27 floats), and ZH3 (15 floats). */
+
+/* Evaluates the radiance from count unit directions, exactly for these bands. order is 1 to 4. The result is
+ * not clamped at 0: harmonics ring below 0 opposite a sun.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_probe_harmonics_radiance(const float* coefficients, uint32_t order,
+                                                   const float* directions, float* rgb, size_t count);
+
+/* Evaluates the irradiance on count surfaces with the given unit normals, exactly for these bands. order is 1
+ * to 4. The result is not clamped at 0.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_probe_harmonics_irradiance(const float* coefficients, uint32_t order,
+                                                     const float* normals, float* rgb, size_t count);
+
+/* Computes quadratic zonal harmonics, ZH3 (Roughton et al. 2024), from bands 0 to 2, 9 x RGB. The result is 5
+ * x RGB: bands 0 and 1 unchanged, then the coefficient of the part of band 2 that is symmetric about the
+ * direction of band 1's luminance. It may be interpolated and packed as other coefficients.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_probe_harmonics_to_zonal(const float* coefficients, float* zonal);
+
+/* Evaluates the radiance of ZH3 from count unit directions.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_probe_zonal_radiance(const float* zonal, const float* directions, float* rgb,
+                                               size_t count);
+
+/* Evaluates the irradiance of ZH3 on count surfaces with the given unit normals.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_probe_zonal_irradiance(const float* zonal, const float* normals, float* rgb,
+                                                 size_t count);
 
 #ifdef __cplusplus
 }

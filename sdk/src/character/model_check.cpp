@@ -3,27 +3,19 @@
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {
 
-// No character has rest-space coordinates beyond a million metres, and the bound keeps all later products
-// finite.
-constexpr float max_metres = 1e6f;
 // Beyond this gamma, the norm is equal to the maximum norm in float precision.
 constexpr float max_gamma = 64;
-// Bound of alpha, bias and caster weight, far above all fitted values.
-constexpr float max_coefficient = 1e4f;
-constexpr float max_blend = 16;             // far above the values that a file can hold
+constexpr float max_blend = 16;          // far above the values that a file can hold
 constexpr std::size_t max_indexed = 65536;  // the number of 16-bit indices
 
 bool within(float value, float low, float high) {
   return value >= low && value <= high;
 }  // false for NaN
-bool is_place(Vec3 p) {
-  return within(std::abs(p.x), 0, max_metres) && within(std::abs(p.y), 0, max_metres) &&
-         within(std::abs(p.z), 0, max_metres);
-}
 // The tolerance of 1e-3 is far above rounding and quantisation, and far below any intended difference.
 bool is_unit(Vec3 n) {
   return within(dot(n, n), 1 - 2e-3f, 1 + 2e-3f);

@@ -7,6 +7,10 @@
 
 namespace nook {
 
+// The bound of alpha, bias and caster weight. It is far above fitted values, unless the spheres are far too
+// small.
+constexpr float max_coefficient = 1e4f;
+
 // Throws Failure with `code` and the first fault: a count or an index is out of range, a number is not finite
 // or is outside its range, or weights do not sum to one.
 void check_model(const CharacterModel& model, nook_result code);
