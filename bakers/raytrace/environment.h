@@ -56,8 +56,8 @@ struct LightSample {
 // uniform) * luminance / integral of luminance + uniform / (4 pi).
 class LightSampler {
  public:
-  // The environment must outlive the sampler. uniform_share is in [0, 1]. A map that is black, or so dark that
-  // its density is no float, is sampled uniformly.
+  // The environment must outlive the sampler. uniform_share is in [0, 1]. A map that is black, or so dark
+  // that its density is no float, is sampled uniformly.
   explicit LightSampler(const Environment& environment, float uniform_share = 0);
 
   // Takes four numbers in [0, 1). The choice is a double, which reaches every texel of large maps.

@@ -1,19 +1,18 @@
-// The effect of one sphere on one key point, with the formulas and names of sdk/src/character/kernel.h.
-// delta2 is the squared distance of the centre in radii, and xi is the height of the centre above the key
-// point's horizon in radii.
+// What one sphere does to one key point; the same formulas, and the same names, as sdk/src/character/kernel.h.
+// delta2: squared distance of the centre in radii; xi: height of the centre above the key point's horizon in radii.
+#include "shaders/character/constants.h"
 
 float nook_visibility_paper(float xi) { return max(xi * inversesqrt(4.0 * xi * xi + 1.0) + 0.5, 0.0); }
 
 float nook_shadow_term(float xi, float delta2) {
-#if NOOK_KERNEL_FORM == 0
+#if NOOK_KERNEL_FORM == NOOK_KERNEL_PAPER
   // Le et al. 2019, slide 18.
   float e = sqrt(delta2) - 1.0;
   float inside = max(-e, 0.0);
   return (0.75 + 6.0 * inside) / (1.0 + 4.0 * max(e, inside)) * nook_visibility_paper(xi);
-#elif NOOK_KERNEL_FORM == 1
-  // Below the horizon xi + sqrt(xi^2 + 1) cancels, and rounding must not give a negative number to the
-  // powers.
-  float t = inversesqrt(delta2 + 0.6);
+#elif NOOK_KERNEL_FORM == NOOK_KERNEL_NOOK
+  // Below the horizon xi + sqrt(xi^2 + 1) cancels; rounding must not leave a negative number for the powers.
+  float t = inversesqrt(delta2 + NOOK_KERNEL_CORE);
   return max(0.5 * (xi + sqrt(xi * xi + 1.0)), 0.0) * t * t * t;
 #else
   return 1.5 / (1.0 + 2.0 * delta2) * nook_visibility_paper(xi);
@@ -58,7 +57,7 @@ float nook_form_factor_fast(float xi, float delta2) {
   float b = sqrt(max(1.0 - a2, 0.0));
   float t = 0.5 * clamp(xi, -1.0, 1.0) + 0.5;
   float v = t - t * t;
-  float p = b * (v * (4.60908 - 5.21348 * b) + (2.22202 * b - 3.22202));
+  float p = b * (v * (NOOK_FORM_FACTOR_0 + NOOK_FORM_FACTOR_1 * b) + (NOOK_FORM_FACTOR_3 * b + NOOK_FORM_FACTOR_2));
   float f = max(a2 * a * max(xi, 1.0) * (v * p + t), 0.0);
   return f + max(1.0 - f, 0.0) * max(1.0 - delta2, 0.0);
 }

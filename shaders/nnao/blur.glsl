@@ -1,11 +1,12 @@
-// One axis of a separable bilateral blur.
+// Half of a separable bilateral blur: along one axis.
+#include "shaders/nnao/layout.h"
+
 uniform sampler2D nook_ao;
 uniform ivec2 nook_blur_axis;
 uniform int nook_blur_reach;  // texels; 0: none
 
-// The weights are a box of 4 between the pixels, convolved with (1, 2, 1) / 4, so that noise with a period of
-// 4 pixels averages out exactly.
-const float nook_blur_weights[4] = float[4](1.0, 0.875, 0.5, 0.125);
+// A box of 4 between the pixels, then (1, 2, 1) / 4: any noise with a period of 4 pixels averages out exactly.
+const float nook_blur_weights[NOOK_BLUR_REACH + 1] = float[NOOK_BLUR_REACH + 1](1.0, 0.875, 0.5, 0.125);
 
 float nook_ao_at(ivec2 texel) {
   return texelFetch(nook_ao, texel + nook_ao_origin, 0).r;

@@ -1,29 +1,30 @@
-// The values that are equal for all pixels of a frame; frame_constants.h fills them. Pixels are those of the
-// viewport, with (0, 0) at its lower left corner. The surface is the viewport at the resolution at which AO
-// is computed: itself, or every second pixel of every second row.
-uniform vec4 nook_frame[11];
+// What is the same for every pixel of a frame; frame_constants.h fills it.
+// Pixels are those of the viewport, (0, 0) at its lower left corner. The surface is the viewport at the resolution that AO
+// is computed at: itself, or every second pixel of every second row.
+#include "shaders/nnao/layout.h"
+uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
 
-#define nook_screen_rays nook_frame[0]   // x_scale, x_offset, y_scale, y_offset, for pixels of the screen
-#define nook_surface_rays nook_frame[1]  // for texels of the surface
-#define nook_depth_decode nook_frame[2]  // depth = (x + y stored) / (z + w stored)
-#define nook_far_stored nook_frame[3].x  // the stored value of the far plane
-#define nook_far_sign nook_frame[3].y    // 1: stored values grow with the distance; -1: they fall
-#define nook_min_depth nook_frame[3].z
-#define nook_orthographic (nook_frame[3].w != 0.0)
-#define nook_radius nook_frame[4].x         // metres
-#define nook_max_radius_px nook_frame[4].y  // texels of the surface
-#define nook_intensity nook_frame[4].z
-#define nook_power nook_frame[4].w
-#define nook_blur_sharpness nook_frame[5].x
-#define nook_normal_scale nook_frame[5].y
-#define nook_normal_bias nook_frame[5].z
-#define nook_has_normals (nook_frame[5].w != 0.0)
-#define nook_origin ivec2(nook_frame[6].xy)  // of the viewport in the host's textures
-#define nook_screen_size ivec2(nook_frame[6].zw)
-#define nook_surface_size ivec2(nook_frame[7].xy)
-#define nook_layer_mode int(nook_frame[7].z)
-#define nook_view_mode int(nook_frame[7].w)
-#define nook_normal_matrix mat3(nook_frame[8].xyz, nook_frame[9].xyz, nook_frame[10].xyz)
+#define nook_screen_rays nook_frame[NOOK_FRAME_SCREEN_RAYS]   // x_scale, x_offset, y_scale, y_offset, for pixels of the screen
+#define nook_surface_rays nook_frame[NOOK_FRAME_SURFACE_RAYS]  // for texels of the surface
+#define nook_depth_decode nook_frame[NOOK_FRAME_DEPTH_DECODE]  // depth = (x + y stored) / (z + w stored)
+#define nook_far_stored nook_frame[NOOK_FRAME_FAR].x  // the stored value of the far plane
+#define nook_far_sign nook_frame[NOOK_FRAME_FAR].y    // 1: stored values grow with the distance; -1: they fall
+#define nook_min_depth nook_frame[NOOK_FRAME_FAR].z
+#define nook_orthographic (nook_frame[NOOK_FRAME_FAR].w != 0.0)
+#define nook_radius nook_frame[NOOK_FRAME_RADIUS].x         // metres
+#define nook_max_radius_px nook_frame[NOOK_FRAME_RADIUS].y  // texels of the surface
+#define nook_intensity nook_frame[NOOK_FRAME_RADIUS].z
+#define nook_power nook_frame[NOOK_FRAME_RADIUS].w
+#define nook_blur_sharpness nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].x
+#define nook_normal_scale nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].y
+#define nook_normal_bias nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].z
+#define nook_has_normals (nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].w != 0.0)
+#define nook_origin ivec2(nook_frame[NOOK_FRAME_VIEWPORT].xy)  // of the viewport in the host's textures
+#define nook_screen_size ivec2(nook_frame[NOOK_FRAME_VIEWPORT].zw)
+#define nook_surface_size ivec2(nook_frame[NOOK_FRAME_SURFACE].xy)
+#define nook_layer_mode int(nook_frame[NOOK_FRAME_SURFACE].z)
+#define nook_view_mode int(nook_frame[NOOK_FRAME_SURFACE].w)
+#define nook_normal_matrix mat3(nook_frame[NOOK_FRAME_NORMAL_MATRIX].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].xyz)
 
 // The depth where there is no surface: sky, far plane, off the screen.
 const float nook_no_surface = 1.0e30;

@@ -1,14 +1,16 @@
-// The horizon form, which network.h defines. Eight units are two vec4.
-uniform vec4 nook_network[87];  // tap, direction, join, out, in the order of network.h
-// The number of directions. It is no constant, because compilers would unroll all directions into more code
-// than caches hold.
+// The horizon form; network.h defines it. Eight units are two vec4.
+uniform vec4 nook_network[NOOK_HORIZON_VEC4S];  // tap, direction, join, out, in the order of network.h
+// Directions. Not a constant: compilers would unroll them all, into more code than caches hold.
 uniform int nook_tap_groups;
 
-// The start of each layer, and of its bias, which has two vec4; negative and positive slopes follow.
-const int nook_tap_layer = 0, nook_tap_bias = 10;
-const int nook_direction_layer = 16, nook_direction_bias = 52;
-const int nook_join_layer = 58, nook_join_bias = 78;
-const int nook_out_layer = 84;
+// Where each layer begins, and its bias, after which negative and positive slopes follow.
+const int nook_tap_layer = NOOK_HORIZON_TAP;
+const int nook_tap_bias = nook_tap_layer + NOOK_HORIZON_TAP_INPUTS * NOOK_HORIZON_UNIT_VEC4S;
+const int nook_direction_layer = NOOK_HORIZON_DIRECTION;
+const int nook_direction_bias = nook_direction_layer + NOOK_HORIZON_DIRECTION_INPUTS * NOOK_HORIZON_UNIT_VEC4S;
+const int nook_join_layer = NOOK_HORIZON_JOIN;
+const int nook_join_bias = nook_join_layer + NOOK_HORIZON_JOIN_INPUTS * NOOK_HORIZON_UNIT_VEC4S;
+const int nook_out_layer = NOOK_HORIZON_OUT;
 
 struct nook_units {
   vec4 low, high;

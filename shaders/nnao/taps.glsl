@@ -1,6 +1,8 @@
 // The positions of a pixel's taps, as in sdk/src/nnao/taps.h.
 
-// Returns rotation and offset; each takes 16 values over 4 x 4 pixels.
+#include "shaders/nnao/layout.h"
+
+// rotation, offset: each takes 16 values over 4 x 4 pixels.
 vec2 nook_tap_noise(ivec2 texel) {
   uvec2 at = uvec2(texel);
   uint across = at.x ^ at.y;
@@ -24,7 +26,7 @@ vec2 nook_horizon_tap(vec2 direction, float distance_px, vec2 scale) {
   return direction * scale * (distance_px / abs(scale.y));
 }
 
-const int nook_grid_size = 31;
+const int nook_grid_size = NOOK_GRID_SIZE;
 const int nook_grid_cells = nook_grid_size * nook_grid_size;
 
 int nook_paper_tap_cell(int tap, int taps, vec2 noise) {

@@ -16,6 +16,7 @@
 
 #include "sdk/src/core/simd_scalar.h"
 #include "sdk/src/core/vec.h"
+#include "shaders/character/constants.h"
 
 namespace nook {
 
@@ -42,19 +43,21 @@ struct Colour {
 
 // The sharpness of the lobe that approximates the clamped cosine, cosine_lobe_sharpness of
 // core/spherical_gaussian.h.
-inline constexpr float directional_cosine = 2.133f;
-// k = caster_concentration sqrt(height) (1 - f^2) / f: a distant sphere is a lobe of its solid angle, and a
-// sphere that fills the hemisphere is the hemisphere.
-inline constexpr float caster_concentration = 2.0f;
-inline constexpr float smallest_share = 1e-4f;
-// An upper bound of rho, which limits the effect of one bright lobe.
-inline constexpr float largest_ratio = 8.0f;
+inline constexpr float directional_cosine = float(NOOK_DIRECTIONAL_COSINE);
+// k = caster_concentration sqrt(height) (1 - f^2) / f: a far sphere is a lobe of its solid angle, one that
+// fills the hemisphere is the hemisphere.
+inline constexpr float caster_concentration = float(NOOK_CASTER_CONCENTRATION);
+inline constexpr float smallest_share = float(NOOK_SMALLEST_SHARE);
+// Nothing dims its receiver by more than this times its share: a bound on the effect of one bright lobe.
+inline constexpr float largest_ratio = float(NOOK_LARGEST_RATIO);
 
 // Returns (1 - e^(-2 v)) / v as 1 / (v + v / (e^(2 v) - 1)) with the series of the exponential. The relative
 // error is below 0.006 for v from 0 to 1e6.
 template <class F>
 F lobe_norm(F v) {
-  const F q = fma(fma(fma(fma(F(0.26666667f), v, F(0.66666667f)), v, F(1.3333333f)), v, F(2.0f)), v, F(2.0f));
+  constexpr float c[] = {float(NOOK_LOBE_NORM_0), float(NOOK_LOBE_NORM_1), float(NOOK_LOBE_NORM_2),
+                         float(NOOK_LOBE_NORM_3), float(NOOK_LOBE_NORM_4)};
+  const F q = fma(fma(fma(fma(F(c[4]), v, F(c[3])), v, F(c[2])), v, F(c[1])), v, F(c[0]));
   return q / fma(v, q, F(1.0f));
 }
 
@@ -140,8 +143,8 @@ Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Di
       inverse);
 }
 
-// The `sharpest` of a single sphere, which sets no bound.
-inline constexpr float no_sharpest = 1e6f;
+// Of one sphere.
+inline constexpr float no_sharpest = float(NOOK_NO_SHARPEST);
 
 // The spheres of one caster as one: the mean of their sights, weighted by their shares, and the sum of these
 // shares.
@@ -176,9 +179,11 @@ struct JointSight {
 // within 5e-4.
 template <class F>
 F share_below(F height, F m) {
-  const F x = height * rsqrt(fma(m, F(2.0f) * m / (m + F(4.0f)), F(5.09f)));
+  const F x = height * rsqrt(fma(m, F(2.0f) * m / (m + F(4.0f)), F(float(NOOK_BELOW_WIDTH))));
   const F a = max(x, F(0.0f) - x);
-  const F p = fma(fma(fma(fma(F(0.078108f), a, F(0.000972f)), a, F(0.230389f)), a, F(0.278393f)), a, F(1.0f));
+  constexpr float c[] = {1, float(NOOK_BELOW_1), float(NOOK_BELOW_2), float(NOOK_BELOW_3),
+                         float(NOOK_BELOW_4)};
+  const F p = fma(fma(fma(fma(F(c[4]), a, F(c[3])), a, F(c[2])), a, F(c[1])), a, F(c[0]));
   const F p2 = min(p * p, F(1e9f));
   const F tail = F(0.5f) / (p2 * p2);
   return select(less(x, F(0.0f)), F(1.0f) - tail, tail);

@@ -26,10 +26,10 @@ struct LobeBands {
   float scalar = 0, vector = 0, tensor = 0;
 };
 
-// This share of the self-shadow follows the light, and the rest darkens all of it. k has the role of
-// caster_concentration. Both values minimise the error against ray tracing in a crowd.
-inline constexpr float self_strength = 0.75f;
-inline constexpr float self_concentration = 1.0f;
+// Of the self-shadow this share follows the light, the rest is shadow of all of it; k as caster_concentration
+// has it. Both measured against rays in a crowd.
+inline constexpr float self_strength = float(NOOK_SELF_STRENGTH);
+inline constexpr float self_concentration = float(NOOK_SELF_CONCENTRATION);
 
 template <class F>
 struct GatheredBands {

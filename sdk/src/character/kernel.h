@@ -11,13 +11,14 @@
 #include <cstdint>
 
 #include "sdk/src/core/simd_scalar.h"
+#include "shaders/character/constants.h"
 
 namespace nook {
 
 enum class KernelForm : std::uint8_t {
-  paper = 0,     // Le et al. 2019, slide 18
-  nook = 1,      // smooth horizon and a fall-off with the exact power of distance
-  rational = 2,  // the paper's visibility, and a fall-off with the exact power of distance
+  paper = NOOK_KERNEL_PAPER,        // Le et al. 2019, slide 18
+  nook = NOOK_KERNEL_NOOK,          // smooth horizon and a fall-off with the true power of distance
+  rational = NOOK_KERNEL_RATIONAL,  // the paper's visibility, a fall-off with the true power of distance
 };
 inline constexpr int kernel_form_count = 3;
 
@@ -46,10 +47,9 @@ F shadow_paper(F xi, F delta2) {
   return omega * visibility_paper(xi);
 }
 
-// y = s t^3 with s = (xi + sqrt(xi^2 + 1)) / 2, a smooth positive part of the height, and
-// t = 1 / sqrt(c + delta^2). Far above the horizon it tends to xi / delta^3, the form factor of a distant
-// sphere.
-inline constexpr float nook_kernel_core = 0.6f;
+// y = s t^3 with s = (xi + sqrt(xi^2 + 1)) / 2, a smooth positive part of the height, and t = 1 / sqrt(c +
+// delta^2): far above the horizon it tends to xi / delta^3, the form factor of a far sphere.
+inline constexpr float nook_kernel_core = float(NOOK_KERNEL_CORE);
 template <class F>
 F shadow_nook(F xi, F delta2) {
   // For spheres far below the horizon the sum cancels, and rounding can leave a tiny negative y. The powers
@@ -117,7 +117,9 @@ F form_factor_fast(F xi, F delta2) {
   const F b = sqrt_positive(max(one - a2, F(1e-30f)));
   const F t = fma(min(max(xi, F(-1.0f)), one), F(0.5f), F(0.5f));
   const F v = t - t * t;
-  const F p = fma(v, fma(b, F(-5.21348f), F(4.60908f)), fma(b, F(2.22202f), F(-3.22202f))) * b;
+  const F p = fma(v, fma(b, F(float(NOOK_FORM_FACTOR_1)), F(float(NOOK_FORM_FACTOR_0))),
+                  fma(b, F(float(NOOK_FORM_FACTOR_3)), F(float(NOOK_FORM_FACTOR_2)))) *
+              b;
   const F outside = max(a2 * a * max(xi, one) * fma(v, p, t), F(0.0f));
   return fma(max(one - outside, F(0.0f)), max(one - delta2, F(0.0f)), outside);
 }

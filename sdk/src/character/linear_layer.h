@@ -24,8 +24,7 @@ class LinearLayer {
   float max_blend_gain() const { return max_blend_gain_; }
   // Returns the length of the ao array that ShadowKernels::linear_layer fills.
   std::uint32_t padded_slots() const { return view_.block_count * linear_block_vertices; }
-  // The indices that ShadowKernels::scatter needs to write welded vertices, or vertices in the file's order.
-  const AlignedArray<std::uint32_t>& welded_to_slot() const { return welded_to_slot_; }
+  // The slot of each vertex in the file's order.
   const AlignedArray<std::uint32_t>& file_to_slot() const { return file_to_slot_; }
 
  private:
@@ -34,7 +33,6 @@ class LinearLayer {
   AlignedArray<float> alpha_;
   AlignedArray<float> blend_;
   AlignedArray<float> open_bias_;
-  AlignedArray<std::uint32_t> welded_to_slot_;
   AlignedArray<std::uint32_t> file_to_slot_;
   LinearView view_;
   float max_blend_gain_ = 0;

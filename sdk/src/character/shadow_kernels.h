@@ -3,7 +3,7 @@
 //
 // A character's frame: pose_spheres and pose_key_points bring the model to world space; self_norm_sum and
 // norm_root give the shadow at each key point; composed_depth, exact_open and composed_occlusion give what
-// other casters take away; linear_layer blends both to vertices; scatter writes them in the file's order.
+// other casters take away; linear_layer blends both to vertices.
 #pragma once
 
 #include <cstddef>
@@ -24,10 +24,10 @@ constexpr std::uint32_t padded_key_points(std::uint32_t count) {
   return (count + key_point_group - 1) / key_point_group * key_point_group;
 }
 
-// Smaller spheres have this radius, 1 micrometre, so that the squares of distances in radii stay finite.
-inline constexpr float min_sphere_radius = 1e-6f;
-// Coordinates up to this many metres from the origin give finite results. The resolution of float is
-// insufficient at much smaller distances.
+// Spheres smaller than this count as this large, so that the squares of distances in radii stay finite: 1
+// micrometre.
+inline constexpr float min_sphere_radius = float(NOOK_MIN_SPHERE_RADIUS);
+// Coordinates up to this many metres from the origin give finite results; float resolution ends far before.
 inline constexpr float max_coordinate = 1e9f;
 constexpr float inverse_sphere_radius(float radius) {
   return 1 / (radius > min_sphere_radius ? radius : min_sphere_radius);
@@ -137,10 +137,6 @@ struct ShadowKernels {
   // layer's slot order, with 16 entries for each block. occlusion NULL evaluates self-shadow only. For any
   // input, ao is a number in [0, 1].
   void (*linear_layer)(const LinearView& layer, const float* shadow, const float* occlusion, float* ao);
-  // For i < count: the float at (char*)out + i * stride_bytes = values[index[i]]. With
-  // LinearLayer::file_to_slot this is file order.
-  void (*scatter)(const float* values, const std::uint32_t* index, std::uint32_t count, float* out,
-                  std::size_t stride_bytes);
 
   // Transforms from rest space to world space. bones map rest space to world space; they are rigid or have a
   // uniform scale, which scales radii. offset_ws is subtracted, so that a scene far from the world's origin

@@ -31,22 +31,11 @@ void store(float* p, Float a) {
 #include "sdk/src/character/shadow_kernels_impl_directional.inl"
 #include "sdk/src/character/shadow_kernels_pose_scalar.inl"
 
-constexpr ShadowKernels table{Isa::scalar,
-                              "scalar",
-                              self_norm_sum,
-                              norm_root,
-                              composed_depth,
-                              exact_open,
-                              composed_occlusion,
-                              linear_layer,
-                              scatter,
-                              pose_spheres,
-                              pose_key_points,
-                              directional_norm_sum,
-                              directional_hemisphere,
-                              directional_depth,
-                              directional_open,
-                              directional_ground};
+constexpr ShadowKernels table{
+    Isa::scalar,       "scalar",         self_norm_sum,        norm_root,
+    composed_depth,    exact_open,       composed_occlusion,   linear_layer,
+    pose_spheres,      pose_key_points,  directional_norm_sum, directional_hemisphere,
+    directional_depth, directional_open, directional_ground};
 
 const ShadowKernels& kernels() {
   return table;

@@ -14,7 +14,7 @@ Device::Device(Context& host, const nook_gl_desc& desc)
   GLint value = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &value);
   max_texels = static_cast<std::uint32_t>(std::max(value, 65536));
-  if (gl.tier < 43) return;
+  if (!gl.can.compute) return;
   gl.GetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &value);
   storage_alignment = static_cast<std::uint64_t>(std::max(value, 16));
   gl.GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &value);

@@ -122,6 +122,16 @@ namespace nook::gl {
   X(ObjectLabel)                      \
   X(ViewportIndexedf)
 
+// What a context can do beyond the least that Nook runs on. load_functions decides it once, from the version,
+// the loader and the host's limit; all other code asks here and compares no version.
+struct Abilities {
+  bool compute = false;            // compute shaders and shader storage
+  bool compute_images = false;     // compute shaders that write images, too
+  bool indexed_viewports = false;  // viewport and scissor test exist once for each index
+  bool query_buffers = false;      // GL_QUERY_BUFFER
+  bool stencil_textures = false;   // GL_DEPTH_STENCIL_TEXTURE_MODE
+};
+
 struct Functions {
 #define NOOK_X(name) decltype(GladGLContext::name) name = nullptr;
   NOOK_GL_FUNCTIONS_33(NOOK_X)
@@ -129,7 +139,8 @@ struct Functions {
   NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
 #undef NOOK_X
   int version = 0;  // of the context, 10 * major + minor
-  int tier = 0;     // 33 or 43
+  Abilities can;
+  bool limited_by_host = false;  // could compute, if max_tier did not forbid it
 };
 
 // Throws Failure: UNSUPPORTED names the function that get_proc did not return, or the version that is too

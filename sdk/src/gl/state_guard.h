@@ -119,7 +119,7 @@ class StateGuard {
 
 // Returns the users of the items that the evaluation of characters touches.
 inline unsigned character_users(const Functions& gl) {
-  return gl.tier == 43 ? tier_43 : tier_33;
+  return gl.can.compute ? tier_43 : tier_33;
 }
 
 // There is one query and one restore for each item of the list; the restore of a new SavedState is the reset.

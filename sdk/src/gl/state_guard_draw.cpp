@@ -60,7 +60,7 @@ void set_viewport(const Functions& gl, const GLfloat (&box)[4]) {
 }
 
 void set_scissor_test(const Functions& gl, bool enabled) {
-  if (gl.version >= 41)
+  if (gl.can.indexed_viewports)
     set_enabled_0(gl, GL_SCISSOR_TEST, enabled);
   else
     set_enabled(gl, GL_SCISSOR_TEST, enabled);
@@ -150,7 +150,8 @@ void restore_polygon_mode(const Functions& gl, const SavedState& s) {
 }
 
 void query_scissor_test(const Functions& gl, SavedState& s) {
-  s.scissor_test = gl.version >= 41 ? gl.IsEnabledi(GL_SCISSOR_TEST, 0) : gl.IsEnabled(GL_SCISSOR_TEST);
+  s.scissor_test =
+      gl.can.indexed_viewports ? gl.IsEnabledi(GL_SCISSOR_TEST, 0) : gl.IsEnabled(GL_SCISSOR_TEST);
 }
 void restore_scissor_test(const Functions& gl, const SavedState& s) {
   set_scissor_test(gl, s.scissor_test);
@@ -179,10 +180,10 @@ void restore_dither(const Functions& gl, const SavedState& s) {
 }
 
 void query_query_buffer(const Functions& gl, SavedState& s) {
-  if (gl.version >= 44) s.query_buffer = integer(gl, GL_QUERY_BUFFER_BINDING);
+  if (gl.can.query_buffers) s.query_buffer = integer(gl, GL_QUERY_BUFFER_BINDING);
 }
 void restore_query_buffer(const Functions& gl, const SavedState& s) {
-  if (gl.version >= 44) gl.BindBuffer(GL_QUERY_BUFFER, s.query_buffer);
+  if (gl.can.query_buffers) gl.BindBuffer(GL_QUERY_BUFFER, s.query_buffer);
 }
 
 }  // namespace nook::gl

@@ -2,6 +2,8 @@
 // state expand.
 #pragma once
 
+#include "shaders/nnao/layout.h"
+
 namespace nook::gl {
 
 // The users of an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload
@@ -74,8 +76,8 @@ enum : unsigned {
     "passes; default 0")
 
 inline constexpr int storage_binding_count = 8;
-inline constexpr int texture_unit_count = 4;  // of the screen-space pass
-inline constexpr int filter_unit = 2;
-inline constexpr int image_unit_index = 0;
+inline constexpr int texture_unit_count = NOOK_UNIT_COUNT;  // of the screen-space pass
+inline constexpr int filter_unit = NOOK_UNIT_FILTERS;
+inline constexpr int image_unit_index = NOOK_IMAGE_UNIT;
 
 }  // namespace nook::gl

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "shaders/nnao/layout.h"
+
 namespace nook::nnao {
 
 enum class NetworkForm : std::uint32_t {
@@ -35,9 +37,9 @@ struct Dense {
 // The normalisation by mean and deviation is folded into filters and bias. With a subset of n taps, the sum
 // over taps is scaled by grid_size^2 / n. taps.h has the positions of the taps.
 struct PaperNetwork {
-  static constexpr int grid_size = 31;
+  static constexpr int grid_size = NOOK_GRID_SIZE;
   static constexpr int tap_inputs = 4;
-  static constexpr int units = 4;
+  static constexpr int units = NOOK_PAPER_UNITS;
 
   std::pmr::vector<float> filters;  // grid_size^2 x tap_inputs x units, row by row
   std::array<float, units> bias{};
@@ -59,13 +61,13 @@ struct PaperNetwork {
 // direction. The input of `join` and `out` is the mean over directions, dot(n, o), and the share of all taps
 // off the screen.
 struct HorizonNetwork {
-  static constexpr int revision = 3;  // of the meaning of the numbers
-  static constexpr int tap_inputs = 5;
-  static constexpr int units = 8;
+  static constexpr int revision = 3;  // of what the numbers mean
+  static constexpr int tap_inputs = NOOK_HORIZON_TAP_INPUTS;
+  static constexpr int units = NOOK_HORIZON_UNITS;
 
   Dense<tap_inputs, units> tap;
-  Dense<2 * units + 2, units> direction;
-  Dense<units + 2, units> join;
+  Dense<NOOK_HORIZON_DIRECTION_INPUTS, units> direction;
+  Dense<NOOK_HORIZON_JOIN_INPUTS, units> join;
   Dense<units, 1> out;
 };
 

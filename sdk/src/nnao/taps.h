@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -41,8 +40,7 @@ struct PixelScale {
 struct TapGrid {
   std::uint32_t directions = 0, steps = 0;
 };
-inline constexpr std::array<std::uint32_t, 5> horizon_tap_counts{16, 32, 64, 128, 256};
-// 16 = 4 x 4, 32 = 8 x 4, 64 = 8 x 8, 128 = 16 x 8, 256 = 16 x 16; other counts give 0 x 0.
+// 16 = 4 x 4, 32 = 8 x 4, 64 = 8 x 8, 128 = 16 x 8, 256 = 16 x 16; nothing for other counts.
 constexpr TapGrid horizon_grid(std::uint32_t taps) {
   switch (taps) {
     case 16:

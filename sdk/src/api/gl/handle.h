@@ -3,6 +3,7 @@
 
 #include <nook/nook_gl.h>
 
+#include <optional>
 #include <string>
 
 #include "sdk/src/api/handles.h"

@@ -5,6 +5,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/core/descriptors.h"
+#include "sdk/src/gl/nnao/frame_check.h"
 #include "sdk/src/gl/nnao/pass.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/taps.h"

@@ -1,3 +1,5 @@
+#include "sdk/src/gl/nnao/frame_check.h"
+
 #include <algorithm>
 #include <cmath>
 

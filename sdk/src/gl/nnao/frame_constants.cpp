@@ -76,9 +76,8 @@ Viewport viewport_of(const nook_nnao_frame_desc& frame) {
 
 FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
   FrameConstants constants;
-  float* out = constants.values.data();
-  const auto add = [&](float x, float y, float z, float w) {
-    for (const float value : {x, y, z, w}) *out++ = value;
+  const auto set = [&](int row, float x, float y, float z, float w) {
+    std::ranges::copy(std::array{x, y, z, w}, &constants.values[std::size_t(4 * row)]);
   };
   const bool half = pass.half_resolution != 0;
   const Viewport viewport = viewport_of(frame);
@@ -87,17 +86,21 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
   const DepthDecode decode = depth_decode(frame);
   const float max_radius_px = frame.max_radius_px > 0 ? frame.max_radius_px : 0.25f * float(viewport.height);
   const float* n = frame.normal_matrix;
-  add(screen.x_scale, screen.x_offset, screen.y_scale, screen.y_offset);
-  add(surface.x_scale, surface.x_offset, surface.y_scale, surface.y_offset);
-  add(decode.x, decode.y, decode.z, decode.w);
-  add(decode.far_stored, decode.far_sign, perspective(frame) ? 0 : -1e30f, perspective(frame) ? 0 : 1);
-  add(frame.radius, std::max(half ? 0.5f * max_radius_px : max_radius_px, 1.0f), frame.intensity,
-      frame.power);
-  add(pass.blur_sharpness, frame.normal_scale, frame.normal_bias, frame.normal_texture != 0);
-  add(float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height));
-  add(float(surface_length(viewport.width, half)), float(surface_length(viewport.height, half)),
-      float(frame.layer), float(frame.view));
-  for (int column = 0; column < 3; ++column) add(n[3 * column], n[3 * column + 1], n[3 * column + 2], 0);
+  set(NOOK_FRAME_SCREEN_RAYS, screen.x_scale, screen.x_offset, screen.y_scale, screen.y_offset);
+  set(NOOK_FRAME_SURFACE_RAYS, surface.x_scale, surface.x_offset, surface.y_scale, surface.y_offset);
+  set(NOOK_FRAME_DEPTH_DECODE, decode.x, decode.y, decode.z, decode.w);
+  set(NOOK_FRAME_FAR, decode.far_stored, decode.far_sign, perspective(frame) ? 0 : -1e30f,
+      perspective(frame) ? 0 : 1);
+  set(NOOK_FRAME_RADIUS, frame.radius, std::max(half ? 0.5f * max_radius_px : max_radius_px, 1.0f),
+      frame.intensity, frame.power);
+  set(NOOK_FRAME_BLUR_AND_NORMAL, pass.blur_sharpness, frame.normal_scale, frame.normal_bias,
+      frame.normal_texture != 0);
+  set(NOOK_FRAME_VIEWPORT, float(viewport.x), float(viewport.y), float(viewport.width),
+      float(viewport.height));
+  set(NOOK_FRAME_SURFACE, float(surface_length(viewport.width, half)),
+      float(surface_length(viewport.height, half)), float(frame.layer), float(frame.view));
+  for (int column = 0; column < 3; ++column)
+    set(NOOK_FRAME_NORMAL_MATRIX + column, n[3 * column], n[3 * column + 1], n[3 * column + 2], 0);
   return constants;
 }
 

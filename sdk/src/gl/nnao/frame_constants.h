@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "shaders/nnao/layout.h"
+
 namespace nook::gl {
 
 // x, y, width and height in pixels of the host's textures.
@@ -20,13 +22,10 @@ constexpr int surface_length(int length, bool half) {
 
 // The uniform array nook_frame of frame.glsl.
 struct FrameConstants {
-  std::array<float, 11 * 4> values{};
+  std::array<float, NOOK_FRAME_VEC4S * 4> values{};
 };
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT), which names the field, unless every number of the frame is in
-// range for a pass of this size. It makes no OpenGL call.
-void check_frame(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass);
-// Returns the constants of a frame that passed check_frame.
+// The frame must have passed check_frame.
 FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass);
 
 }  // namespace nook::gl

@@ -71,7 +71,7 @@ void check_depth(const Functions& gl, const HostImages& images) {
   } else if (!depth_format && !(red_float && red_bits >= 32)) {
     refuse_format(gl, "depth_texture", "a depth format or GL_R32F for NOOK_NNAO_DEPTH_HARDWARE");
   }
-  if (!depth_format || gl.version < 43) return;
+  if (!depth_format || !gl.can.stencil_textures) return;
   GLint mode = GL_DEPTH_COMPONENT;
   gl.GetTexParameteriv(GL_TEXTURE_2D, GL_DEPTH_STENCIL_TEXTURE_MODE, &mode);
   if (mode != GL_DEPTH_COMPONENT)

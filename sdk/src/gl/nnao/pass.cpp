@@ -2,19 +2,13 @@
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/state_guard.h"
+#include "shaders/nnao/layout.h"
 
 namespace nook::gl {
 namespace {
 
-// Texture units; make_stage sets the samplers of the shaders to them.
-enum Unit : GLuint { unit_depth = 0, unit_surface = 1, unit_ao = 2, unit_layer = 3 };
-static_assert(unit_layer < texture_unit_count);
-
-constexpr int blur_reach = 3;  // texels
-constexpr int group_side = 8;  // threads, as in occlusion.comp
-
 constexpr GLuint groups(int texels) {
-  return static_cast<GLuint>((texels + group_side - 1) / group_side);
+  return static_cast<GLuint>((texels + NOOK_OCCLUSION_GROUP_SIZE - 1) / NOOK_OCCLUSION_GROUP_SIZE);
 }
 
 // Multiplies the target by AO; alpha stays.
@@ -89,11 +83,11 @@ void NnaoPass::run_network(const FrameConstants& constants, const RenderTexture&
 void NnaoPass::draw_blur(const FrameConstants& constants, const RenderTexture& from,
                          const Viewport& from_place, bool vertical, const RenderTexture& into) const {
   const Functions& gl = device_.gl;
-  bind_texture(unit_ao, from.texture());
+  bind_texture(NOOK_UNIT_AO, from.texture());
   gl.UseProgram(blur_.program.name());
   gl.Uniform2i(blur_.ao_origin, from_place.x, from_place.y);
   gl.Uniform2i(blur_.blur_axis, !vertical, vertical);
-  gl.Uniform1i(blur_.blur_reach, blur_reach);
+  gl.Uniform1i(blur_.blur_reach, NOOK_BLUR_REACH);
   draw(blur_, constants, into.framebuffer(), {0, 0, from_place.width, from_place.height});
 }
 
@@ -102,12 +96,12 @@ void NnaoPass::draw_resolve(const nook_nnao_frame_desc& frame, const FrameConsta
   const Functions& gl = device_.gl;
   const bool to_texture = frame.target == NOOK_NNAO_TARGET_TEXTURE;
   GLuint framebuffer = own_.framebuffer();
-  bind_texture(unit_depth, frame.depth_texture);
-  bind_texture(unit_ao, ao.texture());
-  bind_texture(unit_layer, frame.layer != NOOK_NNAO_LAYER_NONE ? frame.layer_texture : 0);
+  bind_texture(NOOK_UNIT_DEPTH, frame.depth_texture);
+  bind_texture(NOOK_UNIT_AO, ao.texture());
+  bind_texture(NOOK_UNIT_LAYER, frame.layer != NOOK_NNAO_LAYER_NONE ? frame.layer_texture : 0);
   gl.UseProgram(resolve_.program.name());
   gl.Uniform2i(resolve_.blur_axis, 0, 1);
-  gl.Uniform1i(resolve_.blur_reach, blurs(frame) ? blur_reach : 0);
+  gl.Uniform1i(resolve_.blur_reach, blurs(frame) ? NOOK_BLUR_REACH : 0);
   if (frame.target != NOOK_NNAO_TARGET_OWN) {
     framebuffer = to_texture ? target_framebuffer_.name() : frame.target_name;
     gl.Enable(GL_FRAMEBUFFER_SRGB);
@@ -134,14 +128,14 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
   gl.BindVertexArray(vertex_array_.name());
   for (GLuint unit = 0; unit < texture_unit_count; ++unit) gl.BindSampler(unit, sampler_.name());
 
-  bind_texture(unit_ao, 0);
-  bind_texture(unit_layer, 0);
-  bind_texture(unit_depth, frame.depth_texture);
-  bind_texture(unit_surface, frame.normal_texture);
+  bind_texture(NOOK_UNIT_AO, 0);
+  bind_texture(NOOK_UNIT_LAYER, 0);
+  bind_texture(NOOK_UNIT_DEPTH, frame.depth_texture);
+  bind_texture(NOOK_UNIT_SURFACE, frame.normal_texture);
   draw(normals_, constants, surface_.framebuffer(), surface);
   end_stage();
 
-  bind_texture(unit_surface, surface_.texture());
+  bind_texture(NOOK_UNIT_SURFACE, surface_.texture());
   if (filter_texture_.name()) {
     gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
     gl.BindTexture(GL_TEXTURE_BUFFER, filter_texture_.name());

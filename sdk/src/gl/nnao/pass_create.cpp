@@ -7,6 +7,7 @@
 #include "sdk/src/gl/program.h"
 #include "sdk/src/gl/state_guard.h"
 #include "sdk/src/nnao/taps.h"
+#include "shaders/nnao/layout.h"
 
 namespace nook::gl {
 namespace {
@@ -75,9 +76,13 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
   const struct {
     const char* name;
     GLint unit;
-  } samplers[] = {{"nook_depth", 0}, {"nook_surface", 1}, {"nook_host_normal", 1},
-                  {"nook_ao", 2},    {"nook_filters", 2}, {"nook_layer", 3}};
-  // If a stage has no such sampler, the location is -1, which OpenGL ignores.
+  } samplers[] = {{"nook_depth", NOOK_UNIT_DEPTH},
+                  {"nook_surface", NOOK_UNIT_SURFACE},
+                  {"nook_host_normal", NOOK_UNIT_HOST_NORMAL},
+                  {"nook_ao", NOOK_UNIT_AO},
+                  {"nook_filters", NOOK_UNIT_FILTERS},
+                  {"nook_layer", NOOK_UNIT_LAYER}};
+  // Where a stage has no such sampler the location is -1, which OpenGL ignores.
   for (const auto& sampler : samplers)
     gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
   return stage;

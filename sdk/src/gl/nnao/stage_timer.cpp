@@ -26,8 +26,8 @@ void StageTimer::end_stage() {
 
 std::optional<StageTimer::Milliseconds> StageTimer::newest() const {
   const Functions& gl = device_.gl;
-  // With a buffer bound, the results would be written to the host's buffer.
-  if (gl.version >= 44) gl.BindBuffer(GL_QUERY_BUFFER, 0);
+  // Otherwise the answers would go into the host's buffer.
+  if (gl.can.query_buffers) gl.BindBuffer(GL_QUERY_BUFFER, 0);
   const std::uint64_t oldest = frames_ > kept_frames ? frames_ - kept_frames : 0;
   for (std::uint64_t frame = frames_; frame > oldest; --frame) {
     const auto& marks = marks_[frame % kept_frames];
