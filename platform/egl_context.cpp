@@ -1,4 +1,5 @@
-// EGL without a display: Mesa's surfaceless platform, or the first EGL device that gives a context.
+// EGL without a display. Mesa's surfaceless platform comes first, and then the first EGL device that gives a
+// context.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -37,8 +38,8 @@ std::vector<EGLDisplay> displays() {
   return found;
 }
 
-// The display is never terminated: other code of the process may share it, and Mesa's LLVM leaks memory when
-// it is terminated.
+// The display is never terminated, because other code of the process may share it, and because Mesa's LLVM
+// leaks when it is terminated.
 class EglContext final : public Context {
  public:
   EglContext(const ContextRequest& request, EGLDisplay display, EGLContext context)

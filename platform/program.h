@@ -7,8 +7,8 @@
 
 namespace platform {
 
-// Returns a linked program, which the caller deletes. The texts of a stage are concatenated; the first has
-// the #version line. Throws std::runtime_error with the log of the compiler or the linker.
+// Makes a linked program. The texts of a stage follow each other, and the first one begins with the #version
+// line. The caller deletes the program. Throws std::runtime_error with the log of the compiler or the linker.
 GLuint link_program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
                     std::initializer_list<const char*> fragment);
 

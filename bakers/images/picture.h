@@ -56,7 +56,7 @@ Picture side_by_side(std::span<const Picture> pictures);
 // Returns the bytes of a .png file. Throws Failure(INTERNAL) with the reason.
 std::vector<std::byte> png_bytes(const Picture& picture);
 
-// Throws Failure(INTERNAL) with the reason if the file cannot be written.
+// Throws std::runtime_error with the reason if the file cannot be written.
 void write_png(const std::filesystem::path& path, const Picture& picture);
 
 }  // namespace nook::bake

@@ -10,15 +10,16 @@
 
 namespace nook::bake {
 
-// The largest radiance of a map's texel and of a surface's own light: sums of squares over any number of
-// paths stay far below what a float holds.
+// The maximum radiance of a map's texel and of an emissive surface. With it, sums of squares over any number
+// of paths stay far below the maximum of a float.
 inline constexpr double max_radiance = 1e15;
 
-// Rows go from +y down to -y, columns once round y: the middle column looks along +x, a quarter further right
-// along +z. Radiance is constant over a texel, so that integrals over the map are sums over its texels.
+// Rows go from +y to -y, and columns around y: the middle column looks along +x, and the column a quarter of
+// the width to its right along +z. Radiance is constant over a texel, so that integrals over the map are sums
+// over its texels.
 class Environment {
  public:
-  // rgb has 3 floats for each texel, rows from the top, each finite and >= 0. width and height are at least
+  // rgb has 3 floats for each texel, rows from the top, each 0 to max_radiance. width and height are at least
   // 1.
   Environment(std::uint32_t width, std::uint32_t height, std::vector<float> rgb);
 
@@ -55,7 +56,8 @@ struct LightSample {
 // uniform) * luminance / integral of luminance + uniform / (4 pi).
 class LightSampler {
  public:
-  // The environment must outlive the sampler. uniform_share is in [0, 1]; a black map is sampled uniformly.
+  // The environment must outlive the sampler. uniform_share is in [0, 1]. A map that is black, or so dark
+  // that its density is no float, is sampled uniformly.
   explicit LightSampler(const Environment& environment, float uniform_share = 0);
 
   // Takes four numbers in [0, 1). The choice is a double, which reaches every texel of large maps.

@@ -38,8 +38,8 @@ Vec3 direct_radiance(const LitScene& scene, Vec3 radiance, DirectLight direct) {
   return radiance;
 }
 
-// Light of the environment at a surface, by a direction that the light chose, weighed by the balance
-// heuristic (Veach 1997) against the cosine's choice of the same direction.
+// Returns the light of the environment at a surface from a direction that was sampled by luminance, weighted
+// by the balance heuristic (Veach 1997) against the cosine-weighted density of the same direction.
 Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, DirectLight direct,
                         PathRandom& random) {
   const double choice = random.next_double();

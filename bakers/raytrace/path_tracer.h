@@ -36,7 +36,8 @@ class PathRandom {
   std::uint64_t state_;
 };
 
-// Returns one estimate of the radiance that arrives at a point from a unit direction.
+// Returns one estimate of the radiance that arrives at a point from a unit direction. settings.direct selects
+// the part of the map's light that arrives without a reflection.
 Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const PathSettings& settings,
                     PathRandom& random);
 

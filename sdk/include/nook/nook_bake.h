@@ -234,8 +234,9 @@ enum {
   /* Every second of these clips in byte order of their names, from the first on, so that the others can
    * measure. */
   NOOK_BAKE_SPLIT_HALF = 1,
-  /* Every second family of these clips; a family is the clips whose names agree up to the first
-   * underscore. */
+  /* Every second family of these clips. A family is the clips whose names start with the same word, in upper
+   * or lower case. A word ends at a digit, at a sign and before a capital; the part of a name up to its last
+   * | or : does not count. A file whose clips are a single family is refused. */
   NOOK_BAKE_SPLIT_FAMILIES = 2
 };
 typedef int32_t nook_bake_clip_split;
@@ -458,7 +459,7 @@ typedef struct nook_bake_material_desc {
   uint32_t clusters;
   /* K, the number of clusters that a view mixes; default 3. */
   uint32_t mixture;
-  /* The side in cells of the resampled view maps of K-CTA; default 256. 0: there is none, and decoding mixes
+  /* The side in cells of the resampled view maps of K-CTA; default 64. 0: there is none, and decoding mixes
    * the three nearest views, for up to three times the work. */
   uint32_t view_map_side;
   /* The squared error that the choice of ranks allows in each mode, relative to the squared norm; default
@@ -543,8 +544,8 @@ NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float*
  * columns around y: the middle column looks along +x, and the column a quarter of the width to its right
  * along +z. */
 typedef struct nook_bake_environment {
-  /* 3 floats for each texel, each 0 to 1e15, rows from the top. NULL only if width is 0; then the environment
-   * is black. */
+  /* 3 floats in [0, 1e15] for each texel, rows from the top. NULL only if width is 0; then the environment is
+   * black. */
   const float* rgb;
   /* Texels, up to 16384. */
   uint32_t width;
@@ -562,7 +563,7 @@ typedef struct nook_bake_lit_mesh {
   uint32_t index_count;
   /* RGB, the share of light that the surface reflects, in [0, 1]. A surface with 0 only occludes. */
   float base_colour[3];
-  /* RGB, the radiance that the surface emits, 0 to 1e15. */
+  /* RGB, the radiance that the surface emits, in [0, 1e15]. */
   float emission[3];
 } nook_bake_lit_mesh;
 

@@ -94,22 +94,22 @@ enum {
 };
 typedef int32_t nook_probe_method;
 
-/* What a fit of lobes keeps beside its least squares. */
+/* A condition on the coefficients of lobes. Naive and original forms, harmonics and dice ignore it. */
 enum {
-  /* The lobes agree with the light in its spherical harmonics of bands 0 to 2, which hold 99 % of what
-   * irradiance depends on: the total light is exact, and irradiance has about a third of the error of least
-   * squares alone. The coefficients minimise the squared error of radiance under that condition. Where the
-   * condition cannot be met (fewer than 9 lobes, coefficients that may not be negative, a hemisphere) it is
-   * a penalty. The naive and the original form, harmonics and dice ignore it. */
+  /* The lobes agree with the light in its spherical harmonics of bands 0 to 2, which make up 99 % of the
+   * irradiance of a light. The total light is exact, and the error of irradiance is about a third of that of
+   * least squares alone. The coefficients minimise the squared error of radiance under this condition. If it
+   * cannot be satisfied (fewer than 9 lobes, coefficients that may not be negative, a hemisphere), they come
+   * close to it. */
   NOOK_PROBE_CONSTRAINT_BANDS = 0,
-  /* Least squares alone, for lobes so sharp that they leave gaps. */
+  /* Least squares alone, for lobes so sharp that there are gaps between them. */
   NOOK_PROBE_CONSTRAINT_NONE = 1
 };
 typedef int32_t nook_probe_constraint;
 
 /* D_i of the running average's plain step. */
 enum {
-  /* The average from the same samples, which is never below the exact integral. */
+  /* An average over the same samples that is never below the exact integral. */
   NOOK_PROBE_DENOMINATOR_LOCKSTEP = 0,
   /* The exact integral. */
   NOOK_PROBE_DENOMINATOR_PRECOMPUTED = 1
@@ -131,7 +131,7 @@ typedef struct nook_probe_fit_desc {
   /* nook_probe_fit_desc_init sets these two. */
   uint32_t struct_size;
   uint32_t header_version;
-  /* NULL. */
+  /* Must be NULL. */
   const void* next;
   /* Default NOOK_PROBE_LEAST_SQUARES. */
   nook_probe_method method;
@@ -141,31 +141,31 @@ typedef struct nook_probe_fit_desc {
   nook_probe_basis basis;
   /* Default NOOK_PROBE_SPHERE. */
   nook_probe_domain domain;
-  /* The axis of the hemisphere, of unit length to 1e-3. Default (0, 0, 1), for a tangent space. */
+  /* The axis of the hemisphere, of unit length to 1e-3. Default (0, 0, 1), the normal of a tangent space. */
   float up[3];
-  /* The number of lobes, 1 to 64 together with the ambient term. Default 12. */
+  /* For Gaussians: 1 to 64 with the ambient term; default 12. */
   uint32_t lobe_count;
-  /* The sharpness of all lobes if sharpnesses is NULL: above 0 to 10,000. The default 0 takes it from
-   * lobe_count, so that neighbours overlap equally: 6 for 12 lobes on the sphere. */
+  /* The sharpness of lobes without one in sharpnesses, in [0, 10000]. 0 (default): a value that depends on
+   * lobe_count, so that neighbouring lobes always overlap alike; it is 6 for 12 lobes on the sphere. */
   float sharpness;
-  /* lobe_count directions, of unit length to 1e-3, which the call copies. Default NULL: a Vogel spiral. */
+  /* lobe_count directions of unit length to 1e-3, which the call copies. NULL (default): a Vogel spiral. */
   const float* axes;
-  /* lobe_count values above 0 to 10,000, which the call copies. Default NULL: sharpness for all lobes. */
+  /* lobe_count values in (0, 10000], which the call copies. NULL (default): `sharpness` for all. */
   const float* sharpnesses;
   /* 1: a constant term follows the lobes. Default 0. */
   int32_t ambient;
-  /* The maximum band of harmonics, 1 to 4. Default 2. */
+  /* For harmonics: the highest band, 1 to 4; default 2. */
   uint32_t order;
-  /* Of the plain step. Default NOOK_PROBE_DENOMINATOR_LOCKSTEP. */
+  /* Only the plain step uses it. Default NOOK_PROBE_DENOMINATOR_LOCKSTEP. */
   nook_probe_denominator denominator;
-  /* Of running averages. Default NOOK_PROBE_STEP_FAST. */
+  /* Only running averages use it. Default NOOK_PROBE_STEP_FAST. */
   nook_probe_step step;
-  /* If above 0, sample k, from 1, has its weight multiplied by 1 - exp(-k / growing_samples), against noise
-   * in the radiance of the first samples. >= 0; default 0, equal weights. */
+  /* Samples, >= 0, default 0: every sample has its own weight. Above 0, the weight of sample k, counted from
+   * 1, is multiplied by 1 - exp(-k / growing_samples), for samples whose first radiances are noisy. */
   float growing_samples;
-  /* Default NOOK_ISA_AUTO. A set that the processor does not have is UNSUPPORTED. */
+  /* Default NOOK_ISA_AUTO. An instruction set that the processor lacks fails with UNSUPPORTED. */
   nook_isa isa;
-  /* 0. */
+  /* Must be 0. */
   uint32_t reserved;
 } nook_probe_fit_desc;
 
@@ -414,9 +414,10 @@ typedef struct nook_probe_surface {
  * both directions, Schlick Fresnel, single scattering. The result is the directional albedo times the mean of
  * the light over the reflected lobe. The following errors hold where the cosine between normal and view is
  * 0.02 to 1. Under constant light the result is within 5 % of the integral for reflectances from 0.02 on.
- * Under 12 lobes of sharpness 6 it is within 7 %; the anisotropic form is within 6 % at alpha 0.05 and 0.1,
- * 13 % at 0.2 and 7 % above. Surfaces with two widths are within 22 % in the anisotropic form; under constant
- * light they are within 6 % at reflectance 1 and 26 % at 0.04.
+ * Under 12 lobes of sharpness 6 whose amplitudes differ by up to 1 : 9 it is within 10 %; the anisotropic
+ * form is within 6 % at alpha 0.05, 10 % at 0.1, 17 % at 0.2 and 9 % above. If one lobe is 20 times as bright
+ * as all others it is within 40 %. Surfaces with two widths are within 32 % in the anisotropic form; under
+ * constant light they are within 6 % at reflectance 1 and 26 % at 0.04.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_lobes_specular(const nook_probe_lobe* lobes, uint32_t lobe_count,
                                                nook_probe_specular_form form,
@@ -454,26 +455,37 @@ NOOK_API nook_result nook_probe_lobes_rotate(nook_probe_lobe* lobes, uint32_t lo
 NOOK_API nook_result nook_probe_lobes_to_harmonics(const nook_probe_lobe* lobes, uint32_t lobe_count,
                                                    uint32_t order, float* coefficients);
 
-/* ---- Light as spherical harmonics, plain arrays: for diffuse light, the least error for its size. No
- * allocation. Any thread. Errors: INVALID_ARGUMENT ----
+/* ---- Light as spherical harmonics: plain arrays, with the lowest error of diffuse light for their size ----
  *
- * Coefficients are (order + 1)^2 x RGB as nook_probe_lobes_to_harmonics writes them, from lobes, or
- * nook_probe_fit_read of a fit of NOOK_PROBE_HARMONICS, from samples. shaders/probe/harmonics.glsl evaluates
- * bands 0 to 2 (27 floats), and ZH3 (15). */
+ * Coefficients are (order + 1)^2 x RGB in the order of nook_probe_lobes_to_harmonics, which gives them from
+ * lobes; nook_probe_fit_read of a fit of NOOK_PROBE_HARMONICS gives them from samples. No call allocates.
+ * shaders/probe/harmonics.glsl evaluates bands 0 to 2 (27 floats), and ZH3 (15 floats). */
 
-/* Radiance from unit directions, and irradiance on unit normals, exact for these bands. Not cut off at 0:
- * opposite a sun harmonics ring below it. order: 1 to 4. */
+/* Evaluates the radiance from count unit directions, exactly for these bands. order is 1 to 4. The result is
+ * not clamped at 0: harmonics ring below 0 opposite a sun.
+ * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_harmonics_radiance(const float* coefficients, uint32_t order,
                                                    const float* directions, float* rgb, size_t count);
+
+/* Evaluates the irradiance on count surfaces with the given unit normals, exactly for these bands. order is 1
+ * to 4. The result is not clamped at 0.
+ * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_harmonics_irradiance(const float* coefficients, uint32_t order,
                                                      const float* normals, float* rgb, size_t count);
 
-/* Quadratic zonal harmonics, ZH3 (Roughton et al. 2024): of bands 0 to 2, 9 x RGB, the first two bands and
- * the part of band 2 that is symmetric round the direction of band 1's luminance, 5 x RGB: bands 0 and 1 as
- * they were, then the zonal coefficient. They may be interpolated and packed like any others. */
+/* Computes quadratic zonal harmonics, ZH3 (Roughton et al. 2024), from bands 0 to 2, 9 x RGB. The result is 5
+ * x RGB: bands 0 and 1 unchanged, then the coefficient of the part of band 2 that is symmetric about the
+ * direction of band 1's luminance. It may be interpolated and packed as other coefficients.
+ * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_harmonics_to_zonal(const float* coefficients, float* zonal);
+
+/* Evaluates the radiance of ZH3 from count unit directions.
+ * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_zonal_radiance(const float* zonal, const float* directions, float* rgb,
                                                size_t count);
+
+/* Evaluates the irradiance of ZH3 on count surfaces with the given unit normals.
+ * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_zonal_irradiance(const float* zonal, const float* normals, float* rgb,
                                                  size_t count);
 

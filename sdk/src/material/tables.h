@@ -61,8 +61,8 @@ struct MaterialTables {
 
 inline constexpr std::uint32_t default_map_side = 256;
 
-// Makes the tables of a material that passed check_material. map_side is the side of the view maps in cells
-// for tensors that have no map.
+// Makes the tables of a material that passed check_material. map_side is the side of the view maps in cells;
+// see view_cells.h.
 MaterialTables make_tables(const Material& material, const Parallel& parallel,
                            std::pmr::memory_resource* memory, std::uint32_t map_side = default_map_side);
 

@@ -1,6 +1,7 @@
 // The view mode in the form that decoding reads: the clusters and coefficients of the direction of each cell
-// of a parabolic map. A resampled map is used unchanged. Without one, the rows of the three nearest views are
-// mixed linearly, which gives a row of up to 3 K terms with the clusters of all three. So N-SVD, CTA and
+// of a parabolic map. A resampled map that is coarser than this is refined, so that a small map in a file
+// does not give steps from cell to cell as the view moves. Without a map, the rows of the three nearest views
+// are mixed linearly, which gives a row of up to 3 K terms with the clusters of all three. So N-SVD, CTA and
 // K-CTA are decoded in the same way.
 #pragma once
 
@@ -25,7 +26,8 @@ struct ViewCells {
 // 3 for CTA.
 std::uint32_t cell_terms(const ClusteredTensor& tensor);
 
-// `side` is used if the tensor has no map.
+// The result has `side` cells along a side, or, if the tensor has a map, the largest multiple of the map's
+// side that is not above `side`, and at least the map's side.
 ViewCells view_cells(const ClusteredTensor& tensor, std::span<const Vec3> views, std::uint32_t side,
                      std::pmr::memory_resource* memory);
 
