@@ -9,7 +9,8 @@
 
 namespace nook::bake::api {
 
-// Throws INVALID_ARGUMENT where a number is not finite; names the pose and the bone.
+// Throws INVALID_ARGUMENT where a number is not finite or beyond what a pose may hold; names the pose and the
+// bone.
 std::vector<Pose> read_poses(const float* bones_3x4, std::size_t poses, std::size_t bones);
 void write_pose(const Pose& pose, float* bones_3x4);
 void write_points(std::span<const Vec3> welded, std::span<const std::uint32_t> file_to_welded, float* xyz);

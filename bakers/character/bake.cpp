@@ -15,6 +15,7 @@
 #include "character/mini_batch_fit.h"
 #include "character/model_file.h"
 #include "core/failure.h"
+#include "core/place.h"
 #include "import/skinning.h"
 
 namespace nook::bake {
@@ -41,15 +42,16 @@ void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSetti
   if (s.rays < 1 || s.rays > 65536) refuse("rays", s.rays, "1 to 65536");
   if (s.steps > 10'000'000) refuse("steps", s.steps, "at most 10,000,000");
   if (!(s.kernel.gamma >= 1 && s.kernel.gamma <= 8))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "gamma out of range (got %g, need 1 to 8)", double(s.kernel.gamma));
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "gamma out of range (got %g, need 1 to 8)",
+                  double(s.kernel.gamma));
   for (std::size_t p = 0; p < poses.size(); ++p) {
     if (poses[p].size() != mesh.bones.size())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "pose %zu has the wrong number of bones (got %zu, need %zu)", p,
-                    poses[p].size(), mesh.bones.size());
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "pose %zu has the wrong number of bones (got %zu, need %zu)",
+                    p, poses[p].size(), mesh.bones.size());
     for (const Mat3x4& m : poses[p])
-      for (float v : m.m)
-        if (!std::isfinite(v))
-          throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "pose %zu holds a matrix that is not finite", p);
+      if (!is_pose_matrix(m))
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "pose %zu holds a matrix that is not finite or beyond 1e9 m or a scale of 1e6", p);
   }
 }
 
@@ -68,7 +70,8 @@ std::size_t hold_out(std::vector<Pose>& poses) {
 // So many that their noise is far below any error of a fit.
 constexpr std::uint32_t precise_rays = 512;
 
-// A spread of the fitted poses, traced anew: at most 24, and at most a quarter of the rays that the fit itself takes.
+// A spread of the fitted poses, traced anew: at most 24, and at most a quarter of the rays that the fit
+// itself takes.
 TrainingSet precise_share(const SkinnedMesh& mesh, const TrainingSet& set, const BakeSettings& settings,
                           const Progress& progress) {
   const std::size_t affordable = set.fitted() * settings.rays / (4 * precise_rays);
@@ -92,8 +95,8 @@ std::vector<float> vertex_weights(std::span<const float> area) {
 // One fit in progress: the state, what it is measured by, and the best state so far by held-out error.
 class Fit {
  public:
-  Fit(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings, const Candidates& candidates,
-      FitState state, BakeReport& report)
+  Fit(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings,
+      const Candidates& candidates, FitState state, BakeReport& report)
       : set_(set), area_(area), candidates_(candidates), report_(report), state_(std::move(state)) {
     linear_.entries = settings.entries;
   }
@@ -112,7 +115,8 @@ class Fit {
     return measure_fit(state, set_, first, set_.poses.size(), area_).mse;
   }
 
-  // Adds a point to the curve and keeps the state if it is the best yet. Returns whether it improved by a share.
+  // Adds a point to the curve and keeps the state if it is the best yet. Returns whether it improved by a
+  // share.
   bool measure(double least_gain = 0) {
     const std::size_t fitted = set_.fitted();
     const double train = measure_fit(state_, set_, 0, fitted, area_).mse;
@@ -138,7 +142,9 @@ class Fit {
   Stopwatch watch_;
 };
 
-[[noreturn]] void cancelled() { throw Failure(NOOK_ERROR_CANCELLED, "cancelled while fitting"); }
+[[noreturn]] void cancelled() {
+  throw Failure(NOOK_ERROR_CANCELLED, "cancelled while fitting");
+}
 
 // Mini-batches in rounds; between rounds each vertex chooses its key points anew.
 void fit_by_mini_batches(Fit& fit, const TrainingSet& set, const BakeSettings& settings, BakeReport& report,
@@ -186,8 +192,8 @@ void fit_both_layers(Fit& fit, const TrainingSet& set, const BakeSettings& setti
     fit_by_blocks(fit, set, settings, report, progress);
 }
 
-// The exponent whose short fit has the least error on held-out poses. Both layers adapt to the exponent, so that the error is
-// flat near its least value and a coarse grid does.
+// The exponent whose short fit has the least error on held-out poses. Both layers adapt to the exponent, so
+// that the error is flat near its least value and a coarse grid does.
 float learned_gamma(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings,
                     const Candidates& candidates, const FitState& initial, const BakeProgress& progress) {
   BakeSettings brief = settings;
@@ -217,7 +223,9 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   check(mesh, poses, settings);
   BakeReport report;
   const auto stage_progress = [&](BakeStage stage) {
-    return [&progress, stage](std::size_t done, std::size_t total) { return !progress || progress(stage, done, total); };
+    return [&progress, stage](std::size_t done, std::size_t total) {
+      return !progress || progress(stage, done, total);
+    };
   };
   TrainingSet set;
   set.poses.assign(poses.begin(), poses.end());
@@ -225,7 +233,8 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   const Stopwatch trace_watch;
   set.targets =
       trace_character_ao(mesh, set.poses, settings.rays, settings.seed, stage_progress(BakeStage::raytrace));
-  report.noise_floor_held_out_mse = measure_noise_floor(mesh, set.poses, set.targets, settings.rays, settings.seed);
+  report.noise_floor_held_out_mse =
+      measure_noise_floor(mesh, set.poses, set.targets, settings.rays, settings.seed);
   const TrainingSet precise = precise_share(mesh, set, settings, [&](std::size_t, std::size_t) {
     return !progress || progress(BakeStage::raytrace, set.poses.size(), set.poses.size());
   });
@@ -238,7 +247,8 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   report.train_poses = set.poses.size();
 
   const auto step = [&](std::size_t done) {
-    if (progress && !progress(BakeStage::initialise, done, 3)) throw Failure(NOOK_ERROR_CANCELLED, "cancelled");
+    if (progress && !progress(BakeStage::initialise, done, 3))
+      throw Failure(NOOK_ERROR_CANCELLED, "cancelled");
   };
   step(0);
   const std::vector<float> area = vertex_areas(mesh, mesh.position);
@@ -250,8 +260,10 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   step(1);
   ClusterSettings clustering;
   clustering.count = std::min(settings.key_points, mesh.vertex_count());
-  const std::vector<std::uint32_t> cluster = cluster_vertices(mesh, set.vertex_weight, feature_normal, clustering);
-  const std::vector<KeyPoint> key_points = key_points_of_clusters(mesh, cluster, set.vertex_weight, feature_normal);
+  const std::vector<std::uint32_t> cluster =
+      cluster_vertices(mesh, set.vertex_weight, feature_normal, clustering);
+  const std::vector<KeyPoint> key_points =
+      key_points_of_clusters(mesh, cluster, set.vertex_weight, feature_normal);
   const std::vector<InitialSphere> spheres = initial_spheres(mesh, set.vertex_weight, settings.spheres);
   Candidates candidates;
   candidates.count = std::min<std::size_t>(40, key_points.size());
@@ -286,7 +298,8 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   const std::size_t count = std::min(level_poses, set.poses.size());
   for (std::size_t i = 0; i < count; ++i) spread.push_back(set.poses[i * set.poses.size() / count]);
   if (spread.size() >= 4)
-    for (CharacterLevel& level : make_levels(result.model, spread)) result.model.levels.push_back(std::move(level));
+    for (CharacterLevel& level : make_levels(result.model, spread))
+      result.model.levels.push_back(std::move(level));
   return result;
 }
 

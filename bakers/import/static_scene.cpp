@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/failure.h"
+#include "core/place.h"
 #include "import/accessor.h"
 #include "import/gltf_document.h"
 #include "import/gltf_textures.h"
@@ -99,8 +100,10 @@ void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   for (std::size_t v = 0; v < position.count; ++v) {
     const float* p = &position.value[3 * v];
     const Vec3 world = transform(world_from_mesh, Vec3{p[0], p[1], p[2]});
-    if (!std::isfinite(world.x) || !std::isfinite(world.y) || !std::isfinite(world.z))
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s: vertex %zu is not finite", what.c_str(), v);
+    if (!is_place(world))
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%s: vertex %zu is out of range (got %g %g %g, need finite metres up to 1e6)",
+                    what.c_str(), v, double(world.x), double(world.y), double(world.z));
     scene.position.push_back(world);
   }
   const std::size_t first_triangle = scene.triangle.size();
