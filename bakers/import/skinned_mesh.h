@@ -1,5 +1,5 @@
-// A rigged character as the bakers see it: welded vertices in rest space (metres, after the file's node transforms), bones
-// with their rest frames, and the way back to the file's own vertex order.
+// A rigged character as the bakers see it: welded vertices in rest space (metres, after the file's node
+// transforms), bones with their rest frames, and the way back to the file's own vertex order.
 #pragma once
 
 #include <array>
@@ -21,8 +21,9 @@ struct SkinWeights {
 
 struct Bone {
   std::string name;
-  std::int32_t parent = -1;  // index of the nearest ancestor that is a bone, always smaller than the bone's own; -1: a root
-  Mat3x4 frame_rest;         // joint frame (orthonormal axes, origin at the joint) in rest space
+  std::int32_t parent =
+      -1;  // index of the nearest ancestor that is a bone, always smaller than the bone's own; -1: a root
+  Mat3x4 frame_rest;  // joint frame (orthonormal axes, origin at the joint) in rest space
 };
 
 struct Primitive {

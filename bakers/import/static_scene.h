@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "import/linked_files.h"
 #include "import/texture_use.h"
 
 namespace nook::bake {
@@ -35,12 +36,13 @@ struct StaticScene {
 // skip: colour factors stand for their textures, and alpha masks are solid.
 enum class SceneTextures { skip, read };
 
-// Skins and morph targets are ignored; points and lines are left out. Of materials the base colour, the
-// emission with KHR_materials_emissive_strength, alpha masks and, if asked for, colour textures are read;
-// blended alpha is solid. Fails with BAD_FILE, also where no triangle is shown; the message names the fault,
-// and the caller adds the name of the file.
+// Skins are ignored, morph targets stand at their default weights; points and lines are left out. Of
+// materials the base colour, the emission with KHR_materials_emissive_strength, alpha masks and, if asked
+// for, colour textures are read; blended alpha is solid. Fails with BAD_FILE, also where no triangle is
+// shown; the message names the fault, and the caller adds the name of the file.
 StaticScene import_static_scene(const std::filesystem::path& path,
-                                SceneTextures textures = SceneTextures::skip);
+                                SceneTextures textures = SceneTextures::skip,
+                                LinkedFiles linked = LinkedFiles::folder);
 
 // From memory, without access to any file: buffers and images must be in the bytes or in data URIs.
 StaticScene import_static_scene(std::span<const std::byte> bytes,
