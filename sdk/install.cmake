@@ -8,7 +8,7 @@ install(TARGETS nook EXPORT nook_targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/nook DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
 # What hosts may put into shaders of their own; the library holds the same text.
-install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/../shaders/probe DESTINATION ${CMAKE_INSTALL_DATADIR}/nook/shaders
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/probe DESTINATION ${CMAKE_INSTALL_DATADIR}/nook/shaders
         FILES_MATCHING PATTERN "*.glsl")
 install(EXPORT nook_targets NAMESPACE nook:: DESTINATION ${nook_package_dir} FILE nook-config.cmake)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/nook-config-version.cmake COMPATIBILITY SameMajorVersion)

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/entry.h"
-#include "api/handles.h"
-#include "api/mesh_arrays.h"
-#include "api/pose_arrays.h"
-#include "character/auto_poses.h"
-#include "character/pose_sets.h"
-#include "core/descriptors.h"
-#include "import/skinning.h"
+#include "bakers/api/entry.h"
+#include "bakers/api/handles.h"
+#include "bakers/character/auto_poses.h"
+#include "bakers/character/pose_sets.h"
+#include "bakers/import/skinning.h"
+#include "bakers/job/mesh_arrays.h"
+#include "bakers/job/pose_arrays.h"
+#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -47,11 +47,11 @@ void need_index(const char* name, std::size_t index, std::size_t count) {
 // Vertices in file order for welded values.
 void write_vertices(const SkinnedMesh& mesh, const std::vector<Vec3>& position, float* positions,
                     float* normals) {
-  if (positions) api::write_points(position, mesh.file_to_welded, positions);
+  if (positions) write_points(position, mesh.file_to_welded, positions);
   if (!normals) return;
   std::vector<Vec3> normal;
   vertex_normals(mesh.triangle, position, normal);
-  api::write_points(normal, mesh.file_to_welded, normals);
+  write_points(normal, mesh.file_to_welded, normals);
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ nook_result nook_bake_character_create(const nook_bake_mesh_desc* desc, nook_bak
   return api::enter("nook_bake_character_create", [&] {
     need(out, "out");
     *out = nullptr;
-    hand_out(api::character_of_arrays(
+    hand_out(character_of_arrays(
                  read_descriptor(desc, "nook_bake_mesh_desc_init", first_mesh_desc, default_mesh_desc())),
              out);
   });
@@ -102,8 +102,8 @@ void nook_bake_character_destroy(nook_bake_character* character) {
   *character = nullptr;
 }
 
-nook_result nook_bake_character_get_info(nook_bake_character character, nook_bake_character_info* info) {
-  return api::enter("nook_bake_character_get_info", [&] {
+nook_result nook_bake_character_describe(nook_bake_character character, nook_bake_character_info* info) {
+  return api::enter("nook_bake_character_describe", [&] {
     const ImportedCharacter& c = get(character);
     nook_bake_character_info answer{};
     answer.vertex_count = std::uint32_t(c.mesh.vertex_count());
@@ -149,7 +149,7 @@ nook_result nook_bake_character_read_bones(nook_bake_character character, int32_
                                            uint32_t bone_count) {
   return api::enter("nook_bake_character_read_bones", [&] {
     const std::vector<Bone>& bones = get(character).mesh.bones;
-    api::need_count("bone_count", bone_count, bones.size());
+    need_count("bone_count", bone_count, bones.size());
     for (std::size_t b = 0; b < bones.size(); ++b) {
       if (parents) parents[b] = bones[b].parent;
       if (frames_3x4) std::copy_n(bones[b].frame_rest.m, 12, frames_3x4 + 12 * b);
@@ -157,9 +157,9 @@ nook_result nook_bake_character_read_bones(nook_bake_character character, int32_
   });
 }
 
-nook_result nook_bake_character_get_primitive(nook_bake_character character, uint32_t primitive,
-                                              nook_bake_primitive* out) {
-  return api::enter("nook_bake_character_get_primitive", [&] {
+nook_result nook_bake_character_describe_primitive(nook_bake_character character, uint32_t primitive,
+                                                   nook_bake_primitive* out) {
+  return api::enter("nook_bake_character_describe_primitive", [&] {
     const std::vector<Primitive>& primitives = get(character).mesh.primitives;
     need(out, "out");
     need_index("primitive", primitive, primitives.size());
@@ -182,10 +182,10 @@ nook_result nook_bake_character_sample_clip(nook_bake_character character, uint3
     const ImportedCharacter& c = get(character);
     need(bones_3x4, "bones_3x4");
     need_index("clip", clip, c.clips.size());
-    api::need_count("bone_count", bone_count, c.mesh.bones.size());
+    need_count("bone_count", bone_count, c.mesh.bones.size());
     if (!std::isfinite(time_s))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "time_s is not finite; give seconds");
-    api::write_pose(sample_clip(c, clip, time_s), bones_3x4);
+    write_pose(sample_clip(c, clip, time_s), bones_3x4);
   });
 }
 
@@ -194,10 +194,10 @@ nook_result nook_bake_character_auto_poses(nook_bake_character character, uint64
   return api::enter("nook_bake_character_auto_poses", [&] {
     const SkinnedMesh& mesh = get(character).mesh;
     need(bones_3x4, "bones_3x4");
-    api::need_count("bone_count", bone_count, mesh.bones.size());
+    need_count("bone_count", bone_count, mesh.bones.size());
     const std::vector<Pose> poses = auto_poses(mesh, vertex_areas(mesh, mesh.position), pose_count, seed);
     for (std::size_t p = 0; p < poses.size(); ++p)
-      api::write_pose(poses[p], bones_3x4 + 12 * p * mesh.bones.size());
+      write_pose(poses[p], bones_3x4 + 12 * p * mesh.bones.size());
   });
 }
 
@@ -207,7 +207,7 @@ nook_result nook_bake_character_single_joint_poses(nook_bake_character character
   return api::enter("nook_bake_character_single_joint_poses", [&] {
     const SkinnedMesh& mesh = get(character).mesh;
     need(pose_count, "pose_count");
-    api::need_count("bone_count", bone_count, mesh.bones.size());
+    need_count("bone_count", bone_count, mesh.bones.size());
     if (steps < 1 || steps > 64)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "steps is out of range (got %u, need 1 to 64)", steps);
     if (!(range_degrees >= 0 && range_degrees <= 180))
@@ -215,9 +215,9 @@ nook_result nook_bake_character_single_joint_poses(nook_bake_character character
                     double(range_degrees));
     const std::vector<Pose> poses = single_joint_poses(mesh, int(steps), range_degrees * 0.0174532925f);
     if (bones_3x4) {
-      api::need_count("*pose_count", *pose_count, poses.size());
+      need_count("*pose_count", *pose_count, poses.size());
       for (std::size_t p = 0; p < poses.size(); ++p)
-        api::write_pose(poses[p], bones_3x4 + 12 * p * mesh.bones.size());
+        write_pose(poses[p], bones_3x4 + 12 * p * mesh.bones.size());
     }
     *pose_count = std::uint32_t(poses.size());
   });
@@ -227,7 +227,7 @@ nook_result nook_bake_character_read_vertices(nook_bake_character character, flo
                                               uint32_t vertex_count) {
   return api::enter("nook_bake_character_read_vertices", [&] {
     const SkinnedMesh& mesh = get(character).mesh;
-    api::need_count("vertex_count", vertex_count, mesh.file_to_welded.size());
+    need_count("vertex_count", vertex_count, mesh.file_to_welded.size());
     write_vertices(mesh, mesh.position, positions, normals);
   });
 }
@@ -237,7 +237,7 @@ nook_result nook_bake_character_read_triangles(nook_bake_character character, ui
   return api::enter("nook_bake_character_read_triangles", [&] {
     const SkinnedMesh& mesh = get(character).mesh;
     need(indices, "indices");
-    api::need_count("index_count", index_count, 3 * mesh.triangle.size());
+    need_count("index_count", index_count, 3 * mesh.triangle.size());
     std::vector<std::uint32_t> file_of_welded(mesh.vertex_count());
     for (std::size_t f = mesh.file_to_welded.size(); f-- > 0;)
       file_of_welded[mesh.file_to_welded[f]] = std::uint32_t(f);
@@ -252,7 +252,7 @@ nook_result nook_bake_character_read_skin(nook_bake_character character, uint16_
     const SkinnedMesh& mesh = get(character).mesh;
     need(joints, "joints");
     need(weights, "weights");
-    api::need_count("vertex_count", vertex_count, mesh.file_to_welded.size());
+    need_count("vertex_count", vertex_count, mesh.file_to_welded.size());
     for (std::uint32_t welded : mesh.file_to_welded) {
       const SkinWeights& w = mesh.weights[welded];
       const float sum = w.weight[0] + w.weight[1] + w.weight[2] + w.weight[3];
@@ -270,10 +270,10 @@ nook_result nook_bake_character_skin(nook_bake_character character, const float*
   return api::enter("nook_bake_character_skin", [&] {
     const SkinnedMesh& mesh = get(character).mesh;
     need(bones_3x4, "bones_3x4");
-    api::need_count("bone_count", bone_count, mesh.bones.size());
-    api::need_count("vertex_count", vertex_count, mesh.file_to_welded.size());
+    need_count("bone_count", bone_count, mesh.bones.size());
+    need_count("vertex_count", vertex_count, mesh.file_to_welded.size());
     std::vector<Vec3> posed;
-    skin_positions(mesh, api::read_poses(bones_3x4, 1, bone_count).front(), posed);
+    skin_positions(mesh, read_poses(bones_3x4, 1, bone_count).front(), posed);
     write_vertices(mesh, posed, positions, normals);
   });
 }

@@ -2,22 +2,12 @@
 // thread's message.
 #pragma once
 
-#include <nook/nook.h>
-
-#include <exception>
 #include <utility>
 
-#include "core/failure.h"
+#include "bakers/job/outcome.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::api {
-
-struct Outcome {
-  nook_result result = NOOK_OK;
-  char text[480] = "";
-};
-
-// What an exception means to a caller.
-Outcome outcome_of(const std::exception_ptr& exception) noexcept;
 
 // Keeps "function: text" as this thread's last message and returns the code.
 nook_result fail(const char* function, const Outcome& outcome) noexcept;

@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "api/bake_job.h"
-#include "import/gltf.h"
+#include "bakers/import/gltf.h"
+#include "bakers/job/bake_job.h"
 
 struct nook_bake_character_s {
   std::shared_ptr<const nook::bake::ImportedCharacter> character;  // shared with jobs

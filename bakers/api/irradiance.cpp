@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "api/entry.h"
-#include "api/pose_arrays.h"
-#include "api/trace_arrays.h"
-#include "api/worker_arena.h"
-#include "core/descriptors.h"
-#include "raytrace/path_tracer.h"
+#include "bakers/api/entry.h"
+#include "bakers/job/pose_arrays.h"
+#include "bakers/job/trace_arrays.h"
+#include "bakers/job/worker_arena.h"
+#include "bakers/raytrace/path_tracer.h"
+#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -82,7 +82,7 @@ nook_result nook_bake_trace_irradiance(const nook_bake_irradiance_desc* desc, fl
     const nook_bake_irradiance_desc d = read_descriptor(desc, "nook_bake_irradiance_desc_init",
                                                         first_irradiance_desc, default_irradiance_desc());
     need(irradiance, "irradiance");
-    api::need_count("count", count, d.point_count);
+    need_count("count", count, d.point_count);
     if (d.mesh_count) need(d.meshes, "desc.meshes");
     need_trace_settings(d.rays, d.threads, d.origin_offset);
     if (d.point_count == 0) return;

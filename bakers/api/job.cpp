@@ -1,13 +1,13 @@
 // Bake jobs: descriptor to recipe, and the life of a job.
 #include <nook/nook_bake.h>
 
-#include "api/bake_pipeline.h"
-#include "api/entry.h"
-#include "api/handles.h"
-#include "api/job_progress.h"
-#include "api/job_recipe.h"
-#include "api/pose_arrays.h"
-#include "core/descriptors.h"
+#include "bakers/api/entry.h"
+#include "bakers/api/handles.h"
+#include "bakers/job/bake_pipeline.h"
+#include "bakers/job/job_progress.h"
+#include "bakers/job/job_recipe.h"
+#include "bakers/job/pose_arrays.h"
+#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -48,19 +48,19 @@ nook_result nook_bake_job_start(nook_bake_character character, const nook_bake_j
     const nook_bake_job_desc settings =
         read_descriptor(desc, "nook_bake_job_desc_init", first_job_desc, default_job_desc());
     const ImportedCharacter& imported = *character->character;
-    Recipe recipe = api::recipe_of(settings, imported);
+    Recipe recipe = recipe_of(settings, imported);
     std::vector<Pose> extra =
-        api::read_poses(settings.extra_poses_3x4, settings.extra_pose_count, imported.mesh.bones.size());
+        read_poses(settings.extra_poses_3x4, settings.extra_pose_count, imported.mesh.bones.size());
     auto bake = [shared = character->character, recipe = std::move(recipe), extra = std::move(extra)](
                     const StageReport& report) { return bake_by_recipe(*shared, recipe, extra, report); };
     *out = new nook_bake_job_s{BakeJob(std::move(bake), settings.threads,
-                                       api::listener_of(settings.progress, settings.progress_user))};
+                                       listener_of(settings.progress, settings.progress_user))};
   });
 }
 
 nook_result nook_bake_job_poll(nook_bake_job job, nook_bake_progress* progress) {
   return api::enter("nook_bake_job_poll",
-                    [&] { write_info(progress, first_progress, api::public_progress(get(job).progress())); });
+                    [&] { write_info(progress, first_progress, public_progress(get(job).progress())); });
 }
 
 nook_result nook_bake_job_cancel(nook_bake_job job) {
@@ -77,8 +77,8 @@ nook_result nook_bake_job_wait(nook_bake_job job) {
   });
 }
 
-nook_result nook_bake_job_get_model(nook_bake_job job, const void** bytes, size_t* size) {
-  return api::enter("nook_bake_job_get_model", [&] {
+nook_result nook_bake_job_model(nook_bake_job job, const void** bytes, size_t* size) {
+  return api::enter("nook_bake_job_model", [&] {
     need(bytes, "bytes");
     need(size, "size");
     const BakedFile& file = get(job).file();
@@ -87,8 +87,8 @@ nook_result nook_bake_job_get_model(nook_bake_job job, const void** bytes, size_
   });
 }
 
-nook_result nook_bake_job_get_report(nook_bake_job job, const char** json) {
-  return api::enter("nook_bake_job_get_report", [&] {
+nook_result nook_bake_job_report(nook_bake_job job, const char** json) {
+  return api::enter("nook_bake_job_report", [&] {
     need(json, "json");
     *json = get(job).file().report.c_str();
   });

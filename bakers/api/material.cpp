@@ -1,12 +1,12 @@
 // Material jobs: how they begin. The rest of their life is in job.cpp.
 #include <nook/nook_bake.h>
 
-#include "api/entry.h"
-#include "api/handles.h"
-#include "api/job_progress.h"
-#include "api/material_bake.h"
-#include "core/descriptors.h"
-#include "material/directions.h"
+#include "bakers/api/entry.h"
+#include "bakers/api/handles.h"
+#include "bakers/job/job_progress.h"
+#include "bakers/job/material_bake.h"
+#include "bakers/material/directions.h"
+#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -53,9 +53,9 @@ nook_result nook_bake_material_start(const nook_bake_material_desc* desc, nook_b
     *out = nullptr;
     const nook_bake_material_desc d =
         read_descriptor(desc, "nook_bake_material_desc_init", first_material_desc, default_material_desc());
-    auto task = std::make_shared<api::MaterialTask>(api::material_task_of(d));
+    auto task = std::make_shared<MaterialTask>(material_task_of(d));
     auto bake = [task](const StageReport& report) { return bake_material(*task, report); };
     *out = new nook_bake_job_s{
-        BakeJob(std::move(bake), d.threads, api::listener_of(d.progress, d.progress_user))};
+        BakeJob(std::move(bake), d.threads, listener_of(d.progress, d.progress_user))};
   });
 }

@@ -3,12 +3,12 @@
 
 #include <limits>
 
-#include "api/entry.h"
-#include "api/pose_arrays.h"
-#include "api/trace_arrays.h"
-#include "api/worker_arena.h"
-#include "core/descriptors.h"
-#include "raytrace/ambient_occlusion.h"
+#include "bakers/api/entry.h"
+#include "bakers/job/pose_arrays.h"
+#include "bakers/job/trace_arrays.h"
+#include "bakers/job/worker_arena.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -41,7 +41,7 @@ nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float* ao, uint
     const nook_bake_trace_desc d =
         read_descriptor(desc, "nook_bake_trace_desc_init", first_trace_desc, default_trace_desc());
     need(ao, "ao");
-    api::need_count("count", count, d.point_count);
+    need_count("count", count, d.point_count);
     if (d.mesh_count) need(d.meshes, "desc.meshes");
     need_trace_settings(d.rays, d.threads, d.origin_offset);
     if (!(d.radius > 0))

@@ -1,4 +1,4 @@
-#include "character/auto_poses.h"
+#include "bakers/character/auto_poses.h"
 
 #include <tbb/parallel_for.h>
 
@@ -7,11 +7,11 @@
 #include <numbers>
 #include <random>
 
-#include "character/initialise.h"
-#include "character/joint_roles.h"
-#include "character/pose_sets.h"
-#include "character/rotation.h"
-#include "character/self_collision.h"
+#include "bakers/character/initialise.h"
+#include "bakers/character/joint_roles.h"
+#include "bakers/character/pose_sets.h"
+#include "bakers/character/rotation.h"
+#include "bakers/character/self_collision.h"
 
 namespace nook::bake {
 namespace {
@@ -43,7 +43,9 @@ struct BodyFrame {
   Vec3 left, up, forward;
 };
 
-Vec3 joint_origin(const Bone& bone) { return {bone.frame_rest.m[3], bone.frame_rest.m[7], bone.frame_rest.m[11]}; }
+Vec3 joint_origin(const Bone& bone) {
+  return {bone.frame_rest.m[3], bone.frame_rest.m[7], bone.frame_rest.m[11]};
+}
 
 BodyFrame body_frame(const SkinnedMesh& mesh, std::span<const Joint> joints) {
   Vec3 sum;
@@ -62,20 +64,22 @@ BodyFrame body_frame(const SkinnedMesh& mesh, std::span<const Joint> joints) {
 
 // What the limbs of one side do in one pose; angles in radians.
 struct LimbPlan {
-  Vec3 arm_direction;     // of the upper arm, body frame axes (left, up, forward), mirrored for the right side
+  Vec3 arm_direction;  // of the upper arm, body frame axes (left, up, forward), mirrored for the right side
   float arm_twist, elbow, hip_flexion, hip_abduction, hip_twist, knee, ankle, toe, curl, thumb;
-  Vec3 elbow_lean;        // random part of the direction to which the elbow bends
+  Vec3 elbow_lean;  // random part of the direction to which the elbow bends
   Vec3 clavicle, hand;
 };
 
 void plan_arm(LimbPlan& plan, Random& random) {
-  // Arms: hanging, reaching forwards, raised to the side or overhead. Elevation from straight down, azimuth from the front.
+  // Arms: hanging, reaching forwards, raised to the side or overhead. Elevation from straight down, azimuth
+  // from the front.
   const float kind = random.uniform();
   float elevation, azimuth;
   if (kind < 0.45f) {
     elevation = std::fabs(12 + 18 * random.normal()) * degree;
     azimuth = random.between(-60, 150) * degree;
-    plan.elbow = std::fabs(random.chance(0.5f) ? 15 + 15 * random.normal() : 60 + 40 * random.normal()) * degree;
+    plan.elbow =
+        std::fabs(random.chance(0.5f) ? 15 + 15 * random.normal() : 60 + 40 * random.normal()) * degree;
   } else if (kind < 0.85f) {
     elevation = (60 + 25 * random.normal()) * degree;
     azimuth = (15 + 35 * random.normal()) * degree;
@@ -118,8 +122,9 @@ LimbPlan plan_limbs(Random& random) {
   plan.toe = random.chance(0.3f) ? random.between(0, 40) * degree : 0;
   // Fingers: open, relaxed or a fist.
   const float grip = random.uniform();
-  plan.curl = grip < 0.25f ? 0.08f * random.normal() : grip < 0.65f ? 0.35f + 0.15f * random.normal()
-                                                                    : 0.85f + 0.15f * random.normal();
+  plan.curl = grip < 0.25f   ? 0.08f * random.normal()
+              : grip < 0.65f ? 0.35f + 0.15f * random.normal()
+                             : 0.85f + 0.15f * random.normal();
   plan.thumb = random.uniform();
   plan.clavicle = (8 * degree) * random.normal3();
   plan.hand = (20 * degree) * random.normal3();
@@ -127,7 +132,7 @@ LimbPlan plan_limbs(Random& random) {
 }
 
 struct BodyPlan {
-  LimbPlan limb[2];      // left, right
+  LimbPlan limb[2];         // left, right
   float bend, lean, twist;  // of the whole spine, radians
   Vec3 neck;
 };
@@ -172,31 +177,37 @@ Vec3 shortest_arc(Vec3 from, Vec3 to) {
 // Turns that a plan asks of a rig, in rest-space axes round each joint's origin, parents first.
 class Rig {
  public:
-  explicit Rig(const SkinnedMesh& mesh) : mesh_(mesh), joints_(joint_roles(mesh)), frame_(body_frame(mesh, joints_)) {
+  explicit Rig(const SkinnedMesh& mesh)
+      : mesh_(mesh), joints_(joint_roles(mesh)), frame_(body_frame(mesh, joints_)) {
     posable_.assign(mesh.bones.size(), 0);
     for (std::uint32_t b : posable_joints(mesh)) posable_[b] = 1;
     spine_count_ = std::max<std::size_t>(
         1, std::size_t(std::count_if(joints_.begin(), joints_.end(),
                                      [](const Joint& j) { return j.role == JointRole::spine; })));
-    neck_count_ =
-        std::max<std::size_t>(1, std::size_t(std::count_if(joints_.begin(), joints_.end(), [](const Joint& j) {
-                                return j.role == JointRole::neck || j.role == JointRole::head;
-                              })));
+    neck_count_ = std::max<std::size_t>(
+        1, std::size_t(std::count_if(joints_.begin(), joints_.end(), [](const Joint& j) {
+          return j.role == JointRole::neck || j.role == JointRole::head;
+        })));
     find_curl_axes();
     find_palms();
   }
 
-  // Lets a hand reach for a place on the body or for the other hand: what hands come near is what shadows of hands and on hands
-  // depend on, and arms that swing freely are seldom there. Of some arms the one that comes nearest is taken.
+  // Lets a hand reach for a place on the body or for the other hand: what hands come near is what shadows of
+  // hands and on hands depend on, and arms that swing freely are seldom there. Of some arms the one that
+  // comes nearest is taken.
   void reach(BodyPlan& plan, Random& random, std::span<const Vec3> vertices) const {
     constexpr int tries = 24;
     const int side = random.chance(0.5f) ? 1 : 0;
     if (palm_[side].bone < 0) return;
     const bool other_hand = palm_[1 - side].bone >= 0 && random.chance(0.3f);
-    const std::size_t vertex = std::min(std::size_t(random.uniform() * float(vertices.size())), vertices.size() - 1);
-    const Place target = other_hand ? palm_[1 - side] : Place{std::int32_t(mesh_.weights[vertex].bone[0]), vertices[vertex]};
+    const std::size_t vertex =
+        std::min(std::size_t(random.uniform() * float(vertices.size())), vertices.size() - 1);
+    const Place target =
+        other_hand ? palm_[1 - side] : Place{std::int32_t(mesh_.weights[vertex].bone[0]), vertices[vertex]};
     // A hand cannot reach for its own arm.
-    if (joints_[std::size_t(target.bone)].side == palm_side(side) && is_arm(joints_[std::size_t(target.bone)].role)) return;
+    if (joints_[std::size_t(target.bone)].side == palm_side(side) &&
+        is_arm(joints_[std::size_t(target.bone)].role))
+      return;
     const Random noise = random;  // what a pose draws must not differ between the tries
     float nearest = INFINITY;
     LimbPlan best = plan.limb[side];
@@ -260,7 +271,9 @@ class Rig {
 
   Vec3 direction_of(std::size_t bone) const {
     const std::int32_t next = joints_[bone].continuation;
-    return next < 0 ? Vec3{} : normalised(joint_origin(mesh_.bones[std::size_t(next)]) - joint_origin(mesh_.bones[bone]));
+    return next < 0
+               ? Vec3{}
+               : normalised(joint_origin(mesh_.bones[std::size_t(next)]) - joint_origin(mesh_.bones[bone]));
   }
 
   // Fingers curl towards the palm: about the axis across them, on the side that the thumb is on.
@@ -300,7 +313,8 @@ class Rig {
       Vec3 bend;
       for (std::size_t b : members) {
         const std::int32_t next = joints_[b].continuation, parent = mesh_.bones[b].parent;
-        if (joints_[b].role != JointRole::finger || next < 0 || joints_[b].segment == 0 || parent < 0) continue;
+        if (joints_[b].role != JointRole::finger || next < 0 || joints_[b].segment == 0 || parent < 0)
+          continue;
         bend += cross(direction_of(std::size_t(parent)), direction_of(b));
       }
       Vec3 axis = across;
@@ -345,8 +359,10 @@ class Rig {
         const float share = 1 / float(neck_count_);
         return share * (plan.neck.x * left + plan.neck.y * up + plan.neck.z * forward);
       }
-      case JointRole::clavicle: return limb.clavicle;
-      case JointRole::hand: return limb.hand;
+      case JointRole::clavicle:
+        return limb.clavicle;
+      case JointRole::hand:
+        return limb.hand;
       case JointRole::finger: {
         static constexpr float reach[3] = {85, 100, 70};
         const float curl = std::clamp(limb.curl + 0.12f * random.normal(), -0.1f, 1.1f);
@@ -354,16 +370,23 @@ class Rig {
         return curl * reach[std::min<int>(joint.segment, 2)] * degree * curl_axis_[b] + spread;
       }
       case JointRole::thumb:
-        return limb.thumb * std::max(0.2f, limb.curl) * 40 * degree * curl_axis_[b] + 0.08f * random.normal3();
+        return limb.thumb * std::max(0.2f, limb.curl) * 40 * degree * curl_axis_[b] +
+               0.08f * random.normal3();
       case JointRole::thigh:
         // Flexion swings the knee forwards: a turn about -left.
-        return -limb.hip_flexion * left + mirror * limb.hip_abduction * forward + mirror * limb.hip_twist * up;
-      case JointRole::calf: return limb.knee * left;
-      case JointRole::foot: return limb.ankle * left + 0.12f * random.normal3();
-      case JointRole::toe: return -limb.toe * left;
+        return -limb.hip_flexion * left + mirror * limb.hip_abduction * forward +
+               mirror * limb.hip_twist * up;
+      case JointRole::calf:
+        return limb.knee * left;
+      case JointRole::foot:
+        return limb.ankle * left + 0.12f * random.normal3();
+      case JointRole::toe:
+        return -limb.toe * left;
       case JointRole::upper_arm:
-      case JointRole::forearm: return {};  // placed by direction, see place_arms
-      case JointRole::pelvis: return {};
+      case JointRole::forearm:
+        return {};  // placed by direction, see place_arms
+      case JointRole::pelvis:
+        return {};
       case JointRole::other: {
         if (!posable_[b] || joint.side == Side::none) return posable_[b] ? 0.06f * random.normal3() : Vec3{};
         return 0.08f * std::exp(0.5f * random.normal()) * random.normal3();
@@ -384,10 +407,12 @@ class Rig {
       const Vec3 wish = normalised(mirror * limb.arm_direction.x * left + limb.arm_direction.y * up +
                                    limb.arm_direction.z * forward);
       const Vec3 origin = joint_origin(mesh_.bones[b]);
-      local[b] = rotation_about(origin, limb.arm_twist * wish) * rotation_about(origin, shortest_arc(rest, wish));
+      local[b] =
+          rotation_about(origin, limb.arm_twist * wish) * rotation_about(origin, shortest_arc(rest, wish));
       const std::int32_t elbow = joints_[b].continuation;
       if (elbow < 0) continue;
-      // The forearm bends forwards, a little up and inwards, seen from the posed upper arm, then back into rest axes.
+      // The forearm bends forwards, a little up and inwards, seen from the posed upper arm, then back into
+      // rest axes.
       const Vec3 lean = forward + 0.5f * up - 0.5f * mirror * left + limb.elbow_lean;
       const Vec3 inward = normalised(lean - dot(lean, wish) * wish);
       const Vec3 axis_posed = normalised(cross(wish, inward));
@@ -419,7 +444,8 @@ std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> ver
   std::vector<Pose> poses(count);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
     Random random(mix_bits(seed ^ mix_bits(i)));
-    // Of a few tries the first that keeps out of itself, or the best: limbs that touch are wanted, limbs inside are not.
+    // Of a few tries the first that keeps out of itself, or the best: limbs that touch are wanted, limbs
+    // inside are not.
     constexpr int tries = 12;
     constexpr float allowed = 0.25f, reaching = 0.4f;
     float best = 0;

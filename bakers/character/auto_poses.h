@@ -1,12 +1,13 @@
-// Plausible whole-body poses without any clip: ranges and couplings of the human body for the joints whose role is known,
-// heavy-tailed small turns for all others, and rejection of poses in which the body runs through itself.
+// Plausible whole-body poses without any clip: ranges and couplings of the human body for the joints whose
+// role is known, heavy-tailed small turns for all others, and rejection of poses in which the body runs
+// through itself.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "import/skinned_mesh.h"
+#include "bakers/import/skinned_mesh.h"
 
 namespace nook::bake {
 

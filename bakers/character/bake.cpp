@@ -1,22 +1,22 @@
-#include "character/bake.h"
+#include "bakers/character/bake.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "character/blend_fit.h"
-#include "character/block_descent.h"
-#include "character/caster_fit.h"
-#include "character/export_model.h"
-#include "character/fit_state.h"
-#include "character/initialise.h"
-#include "character/levels.h"
-#include "character/linear_fit.h"
-#include "character/mini_batch_fit.h"
-#include "character/model_file.h"
-#include "core/failure.h"
-#include "core/place.h"
-#include "import/skinning.h"
+#include "bakers/character/blend_fit.h"
+#include "bakers/character/block_descent.h"
+#include "bakers/character/caster_fit.h"
+#include "bakers/character/export_model.h"
+#include "bakers/character/fit_state.h"
+#include "bakers/character/initialise.h"
+#include "bakers/character/linear_fit.h"
+#include "bakers/character/mini_batch_fit.h"
+#include "bakers/import/skinning.h"
+#include "sdk/src/character/levels.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::bake {
 namespace {

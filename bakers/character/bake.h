@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "character/kernel.h"
-#include "character/model.h"
-#include "import/skinned_mesh.h"
+#include "bakers/import/skinned_mesh.h"
+#include "sdk/src/character/kernel.h"
+#include "sdk/src/character/model.h"
 
 namespace nook::bake {
 
@@ -21,30 +21,32 @@ enum class FitMethod : std::uint8_t {
 struct BakeSettings {
   std::size_t spheres = 130;
   std::size_t key_points = 500;
-  std::size_t entries = 7;     // key points a vertex, at most 8
-  std::uint32_t rays = 16;     // a vertex and pose
-  std::size_t steps = 20000;   // mini-batches (nook), or rounds of block descent (paper)
-  double time_limit_s = 0;     // of the fit; 0: none. A fit that it ends is not reproducible bit for bit
+  std::size_t entries = 7;    // key points a vertex, at most 8
+  std::uint32_t rays = 16;    // a vertex and pose
+  std::size_t steps = 20000;  // mini-batches (nook), or rounds of block descent (paper)
+  double time_limit_s = 0;    // of the fit; 0: none. A fit that it ends is not reproducible bit for bit
   std::uint64_t seed = 1;
   Kernel kernel;
-  bool learn_gamma = false;    // chooses kernel.gamma by held-out error of short fits
+  bool learn_gamma = false;  // chooses kernel.gamma by held-out error of short fits
   FitMethod fit = FitMethod::nook;
 };
 
 enum class BakeStage : std::uint8_t { raytrace, initialise, fit, casters };
 
-// done and total count poses or steps of the stage. Returns false to cancel. Called from worker threads, one call at a time.
+// done and total count poses or steps of the stage. Returns false to cancel. Called from worker threads, one
+// call at a time.
 using BakeProgress = std::function<bool(BakeStage stage, std::size_t done, std::size_t total)>;
 
 struct CurvePoint {
-  double seconds = 0;  // since the fit began
+  double seconds = 0;                      // since the fit began
   double mse_train = 0, mse_held_out = 0;  // on all poses, with the noise of their few rays in it
 };
 
 struct BakeReport {
   double seconds_raytrace = 0, seconds_fit = 0;
   std::size_t iterations = 0, train_poses = 0;
-  // Over all vertices, clamped predictions. On a spread of the fitted poses traced anew with many rays, before and after the fit:
+  // Over all vertices, clamped predictions. On a spread of the fitted poses traced anew with many rays,
+  // before and after the fit:
   double mse_initial = 0, mse_train = 0;
   double noise_floor_mse = 0;  // of those rays
   // On the held-out poses, with the noise of their few rays in it; what the fit is stopped by:
@@ -59,9 +61,9 @@ struct BakeResult {
   BakeReport report;
 };
 
-// Bakes on the given poses. The same settings and seed give the same model on any number of threads, unless the time limit
-// ends the fit. model.recipe is left for the caller. Throws Failure: INVALID_ARGUMENT (settings out of range, no poses, wrong
-// bone count), CANCELLED.
+// Bakes on the given poses. The same settings and seed give the same model on any number of threads, unless
+// the time limit ends the fit. model.recipe is left for the caller. Throws Failure: INVALID_ARGUMENT
+// (settings out of range, no poses, wrong bone count), CANCELLED.
 BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& settings,
                           const BakeProgress& progress = {});
 

@@ -1,16 +1,16 @@
-#include "character/batch_kernels.h"
+#include "bakers/character/batch_kernels.h"
 
 #include <algorithm>
 
-#include "character/clones.h"
-#include "character/mini_batch_fit.h"
+#include "bakers/character/mini_batch_fit.h"
+#include "sdk/src/core/clones.h"
 
 namespace nook::bake {
 
 NOOK_CLONES void linear_layer_gradient(const LinearLayerFit& linear, std::span<const float> vertex_weight,
-                                       const std::uint16_t* const* target, const float* shadow, std::size_t first,
-                                       std::size_t last, float* gradient_shadow, float* gradient_alpha,
-                                       float* gradient_bias) {
+                                       const std::uint16_t* const* target, const float* shadow,
+                                       std::size_t first, std::size_t last, float* gradient_shadow,
+                                       float* gradient_alpha, float* gradient_bias) {
   constexpr std::size_t lanes = batch_poses;
   const std::size_t entries = linear.entries;
   for (std::size_t i = first; i < last; ++i) {

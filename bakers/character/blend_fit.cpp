@@ -1,11 +1,11 @@
-#include "character/blend_fit.h"
+#include "bakers/character/blend_fit.h"
 
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Dense>
 
-#include "character/model_file_packing.h"
-#include "import/skinning.h"
+#include "bakers/import/skinning.h"
+#include "sdk/src/character/model_file_packing.h"
 
 namespace nook::bake {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "character/model.h"
-#include "import/skinned_mesh.h"
+#include "bakers/import/skinned_mesh.h"
+#include "sdk/src/character/model.h"
 
 namespace nook::bake {
 

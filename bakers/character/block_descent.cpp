@@ -1,10 +1,10 @@
-#include "character/block_descent.h"
+#include "bakers/character/block_descent.h"
 
 #include <LBFGS.h>
 
 #include <stdexcept>
 
-#include "character/cached_objective.h"
+#include "bakers/character/cached_objective.h"
 
 namespace nook::bake {
 

@@ -1,4 +1,4 @@
-#include "character/cached_objective.h"
+#include "bakers/character/cached_objective.h"
 
 #include <tbb/parallel_for.h>
 
@@ -8,13 +8,15 @@
 namespace nook::bake {
 namespace {
 
-// Poses of one task; each has sums of its own, added in order afterwards, so that threads do not change the bits.
+// Poses of one task; each has sums of its own, added in order afterwards, so that threads do not change the
+// bits.
 constexpr std::size_t block_poses = 32;
 
-// Runs the non-linear layer forwards over all poses in blocks; `loss` turns a block's shadows (rows x padded) into its error
-// and, in place, into the gradient by them, which then runs backwards.
-double evaluate_blocks(const FitState& state, const TrainingSet& set, std::vector<double>* gradient,
-                       const std::function<double(std::size_t first, std::size_t count, float* shadow)>& loss) {
+// Runs the non-linear layer forwards over all poses in blocks; `loss` turns a block's shadows (rows x padded)
+// into its error and, in place, into the gradient by them, which then runs backwards.
+double evaluate_blocks(
+    const FitState& state, const TrainingSet& set, std::vector<double>* gradient,
+    const std::function<double(std::size_t first, std::size_t count, float* shadow)>& loss) {
   const std::size_t poses = set.fitted(), padded = state.structure.padded_count();
   const std::size_t blocks = (poses + block_poses - 1) / block_poses;
   const NonLinearLayer layer(state.structure);
@@ -77,8 +79,8 @@ CachedObjective cache_linear_layer(const FitState& state, const TrainingSet& set
 double evaluate_cached(const FitState& state, const TrainingSet& set, const CachedObjective& cache,
                        std::vector<double>* gradient) {
   const auto padded = Eigen::Index(state.structure.padded_count());
-  const double quadratic = evaluate_blocks(
-      state, set, gradient, [&](std::size_t first, std::size_t count, float* shadow) {
+  const double quadratic =
+      evaluate_blocks(state, set, gradient, [&](std::size_t first, std::size_t count, float* shadow) {
         const auto rows = Eigen::Index(count);
         Eigen::Map<CachedObjective::RowMatrix> x(shadow, rows, padded);
         const auto b = cache.b.middleRows(Eigen::Index(first), rows);

@@ -1,15 +1,15 @@
-#include "character/caster_fit.h"
+#include "bakers/character/caster_fit.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "character/kernel.h"
-#include "character/model_check.h"
-#include "core/failure.h"
-#include "import/skinning.h"
-#include "raytrace/ambient_occlusion.h"
+#include "bakers/import/skinning.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "sdk/src/character/kernel.h"
+#include "sdk/src/character/model_check.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {
@@ -54,7 +54,8 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
   body.triangle = mesh.triangle;
   double equations = 0;
   for (std::size_t s = 0; s < used; ++s) {
-    if (progress && !progress(s, used)) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while fitting casters");
+    if (progress && !progress(s, used))
+      throw Failure(NOOK_ERROR_CANCELLED, "cancelled while fitting casters");
     const Pose& pose = poses[s * poses.size() / used];
     skin_positions(mesh, pose, body.position);
     const Vec3 centre = transform_point(pose[model.root_bone], model.bounding_centre);
@@ -72,7 +73,8 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
       for (std::size_t h = 0; h < spheres; ++h) {
         const ProxySphere& sphere = model.spheres[h];
         const float inverse_radius = 1 / sphere.radius;
-        const Vec3 d = (transform_point(pose[sphere.bone], sphere.centre) - points[i].position) * inverse_radius;
+        const Vec3 d =
+            (transform_point(pose[sphere.bone], sphere.centre) - points[i].position) * inverse_radius;
         row[Eigen::Index(h)] = double(form_factor_fast(dot(d, points[i].normal), dot(d, d)));
       }
       // Points inside the body see nothing and say nothing about it from outside.

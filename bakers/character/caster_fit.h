@@ -1,12 +1,13 @@
-// How much of each proxy sphere counts when the character darkens something else: weights fitted against ray tracing.
+// How much of each proxy sphere counts when the character darkens something else: weights fitted against ray
+// tracing.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <span>
 
-#include "character/model.h"
-#include "import/skinned_mesh.h"
+#include "bakers/import/skinned_mesh.h"
+#include "sdk/src/character/model.h"
 
 namespace nook::bake {
 
@@ -19,9 +20,11 @@ struct CasterFitSettings {
 
 // Sets caster_weight of every sphere, >= 0: the non-negative least-squares solution of
 //   sum over spheres of caster_weight * form factor = -log(1 - traced occlusion)
-// at points outside the body, relative errors weighed alike near and far. Overlapping spheres share what they cover, so that
-// one character does not darken twice; what several casters add is a sum of the same optical depth.
+// at points outside the body, relative errors weighed alike near and far. Overlapping spheres share what they
+// cover, so that one character does not darken twice; what several casters add is a sum of the same optical
+// depth.
 void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::span<const Pose> poses,
-                        const CasterFitSettings& settings, const std::function<bool(std::size_t, std::size_t)>& progress = {});
+                        const CasterFitSettings& settings,
+                        const std::function<bool(std::size_t, std::size_t)>& progress = {});
 
 }  // namespace nook::bake

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "character/initialise.h"
+#include "bakers/character/initialise.h"
 
 namespace nook::bake {
 

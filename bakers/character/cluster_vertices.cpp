@@ -4,7 +4,7 @@
 #include <queue>
 #include <set>
 
-#include "character/initialise.h"
+#include "bakers/character/initialise.h"
 
 namespace nook::bake {
 namespace {
@@ -40,7 +40,8 @@ float weight_distance2(const std::vector<BoneWeight>& a, const std::vector<BoneW
   return sum;
 }
 
-std::vector<BoneWeight> blend(const std::vector<BoneWeight>& a, float wa, const std::vector<BoneWeight>& b, float wb) {
+std::vector<BoneWeight> blend(const std::vector<BoneWeight>& a, float wa, const std::vector<BoneWeight>& b,
+                              float wb) {
   std::vector<BoneWeight> out;
   std::size_t i = 0, j = 0;
   while (i < a.size() || j < b.size()) {
@@ -76,12 +77,15 @@ float body_size(std::span<const Vec3> positions) {
   return std::max(length(high - low), 1e-6f);
 }
 
-// Pairs of vertices nearer than reach whose weights are near too: parts of one body that share no edge (appendix B).
+// Pairs of vertices nearer than reach whose weights are near too: parts of one body that share no edge
+// (appendix B).
 std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs(const SkinnedMesh& mesh,
-                                                                const std::vector<Cluster>& clusters, float reach) {
+                                                                const std::vector<Cluster>& clusters,
+                                                                float reach) {
   std::map<std::array<int, 3>, std::vector<std::uint32_t>> cells;
   const auto cell = [&](Vec3 p) {
-    return std::array<int, 3>{int(std::floor(p.x / reach)), int(std::floor(p.y / reach)), int(std::floor(p.z / reach))};
+    return std::array<int, 3>{int(std::floor(p.x / reach)), int(std::floor(p.y / reach)),
+                              int(std::floor(p.z / reach))};
   };
   for (std::uint32_t i = 0; i < mesh.vertex_count(); ++i) cells[cell(mesh.position[i])].push_back(i);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;

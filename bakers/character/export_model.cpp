@@ -1,4 +1,4 @@
-#include "character/export_model.h"
+#include "bakers/character/export_model.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "character/fit_state.h"
+#include "bakers/character/fit_state.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

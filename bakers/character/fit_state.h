@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "character/non_linear_layer.h"
-#include "import/skinned_mesh.h"
-#include "raytrace/ambient_occlusion.h"
+#include "bakers/character/non_linear_layer.h"
+#include "bakers/import/skinned_mesh.h"
+#include "bakers/raytrace/ambient_occlusion.h"
 
 namespace nook::bake {
 
@@ -22,7 +22,8 @@ struct TrainingSet {
   std::size_t fitted() const { return poses.size() - held_out; }
 };
 
-// The linear layer while it is fitted: AO = 1 - (sum alpha * shadow + bias), a fixed number of entries a vertex.
+// The linear layer while it is fitted: AO = 1 - (sum alpha * shadow + bias), a fixed number of entries a
+// vertex.
 struct LinearLayerFit {
   std::size_t entries = 0;
   std::vector<std::uint16_t> key_point;  // vertices x entries

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <map>
 
-#include "character/initialise.h"
+#include "bakers/character/initialise.h"
 
 namespace nook::bake {
 
 std::vector<KeyPoint> key_points_of_clusters(const SkinnedMesh& mesh, std::span<const std::uint32_t> cluster,
-                                             std::span<const float> vertex_weight, std::span<const Vec3> normal) {
+                                             std::span<const float> vertex_weight,
+                                             std::span<const Vec3> normal) {
   const std::size_t count = cluster.empty() ? 0 : *std::max_element(cluster.begin(), cluster.end()) + 1;
   std::vector<float> size(count, 0.0f);
   std::vector<KeyPoint> points(count);
@@ -73,11 +74,12 @@ FitState initial_state(const Kernel& kernel, std::span<const InitialSphere> sphe
 }
 
 NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> normal,
-                                              std::span<const KeyPoint> key_points, std::size_t count) {
+                                 std::span<const KeyPoint> key_points, std::size_t count) {
   count = std::min(count, key_points.size());
   NearKeyPoints nearest{std::vector<std::uint16_t>(mesh.vertex_count() * count),
                         std::vector<float>(mesh.vertex_count() * count)};
-  // A turn of the normal by 90 degrees or a full change of bone counts like this many metres, in a body about 1.7 m tall.
+  // A turn of the normal by 90 degrees or a full change of bone counts like this many metres, in a body
+  // about 1.7 m tall.
   constexpr float normal_metres = 0.04f, weight_metres = 0.15f;
   constexpr std::size_t block = 256;
   tbb::parallel_for(std::size_t(0), (mesh.vertex_count() + block - 1) / block, [&](std::size_t b) {

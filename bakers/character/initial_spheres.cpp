@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "character/initialise.h"
+#include "bakers/character/initialise.h"
 
 namespace nook::bake {
 namespace {

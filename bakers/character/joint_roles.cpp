@@ -1,4 +1,4 @@
-#include "character/joint_roles.h"
+#include "bakers/character/joint_roles.h"
 
 #include <cctype>
 #include <initializer_list>
@@ -8,7 +8,8 @@
 namespace nook::bake {
 namespace {
 
-// Lower-case words of a name: split at anything that is no letter or digit, and where a capital follows a small letter.
+// Lower-case words of a name: split at anything that is no letter or digit, and where a capital follows a
+// small letter.
 std::vector<std::string> words_of(std::string_view name) {
   const std::size_t space = name.find_last_of(":|");
   if (space != std::string_view::npos) name.remove_prefix(space + 1);
@@ -16,7 +17,8 @@ std::vector<std::string> words_of(std::string_view name) {
   char before = 0;
   for (char c : name) {
     const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
-    const bool starts = std::isupper(static_cast<unsigned char>(c)) && std::islower(static_cast<unsigned char>(before));
+    const bool starts =
+        std::isupper(static_cast<unsigned char>(c)) && std::islower(static_cast<unsigned char>(before));
     if (!letter || starts) words.emplace_back();
     if (letter || std::isdigit(static_cast<unsigned char>(c)))
       words.back() += char(std::tolower(static_cast<unsigned char>(c)));
@@ -41,8 +43,10 @@ Side side_of(const std::vector<std::string>& words) {
 }
 
 JointRole role_of(const std::string& text, Side side, JointRole parent) {
-  if (contains(text, {"twist", "roll", "leaf", "pole", "ik"}) && !contains(text, {"spike"})) return JointRole::other;
-  const bool facial = contains(text, {"eye", "brow", "mouth", "lip", "cheek", "jaw", "tongue", "nose", "tail", "ear"});
+  if (contains(text, {"twist", "roll", "leaf", "pole", "ik"}) && !contains(text, {"spike"}))
+    return JointRole::other;
+  const bool facial =
+      contains(text, {"eye", "brow", "mouth", "lip", "cheek", "jaw", "tongue", "nose", "tail", "ear"});
   if (facial && !contains(text, {"forearm"})) return JointRole::other;
   if (contains(text, {"thumb", "finger0"})) return JointRole::thumb;
   if (contains(text, {"index", "middle", "ring", "pinky", "little", "finger"})) return JointRole::finger;
@@ -53,7 +57,8 @@ JointRole role_of(const std::string& text, Side side, JointRole parent) {
   if (contains(text, {"forearm", "lowerarm", "elbow"})) return JointRole::forearm;
   if (contains(text, {"upperarm", "uparm"})) return JointRole::upper_arm;
   if (contains(text, {"clavicle", "collar", "shoulder"})) return JointRole::clavicle;
-  if (contains(text, {"hand", "wrist", "palm"})) return parent == JointRole::hand ? JointRole::other : JointRole::hand;
+  if (contains(text, {"hand", "wrist", "palm"}))
+    return parent == JointRole::hand ? JointRole::other : JointRole::hand;
   if (contains(text, {"neck"})) return JointRole::neck;
   if (contains(text, {"head"})) return JointRole::head;
   if (contains(text, {"spine", "chest", "torso", "abdomen", "waist"})) return JointRole::spine;
@@ -74,13 +79,20 @@ JointRole role_of(const std::string& text, Side side, JointRole parent) {
 // The role that continues a limb towards its end.
 JointRole next_role(JointRole role) {
   switch (role) {
-    case JointRole::clavicle: return JointRole::upper_arm;
-    case JointRole::upper_arm: return JointRole::forearm;
-    case JointRole::forearm: return JointRole::hand;
-    case JointRole::thigh: return JointRole::calf;
-    case JointRole::calf: return JointRole::foot;
-    case JointRole::foot: return JointRole::toe;
-    default: return role;  // spines, necks and fingers continue in kind
+    case JointRole::clavicle:
+      return JointRole::upper_arm;
+    case JointRole::upper_arm:
+      return JointRole::forearm;
+    case JointRole::forearm:
+      return JointRole::hand;
+    case JointRole::thigh:
+      return JointRole::calf;
+    case JointRole::calf:
+      return JointRole::foot;
+    case JointRole::foot:
+      return JointRole::toe;
+    default:
+      return role;  // spines, necks and fingers continue in kind
   }
 }
 

@@ -1,10 +1,11 @@
-// What each bone of a rig is for, guessed from names and hierarchy, so that automatic poses can bend knees backwards.
+// What each bone of a rig is for, guessed from names and hierarchy, so that automatic poses can bend knees
+// backwards.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "import/skinned_mesh.h"
+#include "bakers/import/skinned_mesh.h"
 
 namespace nook::bake {
 
@@ -31,12 +32,13 @@ enum class Side : std::uint8_t { none, left, right };
 struct Joint {
   JointRole role = JointRole::other;
   Side side = Side::none;
-  std::uint8_t segment = 0;       // of fingers: 0 at the knuckle, then 1, 2
-  std::int32_t continuation = -1; // the bone that continues the limb (its first child of a later role), -1: none
+  std::uint8_t segment = 0;  // of fingers: 0 at the knuckle, then 1, 2
+  std::int32_t continuation =
+      -1;  // the bone that continues the limb (its first child of a later role), -1: none
 };
 
-// Understands the naming of the common humanoid rigs (Unreal, Rigify, Biped, Mixamo, Unity); what it does not recognise is
-// JointRole::other.
+// Understands the naming of the common humanoid rigs (Unreal, Rigify, Biped, Mixamo, Unity); what it does not
+// recognise is JointRole::other.
 std::vector<Joint> joint_roles(const SkinnedMesh& mesh);
 
 }  // namespace nook::bake

@@ -1,4 +1,4 @@
-#include "character/linear_fit.h"
+#include "bakers/character/linear_fit.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -12,8 +12,8 @@ namespace {
 using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // Least weights of a vertex's anchors, by nearness.
-std::vector<double> anchor_floors(const Candidates& candidates, std::size_t vertex, const LinearFitSettings& settings,
-                                  std::size_t anchors) {
+std::vector<double> anchor_floors(const Candidates& candidates, std::size_t vertex,
+                                  const LinearFitSettings& settings, std::size_t anchors) {
   std::vector<double> floor(anchors, 1.0);
   double total = 0;
   for (std::size_t a = 0; a < anchors; ++a) {
@@ -24,8 +24,8 @@ std::vector<double> anchor_floors(const Candidates& candidates, std::size_t vert
   return floor;
 }
 
-// Non-negative least squares on the chosen key points by an active set: solves freely, drops the most negative weight until
-// none is left. Chosen entries with weight 0 afterwards were dropped.
+// Non-negative least squares on the chosen key points by an active set: solves freely, drops the most
+// negative weight until none is left. Chosen entries with weight 0 afterwards were dropped.
 Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& gram, const Eigen::VectorXd& correlation) {
   const Eigen::Index n = correlation.size();
   std::vector<Eigen::Index> active(static_cast<std::size_t>(n));
@@ -95,9 +95,12 @@ LinearLayerFit fit_linear_layer(std::span<const float> shadows, std::size_t padd
       // The anchors' least weights are taken off the target; what remains is solved with weights >= 0.
       const std::vector<double> floor = anchor_floors(candidates, i, settings, anchors);
       for (std::size_t a = 0; a < anchors; ++a) correlation.col(column) -= floor[a] * gram.col(allowed[a]);
-      const auto is_anchor = [&](Eigen::Index k) { return std::find(allowed, allowed + anchors, k) != allowed + anchors; };
+      const auto is_anchor = [&](Eigen::Index k) {
+        return std::find(allowed, allowed + anchors, k) != allowed + anchors;
+      };
       const auto extra = [&](const std::vector<Eigen::Index>& list) {
-        return std::size_t(std::count_if(list.begin(), list.end(), [&](Eigen::Index k) { return !is_anchor(k); }));
+        return std::size_t(
+            std::count_if(list.begin(), list.end(), [&](Eigen::Index k) { return !is_anchor(k); }));
       };
       while (variance > 1e-8) {
         // The key point that would explain most of what is left, were it added alone.

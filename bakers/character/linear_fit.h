@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "character/fit_state.h"
+#include "bakers/character/fit_state.h"
 
 namespace nook::bake {
 
@@ -17,17 +17,19 @@ struct Candidates {
 };
 
 struct LinearFitSettings {
-  std::size_t entries = 7;        // at most this many key points a vertex
-  double ridge = 1e-4;            // on alpha, relative to the mean variance of the shadows
-  double least_gain = 1e-3;       // an entry must lower the vertex's squared error by this share of its variance
-  // The first `anchors` candidates of a vertex, the key points nearest to it, always take part, with weights of at least
-  // anchor_floor in all, by nearness: what other casters take away is blended from the same entries, and needs near ones.
+  std::size_t entries = 7;   // at most this many key points a vertex
+  double ridge = 1e-4;       // on alpha, relative to the mean variance of the shadows
+  double least_gain = 1e-3;  // an entry must lower the vertex's squared error by this share of its variance
+  // The first `anchors` candidates of a vertex, the key points nearest to it, always take part, with weights
+  // of at least anchor_floor in all, by nearness: what other casters take away is blended from the same
+  // entries, and needs near ones.
   std::size_t anchors = 3;
   double anchor_floor = 0.06;
 };
 
-// Solves for alpha and bias of every vertex over the fitted poses of the set. The Gram matrix of the shadows is shared by all
-// vertices (the paper's caching, slides 55 to 57, seen from the linear layer): a vertex costs no more than its candidates.
+// Solves for alpha and bias of every vertex over the fitted poses of the set. The Gram matrix of the shadows
+// is shared by all vertices (the paper's caching, slides 55 to 57, seen from the linear layer): a vertex
+// costs no more than its candidates.
 LinearLayerFit fit_linear_layer(std::span<const float> shadows, std::size_t padded, const TrainingSet& set,
                                 const Candidates& candidates, const LinearFitSettings& settings);
 

@@ -1,4 +1,4 @@
-#include "character/mini_batch_fit.h"
+#include "bakers/character/mini_batch_fit.h"
 
 #include <tbb/parallel_for.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "character/batch_kernels.h"
+#include "bakers/character/batch_kernels.h"
 
 namespace nook::bake {
 namespace {

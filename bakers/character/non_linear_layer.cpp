@@ -1,8 +1,8 @@
-#include "character/non_linear_layer.h"
+#include "bakers/character/non_linear_layer.h"
 
 #include <cmath>
 
-#include "character/pair_kernels.h"
+#include "bakers/character/pair_kernels.h"
 
 namespace nook::bake {
 namespace {
@@ -12,14 +12,14 @@ constexpr float far_away = 1e6f;
 
 struct BlendedKeyPoint {
   float weight[KeyPoint::max_bones];
-  float root_sum;  // sum of squared roots
+  float root_sum;                      // sum of squared roots
   Vec3 position[KeyPoint::max_bones];  // by each bone
   Vec3 normal[KeyPoint::max_bones];
-  Vec3 blended_normal;                 // before it is made unit length
+  Vec3 blended_normal;  // before it is made unit length
 };
 
-BlendedKeyPoint blend(std::span<const Mat3x4> bones, const std::array<std::uint16_t, KeyPoint::max_bones>& bone,
-                      const float* q) {
+BlendedKeyPoint blend(std::span<const Mat3x4> bones,
+                      const std::array<std::uint16_t, KeyPoint::max_bones>& bone, const float* q) {
   BlendedKeyPoint b;
   b.root_sum = 0;
   for (int j = 0; j < KeyPoint::max_bones; ++j) b.root_sum += q[6 + j] * q[6 + j];
@@ -43,7 +43,9 @@ Vec3 transposed_vector(const Mat3x4& a, Vec3 v) {
           m[2] * v.x + m[6] * v.y + m[10] * v.z};
 }
 
-float uniform_scale(const Mat3x4& a) { return length({a.m[0], a.m[4], a.m[8]}); }
+float uniform_scale(const Mat3x4& a) {
+  return length({a.m[0], a.m[4], a.m[8]});
+}
 
 }  // namespace
 
@@ -54,8 +56,8 @@ LayerWorkspace::LayerWorkspace(const LayerStructure& structure)
       gradient_key_(6 * structure.padded_count()),
       gradient_sum_(structure.padded_count()) {}
 
-void NonLinearLayer::forward(std::span<const Mat3x4> bones, std::span<const float> parameters, LayerWorkspace& workspace,
-                             float* shadow, std::size_t stride) const {
+void NonLinearLayer::forward(std::span<const Mat3x4> bones, std::span<const float> parameters,
+                             LayerWorkspace& workspace, float* shadow, std::size_t stride) const {
   const std::size_t spheres = structure_.sphere_count(), keys = structure_.key_point_count();
   const std::size_t padded = structure_.padded_count();
   for (std::size_t h = 0; h < spheres; ++h) {
@@ -87,13 +89,8 @@ void NonLinearLayer::forward(std::span<const Mat3x4> bones, std::span<const floa
     key[4 * padded + k] = normal.y;
     key[5 * padded + k] = normal.z;
   }
-  const KeyPointArrays arrays{key,
-                              key + padded,
-                              key + 2 * padded,
-                              key + 3 * padded,
-                              key + 4 * padded,
-                              key + 5 * padded,
-                              padded};
+  const KeyPointArrays arrays{
+      key, key + padded, key + 2 * padded, key + 3 * padded, key + 4 * padded, key + 5 * padded, padded};
   float* sum = workspace.sum_.data();
   for (std::size_t k = 0; k < padded; ++k) sum[k] = 1e-20f;
   for (std::size_t h = 0; h < spheres; ++h)
@@ -114,13 +111,8 @@ void NonLinearLayer::backward(std::span<const Mat3x4> bones, std::span<const flo
     workspace.gradient_sum_[k] =
         k < keys ? gradient_shadow[k * stride] * power * std::pow(workspace.sum_[k], power - 1) : 0.0f;
   std::fill(workspace.gradient_key_.begin(), workspace.gradient_key_.end(), 0.0f);
-  const KeyPointArrays arrays{key,
-                              key + padded,
-                              key + 2 * padded,
-                              key + 3 * padded,
-                              key + 4 * padded,
-                              key + 5 * padded,
-                              padded};
+  const KeyPointArrays arrays{
+      key, key + padded, key + 2 * padded, key + 3 * padded, key + 4 * padded, key + 5 * padded, padded};
   const KeyPointGradients gradients{gradient_key,
                                     gradient_key + padded,
                                     gradient_key + 2 * padded,
@@ -128,9 +120,9 @@ void NonLinearLayer::backward(std::span<const Mat3x4> bones, std::span<const flo
                                     gradient_key + 4 * padded,
                                     gradient_key + 5 * padded};
   for (std::size_t h = 0; h < spheres; ++h) {
-    const SphereGradient g = sphere_gradient(structure_.kernel, &workspace.sphere_[5 * h],
-                                             workspace.sphere_[5 * h + 4], arrays, workspace.gradient_sum_.data(),
-                                             gradients);
+    const SphereGradient g =
+        sphere_gradient(structure_.kernel, &workspace.sphere_[5 * h], workspace.sphere_[5 * h + 4], arrays,
+                        workspace.gradient_sum_.data(), gradients);
     const Vec3 rest = transposed_vector(bones[structure_.sphere_bone[h]], {g.x, g.y, g.z});
     float* out = &gradient[structure_.sphere_offset(h)];
     out[0] += rest.x;
@@ -144,7 +136,8 @@ void NonLinearLayer::backward(std::span<const Mat3x4> bones, std::span<const flo
     float* out = &gradient[structure_.key_point_offset(k)];
     const BlendedKeyPoint b = blend(bones, bone, q);
     const Vec3 g_position{gradient_key[k], gradient_key[padded + k], gradient_key[2 * padded + k]};
-    const Vec3 g_unit{gradient_key[3 * padded + k], gradient_key[4 * padded + k], gradient_key[5 * padded + k]};
+    const Vec3 g_unit{gradient_key[3 * padded + k], gradient_key[4 * padded + k],
+                      gradient_key[5 * padded + k]};
     const float norm = length(b.blended_normal);
     const Vec3 unit = normalised(b.blended_normal);
     const Vec3 g_normal = norm > 0 ? (g_unit - dot(g_unit, unit) * unit) * (1 / norm) : Vec3{};
@@ -165,7 +158,8 @@ void NonLinearLayer::backward(std::span<const Mat3x4> bones, std::span<const flo
     out[3] += g_rest_normal.x;
     out[4] += g_rest_normal.y;
     out[5] += g_rest_normal.z;
-    for (int j = 0; j < KeyPoint::max_bones; ++j) out[6 + j] += 2 * q[6 + j] / b.root_sum * (g_weight[j] - mean);
+    for (int j = 0; j < KeyPoint::max_bones; ++j)
+      out[6 + j] += 2 * q[6 + j] / b.root_sum * (g_weight[j] - mean);
   }
 }
 

@@ -1,5 +1,5 @@
-// The non-linear layer of the model with its gradient: bone matrices -> shadow at every key point, and back to the parameters
-// (Le et al. 2019, slides 13 to 20). One pose at a time; callers parallelise over poses.
+// The non-linear layer of the model with its gradient: bone matrices -> shadow at every key point, and back
+// to the parameters (Le et al. 2019, slides 13 to 20). One pose at a time; callers parallelise over poses.
 #pragma once
 
 #include <array>
@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "character/kernel.h"
-#include "character/model.h"
-#include "core/vec.h"
+#include "sdk/src/character/kernel.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake {
 
@@ -26,7 +26,8 @@ struct LayerStructure {
 
   // Parameters in one flat vector, unconstrained, so that any optimiser can walk it:
   //   4 a sphere: centre (rest space, metres), log radius;
-  //   10 a key point: position, normal (any length), 4 roots of bone weights (weight = root^2 / sum of root^2).
+  //   10 a key point: position, normal (any length), 4 roots of bone weights (weight = root^2 / sum of
+  //   root^2).
   std::size_t sphere_offset(std::size_t h) const { return 4 * h; }
   std::size_t key_point_offset(std::size_t k) const { return 4 * sphere_count() + 10 * k; }
   std::size_t parameter_count() const { return 4 * sphere_count() + 10 * key_point_count(); }
@@ -39,10 +40,10 @@ class LayerWorkspace {
 
  private:
   friend class NonLinearLayer;
-  std::vector<float> sphere_;       // 5 arrays: x y z radius inverse_radius
-  std::vector<float> key_;          // position x y z, normal x y z
-  std::vector<float> sum_;          // sum of y^gamma
-  std::vector<float> gradient_key_; // as key_
+  std::vector<float> sphere_;        // 5 arrays: x y z radius inverse_radius
+  std::vector<float> key_;           // position x y z, normal x y z
+  std::vector<float> sum_;           // sum of y^gamma
+  std::vector<float> gradient_key_;  // as key_
   std::vector<float> gradient_sum_;
 };
 
@@ -54,7 +55,8 @@ class NonLinearLayer {
   void forward(std::span<const Mat3x4> bones, std::span<const float> parameters, LayerWorkspace& workspace,
                float* shadow, std::size_t stride = 1) const;
 
-  // Adds d(loss)/d(parameters) to gradient, given d(loss)/d(shadow). forward must have run with the same arguments.
+  // Adds d(loss)/d(parameters) to gradient, given d(loss)/d(shadow). forward must have run with the same
+  // arguments.
   void backward(std::span<const Mat3x4> bones, std::span<const float> parameters, LayerWorkspace& workspace,
                 const float* gradient_shadow, std::size_t stride, std::span<float> gradient) const;
 

@@ -1,8 +1,8 @@
-#include "character/pair_kernels.h"
+#include "bakers/character/pair_kernels.h"
 
 #include <cmath>
 
-#include "character/clones.h"
+#include "sdk/src/core/clones.h"
 
 namespace nook::bake {
 namespace {
@@ -44,9 +44,11 @@ struct NookForm {
   }
 };
 
-// Keeps powers and their slopes finite where rounding leaves nothing. A plain comparison, because fmax asks for the handling
-// of NaNs and stops the compiler from vectorising.
-NOOK_INLINE float at_least(float y) { return y > 1e-9f ? y : 1e-9f; }
+// Keeps powers and their slopes finite where rounding leaves nothing. A plain comparison, because fmax asks
+// for the handling of NaNs and stops the compiler from vectorising.
+NOOK_INLINE float at_least(float y) {
+  return y > 1e-9f ? y : 1e-9f;
+}
 
 // y^gamma and its derivative by y.
 struct Power {
@@ -73,8 +75,8 @@ struct GammaAny {
 };
 
 template <class Form, class Gamma>
-NOOK_INLINE void add_sphere_loop(Gamma gamma, const float centre[3], float inverse_radius, const KeyPointArrays& keys,
-                                 float* __restrict sum) {
+NOOK_INLINE void add_sphere_loop(Gamma gamma, const float centre[3], float inverse_radius,
+                                 const KeyPointArrays& keys, float* __restrict sum) {
   const float ox = centre[0], oy = centre[1], oz = centre[2];
   const float *px = keys.px, *py = keys.py, *pz = keys.pz, *nx = keys.nx, *ny = keys.ny, *nz = keys.nz;
 #pragma omp simd
@@ -94,8 +96,8 @@ NOOK_INLINE SphereGradient sphere_gradient_loop(Gamma gamma, const float centre[
                                                 const KeyPointGradients& out) {
   const float ox = centre[0], oy = centre[1], oz = centre[2];
   const float *px = keys.px, *py = keys.py, *pz = keys.pz, *nx = keys.nx, *ny = keys.ny, *nz = keys.nz;
-  float *__restrict gpx = out.px, *__restrict gpy = out.py, *__restrict gpz = out.pz;
-  float *__restrict gnx = out.nx, *__restrict gny = out.ny, *__restrict gnz = out.nz;
+  float* __restrict gpx = out.px, * __restrict gpy = out.py, * __restrict gpz = out.pz;
+  float* __restrict gnx = out.nx, * __restrict gny = out.ny, * __restrict gnz = out.nz;
   float gx = 0, gy = 0, gz = 0, gr = 0;
 #pragma omp simd reduction(+ : gx, gy, gz, gr)
   for (std::size_t k = 0; k < keys.count; ++k) {
@@ -123,17 +125,18 @@ NOOK_INLINE SphereGradient sphere_gradient_loop(Gamma gamma, const float centre[
   return {gx, gy, gz, gr};
 }
 
-#define NOOK_PAIR_KERNEL(NAME, FORM, GAMMA_TYPE, GAMMA_VALUE)                                                       \
-  NOOK_CLONES void add_##NAME(float gamma, const float* centre, float inverse_radius, const KeyPointArrays& keys,    \
-                              float* sum) {                                                                         \
-    (void)gamma;                                                                                                    \
-    add_sphere_loop<FORM, GAMMA_TYPE>(GAMMA_VALUE, centre, inverse_radius, keys, sum);                              \
-  }                                                                                                                 \
-  NOOK_CLONES SphereGradient gradient_##NAME(float gamma, const float* centre, float inverse_radius,                \
-                                             const KeyPointArrays& keys, const float* gradient_sum,                 \
-                                             const KeyPointGradients& out) {                                        \
-    (void)gamma;                                                                                                    \
-    return sphere_gradient_loop<FORM, GAMMA_TYPE>(GAMMA_VALUE, centre, inverse_radius, keys, gradient_sum, out);    \
+#define NOOK_PAIR_KERNEL(NAME, FORM, GAMMA_TYPE, GAMMA_VALUE)                                              \
+  NOOK_CLONES void add_##NAME(float gamma, const float* centre, float inverse_radius,                      \
+                              const KeyPointArrays& keys, float* sum) {                                    \
+    (void)gamma;                                                                                           \
+    add_sphere_loop<FORM, GAMMA_TYPE>(GAMMA_VALUE, centre, inverse_radius, keys, sum);                     \
+  }                                                                                                        \
+  NOOK_CLONES SphereGradient gradient_##NAME(float gamma, const float* centre, float inverse_radius,       \
+                                             const KeyPointArrays& keys, const float* gradient_sum,        \
+                                             const KeyPointGradients& out) {                               \
+    (void)gamma;                                                                                           \
+    return sphere_gradient_loop<FORM, GAMMA_TYPE>(GAMMA_VALUE, centre, inverse_radius, keys, gradient_sum, \
+                                                  out);                                                    \
   }
 
 NOOK_PAIR_KERNEL(paper_1, PaperForm, Gamma1, Gamma1{})

@@ -1,10 +1,10 @@
-// The inner loops of the non-linear layer: one sphere against all key points, and the gradient. The arithmetic is that of
-// sdk/src/character/kernel.h, kept apart because it carries derivatives.
+// The inner loops of the non-linear layer: one sphere against all key points, and the gradient. The
+// arithmetic is that of sdk/src/character/kernel.h, kept apart because it carries derivatives.
 #pragma once
 
 #include <cstddef>
 
-#include "character/kernel.h"
+#include "sdk/src/character/kernel.h"
 
 namespace nook::bake {
 
@@ -21,10 +21,12 @@ struct SphereGradient {
 };
 
 // Adds y^gamma of one sphere (world centre, metres; inverse radius) to sum.
-void add_sphere(const Kernel& kernel, const float centre[3], float inverse_radius, const KeyPointArrays& keys, float* sum);
+void add_sphere(const Kernel& kernel, const float centre[3], float inverse_radius, const KeyPointArrays& keys,
+                float* sum);
 
 // Given d(loss)/d(sum), adds to the key points' gradients and returns the sphere's.
 SphereGradient sphere_gradient(const Kernel& kernel, const float centre[3], float inverse_radius,
-                               const KeyPointArrays& keys, const float* gradient_sum, const KeyPointGradients& gradient);
+                               const KeyPointArrays& keys, const float* gradient_sum,
+                               const KeyPointGradients& gradient);
 
 }  // namespace nook::bake

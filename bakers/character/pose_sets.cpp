@@ -1,14 +1,15 @@
-#include "character/pose_sets.h"
+#include "bakers/character/pose_sets.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include "character/rotation.h"
+#include "bakers/character/rotation.h"
 
 namespace nook::bake {
 namespace {
 
-// "T-Pose", "t_pose", "TPose", "A-Pose", "Armature|A pose": a name whose letters end in tpose or apose as a word.
+// "T-Pose", "t_pose", "TPose", "A-Pose", "Armature|A pose": a name whose letters end in tpose or apose as a
+// word.
 bool is_reference_pose(const std::string& name) {
   std::string letters;
   for (char c : name) {
@@ -33,8 +34,10 @@ Pose turn_joints(const SkinnedMesh& mesh, std::span<const JointRotation> turns) 
   }
   for (std::size_t b = 0; b < pose.size(); ++b) {
     const std::int32_t parent = mesh.bones[b].parent;
-    if (parent >= 0) pose[b] = turned[b] ? pose[std::size_t(parent)] * local[b] : pose[std::size_t(parent)];
-    else pose[b] = local[b];
+    if (parent >= 0)
+      pose[b] = turned[b] ? pose[std::size_t(parent)] * local[b] : pose[std::size_t(parent)];
+    else
+      pose[b] = local[b];
   }
   return pose;
 }
@@ -45,8 +48,8 @@ std::vector<Pose> clip_poses(const ImportedCharacter& character, std::span<const
   poses.reserve(clips.size() * samples_per_clip);
   for (std::size_t clip : clips)
     for (std::size_t i = 0; i < samples_per_clip; ++i)
-      poses.push_back(sample_clip(character, clip,
-                                  (float(i) + 0.5f) / float(samples_per_clip) * character.clips[clip].duration_s));
+      poses.push_back(sample_clip(
+          character, clip, (float(i) + 0.5f) / float(samples_per_clip) * character.clips[clip].duration_s));
   return poses;
 }
 
@@ -61,7 +64,8 @@ std::vector<std::size_t> motion_clips(const ImportedCharacter& character) {
 
 ClipSplit split_clips(std::span<const std::size_t> clips) {
   ClipSplit split;
-  for (std::size_t i = 0; i < clips.size(); ++i) (i % 2 == 0 ? split.fitted : split.measured).push_back(clips[i]);
+  for (std::size_t i = 0; i < clips.size(); ++i)
+    (i % 2 == 0 ? split.fitted : split.measured).push_back(clips[i]);
   return split;
 }
 
@@ -87,7 +91,8 @@ std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh) {
     std::fill(touches.begin(), touches.end(), char(0));
     for (int s = 0; s < SkinWeights::max_bones; ++s) {
       if (w.weight[s] <= 0) continue;
-      for (std::int32_t b = w.bone[s]; b >= 0 && !touches[std::size_t(b)]; b = mesh.bones[std::size_t(b)].parent)
+      for (std::int32_t b = w.bone[s]; b >= 0 && !touches[std::size_t(b)];
+           b = mesh.bones[std::size_t(b)].parent)
         touches[std::size_t(b)] = 1;
     }
     for (std::size_t b = 0; b < bones; ++b) moved[b] += std::size_t(touches[b]);
@@ -102,7 +107,9 @@ std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh) {
 
 std::vector<Pose> single_joint_poses(const SkinnedMesh& mesh, int steps, float range_radians) {
   std::vector<Pose> poses{Pose(mesh.bones.size())};
-  const auto angle = [&](int i) { return steps > 1 ? range_radians * (2 * float(i) / float(steps - 1) - 1) : 0.0f; };
+  const auto angle = [&](int i) {
+    return steps > 1 ? range_radians * (2 * float(i) / float(steps - 1) - 1) : 0.0f;
+  };
   for (std::uint32_t joint : posable_joints(mesh))
     for (int x = 0; x < steps; ++x)
       for (int y = 0; y < steps; ++y)

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "import/gltf.h"
+#include "bakers/import/gltf.h"
 
 namespace nook::bake {
 
@@ -31,15 +31,15 @@ struct ClipSplit {
   std::vector<std::size_t> fitted, measured;
 };
 ClipSplit split_clips(std::span<const std::size_t> clips);
-// The same with families, so that no two parts of one motion are on both sides: clips whose names are alike up to the first
-// underscore. The clips are in byte order of their names.
+// The same with families, so that no two parts of one motion are on both sides: clips whose names are alike
+// up to the first underscore. The clips are in byte order of their names.
 ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips);
 
 // Joints that move some but not all vertices.
 std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh);
 
-// Each such joint alone on a steps^3 grid of Euler rotations (x, then y, then z about its local axes) over +-range radians
-// (the paper's training set, slide 9). The rest pose is in it once.
+// Each such joint alone on a steps^3 grid of Euler rotations (x, then y, then z about its local axes) over
+// +-range radians (the paper's training set, slide 9). The rest pose is in it once.
 std::vector<Pose> single_joint_poses(const SkinnedMesh& mesh, int steps, float range_radians);
 
 }  // namespace nook::bake

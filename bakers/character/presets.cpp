@@ -1,4 +1,4 @@
-#include "character/presets.h"
+#include "bakers/character/presets.h"
 
 #include <algorithm>
 
@@ -18,7 +18,8 @@ PresetValues preset_values(Preset preset, FitMethod fit) {
       v.single_joint_steps = 3;
       break;
     case Preset::standard:
-      // Few rays on many poses: the noise of a target averages out over the poses, what no pose shows is never learned.
+      // Few rays on many poses: the noise of a target averages out over the poses, what no pose shows is
+      // never learned.
       v.settings.rays = 16;
       v.settings.steps = paper ? 20 : 20000;
       v.auto_poses = 2700;

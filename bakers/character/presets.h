@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "character/bake.h"
+#include "bakers/character/bake.h"
 
 namespace nook::bake {
 

@@ -1,4 +1,4 @@
-#include "character/recipe.h"
+#include "bakers/character/recipe.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -9,10 +9,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "character/auto_poses.h"
-#include "character/pose_sets.h"
-#include "core/failure.h"
-#include "import/skinning.h"
+#include "bakers/character/auto_poses.h"
+#include "bakers/character/pose_sets.h"
+#include "bakers/import/skinning.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

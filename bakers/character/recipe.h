@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "character/bake.h"
-#include "character/presets.h"
-#include "import/gltf.h"
+#include "bakers/character/bake.h"
+#include "bakers/character/presets.h"
+#include "bakers/import/gltf.h"
 
 namespace nook::bake {
 

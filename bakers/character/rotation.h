@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake {
 

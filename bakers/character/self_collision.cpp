@@ -1,4 +1,4 @@
-#include "character/self_collision.h"
+#include "bakers/character/self_collision.h"
 
 #include <algorithm>
 
@@ -20,7 +20,9 @@ bool related(const SkinnedMesh& mesh, std::size_t a, std::size_t b) {
   return false;
 }
 
-float overlap(Vec3 a, float radius_a, Vec3 b, float radius_b) { return radius_a + radius_b - length(a - b); }
+float overlap(Vec3 a, float radius_a, Vec3 b, float radius_b) {
+  return radius_a + radius_b - length(a - b);
+}
 
 }  // namespace
 
@@ -32,8 +34,8 @@ SelfCollision::SelfCollision(const SkinnedMesh& mesh, std::span<const float> ver
     for (std::size_t j = i + 1; j < spheres_.size(); ++j) {
       if (related(mesh, spheres_[i].bone, spheres_[j].bone)) continue;
       pairs_.push_back({std::uint16_t(i), std::uint16_t(j)});
-      rest_overlap_.push_back(
-          std::max(0.0f, overlap(spheres_[i].centre, spheres_[i].radius, spheres_[j].centre, spheres_[j].radius)));
+      rest_overlap_.push_back(std::max(
+          0.0f, overlap(spheres_[i].centre, spheres_[i].radius, spheres_[j].centre, spheres_[j].radius)));
     }
 }
 

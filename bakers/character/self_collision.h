@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "character/initialise.h"
+#include "bakers/character/initialise.h"
 
 namespace nook::bake {
 
@@ -13,8 +13,8 @@ class SelfCollision {
  public:
   SelfCollision(const SkinnedMesh& mesh, std::span<const float> vertex_area);
 
-  // The deepest overlap of two spheres of bones that are not neighbours, beyond their overlap at rest, as a share of the
-  // smaller radius: 0 apart or touching, 1 sunk in by its radius.
+  // The deepest overlap of two spheres of bones that are not neighbours, beyond their overlap at rest, as a
+  // share of the smaller radius: 0 apart or touching, 1 sunk in by its radius.
   float depth(const Pose& pose) const;
 
  private:

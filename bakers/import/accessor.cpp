@@ -1,10 +1,10 @@
-#include "import/accessor.h"
+#include "bakers/import/accessor.h"
 
 #include <algorithm>
 #include <cstring>
 #include <span>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

@@ -1,4 +1,4 @@
-#include "import/affine.h"
+#include "bakers/import/affine.h"
 
 #include <algorithm>
 #include <cmath>

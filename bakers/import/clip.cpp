@@ -1,11 +1,11 @@
-#include "import/clip.h"
+#include "bakers/import/clip.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/failure.h"
-#include "core/place.h"
-#include "import/gltf.h"
+#include "bakers/import/gltf.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::bake {
 namespace {

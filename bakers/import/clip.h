@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "import/node_tree.h"
-#include "import/skinned_mesh.h"
+#include "bakers/import/node_tree.h"
+#include "bakers/import/skinned_mesh.h"
 
 namespace nook::bake {
 

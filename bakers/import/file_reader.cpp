@@ -1,8 +1,8 @@
-#include "import/file_reader.h"
+#include "bakers/import/file_reader.h"
 
 #include <fstream>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {
@@ -57,7 +57,8 @@ tinygltf::FsCallbacks LinkedFileReader::callbacks() {
 // tinygltf asks for every name twice, in the folder given and in the current one, where nothing is to be
 // read.
 bool LinkedFileReader::may_open(const std::string& path) {
-  const std::string prefix = folder_.ends_with('/') ? folder_ : folder_ + "/";
+  std::string prefix = folder_;
+  if (!prefix.ends_with('/')) prefix += '/';
   if (folder_.empty()) {
     fault_ = "external files are not read from memory; put the buffers into the file";
     return false;
@@ -65,26 +66,19 @@ bool LinkedFileReader::may_open(const std::string& path) {
   if (!path.starts_with(prefix)) return false;
   const std::string name = path.substr(prefix.size());
   if (only_ && !only_->contains(name)) return false;
-  const std::string quoted = "\"" + name.substr(0, 120) + "\"";
-  if (linked_ == LinkedFiles::folder && climbs(name)) {
-    fault_ = "names " + quoted + ", outside of its own folder; copy it there, or allow files outside";
+  const auto refuse = [&](const char* why) {
+    fault_ = "names \"";
+    fault_.append(name, 0, 120).append("\", ").append(why);
     return false;
-  }
+  };
+  if (linked_ == LinkedFiles::folder && climbs(name))
+    return refuse("outside of its own folder; copy it there, or allow files outside");
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    fault_ = "names " + quoted + ", which is not there";
-    return false;
-  }
-  if (!std::filesystem::is_regular_file(status)) {
-    fault_ = "names " + quoted + ", which is no regular file";
-    return false;
-  }
+  if (!std::filesystem::exists(status)) return refuse("which is not there");
+  if (!std::filesystem::is_regular_file(status)) return refuse("which is no regular file");
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error || size > left_) {
-    fault_ = "names " + quoted + ", with which its files have more than 2 GiB";
-    return false;
-  }
+  if (error || size > left_) return refuse("with which its files have more than 2 GiB");
   return true;
 }
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "import/gltf_preflight.h"
-#include "import/linked_files.h"
+#include "bakers/import/gltf_preflight.h"
+#include "bakers/import/linked_files.h"
 
 namespace nook::bake {
 

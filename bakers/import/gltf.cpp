@@ -1,4 +1,4 @@
-#include "import/gltf.h"
+#include "bakers/import/gltf.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/failure.h"
-#include "import/accessor.h"
-#include "import/file_reader.h"
-#include "import/gltf_clips.h"
-#include "import/gltf_document.h"
-#include "import/gltf_mesh.h"
-#include "import/skeleton.h"
-#include "import/validate.h"
+#include "bakers/import/accessor.h"
+#include "bakers/import/file_reader.h"
+#include "bakers/import/gltf_clips.h"
+#include "bakers/import/gltf_document.h"
+#include "bakers/import/gltf_mesh.h"
+#include "bakers/import/skeleton.h"
+#include "bakers/import/validate.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "import/clip.h"
-#include "import/linked_files.h"
-#include "import/node_tree.h"
-#include "import/skinned_mesh.h"
+#include "bakers/import/clip.h"
+#include "bakers/import/linked_files.h"
+#include "bakers/import/node_tree.h"
+#include "bakers/import/skinned_mesh.h"
 
 namespace nook::bake {
 

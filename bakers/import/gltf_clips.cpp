@@ -1,12 +1,12 @@
-#include "import/gltf_clips.h"
+#include "bakers/import/gltf_clips.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "core/failure.h"
-#include "import/accessor.h"
-#include "import/unique_names.h"
+#include "bakers/import/accessor.h"
+#include "bakers/import/unique_names.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

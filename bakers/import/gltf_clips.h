@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "import/clip.h"
+#include "bakers/import/clip.h"
 
 namespace nook::bake {
 

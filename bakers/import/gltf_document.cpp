@@ -1,12 +1,12 @@
-#include "import/gltf_document.h"
+#include "bakers/import/gltf_document.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "core/failure.h"
-#include "import/file_reader.h"
-#include "import/gltf_preflight.h"
+#include "bakers/import/file_reader.h"
+#include "bakers/import/gltf_preflight.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

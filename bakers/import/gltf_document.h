@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "import/linked_files.h"
-#include "import/node_tree.h"
+#include "bakers/import/linked_files.h"
+#include "bakers/import/node_tree.h"
 
 namespace nook::bake {
 

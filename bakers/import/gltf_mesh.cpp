@@ -1,14 +1,14 @@
-#include "import/gltf_mesh.h"
+#include "bakers/import/gltf_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "core/failure.h"
-#include "import/accessor.h"
-#include "import/morph_targets.h"
-#include "import/primitive_triangles.h"
-#include "import/validate.h"
+#include "bakers/import/accessor.h"
+#include "bakers/import/morph_targets.h"
+#include "bakers/import/primitive_triangles.h"
+#include "bakers/import/validate.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

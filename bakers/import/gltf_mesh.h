@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "import/skeleton.h"
-#include "import/weld.h"
+#include "bakers/import/skeleton.h"
+#include "bakers/import/weld.h"
 
 namespace nook::bake {
 

@@ -1,4 +1,4 @@
-#include "import/gltf_preflight.h"
+#include "bakers/import/gltf_preflight.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

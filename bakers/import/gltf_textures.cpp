@@ -1,11 +1,11 @@
-#include "import/gltf_textures.h"
+#include "bakers/import/gltf_textures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "core/failure.h"
-#include "import/gltf_preflight.h"
+#include "bakers/import/gltf_preflight.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "import/texture_use.h"
+#include "bakers/import/texture_use.h"
 
 namespace nook::bake {
 

@@ -1,10 +1,10 @@
-#include "import/morph_targets.h"
+#include "bakers/import/morph_targets.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/failure.h"
-#include "import/accessor.h"
+#include "bakers/import/accessor.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 

@@ -1,6 +1,6 @@
-#include "import/node_tree.h"
+#include "bakers/import/node_tree.h"
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 

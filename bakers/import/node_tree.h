@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "import/affine.h"
+#include "bakers/import/affine.h"
 
 namespace nook::bake {
 

@@ -1,4 +1,4 @@
-#include "import/opposite_faces.h"
+#include "bakers/import/opposite_faces.h"
 
 #include <algorithm>
 #include <cmath>

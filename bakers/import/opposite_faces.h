@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake {
 

@@ -1,9 +1,9 @@
-#include "import/primitive_triangles.h"
+#include "bakers/import/primitive_triangles.h"
 
 #include <algorithm>
 
-#include "core/failure.h"
-#include "import/accessor.h"
+#include "bakers/import/accessor.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

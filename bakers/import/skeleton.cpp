@@ -1,13 +1,13 @@
-#include "import/skeleton.h"
+#include "bakers/import/skeleton.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
-#include "core/failure.h"
-#include "import/unique_names.h"
-#include "import/validate.h"
+#include "bakers/import/unique_names.h"
+#include "bakers/import/validate.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

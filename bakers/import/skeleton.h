@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "import/gltf.h"
-#include "import/node_tree.h"
+#include "bakers/import/gltf.h"
+#include "bakers/import/node_tree.h"
 
 namespace nook::bake {
 

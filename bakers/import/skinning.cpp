@@ -1,8 +1,8 @@
-#include "import/skinning.h"
+#include "bakers/import/skinning.h"
 
 #include <algorithm>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "import/skinned_mesh.h"
+#include "bakers/import/skinned_mesh.h"
 
 namespace nook::bake {
 

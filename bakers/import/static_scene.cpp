@@ -1,18 +1,18 @@
-#include "import/static_scene.h"
+#include "bakers/import/static_scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/failure.h"
-#include "core/place.h"
-#include "import/accessor.h"
-#include "import/file_reader.h"
-#include "import/gltf_document.h"
-#include "import/gltf_textures.h"
-#include "import/morph_targets.h"
-#include "import/primitive_triangles.h"
-#include "import/validate.h"
+#include "bakers/import/accessor.h"
+#include "bakers/import/file_reader.h"
+#include "bakers/import/gltf_document.h"
+#include "bakers/import/gltf_textures.h"
+#include "bakers/import/morph_targets.h"
+#include "bakers/import/primitive_triangles.h"
+#include "bakers/import/validate.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::bake {
 namespace {

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "core/vec.h"
-#include "import/linked_files.h"
-#include "import/texture_use.h"
+#include "bakers/import/linked_files.h"
+#include "bakers/import/texture_use.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake {
 

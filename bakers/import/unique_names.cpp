@@ -1,4 +1,4 @@
-#include "import/unique_names.h"
+#include "bakers/import/unique_names.h"
 
 #include <unordered_map>
 #include <unordered_set>

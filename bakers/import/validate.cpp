@@ -1,10 +1,10 @@
-#include "import/validate.h"
+#include "bakers/import/validate.h"
 
 #include <cmath>
 
-#include "core/failure.h"
-#include "core/place.h"
-#include "import/weld.h"
+#include "bakers/import/weld.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::bake {
 namespace {

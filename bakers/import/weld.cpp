@@ -1,4 +1,4 @@
-#include "import/weld.h"
+#include "bakers/import/weld.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -8,9 +8,9 @@
 #include <cstring>
 #include <unordered_map>
 
-#include "core/failure.h"
-#include "import/opposite_faces.h"
-#include "import/validate.h"
+#include "bakers/import/opposite_faces.h"
+#include "bakers/import/validate.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <nook/nook.h>
 
-#include "import/skinned_mesh.h"
+#include "bakers/import/skinned_mesh.h"
 
 namespace nook::bake {
 

@@ -1,4 +1,4 @@
-#include "material/builtin_ranks.h"
+#include "bakers/material/builtin_ranks.h"
 
 namespace nook::bake::material {
 namespace {

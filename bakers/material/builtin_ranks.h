@@ -1,7 +1,7 @@
 // Ranks that suit the built-in meso-structures.
 #pragma once
 
-#include "material/compression.h"
+#include "bakers/material/compression.h"
 
 namespace nook::bake::material {
 

@@ -1,15 +1,15 @@
-#include "material/compression.h"
+#include "bakers/material/compression.h"
 
 #include <algorithm>
 
-#include "core/failure.h"
-#include "material/check.h"
-#include "material/signed_distance.h"
-#include "material/view_spline.h"
-#include "tensor/nsvd.h"
-#include "tensor/rank_choice.h"
-#include "tensor/resample.h"
-#include "tensor/seed_clusters.h"
+#include "bakers/material/signed_distance.h"
+#include "bakers/material/view_spline.h"
+#include "bakers/tensor/nsvd.h"
+#include "bakers/tensor/rank_choice.h"
+#include "bakers/tensor/resample.h"
+#include "bakers/tensor/seed_clusters.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/material/check.h"
 
 namespace nook::bake::material {
 namespace {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "material/material.h"
-#include "material/raw_material.h"
-#include "tensor/clustered_fit.h"
+#include "bakers/material/raw_material.h"
+#include "bakers/tensor/clustered_fit.h"
+#include "sdk/src/material/material.h"
 
 namespace nook::bake::material {
 

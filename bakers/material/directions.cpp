@@ -1,9 +1,9 @@
-#include "material/directions.h"
+#include "bakers/material/directions.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::material {
 

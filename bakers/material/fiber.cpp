@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "material/tube.h"
-#include "raytrace/hemisphere.h"
+#include "bakers/material/tube.h"
+#include "bakers/raytrace/hemisphere.h"
 
 namespace nook::bake::material {
 namespace {

@@ -1,10 +1,10 @@
-#include "material/fill_gaps.h"
+#include "bakers/material/fill_gaps.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::material {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "material/raw_material.h"
+#include "bakers/material/raw_material.h"
 
 namespace nook::bake::material {
 

@@ -1,4 +1,4 @@
-#include "material/isosurface.h"
+#include "bakers/material/isosurface.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,6 +1,6 @@
-#include "material/meso_surface.h"
+#include "bakers/material/meso_surface.h"
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::material {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake::material {
 

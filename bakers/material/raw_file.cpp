@@ -1,12 +1,12 @@
-#include "material/raw_file.h"
+#include "bakers/material/raw_file.h"
 
 #include <tbb/parallel_for.h>
 
 #include <atomic>
 #include <cmath>
 
-#include "core/failure.h"
-#include "core/half.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/half.h"
 
 namespace nook::bake::material {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <span>
 
-#include "core/container.h"
-#include "material/raw_material.h"
+#include "bakers/material/raw_material.h"
+#include "sdk/src/core/container.h"
 
 namespace nook::bake::material {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake::material {
 

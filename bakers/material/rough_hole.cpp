@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "material/isosurface.h"
-#include "material/tile_noise.h"
-#include "raytrace/hemisphere.h"
+#include "bakers/material/isosurface.h"
+#include "bakers/material/tile_noise.h"
+#include "bakers/raytrace/hemisphere.h"
 
 namespace nook::bake::material {
 namespace {

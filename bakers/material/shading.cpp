@@ -1,4 +1,4 @@
-#include "material/shading.h"
+#include "bakers/material/shading.h"
 
 #include <tbb/parallel_for.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "raytrace/hemisphere.h"
-#include "raytrace/ray_scene.h"
+#include "bakers/raytrace/hemisphere.h"
+#include "bakers/raytrace/ray_scene.h"
 
 namespace nook::bake::material {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "material/tiled_scene.h"
+#include "bakers/material/tiled_scene.h"
 
 namespace nook::bake::material {
 

@@ -1,4 +1,4 @@
-#include "material/signed_distance.h"
+#include "bakers/material/signed_distance.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,9 +1,9 @@
-#include "material/tile_noise.h"
+#include "bakers/material/tile_noise.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "raytrace/hemisphere.h"
+#include "bakers/raytrace/hemisphere.h"
 
 namespace nook::bake::material {
 namespace {

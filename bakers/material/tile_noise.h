@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake::material {
 

@@ -1,10 +1,10 @@
-#include "material/tiled_scene.h"
+#include "bakers/material/tiled_scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "raytrace/ray_scene.h"
+#include "bakers/raytrace/ray_scene.h"
 
 namespace nook::bake::material {
 namespace {

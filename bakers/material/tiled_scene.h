@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "material/meso_surface.h"
-#include "raytrace/embree.h"
+#include "bakers/material/meso_surface.h"
+#include "bakers/raytrace/embree.h"
 
 namespace nook::bake::material {
 

@@ -1,4 +1,4 @@
-#include "material/trace_material.h"
+#include "bakers/material/trace_material.h"
 
 #include <tbb/parallel_for.h>
 
@@ -6,11 +6,11 @@
 #include <mutex>
 #include <span>
 
-#include "core/failure.h"
-#include "core/half.h"
-#include "material/fill_gaps.h"
-#include "material/shading.h"
-#include "raytrace/ray_scene.h"
+#include "bakers/material/fill_gaps.h"
+#include "bakers/material/shading.h"
+#include "bakers/raytrace/ray_scene.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/half.h"
 
 namespace nook::bake::material {
 namespace {

@@ -1,9 +1,9 @@
 // Ray traces a meso-surface into a BTF and a VOTF.
 #pragma once
 
-#include "material/meso_surface.h"
-#include "material/raw_material.h"
-#include "raytrace/ambient_occlusion.h"
+#include "bakers/material/meso_surface.h"
+#include "bakers/material/raw_material.h"
+#include "bakers/raytrace/ambient_occlusion.h"
 
 namespace nook::bake::material {
 

@@ -1,4 +1,4 @@
-#include "material/tube.h"
+#include "bakers/material/tube.h"
 
 #include <cmath>
 #include <numbers>

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "material/meso_surface.h"
+#include "bakers/material/meso_surface.h"
 
 namespace nook::bake::material {
 

@@ -1,11 +1,11 @@
-#include "material/view_spline.h"
+#include "bakers/material/view_spline.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "material/parabolic.h"
-#include "tensor/blocks.h"
+#include "bakers/tensor/blocks.h"
+#include "sdk/src/material/parabolic.h"
 
 namespace nook::bake::material {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/vec.h"
-#include "tensor/tensor.h"
+#include "bakers/tensor/tensor.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake::material {
 

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/failure.h"
-#include "material/tube.h"
-#include "raytrace/hemisphere.h"
+#include "bakers/material/tube.h"
+#include "bakers/raytrace/hemisphere.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::material {
 

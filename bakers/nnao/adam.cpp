@@ -1,4 +1,4 @@
-#include "nnao/adam.h"
+#include "bakers/nnao/adam.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "nnao/cameras.h"
+#include "bakers/nnao/cameras.h"
 
 #include <algorithm>
 

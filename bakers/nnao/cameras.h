@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "nnao/evaluate.h"
-#include "nnao/scene_families.h"
+#include "bakers/nnao/scene_families.h"
+#include "sdk/src/nnao/evaluate.h"
 
 namespace nook::bake::nnao {
 

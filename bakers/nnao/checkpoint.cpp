@@ -1,11 +1,11 @@
-#include "nnao/checkpoint.h"
+#include "bakers/nnao/checkpoint.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <cmath>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::nnao {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/container.h"
-#include "nnao/training.h"
+#include "bakers/nnao/training.h"
+#include "sdk/src/core/container.h"
 
 namespace nook::bake::nnao {
 

@@ -1,4 +1,4 @@
-#include "nnao/dataset.h"
+#include "bakers/nnao/dataset.h"
 
 #include <tbb/parallel_for.h>
 
@@ -6,8 +6,8 @@
 #include <atomic>
 #include <mutex>
 
-#include "core/failure.h"
-#include "raytrace/ambient_occlusion.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::nnao {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "nnao/cameras.h"
+#include "bakers/nnao/cameras.h"
 
 namespace nook::bake::nnao {
 

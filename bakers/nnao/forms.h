@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "nnao/training.h"
+#include "bakers/nnao/training.h"
 
 namespace nook::bake::nnao {
 

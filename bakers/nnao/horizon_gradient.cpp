@@ -1,4 +1,4 @@
-#include "nnao/horizon_gradient.h"
+#include "bakers/nnao/horizon_gradient.h"
 
 namespace nook::bake::nnao {
 namespace {

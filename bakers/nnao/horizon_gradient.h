@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "nnao/dataset.h"
-#include "nnao/lanes.h"
-#include "nnao/taps.h"
+#include "bakers/nnao/dataset.h"
+#include "bakers/nnao/lanes.h"
+#include "sdk/src/nnao/taps.h"
 
 namespace nook::bake::nnao {
 

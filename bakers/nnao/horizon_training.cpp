@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "core/failure.h"
-#include "nnao/forms.h"
-#include "nnao/horizon_gradient.h"
-#include "nnao/layers.h"
+#include "bakers/nnao/forms.h"
+#include "bakers/nnao/horizon_gradient.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/nnao/layers.h"
 
 namespace nook::bake::nnao {
 namespace {

@@ -1,8 +1,8 @@
 // The layers of network.h forwards and backwards, on one sample (float) or sixteen side by side (Lanes).
 #pragma once
 
-#include "character/clones.h"
-#include "core/aligned_array.h"
+#include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/clones.h"
 
 namespace nook::bake::nnao {
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <cstring>
 
-#include "nnao/forms.h"
-#include "nnao/lanes.h"
-#include "nnao/layers.h"
+#include "bakers/nnao/forms.h"
+#include "bakers/nnao/lanes.h"
+#include "sdk/src/nnao/layers.h"
 
 namespace nook::bake::nnao {
 namespace {

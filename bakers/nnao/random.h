@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "raytrace/hemisphere.h"
+#include "bakers/raytrace/hemisphere.h"
 
 namespace nook::bake::nnao {
 

@@ -1,7 +1,7 @@
 #include <array>
 #include <vector>
 
-#include "nnao/scene_families.h"
+#include "bakers/nnao/scene_families.h"
 
 namespace nook::bake::nnao {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "nnao/solids.h"
+#include "bakers/nnao/solids.h"
 
 namespace nook::bake::nnao {
 

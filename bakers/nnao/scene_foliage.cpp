@@ -1,4 +1,4 @@
-#include "nnao/scene_families.h"
+#include "bakers/nnao/scene_families.h"
 
 namespace nook::bake::nnao {
 namespace {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "nnao/scene_families.h"
+#include "bakers/nnao/scene_families.h"
 
 namespace nook::bake::nnao {
 namespace {

@@ -1,4 +1,4 @@
-#include "nnao/solids.h"
+#include "bakers/nnao/solids.h"
 
 #include <numbers>
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "core/vec.h"
-#include "nnao/random.h"
-#include "raytrace/ray_scene.h"
+#include "bakers/nnao/random.h"
+#include "bakers/raytrace/ray_scene.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake::nnao {
 

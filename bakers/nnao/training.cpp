@@ -1,13 +1,13 @@
-#include "nnao/training.h"
+#include "bakers/nnao/training.h"
 
 #include <algorithm>
 #include <numbers>
 #include <numeric>
 
-#include "core/failure.h"
-#include "nnao/forms.h"
-#include "nnao/network_file.h"
-#include "nnao/validation.h"
+#include "bakers/nnao/forms.h"
+#include "bakers/nnao/validation.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/nnao/network_file.h"
 
 namespace nook::bake::nnao {
 namespace {

@@ -6,9 +6,9 @@
 #include <functional>
 #include <vector>
 
-#include "nnao/adam.h"
-#include "nnao/dataset.h"
-#include "nnao/network.h"
+#include "bakers/nnao/adam.h"
+#include "bakers/nnao/dataset.h"
+#include "sdk/src/nnao/network.h"
 
 namespace nook::bake::nnao {
 

@@ -1,4 +1,4 @@
-#include "nnao/validation.h"
+#include "bakers/nnao/validation.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "nnao/evaluate.h"
+#include "sdk/src/nnao/evaluate.h"
 
 namespace nook::bake::nnao {
 namespace {

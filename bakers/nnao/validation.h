@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "nnao/dataset.h"
-#include "nnao/network.h"
+#include "bakers/nnao/dataset.h"
+#include "sdk/src/nnao/network.h"
 
 namespace nook::bake::nnao {
 

@@ -1,13 +1,13 @@
-#include "probe/grid_bake.h"
+#include "bakers/probe/grid_bake.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/failure.h"
-#include "probe/inside_probes.h"
-#include "probe/map_samples.h"
+#include "bakers/probe/inside_probes.h"
+#include "bakers/probe/map_samples.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::probe {
 namespace {

@@ -7,9 +7,9 @@
 #include <memory_resource>
 #include <vector>
 
-#include "probe/fit.h"
-#include "probe/probe.h"
-#include "raytrace/path_tracer.h"
+#include "bakers/raytrace/path_tracer.h"
+#include "sdk/src/probe/fit.h"
+#include "sdk/src/probe/probe.h"
 
 namespace nook::bake::probe {
 

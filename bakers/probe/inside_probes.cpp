@@ -1,4 +1,4 @@
-#include "probe/inside_probes.h"
+#include "bakers/probe/inside_probes.h"
 
 #include <tbb/parallel_for.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "probe/axes.h"
+#include "sdk/src/probe/axes.h"
 
 namespace nook::bake::probe {
 namespace {

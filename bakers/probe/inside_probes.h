@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "probe/probe.h"
-#include "raytrace/lit_scene.h"
+#include "bakers/raytrace/lit_scene.h"
+#include "sdk/src/probe/probe.h"
 
 namespace nook::bake::probe {
 

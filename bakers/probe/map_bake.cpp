@@ -1,8 +1,8 @@
-#include "probe/map_bake.h"
+#include "bakers/probe/map_bake.h"
 
 #include <algorithm>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::probe {
 

@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "probe/fit.h"
-#include "probe/map_samples.h"
-#include "raytrace/environment.h"
+#include "bakers/probe/map_samples.h"
+#include "bakers/raytrace/environment.h"
+#include "sdk/src/probe/fit.h"
 
 namespace nook::bake::probe {
 

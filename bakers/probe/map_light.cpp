@@ -1,4 +1,4 @@
-#include "probe/map_light.h"
+#include "bakers/probe/map_light.h"
 
 #include <tbb/parallel_for.h>
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "probe/basis.h"
-#include "raytrace/environment.h"
+#include "bakers/raytrace/environment.h"
+#include "sdk/src/probe/basis.h"
 
 namespace nook::bake::probe {
 

@@ -1,4 +1,4 @@
-#include "probe/map_samples.h"
+#include "bakers/probe/map_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "raytrace/hemisphere.h"
-#include "raytrace/path_tracer.h"
+#include "bakers/raytrace/hemisphere.h"
+#include "bakers/raytrace/path_tracer.h"
 
 namespace nook::bake::probe {
 namespace {

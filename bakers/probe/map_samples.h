@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "probe/fit.h"
-#include "probe/map_light.h"
-#include "raytrace/environment.h"
+#include "bakers/probe/map_light.h"
+#include "bakers/raytrace/environment.h"
+#include "sdk/src/probe/fit.h"
 
 namespace nook::bake::probe {
 

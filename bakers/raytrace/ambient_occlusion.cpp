@@ -1,4 +1,4 @@
-#include "raytrace/ambient_occlusion.h"
+#include "bakers/raytrace/ambient_occlusion.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -9,9 +9,9 @@
 #include <cmath>
 #include <mutex>
 
-#include "core/failure.h"
-#include "import/skinning.h"
-#include "raytrace/embree.h"
+#include "bakers/import/skinning.h"
+#include "bakers/raytrace/embree.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

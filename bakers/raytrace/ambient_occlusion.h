@@ -1,5 +1,5 @@
-// Ray-traced ambient occlusion: the ground truth of everything that Nook claims. Cosine-weighted visibility over the
-// hemisphere round a normal, both triangle sides occlude, 1 is open.
+// Ray-traced ambient occlusion: the ground truth of everything that Nook claims. Cosine-weighted visibility
+// over the hemisphere round a normal, both triangle sides occlude, 1 is open.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "core/vec.h"
-#include "import/skinned_mesh.h"
-#include "raytrace/hemisphere.h"
-#include "raytrace/ray_scene.h"
+#include "bakers/import/skinned_mesh.h"
+#include "bakers/raytrace/hemisphere.h"
+#include "bakers/raytrace/ray_scene.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake {
 
@@ -24,21 +24,23 @@ struct Receivers {
 };
 
 struct AoSettings {
-  std::uint32_t rays = 64;                                 // per point
+  std::uint32_t rays = 64;  // per point
   std::uint64_t seed = 1;
-  float radius = std::numeric_limits<float>::infinity();   // metres; longer rays count as open
-  float origin_offset = 0;                                 // metres along the normal
+  float radius = std::numeric_limits<float>::infinity();  // metres; longer rays count as open
+  float origin_offset = 0;                                // metres along the normal
 };
 
-// AO of every receiver against one soup; threads work on blocks of receivers, the result does not depend on their number.
-std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers, const AoSettings& settings);
+// AO of every receiver against one soup; threads work on blocks of receivers, the result does not depend on
+// their number.
+std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers,
+                            const AoSettings& settings);
 std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings);
 
 // Returns false to stop; called from any worker thread, one call at a time.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// AO targets of a character: row-major poses x vertices, 16-bit fixed point (value / 65535), half the size of floats at a
-// quantum far below the ray noise.
+// AO targets of a character: row-major poses x vertices, 16-bit fixed point (value / 65535), half the size of
+// floats at a quantum far below the ray noise.
 struct AoTargets {
   std::size_t vertex_count = 0;
   std::vector<std::uint16_t> value;
@@ -49,13 +51,13 @@ struct AoTargets {
   static constexpr float scale = 1.0f / 65535.0f;
 };
 
-// Poses are distributed over all threads, each with a BVH of its own; the same seed gives the same targets on any number of
-// threads. Throws Failure(NOOK_ERROR_CANCELLED) when progress returns false.
-AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
-                             const Progress& progress = {});
+// Poses are distributed over all threads, each with a BVH of its own; the same seed gives the same targets on
+// any number of threads. Throws Failure(NOOK_ERROR_CANCELLED) when progress returns false.
+AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays,
+                             std::uint64_t seed, const Progress& progress = {});
 
-// The expected squared error of such targets: half the mean squared difference to a second, independent tracing of a few of
-// the poses.
+// The expected squared error of such targets: half the mean squared difference to a second, independent
+// tracing of a few of the poses.
 double measure_noise_floor(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
                            std::uint32_t rays, std::uint64_t seed);
 

@@ -1,10 +1,10 @@
-#include "raytrace/environment.h"
+#include "bakers/raytrace/environment.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

@@ -1,4 +1,4 @@
-#include "raytrace/hemisphere.h"
+#include "bakers/raytrace/hemisphere.h"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
-#include "raytrace/lit_scene.h"
+#include "bakers/raytrace/lit_scene.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/spherical_gaussian.h"
+#include "sdk/src/core/spherical_gaussian.h"
 
 namespace nook::bake {
 

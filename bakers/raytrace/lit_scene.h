@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "import/static_scene.h"
-#include "raytrace/environment.h"
-#include "raytrace/ray_scene.h"
-#include "raytrace/texture.h"
+#include "bakers/import/static_scene.h"
+#include "bakers/raytrace/environment.h"
+#include "bakers/raytrace/ray_scene.h"
+#include "bakers/raytrace/texture.h"
 
 namespace nook::bake {
 

@@ -1,4 +1,4 @@
-#include "raytrace/path_tracer.h"
+#include "bakers/raytrace/path_tracer.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -9,8 +9,8 @@
 #include <mutex>
 #include <numbers>
 
-#include "core/failure.h"
-#include "core/spherical_gaussian.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/spherical_gaussian.h"
 
 namespace nook::bake {
 namespace {

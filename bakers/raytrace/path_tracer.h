@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "raytrace/ambient_occlusion.h"
-#include "raytrace/lit_scene.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "bakers/raytrace/lit_scene.h"
 
 namespace nook::bake {
 

@@ -1,4 +1,4 @@
-#include "raytrace/ray_scene.h"
+#include "bakers/raytrace/ray_scene.h"
 
 #include <cmath>
 #include <cstring>

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "core/vec.h"
-#include "raytrace/embree.h"
+#include "bakers/raytrace/embree.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake {
 

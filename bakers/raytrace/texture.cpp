@@ -1,9 +1,9 @@
-#include "raytrace/texture.h"
+#include "bakers/raytrace/texture.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/vec.h"
-#include "import/texture_use.h"
+#include "bakers/import/texture_use.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake {
 

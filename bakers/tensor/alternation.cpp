@@ -1,10 +1,10 @@
-#include "tensor/alternation.h"
+#include "bakers/tensor/alternation.h"
 
 #include <algorithm>
 
-#include "core/failure.h"
-#include "tensor/gram.h"
-#include "tensor/mode_product.h"
+#include "bakers/tensor/gram.h"
+#include "bakers/tensor/mode_product.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 namespace {

@@ -1,7 +1,7 @@
 // The alternating least squares of N-SVD, from bases that are given.
 #pragma once
 
-#include "tensor/nsvd.h"
+#include "bakers/tensor/nsvd.h"
 
 namespace nook::bake::tensor {
 

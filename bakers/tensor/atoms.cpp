@@ -1,11 +1,11 @@
-#include "tensor/atoms.h"
+#include "bakers/tensor/atoms.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "tensor/gram.h"
-#include "tensor/mode_product.h"
+#include "bakers/tensor/gram.h"
+#include "bakers/tensor/mode_product.h"
 
 namespace nook::bake::tensor {
 namespace {

@@ -1,8 +1,8 @@
 // The dual bases of clusters and the atoms that they stand for.
 #pragma once
 
-#include "tensor/clustered_fit.h"
-#include "tensor/mixture_search.h"
+#include "bakers/tensor/clustered_fit.h"
+#include "bakers/tensor/mixture_search.h"
 
 namespace nook::bake::tensor {
 

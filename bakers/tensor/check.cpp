@@ -1,9 +1,9 @@
-#include "tensor/check.h"
+#include "bakers/tensor/check.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 namespace {

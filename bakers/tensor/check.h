@@ -1,7 +1,7 @@
 // Settings that do not fit, named.
 #pragma once
 
-#include "tensor/clustered_fit.h"
+#include "bakers/tensor/clustered_fit.h"
 
 namespace nook::bake::tensor {
 

@@ -1,7 +1,7 @@
-#include "tensor/clustered_fit.h"
+#include "bakers/tensor/clustered_fit.h"
 
-#include "core/failure.h"
-#include "tensor/mode_product.h"
+#include "bakers/tensor/mode_product.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 

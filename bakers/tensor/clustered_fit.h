@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "tensor/nsvd.h"
+#include "bakers/tensor/nsvd.h"
 
 namespace nook::bake::tensor {
 

@@ -1,13 +1,13 @@
-#include "tensor/clustering_stage.h"
+#include "bakers/tensor/clustering_stage.h"
 
 #include <Eigen/SVD>
 #include <algorithm>
 
-#include "tensor/atoms.h"
-#include "tensor/blocks.h"
-#include "tensor/empty_clusters.h"
-#include "tensor/gram.h"
-#include "tensor/mode_product.h"
+#include "bakers/tensor/atoms.h"
+#include "bakers/tensor/blocks.h"
+#include "bakers/tensor/empty_clusters.h"
+#include "bakers/tensor/gram.h"
+#include "bakers/tensor/mode_product.h"
 
 namespace nook::bake::tensor {
 namespace {

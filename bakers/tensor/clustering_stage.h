@@ -1,7 +1,7 @@
 // The clustering stage of Algorithm 1.
 #pragma once
 
-#include "tensor/working_fit.h"
+#include "bakers/tensor/working_fit.h"
 
 namespace nook::bake::tensor {
 

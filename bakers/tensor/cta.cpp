@@ -1,9 +1,9 @@
-#include "core/failure.h"
-#include "tensor/atoms.h"
-#include "tensor/empty_clusters.h"
-#include "tensor/iteration.h"
-#include "tensor/mode_product.h"
-#include "tensor/progress.h"
+#include "bakers/tensor/atoms.h"
+#include "bakers/tensor/empty_clusters.h"
+#include "bakers/tensor/iteration.h"
+#include "bakers/tensor/mode_product.h"
+#include "bakers/tensor/progress.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 namespace {

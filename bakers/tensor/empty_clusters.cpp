@@ -1,4 +1,4 @@
-#include "tensor/empty_clusters.h"
+#include "bakers/tensor/empty_clusters.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Modes with one basis for all clusters (the paper's 5.2).
 #pragma once
 
-#include "tensor/clustered_fit.h"
+#include "bakers/tensor/clustered_fit.h"
 
 namespace nook::bake::tensor {
 

@@ -1,10 +1,10 @@
-#include "tensor/gram.h"
+#include "bakers/tensor/gram.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "core/failure.h"
-#include "tensor/blocks.h"
+#include "bakers/tensor/blocks.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 namespace {

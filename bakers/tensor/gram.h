@@ -1,7 +1,7 @@
 // Inner products of sub-tensors.
 #pragma once
 
-#include "tensor/tensor.h"
+#include "bakers/tensor/tensor.h"
 
 namespace nook::bake::tensor {
 

@@ -1,10 +1,10 @@
-#include "tensor/iteration.h"
+#include "bakers/tensor/iteration.h"
 
 #include <sys/resource.h>
 
 #include <utility>
 
-#include "tensor/check.h"
+#include "bakers/tensor/check.h"
 
 namespace nook::bake::tensor {
 namespace {

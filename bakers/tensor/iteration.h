@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "tensor/working_fit.h"
+#include "bakers/tensor/working_fit.h"
 
 namespace nook::bake::tensor {
 

@@ -1,6 +1,6 @@
-#include "tensor/clustering_stage.h"
-#include "tensor/iteration.h"
-#include "tensor/update_stage.h"
+#include "bakers/tensor/clustering_stage.h"
+#include "bakers/tensor/iteration.h"
+#include "bakers/tensor/update_stage.h"
 
 namespace nook::bake::tensor {
 

@@ -1,4 +1,4 @@
-#include "tensor/mapped_tensor.h"
+#include "bakers/tensor/mapped_tensor.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tensor/tensor.h"
+#include "bakers/tensor/tensor.h"
 
 namespace nook::bake::tensor {
 

@@ -1,4 +1,4 @@
-#include "tensor/mixture_search.h"
+#include "bakers/tensor/mixture_search.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tensor/clustered_fit.h"
+#include "bakers/tensor/clustered_fit.h"
 
 namespace nook::bake::tensor {
 

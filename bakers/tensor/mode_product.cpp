@@ -1,10 +1,10 @@
-#include "tensor/mode_product.h"
+#include "bakers/tensor/mode_product.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "core/failure.h"
-#include "tensor/blocks.h"
+#include "bakers/tensor/blocks.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 namespace {

@@ -1,7 +1,7 @@
 // Mode products, equations (2) and (3).
 #pragma once
 
-#include "tensor/tensor.h"
+#include "bakers/tensor/tensor.h"
 
 namespace nook::bake::tensor {
 

@@ -1,8 +1,8 @@
-#include "tensor/nsvd.h"
+#include "bakers/tensor/nsvd.h"
 
-#include "tensor/alternation.h"
-#include "tensor/check.h"
-#include "tensor/mode_product.h"
+#include "bakers/tensor/alternation.h"
+#include "bakers/tensor/check.h"
+#include "bakers/tensor/mode_product.h"
 
 namespace nook::bake::tensor {
 

@@ -1,8 +1,8 @@
 // Telling a clustered fit's caller where it stands.
 #pragma once
 
-#include "core/failure.h"
-#include "tensor/clustered_fit.h"
+#include "bakers/tensor/clustered_fit.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 

@@ -1,10 +1,10 @@
-#include "tensor/rank_choice.h"
+#include "bakers/tensor/rank_choice.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "core/failure.h"
-#include "tensor/gram.h"
+#include "bakers/tensor/gram.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 

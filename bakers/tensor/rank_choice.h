@@ -1,7 +1,7 @@
 // The ranks that an error needs.
 #pragma once
 
-#include "tensor/tensor.h"
+#include "bakers/tensor/tensor.h"
 
 namespace nook::bake::tensor {
 

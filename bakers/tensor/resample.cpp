@@ -1,12 +1,12 @@
-#include "tensor/resample.h"
+#include "bakers/tensor/resample.h"
 
 #include <algorithm>
 
-#include "core/failure.h"
-#include "tensor/atoms.h"
-#include "tensor/blocks.h"
-#include "tensor/gram.h"
-#include "tensor/mode_product.h"
+#include "bakers/tensor/atoms.h"
+#include "bakers/tensor/blocks.h"
+#include "bakers/tensor/gram.h"
+#include "bakers/tensor/mode_product.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 namespace {

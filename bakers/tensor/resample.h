@@ -1,7 +1,7 @@
 // New sub-tensors of the clustered mode in the clusters that a fit has found (the paper's 6.3.2).
 #pragma once
 
-#include "tensor/clustered_fit.h"
+#include "bakers/tensor/clustered_fit.h"
 
 namespace nook::bake::tensor {
 

@@ -1,12 +1,12 @@
-#include "tensor/seed_clusters.h"
+#include "bakers/tensor/seed_clusters.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <random>
 
-#include "core/failure.h"
-#include "tensor/gram.h"
+#include "bakers/tensor/gram.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 namespace {

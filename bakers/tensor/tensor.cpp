@@ -1,11 +1,11 @@
-#include "tensor/tensor.h"
+#include "bakers/tensor/tensor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "core/failure.h"
-#include "tensor/blocks.h"
+#include "bakers/tensor/blocks.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 namespace {

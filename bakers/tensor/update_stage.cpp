@@ -1,9 +1,9 @@
-#include "tensor/update_stage.h"
+#include "bakers/tensor/update_stage.h"
 
 #include <algorithm>
 
-#include "tensor/blocks.h"
-#include "tensor/progress.h"
+#include "bakers/tensor/blocks.h"
+#include "bakers/tensor/progress.h"
 
 namespace nook::bake::tensor {
 namespace {

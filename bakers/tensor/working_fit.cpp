@@ -1,10 +1,10 @@
-#include "tensor/working_fit.h"
+#include "bakers/tensor/working_fit.h"
 
 #include <algorithm>
 
-#include "tensor/alternation.h"
-#include "tensor/mode_product.h"
-#include "tensor/progress.h"
+#include "bakers/tensor/alternation.h"
+#include "bakers/tensor/mode_product.h"
+#include "bakers/tensor/progress.h"
 
 namespace nook::bake::tensor {
 namespace {

@@ -1,7 +1,7 @@
 // A clustered fit in the making: clusters by their members, on the tensor whose global modes are reduced.
 #pragma once
 
-#include "tensor/global_modes.h"
+#include "bakers/tensor/global_modes.h"
 
 namespace nook::bake::tensor {
 

@@ -74,7 +74,7 @@ std::vector<unsigned char> cached_model(const Hero& hero, const BakeRequest& req
   bake_check(nook_bake_job_wait(handle));
   const void* bytes = nullptr;
   std::size_t size = 0;
-  bake_check(nook_bake_job_get_model(handle, &bytes, &size));
+  bake_check(nook_bake_job_model(handle, &bytes, &size));
   write_file(path, bytes, size);
   std::vector<unsigned char> model(size);
   std::memcpy(model.data(), bytes, size);

@@ -112,7 +112,7 @@ std::vector<std::vector<float>> CrowdScene::directional_ao(std::span<const std::
 nook_gl_info CrowdScene::gl_info() const {
   nook_gl_info info{};
   info.struct_size = sizeof info;
-  nook::check(nook_gl_get_info(gl_.get(), &info));
+  nook::check(nook_gl_describe(gl_.get(), &info));
   return info;
 }
 

@@ -38,7 +38,7 @@ Hero::Hero(const std::string& path) {
 
 void Hero::read() {
   info_.struct_size = sizeof info_;
-  bake_check(nook_bake_character_get_info(handle(), &info_));
+  bake_check(nook_bake_character_describe(handle(), &info_));
   const std::uint32_t n = vertex_count();
   positions_m.resize(3 * n);
   normals.resize(3 * n);

@@ -91,7 +91,7 @@ void Light::read_probe(const nook::Context& context, const std::filesystem::path
   const Probe probe(handle);
   nook_probe_info info{};
   info.struct_size = sizeof info;
-  nook::check(nook_probe_get_info(handle, &info));
+  nook::check(nook_probe_describe(handle, &info));
   lobes_.resize(info.function_count);
   nook::check(nook_probe_read_lobes(handle, nullptr, lobes_.data(), info.function_count));
   // Sharp enough for the narrowest lobes that a probe of a few dozen has.

@@ -92,7 +92,7 @@ ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> 
   nook::check(nook_nnao_render(pass_.get(), &frame));
   nook_nnao_info info{};
   info.struct_size = sizeof info;
-  nook::check(nook_nnao_get_info(pass_.get(), &info));
+  nook::check(nook_nnao_describe(pass_.get(), &info));
   return {info.texture, textures_[kDepth]};
 }
 

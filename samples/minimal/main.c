@@ -94,7 +94,7 @@ static nook_result approach(Character* c) {
   nook_result r;
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  r = nook_character_model_get_info(c->model, &info);
+  r = nook_character_model_describe(c->model, &info);
   if (r) return r;
   printf("%u vertices, %u bones, %u spheres, %u key points\n", (unsigned)info.file_vertex_count,
          (unsigned)info.bone_count, (unsigned)info.sphere_count, (unsigned)info.key_point_count);

@@ -163,7 +163,7 @@ static nook_result run_pass(Pass* p, const Engine* e, float radius_m, GLuint* ao
   if (r) return r;
   r = nook_nnao_render(p->nnao, &frame);
   info.struct_size = sizeof info;
-  if (!r) r = nook_nnao_get_info(p->nnao, &info);
+  if (!r) r = nook_nnao_describe(p->nnao, &info);
   *ao = info.texture;
   return r;
 }

@@ -72,12 +72,12 @@ static nook_result start_light(Light* l, const void* bytes, size_t size) {
   if (!r) r = nook_probe_load(l->context, bytes, size, &l->probe);
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  if (!r) r = nook_probe_get_info(l->probe, &info);
+  if (!r) r = nook_probe_describe(l->probe, &info);
   if (!r) r = nook_probe_read_lobes(l->probe, NULL, l->lobes, info.function_count);
   l->lobe_count = info.function_count;
   if (!r) r = nook_gl_probe_create(l->gl, l->probe, &l->uploaded);
   l->info.struct_size = sizeof l->info;
-  if (!r) r = nook_gl_probe_get_info(l->uploaded, &l->info);
+  if (!r) r = nook_gl_probe_describe(l->uploaded, &l->info);
   return r;
 }
 

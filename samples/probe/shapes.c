@@ -121,7 +121,7 @@ int character_make(Shape* shape, nook_context context, const char* glb_path, con
   memset(shape, 0, sizeof *shape);
   info.struct_size = sizeof info;
   if (!model_bytes) return 0;
-  if (nook_bake_import_gltf(glb_path, &character) || nook_bake_character_get_info(character, &info)) {
+  if (nook_bake_import_gltf(glb_path, &character) || nook_bake_character_describe(character, &info)) {
     fprintf(stderr, "%s\n", nook_bake_last_message());
   } else if ((bones = malloc((size_t)info.bone_count * 12 * sizeof *bones)) == NULL ||
              !shape_allocate(shape, (int)info.file_vertex_count, (int)(3 * info.triangle_count), 1)) {

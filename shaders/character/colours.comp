@@ -1,7 +1,7 @@
 // Directional occlusion at the key points of instances with a light: the colour of their shadow and the added occlusion by
 // channel.
-#include "character/key_points.glsl"
-#include "character/light.glsl"
+#include "shaders/character/key_points.glsl"
+#include "shaders/character/light.glsl"
 
 layout(std430, binding = 5) writeonly buffer NookColours {
   vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow; added occlusion

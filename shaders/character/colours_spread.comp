@@ -1,5 +1,5 @@
 // The colours of key points that a coarser level of detail evaluates to all of them. One thread a key point; y is the instance.
-#include "character/instance.glsl"
+#include "shaders/character/instance.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -1,7 +1,7 @@
 // What the passes over key points share: one thread a key point, y is the instance. Spheres pass through shared memory, which
 // all threads of the group then read.
-#include "character/instance.glsl"
-#include "character/kernel.glsl"
+#include "shaders/character/instance.glsl"
+#include "shaders/character/kernel.glsl"
 
 const uint nook_tile_size = 64u;
 layout(local_size_x = 64) in;

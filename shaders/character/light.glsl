@@ -1,5 +1,5 @@
 // The light of an instance and what stands in it; derived in sdk/src/character/directional.h and directional_bands.h.
-#include "probe/lobe.glsl"
+#include "shaders/probe/lobe.glsl"
 
 layout(std430, binding = 7) readonly buffer NookLights {
   vec4 nook_light[];  // sdk/src/gl/character/scene_lights.cpp lays it out

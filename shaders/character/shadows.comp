@@ -1,5 +1,5 @@
 // The non-linear layer: shadow and added occlusion at the key points of an instance.
-#include "character/key_points.glsl"
+#include "shaders/character/key_points.glsl"
 
 layout(std430, binding = 5) writeonly buffer NookShadows {
   vec2 nook_shadow[];  // shadow, added occlusion

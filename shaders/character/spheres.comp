@@ -1,5 +1,5 @@
 // Proxy spheres of every instance that moved, rest space to the instance's own space. One thread a sphere; y is the instance.
-#include "character/instance.glsl"
+#include "shaders/character/instance.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -1,7 +1,7 @@
 // The linear layer: AO of every vertex in file order from a few key points. One thread a vertex; y is the instance.
 // NOOK_LIGHT: directional occlusion, three floats a vertex; AO in all of them for an instance without light.
-#include "character/instance.glsl"
-#include "character/linear.glsl"
+#include "shaders/character/instance.glsl"
+#include "shaders/character/linear.glsl"
 
 layout(local_size_x = 128) in;
 

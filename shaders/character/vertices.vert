@@ -1,6 +1,6 @@
 // The linear layer of OpenGL 3.3: the shadows at key points come in a texture buffer, AO leaves by transform feedback. One
 // point a file vertex; its index picks the welded vertex whose attributes it reads.
-#include "character/linear.glsl"
+#include "shaders/character/linear.glsl"
 
 layout(location = 0) in float nook_bias;
 layout(location = 1) in uvec4 nook_key_points_0;

@@ -3,7 +3,7 @@
 //   vec4 nook_votf_mode(int layer, vec2 uv, float level)
 // that sdk/src/gl/material/source.cpp writes for a material's sizes; layers and numbers lie as
 // sdk/src/material/tables.h says. The same as sdk/src/material/evaluate.cpp.
-#include "material/parabolic.glsl"
+#include "shaders/material/parabolic.glsl"
 
 // The mipmap level of a pixel with the sides dx and dy, found once for all fetches: these then need no
 // derivatives, which is faster and works in branches.

@@ -1,7 +1,7 @@
 // One axis of the blur, at the resolution of the surface.
-#include "nnao/depth.glsl"
-#include "nnao/surface.glsl"
-#include "nnao/blur.glsl"
+#include "shaders/nnao/depth.glsl"
+#include "shaders/nnao/surface.glsl"
+#include "shaders/nnao/blur.glsl"
 
 out float nook_out;
 

@@ -1,5 +1,5 @@
 // The host's depth buffer as view-space depth.
-#include "nnao/frame.glsl"
+#include "shaders/nnao/frame.glsl"
 
 uniform sampler2D nook_depth;
 

@@ -1,5 +1,5 @@
 // The normal of a pixel: the host's, or rebuilt from depth.
-#include "nnao/depth.glsl"
+#include "shaders/nnao/depth.glsl"
 
 uniform sampler2D nook_host_normal;
 

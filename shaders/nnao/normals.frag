@@ -1,6 +1,6 @@
 // The surface: normals for every pixel, or depth and normal of every second pixel of every second row.
-#include "nnao/normal.glsl"
-#include "nnao/octahedral.glsl"
+#include "shaders/nnao/normal.glsl"
+#include "shaders/nnao/octahedral.glsl"
 
 #if NOOK_HALF
 out uvec2 nook_out;

@@ -1,5 +1,5 @@
 // The network's stage as a dispatch: one thread a texel of the surface. The groups at the border reach beyond it.
-#include "nnao/occlusion.glsl"
+#include "shaders/nnao/occlusion.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(r8, binding = 0) writeonly uniform image2D nook_out;

@@ -1,5 +1,5 @@
 // The network's stage as a draw.
-#include "nnao/occlusion.glsl"
+#include "shaders/nnao/occlusion.glsl"
 
 out float nook_out;
 

@@ -1,11 +1,11 @@
 // AO of a texel of the surface by the network, not yet blurred: the same for the fragment and the compute path.
-#include "nnao/depth.glsl"
-#include "nnao/surface.glsl"
-#include "nnao/taps.glsl"
+#include "shaders/nnao/depth.glsl"
+#include "shaders/nnao/surface.glsl"
+#include "shaders/nnao/taps.glsl"
 #if NOOK_HORIZON
-#include "nnao/horizon.glsl"
+#include "shaders/nnao/horizon.glsl"
 #else
-#include "nnao/paper.glsl"
+#include "shaders/nnao/paper.glsl"
 #endif
 
 float nook_occlusion(ivec2 texel) {

@@ -1,7 +1,7 @@
 // From AO of the surface to what the host asked for: the blur's second axis or the upsample, the layer, the view.
-#include "nnao/depth.glsl"
-#include "nnao/surface.glsl"
-#include "nnao/blur.glsl"
+#include "shaders/nnao/depth.glsl"
+#include "shaders/nnao/surface.glsl"
+#include "shaders/nnao/blur.glsl"
 
 uniform sampler2D nook_layer;
 

@@ -1,5 +1,5 @@
 // Depth and normal of the surface's texels. At full resolution depth stays in the host's buffer.
-#include "nnao/octahedral.glsl"
+#include "shaders/nnao/octahedral.glsl"
 
 #if NOOK_HALF
 uniform usampler2D nook_surface;  // depth as a float's bits, normal as 2 x 16 bits

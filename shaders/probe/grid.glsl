@@ -1,7 +1,7 @@
 // A probe, or a grid of probes, in a texture buffer of RGBA32F as sdk/src/gl/probe/probe_texels.cpp lays it
 // out: counts and number of lobes; origin; 1 / spacing; axis and sharpness of each lobe; then the amplitudes
 // of each probe, x fastest, then y, z.
-#include "probe/lobe.glsl"
+#include "shaders/probe/lobe.glsl"
 
 uniform samplerBuffer nook_probe_texels;
 

@@ -1,7 +1,7 @@
 // What a host's shader calls. Directions are unit vectors, world space as the probe's lobes; colours linear RGB.
-#include "probe/grid.glsl"
-#include "probe/irradiance.glsl"
-#include "probe/specular.glsl"
+#include "shaders/probe/grid.glsl"
+#include "shaders/probe/irradiance.glsl"
+#include "shaders/probe/specular.glsl"
 
 // Radiance from a direction.
 vec3 nook_probe_radiance(NookProbePlace place, vec3 direction) {

@@ -1,7 +1,7 @@
 #ifndef NOOK_PROBE_IRRADIANCE
 #define NOOK_PROBE_IRRADIANCE
 // Irradiance of a lobe on a surface with unit normal n; the same as sdk/src/core/spherical_gaussian.h.
-#include "probe/lobe.glsl"
+#include "shaders/probe/lobe.glsl"
 
 // The clamped cosine as a lobe: cheaper, and not 0 behind sharp lights.
 vec3 nook_probe_lobe_irradiance_inner_product(NookLobe lobe, vec3 n) {

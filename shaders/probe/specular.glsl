@@ -1,7 +1,7 @@
 // Glossy reflection of a lobe by a GGX surface: the directions that it reflects to the eye, as an isotropic lobe
 // (J. Wang et al. 2009) or an anisotropic one (K. Xu et al. 2013); the same as sdk/src/probe/specular.cpp.
-#include "probe/ggx_reflection.glsl"
-#include "probe/lobe.glsl"
+#include "shaders/probe/ggx_reflection.glsl"
+#include "shaders/probe/lobe.glsl"
 
 // A surface seen from one direction, ready to reflect any number of lobes.
 struct NookProbeReflection {

@@ -1,5 +1,5 @@
-/* Every function of the base and character headers, called from C in the order a host would; returns the number of failed
- * expectations and prints each. bytes: a character model. */
+/* Every function of the base and character headers, called from C in the order a host would; returns the
+ * number of failed expectations and prints each. bytes: a character model. */
 #include <nook/nook_character.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,7 +74,7 @@ int nook_call_everything(const void* bytes, size_t size) {
   EXPECT_OK(nook_character_model_load(context, bytes, size, &model));
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  EXPECT_OK(nook_character_model_get_info(model, &info));
+  EXPECT_OK(nook_character_model_describe(model, &info));
   EXPECT(info.bone_count > 0 && info.file_vertex_count >= info.vertex_count && info.lod_count >= 1);
   EXPECT(nook_character_model_bone_name(model, 0) != NULL);
   EXPECT(nook_character_model_bone_name(model, info.bone_count) == NULL);
@@ -106,7 +106,7 @@ int nook_call_everything(const void* bytes, size_t size) {
   free(colour);
   memset(&stats, 0, sizeof stats);
   stats.struct_size = sizeof stats;
-  EXPECT_OK(nook_scene_get_stats(scene, &stats));
+  EXPECT_OK(nook_scene_read_stats(scene, &stats));
   EXPECT(stats.instances == 2 && stats.instances_updated == 2 && stats.links == 2 && stats.evaluations > 0);
   EXPECT_OK(nook_scene_remove_occluder(scene, occluder));
   EXPECT_OK(nook_scene_remove_instance(scene, b));

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "growing_struct.h"
-#include "host.h"
+#include "tests/abi/growing_struct.h"
+#include "tests/abi/host.h"
 
 using namespace nook::test;
 
@@ -57,9 +57,9 @@ TEST_CASE("descriptors of every release are read, and what a newer one adds is r
 TEST_CASE("answers are cut to the caller's struct") {
   Stage stage;
   check_info<nook_character_model_info>(
-      40, [&](nook_character_model_info* info) { return nook_character_model_get_info(stage.model, info); });
+      40, [&](nook_character_model_info* info) { return nook_character_model_describe(stage.model, info); });
   check_info<nook_scene_stats>(
-      32, [&](nook_scene_stats* stats) { return nook_scene_get_stats(stage.scene, stats); });
+      32, [&](nook_scene_stats* stats) { return nook_scene_read_stats(stage.scene, stats); });
 }
 
 TEST_CASE("headers of another major or a newer minor version are refused with both numbers") {
@@ -122,11 +122,11 @@ TEST_CASE("the last field of each struct counts") {
   CHECK(calls > 0);
   nook_scene_stats stats{};
   stats.struct_size = sizeof stats;
-  REQUIRE(nook_scene_get_stats(scene, &stats) == NOOK_OK);
+  REQUIRE(nook_scene_read_stats(scene, &stats) == NOOK_OK);
   CHECK(stats.evaluations > 0);
   nook_character_model_info info{};
   info.struct_size = sizeof info;
-  REQUIRE(nook_character_model_get_info(stage.model, &info) == NOOK_OK);
+  REQUIRE(nook_character_model_describe(stage.model, &info) == NOOK_OK);
   CHECK(info.gamma == 1);
   nook_scene_destroy(&scene);
   nook_context_destroy(&context);

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <string>
 
-#include "catch.h"
-#include "host.h"
+#include "tests/abi/host.h"
+#include "tests/catch.h"
 
 using namespace nook::test;
 
@@ -61,8 +61,8 @@ TEST_CASE("models: bad parameters and bad files") {
   CHECK(nook_character_model_primitive(stage.model, 0, nullptr, &count) == invalid);
   CHECK(nook_character_model_primitive(stage.model, 0, &first, nullptr) == invalid);
   CHECK(nook_character_model_bone_name(nullptr, 0) == nullptr);
-  CHECK(nook_character_model_get_info(nullptr, &stage.info) == invalid);
-  CHECK(nook_character_model_get_info(stage.model, nullptr) == invalid);
+  CHECK(nook_character_model_describe(nullptr, &stage.info) == invalid);
+  CHECK(nook_character_model_describe(stage.model, nullptr) == invalid);
   CHECK(nook_character_model_static_ao(stage.model, stage.ao.data(), 3) == invalid);
   CHECK(nook_character_model_static_ao(nullptr, stage.ao.data(), 3) == invalid);
   CHECK(nook_character_model_static_ao(stage.model, nullptr, stage.info.file_vertex_count) == invalid);
@@ -170,6 +170,6 @@ TEST_CASE("scenes: bad handles and parameters of every call") {
   CHECK(nook_scene_read_directional_ao(scene, stage.first, colour.data(), 1, 0) == invalid);
   CHECK(nook_scene_read_directional_ao(scene, stage.first, colour.data(), stage.info.file_vertex_count, 8) ==
         invalid);
-  CHECK(nook_scene_get_stats(scene, nullptr) == invalid);
+  CHECK(nook_scene_read_stats(scene, nullptr) == invalid);
   CHECK(nook_scene_update(scene) == NOOK_OK);  // still well
 }

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "catch.h"
+#include "tests/catch.h"
 
 namespace nook::test {
 

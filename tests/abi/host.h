@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "character/model_file.h"
-#include "model_sample.h"
+#include "sdk/src/character/model_file.h"
+#include "tests/character/model_sample.h"
 
 namespace nook::test {
 
@@ -61,7 +61,7 @@ struct Stage {
     nook_scene_add_instance(scene, model, &first);
     nook_scene_add_instance(scene, model, &second);
     info.struct_size = sizeof info;
-    nook_character_model_get_info(model, &info);
+    nook_character_model_describe(model, &info);
     ao.resize(info.file_vertex_count);
     const float moved[12] = {1, 0, 0, 0.1f, 0, 1, 0, 0, 0, 0, 1, 0};
     for (std::uint32_t bone = 0; bone < info.bone_count; ++bone)

@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-#include "catch.h"
+#include "tests/catch.h"
 
 extern "C" int nook_call_everything(const void* bytes, size_t size);
 
@@ -433,7 +433,7 @@ NOOK_AT(nook_probe_surface, alpha_x, 36);
 NOOK_AT(nook_probe_surface, alpha_y, 40);
 NOOK_AT(nook_probe_surface, reflectance, 44);
 
-#include "host.h"
+#include "tests/abi/host.h"
 
 std::vector<std::byte> nook_test_model_bytes() {
   return nook::test::Host().bytes;

@@ -3,8 +3,8 @@
 #include <string>
 #include <thread>
 
-#include "catch.h"
-#include "host.h"
+#include "tests/abi/host.h"
+#include "tests/catch.h"
 
 using namespace nook::test;
 

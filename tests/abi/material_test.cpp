@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string>
 
-#include "catch.h"
-#include "growing_struct.h"
-#include "host.h"
-#include "material/material_file.h"
-#include "material_sample.h"
+#include "sdk/src/material/material_file.h"
+#include "tests/abi/growing_struct.h"
+#include "tests/abi/host.h"
+#include "tests/catch.h"
+#include "tests/material/material_sample.h"
 
 using namespace nook::test;
 
@@ -53,14 +53,14 @@ TEST_CASE("materials: bad parameters and bad files") {
   bad[1].view[1] = NAN;
   CHECK(nook_material_evaluate(material, bad, 2, &value) == invalid);
   CHECK(last_is("nook_material_evaluate: ", "sample 1"));
-  CHECK(nook_material_get_info(material, nullptr) == invalid);
+  CHECK(nook_material_describe(material, nullptr) == invalid);
   check_info<nook_material_info>(sizeof(nook_material_info), [&](nook_material_info* info) {
-    return nook_material_get_info(material, info);
+    return nook_material_describe(material, info);
   });
   nook_material_destroy(&material);
   nook_material_destroy(&material);
   nook_material_destroy(nullptr);
-  CHECK(nook_material_get_info(material, nullptr) == invalid);
+  CHECK(nook_material_describe(material, nullptr) == invalid);
 }
 
 TEST_CASE("materials: callers of older and newer headers") {

@@ -1,5 +1,5 @@
-/* Every function of the probes' header, called from C in the order a host would; returns the number of failed expectations
- * and prints each. */
+/* Every function of the probes' header, called from C in the order a host would; returns the number of failed
+ * expectations and prints each. */
 #include <math.h>
 #include <nook/nook_probe.h>
 #include <stdio.h>
@@ -19,7 +19,8 @@ static void expect(int condition, const char* what, int line) {
 
 enum { SAMPLES = 2000 };
 
-/* A sky, brighter above, from directions on a spiral, in an order that leaps about on it as random samples would. */
+/* A sky, brighter above, from directions on a spiral, in an order that leaps about on it as random samples
+ * would. */
 static void make_samples(float* directions, float* radiance) {
   int i;
   for (i = 0; i < SAMPLES; ++i) {
@@ -71,7 +72,7 @@ static void use_probe(nook_context context, nook_probe probe) {
   nook_probe_lobe lobes[12];
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  EXPECT_OK(nook_probe_get_info(probe, &info));
+  EXPECT_OK(nook_probe_describe(probe, &info));
   EXPECT(info.function_count == 12 && info.probe_count == 1 && info.basis == NOOK_PROBE_GAUSSIANS);
   EXPECT_OK(nook_probe_save(probe, NOOK_PROBE_PACKING_HALF, NULL, &size));
   bytes = malloc(size);
@@ -112,7 +113,7 @@ int nook_call_every_probe_function(void) {
   EXPECT_OK(nook_probe_fit_reset(second));
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  EXPECT_OK(nook_probe_fit_get_info(fit, &info));
+  EXPECT_OK(nook_probe_fit_describe(fit, &info));
   EXPECT(info.samples == SAMPLES && info.skipped == 0 && fabs(info.mean_radiance[0] - 1) < 1e-3);
   EXPECT_OK(nook_probe_fit_read(fit, coefficients, 12));
   EXPECT_OK(nook_probe_fit_solve(fit, &probe));

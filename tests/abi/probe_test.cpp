@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
-#include "growing_struct.h"
-#include "host.h"
+#include "tests/abi/growing_struct.h"
+#include "tests/abi/host.h"
 
 using namespace nook::test;
 
@@ -128,9 +128,9 @@ TEST_CASE("probes: structs of every release") {
     return result;
   });
   check_info<nook_probe_fit_info>(
-      80, [&](nook_probe_fit_info* info) { return nook_probe_fit_get_info(stage.fit, info); });
+      80, [&](nook_probe_fit_info* info) { return nook_probe_fit_describe(stage.fit, info); });
   check_info<nook_probe_info>(76,
-                              [&](nook_probe_info* info) { return nook_probe_get_info(stage.probe, info); });
+                              [&](nook_probe_info* info) { return nook_probe_describe(stage.probe, info); });
 }
 
 TEST_CASE("fits: bad descriptors name their field") {
@@ -197,7 +197,7 @@ TEST_CASE("fits: bad calls") {
   CHECK(nook_probe_fit_add_samples(stage.fit, bad, light, weights, 3) == NOOK_OK);
   nook_probe_fit_info info{};
   info.struct_size = sizeof info;
-  REQUIRE(nook_probe_fit_get_info(stage.fit, &info) == NOOK_OK);
+  REQUIRE(nook_probe_fit_describe(stage.fit, &info) == NOOK_OK);
   CHECK(info.samples == sample_count);
   CHECK(info.skipped == 3);
   CHECK(info.skipped_direction == 1);

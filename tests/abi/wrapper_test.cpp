@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "catch.h"
+#include "tests/catch.h"
 
 std::vector<std::byte> nook_test_model_bytes();
 std::vector<std::byte> nook_test_material_bytes();

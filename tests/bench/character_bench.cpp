@@ -7,11 +7,11 @@
 #include <chrono>
 #include <vector>
 
-#include "character/linear_layer.h"
-#include "character/shadow_kernels_rest.h"
-#include "plain_loop.h"
-#include "sample_character.h"
-#include "skinning.h"
+#include "sdk/src/character/linear_layer.h"
+#include "sdk/src/character/shadow_kernels_rest.h"
+#include "tests/bench/plain_loop.h"
+#include "tests/bench/sample_character.h"
+#include "tests/bench/skinning.h"
 
 namespace {
 
@@ -132,7 +132,8 @@ class Character {
 void shadow_norm(benchmark::State& state, const ShadowKernels* kernels, Kernel kernel) {
   Character character(*kernels);
   Stopwatch simd, plain;
-  const bool comparable = kernel.form == KernelForm::nook && (kernel.gamma == 1 || kernel.gamma == 1.5f || kernel.gamma == 2);
+  const bool comparable =
+      kernel.form == KernelForm::nook && (kernel.gamma == 1 || kernel.gamma == 1.5f || kernel.gamma == 2);
   for (auto _ : state) {
     simd.run([&] { character.norm_sum(kernel); });
     character.clear();

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "character/cached_objective.h"
-#include "character/rotation.h"
+#include "bakers/character/cached_objective.h"
+#include "bakers/character/rotation.h"
 
 namespace {
 

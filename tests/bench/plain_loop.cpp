@@ -1,4 +1,4 @@
-#include "plain_loop.h"
+#include "tests/bench/plain_loop.h"
 
 #include <cmath>
 

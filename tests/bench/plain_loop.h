@@ -2,7 +2,7 @@
 // yardstick of the SIMD kernels.
 #pragma once
 
-#include "character/shadow_kernels.h"
+#include "sdk/src/character/shadow_kernels.h"
 
 namespace nook::bench {
 

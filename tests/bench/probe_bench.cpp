@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "probe/fit.h"
+#include "sdk/src/probe/fit.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "sample_character.h"
+#include "tests/bench/sample_character.h"
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 #include <memory_resource>
 #include <vector>
 
-#include "character/model.h"
-#include "core/aligned_array.h"
-#include "skinning.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/core/aligned_array.h"
+#include "tests/bench/skinning.h"
 
 namespace nook::bench {
 

@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "character/model_file.h"
-#include "sample_character.h"
+#include "sdk/src/character/model_file.h"
+#include "tests/bench/sample_character.h"
 
 namespace {
 
@@ -96,7 +96,7 @@ class Crowd {
   nook_scene_stats stats() {
     nook_scene_stats stats{};
     stats.struct_size = sizeof stats;
-    require(nook_scene_get_stats(scene_, &stats));
+    require(nook_scene_read_stats(scene_, &stats));
     return stats;
   }
 

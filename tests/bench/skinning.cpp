@@ -1,4 +1,4 @@
-#include "skinning.h"
+#include "tests/bench/skinning.h"
 
 namespace nook::bench {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bench {
 

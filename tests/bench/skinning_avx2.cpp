@@ -2,7 +2,7 @@
 // floats of which the next store overwrites the last.
 #include <immintrin.h>
 
-#include "skinning.h"
+#include "tests/bench/skinning.h"
 
 namespace nook::bench {
 namespace {

@@ -1,6 +1,6 @@
 // Directional occlusion: its means against quadrature, its ratio against ray tracing of one sphere over a
 // surface, and every instruction set against the formulas in double precision.
-#include "character/directional.h"
+#include "sdk/src/character/directional.h"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <numbers>
 #include <vector>
 
-#include "catch.h"
-#include "character/directional_bands.h"
-#include "character/kernel.h"
-#include "core/spherical_gaussian.h"
-#include "kernel_reference.h"
+#include "sdk/src/character/directional_bands.h"
+#include "sdk/src/character/kernel.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "tests/catch.h"
+#include "tests/character/kernel_reference.h"
 
 using namespace nook;
 using namespace nook::test;

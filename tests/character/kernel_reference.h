@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "character/shadow_kernels.h"
+#include "sdk/src/character/shadow_kernels.h"
 
 namespace nook::test {
 

@@ -1,12 +1,12 @@
 // The formulas of kernel.h against closed forms, hand-computed values and numerical integration, in double
 // precision.
-#include "character/kernel.h"
+#include "sdk/src/character/kernel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "catch.h"
+#include "tests/catch.h"
 
 using namespace nook;
 

@@ -1,13 +1,13 @@
 // The linear layer's own layout and its kernels against the sum as the model states it.
-#include "character/linear_layer.h"
+#include "sdk/src/character/linear_layer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "kernel_reference.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
+#include "tests/character/kernel_reference.h"
 
 using namespace nook;
 using namespace nook::test;

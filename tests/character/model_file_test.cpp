@@ -1,14 +1,14 @@
-#include "character/model_file.h"
+#include "sdk/src/character/model_file.h"
 
 #include <algorithm>
 #include <cstring>
 #include <new>
 #include <string>
 
-#include "catch.h"
-#include "character/model_check.h"
-#include "core/failure.h"
-#include "model_sample.h"
+#include "sdk/src/character/model_check.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
+#include "tests/character/model_sample.h"
 
 using namespace nook;
 
@@ -123,8 +123,8 @@ TEST_CASE("quantising twice changes nothing more") {
 }
 
 TEST_CASE("a file stays within 16 bytes a vertex and 16 KB") {
-  // The largest model of the product's tables, with 6 entries a vertex on average, of which it shares 4 with the vertex
-  // before; of real characters' 6.7 entries 4.3 are shared.
+  // The largest model of the product's tables, with 6 entries a vertex on average, of which it shares 4 with
+  // the vertex before; of real characters' 6.7 entries 4.3 are shared.
   CharacterModel model = test::sample_model(9, {80, 130, 500, 6000, 0, 8});
   for (std::size_t v = 0; v < model.vertex_count(); ++v)
     for (std::size_t e = 0; e < 8; ++e) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "character/model.h"
+#include "sdk/src/character/model.h"
 
 namespace nook::test {
 
@@ -68,7 +68,8 @@ inline CharacterModel sample_model(std::uint32_t seed = 1, SampleSize size = {})
       model.blend.push_back(e < used ? numbers.between(-0.1f, 0.3f) : 0.0f);
     }
     float blend_sum = 0;
-    for (std::uint32_t e = 1; e < used; ++e) blend_sum += model.blend[model.blend.size() - size.influences + e];
+    for (std::uint32_t e = 1; e < used; ++e)
+      blend_sum += model.blend[model.blend.size() - size.influences + e];
     model.blend[model.blend.size() - size.influences] = 1 - blend_sum;
     model.bias.push_back(numbers.between(-0.1f, 0.2f));
     model.static_ao.push_back(numbers.between(0, 1));

@@ -1,9 +1,9 @@
 // Which casters a scene picks: the nearest, and what the cut-off may leave out.
 #include <algorithm>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "scene_sample.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
+#include "tests/character/scene_sample.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -117,7 +117,8 @@ TEST_CASE("the bound of a posed instance holds its spheres and key points") {
 
 TEST_CASE("what the cut-off leaves out darkens by less than it says") {
   const auto form = GENERATE(KernelForm::paper, KernelForm::nook, KernelForm::rational);
-  const nook_combine combine = GENERATE(nook_combine{NOOK_COMBINE_COMPOSED}, nook_combine{NOOK_COMBINE_PAPER});
+  const nook_combine combine =
+      GENERATE(nook_combine{NOOK_COMBINE_COMPOSED}, nook_combine{NOOK_COMBINE_PAPER});
   CharacterModel data = sample_model(31, {4, 20, 40, 80, 0, 4});
   data.kernel.form = form;
   const auto model = load(std::move(data));

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "catch.h"
-#include "character/levels.h"
-#include "character/model_file.h"
-#include "core/failure.h"
-#include "scene_sample.h"
+#include "sdk/src/character/levels.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
+#include "tests/character/scene_sample.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -114,8 +114,8 @@ TEST_CASE("a level darkens by linked casters about as full detail does") {
   };
   const double full = run(0), coarse = run(1);
   CHECK(full > 0.01);
-  // Merged spheres keep the sum of weight * radius^2. Key points take over from others that are alike, which random ones are
-  // not quite, and random blend weights of either sign make the most of the difference.
+  // Merged spheres keep the sum of weight * radius^2. Key points take over from others that are alike, which
+  // random ones are not quite, and random blend weights of either sign make the most of the difference.
   CHECK(std::abs(coarse / full - 1) < 0.35);
 }
 

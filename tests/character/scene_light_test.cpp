@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "catch.h"
-#include "character/levels.h"
-#include "core/failure.h"
-#include "scene_sample.h"
+#include "sdk/src/character/levels.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
+#include "tests/character/scene_sample.h"
 
 using namespace nook;
 using namespace nook::test;

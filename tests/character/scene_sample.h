@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "character/scene.h"
-#include "model_sample.h"
+#include "sdk/src/character/scene.h"
+#include "tests/character/model_sample.h"
 
 namespace nook::test {
 

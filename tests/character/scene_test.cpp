@@ -4,9 +4,9 @@
 #include <string>
 #include <thread>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "scene_sample.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
+#include "tests/character/scene_sample.h"
 
 using namespace nook;
 using namespace nook::test;

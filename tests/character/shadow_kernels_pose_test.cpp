@@ -1,10 +1,10 @@
 // Rest space to world on every instruction set, against the matrices applied in double precision.
 #include <cmath>
 
-#include "catch.h"
-#include "character/shadow_kernels_rest.h"
-#include "core/failure.h"
-#include "kernel_reference.h"
+#include "sdk/src/character/shadow_kernels_rest.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
+#include "tests/character/kernel_reference.h"
 
 using namespace nook;
 using namespace nook::test;

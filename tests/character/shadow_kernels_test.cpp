@@ -1,13 +1,13 @@
 // Every instruction set against the formulas in double precision, on random and on extreme inputs.
-#include "character/shadow_kernels.h"
+#include "sdk/src/character/shadow_kernels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-#include "catch.h"
-#include "kernel_reference.h"
+#include "tests/catch.h"
+#include "tests/character/kernel_reference.h"
 
 using namespace nook;
 using namespace nook::test;

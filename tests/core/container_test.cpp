@@ -1,7 +1,7 @@
-#include "core/container.h"
+#include "sdk/src/core/container.h"
 
-#include "catch.h"
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
 
 using namespace nook;
 

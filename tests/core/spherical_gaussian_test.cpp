@@ -1,9 +1,9 @@
 // Closed forms of spherical Gaussians against quadrature, from sharpness 0 to what quadrature resolves, and
 // for being finite and continuous beyond.
-#include "core/spherical_gaussian.h"
+#include "sdk/src/core/spherical_gaussian.h"
 
-#include "catch.h"
-#include "probe/sphere_quadrature.h"
+#include "tests/catch.h"
+#include "tests/probe/sphere_quadrature.h"
 
 using namespace nook;
 

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "core/failure.h"
-#include "material/evaluate.h"
-#include "material/material_file.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/material_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nook;

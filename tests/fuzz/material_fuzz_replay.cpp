@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "material/material_file.h"
-#include "material_sample.h"
-#include "random_changes.h"
+#include "sdk/src/material/material_file.h"
+#include "tests/fuzz/random_changes.h"
+#include "tests/material/material_sample.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

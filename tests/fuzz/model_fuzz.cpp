@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "character/model_file.h"
-#include "character/scene.h"
-#include "core/failure.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/character/scene.h"
+#include "sdk/src/core/failure.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nook;

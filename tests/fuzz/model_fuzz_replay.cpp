@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "character/model_file.h"
-#include "model_sample.h"
-#include "random_changes.h"
+#include "sdk/src/character/model_file.h"
+#include "tests/character/model_sample.h"
+#include "tests/fuzz/random_changes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

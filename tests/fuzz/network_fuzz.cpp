@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "core/failure.h"
-#include "nnao/evaluate.h"
-#include "nnao/network_file.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_file.h"
 
 namespace {
 

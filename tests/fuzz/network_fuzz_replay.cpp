@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "network_sample.h"
-#include "nnao/network_file.h"
-#include "random_changes.h"
+#include "sdk/src/nnao/network_file.h"
+#include "tests/fuzz/random_changes.h"
+#include "tests/nnao/network_sample.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

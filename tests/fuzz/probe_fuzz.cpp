@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "core/failure.h"
-#include "probe/evaluate.h"
-#include "probe/probe_file.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nook;

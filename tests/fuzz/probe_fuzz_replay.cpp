@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "probe/probe_file.h"
-#include "probe_sample.h"
-#include "random_changes.h"
+#include "sdk/src/probe/probe_file.h"
+#include "tests/fuzz/random_changes.h"
+#include "tests/probe/probe_sample.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

@@ -1,8 +1,8 @@
 // nook_gl.h as a C program calls it, and as callers of older and newer headers do.
-#include "abi/growing_struct.h"
-#include "character/model_file.h"
-#include "crowd.h"
-#include "test_context.h"
+#include "sdk/src/character/model_file.h"
+#include "tests/abi/growing_struct.h"
+#include "tests/gl/crowd.h"
+#include "tests/gl/test_context.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -27,7 +27,7 @@ TEST_CASE("answers about OpenGL are cut to the caller's struct") {
   Crowd crowd(host.handle, {model}, {5}, {});
   nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
   NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
-  check_info<nook_gl_info>(40, [&](nook_gl_info* info) { return nook_gl_get_info(gl, info); });
+  check_info<nook_gl_info>(40, [&](nook_gl_info* info) { return nook_gl_describe(gl, info); });
   check_info<nook_gl_ao_view>(24, [&](nook_gl_ao_view* view) {
     return nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], view);
   });

@@ -1,7 +1,7 @@
 // The CPU and the tiers of OpenGL give the same AO, whatever a scene is made of.
-#include "crowd.h"
-#include "test_context.h"
-#include "traced_loader.h"
+#include "tests/gl/crowd.h"
+#include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
 
 using namespace nook;
 using namespace nook::test;

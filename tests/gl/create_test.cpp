@@ -1,10 +1,10 @@
 // Creation: what is missing is named; what is only optional is done without.
 #include <cstring>
 
-#include "crowd.h"
-#include "gl/functions.h"
-#include "test_context.h"
-#include "traced_loader.h"
+#include "sdk/src/gl/functions.h"
+#include "tests/gl/crowd.h"
+#include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
 
 using namespace nook;
 using namespace nook::test;

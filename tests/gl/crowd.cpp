@@ -1,9 +1,9 @@
-#include "crowd.h"
+#include "tests/gl/crowd.h"
 
 #include <cstdlib>
 
-#include "character/levels.h"
-#include "character/model_file.h"
+#include "sdk/src/character/levels.h"
+#include "sdk/src/character/model_file.h"
 
 namespace nook::test {
 namespace {
@@ -150,14 +150,14 @@ Cast::~Cast() {
 nook_scene_stats stats_of(const Crowd& crowd) {
   nook_scene_stats stats{};
   stats.struct_size = sizeof stats;
-  NOOK_OK_OR_FAIL(nook_scene_get_stats(crowd.scene, &stats));
+  NOOK_OK_OR_FAIL(nook_scene_read_stats(crowd.scene, &stats));
   return stats;
 }
 
 std::uint32_t file_vertices(nook_character_model model) {
   nook_character_model_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_character_model_get_info(model, &info));
+  NOOK_OK_OR_FAIL(nook_character_model_describe(model, &info));
   return info.file_vertex_count;
 }
 
@@ -193,7 +193,7 @@ float difference_to_cpu(nook_gl gl, const Crowd& crowd, nook_character_model mod
 nook_gl_info info_of(nook_gl gl) {
   nook_gl_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_get_info(gl, &info));
+  NOOK_OK_OR_FAIL(nook_gl_describe(gl, &info));
   return info;
 }
 

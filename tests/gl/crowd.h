@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "catch.h"
-#include "model_sample.h"
+#include "tests/catch.h"
+#include "tests/character/model_sample.h"
 
 #define NOOK_OK_OR_FAIL(call)      \
   do {                             \

@@ -1,5 +1,5 @@
-/* Every function of nook_gl.h and nook_gl_probe.h, called from C in the order a host would; returns the number of failed
- * expectations and prints each. The OpenGL context is current; bytes: a character model. */
+/* Every function of nook_gl.h and nook_gl_probe.h, called from C in the order a host would; returns the
+ * number of failed expectations and prints each. The OpenGL context is current; bytes: a character model. */
 #include <nook/nook_gl.h>
 #include <nook/nook_gl_probe.h>
 #include <stdio.h>
@@ -64,7 +64,7 @@ static void upload_probe(nook_context context, nook_gl gl) {
   EXPECT_OK(nook_gl_probe_update(uploaded, probe));
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  EXPECT_OK(nook_gl_probe_get_info(uploaded, &info));
+  EXPECT_OK(nook_gl_probe_describe(uploaded, &info));
   EXPECT(info.texture != 0 && info.bytes == 16 * (3 + 12 * 2) && strstr(info.glsl, "nook_probe_irradiance"));
   nook_gl_probe_destroy(&uploaded);
   EXPECT(!uploaded);
@@ -106,14 +106,14 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   read_ao(gl, scene, instance, view.count);
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  EXPECT_OK(nook_gl_get_info(gl, &info));
+  EXPECT_OK(nook_gl_describe(gl, &info));
   EXPECT((info.tier == 33 || info.tier == 43) && info.version && info.renderer);
   EXPECT(info.ao_bytes >= view.count * sizeof(float) && info.buffer_bytes > info.ao_bytes);
   light_instance(gl, scene, instance, view.count);
   upload_probe(context, gl);
   EXPECT_OK(nook_gl_scene_release(gl, scene));
   EXPECT(nook_gl_scene_ao_buffer(gl, scene, instance, &view) == NOOK_ERROR_INVALID_HANDLE);
-  EXPECT_OK(nook_gl_get_info(gl, &info));
+  EXPECT_OK(nook_gl_describe(gl, &info));
   EXPECT(info.ao_bytes == 0);
   /* Everything is released, so that saying that the context is gone leaves nothing in OpenGL but programs. */
   EXPECT_OK(nook_gl_context_lost(gl));

@@ -1,6 +1,6 @@
 // Any order of destruction is defined, and nothing is left behind in OpenGL.
-#include "crowd.h"
-#include "test_context.h"
+#include "tests/gl/crowd.h"
+#include "tests/gl/test_context.h"
 
 using namespace nook;
 using namespace nook::test;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowd.h"
 #include "platform/program.h"
-#include "test_context.h"
-#include "traced_loader.h"
+#include "tests/gl/crowd.h"
+#include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -176,7 +176,7 @@ std::string probe_glsl(nook_context context, nook_gl gl) {
   NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, probe, &uploaded));
   nook_gl_probe_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_probe_get_info(uploaded, &info));
+  NOOK_OK_OR_FAIL(nook_gl_probe_describe(uploaded, &info));
   nook_gl_probe_destroy(&uploaded);
   nook_probe_destroy(&probe);
   nook_probe_fit_destroy(&fit);

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "material/parabolic.h"
-#include "material_decoder.h"
-#include "material_sample.h"
-#include "test_context.h"
+#include "sdk/src/material/parabolic.h"
+#include "tests/gl/material_decoder.h"
+#include "tests/gl/test_context.h"
+#include "tests/material/material_sample.h"
 
 using namespace nook;
 using namespace nook::test;

@@ -1,11 +1,11 @@
-#include "material_decoder.h"
+#include "tests/gl/material_decoder.h"
 
 #include <cmath>
 #include <string>
 
-#include "material/material_file.h"
 #include "platform/program.h"
-#include "test_context.h"
+#include "sdk/src/material/material_file.h"
+#include "tests/gl/test_context.h"
 
 namespace nook::test {
 namespace {
@@ -76,13 +76,13 @@ nook_gl_material MaterialFixture::upload(nook_material material, int max_layers)
 nook_material_info info_of(nook_material material) {
   nook_material_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_material_get_info(material, &info));
+  NOOK_OK_OR_FAIL(nook_material_describe(material, &info));
   return info;
 }
 nook_gl_material_info info_of(nook_gl_material material) {
   nook_gl_material_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_material_get_info(material, &info));
+  NOOK_OK_OR_FAIL(nook_gl_material_describe(material, &info));
   return info;
 }
 
@@ -92,7 +92,7 @@ MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_material mater
   for (std::uint32_t i = 0; i < uploaded.texture_count; ++i) {
     nook_gl_material_texture texture{};
     texture.struct_size = sizeof texture;
-    NOOK_OK_OR_FAIL(nook_gl_material_get_texture(material, i, &texture));
+    NOOK_OK_OR_FAIL(nook_gl_material_describe_texture(material, i, &texture));
     textures_.push_back(texture);
   }
   program_ = platform::link_program(gl, {vertex_text}, {counting_text, uploaded.glsl, main_text});

@@ -6,10 +6,10 @@
 
 #include <vector>
 
-#include "crowd.h"
-#include "material/material.h"
-#include "nnao_images.h"
 #include "platform/platform.h"
+#include "sdk/src/material/material.h"
+#include "tests/gl/crowd.h"
+#include "tests/gl/nnao_images.h"
 
 namespace nook::test {
 

@@ -41,7 +41,7 @@ int nook_material_call_everything(const void* bytes, size_t size, nook_gl_proc_f
   EXPECT_OK(nook_material_load(context, bytes, size, &material));
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  EXPECT_OK(nook_material_get_info(material, &info));
+  EXPECT_OK(nook_material_describe(material, &info));
   EXPECT(info.visibility != NOOK_MATERIAL_VISIBILITY_NONE && info.btf.terms > 0 && info.votf.terms > 0);
   EXPECT(info.decode_fetches > 0 && info.light_fetches > 0 && info.occlusion_fetches > 0);
   EXPECT_OK(nook_material_evaluate(material, &sample, 1, &value));
@@ -53,14 +53,14 @@ int nook_material_call_everything(const void* bytes, size_t size, nook_gl_proc_f
   nook_material_destroy(&material);
   memset(&uploaded, 0, sizeof uploaded);
   uploaded.struct_size = sizeof uploaded;
-  EXPECT_OK(nook_gl_material_get_info(on_gpu, &uploaded));
+  EXPECT_OK(nook_gl_material_describe(on_gpu, &uploaded));
   EXPECT(uploaded.texture_bytes == info.table_bytes && strstr(uploaded.glsl, "nook_material_decode"));
   texture.struct_size = sizeof texture;
   for (i = 0; i < uploaded.texture_count; ++i) {
-    EXPECT_OK(nook_gl_material_get_texture(on_gpu, i, &texture));
+    EXPECT_OK(nook_gl_material_describe_texture(on_gpu, i, &texture));
     EXPECT(texture.texture != 0 && strstr(uploaded.glsl, texture.uniform));
   }
-  EXPECT(nook_gl_material_get_texture(on_gpu, i, &texture) == NOOK_ERROR_INVALID_ARGUMENT);
+  EXPECT(nook_gl_material_describe_texture(on_gpu, i, &texture) == NOOK_ERROR_INVALID_ARGUMENT);
   nook_gl_material_destroy(&on_gpu);
   nook_gl_destroy(&gl);
   nook_context_destroy(&context);

@@ -2,11 +2,11 @@
 // limits, lost contexts.
 #include <cstring>
 
-#include "material/material_file.h"
-#include "material_decoder.h"
-#include "material_sample.h"
-#include "test_context.h"
-#include "traced_loader.h"
+#include "sdk/src/material/material_file.h"
+#include "tests/gl/material_decoder.h"
+#include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
+#include "tests/material/material_sample.h"
 
 using namespace nook;
 using namespace nook::test;

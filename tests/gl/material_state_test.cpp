@@ -2,11 +2,11 @@
 #include <functional>
 #include <optional>
 
-#include "gl/touched_state.h"
-#include "material_decoder.h"
-#include "material_sample.h"
-#include "poison.h"
-#include "test_context.h"
+#include "sdk/src/gl/touched_state.h"
+#include "tests/gl/material_decoder.h"
+#include "tests/gl/poison.h"
+#include "tests/gl/test_context.h"
+#include "tests/material/material_sample.h"
 
 using namespace nook;
 using namespace nook::test;

@@ -1,7 +1,7 @@
 // What an update may not do: allocate host memory, read back, wait, or query state outside PRESERVE.
-#include "crowd.h"
-#include "test_context.h"
-#include "traced_loader.h"
+#include "tests/gl/crowd.h"
+#include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
 
 using namespace nook;
 using namespace nook::test;

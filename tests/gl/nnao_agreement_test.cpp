@@ -1,6 +1,6 @@
 // The pass gives the AO of the CPU reference: every projection, both forms, odd sizes, parts of an image.
-#include "nnao_images.h"
-#include "test_context.h"
+#include "tests/gl/nnao_images.h"
+#include "tests/gl/test_context.h"
 
 using namespace nook;
 using namespace nook::test;

@@ -3,9 +3,9 @@
 #include <functional>
 #include <limits>
 
-#include "nnao/network_file.h"
-#include "nnao_images.h"
-#include "test_context.h"
+#include "sdk/src/nnao/network_file.h"
+#include "tests/gl/nnao_images.h"
+#include "tests/gl/test_context.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -216,8 +216,8 @@ TEST_CASE("nnao: a bad description of a pass is refused with its field") {
   CHECK(nook_nnao_create(fixture.gl, &desc, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_nnao_render(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_nnao_recheck(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_get_info(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_get_timings(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_describe(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_read_timings(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   nook_nnao_destroy(nullptr);
 }
 

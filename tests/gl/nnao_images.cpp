@@ -1,11 +1,11 @@
-#include "nnao_images.h"
+#include "tests/gl/nnao_images.h"
 
 #include <cstring>
 #include <limits>
 
-#include "network_sample.h"
-#include "nnao/network_file.h"
-#include "test_context.h"
+#include "sdk/src/nnao/network_file.h"
+#include "tests/gl/test_context.h"
+#include "tests/nnao/network_sample.h"
 
 namespace nook::test {
 namespace {
@@ -300,7 +300,7 @@ nook_nnao_frame_desc frame_desc(const Camera& camera, int width, int height, GLu
 nook_nnao_info info_of(nook_nnao pass) {
   nook_nnao_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_nnao_get_info(pass, &info));
+  NOOK_OK_OR_FAIL(nook_nnao_describe(pass, &info));
   return info;
 }
 

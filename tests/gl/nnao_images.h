@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "crowd.h"
-#include "nnao/evaluate.h"
-#include "nnao/network.h"
 #include "platform/platform.h"
+#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network.h"
+#include "tests/gl/crowd.h"
 
 namespace nook::test {
 

@@ -1,7 +1,7 @@
 // Memory of a pass, any order of destruction, refused allocations, lost contexts.
-#include "nnao_images.h"
-#include "test_context.h"
-#include "traced_loader.h"
+#include "tests/gl/nnao_images.h"
+#include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -51,7 +51,7 @@ TEST_CASE("nnao: a pass takes the memory that was promised, and opens with AO 1"
     nook_nnao_timings timings{};
     timings.struct_size = sizeof timings;
     timings.valid = 5;
-    NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings));
+    NOOK_OK_OR_FAIL(nook_nnao_read_timings(pass, &timings));
     CHECK(timings.valid == 0);
     nook_nnao_destroy(&pass);
   }
@@ -131,7 +131,7 @@ TEST_CASE("nnao: after the OpenGL context is lost nothing calls OpenGL, and dest
   CHECK(nook_nnao_render(pass, &frame) == NOOK_ERROR_GL);
   nook_nnao_timings timings{};
   timings.struct_size = sizeof timings;
-  CHECK(nook_nnao_get_timings(pass, &timings) == NOOK_ERROR_GL);
+  CHECK(nook_nnao_read_timings(pass, &timings) == NOOK_ERROR_GL);
   nook_nnao other = nullptr;
   CHECK(nook_nnao_create(gl, &desc, &other) == NOOK_ERROR_GL);
   nook_nnao_destroy(&pass);

@@ -1,7 +1,7 @@
 // Where AO goes and what is mixed in: targets, blending, layers, strength, formats of normals, sizes from
 // frame to frame.
-#include "nnao_images.h"
-#include "test_context.h"
+#include "tests/gl/nnao_images.h"
+#include "tests/gl/test_context.h"
 
 using namespace nook;
 using namespace nook::test;

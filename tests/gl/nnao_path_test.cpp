@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "abi/growing_struct.h"
-#include "nnao_images.h"
-#include "test_context.h"
-#include "traced_loader.h"
+#include "tests/abi/growing_struct.h"
+#include "tests/gl/nnao_images.h"
+#include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -210,7 +210,7 @@ TEST_CASE("nnao: compute is taken where OpenGL has it, and refused with a reason
       NOOK_OK_OR_FAIL(nook_nnao_create(gl, &desc, &pass));
       CHECK(info_of(pass).path == got);
       // Hosts of the first release end before the path.
-      check_info<nook_nnao_info>(24, [&](nook_nnao_info* info) { return nook_nnao_get_info(pass, info); });
+      check_info<nook_nnao_info>(24, [&](nook_nnao_info* info) { return nook_nnao_describe(pass, info); });
     }
     nook_nnao_destroy(&pass);
     nook_gl_destroy(&gl);

@@ -1,8 +1,8 @@
 // What is seen: planes, sky, borders, edges, blur, half resolution, normals rebuilt from depth.
 #include <limits>
 
-#include "nnao_images.h"
-#include "test_context.h"
+#include "tests/gl/nnao_images.h"
+#include "tests/gl/test_context.h"
 
 using namespace nook;
 using namespace nook::test;

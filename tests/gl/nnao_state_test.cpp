@@ -1,11 +1,11 @@
 // The promise of nook_gl_state_mode for the screen-space pass, and what a frame may not do.
 #include <functional>
 
-#include "gl/touched_state.h"
-#include "nnao_images.h"
-#include "poison.h"
-#include "test_context.h"
-#include "traced_loader.h"
+#include "sdk/src/gl/touched_state.h"
+#include "tests/gl/nnao_images.h"
+#include "tests/gl/poison.h"
+#include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -101,7 +101,7 @@ void walk_path(platform::Context& context, nook_gl_state_mode mode, nook_nnao_pa
       CHECK((own_ao(context.gl(), pass, width, height) == wanted));
       {
         Poison poison(context, gl::screen_timers);
-        check("timings", poison, [&] { NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings)); });
+        check("timings", poison, [&] { NOOK_OK_OR_FAIL(nook_nnao_read_timings(pass, &timings)); });
       }
       {
         Poison poison(context, users_of(path));
@@ -235,9 +235,9 @@ TEST_CASE("nnao: a frame allocates nothing, reads nothing back and asks OpenGL o
     else
       CHECK(asked == 0);
     // Finished stages are found without waiting; whether one is finished by now is the driver's affair.
-    NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings));
+    NOOK_OK_OR_FAIL(nook_nnao_read_timings(pass, &timings));
     context.gl().Finish();
-    NOOK_OK_OR_FAIL(nook_nnao_get_timings(pass, &timings));
+    NOOK_OK_OR_FAIL(nook_nnao_read_timings(pass, &timings));
     CHECK(timings.valid == 1);
     nook_nnao_destroy(&pass);
     nook_gl_destroy(&gl);

@@ -1,8 +1,8 @@
-#include "poison.h"
+#include "tests/gl/poison.h"
 
 #include <iterator>
 
-#include "gl/state_guard.h"
+#include "sdk/src/gl/state_guard.h"
 
 namespace nook::test {
 

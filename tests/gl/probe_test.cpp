@@ -7,11 +7,11 @@
 #include <memory>
 #include <random>
 
-#include "crowd.h"
-#include "gl/touched_state.h"
 #include "platform/program.h"
-#include "poison.h"
-#include "test_context.h"
+#include "sdk/src/gl/touched_state.h"
+#include "tests/gl/crowd.h"
+#include "tests/gl/poison.h"
+#include "tests/gl/test_context.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -49,7 +49,7 @@ Probe make_probe(nook_context context, const ProbeRequest& request, unsigned see
   NOOK_OK_OR_FAIL(nook_probe_fit_create(context, &fit_desc, &fit));
   nook_probe_fit_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_probe_fit_get_info(fit, &info));
+  NOOK_OK_OR_FAIL(nook_probe_fit_describe(fit, &info));
   nook_probe_desc desc;
   NOOK_OK_OR_FAIL(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
   desc.functions = fit;
@@ -72,7 +72,7 @@ Probe make_probe(nook_context context, const ProbeRequest& request, unsigned see
 std::vector<nook_probe_lobe> lobes_of(nook_probe probe, const float* position_ws) {
   nook_probe_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_probe_get_info(probe, &info));
+  NOOK_OK_OR_FAIL(nook_probe_describe(probe, &info));
   std::vector<nook_probe_lobe> lobes(info.function_count);
   NOOK_OK_OR_FAIL(nook_probe_read_lobes(probe, position_ws, lobes.data(), info.function_count));
   return lobes;
@@ -81,7 +81,7 @@ std::vector<nook_probe_lobe> lobes_of(nook_probe probe, const float* position_ws
 nook_gl_probe_info info_of(const GlProbe& probe) {
   nook_gl_probe_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_probe_get_info(probe.get(), &info));
+  NOOK_OK_OR_FAIL(nook_gl_probe_describe(probe.get(), &info));
   return info;
 }
 
@@ -322,7 +322,7 @@ TEST_CASE("what cannot be uploaded is refused and leaves nothing") {
   CHECK(nook_gl_probe_create(nullptr, bands.get(), &made) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_gl_probe_create(fixture.gl.get(), nullptr, &made) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_gl_probe_create(fixture.gl.get(), bands.get(), nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_get_info(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_probe_describe(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
 
   GLint texels = 0;
   context.gl().GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
@@ -346,7 +346,7 @@ TEST_CASE("a probe outlives its nook_gl, and a lost context asks for no call") {
   NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, probe.get(), &uploaded));
   nook_gl_probe_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_probe_get_info(uploaded, &info));
+  NOOK_OK_OR_FAIL(nook_gl_probe_describe(uploaded, &info));
   nook_gl_destroy(&gl);
   CHECK(context.gl().IsTexture(info.texture));
   nook_gl_probe_destroy(&uploaded);
@@ -357,7 +357,7 @@ TEST_CASE("a probe outlives its nook_gl, and a lost context asks for no call") {
 
   gl = create_gl(host.handle, platform::Context::loader, &context, 0);
   NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, probe.get(), &uploaded));
-  NOOK_OK_OR_FAIL(nook_gl_probe_get_info(uploaded, &info));
+  NOOK_OK_OR_FAIL(nook_gl_probe_describe(uploaded, &info));
   NOOK_OK_OR_FAIL(nook_gl_context_lost(gl));
   CHECK(nook_gl_probe_update(uploaded, probe.get()) == NOOK_ERROR_GL);
   nook_gl_probe_destroy(&uploaded);

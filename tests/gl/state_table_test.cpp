@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "catch.h"
-#include "gl/touched_state.h"
+#include "sdk/src/gl/touched_state.h"
+#include "tests/catch.h"
 
 namespace {
 
@@ -14,7 +14,7 @@ std::string names_of(unsigned users) {
   const std::pair<unsigned, const char*> all[] = {{nook::gl::tier_33, "33"},
                                                   {nook::gl::tier_43, "43"},
                                                   {nook::gl::screen, "nnao"},
-                                                  {nook::gl::screen_timers, "nook_nnao_get_timings"},
+                                                  {nook::gl::screen_timers, "nook_nnao_read_timings"},
                                                   {nook::gl::materials, "material"},
                                                   {nook::gl::probes, "probe"},
                                                   {nook::gl::screen_compute, "nnao, compute path"}};

@@ -1,9 +1,9 @@
 // The promise of nook_gl_state_mode, for every call, on both tiers.
 #include <functional>
 
-#include "crowd.h"
-#include "poison.h"
-#include "test_context.h"
+#include "tests/gl/crowd.h"
+#include "tests/gl/poison.h"
+#include "tests/gl/test_context.h"
 
 using namespace nook;
 using namespace nook::test;

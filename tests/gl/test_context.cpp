@@ -1,4 +1,4 @@
-#include "test_context.h"
+#include "tests/gl/test_context.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "catch.h"
 #include "platform/platform.h"
+#include "tests/catch.h"
 
 namespace nook::test {
 

@@ -1,9 +1,9 @@
-#include "traced_loader.h"
+#include "tests/gl/traced_loader.h"
 
 #include <array>
 #include <cstring>
 
-#include "gl/functions.h"
+#include "sdk/src/gl/functions.h"
 
 namespace nook::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "test_context.h"
+#include "tests/gl/test_context.h"
 
 std::vector<std::byte> nook_test_model_bytes();
 std::vector<std::byte> nook_test_material_bytes();

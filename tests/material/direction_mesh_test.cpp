@@ -1,9 +1,9 @@
-#include "material/direction_mesh.h"
+#include "sdk/src/material/direction_mesh.h"
 
 #include <cmath>
 
-#include "catch.h"
-#include "material_sample.h"
+#include "tests/catch.h"
+#include "tests/material/material_sample.h"
 
 using namespace nook;
 using namespace nook::material;

@@ -1,14 +1,14 @@
-#include "material/evaluate.h"
+#include "sdk/src/material/evaluate.h"
 
 #include <array>
 #include <cmath>
 #include <thread>
 
-#include "catch.h"
-#include "equation.h"
-#include "material/direction_mesh.h"
-#include "material/view_cells.h"
-#include "material_sample.h"
+#include "sdk/src/material/direction_mesh.h"
+#include "sdk/src/material/view_cells.h"
+#include "tests/catch.h"
+#include "tests/material/equation.h"
+#include "tests/material/material_sample.h"
 
 using namespace nook;
 using namespace nook::material;

@@ -1,12 +1,12 @@
-#include "material/material_file.h"
+#include "sdk/src/material/material_file.h"
 
 #include <cmath>
 #include <string>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "material/check.h"
-#include "material_sample.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/material/check.h"
+#include "tests/catch.h"
+#include "tests/material/material_sample.h"
 
 using namespace nook;
 using namespace nook::material;

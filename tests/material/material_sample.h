@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "material/material.h"
+#include "sdk/src/material/material.h"
 
 namespace nook::material::test {
 

@@ -1,11 +1,11 @@
-#include "open_weave.h"
+#include "tests/material/open_weave.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "material_sample.h"
+#include "tests/material/material_sample.h"
 
 namespace nook::material::test {
 namespace {

@@ -2,7 +2,7 @@
 // BTF and a VOTF, and stored without loss as a CTA whose clusters hold four views each.
 #pragma once
 
-#include "material/material.h"
+#include "sdk/src/material/material.h"
 
 namespace nook::material::test {
 

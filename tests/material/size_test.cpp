@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "catch.h"
-#include "material/material.h"
+#include "sdk/src/material/material.h"
+#include "tests/catch.h"
 
 using namespace nook::material;
 

@@ -1,11 +1,11 @@
-#include "material/spatial_modes.h"
+#include "sdk/src/material/spatial_modes.h"
 
 #include <cmath>
 #include <numeric>
 
-#include "catch.h"
-#include "equation.h"
-#include "material_sample.h"
+#include "tests/catch.h"
+#include "tests/material/equation.h"
+#include "tests/material/material_sample.h"
 
 using namespace nook::material;
 

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <string_view>
 
-#include "material/material_file.h"
-#include "open_weave.h"
+#include "sdk/src/material/material_file.h"
+#include "tests/material/open_weave.h"
 
 int main(int argc, char** argv) {
   using namespace nook::material;

@@ -1,12 +1,12 @@
-#include "nnao/evaluate.h"
+#include "sdk/src/nnao/evaluate.h"
 
 #include <limits>
 #include <vector>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "network_sample.h"
-#include "nnao/network_file.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/nnao/network_file.h"
+#include "tests/catch.h"
+#include "tests/nnao/network_sample.h"
 
 using namespace nook;
 using namespace nook::nnao;

@@ -1,12 +1,12 @@
-#include "nnao/network_file.h"
+#include "sdk/src/nnao/network_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "catch.h"
-#include "core/half.h"
-#include "network_sample.h"
+#include "sdk/src/core/half.h"
+#include "tests/catch.h"
+#include "tests/nnao/network_sample.h"
 
 using namespace nook;
 using namespace nook::nnao;

@@ -1,8 +1,8 @@
-#include "nnao/taps.h"
+#include "sdk/src/nnao/taps.h"
 
 #include <set>
 
-#include "catch.h"
+#include "tests/catch.h"
 
 using namespace nook::nnao;
 

@@ -1,13 +1,13 @@
 // Integrals of every basis over both domains against brute force, and what is refused.
-#include "probe/basis.h"
+#include "sdk/src/probe/basis.h"
 
 #include <string>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "probe/axes.h"
-#include "probe/harmonics.h"
-#include "sphere_quadrature.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/axes.h"
+#include "sdk/src/probe/harmonics.h"
+#include "tests/catch.h"
+#include "tests/probe/sphere_quadrature.h"
 
 using namespace nook;
 using namespace nook::probe;

@@ -1,9 +1,9 @@
 // How near the running average comes to the exact least-squares fit, for smooth functions and independent
 // samples, over 20 seeds.
-#include "catch.h"
-#include "probe/dense.h"
-#include "samples.h"
-#include "sphere_quadrature.h"
+#include "sdk/src/probe/dense.h"
+#include "tests/catch.h"
+#include "tests/probe/samples.h"
+#include "tests/probe/sphere_quadrature.h"
 
 using namespace nook;
 using namespace nook::probe;

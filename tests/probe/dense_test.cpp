@@ -1,10 +1,10 @@
-#include "probe/dense.h"
+#include "sdk/src/probe/dense.h"
 
 #include <random>
 #include <vector>
 
-#include "catch.h"
-#include "probe/basis.h"
+#include "sdk/src/probe/basis.h"
+#include "tests/catch.h"
 
 using namespace nook::probe;
 

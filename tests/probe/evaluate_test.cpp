@@ -1,13 +1,13 @@
 // Radiance and irradiance of probes against quadrature, interpolation, and conversion to harmonics.
-#include "probe/evaluate.h"
+#include "sdk/src/probe/evaluate.h"
 
-#include "catch.h"
-#include "core/failure.h"
-#include "probe/convert.h"
-#include "probe/harmonics.h"
-#include "probe/probe.h"
-#include "samples.h"
-#include "sphere_quadrature.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/convert.h"
+#include "sdk/src/probe/harmonics.h"
+#include "sdk/src/probe/probe.h"
+#include "tests/catch.h"
+#include "tests/probe/samples.h"
+#include "tests/probe/sphere_quadrature.h"
 
 using namespace nook;
 using namespace nook::probe;

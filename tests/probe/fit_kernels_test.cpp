@@ -1,8 +1,8 @@
 // Every instruction set against the scalar reference and the exponential itself.
-#include "probe/fit_kernels.h"
+#include "sdk/src/probe/fit_kernels.h"
 
-#include "catch.h"
-#include "samples.h"
+#include "tests/catch.h"
+#include "tests/probe/samples.h"
 
 using namespace nook;
 using namespace nook::probe;

@@ -1,7 +1,7 @@
 // Two fits, joined.
-#include "catch.h"
-#include "core/failure.h"
-#include "samples.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
+#include "tests/probe/samples.h"
 
 using namespace nook;
 using namespace nook::probe;

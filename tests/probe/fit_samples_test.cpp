@@ -1,11 +1,11 @@
 // Samples: which are skipped, how weights count, and that neither calls nor seeds change more than they say.
 #include <limits>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "probe/axes.h"
-#include "probe/evaluate.h"
-#include "samples.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/axes.h"
+#include "sdk/src/probe/evaluate.h"
+#include "tests/catch.h"
+#include "tests/probe/samples.h"
 
 using namespace nook;
 using namespace nook::probe;

@@ -1,11 +1,11 @@
 // What each method converges to, and how one step of each is related to the others.
-#include "probe/fit.h"
+#include "sdk/src/probe/fit.h"
 
 #include <string>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "samples.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
+#include "tests/probe/samples.h"
 
 using namespace nook;
 using namespace nook::probe;

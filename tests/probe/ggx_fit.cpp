@@ -7,9 +7,9 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <unsupported/Eigen/NumericalDiff>
 
-#include "ggx_quadrature.h"
-#include "probe/axes.h"
-#include "probe/specular.h"
+#include "sdk/src/probe/axes.h"
+#include "sdk/src/probe/specular.h"
+#include "tests/probe/ggx_quadrature.h"
 
 using namespace nook;
 using Eigen::MatrixXd;

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "probe/ggx_reflection.h"
+#include "sdk/src/probe/ggx_reflection.h"
 
 namespace nook::test {
 

@@ -1,8 +1,8 @@
-#include "probe/packing.h"
+#include "sdk/src/probe/packing.h"
 
 #include <cmath>
 
-#include "catch.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::probe;

@@ -1,12 +1,12 @@
-#include "probe/probe_file.h"
+#include "sdk/src/probe/probe_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "catch.h"
-#include "core/half.h"
-#include "probe_sample.h"
+#include "sdk/src/core/half.h"
+#include "tests/catch.h"
+#include "tests/probe/probe_sample.h"
 
 using namespace nook;
 using namespace nook::probe;

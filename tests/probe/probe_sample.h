@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "probe/probe.h"
+#include "sdk/src/probe/probe.h"
 
 namespace nook::test {
 

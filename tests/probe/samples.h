@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "core/spherical_gaussian.h"
-#include "probe/basis.h"
-#include "probe/fit.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/probe/basis.h"
+#include "sdk/src/probe/fit.h"
 
 namespace nook::test {
 

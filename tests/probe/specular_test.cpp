@@ -1,11 +1,11 @@
 // Glossy reflection against the GGX reflection integral that it stands for.
-#include "probe/specular.h"
+#include "sdk/src/probe/specular.h"
 
-#include "catch.h"
-#include "ggx_quadrature.h"
-#include "probe/axes.h"
-#include "samples.h"
-#include "sphere_quadrature.h"
+#include "sdk/src/probe/axes.h"
+#include "tests/catch.h"
+#include "tests/probe/ggx_quadrature.h"
+#include "tests/probe/samples.h"
+#include "tests/probe/sphere_quadrature.h"
 
 using namespace nook;
 using namespace nook::probe;

@@ -134,7 +134,7 @@ class CharacterModel : public Unique<nook_character_model, nook_character_model_
   nook_character_model_info info() const {
     nook_character_model_info info{};
     info.struct_size = sizeof info;
-    check(nook_character_model_get_info(get(), &info));
+    check(nook_character_model_describe(get(), &info));
     return info;
   }
   // Empty for an index out of range.
@@ -209,7 +209,7 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
   nook_scene_stats stats() const {
     nook_scene_stats stats{};
     stats.struct_size = sizeof stats;
-    check(nook_scene_get_stats(get(), &stats));
+    check(nook_scene_read_stats(get(), &stats));
     return stats;
   }
 
@@ -231,7 +231,7 @@ class Probe : public Unique<nook_probe, nook_probe_destroy> {
   nook_probe_info info() const {
     nook_probe_info info{};
     info.struct_size = sizeof info;
-    check(nook_probe_get_info(get(), &info));
+    check(nook_probe_describe(get(), &info));
     return info;
   }
   // The bytes of a .nook file.
@@ -290,7 +290,7 @@ class ProbeFit : public Unique<nook_probe_fit, nook_probe_fit_destroy> {
   nook_probe_fit_info info() const {
     nook_probe_fit_info info{};
     info.struct_size = sizeof info;
-    check(nook_probe_fit_get_info(get(), &info));
+    check(nook_probe_fit_describe(get(), &info));
     return info;
   }
   // RGB of each function.
@@ -322,7 +322,7 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   nook_gl_info info() const {
     nook_gl_info info{};
     info.struct_size = sizeof info;
-    check(nook_gl_get_info(get(), &info));
+    check(nook_gl_describe(get(), &info));
     return info;
   }
   void prepare(const Scene& scene) { check(nook_gl_scene_prepare(get(), scene.get())); }
@@ -368,7 +368,7 @@ class GlProbe : public Unique<nook_gl_probe, nook_gl_probe_destroy> {
   nook_gl_probe_info info() const {
     nook_gl_probe_info info{};
     info.struct_size = sizeof info;
-    check(nook_gl_probe_get_info(get(), &info));
+    check(nook_gl_probe_describe(get(), &info));
     return info;
   }
 
@@ -388,7 +388,7 @@ class Material : public Unique<nook_material, nook_material_destroy> {
   nook_material_info info() const {
     nook_material_info info{};
     info.struct_size = sizeof info;
-    check(nook_material_get_info(get(), &info));
+    check(nook_material_describe(get(), &info));
     return info;
   }
   void evaluate(const nook_material_sample* samples, std::uint32_t count, nook_material_value* values) const {
@@ -413,14 +413,14 @@ class GlMaterial : public Unique<nook_gl_material, nook_gl_material_destroy> {
   nook_gl_material_info info() const {
     nook_gl_material_info info{};
     info.struct_size = sizeof info;
-    check(nook_gl_material_get_info(get(), &info));
+    check(nook_gl_material_describe(get(), &info));
     return info;
   }
   std::vector<nook_gl_material_texture> textures() const {
     std::vector<nook_gl_material_texture> all(info().texture_count);
     for (std::uint32_t i = 0; i < all.size(); ++i) {
       all[i].struct_size = sizeof all[i];
-      check(nook_gl_material_get_texture(get(), i, &all[i]));
+      check(nook_gl_material_describe_texture(get(), i, &all[i]));
     }
     return all;
   }
@@ -443,13 +443,13 @@ class Nnao : public Unique<nook_nnao, nook_nnao_destroy> {
   nook_nnao_info info() const {
     nook_nnao_info info{};
     info.struct_size = sizeof info;
-    check(nook_nnao_get_info(get(), &info));
+    check(nook_nnao_describe(get(), &info));
     return info;
   }
   nook_nnao_timings timings() const {
     nook_nnao_timings timings{};
     timings.struct_size = sizeof timings;
-    check(nook_nnao_get_timings(get(), &timings));
+    check(nook_nnao_read_timings(get(), &timings));
     return timings;
   }
 

@@ -83,7 +83,7 @@ typedef struct nook_bake_character_info {
 } nook_bake_character_info;
 
 /* Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_bake_character_get_info(nook_bake_character character, nook_bake_character_info* info);
+NOOK_API nook_result nook_bake_character_describe(nook_bake_character character, nook_bake_character_info* info);
 
 /* Texts of a character, valid while it lives; NULL for an index out of range. Any thread. */
 NOOK_API const char* nook_bake_character_bone_name(nook_bake_character character, uint32_t bone);
@@ -97,7 +97,7 @@ NOOK_API nook_result nook_bake_character_read_bones(nook_bake_character characte
                                                     uint32_t bone_count);
 
 /* Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_bake_character_get_primitive(nook_bake_character character, uint32_t primitive,
+NOOK_API nook_result nook_bake_character_describe_primitive(nook_bake_character character, uint32_t primitive,
                                                        nook_bake_primitive* out);
 
 /* Length of a clip in seconds. Any thread. Errors: INVALID_ARGUMENT. */
@@ -254,11 +254,11 @@ NOOK_API nook_result nook_bake_job_wait(nook_bake_job job);
 
 /* The bytes of the .nook file, valid until the job is destroyed. Any thread.
  * Errors: INVALID_ARGUMENT (the job is not finished), or the result of a job that failed. */
-NOOK_API nook_result nook_bake_job_get_model(nook_bake_job job, const void** bytes, size_t* size);
+NOOK_API nook_result nook_bake_job_model(nook_bake_job job, const void** bytes, size_t* size);
 
 /* A JSON object: settings, times, errors, the curve of the fit. Valid until the job is destroyed. Any thread. Errors: as
- * nook_bake_job_get_model. */
-NOOK_API nook_result nook_bake_job_get_report(nook_bake_job job, const char** json);
+ * nook_bake_job_model. */
+NOOK_API nook_result nook_bake_job_report(nook_bake_job job, const char** json);
 
 /* Cancels and waits if the job still runs; sets *job to NULL. One at a time. */
 NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
@@ -324,7 +324,7 @@ typedef struct nook_bake_material_desc {
 /* Fills *desc with defaults, as nook_context_desc_init does. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 NOOK_API nook_result nook_bake_material_desc_init(nook_bake_material_desc* desc, size_t size, uint32_t header_version);
 
-/* Checks the arguments, copies the arrays and begins to bake. The job is one as those of characters: nook_bake_job_get_model
+/* Checks the arguments, copies the arrays and begins to bake. The job is one as those of characters: nook_bake_job_model
  * gives a material's file; the report has its recipe, sizes, times, signal-to-error ratio in dB and error texels. What only
  * the data tell, such as ranks that the sizes do not allow, is an error here too. On failure *out is NULL. Any thread.
  * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */

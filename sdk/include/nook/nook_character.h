@@ -42,7 +42,7 @@ typedef struct nook_character_model_info {
 } nook_character_model_info;
 
 /* Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_character_model_get_info(nook_character_model model, nook_character_model_info* info);
+NOOK_API nook_result nook_character_model_describe(nook_character_model model, nook_character_model_info* info);
 
 /* The name of a bone, so that a host can map its skeleton to the model's order. Valid while the model lives. Any thread.
  * NULL for an index out of range. */
@@ -182,7 +182,7 @@ typedef struct nook_scene_stats {
   uint64_t evaluations;           /* sphere-key-point pairs of the last update */
 } nook_scene_stats;
 /* One at a time. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_scene_get_stats(nook_scene scene, nook_scene_stats* stats);
+NOOK_API nook_result nook_scene_read_stats(nook_scene scene, nook_scene_stats* stats);
 
 #ifdef __cplusplus
 }

@@ -13,7 +13,7 @@
  * The i-th value belongs to the i-th vertex of the imported file, all primitives in a row; the first value of a primitive is
  * at nook_character_model_primitive.
  *
- * Every function here except nook_gl_desc_init, nook_gl_context_lost and nook_gl_get_info belongs to the context thread, and
+ * Every function here except nook_gl_desc_init, nook_gl_context_lost and nook_gl_describe belongs to the context thread, and
  * makes OpenGL calls unless it says otherwise. At each call no transform feedback without pause, no conditional rendering and no query that counts
  * primitives or samples may be active. OpenGL errors that the host left are reported to the log by calls that allocate;
  * the others neither read nor clear them. */
@@ -62,7 +62,7 @@ NOOK_API nook_result nook_gl_create(nook_context context, const nook_gl_desc* de
  * Context thread, with the OpenGL context of nook_gl_create current (any thread after nook_gl_context_lost). */
 NOOK_API void nook_gl_destroy(nook_gl* gl);
 
-/* Says that the OpenGL context is gone: forgets all names without an OpenGL call. Afterwards only nook_gl_get_info and
+/* Says that the OpenGL context is gone: forgets all names without an OpenGL call. Afterwards only nook_gl_describe and
  * nook_gl_destroy do anything; the others fail with NOOK_ERROR_GL. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_context_lost(nook_gl gl);
 
@@ -75,7 +75,7 @@ typedef struct nook_gl_info {
   uint64_t ao_bytes;        /* of that, AO */
 } nook_gl_info;
 /* One at a time. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_gl_get_info(nook_gl gl, nook_gl_info* info);
+NOOK_API nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info);
 
 /* Makes what the scene's instances need on the GPU, so that the next nook_gl_scene_update allocates nothing. Optional:
  * an update prepares when instances were added. Instances that were there keep their AO and their view. Context thread.
@@ -121,7 +121,7 @@ NOOK_API nook_result nook_gl_scene_read_ao(nook_gl gl, nook_scene scene, nook_in
  * The shader, n the unit normal in world space:
  *     vec3 e = nook_scene_irradiance(light, n, directional_ao);   // nook_scene_open_irradiance(light, n) without occlusion
  *     colour = albedo / 3.14159265 * e;
- * The text goes with that of nook_gl_probe_get_info into one shader, in either order. Every name begins with nook_ or Nook. */
+ * The text goes with that of nook_gl_probe_describe into one shader, in either order. Every name begins with nook_ or Nook. */
 typedef struct nook_gl_light_view {
   uint32_t struct_size; /* sizeof(nook_gl_light_view), set by the caller */
   uint32_t buffer;      /* OpenGL buffer name; owned by Nook: read it, never write or delete it */

@@ -1,6 +1,6 @@
 /* Probes in the host's shaders: a probe or a grid as one texture, and the GLSL that evaluates it there.
  *
- * In an engine, once: load a probe of lobes, nook_gl_probe_create; put the GLSL of nook_gl_probe_get_info behind the #version
+ * In an engine, once: load a probe of lobes, nook_gl_probe_create; put the GLSL of nook_gl_probe_describe behind the #version
  * line of a fragment or vertex shader; set the uniform nook_probe_texels to the unit that the texture will be bound to. Each
  * draw: bind the texture to GL_TEXTURE_BUFFER of that unit. The shader:
  *     NookProbeSurface surface = NookProbeSurface(normal_ws, view_ws, tangent_ws, vec2(alpha_x, alpha_y), reflectance);
@@ -44,7 +44,7 @@ typedef struct nook_gl_probe_info {
                            same text for every probe. Valid as long as the library is loaded */
 } nook_gl_probe_info;
 /* Makes no OpenGL call. Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_gl_probe_get_info(nook_gl_probe gl_probe, nook_gl_probe_info* info);
+NOOK_API nook_result nook_gl_probe_describe(nook_gl_probe gl_probe, nook_gl_probe_info* info);
 
 #ifdef __cplusplus
 }

@@ -12,7 +12,7 @@
  *
  * Directions are in tangent space: x along u, y along v, z along the normal; unit vectors away from the surface.
  *
- * In an engine, once: load, nook_gl_material_create; put the GLSL of nook_gl_material_get_info behind the #version line of a
+ * In an engine, once: load, nook_gl_material_create; put the GLSL of nook_gl_material_describe behind the #version line of a
  * fragment shader; set each texture's uniform to the unit that it will be bound to. Each draw: bind the textures, with no
  * sampler object on their units. The shader:
  *     vec4 modes[NOOK_LIGHT_FOURS];
@@ -81,7 +81,7 @@ typedef struct nook_material_info {
   uint64_t table_bytes;                /* expanded: memory held now, and texture memory once uploaded */
 } nook_material_info;
 /* Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_material_get_info(nook_material material, nook_material_info* info);
+NOOK_API nook_result nook_material_describe(nook_material material, nook_material_info* info);
 
 typedef struct nook_material_sample {
   float uv[2];    /* 0 to 1 is one tile; it repeats */
@@ -138,7 +138,7 @@ typedef struct nook_gl_material_info {
                              lives */
 } nook_gl_material_info;
 /* Makes no OpenGL call. Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_gl_material_get_info(nook_gl_material material, nook_gl_material_info* info);
+NOOK_API nook_result nook_gl_material_describe(nook_gl_material material, nook_gl_material_info* info);
 
 typedef struct nook_gl_material_texture {
   uint32_t struct_size; /* sizeof(nook_gl_material_texture), set by the caller */
@@ -147,7 +147,7 @@ typedef struct nook_gl_material_texture {
   const char* uniform;  /* the name of its sampler in the GLSL; valid while the material lives */
 } nook_gl_material_texture;
 /* One of the texture_count textures. Makes no OpenGL call. Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_gl_material_get_texture(nook_gl_material material, uint32_t index,
+NOOK_API nook_result nook_gl_material_describe_texture(nook_gl_material material, uint32_t index,
                                                   nook_gl_material_texture* texture);
 
 #ifdef __cplusplus

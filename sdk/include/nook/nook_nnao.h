@@ -21,7 +21,7 @@
  * The result is drawn, whatever the path: reading it needs no barrier.
  *
  * View space is OpenGL's: x right, y up, the camera looks along -z, metres. Images count from their lower left corner.
- * Every function that takes a nook_gl or a nook_nnao, except nook_nnao_get_info, belongs to the context thread, and makes
+ * Every function that takes a nook_gl or a nook_nnao, except nook_nnao_describe, belongs to the context thread, and makes
  * OpenGL calls unless it says otherwise; nook_gl.h says what of OpenGL's state is touched and what may not be active. */
 #ifndef NOOK_NNAO_H
 #define NOOK_NNAO_H
@@ -53,7 +53,7 @@ typedef struct nook_nnao_desc {
   int32_t half_resolution; /* 1: AO at half width and height, then a joint-bilateral upsample. Default 0 */
   int32_t blur;            /* 1 (default): bilateral blur over 7 x 7 pixels, by depth and normal */
   float blur_sharpness;    /* the blur ends at 1 / blur_sharpness radii off the pixel's plane; above 0, default 16 */
-  int32_t timers;          /* 1: each stage is timed, see nook_nnao_get_timings. Default 0 */
+  int32_t timers;          /* 1: each stage is timed, see nook_nnao_read_timings. Default 0 */
   nook_nnao_path path;     /* default NOOK_NNAO_PATH_AUTOMATIC */
   const void* network;     /* a .nook file of `nook train nnao`, of either form; NULL (default): the embedded network */
   size_t network_size;     /* bytes */
@@ -184,7 +184,7 @@ typedef struct nook_nnao_info {
   int32_t reserved;       /* 0 */
 } nook_nnao_info;
 /* Context thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_nnao_get_info(nook_nnao pass, nook_nnao_info* info);
+NOOK_API nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info);
 
 /* Milliseconds that the GPU took for each stage of the newest frame that is finished. */
 typedef struct nook_nnao_timings {
@@ -197,7 +197,7 @@ typedef struct nook_nnao_timings {
   float total;
 } nook_nnao_timings;
 /* Never waits. Context thread. Errors: INVALID_ARGUMENT, GL. */
-NOOK_API nook_result nook_nnao_get_timings(nook_nnao pass, nook_nnao_timings* timings);
+NOOK_API nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* timings);
 
 #ifdef __cplusplus
 }

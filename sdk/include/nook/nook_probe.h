@@ -162,7 +162,7 @@ typedef struct nook_probe_fit_info {
   double mean_radiance[3];   /* weighted mean of the samples: what the mean of the fit should be */
 } nook_probe_fit_info;
 /* One at a time. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_probe_fit_get_info(nook_probe_fit fit, nook_probe_fit_info* info);
+NOOK_API nook_result nook_probe_fit_describe(nook_probe_fit fit, nook_probe_fit_info* info);
 
 /* ---- Probes: immutable, one or a grid of them with shared functions; shared by any number of threads ---- */
 
@@ -220,7 +220,7 @@ typedef struct nook_probe_info {
   float spacing_ws[3];
 } nook_probe_info;
 /* Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_probe_get_info(nook_probe probe, nook_probe_info* info);
+NOOK_API nook_result nook_probe_describe(nook_probe probe, nook_probe_info* info);
 
 /* The coefficients of one probe of the grid. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_read_coefficients(nook_probe probe, uint32_t index, float* coefficients,

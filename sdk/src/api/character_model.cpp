@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "api/entry.h"
-#include "api/handles.h"
-#include "character/model_file.h"
-#include "core/descriptors.h"
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/handles.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 
@@ -31,8 +31,8 @@ void nook_character_model_destroy(nook_character_model* model) {
   *model = nullptr;
 }
 
-nook_result nook_character_model_get_info(nook_character_model model, nook_character_model_info* info) {
-  return api::enter("nook_character_model_get_info", [&] {
+nook_result nook_character_model_describe(nook_character_model model, nook_character_model_info* info) {
+  return api::enter("nook_character_model_describe", [&] {
     need(model, "model");
     const CharacterModel& m = model->model;
     nook_character_model_info answer{};

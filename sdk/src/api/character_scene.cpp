@@ -1,9 +1,9 @@
 #include <array>
 #include <cmath>
 
-#include "api/entry.h"
-#include "api/handles.h"
-#include "core/descriptors.h"
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/handles.h"
+#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 
@@ -230,8 +230,8 @@ nook_result nook_scene_read_directional_ao(nook_scene scene, nook_instance_id in
   });
 }
 
-nook_result nook_scene_get_stats(nook_scene scene, nook_scene_stats* stats) {
-  return with_scene("nook_scene_get_stats", scene, [&](const Scene& s) {
+nook_result nook_scene_read_stats(nook_scene scene, nook_scene_stats* stats) {
+  return with_scene("nook_scene_read_stats", scene, [&](const Scene& s) {
     write_info(stats, offsetof(nook_scene_stats, evaluations) + sizeof stats->evaluations, s.stats);
   });
 }

@@ -1,8 +1,8 @@
 #include <cstdio>
 
-#include "api/entry.h"
-#include "api/handles.h"
-#include "core/descriptors.h"
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/handles.h"
+#include "sdk/src/core/descriptors.h"
 
 namespace nook::api {
 namespace {

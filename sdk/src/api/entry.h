@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::api {
 

@@ -5,9 +5,9 @@
 
 #include <atomic>
 
-#include "character/loaded_model.h"
-#include "character/scene.h"
-#include "core/context.h"
+#include "sdk/src/character/loaded_model.h"
+#include "sdk/src/character/scene.h"
+#include "sdk/src/core/context.h"
 
 struct nook_context_s final : nook::Context {
   using Context::Context;

@@ -1,11 +1,11 @@
 #include <cmath>
 
-#include "api/entry.h"
-#include "api/material_handle.h"
-#include "core/descriptors.h"
-#include "material/cost.h"
-#include "material/evaluate.h"
-#include "material/material_file.h"
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/material_handle.h"
+#include "sdk/src/core/descriptors.h"
+#include "sdk/src/material/cost.h"
+#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/material_file.h"
 
 using namespace nook;
 using namespace nook::material;
@@ -94,8 +94,8 @@ void nook_material_destroy(nook_material* material) {
   *material = nullptr;
 }
 
-nook_result nook_material_get_info(nook_material material, nook_material_info* info) {
-  return api::enter("nook_material_get_info", [&] {
+nook_result nook_material_describe(nook_material material, nook_material_info* info) {
+  return api::enter("nook_material_describe", [&] {
     need(material, "material");
     write_info(info, first_info, material->info);
   });

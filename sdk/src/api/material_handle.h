@@ -3,8 +3,8 @@
 
 #include <nook/nook_material.h>
 
-#include "api/handles.h"
-#include "material/tables.h"
+#include "sdk/src/api/handles.h"
+#include "sdk/src/material/tables.h"
 
 struct nook_material_s : nook::RefCounted {
   // The compressed numbers are not kept.

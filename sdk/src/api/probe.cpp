@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "api/entry.h"
-#include "api/probe_handles.h"
-#include "api/probe_lobes.h"
-#include "core/descriptors.h"
-#include "probe/evaluate.h"
-#include "probe/probe_file.h"
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/probe_handles.h"
+#include "sdk/src/api/probe_lobes.h"
+#include "sdk/src/core/descriptors.h"
+#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_file.h"
 
 using namespace nook;
 using namespace nook::probe;
@@ -150,8 +150,8 @@ nook_result nook_probe_save(nook_probe probe, nook_probe_packing packing, void* 
   });
 }
 
-nook_result nook_probe_get_info(nook_probe probe, nook_probe_info* info) {
-  return api::enter("nook_probe_get_info", [&] {
+nook_result nook_probe_describe(nook_probe probe, nook_probe_info* info) {
+  return api::enter("nook_probe_describe", [&] {
     need(probe, "probe");
     const Probes& probes = probe->probes;
     nook_probe_info answer{};

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <span>
 
-#include "api/entry.h"
-#include "api/probe_handles.h"
-#include "core/descriptors.h"
-#include "probe/axes.h"
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/probe_handles.h"
+#include "sdk/src/core/descriptors.h"
+#include "sdk/src/probe/axes.h"
 
 using namespace nook;
 using namespace nook::probe;
@@ -183,8 +183,8 @@ nook_result nook_probe_fit_solve(nook_probe_fit fit, nook_probe* out) {
   });
 }
 
-nook_result nook_probe_fit_get_info(nook_probe_fit fit, nook_probe_fit_info* info) {
-  return with_fit("nook_probe_fit_get_info", fit, [&](Fit& f) {
+nook_result nook_probe_fit_describe(nook_probe_fit fit, nook_probe_fit_info* info) {
+  return with_fit("nook_probe_fit_describe", fit, [&](Fit& f) {
     const SampleCounts& counts = f.counts();
     nook_probe_fit_info answer{};
     answer.function_count = f.basis().count;

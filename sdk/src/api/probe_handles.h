@@ -5,10 +5,10 @@
 
 #include <utility>
 
-#include "api/handles.h"
-#include "core/ref.h"
-#include "probe/fit.h"
-#include "probe/probe.h"
+#include "sdk/src/api/handles.h"
+#include "sdk/src/core/ref.h"
+#include "sdk/src/probe/fit.h"
+#include "sdk/src/probe/probe.h"
 
 struct nook_probe_fit_s : nook::RefCounted {
   nook_probe_fit_s(nook_context_s* made_by, const nook::probe::Basis& basis,

@@ -1,15 +1,15 @@
-#include "api/probe_lobes.h"
+#include "sdk/src/api/probe_lobes.h"
 
 #include <array>
 #include <cmath>
 #include <span>
 
-#include "api/entry.h"
-#include "probe/basis.h"
-#include "probe/convert.h"
-#include "probe/harmonics.h"
-#include "probe/probe.h"
-#include "probe/specular.h"
+#include "sdk/src/api/entry.h"
+#include "sdk/src/probe/basis.h"
+#include "sdk/src/probe/convert.h"
+#include "sdk/src/probe/harmonics.h"
+#include "sdk/src/probe/probe.h"
+#include "sdk/src/probe/specular.h"
 
 using namespace nook;
 using namespace nook::probe;

@@ -3,9 +3,9 @@
 
 #include <nook/nook_probe.h>
 
-#include "core/failure.h"
-#include "core/spherical_gaussian.h"
-#include "probe/evaluate.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/probe/evaluate.h"
 
 namespace nook::api {
 

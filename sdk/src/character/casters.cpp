@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "character/scene.h"
+#include "sdk/src/character/scene.h"
 
 namespace nook {
 namespace {

@@ -14,8 +14,8 @@
 
 #include <cstdint>
 
-#include "core/simd_scalar.h"
-#include "core/vec.h"
+#include "sdk/src/core/simd_scalar.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook {
 

@@ -8,7 +8,7 @@
 // Written over a number type F, as kernel.h is.
 #pragma once
 
-#include "character/directional.h"
+#include "sdk/src/character/directional.h"
 
 namespace nook {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstring>
 
-#include "character/instance_views.h"
-#include "character/scene.h"
+#include "sdk/src/character/instance_views.h"
+#include "sdk/src/character/scene.h"
 
 namespace nook {
 namespace {

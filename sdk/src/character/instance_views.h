@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "character/scene.h"
+#include "sdk/src/character/scene.h"
 
 namespace nook {
 

@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-#include "core/simd_scalar.h"
+#include "sdk/src/core/simd_scalar.h"
 
 namespace nook {
 
@@ -24,8 +24,9 @@ inline constexpr int kernel_form_count = 3;
 
 struct Kernel {
   KernelForm form = KernelForm::nook;
-  // Exponent of the norm over spheres, >= 1; slide 20. The paper's larger ones keep spheres of neighbours from darkening twice;
-  // in the composed form these have a term of their own, and the plain sum fits self-shadow best.
+  // Exponent of the norm over spheres, >= 1; slide 20. The paper's larger ones keep spheres of neighbours
+  // from darkening twice; in the composed form these have a term of their own, and the plain sum fits
+  // self-shadow best.
   float gamma = 1;
 };
 

@@ -1,10 +1,10 @@
-#include "character/levels.h"
+#include "sdk/src/character/levels.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "character/shadow_kernels_rest.h"
-#include "core/failure.h"
+#include "sdk/src/character/shadow_kernels_rest.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook {
 namespace {

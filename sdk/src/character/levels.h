@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "character/model.h"
-#include "core/vec.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook {
 

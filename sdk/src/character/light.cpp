@@ -1,12 +1,12 @@
-#include "character/light.h"
+#include "sdk/src/character/light.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 
-#include "character/instance_views.h"
-#include "core/failure.h"
+#include "sdk/src/character/instance_views.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook {
 namespace {

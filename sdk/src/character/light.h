@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <span>
 
-#include "character/directional.h"
-#include "character/directional_bands.h"
-#include "core/aligned_array.h"
-#include "core/spherical_gaussian.h"
+#include "sdk/src/character/directional.h"
+#include "sdk/src/character/directional_bands.h"
+#include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/spherical_gaussian.h"
 
 namespace nook {
 

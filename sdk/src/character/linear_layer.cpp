@@ -1,11 +1,11 @@
-#include "character/linear_layer.h"
+#include "sdk/src/character/linear_layer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "character/linear_layer_order.h"
-#include "core/failure.h"
+#include "sdk/src/character/linear_layer_order.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook {
 namespace {

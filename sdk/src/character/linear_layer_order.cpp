@@ -1,4 +1,4 @@
-#include "character/linear_layer_order.h"
+#include "sdk/src/character/linear_layer_order.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "character/model.h"
+#include "sdk/src/character/model.h"
 
 namespace nook {
 

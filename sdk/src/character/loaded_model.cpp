@@ -1,4 +1,4 @@
-#include "character/loaded_model.h"
+#include "sdk/src/character/loaded_model.h"
 
 #include <algorithm>
 

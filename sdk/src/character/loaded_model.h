@@ -1,10 +1,10 @@
 // A model as the runtime holds it: shared and immutable, with what is worth deriving once from its data.
 #pragma once
 
-#include "character/linear_layer.h"
-#include "character/model.h"
-#include "character/shadow_kernels_rest.h"
-#include "core/ref.h"
+#include "sdk/src/character/linear_layer.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/character/shadow_kernels_rest.h"
+#include "sdk/src/core/ref.h"
 
 namespace nook {
 

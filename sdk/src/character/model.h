@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "character/kernel.h"
-#include "core/vec.h"
+#include "sdk/src/character/kernel.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook {
 
@@ -18,8 +18,8 @@ struct ProxySphere {
   Vec3 centre;
   float radius = 0;
   std::uint16_t bone = 0;
-  // Share of the sphere's form factor that counts when it darkens another instance, fitted at bake time against ray
-  // tracing, so that overlapping spheres of one character do not darken twice. >= 0.
+  // Share of the sphere's form factor that counts when it darkens another instance, fitted at bake time
+  // against ray tracing, so that overlapping spheres of one character do not darken twice. >= 0.
   float caster_weight = 1;
 };
 
@@ -39,15 +39,17 @@ struct PrimitiveRange {
   std::uint32_t vertex_count = 0;
 };
 
-// A coarser stand-in for the non-linear layer, for distant instances: fewer spheres act on fewer key points, and the shadow
-// of every key point follows from one that is evaluated. The linear layer stays.
+// A coarser stand-in for the non-linear layer, for distant instances: fewer spheres act on fewer key points,
+// and the shadow of every key point follows from one that is evaluated. The linear layer stays.
 struct CharacterLevel {
   using allocator_type = std::pmr::polymorphic_allocator<>;
   explicit CharacterLevel(const allocator_type& memory = {})
       : spheres(memory), evaluated(memory), source(memory), scale(memory), offset(memory) {}
   CharacterLevel(const CharacterLevel&) = default;
   CharacterLevel(CharacterLevel&&) = default;
-  CharacterLevel(const CharacterLevel& other, const allocator_type& memory) : CharacterLevel(memory) { *this = other; }
+  CharacterLevel(const CharacterLevel& other, const allocator_type& memory) : CharacterLevel(memory) {
+    *this = other;
+  }
   CharacterLevel(CharacterLevel&& other, const allocator_type& memory) : CharacterLevel(memory) {
     *this = std::move(other);
   }
@@ -56,8 +58,8 @@ struct CharacterLevel {
 
   std::pmr::vector<ProxySphere> spheres;
   std::pmr::vector<std::uint16_t> evaluated;  // key points, ascending
-  // For each key point k: shadow[k] = max(0, scale[k] * shadow[evaluated[source[k]]] + offset[k]); what other casters add is
-  // taken over as it is.
+  // For each key point k: shadow[k] = max(0, scale[k] * shadow[evaluated[source[k]]] + offset[k]); what other
+  // casters add is taken over as it is.
   std::pmr::vector<std::uint16_t> source;
   std::pmr::vector<float> scale;
   std::pmr::vector<float> offset;
@@ -66,8 +68,18 @@ struct CharacterLevel {
 
 struct CharacterModel {
   explicit CharacterModel(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : bone_names(memory), spheres(memory), key_points(memory), influence(memory), alpha(memory), bias(memory),
-        blend(memory), static_ao(memory), file_to_welded(memory), primitives(memory), levels(memory), recipe(memory) {}
+      : bone_names(memory),
+        spheres(memory),
+        key_points(memory),
+        influence(memory),
+        alpha(memory),
+        bias(memory),
+        blend(memory),
+        static_ao(memory),
+        file_to_welded(memory),
+        primitives(memory),
+        levels(memory),
+        recipe(memory) {}
 
   static constexpr std::uint32_t max_influences = 8;
 
@@ -76,16 +88,18 @@ struct CharacterModel {
   std::pmr::vector<ProxySphere> spheres;
   std::pmr::vector<KeyPoint> key_points;
 
-  // Linear layer: AO of welded vertex i is 1 - (sum_s alpha[i * influences + s] * shadow[influence[...]] + bias[i]).
-  std::uint32_t influences = 0;               // entries per vertex, 1 to max_influences; unused ones have alpha 0
+  // Linear layer: AO of welded vertex i is 1 - (sum_s alpha[i * influences + s] * shadow[influence[...]] +
+  // bias[i]).
+  std::uint32_t influences = 0;  // entries per vertex, 1 to max_influences; unused ones have alpha 0
   std::pmr::vector<std::uint16_t> influence;  // key-point indices
   std::pmr::vector<float> alpha;              // >= 0; at least one entry per vertex is > 0
   std::pmr::vector<float> bias;
   // How what other casters take away is blended from the same key points: AO is also multiplied by
-  // 1 - sum_s blend[i * influences + s] * occlusion[influence[...]]. Those of a vertex sum to 1, some may be negative;
-  // 0 where alpha is 0.
+  // 1 - sum_s blend[i * influences + s] * occlusion[influence[...]]. Those of a vertex sum to 1, some may be
+  // negative; 0 where alpha is 0.
   std::pmr::vector<float> blend;
-  std::pmr::vector<float> static_ao;          // AO of the rest pose per welded vertex, what a static bake gives; may be empty
+  std::pmr::vector<float>
+      static_ao;  // AO of the rest pose per welded vertex, what a static bake gives; may be empty
 
   std::pmr::vector<std::uint32_t> file_to_welded;  // for each vertex in file order, its welded vertex
   std::pmr::vector<PrimitiveRange> primitives;
@@ -93,9 +107,9 @@ struct CharacterModel {
   static constexpr std::size_t max_levels = 4;
   std::pmr::vector<CharacterLevel> levels;  // from fine to coarse, without full detail; may be empty
 
-  float bounding_radius = 0;         // metres, of the rest pose round bounding_centre
+  float bounding_radius = 0;  // metres, of the rest pose round bounding_centre
   Vec3 bounding_centre;
-  std::uint16_t root_bone = 0;       // bone that the ground and the bounding sphere follow
+  std::uint16_t root_bone = 0;  // bone that the ground and the bounding sphere follow
 
   std::pmr::string recipe;  // JSON text of how it was baked; the runtime does not read it
 

@@ -1,16 +1,16 @@
-#include "character/model_check.h"
+#include "sdk/src/character/model_check.h"
 
 #include <cmath>
 
-#include "core/failure.h"
-#include "core/place.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {
 
 // A gamma-norm beyond this is the maximum norm to float precision.
 constexpr float max_gamma = 64;
-constexpr float max_blend = 16;          // far above what a file can hold
+constexpr float max_blend = 16;             // far above what a file can hold
 constexpr std::size_t max_indexed = 65536;  // what 16-bit indices reach
 
 bool within(float value, float low, float high) {

@@ -3,7 +3,7 @@
 
 #include <nook/nook.h>
 
-#include "character/model.h"
+#include "sdk/src/character/model.h"
 
 namespace nook {
 

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "character/model.h"
-#include "core/container.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/core/container.h"
 
 namespace nook {
 

@@ -1,8 +1,8 @@
-#include "character/model_file_packing.h"
+#include "sdk/src/character/model_file_packing.h"
 
 #include <algorithm>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "character/model.h"
-#include "core/bytes.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/core/bytes.h"
 
 namespace nook {
 
@@ -113,14 +113,16 @@ inline std::uint32_t encode_alpha(float alpha, float max_alpha) {
   return static_cast<std::uint32_t>(std::min(std::max(code, 1.0), double(last)));
 }
 
-// Blend weights in sixteenths from -8 / 16 on, so that those of a vertex sum to exactly 1 and one of them need not be written.
+// Blend weights in sixteenths from -8 / 16 on, so that those of a vertex sum to exactly 1 and one of them
+// need not be written.
 inline constexpr int blend_one = 16, blend_low = -8;
 inline float decode_blend(std::uint32_t code) {
   return static_cast<float>(static_cast<int>(code) + blend_low) / blend_one;
 }
 inline std::uint32_t encode_blend(float weight) {
   const double last = Range::last_code(CharacterBits::blend);
-  return static_cast<std::uint32_t>(std::min(std::max(std::round(double(weight) * blend_one) - blend_low, 0.0), last));
+  return static_cast<std::uint32_t>(
+      std::min(std::max(std::round(double(weight) * blend_one) - blend_low, 0.0), last));
 }
 
 }  // namespace nook

@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "character/model_check.h"
-#include "character/model_file.h"
-#include "character/model_file_packing.h"
-#include "core/place.h"
+#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/character/model_file_packing.h"
+#include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {

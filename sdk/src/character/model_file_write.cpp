@@ -3,9 +3,9 @@
 #include <span>
 #include <utility>
 
-#include "character/model_check.h"
-#include "character/model_file.h"
-#include "character/model_file_packing.h"
+#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/character/model_file_packing.h"
 
 namespace nook {
 namespace {

@@ -1,4 +1,4 @@
-#include "character/neighbours.h"
+#include "sdk/src/character/neighbours.h"
 
 #include <algorithm>
 #include <bit>

@@ -10,11 +10,11 @@
 #include <span>
 #include <vector>
 
-#include "character/light.h"
-#include "character/loaded_model.h"
-#include "character/neighbours.h"
-#include "core/aligned_array.h"
-#include "core/parallel.h"
+#include "sdk/src/character/light.h"
+#include "sdk/src/character/loaded_model.h"
+#include "sdk/src/character/neighbours.h"
+#include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/parallel.h"
 
 namespace nook {
 

@@ -2,9 +2,9 @@
 #include <bit>
 #include <cmath>
 
-#include "character/scene.h"
-#include "core/failure.h"
-#include "core/place.h"
+#include "sdk/src/character/scene.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {
@@ -190,7 +190,7 @@ void set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) 
   Instance& instance = instance_of(scene, id);
   if (bones.size() != instance.bones.size())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "bone_count is not the model's (got %zu, need %zu); see nook_character_model_get_info",
+                  "bone_count is not the model's (got %zu, need %zu); see nook_character_model_describe",
                   bones.size(), instance.bones.size());
   float largest = 0;
   for (std::size_t b = 0; b < bones.size(); ++b) largest = std::max(largest, check_bone_matrix(bones[b], b));

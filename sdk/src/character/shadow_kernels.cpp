@@ -1,8 +1,8 @@
-#include "character/shadow_kernels.h"
+#include "sdk/src/character/shadow_kernels.h"
 
 #include <initializer_list>
 
-#include "character/shadow_kernels_tables.h"
+#include "sdk/src/character/shadow_kernels_tables.h"
 
 namespace nook {
 

@@ -9,11 +9,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "character/directional.h"
-#include "character/directional_bands.h"
-#include "character/kernel.h"
-#include "core/isa.h"
-#include "core/vec.h"
+#include "sdk/src/character/directional.h"
+#include "sdk/src/character/directional_bands.h"
+#include "sdk/src/character/kernel.h"
+#include "sdk/src/core/isa.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook {
 

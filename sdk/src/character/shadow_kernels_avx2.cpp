@@ -1,20 +1,20 @@
 // The kernels for AVX2 and FMA.
-#include "core/simd_avx2.h"
+#include "sdk/src/core/simd_avx2.h"
 
-#include "character/directional.h"
-#include "character/directional_bands.h"
-#include "character/kernel.h"
-#include "character/shadow_kernels.h"
-#include "character/shadow_kernels_tables.h"
-#include "core/simd_pair.h"
+#include "sdk/src/character/directional.h"
+#include "sdk/src/character/directional_bands.h"
+#include "sdk/src/character/kernel.h"
+#include "sdk/src/character/shadow_kernels.h"
+#include "sdk/src/character/shadow_kernels_tables.h"
+#include "sdk/src/core/simd_pair.h"
 
 namespace nook::isa_avx2 {
 
 using Wide = simd::Pair<Float>;  // what the loops over spheres run on
 
-#include "character/shadow_kernels_impl.inl"
-#include "character/shadow_kernels_impl_directional.inl"
-#include "character/shadow_kernels_pose_x86.inl"
+#include "sdk/src/character/shadow_kernels_impl.inl"
+#include "sdk/src/character/shadow_kernels_impl_directional.inl"
+#include "sdk/src/character/shadow_kernels_pose_x86.inl"
 
 constexpr ShadowKernels table{Isa::avx2,
                               "avx2",

@@ -1,8 +1,8 @@
-#include "character/shadow_kernels_rest.h"
+#include "sdk/src/character/shadow_kernels_rest.h"
 
 #include <algorithm>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook {
 namespace {

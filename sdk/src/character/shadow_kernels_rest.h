@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <memory_resource>
 
-#include "character/model.h"
-#include "character/shadow_kernels.h"
-#include "core/aligned_array.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/character/shadow_kernels.h"
+#include "sdk/src/core/aligned_array.h"
 
 namespace nook {
 

@@ -2,13 +2,13 @@
 // x86 SIMD run.
 #include <cstdint>
 
-#include "character/directional.h"
-#include "character/directional_bands.h"
-#include "character/kernel.h"
-#include "character/shadow_kernels.h"
-#include "character/shadow_kernels_tables.h"
-#include "core/simd_pair.h"
-#include "core/simd_scalar.h"
+#include "sdk/src/character/directional.h"
+#include "sdk/src/character/directional_bands.h"
+#include "sdk/src/character/kernel.h"
+#include "sdk/src/character/shadow_kernels.h"
+#include "sdk/src/character/shadow_kernels_tables.h"
+#include "sdk/src/core/simd_pair.h"
+#include "sdk/src/core/simd_scalar.h"
 
 namespace nook::isa_scalar {
 
@@ -28,9 +28,9 @@ void store(float* p, Float a) {
 }
 }  // namespace
 
-#include "character/shadow_kernels_impl.inl"
-#include "character/shadow_kernels_impl_directional.inl"
-#include "character/shadow_kernels_pose_scalar.inl"
+#include "sdk/src/character/shadow_kernels_impl.inl"
+#include "sdk/src/character/shadow_kernels_impl_directional.inl"
+#include "sdk/src/character/shadow_kernels_pose_scalar.inl"
 
 constexpr ShadowKernels table{Isa::scalar,
                               "scalar",

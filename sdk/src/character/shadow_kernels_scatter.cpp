@@ -1,4 +1,4 @@
-#include "character/shadow_kernels_tables.h"
+#include "sdk/src/character/shadow_kernels_tables.h"
 
 namespace nook {
 

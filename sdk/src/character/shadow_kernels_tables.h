@@ -1,7 +1,7 @@
 // Where each instruction set's translation unit leaves its table. Call one only after asking the processor.
 #pragma once
 
-#include "character/shadow_kernels.h"
+#include "sdk/src/character/shadow_kernels.h"
 
 namespace nook {
 

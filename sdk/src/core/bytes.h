@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook {
 

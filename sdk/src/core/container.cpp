@@ -1,4 +1,4 @@
-#include "core/container.h"
+#include "sdk/src/core/container.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook {
 namespace {

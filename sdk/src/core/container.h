@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "core/bytes.h"
+#include "sdk/src/core/bytes.h"
 
 namespace nook {
 

@@ -1,4 +1,4 @@
-#include "core/context.h"
+#include "sdk/src/core/context.h"
 
 #include <cstdarg>
 #include <cstdio>

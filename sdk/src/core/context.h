@@ -4,9 +4,9 @@
 
 #include <nook/nook.h>
 
-#include "core/memory.h"
-#include "core/parallel.h"
-#include "core/ref.h"
+#include "sdk/src/core/memory.h"
+#include "sdk/src/core/parallel.h"
+#include "sdk/src/core/ref.h"
 
 namespace nook {
 

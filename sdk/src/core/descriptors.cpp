@@ -1,4 +1,4 @@
-#include "core/descriptors.h"
+#include "sdk/src/core/descriptors.h"
 
 namespace nook {
 namespace {

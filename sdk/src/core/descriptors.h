@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook {
 

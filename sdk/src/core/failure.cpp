@@ -1,4 +1,4 @@
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 #include <cstdarg>
 #include <cstdio>

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "core/simd_polynomials.h"
+#include "sdk/src/core/simd_polynomials.h"
 
 namespace nook::isa_avx2 {
 

@@ -10,7 +10,7 @@
 #include <concepts>
 #include <numbers>
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook {
 

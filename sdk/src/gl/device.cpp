@@ -1,8 +1,8 @@
-#include "gl/device.h"
+#include "sdk/src/gl/device.h"
 
 #include <algorithm>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::gl {
 

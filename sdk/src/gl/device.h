@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "core/context.h"
-#include "gl/functions.h"
+#include "sdk/src/core/context.h"
+#include "sdk/src/gl/functions.h"
 
 namespace nook::gl {
 

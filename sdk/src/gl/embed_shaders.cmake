@@ -1,16 +1,16 @@
-# cmake -DSHADERS=dir -DOUTPUT=file.cpp [-DHEADER=path -DNAMESPACE=name] -P embed_shaders.cmake
+# cmake -DROOT=dir -DSHADERS=dir -DOUTPUT=file.cpp [-DHEADER=path -DNAMESPACE=name] -P embed_shaders.cmake
 # Turns every *.vert, *.frag and *.comp file below SHADERS, and every host.glsl, which hosts put into shaders of their own, into
-# one C++ source. A line `#include "path"` (relative to SHADERS) is
-# replaced by that file's text, once per shader; the host needs no files at run time.
+# one C++ source. A line `#include "path"` (relative to ROOT, the
+# repository's) is replaced by that file's text, once per shader; the host needs no files at run time.
 cmake_minimum_required(VERSION 3.25)
 
 if(NOT HEADER)
-  set(HEADER gl/embedded_shaders.h)
+  set(HEADER sdk/src/gl/embedded_shaders.h)
   set(NAMESPACE nook::gl)
 endif()
 
 function(nook_expand path included out)
-  file(READ "${SHADERS}/${path}" text)
+  file(READ "${path}" text)
   # Semicolons and brackets would split or join the elements of CMake's lists.
   string(REPLACE ";" "@semicolon@" text "${text}")
   string(REPLACE "[" "@open@" text "${text}")
@@ -23,7 +23,7 @@ function(nook_expand path included out)
       set(child "${CMAKE_MATCH_1}")
       if(NOT child IN_LIST included)
         list(APPEND included "${child}")
-        nook_expand("${child}" "${included}" child_text)
+        nook_expand("${ROOT}/${child}" "${included}" child_text)
         list(APPEND included ${nook_included})
         list(REMOVE_DUPLICATES included)
         string(APPEND result "${child_text}")
@@ -43,7 +43,7 @@ set(source "// Made from shaders at build; do not edit.\n#include \"${HEADER}\"\
 set(table "")
 set(number 0)
 foreach(path IN LISTS paths)
-  nook_expand("${path}" "" text)
+  nook_expand("${SHADERS}/${path}" "" text)
   string(REPLACE "@semicolon@" ";" text "${text}")
   string(REPLACE "@open@" "[" text "${text}")
   string(REPLACE "@close@" "]" text "${text}")

@@ -1,6 +1,6 @@
-#include "gl/functions.h"
+#include "sdk/src/gl/functions.h"
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::gl {
 namespace {

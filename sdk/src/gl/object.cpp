@@ -1,6 +1,6 @@
-#include "gl/object.h"
+#include "sdk/src/gl/object.h"
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::gl {
 

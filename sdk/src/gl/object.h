@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "gl/device.h"
+#include "sdk/src/gl/device.h"
 
 namespace nook::gl {
 

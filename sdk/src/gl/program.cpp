@@ -1,10 +1,10 @@
-#include "gl/program.h"
+#include "sdk/src/gl/program.h"
 
 #include <cstring>
 #include <initializer_list>
 
-#include "core/failure.h"
-#include "gl/embedded_shaders.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/embedded_shaders.h"
 
 namespace nook::gl {
 

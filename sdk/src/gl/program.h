@@ -1,7 +1,7 @@
 // Programs from the embedded shaders.
 #pragma once
 
-#include "gl/object.h"
+#include "sdk/src/gl/object.h"
 
 namespace nook::gl {
 

@@ -1,7 +1,7 @@
 // Reading and setting one piece of OpenGL state, as the guard does for each.
 #pragma once
 
-#include "gl/functions.h"
+#include "sdk/src/gl/functions.h"
 
 namespace nook::gl {
 

@@ -1,8 +1,8 @@
-#include "gl/state_guard.h"
+#include "sdk/src/gl/state_guard.h"
 
 #include <utility>
 
-#include "gl/state_access.h"
+#include "sdk/src/gl/state_access.h"
 
 namespace nook::gl {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <iterator>
 
-#include "gl/functions.h"
-#include "gl/touched_state.h"
+#include "sdk/src/gl/functions.h"
+#include "sdk/src/gl/touched_state.h"
 
 namespace nook::gl {
 

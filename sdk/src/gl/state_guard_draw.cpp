@@ -1,7 +1,7 @@
 // Saving and restoring what the screen-space pass draws with.
-#include "gl/state_guard.h"
+#include "sdk/src/gl/state_guard.h"
 
-#include "gl/state_access.h"
+#include "sdk/src/gl/state_access.h"
 
 namespace nook::gl {
 namespace {

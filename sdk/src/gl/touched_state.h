@@ -68,7 +68,7 @@ enum : unsigned {
   X(feedback_buffer, tier_33, "GL_TRANSFORM_FEEDBACK_BUFFER_BINDING and its range, index 0",                \
     "AO; default 0")                                                                                        \
   X(query_buffer, screen_timers, "GL_QUERY_BUFFER_BINDING",                                                 \
-    "from OpenGL 4.4 on, in nook_nnao_get_timings only; default 0")                                         \
+    "from OpenGL 4.4 on, in nook_nnao_read_timings only; default 0")                                        \
   X(storage_buffer, tier_43, "GL_SHADER_STORAGE_BUFFER_BINDING", "binding a range sets it; default 0")      \
   X(storage_ranges, tier_43, "GL_SHADER_STORAGE_BUFFER_BINDING and its range, index 0 to 7",                \
     "passes; default 0")

@@ -1,9 +1,9 @@
-#include "material/check.h"
+#include "sdk/src/material/check.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::material {
 namespace {

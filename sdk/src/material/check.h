@@ -3,7 +3,7 @@
 
 #include <nook/nook.h>
 
-#include "material/material.h"
+#include "sdk/src/material/material.h"
 
 namespace nook::material {
 

@@ -2,7 +2,7 @@
 // are those of numbers.
 #pragma once
 
-#include "material/tables.h"
+#include "sdk/src/material/tables.h"
 
 namespace nook::material {
 

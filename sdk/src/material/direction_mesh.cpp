@@ -1,4 +1,4 @@
-#include "material/direction_mesh.h"
+#include "sdk/src/material/direction_mesh.h"
 
 #include <algorithm>
 #include <cmath>

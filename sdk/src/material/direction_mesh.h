@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "material/parabolic.h"
+#include "sdk/src/material/parabolic.h"
 
 namespace nook::material {
 

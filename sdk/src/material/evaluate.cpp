@@ -1,13 +1,13 @@
-#include "material/evaluate.h"
+#include "sdk/src/material/evaluate.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/half.h"
-#include "material/check.h"
-#include "material/parabolic.h"
-#include "material/spatial_modes.h"
+#include "sdk/src/core/half.h"
+#include "sdk/src/material/check.h"
+#include "sdk/src/material/parabolic.h"
+#include "sdk/src/material/spatial_modes.h"
 
 namespace nook::material {
 namespace {

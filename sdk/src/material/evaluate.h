@@ -1,8 +1,8 @@
 // A material decoded on the CPU, from the same tables as on the GPU: the reference of shaders/material.
 #pragma once
 
-#include "core/vec.h"
-#include "material/tables.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/material/tables.h"
 
 namespace nook::material {
 

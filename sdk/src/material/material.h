@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "core/vec.h"
-#include "material/shape.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/material/shape.h"
 
 namespace nook::material {
 

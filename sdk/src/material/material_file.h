@@ -17,8 +17,8 @@
 #include <span>
 #include <vector>
 
-#include "core/container.h"
-#include "material/material.h"
+#include "sdk/src/core/container.h"
+#include "sdk/src/material/material.h"
 
 namespace nook::material {
 

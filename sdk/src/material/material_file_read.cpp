@@ -1,7 +1,7 @@
-#include "core/failure.h"
-#include "material/check.h"
-#include "material/material_file.h"
-#include "material/packed_numbers.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_file.h"
+#include "sdk/src/material/packed_numbers.h"
 
 namespace nook::material {
 namespace {

@@ -1,9 +1,9 @@
-#include "material/packed_numbers.h"
+#include "sdk/src/material/packed_numbers.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/half.h"
+#include "sdk/src/core/half.h"
 
 namespace nook::material {
 namespace {

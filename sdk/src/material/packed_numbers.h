@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/bytes.h"
+#include "sdk/src/core/bytes.h"
 
 namespace nook::material {
 

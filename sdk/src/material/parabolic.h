@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::material {
 

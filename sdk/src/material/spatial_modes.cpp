@@ -1,4 +1,4 @@
-#include "material/spatial_modes.h"
+#include "sdk/src/material/spatial_modes.h"
 
 #include <algorithm>
 #include <cmath>

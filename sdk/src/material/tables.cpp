@@ -1,12 +1,12 @@
-#include "material/tables.h"
+#include "sdk/src/material/tables.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/half.h"
-#include "material/direction_mesh.h"
-#include "material/spatial_modes.h"
-#include "material/view_cells.h"
+#include "sdk/src/core/half.h"
+#include "sdk/src/material/direction_mesh.h"
+#include "sdk/src/material/spatial_modes.h"
+#include "sdk/src/material/view_cells.h"
 
 namespace nook::material {
 namespace {

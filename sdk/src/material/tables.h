@@ -5,8 +5,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "core/parallel.h"
-#include "material/material.h"
+#include "sdk/src/core/parallel.h"
+#include "sdk/src/material/material.h"
 
 namespace nook::material {
 

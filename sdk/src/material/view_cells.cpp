@@ -1,8 +1,8 @@
-#include "material/view_cells.h"
+#include "sdk/src/material/view_cells.h"
 
 #include <algorithm>
 
-#include "material/direction_mesh.h"
+#include "sdk/src/material/direction_mesh.h"
 
 namespace nook::material {
 namespace {

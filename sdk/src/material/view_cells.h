@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "material/material.h"
+#include "sdk/src/material/material.h"
 
 namespace nook::material {
 

@@ -8,6 +8,6 @@ string(REGEX REPLACE "([0-9a-f][0-9a-f])" "std::byte{0x\\1}," bytes "${hex}")
 string(REPEAT "std::byte{0x..}," 8 line)
 string(REGEX REPLACE "(${line})" "\\1\n" bytes "${bytes}")
 file(WRITE "${OUTPUT}"
-  "// Made from ${NAME} at build; do not edit.\n#include \"nnao/network_file.h\"\n\nnamespace nook::nnao {\nnamespace {\n"
+  "// Made from ${NAME} at build; do not edit.\n#include \"sdk/src/nnao/network_file.h\"\n\nnamespace nook::nnao {\nnamespace {\n"
   "constexpr std::byte network[] = {\n${bytes}};\n}  // namespace\n\n"
   "std::span<const std::byte> default_network_file() { return network; }\n\n}  // namespace nook::nnao\n")

@@ -1,10 +1,10 @@
-#include "nnao/evaluate.h"
+#include "sdk/src/nnao/evaluate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::nnao {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "core/vec.h"
-#include "nnao/network.h"
-#include "nnao/taps.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/nnao/network.h"
+#include "sdk/src/nnao/taps.h"
 
 namespace nook::nnao {
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "nnao/network.h"
+#include "sdk/src/nnao/network.h"
 
 namespace nook::nnao {
 

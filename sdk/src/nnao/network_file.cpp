@@ -1,9 +1,9 @@
-#include "nnao/network_file.h"
+#include "sdk/src/nnao/network_file.h"
 
 #include <cmath>
 
-#include "core/half.h"
-#include "nnao/layers.h"
+#include "sdk/src/core/half.h"
+#include "sdk/src/nnao/layers.h"
 
 namespace nook::nnao {
 namespace {

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "core/container.h"
-#include "nnao/network.h"
+#include "sdk/src/core/container.h"
+#include "sdk/src/nnao/network.h"
 
 namespace nook::nnao {
 

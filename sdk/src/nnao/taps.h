@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "nnao/network.h"
+#include "sdk/src/nnao/network.h"
 
 namespace nook::nnao {
 

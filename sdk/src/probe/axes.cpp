@@ -1,4 +1,4 @@
-#include "probe/axes.h"
+#include "sdk/src/probe/axes.h"
 
 #include <cmath>
 #include <numbers>

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::probe {
 

@@ -1,14 +1,14 @@
-#include "probe/basis.h"
+#include "sdk/src/probe/basis.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/failure.h"
-#include "core/spherical_gaussian.h"
-#include "probe/axes.h"
-#include "probe/dice.h"
-#include "probe/harmonics.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/probe/axes.h"
+#include "sdk/src/probe/dice.h"
+#include "sdk/src/probe/harmonics.h"
 
 namespace nook::probe {
 namespace {

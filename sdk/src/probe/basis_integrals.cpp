@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/spherical_gaussian.h"
-#include "probe/axes.h"
-#include "probe/basis.h"
-#include "probe/quadrature.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/probe/axes.h"
+#include "sdk/src/probe/basis.h"
+#include "sdk/src/probe/quadrature.h"
 
 namespace nook::probe {
 namespace {

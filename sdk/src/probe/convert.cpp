@@ -1,9 +1,9 @@
-#include "probe/convert.h"
+#include "sdk/src/probe/convert.h"
 
 #include <algorithm>
 #include <array>
 
-#include "probe/harmonics.h"
+#include "sdk/src/probe/harmonics.h"
 
 namespace nook::probe {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/spherical_gaussian.h"
-#include "core/vec.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::probe {
 

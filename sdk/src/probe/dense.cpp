@@ -1,10 +1,10 @@
-#include "probe/dense.h"
+#include "sdk/src/probe/dense.h"
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-#include "probe/basis.h"
+#include "sdk/src/probe/basis.h"
 
 namespace nook::probe {
 

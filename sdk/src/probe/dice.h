@@ -5,7 +5,7 @@
 #include <concepts>
 #include <numbers>
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::probe {
 

@@ -1,10 +1,10 @@
-#include "probe/evaluate.h"
+#include "sdk/src/probe/evaluate.h"
 
 #include <algorithm>
 #include <array>
 
-#include "probe/dice.h"
-#include "probe/harmonics.h"
+#include "sdk/src/probe/dice.h"
+#include "sdk/src/probe/harmonics.h"
 
 namespace nook::probe {
 namespace {

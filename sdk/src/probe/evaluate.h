@@ -5,9 +5,9 @@
 
 #include <span>
 
-#include "core/spherical_gaussian.h"
-#include "core/vec.h"
-#include "probe/basis.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/probe/basis.h"
 
 namespace nook::probe {
 

@@ -1,11 +1,11 @@
-#include "probe/fit.h"
+#include "sdk/src/probe/fit.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/failure.h"
-#include "probe/dense.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/dense.h"
 
 namespace nook::probe {
 namespace {

@@ -18,10 +18,10 @@
 #include <memory_resource>
 #include <span>
 
-#include "core/aligned_array.h"
-#include "core/vec.h"
-#include "probe/basis.h"
-#include "probe/fit_kernels.h"
+#include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/probe/basis.h"
+#include "sdk/src/probe/fit_kernels.h"
 
 namespace nook::probe {
 

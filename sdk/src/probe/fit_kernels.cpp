@@ -1,8 +1,8 @@
-#include "probe/fit_kernels.h"
+#include "sdk/src/probe/fit_kernels.h"
 
 #include <initializer_list>
 
-#include "probe/fit_kernels_tables.h"
+#include "sdk/src/probe/fit_kernels_tables.h"
 
 namespace nook::probe {
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "core/isa.h"
+#include "sdk/src/core/isa.h"
 
 namespace nook::probe {
 

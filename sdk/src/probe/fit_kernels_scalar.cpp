@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "core/simd_scalar.h"
-#include "probe/fit_kernels.h"
-#include "probe/fit_kernels_tables.h"
+#include "sdk/src/core/simd_scalar.h"
+#include "sdk/src/probe/fit_kernels.h"
+#include "sdk/src/probe/fit_kernels_tables.h"
 
 namespace nook::isa_scalar {
 
@@ -24,7 +24,7 @@ void store(float* p, Float a) {
 }
 }  // namespace
 
-#include "probe/fit_kernels_impl.inl"
+#include "sdk/src/probe/fit_kernels_impl.inl"
 
 constexpr probe::FitKernels fit_table{Isa::scalar, "scalar",      gaussian_values, step_fast,
                                       step_plain,  step_original, sum_moments,     sum_gram};

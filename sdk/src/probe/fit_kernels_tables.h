@@ -1,7 +1,7 @@
 // Where each instruction set's translation unit leaves its table. Call one only after asking the processor.
 #pragma once
 
-#include "probe/fit_kernels.h"
+#include "sdk/src/probe/fit_kernels.h"
 
 namespace nook {
 namespace isa_scalar {

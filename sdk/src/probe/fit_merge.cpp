@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <array>
 
-#include "core/failure.h"
-#include "probe/fit.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/fit.h"
 
 namespace nook::probe {
 

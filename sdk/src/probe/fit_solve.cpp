@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 
-#include "core/failure.h"
-#include "probe/dense.h"
-#include "probe/fit.h"
-#include "probe/probe.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/dense.h"
+#include "sdk/src/probe/fit.h"
+#include "sdk/src/probe/probe.h"
 
 namespace nook::probe {
 namespace {

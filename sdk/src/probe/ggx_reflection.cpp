@@ -1,9 +1,9 @@
-#include "probe/ggx_reflection.h"
+#include "sdk/src/probe/ggx_reflection.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "probe/axes.h"
+#include "sdk/src/probe/axes.h"
 
 namespace nook::probe {
 namespace {

@@ -5,7 +5,7 @@
 // tests/probe/ggx_fit.cpp, which prints their coefficients; shaders/probe/ggx_reflection.glsl has the same.
 #pragma once
 
-#include "core/vec.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::probe {
 

@@ -1,4 +1,4 @@
-#include "probe/packing.h"
+#include "sdk/src/probe/packing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "probe/probe.h"
+#include "sdk/src/probe/probe.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::probe {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/spherical_gaussian.h"
-#include "core/vec.h"
-#include "probe/basis.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/probe/basis.h"
 
 namespace nook::probe {
 

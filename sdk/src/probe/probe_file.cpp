@@ -1,11 +1,11 @@
-#include "probe/probe_file.h"
+#include "sdk/src/probe/probe_file.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/half.h"
-#include "probe/harmonics.h"
+#include "sdk/src/core/half.h"
+#include "sdk/src/probe/harmonics.h"
 
 namespace nook::probe {
 namespace {

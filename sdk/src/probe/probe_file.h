@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "core/container.h"
-#include "probe/packing.h"
-#include "probe/probe.h"
+#include "sdk/src/core/container.h"
+#include "sdk/src/probe/packing.h"
+#include "sdk/src/probe/probe.h"
 
 namespace nook::probe {
 

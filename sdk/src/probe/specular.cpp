@@ -1,4 +1,4 @@
-#include "probe/specular.h"
+#include "sdk/src/probe/specular.h"
 
 #include <algorithm>
 #include <cmath>

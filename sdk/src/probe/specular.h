@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "core/spherical_gaussian.h"
-#include "core/vec.h"
-#include "probe/ggx_reflection.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/probe/ggx_reflection.h"
 
 namespace nook::probe {
 

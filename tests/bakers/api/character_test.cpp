@@ -3,8 +3,8 @@
 #include <limits>
 #include <vector>
 
-#include "catch.h"
-#include "handles.h"
+#include "tests/bakers/api/handles.h"
+#include "tests/catch.h"
 
 namespace {
 
@@ -38,7 +38,7 @@ TEST_CASE("a character from memory is what was given") {
   REQUIRE(character);
   nook_bake_character_info info{};
   info.struct_size = sizeof info;
-  REQUIRE(nook_bake_character_get_info(character.get(), &info) == NOOK_OK);
+  REQUIRE(nook_bake_character_describe(character.get(), &info) == NOOK_OK);
   CHECK(info.vertex_count == tube_vertices);
   CHECK(info.file_vertex_count == tube_vertices);
   CHECK(info.triangle_count == tube_triangles);
@@ -102,11 +102,11 @@ TEST_CASE("split vertices come back in file order and agree") {
   const Character character(handle);
   nook_bake_character_info info{};
   info.struct_size = sizeof info;
-  REQUIRE(nook_bake_character_get_info(handle, &info) == NOOK_OK);
+  REQUIRE(nook_bake_character_describe(handle, &info) == NOOK_OK);
   CHECK(info.vertex_count == tube_vertices);
   CHECK(info.file_vertex_count == 2 * tube_vertices);
   nook_bake_primitive second{};
-  REQUIRE(nook_bake_character_get_primitive(handle, 1, &second) == NOOK_OK);
+  REQUIRE(nook_bake_character_describe_primitive(handle, 1, &second) == NOOK_OK);
   CHECK(second.first_vertex == tube_vertices);
   CHECK(second.vertex_count == tube_vertices);
   std::vector<float> out(6 * tube_vertices), normals(6 * tube_vertices);
@@ -232,16 +232,16 @@ TEST_CASE("NULL handles and wrong counts are refused") {
   const nook_bake_character c = character.get();
   float f[24] = {};
   nook_bake_character_info info{};
-  CHECK(nook_bake_character_get_info(c, &info) == NOOK_ERROR_INVALID_ARGUMENT);  // struct_size is 0
-  CHECK(nook_bake_character_get_info(nullptr, &info) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_character_get_info(c, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_describe(c, &info) == NOOK_ERROR_INVALID_ARGUMENT);  // struct_size is 0
+  CHECK(nook_bake_character_describe(nullptr, &info) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_describe(c, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_bake_character_bone_name(nullptr, 0) == nullptr);
   CHECK(nook_bake_character_bone_name(c, 2) == nullptr);
   CHECK(nook_bake_character_primitive_name(c, 1) == nullptr);
   CHECK(nook_bake_character_read_bones(c, nullptr, f, 1) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_character_get_primitive(c, 0, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_describe_primitive(c, 0, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   nook_bake_primitive primitive;
-  CHECK(nook_bake_character_get_primitive(c, 1, &primitive) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_describe_primitive(c, 1, &primitive) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("primitive is out of range (got 1, there are 1)"));
   CHECK(nook_bake_character_read_vertices(c, f, f, 1) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_bake_character_read_triangles(c, nullptr, 3 * tube_triangles) == NOOK_ERROR_INVALID_ARGUMENT);

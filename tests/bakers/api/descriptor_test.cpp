@@ -1,8 +1,8 @@
 // The structs of nook_bake.h as callers of older and newer headers pass them.
 #include <nook/nook_bake.h>
 
-#include "abi/growing_struct.h"
-#include "handles.h"
+#include "tests/abi/growing_struct.h"
+#include "tests/bakers/api/handles.h"
 
 using namespace nook::test;
 
@@ -75,7 +75,7 @@ TEST_CASE("descriptors of every release are read, and what a newer one adds is r
 TEST_CASE("answers are cut to the caller's struct") {
   const Character character = tube_character();
   check_info<nook_bake_character_info>(56, [&](nook_bake_character_info* info) {
-    return nook_bake_character_get_info(character.get(), info);
+    return nook_bake_character_describe(character.get(), info);
   });
 
   nook_bake_job_desc desc;

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tube.h"
+#include "tests/bakers/api/tube.h"
 
 static const float identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
@@ -75,13 +75,13 @@ static int call_character_functions(nook_bake_character character) {
   int wrong = 0;
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  wrong += nook_bake_character_get_info(character, &info) != NOOK_OK;
+  wrong += nook_bake_character_describe(character, &info) != NOOK_OK;
   wrong += strcmp(nook_bake_character_bone_name(character, 1), "tip") != 0;
   wrong += nook_bake_character_clip_name(character, 0) != NULL;
   wrong += nook_bake_character_primitive_name(character, 0) == NULL;
   wrong += nook_bake_character_warning(character, info.warning_count) != NULL;
   wrong += nook_bake_character_read_bones(character, parents, poses, 2) != NOOK_OK;
-  wrong += nook_bake_character_get_primitive(character, 0, &primitive) != NOOK_OK;
+  wrong += nook_bake_character_describe_primitive(character, 0, &primitive) != NOOK_OK;
   wrong += nook_bake_character_clip_duration(character, 0, &seconds) != NOOK_ERROR_INVALID_ARGUMENT;
   wrong += nook_bake_character_sample_clip(character, 0, 0, poses, 2) != NOOK_ERROR_INVALID_ARGUMENT;
   wrong += nook_bake_character_auto_poses(character, 1, 2, poses, 2) != NOOK_OK;
@@ -117,8 +117,8 @@ static int call_job_functions(nook_bake_character character) {
   progress.struct_size = sizeof progress;
   wrong += nook_bake_job_poll(job, &progress) != NOOK_OK;
   wrong += nook_bake_job_wait(job) != NOOK_OK;
-  wrong += nook_bake_job_get_model(job, &bytes, &size) != NOOK_OK || size < 100;
-  wrong += nook_bake_job_get_report(job, &report) != NOOK_OK || report == NULL;
+  wrong += nook_bake_job_model(job, &bytes, &size) != NOOK_OK || size < 100;
+  wrong += nook_bake_job_report(job, &report) != NOOK_OK || report == NULL;
   wrong += nook_bake_job_cancel(job) != NOOK_OK;
   nook_bake_job_destroy(&job);
   wrong += job != NULL || calls == 0;
@@ -184,7 +184,7 @@ static int call_material_functions(void) {
   desc.progress_user = &calls;
   wrong += nook_bake_material_start(&desc, &job) != NOOK_OK;
   wrong += nook_bake_job_wait(job) != NOOK_OK;
-  wrong += nook_bake_job_get_model(job, &bytes, &size) != NOOK_OK || size < 100;
+  wrong += nook_bake_job_model(job, &bytes, &size) != NOOK_OK || size < 100;
   nook_bake_job_destroy(&job);
   return wrong + (job != NULL || calls == 0);
 }

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "tube.h"
+#include "tests/bakers/api/tube.h"
 
 struct CharacterRelease {
   void operator()(nook_bake_character c) const { nook_bake_character_destroy(&c); }

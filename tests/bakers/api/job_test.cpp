@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include "catch.h"
-#include "handles.h"
+#include "tests/bakers/api/handles.h"
+#include "tests/catch.h"
 
 namespace {
 
@@ -39,7 +39,7 @@ std::vector<char> model_of(const Job& job) {
   REQUIRE(result == NOOK_OK);
   const void* bytes = nullptr;
   std::size_t size = 0;
-  REQUIRE(nook_bake_job_get_model(job.get(), &bytes, &size) == NOOK_OK);
+  REQUIRE(nook_bake_job_model(job.get(), &bytes, &size) == NOOK_OK);
   const char* first = static_cast<const char*>(bytes);
   return {first, first + size};
 }
@@ -105,7 +105,7 @@ TEST_CASE("a job can be cancelled at any point of its progress") {
     if (calls <= 40) CHECK(result == NOOK_ERROR_CANCELLED);  // one call a traced pose at least
     const void* bytes = nullptr;
     std::size_t size = 0;
-    CHECK(nook_bake_job_get_model(job.get(), &bytes, &size) == result);
+    CHECK(nook_bake_job_model(job.get(), &bytes, &size) == result);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     CHECK_FALSE(canceller.late);
   }
@@ -128,7 +128,7 @@ TEST_CASE("destroying a running job cancels it and waits") {
   CHECK(progress.stage != NOOK_BAKE_STAGE_DONE);
   const void* bytes = nullptr;
   std::size_t size = 0;
-  CHECK(nook_bake_job_get_model(job.get(), &bytes, &size) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_model(job.get(), &bytes, &size) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("still running"));
   job.reset();
   canceller.over = true;
@@ -164,7 +164,7 @@ TEST_CASE("the report says what was baked") {
   const Job job = start(character, desc);
   model_of(job);
   const char* text = nullptr;
-  REQUIRE(nook_bake_job_get_report(job.get(), &text) == NOOK_OK);
+  REQUIRE(nook_bake_job_report(job.get(), &text) == NOOK_OK);
   const nlohmann::json report = nlohmann::json::parse(text);
   CHECK(report.at("train_poses").get<int>() <= 43);
   CHECK(report.at("train_poses").get<int>() > 20);
@@ -293,8 +293,8 @@ TEST_CASE("NULL jobs are refused, or ignored by destroy") {
   CHECK(nook_bake_job_wait(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_bake_job_cancel(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_bake_job_poll(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_job_get_model(nullptr, nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_job_get_report(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_model(nullptr, nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_report(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   nook_bake_job_destroy(nullptr);
   nook_bake_job_destroy(&job);
 }

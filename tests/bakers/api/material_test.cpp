@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "catch.h"
-#include "handles.h"
+#include "tests/bakers/api/handles.h"
+#include "tests/catch.h"
 
 namespace {
 
@@ -84,7 +84,7 @@ std::vector<char> file_of(const Job& job) {
   REQUIRE(result == NOOK_OK);
   const void* bytes = nullptr;
   std::size_t size = 0;
-  REQUIRE(nook_bake_job_get_model(job.get(), &bytes, &size) == NOOK_OK);
+  REQUIRE(nook_bake_job_model(job.get(), &bytes, &size) == NOOK_OK);
   const char* first = static_cast<const char*>(bytes);
   return {first, first + size};
 }
@@ -159,7 +159,7 @@ TEST_CASE("measured data come back at their texels, colours and directions, and 
         CHECK(std::fabs(value.radiance[c] - planted(2, 4, x, y, c)) < 0.03f * value.radiance[c]);
     }
   const char* report = nullptr;
-  REQUIRE(nook_bake_job_get_report(job.get(), &report) == NOOK_OK);
+  REQUIRE(nook_bake_job_report(job.get(), &report) == NOOK_OK);
   const auto json = nlohmann::json::parse(report);
   CHECK(json["method"] == "N-SVD");
   // Full ranks: what is left are half floats, of 11 bits.
@@ -205,7 +205,7 @@ TEST_CASE("a material job goes through its stages and stops where it is told to"
     CHECK(nook_bake_job_wait(job.get()) == NOOK_ERROR_CANCELLED);
     const void* bytes = nullptr;
     std::size_t size = 0;
-    CHECK(nook_bake_job_get_model(job.get(), &bytes, &size) == NOOK_ERROR_CANCELLED);
+    CHECK(nook_bake_job_model(job.get(), &bytes, &size) == NOOK_ERROR_CANCELLED);
   }
 }
 

@@ -2,8 +2,8 @@
 #include <limits>
 #include <vector>
 
-#include "catch.h"
-#include "handles.h"
+#include "tests/bakers/api/handles.h"
+#include "tests/catch.h"
 
 namespace {
 

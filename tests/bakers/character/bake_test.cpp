@@ -1,17 +1,18 @@
-// A whole bake on a small body: it beats a static bake, it is reproducible, it can be cancelled, and quantisation is cheap.
-#include "character/bake.h"
+// A whole bake on a small body: it beats a static bake, it is reproducible, it can be cancelled, and
+// quantisation is cheap.
+#include "bakers/character/bake.h"
 
 #include <tbb/global_control.h>
 
-#include "bending_tube.h"
-#include "catch.h"
-#include "character/block_descent.h"
-#include "character/cached_objective.h"
-#include "character/caster_fit.h"
-#include "character/evaluate.h"
-#include "character/export_model.h"
-#include "character/mini_batch_fit.h"
-#include "character/model_file.h"
+#include "bakers/character/block_descent.h"
+#include "bakers/character/cached_objective.h"
+#include "bakers/character/caster_fit.h"
+#include "bakers/character/export_model.h"
+#include "bakers/character/mini_batch_fit.h"
+#include "bakers/measure/character/evaluate.h"
+#include "sdk/src/character/model_file.h"
+#include "tests/bakers/character/bending_tube.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -48,7 +49,7 @@ TEST_CASE("a baked model follows poses that it has not seen") {
   }
   const CharacterEvaluation e = evaluate_character(mesh, baked.model, unseen, 256, 5);
   INFO("mse " << e.model.mse << " static " << e.static_bake.mse << " oracle " << e.oracle.mse);
-  CHECK(e.noise_floor_mse < 1e-4);             // 3.3e-5 is usual for 256 stratified rays
+  CHECK(e.noise_floor_mse < 1e-4);               // 3.3e-5 is usual for 256 stratified rays
   CHECK(e.model.mse < 0.2 * e.static_bake.mse);  // the issue asks it of real bodies; a tube is easier
   CHECK(e.model.mse < e.oracle.mse);
 
@@ -83,7 +84,8 @@ TEST_CASE("a learned gamma fits as well as the best fixed one") {
   }
   settings.learn_gamma = true;
   const BakeResult learned = bake_character(mesh, poses, settings);
-  INFO("gamma " << learned.model.kernel.gamma << " error " << learned.report.mse_held_out << " least " << least);
+  INFO("gamma " << learned.model.kernel.gamma << " error " << learned.report.mse_held_out << " least "
+                << least);
   // Its choice rests on fits of a twentieth of the steps, and the error is flat near its least value.
   CHECK(learned.report.mse_held_out < 1.1 * least);
 }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "character/pose_sets.h"
-#include "import/skinned_mesh.h"
+#include "bakers/character/pose_sets.h"
+#include "bakers/import/skinned_mesh.h"
 
 namespace nook::bake {
 

@@ -1,12 +1,12 @@
 // Blend weights on a bending tube, in poses that their fit has not seen.
-#include "character/blend_fit.h"
+#include "bakers/character/blend_fit.h"
 
 #include <cmath>
 
-#include "bending_tube.h"
-#include "catch.h"
-#include "character/bake.h"
-#include "import/skinning.h"
+#include "bakers/character/bake.h"
+#include "bakers/import/skinning.h"
+#include "tests/bakers/character/bending_tube.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

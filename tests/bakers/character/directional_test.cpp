@@ -2,15 +2,15 @@
 // lobes.
 #include <cmath>
 
-#include "bending_tube.h"
-#include "catch.h"
-#include "character/bake.h"
-#include "character/scene.h"
-#include "core/memory.h"
-#include "core/spherical_gaussian.h"
-#include "import/skinning.h"
-#include "raytrace/ambient_occlusion.h"
-#include "raytrace/path_tracer.h"
+#include "bakers/character/bake.h"
+#include "bakers/import/skinning.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "bakers/raytrace/path_tracer.h"
+#include "sdk/src/character/scene.h"
+#include "sdk/src/core/memory.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "tests/bakers/character/bending_tube.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

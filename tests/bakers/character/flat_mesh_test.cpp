@@ -1,12 +1,12 @@
 // Meshes without any volume, as cloth, flags, cards and leaves are.
 #include <algorithm>
 
-#include "catch.h"
-#include "character/bake.h"
-#include "character/evaluate.h"
-#include "character/model_file.h"
-#include "import/skinning.h"
-#include "waving_flag.h"
+#include "bakers/character/bake.h"
+#include "bakers/import/skinning.h"
+#include "bakers/measure/character/evaluate.h"
+#include "sdk/src/character/model_file.h"
+#include "tests/bakers/character/waving_flag.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,16 +1,16 @@
 // Where a fit begins: spheres inside the flesh, clusters that keep together, roles of bones, poses.
-#include "character/initialise.h"
+#include "bakers/character/initialise.h"
 
 #include <algorithm>
 #include <set>
 
-#include "bending_tube.h"
-#include "catch.h"
-#include "character/auto_poses.h"
-#include "character/joint_roles.h"
-#include "character/linear_fit.h"
-#include "character/self_collision.h"
-#include "import/skinning.h"
+#include "bakers/character/auto_poses.h"
+#include "bakers/character/joint_roles.h"
+#include "bakers/character/linear_fit.h"
+#include "bakers/character/self_collision.h"
+#include "bakers/import/skinning.h"
+#include "tests/bakers/character/bending_tube.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -49,7 +49,8 @@ TEST_CASE("clusters are connected and as many as asked for") {
       for (const auto& t : mesh.triangle)
         for (int a = 0; a < 3; ++a)
           for (int b = 0; b < 3; ++b)
-            if (reached.count(t[std::size_t(a)]) && members.count(t[std::size_t(b)])) reached.insert(t[std::size_t(b)]);
+            if (reached.count(t[std::size_t(a)]) && members.count(t[std::size_t(b)]))
+              reached.insert(t[std::size_t(b)]);
     }
     CHECK(reached == members);
   }
@@ -82,7 +83,8 @@ TEST_CASE("a planted linear layer is recovered") {
     return 0.9f - 0.5f * shadow[t * padded + i % 6] - 0.3f * shadow[t * padded + (i + 2) % 6];
   };
   for (std::size_t t = 0; t < poses; ++t)
-    for (std::size_t i = 0; i < vertices; ++i) set.targets.value.push_back(std::uint16_t(truth(t, i) * 65535 + 0.5f));
+    for (std::size_t i = 0; i < vertices; ++i)
+      set.targets.value.push_back(std::uint16_t(truth(t, i) * 65535 + 0.5f));
   Candidates candidates;
   candidates.count = 6;
   for (std::size_t i = 0; i < vertices; ++i)

@@ -1,12 +1,13 @@
-// The gradient of the non-linear layer against finite differences, and its value against hand-written formulas.
-#include "character/non_linear_layer.h"
+// The gradient of the non-linear layer against finite differences, and its value against hand-written
+// formulas.
+#include "bakers/character/non_linear_layer.h"
 
 #include <cmath>
 #include <random>
 
-#include "catch.h"
-#include "character/cached_objective.h"
-#include "character/rotation.h"
+#include "bakers/character/cached_objective.h"
+#include "bakers/character/rotation.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -21,7 +22,9 @@ struct Problem {
 
 Problem random_problem(Kernel kernel, std::size_t spheres, std::size_t keys, unsigned seed) {
   std::mt19937 bits(seed);
-  const auto uniform = [&](float low, float high) { return low + (high - low) * float(bits() >> 8) * 0x1p-24f; };
+  const auto uniform = [&](float low, float high) {
+    return low + (high - low) * float(bits() >> 8) * 0x1p-24f;
+  };
   Problem p;
   p.structure.kernel = kernel;
   for (std::size_t h = 0; h < spheres; ++h) p.structure.sphere_bone.push_back(std::uint16_t(bits() % 3));
@@ -51,7 +54,8 @@ double loss_of(const Problem& p, const std::vector<float>& parameters) {
   std::vector<float> shadow(p.structure.padded_count());
   layer.forward(p.bones, parameters, workspace, shadow.data());
   double sum = 0;
-  for (std::size_t k = 0; k < p.structure.key_point_count(); ++k) sum += double(shadow[k]) * (1 + 0.1 * double(k));
+  for (std::size_t k = 0; k < p.structure.key_point_count(); ++k)
+    sum += double(shadow[k]) * (1 + 0.1 * double(k));
   return sum;
 }
 
@@ -69,8 +73,8 @@ TEST_CASE("the gradient of the non-linear layer is that of finite differences") 
   layer.forward(p.bones, p.parameters, workspace, shadow.data());
   layer.backward(p.bones, p.parameters, workspace, slope.data(), 1, gradient);
   for (std::size_t i = 0; i < p.parameters.size(); ++i) {
-    // Central differences in float: a step of 2e-3 leaves a rounding error near 1e-6 / 2e-3 on a loss of about 30, and a
-    // truncation error of the third derivative, both below 1 % of a typical slope.
+    // Central differences in float: a step of 2e-3 leaves a rounding error near 1e-6 / 2e-3 on a loss of
+    // about 30, and a truncation error of the third derivative, both below 1 % of a typical slope.
     const float step = 2e-3f;
     std::vector<float> up = p.parameters, down = p.parameters;
     up[i] += step;
@@ -94,7 +98,7 @@ TEST_CASE("one sphere casts the closed form of slide 18 on one key point") {
   std::vector<float> shadow(structure.padded_count());
   layer.forward(bones, parameters, workspace, shadow.data());
   const double omega = 0.75 - 3.0 * 3.0 / (1 + 4 * 3.0), lambda = 0.5 + 4 / std::sqrt(1 + 4.0 * 16);
-  CHECK(std::abs(double(shadow[0]) - omega * lambda) < 1e-6);  // float rounding
+  CHECK(std::abs(double(shadow[0]) - omega * lambda) < 1e-6);             // float rounding
   for (std::size_t k = 1; k < shadow.size(); ++k) CHECK(shadow[k] == 0);  // padding
 }
 

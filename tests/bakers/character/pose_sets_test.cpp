@@ -1,7 +1,7 @@
 // Which clips are fitted and which are kept for measuring.
-#include "character/pose_sets.h"
+#include "bakers/character/pose_sets.h"
 
-#include "catch.h"
+#include "tests/catch.h"
 
 using namespace nook::bake;
 

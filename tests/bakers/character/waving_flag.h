@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "character/pose_sets.h"
-#include "import/weld.h"
+#include "bakers/character/pose_sets.h"
+#include "bakers/import/weld.h"
 
 namespace nook::bake {
 

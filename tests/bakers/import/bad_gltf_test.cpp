@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <random>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "tube_file.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/import/tube_file.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,9 +1,9 @@
 // Clips against closed forms.
-#include "import/clip.h"
+#include "bakers/import/clip.h"
 
-#include "catch.h"
-#include "core/failure.h"
-#include "tube_file.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/import/tube_file.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

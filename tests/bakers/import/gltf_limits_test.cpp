@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "import/static_scene.h"
-#include "tube_file.h"
+#include "bakers/import/static_scene.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/import/tube_file.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 template <class Import>
-std::string failure_of(Import&& import) {
+std::string failure_when(Import&& import) {
   try {
     import();
   } catch (const Failure& failure) {
@@ -30,7 +30,7 @@ std::string failure_of(Import&& import) {
 }
 
 std::string failure_of(const GltfBuilder& file) {
-  return failure_of([&] { import_gltf(file.glb()); });
+  return failure_when([&] { import_gltf(file.glb()); });
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -117,13 +117,14 @@ TEST_CASE("what a small file asks for is bounded before it is read") {
       file.document["buffers"].push_back({{"byteLength", 1 << 30}, {"uri", "a.bin"}});
     }
     const std::string text = file.document.dump();
-    CHECK(contains(failure_of([&] { import_gltf(GltfBuilder::bytes_of(text)); }), "more than 2 GiB in all"));
+    CHECK(
+        contains(failure_when([&] { import_gltf(GltfBuilder::bytes_of(text)); }), "more than 2 GiB in all"));
   }
   SECTION("JSON values") {
     std::string text = R"({"asset":{"version":"2.0","extras":[0)";
     for (int i = 0; i < (1 << 24); ++i) text += ",0";
     const std::vector<std::byte> bytes = GltfBuilder::bytes_of(text + "]}}");
-    CHECK(contains(failure_of([&] { import_gltf(bytes); }), "JSON of more than 16777216 values"));
+    CHECK(contains(failure_when([&] { import_gltf(bytes); }), "JSON of more than 16777216 values"));
   }
   // Positions of 9 million vertices are 108 MB, read for the sake of their count, and the text above is
   // copied.
@@ -154,7 +155,7 @@ TEST_CASE("only regular files in the file's own folder are read") {
   const GltfBuilder file = tube_file();
   const std::vector<unsigned char>& data = file.buffer();
   const auto import = [&](const std::string& name, LinkedFiles linked = LinkedFiles::folder) {
-    return failure_of([&] { import_gltf(folder / name, linked); });
+    return failure_when([&] { import_gltf(folder / name, linked); });
   };
   SECTION("a file beside it, or further down") {
     write(folder / "tube.bin", data.data(), data.size());
@@ -215,10 +216,9 @@ TEST_CASE("extensions that a file requires are read or refused by name") {
   }
   SECTION("meshopt, whose buffers hold less than they say") {
     required = {"KHR_mesh_quantization", "EXT_meshopt_compression"};
-    std::string text = file.document.dump();
     file.document["buffers"] = Json::array({{{"byteLength", 4000}}, {{"byteLength", 100000}}});
     for (const auto& bytes : {file.glb(), GltfBuilder::bytes_of(file.document.dump())}) {
-      const std::string message = failure_of([&] { import_gltf(bytes); });
+      const std::string message = failure_when([&] { import_gltf(bytes); });
       CHECK(contains(message, "EXT_meshopt_compression"));
       CHECK(contains(message, "gltfpack"));
     }
@@ -229,7 +229,7 @@ TEST_CASE("extensions that a file requires are read or refused by name") {
   }
   SECTION("scenes as well") {
     required = {"EXT_mesh_gpu_instancing"};
-    CHECK(contains(failure_of([&] { import_static_scene(file.glb()); }), "EXT_mesh_gpu_instancing"));
+    CHECK(contains(failure_when([&] { import_static_scene(file.glb()); }), "EXT_mesh_gpu_instancing"));
   }
 }
 

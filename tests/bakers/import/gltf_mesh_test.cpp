@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "catch.h"
-#include "import/skinning.h"
-#include "tube_file.h"
+#include "bakers/import/skinning.h"
+#include "tests/bakers/import/tube_file.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,7 +1,7 @@
 // Bones of synthetic files: bind poses, several skins, rigid parts, mirrored and uneven nodes.
-#include "catch.h"
-#include "import/skinning.h"
-#include "tube_file.h"
+#include "bakers/import/skinning.h"
+#include "tests/bakers/import/tube_file.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -7,9 +7,9 @@
 #include <random>
 #include <set>
 
-#include "catch.h"
-#include "import/skinning.h"
-#include "import/weld.h"
+#include "bakers/import/skinning.h"
+#include "bakers/import/weld.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

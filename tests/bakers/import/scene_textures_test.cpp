@@ -1,11 +1,11 @@
 // Colour textures of static scenes: which image, how it is read, and what is refused by name.
-#include "catch.h"
+#include "tests/catch.h"
 
 #include <cmath>
 
-#include "core/failure.h"
-#include "gltf_builder.h"
-#include "import/static_scene.h"
+#include "bakers/import/static_scene.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/import/gltf_builder.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,9 +1,9 @@
 // Skinning, normals and areas against closed forms.
-#include "import/skinning.h"
+#include "bakers/import/skinning.h"
 
-#include "catch.h"
-#include "core/failure.h"
-#include "import/weld.h"
+#include "bakers/import/weld.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,12 +1,12 @@
 // Scenes that stand still: where their triangles land, and files that are refused.
-#include "catch.h"
+#include "tests/catch.h"
 
 #include <filesystem>
 #include <limits>
 
-#include "core/failure.h"
-#include "gltf_builder.h"
-#include "import/static_scene.h"
+#include "bakers/import/static_scene.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/import/gltf_builder.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "gltf_builder.h"
-#include "import/gltf.h"
+#include "bakers/import/gltf.h"
+#include "tests/bakers/import/gltf_builder.h"
 
 namespace nook::test {
 

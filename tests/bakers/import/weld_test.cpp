@@ -1,9 +1,9 @@
 // Welding and validation of meshes that come from memory.
-#include "import/weld.h"
+#include "bakers/import/weld.h"
 
-#include "catch.h"
-#include "core/failure.h"
-#include "import/validate.h"
+#include "bakers/import/validate.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,17 +1,17 @@
-#include "material/compression.h"
+#include "bakers/material/compression.h"
 
 #include <tbb/global_control.h>
 
 #include <string>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "material/comparison.h"
-#include "material/evaluate.h"
-#include "material/material_file.h"
-#include "material/measures.h"
-#include "material/tables.h"
-#include "small_material.h"
+#include "bakers/measure/material/comparison.h"
+#include "bakers/measure/material/measures.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/material_file.h"
+#include "sdk/src/material/tables.h"
+#include "tests/bakers/material/small_material.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::material;

@@ -1,13 +1,13 @@
-#include "material/fill_gaps.h"
+#include "bakers/material/fill_gaps.h"
 
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "raytrace/hemisphere.h"
+#include "bakers/raytrace/hemisphere.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "catch.h"
-#include "material/trace_material.h"
-#include "plates.h"
+#include "bakers/material/trace_material.h"
+#include "tests/bakers/material/plates.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::material;

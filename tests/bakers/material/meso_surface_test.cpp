@@ -1,4 +1,4 @@
-#include "material/meso_surface.h"
+#include "bakers/material/meso_surface.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <map>
 #include <string>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "material/tile_noise.h"
+#include "bakers/material/tile_noise.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::material;

@@ -1,7 +1,7 @@
 // Surfaces of which light and visibility are known in closed form.
 #pragma once
 
-#include "material/meso_surface.h"
+#include "bakers/material/meso_surface.h"
 
 namespace nook::bake::material::test {
 

@@ -1,13 +1,13 @@
-#include "material/raw_file.h"
+#include "bakers/material/raw_file.h"
 
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "material/directions.h"
-#include "raytrace/hemisphere.h"
+#include "bakers/material/directions.h"
+#include "bakers/raytrace/hemisphere.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,10 +1,10 @@
-#include "material/signed_distance.h"
+#include "bakers/material/signed_distance.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "catch.h"
-#include "raytrace/hemisphere.h"
+#include "bakers/raytrace/hemisphere.h"
+#include "tests/catch.h"
 
 using namespace nook::bake;
 using namespace nook::bake::material;

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "material/directions.h"
-#include "material/raw_material.h"
+#include "bakers/material/directions.h"
+#include "bakers/material/raw_material.h"
 
 namespace nook::bake::material::test {
 

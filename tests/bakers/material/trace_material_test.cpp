@@ -1,4 +1,4 @@
-#include "material/trace_material.h"
+#include "bakers/material/trace_material.h"
 
 #include <tbb/global_control.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "material/directions.h"
-#include "plates.h"
+#include "bakers/material/directions.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/material/plates.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::material;

@@ -1,10 +1,10 @@
-#include "material/view_spline.h"
+#include "bakers/material/view_spline.h"
 
 #include <cmath>
 
-#include "catch.h"
-#include "material/directions.h"
-#include "material/parabolic.h"
+#include "bakers/material/directions.h"
+#include "sdk/src/material/parabolic.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::material;

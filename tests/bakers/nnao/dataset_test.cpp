@@ -1,4 +1,4 @@
-#include "nnao/dataset.h"
+#include "bakers/nnao/dataset.h"
 
 #include <tbb/global_control.h>
 
@@ -6,10 +6,10 @@
 #include <cstring>
 #include <set>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "raytrace/ambient_occlusion.h"
-#include "small_dataset.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/nnao/small_dataset.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::nnao;

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "catch.h"
-#include "nnao/evaluate.h"
-#include "nnao/forms.h"
-#include "nnao/horizon_gradient.h"
-#include "small_dataset.h"
+#include "bakers/nnao/forms.h"
+#include "bakers/nnao/horizon_gradient.h"
+#include "sdk/src/nnao/evaluate.h"
+#include "tests/bakers/nnao/small_dataset.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::nnao;

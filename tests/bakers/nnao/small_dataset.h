@@ -1,7 +1,7 @@
 // A training set that is made in a second.
 #pragma once
 
-#include "nnao/dataset.h"
+#include "bakers/nnao/dataset.h"
 
 namespace nook::test {
 

@@ -1,16 +1,16 @@
-#include "nnao/training.h"
+#include "bakers/nnao/training.h"
 
 #include <tbb/global_control.h>
 
 #include <algorithm>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "nnao/checkpoint.h"
-#include "nnao/evaluate.h"
-#include "nnao/network_file.h"
-#include "nnao/validation.h"
-#include "small_dataset.h"
+#include "bakers/nnao/checkpoint.h"
+#include "bakers/nnao/validation.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_file.h"
+#include "tests/bakers/nnao/small_dataset.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::nnao;

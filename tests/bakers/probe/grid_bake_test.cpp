@@ -1,18 +1,18 @@
 // Grids of probes against closed forms and the path tracer's own irradiance.
-#include "probe/grid_bake.h"
+#include "bakers/probe/grid_bake.h"
 
 #include <tbb/global_control.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "bakers/raytrace/sphere_soup.h"
-#include "catch.h"
-#include "core/failure.h"
-#include "probe/evaluate.h"
-#include "probe/fit_error.h"
-#include "probe/probe_file.h"
-#include "small_maps.h"
+#include "bakers/measure/probe/fit_error.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_file.h"
+#include "tests/bakers/probe/small_maps.h"
+#include "tests/bakers/raytrace/sphere_soup.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,19 +1,19 @@
 // Probes of maps: what is in the basis comes back, every kind of sampling agrees, and the comparison measures
 // what it says.
-#include "probe/map_bake.h"
+#include "bakers/probe/map_bake.h"
 
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "probe/comparison.h"
-#include "probe/evaluate.h"
-#include "probe/fit_error.h"
-#include "probe/map_samples.h"
-#include "small_maps.h"
+#include "bakers/measure/probe/comparison.h"
+#include "bakers/measure/probe/fit_error.h"
+#include "bakers/probe/map_samples.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/evaluate.h"
+#include "tests/bakers/probe/small_maps.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,15 +1,15 @@
 // Exact integrals of maps against closed forms and quadrature.
-#include "probe/map_light.h"
+#include "bakers/probe/map_light.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "catch.h"
-#include "core/spherical_gaussian.h"
-#include "probe/axes.h"
-#include "probe/evaluate.h"
-#include "probe/fit_error.h"
-#include "small_maps.h"
+#include "bakers/measure/probe/fit_error.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/probe/axes.h"
+#include "sdk/src/probe/evaluate.h"
+#include "tests/bakers/probe/small_maps.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "raytrace/environment.h"
-#include "raytrace/hemisphere.h"
+#include "bakers/raytrace/environment.h"
+#include "bakers/raytrace/hemisphere.h"
 
 namespace nook::test {
 

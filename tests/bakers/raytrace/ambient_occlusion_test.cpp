@@ -1,14 +1,14 @@
 // The ray tracer against closed forms: it is the ground truth of everything else.
-#include "raytrace/ambient_occlusion.h"
+#include "bakers/raytrace/ambient_occlusion.h"
 
 #include <tbb/global_control.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "bakers/character/bending_tube.h"
-#include "catch.h"
-#include "sphere_soup.h"
+#include "tests/bakers/character/bending_tube.h"
+#include "tests/bakers/raytrace/sphere_soup.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,12 +1,12 @@
 // Environment maps: where their texels lie, and sampling by luminance against exact sums.
-#include "raytrace/environment.h"
+#include "bakers/raytrace/environment.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "raytrace/hemisphere.h"
+#include "bakers/raytrace/hemisphere.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

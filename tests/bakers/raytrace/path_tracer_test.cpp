@@ -1,13 +1,13 @@
 // The path tracer against closed forms: it is the ground truth of lighting.
-#include "raytrace/path_tracer.h"
+#include "bakers/raytrace/path_tracer.h"
 
 #include <tbb/global_control.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "catch.h"
-#include "sphere_soup.h"
+#include "tests/bakers/raytrace/sphere_soup.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "raytrace/ray_scene.h"
+#include "bakers/raytrace/ray_scene.h"
 
 // Its facets lie inside it by less than radius * (pi / segments)^2 / 2.
 inline nook::bake::TriangleSoup sphere_soup(nook::Vec3 centre, float radius, int segments) {

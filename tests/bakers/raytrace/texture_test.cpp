@@ -1,13 +1,13 @@
 // Textures, alone and on the surfaces of a lit scene, against closed forms.
-#include "raytrace/texture.h"
+#include "bakers/raytrace/texture.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "raytrace/path_tracer.h"
-#include "sphere_soup.h"
+#include "bakers/raytrace/path_tracer.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/raytrace/sphere_soup.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -1,15 +1,15 @@
-#include "tensor/clustered_fit.h"
+#include "bakers/tensor/clustered_fit.h"
 
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <set>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "planted.h"
-#include "tensor/resample.h"
-#include "tensor/seed_clusters.h"
+#include "bakers/tensor/resample.h"
+#include "bakers/tensor/seed_clusters.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/tensor/planted.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::tensor;

@@ -1,11 +1,11 @@
-#include "tensor/empty_clusters.h"
+#include "bakers/tensor/empty_clusters.h"
 
 #include <set>
 
-#include "catch.h"
-#include "planted.h"
-#include "tensor/clustering_stage.h"
-#include "tensor/update_stage.h"
+#include "bakers/tensor/clustering_stage.h"
+#include "bakers/tensor/update_stage.h"
+#include "tests/bakers/tensor/planted.h"
+#include "tests/catch.h"
 
 using namespace nook::bake::tensor;
 

@@ -1,11 +1,11 @@
-#include "tensor/mapped_tensor.h"
+#include "bakers/tensor/mapped_tensor.h"
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
-#include "catch.h"
-#include "planted.h"
+#include "tests/bakers/tensor/planted.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::tensor;

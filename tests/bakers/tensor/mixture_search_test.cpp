@@ -1,12 +1,12 @@
-#include "tensor/mixture_search.h"
+#include "bakers/tensor/mixture_search.h"
 
 #include <Eigen/QR>
 #include <algorithm>
 
-#include "catch.h"
-#include "planted.h"
-#include "tensor/atoms.h"
-#include "tensor/gram.h"
+#include "bakers/tensor/atoms.h"
+#include "bakers/tensor/gram.h"
+#include "tests/bakers/tensor/planted.h"
+#include "tests/catch.h"
 
 using namespace nook::bake::tensor;
 using Eigen::Index;

@@ -1,14 +1,14 @@
-#include "tensor/nsvd.h"
+#include "bakers/tensor/nsvd.h"
 
 #include <tbb/global_control.h>
 
 #include <Eigen/SVD>
 #include <limits>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "planted.h"
-#include "tensor/rank_choice.h"
+#include "bakers/tensor/rank_choice.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/tensor/planted.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::tensor;

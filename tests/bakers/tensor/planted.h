@@ -6,9 +6,9 @@
 #include <random>
 #include <string>
 
-#include "core/failure.h"
-#include "tensor/clustered_fit.h"
-#include "tensor/mode_product.h"
+#include "bakers/tensor/clustered_fit.h"
+#include "bakers/tensor/mode_product.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor::test {
 

@@ -1,11 +1,11 @@
-#include "tensor/seed_clusters.h"
+#include "bakers/tensor/seed_clusters.h"
 
 #include <algorithm>
 #include <set>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "planted.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/tensor/planted.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::tensor;

@@ -1,12 +1,12 @@
-#include "tensor/tensor.h"
+#include "bakers/tensor/tensor.h"
 
 #include <limits>
 
-#include "catch.h"
-#include "core/failure.h"
-#include "planted.h"
-#include "tensor/gram.h"
-#include "tensor/mode_product.h"
+#include "bakers/tensor/gram.h"
+#include "bakers/tensor/mode_product.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/tensor/planted.h"
+#include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake::tensor;

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "catch.h"
+#include "tests/catch.h"
 
 namespace {
 

@@ -1,9 +1,9 @@
-#include "crowd/layout.h"
+#include "samples/crowd/layout.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "catch.h"
+#include "tests/catch.h"
 
 using namespace crowd;
 

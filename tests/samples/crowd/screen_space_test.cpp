@@ -11,9 +11,9 @@
 #include <numeric>
 #include <optional>
 
-#include "catch.h"
-#include "crowd/animation.h"
-#include "crowd/camera.h"
+#include "samples/crowd/animation.h"
+#include "samples/crowd/camera.h"
+#include "tests/catch.h"
 
 namespace {
 

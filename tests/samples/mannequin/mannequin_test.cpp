@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "mannequin/mannequin.h"
+#include "samples/mannequin/mannequin.h"
 
 namespace {
 

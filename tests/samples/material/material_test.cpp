@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "catch.h"
-#include "material/material_file.h"
-#include "open_weave.h"
+#include "sdk/src/material/material_file.h"
+#include "tests/catch.h"
+#include "tests/material/open_weave.h"
 
 using namespace nook::material;
 

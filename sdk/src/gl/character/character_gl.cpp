@@ -1,6 +1,6 @@
-#include "gl/character/character_gl.h"
+#include "sdk/src/gl/character/character_gl.h"
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::gl {
 

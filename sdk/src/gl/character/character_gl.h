@@ -5,8 +5,8 @@
 #include <list>
 #include <optional>
 
-#include "gl/character/compute_tier.h"
-#include "gl/character/feedback_tier.h"
+#include "sdk/src/gl/character/compute_tier.h"
+#include "sdk/src/gl/character/feedback_tier.h"
 
 namespace nook::gl {
 

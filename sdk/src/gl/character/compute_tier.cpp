@@ -1,11 +1,11 @@
-#include "gl/character/compute_tier.h"
+#include "sdk/src/gl/character/compute_tier.h"
 
 #include <bit>
 #include <cstdio>
 
-#include "gl/character/frame_stream.h"
-#include "gl/character/scene_lights.h"
-#include "gl/program.h"
+#include "sdk/src/gl/character/frame_stream.h"
+#include "sdk/src/gl/character/scene_lights.h"
+#include "sdk/src/gl/program.h"
 
 namespace nook::gl {
 namespace {

@@ -1,7 +1,7 @@
 // OpenGL 4.3: spheres, shadows and vertices of a scene in compute shaders.
 #pragma once
 
-#include "gl/character/scene_buffers.h"
+#include "sdk/src/gl/character/scene_buffers.h"
 
 namespace nook::gl {
 

@@ -1,10 +1,10 @@
-#include "gl/character/feedback_tier.h"
+#include "sdk/src/gl/character/feedback_tier.h"
 
 #include <cstdio>
 
-#include "core/failure.h"
-#include "gl/character/scene_lights.h"
-#include "gl/program.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/character/scene_lights.h"
+#include "sdk/src/gl/program.h"
 
 namespace nook::gl {
 namespace {

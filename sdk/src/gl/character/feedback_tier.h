@@ -1,7 +1,7 @@
 // OpenGL 3.3: shadows at key points on the CPU; vertices by transform feedback on the GPU.
 #pragma once
 
-#include "gl/character/scene_buffers.h"
+#include "sdk/src/gl/character/scene_buffers.h"
 
 namespace nook::gl {
 

@@ -1,9 +1,9 @@
-#include "gl/character/frame_stream.h"
+#include "sdk/src/gl/character/frame_stream.h"
 
 #include <bit>
 #include <cstring>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::gl {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "gl/character/scene_buffers.h"
+#include "sdk/src/gl/character/scene_buffers.h"
 
 namespace nook::gl {
 

@@ -1,9 +1,9 @@
-#include "gl/character/model_buffers.h"
+#include "sdk/src/gl/character/model_buffers.h"
 
 #include <bit>
 #include <cstring>
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::gl {
 namespace {

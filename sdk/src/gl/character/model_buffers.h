@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "character/loaded_model.h"
-#include "gl/object.h"
+#include "sdk/src/character/loaded_model.h"
+#include "sdk/src/gl/object.h"
 
 namespace nook::gl {
 

@@ -7,8 +7,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "character/scene.h"
-#include "gl/character/model_buffers.h"
+#include "sdk/src/character/scene.h"
+#include "sdk/src/gl/character/model_buffers.h"
 
 namespace nook::gl {
 

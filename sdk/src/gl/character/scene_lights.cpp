@@ -1,9 +1,9 @@
-#include "gl/character/scene_lights.h"
+#include "sdk/src/gl/character/scene_lights.h"
 
 #include <algorithm>
 
-#include "core/failure.h"
-#include "gl/program.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/program.h"
 
 namespace nook::gl {
 namespace {

@@ -2,7 +2,7 @@
 // shaders.
 #pragma once
 
-#include "gl/character/scene_buffers.h"
+#include "sdk/src/gl/character/scene_buffers.h"
 
 namespace nook::gl {
 

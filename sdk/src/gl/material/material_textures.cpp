@@ -1,12 +1,12 @@
-#include "gl/material/material_textures.h"
+#include "sdk/src/gl/material/material_textures.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "core/failure.h"
-#include "gl/material/source.h"
-#include "gl/material/texture_array.h"
-#include "gl/state_access.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/material/source.h"
+#include "sdk/src/gl/material/texture_array.h"
+#include "sdk/src/gl/state_access.h"
 
 namespace nook::gl {
 namespace {

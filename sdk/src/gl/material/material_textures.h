@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "gl/object.h"
-#include "material/tables.h"
+#include "sdk/src/gl/object.h"
+#include "sdk/src/material/tables.h"
 
 namespace nook::gl {
 

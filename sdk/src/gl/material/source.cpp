@@ -1,9 +1,9 @@
-#include "gl/material/source.h"
+#include "sdk/src/gl/material/source.h"
 
 #include <cstdarg>
 #include <cstdio>
 
-#include "gl/embedded_shaders.h"
+#include "sdk/src/gl/embedded_shaders.h"
 
 namespace nook::gl {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory_resource>
 #include <string>
 
-#include "material/tables.h"
+#include "sdk/src/material/tables.h"
 
 namespace nook::gl {
 

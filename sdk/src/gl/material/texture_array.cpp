@@ -1,9 +1,9 @@
-#include "gl/material/texture_array.h"
+#include "sdk/src/gl/material/texture_array.h"
 
 #include <algorithm>
 #include <cstddef>
 
-#include "gl/state_guard.h"
+#include "sdk/src/gl/state_guard.h"
 
 namespace nook::gl {
 namespace {

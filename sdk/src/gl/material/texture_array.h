@@ -1,7 +1,7 @@
 // A texture array of a material, with the contents that it keeps.
 #pragma once
 
-#include "gl/object.h"
+#include "sdk/src/gl/object.h"
 
 namespace nook::gl {
 

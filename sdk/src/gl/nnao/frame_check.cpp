@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/failure.h"
-#include "gl/nnao/frame_constants.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/nnao/frame_constants.h"
 
 namespace nook::gl {
 namespace {

@@ -1,8 +1,8 @@
-#include "gl/nnao/frame_constants.h"
+#include "sdk/src/gl/nnao/frame_constants.h"
 
 #include <algorithm>
 
-#include "nnao/evaluate.h"
+#include "sdk/src/nnao/evaluate.h"
 
 namespace nook::gl {
 namespace {

@@ -1,6 +1,6 @@
-#include "gl/nnao/host_images.h"
+#include "sdk/src/gl/nnao/host_images.h"
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::gl {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <nook/nook_nnao.h>
 
-#include "gl/device.h"
+#include "sdk/src/gl/device.h"
 
 namespace nook::gl {
 

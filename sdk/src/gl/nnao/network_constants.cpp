@@ -1,4 +1,4 @@
-#include "gl/nnao/network_constants.h"
+#include "sdk/src/gl/nnao/network_constants.h"
 
 namespace nook::gl {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "nnao/network.h"
+#include "sdk/src/nnao/network.h"
 
 namespace nook::gl {
 

@@ -1,7 +1,7 @@
-#include "gl/nnao/pass.h"
+#include "sdk/src/gl/nnao/pass.h"
 
-#include "core/failure.h"
-#include "gl/state_guard.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/state_guard.h"
 
 namespace nook::gl {
 namespace {

@@ -9,11 +9,11 @@
 
 #include <optional>
 
-#include "gl/nnao/frame_constants.h"
-#include "gl/nnao/host_images.h"
-#include "gl/nnao/render_texture.h"
-#include "gl/nnao/stage_timer.h"
-#include "nnao/network.h"
+#include "sdk/src/gl/nnao/frame_constants.h"
+#include "sdk/src/gl/nnao/host_images.h"
+#include "sdk/src/gl/nnao/render_texture.h"
+#include "sdk/src/gl/nnao/stage_timer.h"
+#include "sdk/src/nnao/network.h"
 
 namespace nook::gl {
 

@@ -1,12 +1,12 @@
 #include <cstdio>
 
-#include "core/failure.h"
-#include "gl/nnao/network_constants.h"
-#include "gl/nnao/pass.h"
-#include "gl/nnao/path.h"
-#include "gl/program.h"
-#include "gl/state_guard.h"
-#include "nnao/taps.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/nnao/network_constants.h"
+#include "sdk/src/gl/nnao/pass.h"
+#include "sdk/src/gl/nnao/path.h"
+#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/state_guard.h"
+#include "sdk/src/nnao/taps.h"
 
 namespace nook::gl {
 namespace {

@@ -1,6 +1,6 @@
-#include "gl/nnao/path.h"
+#include "sdk/src/gl/nnao/path.h"
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::gl {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <nook/nook_nnao.h>
 
-#include "gl/functions.h"
+#include "sdk/src/gl/functions.h"
 
 namespace nook::gl {
 

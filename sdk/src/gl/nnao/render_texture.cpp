@@ -1,6 +1,6 @@
-#include "gl/nnao/render_texture.h"
+#include "sdk/src/gl/nnao/render_texture.h"
 
-#include "core/failure.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::gl {
 namespace {

@@ -1,7 +1,7 @@
 // Textures that the screen-space pass draws into.
 #pragma once
 
-#include "gl/object.h"
+#include "sdk/src/gl/object.h"
 
 namespace nook::gl {
 

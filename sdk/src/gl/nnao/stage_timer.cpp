@@ -1,4 +1,4 @@
-#include "gl/nnao/stage_timer.h"
+#include "sdk/src/gl/nnao/stage_timer.h"
 
 #include <algorithm>
 

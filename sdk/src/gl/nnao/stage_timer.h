@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "gl/object.h"
+#include "sdk/src/gl/object.h"
 
 namespace nook::gl {
 

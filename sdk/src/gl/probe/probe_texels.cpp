@@ -1,4 +1,4 @@
-#include "gl/probe/probe_texels.h"
+#include "sdk/src/gl/probe/probe_texels.h"
 
 namespace nook::gl {
 

@@ -5,7 +5,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "probe/probe.h"
+#include "sdk/src/probe/probe.h"
 
 namespace nook::gl {
 

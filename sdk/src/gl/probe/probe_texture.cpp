@@ -1,10 +1,10 @@
-#include "gl/probe/probe_texture.h"
+#include "sdk/src/gl/probe/probe_texture.h"
 
 #include <cstring>
 
-#include "core/failure.h"
-#include "gl/probe/probe_texels.h"
-#include "gl/program.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/probe/probe_texels.h"
+#include "sdk/src/gl/program.h"
 
 namespace nook::gl {
 

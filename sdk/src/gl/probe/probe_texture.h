@@ -1,8 +1,8 @@
 // A probe or a grid in a texture buffer.
 #pragma once
 
-#include "gl/object.h"
-#include "probe/probe.h"
+#include "sdk/src/gl/object.h"
+#include "sdk/src/probe/probe.h"
 
 namespace nook::gl {
 

@@ -1,0 +1,51 @@
+#include "bakers/images/environment_file.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake::probe {
+namespace {
+
+constexpr int most_columns = 16384, fewest_columns = 4;
+
+void check_layout(const OIIO::ImageSpec& spec, const char* format) {
+  if (spec.format != OIIO::TypeDesc::FLOAT && spec.format != OIIO::TypeDesc::HALF)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "a %s image of %s values holds no radiance (need floating point); give a .hdr or .exr file",
+                  format, spec.format.c_str());
+  if (spec.nchannels < 3)
+    throw Failure(NOOK_ERROR_BAD_FILE, "an image of %d channels (need red, green and blue)", spec.nchannels);
+  if (spec.width != 2 * spec.height || spec.width < fewest_columns || spec.width > most_columns)
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "an image of %d x %d pixels is no latitude-longitude map (need twice as wide as high, %d to %d "
+        "pixels wide)",
+        spec.width, spec.height, fewest_columns, most_columns);
+}
+
+}  // namespace
+
+Environment read_environment(const std::filesystem::path& path) {
+  const auto image = OIIO::ImageInput::open(path.string());
+  if (!image) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be read as an image (%s)", OIIO::geterror().c_str());
+  const OIIO::ImageSpec spec = image->spec();
+  check_layout(spec, image->format_name());
+  std::vector<float> rgb(3 * std::size_t(spec.width) * std::size_t(spec.height));
+  if (!image->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, rgb.data()))
+    throw Failure(NOOK_ERROR_BAD_FILE, "a damaged image (%s)", image->geterror().c_str());
+  std::size_t not_finite = 0;
+  for (float& value : rgb) {
+    not_finite += !std::isfinite(value);
+    value = std::max(value, 0.0f);
+  }
+  if (not_finite > 0)
+    throw Failure(NOOK_ERROR_BAD_FILE, "%zu of its values are not finite; clamp them in an image editor",
+                  not_finite);
+  return Environment(std::uint32_t(spec.width), std::uint32_t(spec.height), std::move(rgb));
+}
+
+}  // namespace nook::bake::probe

@@ -1,0 +1,66 @@
+#include "bakers/job/bake_job.h"
+
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake {
+
+BakeJob::BakeJob(Bake bake, std::size_t threads, Listener listener)
+    : listener_(std::move(listener)),
+      thread_([this, bake = std::move(bake), threads] { run(bake, threads); }) {}
+
+BakeJob::~BakeJob() {
+  cancel();
+  thread_.join();
+}
+
+void BakeJob::run(const Bake& bake, std::size_t threads) {
+  BakedFile file;
+  Outcome outcome;
+  try {
+    run_with_threads(threads, [&] {
+      file = bake([this](nook_bake_stage stage, std::size_t done, std::size_t total) {
+        return report(stage, done, total);
+      });
+    });
+    // A request that came after the last chance to stop still holds: whoever cancels does not want the file.
+    if (cancelled_) throw Failure(NOOK_ERROR_CANCELLED, "cancelled when the bake was nearly done");
+  } catch (...) {
+    outcome = outcome_of(std::current_exception());
+  }
+  const std::lock_guard lock(mutex_);
+  file_ = std::move(file);
+  outcome_ = outcome;
+  progress_.finished = true;
+  progress_.stage = NOOK_BAKE_STAGE_DONE;
+  changed_.notify_all();
+}
+
+bool BakeJob::report(nook_bake_stage stage, std::size_t done, std::size_t total) {
+  JobProgress now{false, stage, done, total};
+  {
+    const std::lock_guard lock(mutex_);
+    progress_ = now;
+  }
+  if (cancelled_) return false;
+  if (listener_ && !listener_(now)) cancelled_ = true;
+  return !cancelled_;
+}
+
+JobProgress BakeJob::progress() const {
+  const std::lock_guard lock(mutex_);
+  return progress_;
+}
+
+void BakeJob::wait() const {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return progress_.finished; });
+}
+
+const BakedFile& BakeJob::file() const {
+  if (!progress().finished)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the job is still running; call nook_bake_job_wait first");
+  if (outcome_.result != NOOK_OK) throw Failure(outcome_.result, "%s", outcome_.text);
+  return file_;
+}
+
+}  // namespace nook::bake

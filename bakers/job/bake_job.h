@@ -1,0 +1,57 @@
+// One bake on a thread of its own.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "bakers/job/baked_file.h"
+#include "bakers/job/outcome.h"
+#include "bakers/job/worker_arena.h"
+
+namespace nook::bake {
+
+// What a job is at; finished once its result is known.
+struct JobProgress {
+  bool finished = false;
+  nook_bake_stage stage = NOOK_BAKE_STAGE_WAITING;
+  std::size_t done = 0, total = 0;
+};
+
+class BakeJob {
+ public:
+  using Listener =
+      std::function<bool(const JobProgress&)>;  // false cancels; never called once the job has finished
+
+  // bake runs once, on `threads` threads (0: all cores), and is destroyed with the job.
+  using Bake = std::function<BakedFile(const StageReport&)>;
+
+  BakeJob(Bake bake, std::size_t threads, Listener listener);
+  ~BakeJob();  // cancels and waits
+
+  JobProgress progress() const;
+  void cancel() { cancelled_ = true; }
+  void wait() const;
+  // The file of a job that has succeeded. Throws Failure: INVALID_ARGUMENT while it runs, what it failed with
+  // otherwise.
+  const BakedFile& file() const;
+  // Of a finished job.
+  const Outcome& outcome() const { return outcome_; }
+
+ private:
+  void run(const Bake& bake, std::size_t threads);
+  bool report(nook_bake_stage stage, std::size_t done, std::size_t total);
+
+  Listener listener_;
+  std::atomic<bool> cancelled_{false};
+  mutable std::mutex mutex_;  // of what follows
+  mutable std::condition_variable changed_;
+  JobProgress progress_;
+  BakedFile file_;
+  Outcome outcome_;
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace nook::bake

@@ -1,0 +1,88 @@
+#include "bakers/job/bake_pipeline.h"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Of the whole process since it began.
+std::size_t peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::size_t(usage.ru_maxrss) * 1024;
+}
+
+nook_bake_stage stage_of(BakeStage stage) {
+  switch (stage) {
+    case BakeStage::raytrace:
+      return NOOK_BAKE_STAGE_RAYTRACE;
+    case BakeStage::initialise:
+      return NOOK_BAKE_STAGE_INITIALISE;
+    case BakeStage::fit:
+      return NOOK_BAKE_STAGE_FIT;
+    case BakeStage::casters:
+      break;
+  }
+  return NOOK_BAKE_STAGE_CASTERS;
+}
+
+std::string report_text(const ImportedCharacter& character, const Recipe& recipe, const CharacterModel& model,
+                        std::size_t model_bytes, const BakeReport& report) {
+  Json j;
+  j["vertices"] = model.vertex_count();
+  j["file_vertices"] = model.file_to_welded.size();
+  j["bones"] = model.bone_count();
+  j["spheres"] = model.spheres.size();
+  j["key_points"] = model.key_points.size();
+  j["gamma"] = model.kernel.gamma;
+  j["model_bytes"] = model_bytes;
+  j["seconds_raytrace"] = report.seconds_raytrace;
+  j["seconds_fit"] = report.seconds_fit;
+  j["iterations"] = report.iterations;
+  j["train_poses"] = report.train_poses;
+  j["rays"] = recipe.settings.rays;
+  j["noise_floor_mse"] = report.noise_floor_mse;
+  j["noise_floor_held_out_mse"] = report.noise_floor_held_out_mse;
+  j["mse_initial"] = report.mse_initial;
+  j["mse_train"] = report.mse_train;
+  j["mse_held_out"] = report.mse_held_out;
+  j["mse_held_out_file"] = report.mse_held_out_file;
+  j["peak_bytes"] = peak_bytes();
+  Json names = Json::array();
+  for (std::size_t clip : recipe.clips) names.push_back(character.clips[clip].name);
+  j["clips"] = std::move(names);
+  j["warnings"] = character.warnings;
+  j["recipe"] = Json::parse(recipe_text(character, recipe));
+  Json curve = Json::array();
+  for (const CurvePoint& p : report.curve)
+    curve.push_back({{"seconds", p.seconds}, {"mse_train", p.mse_train}, {"mse_held_out", p.mse_held_out}});
+  j["curve"] = std::move(curve);
+  // Names come from files and need not be UTF-8.
+  return j.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recipe,
+                         std::span<const Pose> extra_poses, const StageReport& progress) {
+  std::vector<Pose> poses = recipe_poses(character, recipe);
+  poses.insert(poses.end(), extra_poses.begin(), extra_poses.end());
+  BakeResult baked = bake_character(character.mesh, poses, recipe.settings,
+                                    [&](BakeStage stage, std::size_t done, std::size_t total) {
+                                      return progress(stage_of(stage), done, total);
+                                    });
+  baked.model.recipe = recipe_text(character, recipe);
+  BakedFile file;
+  file.model = write_character_model(baked.model);
+  file.report = report_text(character, recipe, baked.model, file.model.size(), baked.report);
+  return file;
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,169 @@
+#include "bakers/job/job_recipe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bakers/character/pose_sets.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake {
+namespace {
+
+// Bounds that no sensible bake comes near; they keep hostile numbers from asking for all of memory.
+constexpr std::uint32_t most_spheres = 1024, most_key_points = 4096, most_rays = 65536,
+                        most_poses = 1'000'000, most_threads = 1024, most_steps = 10'000'000;
+
+[[noreturn]] void unknown(const char* name, int value) {
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "%s has an unknown value (got %d); use a constant of nook_bake.h", name, value);
+}
+
+void at_most(const char* name, std::uint32_t value, std::uint32_t most) {
+  if (value > most)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %u, need at most %u)", name, value,
+                  most);
+}
+
+Preset preset_of(nook_bake_preset preset) {
+  switch (preset) {
+    case NOOK_BAKE_PRESET_DRAFT:
+      return Preset::draft;
+    case NOOK_BAKE_PRESET_STANDARD:
+      return Preset::standard;
+    case NOOK_BAKE_PRESET_PRODUCTION:
+      return Preset::production;
+    default:
+      unknown("desc.preset", preset);
+  }
+}
+
+PoseMode mode_of(nook_bake_pose_mode mode) {
+  switch (mode) {
+    case NOOK_BAKE_POSES_AUTO:
+      return PoseMode::automatic;
+    case NOOK_BAKE_POSES_SINGLE_JOINT:
+      return PoseMode::single_joint;
+    case NOOK_BAKE_POSES_CLIPS:
+      return PoseMode::clips;
+    case NOOK_BAKE_POSES_ALL:
+      return PoseMode::all;
+    case NOOK_BAKE_POSES_EXTRA:
+      return PoseMode::extra;
+    default:
+      unknown("desc.pose_mode", mode);
+  }
+}
+
+KernelForm kernel_of(nook_bake_kernel kernel) {
+  switch (kernel) {
+    case NOOK_BAKE_KERNEL_NOOK:
+      return KernelForm::nook;
+    case NOOK_BAKE_KERNEL_PAPER:
+      return KernelForm::paper;
+    case NOOK_BAKE_KERNEL_RATIONAL:
+      return KernelForm::rational;
+    default:
+      unknown("desc.kernel", kernel);
+  }
+}
+
+FitMethod fit_of(nook_bake_fit fit) {
+  switch (fit) {
+    case NOOK_BAKE_FIT_NOOK:
+      return FitMethod::nook;
+    case NOOK_BAKE_FIT_PAPER:
+      return FitMethod::paper;
+    default:
+      unknown("desc.fit", fit);
+  }
+}
+
+std::vector<std::size_t> chosen_clips(const nook_bake_job_desc& desc, const ImportedCharacter& character) {
+  std::vector<std::size_t> clips;
+  if (desc.clip_count > 0) {
+    need(desc.clip_names, "desc.clip_names");
+    for (std::uint32_t i = 0; i < desc.clip_count; ++i) {
+      need(desc.clip_names[i], "desc.clip_names[i]");
+      clips.push_back(find_clip(character, desc.clip_names[i]));
+    }
+    std::sort(clips.begin(), clips.end(), [&](std::size_t a, std::size_t b) {
+      return character.clips[a].name < character.clips[b].name;
+    });
+    clips.erase(std::unique(clips.begin(), clips.end()), clips.end());
+    return clips;
+  }
+  clips = motion_clips(character);
+  if (desc.clip_split == NOOK_BAKE_SPLIT_HALF) return split_clips(clips).fitted;
+  if (desc.clip_split == NOOK_BAKE_SPLIT_FAMILIES) return split_families(character, clips).fitted;
+  if (desc.clip_split != NOOK_BAKE_SPLIT_ALL) unknown("desc.clip_split", desc.clip_split);
+  return clips;
+}
+
+void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
+  at_most("desc.spheres", desc.spheres, most_spheres);
+  at_most("desc.key_points", desc.key_points, most_key_points);
+  at_most("desc.rays", desc.rays, most_rays);
+  at_most("desc.steps", desc.steps, most_steps);
+  at_most("desc.threads", desc.threads, most_threads);
+  if (desc.spheres) settings.spheres = desc.spheres;
+  if (desc.key_points) settings.key_points = desc.key_points;
+  if (desc.rays) settings.rays = desc.rays;
+  settings.kernel.form = kernel_of(desc.kernel);
+  settings.fit = fit_of(desc.fit);
+  if (desc.steps) settings.steps = desc.steps;
+  settings.seed = desc.seed;
+  settings.learn_gamma = desc.gamma == NOOK_BAKE_GAMMA_LEARNED;
+  if (desc.gamma != 0 && !settings.learn_gamma) {
+    if (!(desc.gamma >= 1 && desc.gamma <= 8))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.gamma is out of range (got %g, need 1 to 8, NOOK_BAKE_GAMMA_LEARNED, or 0 for 1)",
+                    double(desc.gamma));
+    settings.kernel.gamma = desc.gamma;
+  }
+  if (!(desc.time_limit_s >= 0) || !std::isfinite(desc.time_limit_s))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.time_limit_s is out of range (got %g, need seconds, or 0 for none)",
+                  desc.time_limit_s);
+  settings.time_limit_s = desc.time_limit_s;
+}
+
+}  // namespace
+
+Recipe recipe_of(const nook_bake_job_desc& desc, const ImportedCharacter& character) {
+  Recipe recipe;
+  recipe.preset = preset_of(desc.preset);
+  const PresetValues preset = preset_values(recipe.preset, fit_of(desc.fit));
+  recipe.settings = preset.settings;
+  choose_settings(desc, recipe.settings);
+  recipe.poses = mode_of(desc.pose_mode);
+  recipe.source_hash = character.source_hash;
+  recipe.extra_poses = desc.extra_pose_count;
+  if (desc.extra_pose_count) need(desc.extra_poses_3x4, "desc.extra_poses_3x4");
+  at_most("desc.auto_pose_count", desc.auto_pose_count, most_poses);
+  at_most("desc.samples_per_clip", desc.samples_per_clip, most_poses);
+  at_most("desc.extra_pose_count", desc.extra_pose_count, most_poses);
+
+  const bool clips = recipe.poses == PoseMode::clips || recipe.poses == PoseMode::all;
+  if (!clips && desc.clip_count > 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.clip_names are given but desc.pose_mode uses no clips; use "
+                  "NOOK_BAKE_POSES_CLIPS or NOOK_BAKE_POSES_ALL");
+  if (clips) recipe.clips = chosen_clips(desc, character);
+  if (recipe.poses == PoseMode::clips && recipe.clips.empty())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.pose_mode is NOOK_BAKE_POSES_CLIPS but the character has no clip that "
+                  "shows motion; use NOOK_BAKE_POSES_AUTO");
+  if (!recipe.clips.empty())
+    recipe.samples_per_clip =
+        desc.samples_per_clip ? desc.samples_per_clip : samples_per_clip(preset, recipe.clips.size());
+  if (recipe.poses == PoseMode::automatic || recipe.poses == PoseMode::all)
+    recipe.auto_poses = desc.auto_pose_count ? desc.auto_pose_count : preset.auto_poses;
+  if (recipe.poses == PoseMode::single_joint) recipe.single_joint_steps = preset.single_joint_steps;
+  if (recipe.poses == PoseMode::extra && desc.extra_pose_count == 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.pose_mode is NOOK_BAKE_POSES_EXTRA but desc.extra_pose_count is 0; give "
+                  "poses");
+  return recipe;
+}
+
+}  // namespace nook::bake

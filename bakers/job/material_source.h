@@ -1,0 +1,26 @@
+// Where a raw material comes from: a traced meso-structure or a file; and the settings of its compression.
+#pragma once
+
+#include <cstdint>
+
+#include "bakers/material/builtin_ranks.h"
+#include "bakers/material/compression.h"
+#include "bakers/material/directions.h"
+#include "bakers/material/meso_surface.h"
+#include "bakers/material/raw_file.h"
+#include "bakers/material/trace_material.h"
+
+namespace nook::bake {
+
+struct MesoSource {
+  material::MesoParameters meso;
+  std::uint32_t views = 100, lights = 0;                // directions; lights 0: as many as views
+  float max_tilt_deg = material::default_max_tilt_deg;  // their largest angle to the normal, degrees
+  material::TraceSettings trace;
+};
+
+// Traces the meso-structure from every pair of directions. progress counts views; throws Failure (CANCELLED)
+// when it returns false.
+material::RawMaterial trace_meso_source(const MesoSource& source, const Progress& progress);
+
+}  // namespace nook::bake

@@ -1,0 +1,67 @@
+#include "bakers/job/mesh_arrays.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <algorithm>
+
+#include "bakers/import/weld.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake {
+namespace {
+
+std::vector<Vec3> points(const float* xyz, std::size_t count) {
+  std::vector<Vec3> result(count);
+  for (std::size_t i = 0; i < count; ++i) result[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+  return result;
+}
+
+std::vector<Bone> bones_of(const nook_bake_mesh_desc& desc) {
+  std::vector<Bone> bones(desc.bone_count);
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    const char* name = desc.bone_names ? desc.bone_names[b] : nullptr;
+    bones[b].name = name ? name : "bone_" + std::to_string(b);
+    bones[b].parent = desc.bone_parents[b];
+    std::copy_n(desc.bone_frames_3x4 + 12 * b, 12, bones[b].frame_rest.m);
+  }
+  return bones;
+}
+
+}  // namespace
+
+ImportedCharacter character_of_arrays(const nook_bake_mesh_desc& desc) {
+  need(desc.positions, "desc.positions");
+  need(desc.indices, "desc.indices");
+  need(desc.joints, "desc.joints");
+  need(desc.weights, "desc.weights");
+  need(desc.bone_parents, "desc.bone_parents");
+  need(desc.bone_frames_3x4, "desc.bone_frames_3x4");
+  if (desc.influences < 1 || desc.influences > 64)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.influences is out of range (got %u, need 1 to 64)",
+                  desc.influences);
+  if (desc.primitive_count > 0) need(desc.primitives, "desc.primitives");
+  const std::vector<Vec3> position = points(desc.positions, desc.vertex_count);
+  const std::size_t pairs = std::size_t(desc.influences) * desc.vertex_count;
+
+  MeshArrays arrays;
+  arrays.bones = bones_of(desc);
+  arrays.position = position;
+  arrays.index = {desc.indices, desc.index_count};
+  arrays.influences = desc.influences;
+  arrays.joint = {desc.joints, pairs};
+  arrays.weight = {desc.weights, pairs};
+  for (std::uint32_t p = 0; p < desc.primitive_count; ++p)
+    arrays.primitives.push_back(
+        {"primitive_" + std::to_string(p), desc.primitives[p].first_vertex, desc.primitives[p].vertex_count});
+
+  ImportedCharacter character;
+  character.mesh = weld(to_file_mesh(arrays, NOOK_ERROR_INVALID_ARGUMENT), character.warnings,
+                        NOOK_ERROR_INVALID_ARGUMENT);
+  std::uint64_t hash = XXH64(position.data(), position.size() * sizeof(Vec3), 0);
+  hash = XXH64(arrays.index.data(), arrays.index.size_bytes(), hash);
+  character.source_hash = XXH64(arrays.weight.data(), arrays.weight.size_bytes(), hash);
+  return character;
+}
+
+}  // namespace nook::bake

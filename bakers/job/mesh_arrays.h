@@ -1,0 +1,13 @@
+// A character out of a host's arrays.
+#pragma once
+
+#include <nook/nook_bake.h>
+
+#include "bakers/import/gltf.h"
+
+namespace nook::bake {
+
+// Throws INVALID_ARGUMENT, naming the first fault.
+ImportedCharacter character_of_arrays(const nook_bake_mesh_desc& desc);
+
+}  // namespace nook::bake

@@ -1,0 +1,20 @@
+#include "bakers/job/network_training.h"
+
+#include <nlohmann/json.hpp>
+
+namespace nook::bake {
+
+std::string network_recipe(const nnao::DatasetSettings& data, const nnao::TrainingSettings& t) {
+  const nlohmann::ordered_json recipe{{"form", t.form == nnao::NetworkForm::paper ? "paper" : "horizon"},
+                                      {"seed", t.seed},
+                                      {"scenes", data.scenes},
+                                      {"views", data.views},
+                                      {"points_per_view", data.points_per_view},
+                                      {"rays", data.rays},
+                                      {"epochs", t.epochs},
+                                      {"batch", t.batch},
+                                      {"rate", t.rate}};
+  return recipe.dump();
+}
+
+}  // namespace nook::bake

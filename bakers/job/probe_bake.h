@@ -1,0 +1,31 @@
+// Bakes of probes, from settings to what a file holds: one probe of a map, or a grid in a scene.
+#pragma once
+
+#include <functional>
+
+#include "bakers/probe/grid_bake.h"
+#include "bakers/probe/map_bake.h"
+#include "bakers/raytrace/lit_scene.h"
+#include "sdk/src/probe/probe_file.h"
+
+namespace nook::bake {
+
+struct MapProbe {
+  nook::probe::Probes probes;
+  std::size_t samples = 0;
+};
+// progress counts samples; throws Failure (CANCELLED) when it returns false.
+MapProbe bake_map_probe(const Environment& map, const probe::MapBakeSettings& settings,
+                        const Progress& progress);
+
+struct GridRefinement {
+  std::uint32_t max_passes = 1;
+  double error = 0.01;         // the statistical error that ends the bake, see probe::GridBake::error
+  double preview_every_s = 0;  // seconds; 0: no previews
+  Progress progress;           // counts passes; false stops with Failure (CANCELLED)
+  std::function<void(double error)> preview;  // the bake stands between two passes
+};
+// Adds passes until the error is small enough or all passes are done; returns the error that is left.
+double refine_grid(probe::GridBake& bake, const GridRefinement& refinement);
+
+}  // namespace nook::bake

@@ -1,0 +1,42 @@
+// How far a model is from ray tracing on given poses, beside what a team would use instead.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bakers/import/skinned_mesh.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "sdk/src/character/model.h"
+
+namespace nook::bake {
+
+struct ErrorColumns {
+  double mse = 0;        // over all welded vertices and poses, as the paper has it
+  double mse_area = 0;   // weighted by rest Voronoi area
+  double mse_body = 0;   // vertices that no hand bone or anything below it moves
+  double mse_hands = 0;  // the others; 0 where there are none
+};
+
+struct CharacterEvaluation {
+  std::size_t poses = 0;
+  std::uint32_t rays = 0;
+  double noise_floor_mse = 0;  // expected squared error of the ray-traced targets themselves
+  ErrorColumns model, static_bake, oracle;
+  std::vector<float> vertex_rms;  // of the model, a value a welded vertex: what a picture of the error shows
+};
+
+// The prediction of a model for one pose, by the scalar reference: a value a welded vertex, clamped.
+std::vector<float> predict_ao(const CharacterModel& model, std::span<const Mat3x4> bones);
+
+// Targets are traced with rays a vertex under another seed than the fit's.
+CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterModel& model,
+                                       std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
+                                       const Progress& progress = {});
+
+// Splits vertices for mse_body and mse_hands: true where a hand bone (by role) or a bone below it holds most
+// of the weight.
+std::vector<char> hand_vertices(const SkinnedMesh& mesh);
+
+}  // namespace nook::bake

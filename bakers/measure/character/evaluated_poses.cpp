@@ -1,0 +1,68 @@
+#include "bakers/measure/character/evaluated_poses.h"
+
+#include <algorithm>
+
+#include "bakers/character/pose_sets.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::measure {
+namespace {
+
+using namespace bake;
+
+void thin_out(std::vector<Pose>& poses, std::size_t most) {
+  if (most == 0 || poses.size() <= most) return;
+  std::vector<Pose> kept;
+  for (std::size_t i = 0; i < most; ++i) kept.push_back(std::move(poses[i * poses.size() / most]));
+  poses = std::move(kept);
+}
+
+std::vector<std::size_t> named_clips(const ImportedCharacter& character,
+                                     const std::vector<std::string>& names) {
+  std::vector<std::size_t> clips;
+  for (const std::string& name : names) clips.push_back(find_clip(character, name));
+  return clips;
+}
+
+}  // namespace
+
+EvaluatedPoses choose_poses(const ImportedCharacter& character, const Recipe* recipe,
+                            const PoseChoice& choice) {
+  EvaluatedPoses result;
+  if (choice.training) {
+    if (!recipe)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "--poses training needs a model that holds its recipe; use --poses clips");
+    result.poses = recipe_poses(character, *recipe);
+    if (result.poses.empty())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "--poses training: the model was fitted only to poses of its host, which cannot be "
+                    "made again; use --poses clips");
+    result.protocol = "training poses";
+    thin_out(result.poses, choice.most);
+    return result;
+  }
+  std::vector<std::size_t> clips;
+  if (!choice.clips.empty()) {
+    clips = named_clips(character, choice.clips);
+    result.protocol = "named clips";
+  } else {
+    for (std::size_t clip : motion_clips(character))
+      if (!recipe || std::find(recipe->clips.begin(), recipe->clips.end(), clip) == recipe->clips.end())
+        clips.push_back(clip);
+    result.protocol = "unseen clips";
+    if (clips.empty()) {
+      clips = motion_clips(character);
+      result.protocol = "all clips";
+    }
+  }
+  if (clips.empty())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the file has no clip that shows motion; use --poses training, or --clips");
+  result.poses = clip_poses(character, clips, choice.samples_per_clip);
+  for (std::size_t clip : clips) result.clips.push_back(character.clips[clip].name);
+  thin_out(result.poses, choice.most);
+  return result;
+}
+
+}  // namespace nook::measure

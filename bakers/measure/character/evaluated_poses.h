@@ -1,0 +1,32 @@
+// Which poses an evaluation measures.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bakers/character/recipe.h"
+#include "bakers/import/gltf.h"
+
+namespace nook::measure {
+
+struct PoseChoice {
+  bool training = false;           // the poses that the model was fitted to, made again from its recipe
+  std::vector<std::string> clips;  // only these, all of the file; empty: see below
+  std::size_t samples_per_clip = 20;
+  std::size_t most = 0;  // 0: all; otherwise about so many, evenly picked
+};
+
+struct EvaluatedPoses {
+  std::vector<bake::Pose> poses;
+  std::string protocol;            // "unseen clips", "all clips", "named clips", "training poses"
+  std::vector<std::string> clips;  // measured
+};
+
+// Without names: the motion clips that the recipe did not fit, or all of them if it fitted all. recipe may be
+// null when none could be read; then all motion clips are measured. Throws Failure (INVALID_ARGUMENT).
+EvaluatedPoses choose_poses(const bake::ImportedCharacter& character, const bake::Recipe* recipe,
+                            const PoseChoice& choice);
+
+}  // namespace nook::measure

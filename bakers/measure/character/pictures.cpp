@@ -1,0 +1,63 @@
+#include "bakers/measure/character/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bakers/images/picture.h"
+#include "bakers/import/skinning.h"
+#include "bakers/measure/character/evaluate.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+
+namespace nook::measure {
+namespace {
+
+using namespace bake;
+
+constexpr int width_px = 420, height_px = 760;
+constexpr float error_gain = 4;  // 0.25 of AO is the far end of the colour ramp
+
+Picture draw_pose(const SkinnedMesh& mesh, const Pose& pose, std::span<const float> traced,
+                  std::span<const float> predicted) {
+  std::vector<Vec3> posed;
+  skin_positions(mesh, pose, posed);
+  std::vector<float> error(traced.size());
+  for (std::size_t i = 0; i < error.size(); ++i) error[i] = error_gain * std::fabs(traced[i] - predicted[i]);
+  std::vector<Picture> panels;
+  for (BodySide side : {BodySide::front, BodySide::back}) {
+    const BodyView view(mesh.triangle, posed, side, width_px, height_px);
+    panels.push_back(view.draw(traced, grey));
+    panels.push_back(view.draw(predicted, grey));
+    panels.push_back(view.draw(error, viridis));
+  }
+  return side_by_side(panels);
+}
+
+Picture draw_rms(const SkinnedMesh& mesh, std::span<const float> vertex_rms) {
+  std::vector<float> scaled(vertex_rms.begin(), vertex_rms.end());
+  for (float& value : scaled) value *= error_gain;
+  std::vector<Picture> panels;
+  for (BodySide side : {BodySide::front, BodySide::back})
+    panels.push_back(BodyView(mesh.triangle, mesh.position, side, width_px, height_px).draw(scaled, viridis));
+  return side_by_side(panels);
+}
+
+}  // namespace
+
+void write_pictures(const std::filesystem::path& directory, const SkinnedMesh& mesh,
+                    const CharacterModel& model, std::span<const Pose> poses, std::size_t count,
+                    std::span<const float> vertex_rms, std::uint32_t rays, std::uint64_t seed) {
+  std::filesystem::create_directories(directory);
+  std::vector<Pose> picked;
+  count = std::min(count, poses.size());
+  for (std::size_t i = 0; i < count; ++i) picked.push_back(poses[(2 * i + 1) * poses.size() / (2 * count)]);
+  const AoTargets targets = trace_character_ao(mesh, picked, rays, seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<float> traced;
+    for (std::uint16_t value : targets.row(i)) traced.push_back(float(value) * AoTargets::scale);
+    write_png(directory / ("pose_" + std::to_string(i) + ".png"),
+              draw_pose(mesh, picked[i], traced, predict_ao(model, picked[i])));
+  }
+  write_png(directory / "rms.png", draw_rms(mesh, vertex_rms));
+}
+
+}  // namespace nook::measure

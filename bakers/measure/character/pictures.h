@@ -1,0 +1,20 @@
+// The error of a model drawn on the body.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "bakers/import/skinned_mesh.h"
+#include "sdk/src/character/model.h"
+
+namespace nook::measure {
+
+// pose_0.png, pose_1.png, ... of `count` poses, evenly picked: front traced, front predicted, front |error| x
+// 4, then the same from the back. rms.png: the error of all poses (vertex_rms) x 4 on the rest pose, front
+// and back. The directory is created.
+void write_pictures(const std::filesystem::path& directory, const bake::SkinnedMesh& mesh,
+                    const CharacterModel& model, std::span<const bake::Pose> poses, std::size_t count,
+                    std::span<const float> vertex_rms, std::uint32_t rays, std::uint64_t seed);
+
+}  // namespace nook::measure

@@ -1,0 +1,120 @@
+#include "bakers/measure/character/report.h"
+
+#include <cmath>
+#include <memory>
+
+#include "bakers/character/pose_sets.h"
+#include "bakers/import/skinning.h"
+#include "bakers/measure/character/linear_pose.h"
+#include "bakers/measure/character/pose_clusters.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::measure {
+namespace {
+
+using namespace bake;
+using Json = nlohmann::ordered_json;
+
+Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, const std::string& name,
+               const CharacterEvaluation& e) {
+  const CharacterModel& model = baked.model;
+  Json row;
+  row["character"] = name;
+  row["protocol"] = measured.protocol;
+  row["vertices"] = model.vertex_count();
+  row["bones"] = baked.character.mesh.bones.size();
+  row["spheres"] = model.spheres.size();
+  row["key_points"] = model.key_points.size();
+  row["model_bytes"] = baked.model_bytes.size();
+  row["map_bytes"] = Container(baked.model_bytes, character_kind).section("FMAP").remaining();
+  row["poses"] = e.poses;
+  row["rays"] = e.rays;
+  row["noise_floor_mse"] = e.noise_floor_mse;
+  row["mse"] = e.model.mse;
+  row["rmse"] = std::sqrt(e.model.mse);
+  row["mse_area"] = e.model.mse_area;
+  row["mse_body"] = e.model.mse_body;
+  row["mse_hands"] = e.model.mse_hands;
+  row["mse_static"] = e.static_bake.mse;
+  row["mse_area_static"] = e.static_bake.mse_area;
+  row["mse_oracle"] = e.oracle.mse;
+  row["mse_area_oracle"] = e.oracle.mse_area;
+  row["ratio_to_static"] = e.static_bake.mse > 0 ? e.model.mse / e.static_bake.mse : 0;
+  row["ratio_to_static_area"] = e.static_bake.mse_area > 0 ? e.model.mse_area / e.static_bake.mse_area : 0;
+  return row;
+}
+
+// Fits the baselines to the model's own training poses and measures them on the same targets.
+void add_baselines(Json& row, const ImportedCharacter& character, const Recipe* recipe,
+                   std::span<const Pose> measured, const CharacterReportSettings& settings,
+                   const StageProgress& progress) {
+  const std::vector<Pose> training = recipe ? recipe_poses(character, *recipe) : std::vector<Pose>();
+  if (training.empty())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "--peers: the model holds no recipe from which its training poses can be made again");
+  const SkinnedMesh& mesh = character.mesh;
+  const std::vector<float> area = vertex_areas(mesh, mesh.position);
+  const AoTargets fitted = trace_character_ao(mesh, training, recipe->settings.rays, recipe->settings.seed,
+                                              progress("ray tracing the baselines' training poses"));
+  // The same rays as the model's own evaluation, so that all columns have the same truth.
+  const AoTargets truth =
+      trace_character_ao(mesh, measured, settings.rays, evaluation_ray_seed(settings.seed),
+                         progress("ray tracing again for the baselines"));
+  const auto measure = [&](const char* name, const std::unique_ptr<PoseRegression>& baseline) {
+    const RegressionError error = measure_regression(*baseline, measured, truth, area);
+    row[std::string("mse_") + name] = error.mse;
+    row[std::string("mse_area_") + name] = error.mse_area;
+    row[std::string("bytes_") + name] = baseline->model_bytes();
+    row[std::string("tuned_") + name] = baseline->description();
+  };
+  measure("linear_pose", fit_linear_pose(mesh, training, fitted));
+  measure("pose_clusters", fit_pose_clusters(mesh, training, fitted, settings.seed));
+}
+
+}  // namespace
+
+std::uint64_t evaluation_ray_seed(std::uint64_t seed) {
+  return mix_bits(seed ^ 0x6576616c75617465ull);
+}
+
+std::optional<Recipe> recipe_of(const BakedCharacter& baked) {
+  if (baked.model.recipe.empty()) return std::nullopt;
+  return read_recipe(baked.character, std::string_view(baked.model.recipe));
+}
+
+CharacterReport measure_character(const BakedCharacter& baked, const Recipe* recipe,
+                                  const EvaluatedPoses& measured, const CharacterReportSettings& settings,
+                                  const StageProgress& progress) {
+  CharacterReport report;
+  report.evaluation = evaluate_character(baked.character.mesh, baked.model, measured.poses, settings.rays,
+                                         evaluation_ray_seed(settings.seed), progress("ray tracing"));
+  report.row = model_row(baked, measured, settings.name, report.evaluation);
+  if (settings.baselines)
+    add_baselines(report.row, baked.character, recipe, measured.poses, settings, progress);
+  return report;
+}
+
+std::vector<Pose> caster_poses(const ImportedCharacter& character, std::size_t count) {
+  const std::vector<std::size_t> clips = motion_clips(character);
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < count && !clips.empty(); ++i) {
+    const std::size_t clip = clips[i * clips.size() / count];
+    poses.push_back(clip_poses(character, {&clip, 1}, 1).front());
+  }
+  if (poses.empty()) poses.push_back(rest_pose(character));
+  return poses;
+}
+
+Json caster_rows(const std::vector<CasterRow>& rows) {
+  Json array = Json::array();
+  for (const CasterRow& r : rows)
+    array.push_back({{"distance_m", r.distance_m},
+                     {"form", r.form},
+                     {"darkening", r.darkening},
+                     {"darkening_traced", r.darkening_traced},
+                     {"ratio", r.darkening_traced > 0 ? r.darkening / r.darkening_traced : 0}});
+  return array;
+}
+
+}  // namespace nook::measure

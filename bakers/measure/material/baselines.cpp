@@ -1,0 +1,117 @@
+#include "bakers/measure/material/baselines.h"
+
+#include <algorithm>
+
+#include "bakers/measure/material/unseen_views.h"
+#include "sdk/src/material/tables.h"
+
+namespace nook::measure {
+namespace {
+
+using namespace bake::material;
+using nook::material::Material;
+using nook::material::VisibilityForm;
+using Json = nlohmann::ordered_json;
+
+struct Baseline {
+  const char* name;
+  Method method;
+  std::uint32_t mixture;
+};
+constexpr Baseline baselines[] = {{"n-svd", Method::n_svd, 1},
+                                  {"cta", Method::cta, 1},
+                                  {"k-cta-2", Method::k_cta, 2},
+                                  {"k-cta-3", Method::k_cta, 3},
+                                  {"k-cta-4", Method::k_cta, 4}};
+constexpr const char* pca_name = "pca";
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void add_unseen(const RawMaterial* unseen, const Material& material, MethodRow& row) {
+  if (!unseen) return;
+  const UnseenError error = measure_unseen(*unseen, material);
+  row.se_db_unseen = error.se_db;
+  row.error_texels_unseen = error.error_texels;
+}
+
+}  // namespace
+
+std::vector<std::string> material_baseline_names() {
+  std::vector<std::string> names;
+  for (const Baseline& baseline : baselines) names.emplace_back(baseline.name);
+  names.emplace_back(pca_name);
+  return names;
+}
+
+CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
+  const auto &btf = material.btf.shape, &votf = material.votf.shape;
+  CompressionSettings s;
+  s.rank_light = btf.rank_light;
+  s.rank_view = btf.rank_view * btf.clusters;
+  s.rank_x = btf.rank_x;
+  s.rank_y = btf.rank_y;
+  s.cluster_rank_view = btf.clusters > 1 ? btf.rank_view : 4;
+  s.visibility = material.visibility;
+  if (material.visibility != VisibilityForm::none) {
+    s.votf_rank_x = votf.rank_x;
+    s.votf_rank_y = votf.rank_y;
+  }
+  s.map_side = 0;
+  s.seed = seed;
+  return s;
+}
+
+Json material_file_row(const RawMaterial& raw, const Material& material, const RawMaterial* unseen) {
+  MethodRow own = measure_material(raw, material);
+  own.method = "file: " + own.method;
+  add_unseen(unseen, material, own);
+  return report_row(raw.name, own);
+}
+
+Json material_baseline_rows(const RawMaterial& raw, const Material& material, std::uint64_t seed,
+                            const BaselineRequest& request) {
+  const CompressionSettings settings = settings_of(material, seed);
+  Json rows = Json::array();
+  for (const Baseline& baseline : baselines) {
+    CompressionSettings s = settings;
+    s.method = baseline.method;
+    s.mixture = baseline.mixture;
+    if (request.unseen) s.map_side = nook::material::default_map_side;
+    if (!contains(request.names, baseline.name) ||
+        (s.method == Method::k_cta && s.mixture > s.cluster_count()))
+      continue;
+    Material compressed;
+    MethodRow row = measure_method(raw, s, request.progress(std::string(baseline.name) + ", "), &compressed);
+    add_unseen(request.unseen, compressed, row);
+    rows.push_back(report_row(raw.name, row));
+    if (request.keep) request.keep(baseline.name, compressed);
+  }
+  if (!contains(request.names, pca_name)) return rows;
+  request.progress("")("principal components", 0, 1);
+  const std::size_t btf_bytes =
+      light_basis_bytes(raw.lights.size(), material.btf.shape) + compressed_bytes(material.btf.shape);
+  rows.push_back(report_row(raw.name, measure_pca(raw, btf_bytes, settings.seed)));
+  return rows;
+}
+
+Json seeding_rows(const RawMaterial& raw, const CompressionSettings& settings,
+                  const MethodProgress& progress) {
+  Json rows = Json::array();
+  for (const Seeding seeding : {Seeding::directions, Seeding::values})
+    for (const std::uint32_t mixture : {1u, 3u}) {
+      CompressionSettings s = settings;
+      s.seeding = seeding;
+      s.method = mixture == 1 ? Method::cta : Method::k_cta;
+      s.mixture = mixture;
+      if (mixture > s.cluster_count()) continue;
+      const char* name = seeding == Seeding::directions ? "directions" : "values";
+      rows.push_back(
+          report_row(raw.name, measure_method(raw, s, progress(std::string("seeds of ") + name + ", "))));
+      rows.back()["seeding"] = name;
+    }
+  return rows;
+}
+
+}  // namespace nook::measure

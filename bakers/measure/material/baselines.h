@@ -1,0 +1,49 @@
+// A compressed material beside the methods that it competes with, as rows of the report of `nook evaluate
+// material`.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bakers/material/raw_file.h"
+#include "bakers/measure/material/report.h"
+#include "bakers/measure/material/sweep.h"
+#include "sdk/src/material/material_file.h"
+
+namespace nook::measure {
+
+// n-svd, cta, k-cta-2, k-cta-3, k-cta-4, pca.
+std::vector<std::string> material_baseline_names();
+
+// The settings that the sizes of a material's tensors give, without a view map.
+bake::material::CompressionSettings settings_of(const nook::material::Material& material, std::uint64_t seed);
+
+struct BaselineRequest {
+  std::vector<std::string> names;                       // of material_baseline_names
+  const bake::material::RawMaterial* unseen = nullptr;  // views that no fit has seen; null: none
+  MethodProgress progress;
+  // Receives each material after it was measured, for pictures. May be empty.
+  std::function<void(const std::string& name, const nook::material::Material& material)> keep;
+};
+
+// The file's own row: its errors, and where unseen is given its errors in those views.
+nlohmann::ordered_json material_file_row(const bake::material::RawMaterial& raw,
+                                         const nook::material::Material& material,
+                                         const bake::material::RawMaterial* unseen);
+
+// Compresses the raw material anew by each named method, at the ranks of the file, and PCA at the bytes of
+// its BTF.
+nlohmann::ordered_json material_baseline_rows(const bake::material::RawMaterial& raw,
+                                              const nook::material::Material& material, std::uint64_t seed,
+                                              const BaselineRequest& request);
+
+// CTA and K-CTA with K = 3, each from first clusters by directions and by values.
+nlohmann::ordered_json seeding_rows(const bake::material::RawMaterial& raw,
+                                    const bake::material::CompressionSettings& settings,
+                                    const MethodProgress& progress);
+
+}  // namespace nook::measure

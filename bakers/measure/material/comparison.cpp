@@ -1,0 +1,92 @@
+#include "bakers/measure/material/comparison.h"
+
+#include <chrono>
+
+#include "bakers/measure/material/measures.h"
+#include "bakers/measure/material/pca.h"
+#include "sdk/src/material/material_file.h"
+
+namespace nook::bake::material {
+namespace {
+
+using nook::material::ClusteredTensor;
+using nook::material::Material;
+using nook::material::VisibilityForm;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::vector<float> plain(const std::pmr::vector<float>& values) {
+  return {values.begin(), values.end()};
+}
+
+}  // namespace
+
+const char* method_name(Method method) {
+  return method == Method::n_svd ? "N-SVD" : method == Method::cta ? "CTA" : "K-CTA";
+}
+
+MethodRow measure_material(const RawMaterial& raw, const Material& material) {
+  const auto& shape = material.btf.shape;
+  MethodRow row;
+  row.method = method_name(shape.clusters == 1  ? Method::n_svd
+                           : shape.mixture == 1 ? Method::cta
+                                                : Method::k_cta);
+  row.mixture = shape.mixture;
+  row.bytes = nook::material::compressed_bytes(material);
+  const BtfError error = measure_btf(raw, plain(material.light_basis), material.btf);
+  row.se_db = error.se_db();
+  row.psnr_db = error.psnr_db();
+  if (material.visibility == VisibilityForm::none || raw.mask.empty()) return row;
+  (material.visibility == VisibilityForm::binary ? row.error_texels_binary : row.error_texels_distance) =
+      count_error_texels(raw, material.votf, material.visibility);
+  return row;
+}
+
+MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, const StageProgress& progress,
+                         Material* material) {
+  if (!material) settings.map_side = 0;
+  const auto start = Clock::now();
+  Material whole = compress(raw, settings, progress);
+  const double seconds = seconds_since(start);
+  whole = nook::material::quantise(whole);
+  MethodRow row = measure_material(raw, whole);
+  row.method = method_name(settings.method);
+  row.seconds = seconds;
+  if (whole.visibility != VisibilityForm::none) {
+    // The other form beside it, at the same ranks.
+    CompressionSettings other = settings;
+    other.map_side = 0;
+    other.visibility =
+        settings.visibility == VisibilityForm::binary ? VisibilityForm::distance : VisibilityForm::binary;
+    Material second;
+    second.lights = whole.lights;
+    second.views = whole.views;
+    second.light_basis = whole.light_basis;
+    second.btf = whole.btf;
+    second.visibility = other.visibility;
+    second.mapping = nook::material::paper_mapping(other.visibility);
+    second.votf = compress_votf(raw, votf_values(raw, other.visibility), other, progress);
+    second = nook::material::quantise(second);
+    (other.visibility == VisibilityForm::binary ? row.error_texels_binary : row.error_texels_distance) =
+        count_error_texels(raw, second.votf, other.visibility);
+  }
+  if (material) *material = std::move(whole);
+  return row;
+}
+
+MethodRow measure_pca(const RawMaterial& raw, std::size_t bytes, std::uint64_t seed) {
+  const auto start = Clock::now();
+  const PcaResult pca = fit_pca(raw, bytes, seed);
+  MethodRow row;
+  row.method = "PCA";
+  row.bytes = pca.bytes;
+  row.se_db = pca.se_db;
+  row.psnr_db = pca.psnr_db;
+  row.seconds = seconds_since(start);
+  return row;
+}
+
+}  // namespace nook::bake::material

@@ -1,0 +1,112 @@
+#include "bakers/measure/material/measures.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "bakers/tensor/blocks.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake::material {
+namespace {
+
+using Eigen::Index;
+using nook::material::ClusteredTensor;
+using tensor::Matrix;
+using ConstMap = Eigen::Map<const Matrix>;
+
+void need_sizes(const RawMaterial& raw, const ClusteredTensor& t, const char* what) {
+  const auto& s = t.shape;
+  if (s.views != raw.views.size() || s.width != raw.width || s.height != raw.height)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the %s is of %u views and %u x %u texels, the raw material of %zu and %u x %u; evaluate it with the "
+        "raw file that it was baked from",
+        what, s.views, s.width, s.height, raw.views.size(), raw.width, raw.height);
+}
+
+// sum_k sum_b coefficient Z_c[a, b], expanded to texels: R_l x (I_x I_y).
+Matrix light_modes(const ClusteredTensor& t, std::size_t view) {
+  const auto& s = t.shape;
+  const std::size_t slice = std::size_t(s.rank_x) * s.rank_y, core = nook::material::core_size(s);
+  Matrix modes = Matrix::Zero(s.rank_light, Index(s.width) * s.height);
+  for (std::size_t k = 0; k < s.mixture; ++k) {
+    const std::size_t c = t.rows.membership.empty() ? 0 : t.rows.membership[view * s.mixture + k];
+    const float* coefficients = &t.rows.coefficients[(view * s.mixture + k) * s.rank_view];
+    for (std::size_t a = 0; a < s.rank_light; ++a) {
+      Matrix mixed = Matrix::Zero(s.rank_x, s.rank_y);
+      for (std::size_t b = 0; b < s.rank_view; ++b)
+        mixed += coefficients[b] *
+                 ConstMap(&t.cores[c * core + (a * s.rank_view + b) * slice], s.rank_x, s.rank_y);
+      if (s.rank_x < s.width) mixed = ConstMap(&t.x_bases[c * x_basis_size(s)], s.width, s.rank_x) * mixed;
+      if (s.rank_y < s.height)
+        mixed = mixed * ConstMap(&t.y_bases[c * y_basis_size(s)], s.height, s.rank_y).transpose();
+      modes.row(Index(a)) += ConstMap(mixed.data(), 1, mixed.size());
+    }
+  }
+  return modes;
+}
+
+}  // namespace
+
+double signal_to_error_db(double squared_signal, double squared_error) {
+  return 10 * std::log10(squared_signal / squared_error);
+}
+
+double BtfError::psnr_db() const {
+  return 10 * std::log10(peak * peak * double(values) / squared_error);
+}
+
+Matrix decode_btf_view(const std::vector<float>& light_basis, const ClusteredTensor& btf, std::size_t view) {
+  const auto rank = Index(btf.shape.rank_light);
+  return ConstMap(light_basis.data(), Index(light_basis.size()) / rank, rank) * light_modes(btf, view);
+}
+
+std::vector<float> decode_votf_view(const ClusteredTensor& votf, std::size_t view) {
+  const Matrix value = light_modes(votf, view);
+  return {value.data(), value.data() + value.size()};
+}
+
+BtfError measure_btf(const RawMaterial& raw, const std::vector<float>& light_basis,
+                     const ClusteredTensor& btf) {
+  need_sizes(raw, btf, "BTF");
+  if (light_basis.size() != raw.light_rows() * btf.shape.rank_light)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the light basis is of %zu lights, the raw material of %zu",
+                  light_basis.size() / (3 * btf.shape.rank_light), raw.lights.size());
+  const std::size_t views = raw.views.size(), texels = raw.texels();
+  std::vector<BtfError> part(views);
+  tensor::for_each_block(views, 1, [&](std::size_t view, std::size_t) {
+    const Matrix decoded = decode_btf_view(light_basis, btf, view);
+    for (std::size_t row = 0; row < raw.light_rows(); ++row) {
+      const ConstMap truth(&raw.btf[(row * views + view) * texels], 1, Index(texels));
+      part[view].squared_signal += truth.cast<double>().squaredNorm();
+      part[view].squared_error += (truth - decoded.row(Index(row))).cast<double>().squaredNorm();
+      part[view].peak = std::max(part[view].peak, double(truth.maxCoeff()));
+    }
+  });
+  BtfError error;
+  for (const BtfError& p : part) {
+    error.squared_signal += p.squared_signal;
+    error.squared_error += p.squared_error;
+    error.peak = std::max(error.peak, p.peak);
+  }
+  error.values = raw.btf.size();
+  return error;
+}
+
+std::size_t count_error_texels(const RawMaterial& raw, const ClusteredTensor& votf,
+                               nook::material::VisibilityForm form) {
+  need_sizes(raw, votf, "VOTF");
+  const float threshold = form == nook::material::VisibilityForm::binary ? 0.5f : 0;
+  std::atomic<std::size_t> wrong{0};
+  tensor::for_each_block(raw.views.size(), 1, [&](std::size_t view, std::size_t) {
+    const std::vector<float> value = decode_votf_view(votf, view);
+    std::size_t here = 0;
+    for (std::size_t i = 0; i < value.size(); ++i)
+      here += (value[i] > threshold) != (raw.mask[view * raw.texels() + i] > 0.5f);
+    wrong += here;
+  });
+  return wrong;
+}
+
+}  // namespace nook::bake::material

@@ -1,0 +1,36 @@
+// How far a compressed material is from the raw one.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "bakers/material/raw_material.h"
+#include "bakers/tensor/tensor.h"
+#include "sdk/src/material/material.h"
+
+namespace nook::bake::material {
+
+// 10 log10(||A||^2 / ||A - A^||^2).
+double signal_to_error_db(double squared_signal, double squared_error);
+
+// The BTF of one view, 3 lights x texels (x slow, y fast); the VOTF's values of one view.
+tensor::Matrix decode_btf_view(const std::vector<float>& light_basis,
+                               const nook::material::ClusteredTensor& btf, std::size_t view);
+std::vector<float> decode_votf_view(const nook::material::ClusteredTensor& votf, std::size_t view);
+
+struct BtfError {
+  double squared_signal = 0, squared_error = 0;
+  double peak = 0;  // the raw BTF's greatest value
+  std::size_t values = 0;
+  double se_db() const { return signal_to_error_db(squared_signal, squared_error); }
+  double psnr_db() const;
+};
+// Throws Failure(INVALID_ARGUMENT) where the sizes are not the raw material's.
+BtfError measure_btf(const RawMaterial& raw, const std::vector<float>& light_basis,
+                     const nook::material::ClusteredTensor& btf);
+
+// Texels whose decoded mask, binary > 0.5 or distance > 0, is another than the raw one, summed over views.
+std::size_t count_error_texels(const RawMaterial& raw, const nook::material::ClusteredTensor& votf,
+                               nook::material::VisibilityForm form);
+
+}  // namespace nook::bake::material

@@ -1,0 +1,142 @@
+#include "bakers/measure/material/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "bakers/measure/material/measures.h"
+
+namespace nook::measure {
+namespace {
+
+using bake::Colour;
+using bake::Picture;
+using bake::material::RawMaterial;
+using nook::material::VisibilityForm;
+
+constexpr int gap_px = 4;
+constexpr Colour ground{0.3f, 0.3f, 0.32f};
+
+// Radiance of a light of irradiance pi as a display value.
+float display(float radiance) {
+  return std::pow(std::clamp(std::numbers::pi_v<float> * radiance, 0.0f, 1.0f), 1 / 2.2f);
+}
+
+// A cell of the sheet: `tiles` copies each way, y up.
+Picture cell(std::uint32_t width, std::uint32_t height, std::uint32_t tiles,
+             const std::function<Colour(std::size_t x, std::size_t y)>& colour) {
+  Picture p{int(width * tiles) + gap_px, int(height * tiles) + gap_px, {}};
+  p.rgb.assign(3 * std::size_t(p.width) * std::size_t(p.height), 255);
+  for (std::size_t y = 0; y < height * tiles; ++y)
+    for (std::size_t x = 0; x < width * tiles; ++x) {
+      const Colour c = colour(x % width, y % height);
+      const std::size_t row = height * tiles - 1 - y;
+      for (std::size_t i = 0; i < 3; ++i)
+        p.rgb[3 * (row * std::size_t(p.width) + x) + i] =
+            std::uint8_t(std::lround(255 * std::clamp(c[i], 0.0f, 1.0f)));
+    }
+  return p;
+}
+
+Picture below_each_other(const std::vector<Picture>& pictures) {
+  Picture all{pictures.front().width, 0, {}};
+  for (const Picture& p : pictures) {
+    all.height += p.height;
+    all.rgb.insert(all.rgb.end(), p.rgb.begin(), p.rgb.end());
+  }
+  return all;
+}
+
+// The direction of a set whose tilt is nearest to the given one.
+std::size_t of_tilt(const std::vector<Vec3>& set, float tilt_deg) {
+  const float z = std::cos(tilt_deg * std::numbers::pi_v<float> / 180);
+  return std::size_t(std::min_element(set.begin(), set.end(),
+                                      [z](Vec3 a, Vec3 b) { return std::abs(a.z - z) < std::abs(b.z - z); }) -
+                     set.begin());
+}
+
+Colour raw_radiance(const RawMaterial& raw, std::size_t light, std::size_t view, std::size_t texel) {
+  Colour c;
+  for (std::size_t i = 0; i < 3; ++i)
+    c[i] = raw.btf[((3 * light + i) * raw.views.size() + view) * raw.texels() + texel];
+  return c;
+}
+
+Colour shown(Colour radiance, bool visible) {
+  if (!visible) return ground;
+  for (float& c : radiance) c = display(c);
+  return radiance;
+}
+
+bool visible(const RawMaterial& raw, std::size_t view, std::size_t texel) {
+  return raw.mask.empty() || raw.mask[view * raw.texels() + texel] > 0.5f;
+}
+
+// The three rows of one view's comparison.
+Picture compare_view(const RawMaterial& raw, const nook::material::Material& material, std::size_t light,
+                     std::size_t view) {
+  const std::vector<float> basis(material.light_basis.begin(), material.light_basis.end());
+  const auto decoded = bake::material::decode_btf_view(basis, material.btf, view);
+  const auto at = [&](std::size_t x, std::size_t y) { return x * raw.height + y; };
+  const auto decoded_at = [&](std::size_t texel) {
+    Colour c;
+    for (std::size_t i = 0; i < 3; ++i) c[i] = decoded(Eigen::Index(3 * light + i), Eigen::Index(texel));
+    return c;
+  };
+  const auto draw = [&](const auto& colour) { return cell(raw.width, raw.height, 2, colour); };
+  std::vector<Picture> rows{
+      draw([&](std::size_t x, std::size_t y) {
+        return shown(raw_radiance(raw, light, view, at(x, y)), true);
+      }),
+      draw([&](std::size_t x, std::size_t y) { return shown(decoded_at(at(x, y)), true); }),
+      draw([&](std::size_t x, std::size_t y) {
+        const Colour a = raw_radiance(raw, light, view, at(x, y)), b = decoded_at(at(x, y));
+        Colour c;
+        for (std::size_t i = 0; i < 3; ++i) c[i] = 3 * std::numbers::pi_v<float> * std::abs(a[i] - b[i]);
+        return c;
+      })};
+  if (material.visibility != VisibilityForm::none && !raw.mask.empty()) {
+    const std::vector<float> value = bake::material::decode_votf_view(material.votf, view);
+    const float threshold = material.visibility == VisibilityForm::binary ? 0.5f : 0;
+    rows.push_back(draw([&](std::size_t x, std::size_t y) {
+      const bool truth = visible(raw, view, at(x, y)), got = value[at(x, y)] > threshold;
+      const float grey = got ? 0.85f : 0.15f;
+      return truth == got ? Colour{grey, grey, grey} : Colour{0.9f, 0.1f, 0.1f};
+    }));
+  }
+  return below_each_other(rows);
+}
+
+}  // namespace
+
+Picture raw_sheet(const RawMaterial& raw) {
+  std::vector<Picture> columns;
+  for (const float view_tilt : {0.0f, 25.0f, 50.0f, 70.0f}) {
+    const std::size_t view = of_tilt(raw.views, view_tilt);
+    std::vector<Picture> column;
+    for (const float light_tilt : {15.0f, 45.0f, 70.0f}) {
+      const std::size_t light = of_tilt(raw.lights, light_tilt);
+      column.push_back(cell(raw.width, raw.height, 2, [&](std::size_t x, std::size_t y) {
+        const std::size_t texel = x * raw.height + y;
+        return shown(raw_radiance(raw, light, view, texel), visible(raw, view, texel));
+      }));
+    }
+    if (!raw.mask.empty())
+      column.push_back(cell(raw.width, raw.height, 2, [&](std::size_t x, std::size_t y) {
+        const float grey = visible(raw, view, x * raw.height + y) ? 0.85f : 0.15f;
+        return Colour{grey, grey, grey};
+      }));
+    columns.push_back(below_each_other(column));
+  }
+  return bake::side_by_side(columns);
+}
+
+Picture difference_sheet(const RawMaterial& raw, const nook::material::Material& material) {
+  const std::size_t light = of_tilt(raw.lights, 45);
+  const Picture views[] = {compare_view(raw, material, light, of_tilt(raw.views, 15)),
+                           compare_view(raw, material, light, of_tilt(raw.views, 55))};
+  return bake::side_by_side(views);
+}
+
+}  // namespace nook::measure

@@ -1,0 +1,46 @@
+#include "bakers/measure/material/report.h"
+
+#include <sys/resource.h>
+
+namespace nook::bake::material {
+namespace {
+
+std::size_t peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::size_t(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+nlohmann::ordered_json report_row(const std::string& material, const MethodRow& row) {
+  nlohmann::ordered_json json = {{"material", material}, {"method", row.method}, {"k", row.mixture},
+                                 {"bytes", row.bytes},   {"se_db", row.se_db},   {"psnr_db", row.psnr_db}};
+  const auto texels = [&](const char* key, const std::optional<std::size_t>& count) {
+    json[key] = count ? nlohmann::ordered_json(*count) : nlohmann::ordered_json();
+  };
+  texels("votf_error_texels_binary", row.error_texels_binary);
+  texels("votf_error_texels_distance", row.error_texels_distance);
+  if (row.se_db_unseen) json["se_db_unseen"] = *row.se_db_unseen;
+  if (row.error_texels_unseen) json["votf_error_texels_unseen"] = *row.error_texels_unseen;
+  json["seconds"] = row.seconds;
+  json["peak_bytes"] = peak_bytes();
+  return json;
+}
+
+nlohmann::ordered_json describe(const CompressionSettings& s) {
+  return {{"method", method_name(s.method)},
+          {"ranks", {s.rank_light, s.rank_view, s.rank_x, s.rank_y}},
+          {"votf_ranks", {s.votf_rank_x, s.votf_rank_y}},
+          {"cluster_rank", s.method == Method::n_svd ? s.rank_view : s.cluster_rank_view},
+          {"clusters", s.method == Method::n_svd ? 1 : s.cluster_count()},
+          {"mixture", s.method == Method::k_cta ? s.mixture : 1},
+          {"seeding", s.seeding == Seeding::directions ? "directions" : "values"},
+          {"votf", s.visibility == nook::material::VisibilityForm::none     ? "none"
+                   : s.visibility == nook::material::VisibilityForm::binary ? "binary"
+                                                                            : "distance"},
+          {"view_map", s.method == Method::k_cta ? s.map_side : 0},
+          {"seed", s.seed}};
+}
+
+}  // namespace nook::bake::material

@@ -1,0 +1,68 @@
+#include "bakers/measure/material/unseen_views.h"
+
+#include <algorithm>
+
+#include "bakers/measure/material/measures.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/material/parabolic.h"
+#include "sdk/src/material/tables.h"
+#include "sdk/src/material/view_cells.h"
+
+namespace nook::bake::material {
+namespace {
+
+using nook::material::ClusteredTensor;
+using nook::material::Material;
+using nook::material::VisibilityForm;
+
+void replace_views(ClusteredTensor& tensor, const Material& material, const std::vector<Vec3>& views) {
+  const nook::material::ViewCells cells = nook::material::view_cells(
+      tensor, material.views, nook::material::default_map_side, std::pmr::get_default_resource());
+  const std::size_t terms = cells.terms, rank = tensor.shape.rank_view;
+  nook::material::ViewRows rows;
+  for (const Vec3 view : views) {
+    const std::size_t cell = nook::material::cell_of(view, cells.side);
+    const auto copy = [&](const auto& from, auto& to, std::size_t count) {
+      const auto first = from.begin() + std::ptrdiff_t(cell * count);
+      to.insert(to.end(), first, first + std::ptrdiff_t(count));
+    };
+    copy(cells.rows.membership, rows.membership, terms);
+    copy(cells.rows.coefficients, rows.coefficients, terms * rank);
+  }
+  tensor.rows = std::move(rows);
+  tensor.map = nook::material::ViewMap();
+  tensor.shape.views = std::uint32_t(views.size());
+  tensor.shape.mixture = std::uint32_t(terms);
+}
+
+// Directions come from files as floats, written by the same spiral.
+bool same_directions(const std::vector<Vec3>& a, const std::pmr::vector<Vec3>& b) {
+  return std::ranges::equal(a, b, [](Vec3 p, Vec3 q) { return length(p - q) < 1e-5f; });
+}
+
+}  // namespace
+
+Material as_seen_from(const Material& material, const std::vector<Vec3>& views) {
+  Material seen = material;
+  replace_views(seen.btf, material, views);
+  if (material.visibility != VisibilityForm::none) replace_views(seen.votf, material, views);
+  seen.views.assign(views.begin(), views.end());
+  return seen;
+}
+
+UnseenError measure_unseen(const RawMaterial& unseen, const Material& material) {
+  if (!same_directions(unseen.lights, material.lights))
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the raw material of unseen views has %zu lights, the compressed one %zu, or others; trace it with "
+        "the same lights",
+        unseen.lights.size(), material.lights.size());
+  const Material seen = as_seen_from(material, unseen.views);
+  UnseenError error;
+  error.se_db = measure_btf(unseen, {seen.light_basis.begin(), seen.light_basis.end()}, seen.btf).se_db();
+  if (seen.visibility != VisibilityForm::none && !unseen.mask.empty())
+    error.error_texels = count_error_texels(unseen, seen.votf, seen.visibility);
+  return error;
+}
+
+}  // namespace nook::bake::material

@@ -1,0 +1,50 @@
+#include "bakers/measure/nnao/border_bias.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nook::bake::nnao {
+namespace {
+
+constexpr std::uint32_t rim_px = border_bands_px[1];
+
+std::size_t band_of(std::uint32_t distance_px) {
+  return std::size_t(std::ranges::upper_bound(border_bands_px, distance_px) - border_bands_px.begin());
+}
+
+}  // namespace
+
+void BorderBias::add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth,
+                     std::uint32_t width) {
+  const std::uint32_t height = std::uint32_t(ao.size() / width);
+  const auto count = [](Mean& mean, double error) {
+    mean.sum += error;
+    mean.count += 1;
+  };
+  for (std::size_t i = 0; i < ao.size(); ++i) {
+    if (!std::isfinite(depth[i])) continue;
+    const auto x = std::uint32_t(i % width), y = std::uint32_t(i / width);
+    const std::array<std::uint32_t, 4> distance_px{x, width - 1 - x, y, height - 1 - y};
+    const double error = double(ao[i]) - double(truth[i]);
+    const std::uint32_t nearest_px = std::ranges::min(distance_px);
+    if (nearest_px < rim_px) count(rim_, error);
+    if (nearest_px >= border_bands_px.back()) count(inside_, error);
+    for (std::size_t border = 0; border < distance_px.size(); ++border)
+      if (distance_px[border] < border_bands_px.back())
+        count(band_[border][band_of(distance_px[border])], error);
+  }
+}
+
+double BorderBias::at(std::size_t border, std::size_t band) const {
+  return band_[border][band].value();
+}
+
+double BorderBias::inside() const {
+  return inside_.value();
+}
+
+double BorderBias::rim() const {
+  return rim_.count > 0 && inside_.count > 0 ? rim_.value() - inside_.value() : 0;
+}
+
+}  // namespace nook::bake::nnao

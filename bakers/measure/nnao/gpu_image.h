@@ -1,0 +1,58 @@
+// OpenGL objects of the comparison: images that are drawn into and read back, programs over the whole image.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <string>
+#include <vector>
+
+#include "bakers/nnao/cameras.h"
+
+namespace nook::measure {
+
+class GpuImage {
+ public:
+  // data may be null; rows from the bottom.
+  GpuImage(const GladGLContext& gl, GLint internal_format, GLenum format, int width, int height,
+           const float* data);
+  ~GpuImage();
+  GpuImage(const GpuImage&) = delete;
+  GpuImage& operator=(const GpuImage&) = delete;
+
+  GLuint texture() const { return texture_; }
+  GLuint framebuffer() const { return framebuffer_; }
+
+ private:
+  const GladGLContext& gl_;
+  GLuint texture_ = 0, framebuffer_ = 0;
+};
+
+// The red channel of level 0.
+std::vector<float> read_red(const GladGLContext& gl, GLuint texture, int width, int height);
+
+class GpuProgram {
+ public:
+  // path: of an embedded fragment shader. Throws std::runtime_error with the compiler's words.
+  GpuProgram(const GladGLContext& gl, const std::string& path);
+  ~GpuProgram();
+  GpuProgram(const GpuProgram&) = delete;
+  GpuProgram& operator=(const GpuProgram&) = delete;
+
+  GLuint name() const { return name_; }
+  GLint at(const char* uniform) const { return gl_.GetUniformLocation(name_, uniform); }
+
+ private:
+  const GladGLContext& gl_;
+  GLuint name_ = 0;
+};
+
+// A traced G-buffer in textures: depth in metres (R32F), view-space normals (RGB32F).
+struct GpuView {
+  GpuView(const GladGLContext& gl, const bake::nnao::TracedView& view);
+
+  nook::nnao::ScreenRays rays;
+  int width, height;
+  GpuImage depth, normal;
+};
+
+}  // namespace nook::measure

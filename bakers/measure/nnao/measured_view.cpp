@@ -1,0 +1,42 @@
+#include "bakers/measure/nnao/measured_view.h"
+
+#include "sdk/src/core/failure.h"
+
+namespace nook::measure {
+
+using namespace bake::nnao;
+
+MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene, const Camera& camera,
+                          const TruthSettings& settings) {
+  MeasuredView measured;
+  measured.scene = scene;
+  measured.radius = settings.radius;
+  measured.view = trace_view(rays, camera);
+  measured.slid = trace_view(rays, slid_by_one_pixel(camera));
+  measured.truth = trace_truth(rays, measured.view, settings.radius, settings.rays, settings.seed);
+  measured.noise = truth_noise(rays, measured.view, settings.radius, settings.rays, settings.seed);
+  return measured;
+}
+
+std::vector<MeasuredView> tuning_views(std::uint64_t seed,
+                                       const std::function<bool(std::size_t, std::size_t)>& progress) {
+  constexpr float radii[] = {0.25f, 0.5f, 1.0f};
+  constexpr std::size_t count = 8;
+  std::vector<MeasuredView> views;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!progress(i, count)) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing");
+    const TrainingScene scene = make_scene(seed, i);
+    const bake::RayScene rays(scene.soup);
+    Random random(seed + i);
+    TruthSettings settings;
+    settings.width = 320;
+    settings.height = 180;
+    settings.radius = radii[i % 3];
+    const Camera camera = place_camera(rays, scene, random, settings.width, settings.height);
+    views.push_back(measure_view(rays, "training", camera, settings));
+  }
+  progress(count, count);
+  return views;
+}
+
+}  // namespace nook::measure

@@ -1,0 +1,85 @@
+#include "bakers/measure/nnao/network_pass.h"
+
+#include <algorithm>
+
+#include "sdk/src/core/failure.h"
+
+namespace nook::measure {
+namespace {
+
+void succeed(nook_result result) {
+  if (result != NOOK_OK) throw Failure(result, "%s", nook_last_message());
+}
+
+// glFrustum's numbers for rays through the pixels; depth is linear, so the third row only has to be regular.
+void set_projection(const GpuView& view, float (&projection)[16]) {
+  std::fill_n(projection, 16, 0.0f);
+  projection[0] = 2 / (view.rays.x_scale * float(view.width));
+  projection[5] = 2 / (view.rays.y_scale * float(view.height));
+  projection[8] = 2 * view.rays.x_offset / (view.rays.x_scale * float(view.width)) + 1;
+  projection[9] = 2 * view.rays.y_offset / (view.rays.y_scale * float(view.height)) + 1;
+  projection[10] = -1;
+  projection[11] = -1;
+  projection[14] = -0.02f;
+}
+
+}  // namespace
+
+NookGl::NookGl(platform::Context& context) {
+  nook_context_desc context_desc;
+  succeed(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  succeed(nook_context_create(&context_desc, &context_));
+  nook_gl_desc gl_desc;
+  succeed(nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION));
+  gl_desc.get_proc = platform::Context::loader;
+  gl_desc.get_proc_user = &context;
+  succeed(nook_gl_create(context_, &gl_desc, &gl_));
+}
+
+NookGl::~NookGl() {
+  nook_gl_destroy(&gl_);
+  nook_context_destroy(&context_);
+}
+
+NetworkPass::NetworkPass(const NookGl& gl, int width, int height, int taps,
+                         std::span<const std::byte> network, float blur_sharpness) {
+  nook_nnao_desc desc;
+  succeed(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.max_width = width;
+  desc.max_height = height;
+  desc.taps = taps;
+  desc.blur_sharpness = blur_sharpness;
+  desc.path = NOOK_NNAO_PATH_FRAGMENT;  // as the baselines, so that times compare
+  desc.network = network.empty() ? nullptr : network.data();
+  desc.network_size = network.size();
+  succeed(nook_nnao_create(gl.get(), &desc, &pass_));
+  info_.struct_size = sizeof info_;
+  succeed(nook_nnao_describe(pass_, &info_));
+}
+
+NetworkPass::~NetworkPass() {
+  nook_nnao_destroy(&pass_);
+}
+
+GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blurred) {
+  nook_nnao_frame_desc frame;
+  succeed(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+  frame.width = view.width;
+  frame.height = view.height;
+  frame.depth_texture = view.depth.texture();
+  frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+  frame.normal_texture = view.normal.texture();
+  set_projection(view, frame.projection);
+  frame.radius = request.radius;
+  frame.max_radius_px = request.max_radius_px;
+  frame.view = blurred ? NOOK_NNAO_VIEW_BLURRED : NOOK_NNAO_VIEW_RAW;
+  succeed(nook_nnao_render(pass_, &frame));
+  return info_.texture;
+}
+
+int NetworkPass::fetches(bool blurred) const {
+  const int a_tap = horizon_form() ? 1 : 6;
+  return 2 + 2 + info_.taps * a_tap + 2 + (blurred ? blur_fetches : 0);
+}
+
+}  // namespace nook::measure

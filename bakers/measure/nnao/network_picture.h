@@ -1,0 +1,20 @@
+// What a network has learned, to look at.
+#pragma once
+
+#include "bakers/measure/nnao/measured_view.h"
+#include "platform/platform.h"
+#include "sdk/src/nnao/network.h"
+
+namespace nook::measure {
+
+// The first layer, white where it adds to a unit and black where it takes away. The paper's form: one row of
+// 31 x 31 filters for each of the inputs n_x, n_y, n_z and depth, a column for each unit. The horizon form:
+// the answer of each of the eight units to a tap, from 0 to 2 radii away (left to right) and from straight
+// below to straight above the tangent plane (upwards), seen at right angles to the way to the viewer.
+platform::Image filter_picture(const nook::nnao::Network& network);
+
+// nook::nnao::first_units over a view as its cyan, magenta and yellow, each from its hundredth part of
+// pixels to its ninety-nine hundredths; white without a surface.
+platform::Image unit_picture(const nook::nnao::Network& network, const MeasuredView& view);
+
+}  // namespace nook::measure

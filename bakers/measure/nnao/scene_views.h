@@ -1,0 +1,33 @@
+// The views that a scene is measured from, traced.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bakers/measure/nnao/measured_view.h"
+
+namespace nook::measure {
+
+struct GivenCamera {
+  Vec3 eye, target;  // metres
+  float fov = 0;     // vertical, radians
+};
+
+struct SceneRequest {
+  std::string name;            // the file's without its extension, or thin
+  std::filesystem::path file;  // empty: the built-in scene of thin things
+  float radius = 0.5f;         // metres
+  std::vector<GivenCamera> cameras;
+};
+
+// Reads the scene and traces its views; placed: how many cameras to place where none is given. progress
+// counts views; false stops, which throws Failure (CANCELLED). Throws Failure (BAD_FILE) for a scene that
+// cannot be read.
+std::vector<MeasuredView> trace_views(
+    const SceneRequest& scene, TruthSettings truth, std::uint32_t placed,
+    const std::function<bool(std::size_t done, std::size_t total)>& progress);
+
+}  // namespace nook::measure

@@ -1,0 +1,41 @@
+// What the baselines share. Each defines baseline_ao, which is called where there is a surface.
+#include "bakers/measure/nnao/shaders/surface.glsl"
+
+uniform float radius_scale;  // the tuned radius over the radius that was asked for
+uniform float power;         // the tuned contrast
+uniform int groups;          // of taps: directions, slices, or 1
+uniform int steps;           // taps in a group; in one half of a slice
+
+out float result;
+
+const float pi = 3.14159265;
+
+// Two numbers in (0, 1), each taking 16 values over 4 x 4 pixels, which the blur averages out. Every method has the same.
+vec2 pixel_noise() {
+  uvec2 at = uvec2(gl_FragCoord.xy);
+  uint across = at.x ^ at.y;
+  uint rank = (across & 1u) << 3 | (at.y & 1u) << 2 | (across & 2u) | (at.y & 2u) >> 1;
+  uint reversed = (rank & 1u) << 3 | (rank & 2u) << 1 | (rank & 4u) >> 1 | (rank & 8u) >> 3;
+  return (vec2(rank, reversed) + 0.5) / 16.0;
+}
+
+// The pixel that a view-space position falls on.
+ivec2 pixel_of(vec3 position) {
+  return ivec2(floor((position.xy / -position.z - screen_rays.yw) / screen_rays.xz));
+}
+
+ivec2 stepped(vec2 direction, float distance_px) {
+  return ivec2(floor(gl_FragCoord.xy + direction * distance_px));
+}
+
+float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noise);
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float depth = depth_at(pixel);
+  result = 1.0;
+  if (depth == no_surface) return;
+  float open = baseline_ao(pixel, position_at(pixel, depth), normal_at(pixel), pixel_radius(depth) * radius_scale,
+                       pixel_noise());
+  result = pow(clamp(open, 0.0, 1.0), power);
+}

@@ -1,0 +1,43 @@
+// What a grid of probes says of irradiance, against path tracing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bakers/import/static_scene.h"
+#include "bakers/raytrace/path_tracer.h"
+#include "sdk/src/probe/probe.h"
+
+namespace nook::bake::probe {
+
+struct Places {
+  std::vector<Vec3> position_ws;
+  std::vector<Vec3> normal;
+  float lookup_offset = 0;  // along the normal, in the grid's spacings: where probes are looked up
+};
+
+// Random points that share the surface area inside the box that the grid's cells fill, on the side that is
+// outside solids; of sheets, whose sides both are, the one from which the nearest probe outside solids is
+// seen. origin_offset: metres from a surface to its sides.
+Places places_on_surfaces(const LitScene& scene, const TriangleSoup& soup, const nook::probe::Grid& grid,
+                          const std::vector<bool>& inside, float origin_offset, std::size_t count,
+                          std::uint64_t seed);
+
+// Random points in the box and outside solids, random normals.
+Places places_in_the_open(const LitScene& scene, const nook::probe::Grid& grid, std::size_t count,
+                          std::uint64_t seed);
+
+struct GridError {
+  double mean = 0;   // irradiance, path traced; over places and channels
+  double rms = 0;    // of the difference, less what the path tracer's noise adds to it
+  double worst = 0;  // of one place and channel, noise included
+  double bias = 0;   // mean difference
+  double noise = 0;  // rms error of the path traced irradiance itself
+};
+
+// paths: for each place, 2 or more; in two halves, whose difference is the noise.
+GridError grid_error(const LitScene& scene, const nook::probe::Probes& probes, const Places& places,
+                     std::uint32_t paths, std::uint64_t seed, const PathSettings& path,
+                     const Progress& progress = {});
+
+}  // namespace nook::bake::probe

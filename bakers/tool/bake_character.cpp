@@ -1,0 +1,228 @@
+// nook bake character: a thin user of nook_bake.h.
+#include <nook/nook_bake.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/tool/character/clip_names.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/output_file.h"
+#include "bakers/tool/progress_bar.h"
+#include "bakers/tool/table.h"
+#include "bakers/tool/tool_error.h"
+
+namespace nook::tool {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::string input, output;
+  std::int32_t preset = NOOK_BAKE_PRESET_STANDARD, poses = NOOK_BAKE_POSES_ALL, split = NOOK_BAKE_SPLIT_ALL;
+  std::int32_t kernel = NOOK_BAKE_KERNEL_NOOK, fit = NOOK_BAKE_FIT_NOOK;
+  std::vector<std::string> clips;
+  std::uint32_t spheres = 0, key_points = 0, rays = 0, steps = 0, auto_poses = 0, samples_per_clip = 0;
+  float gamma = 0;
+  double time_limit_s = 0;
+};
+
+// The option's check lets only numbers in range and the word pass.
+float gamma_of(const std::string& text) {
+  return text == "learned" ? NOOK_BAKE_GAMMA_LEARNED : std::strtof(text.c_str(), nullptr);
+}
+
+void require(nook_result result) {
+  if (result == NOOK_OK) return;
+  // The name of the C function, up to the first colon, tells a user of the tool nothing.
+  const std::string text = nook_bake_last_message();
+  throw ToolError(exit_code_of(result), text.substr(text.find(": ") + 2));
+}
+
+struct CharacterRelease {
+  void operator()(nook_bake_character character) const { nook_bake_character_destroy(&character); }
+};
+struct JobRelease {
+  void operator()(nook_bake_job job) const { nook_bake_job_destroy(&job); }
+};
+using Character = std::unique_ptr<nook_bake_character_s, CharacterRelease>;
+using Job = std::unique_ptr<nook_bake_job_s, JobRelease>;
+
+Character import_character(const Options& options) {
+  nook_bake_character handle = nullptr;
+  require(nook_bake_import_gltf(options.input.c_str(), &handle));
+  Character character(handle);
+  if (!options.common.quiet)
+    for (std::uint32_t i = 0; const char* text = nook_bake_character_warning(handle, i); ++i)
+      std::fprintf(stderr, "%s: %s\n", options.input.c_str(), text);
+  std::vector<std::string> present;
+  for (std::uint32_t i = 0; const char* name = nook_bake_character_clip_name(handle, i); ++i)
+    present.emplace_back(name);
+  require_clips(options.clips, present);
+  return character;
+}
+
+// Shows a job's progress; an interrupt cancels it.
+class Follower {
+ public:
+  explicit Follower(bool quiet) : bar_(quiet) {}
+
+  static std::int32_t call(void* user, const nook_bake_progress* progress) {
+    static_cast<Follower*>(user)->show(*progress);
+    return !interrupted();
+  }
+
+ private:
+  void show(const nook_bake_progress& progress) {
+    const auto done = std::size_t(progress.done), total = std::size_t(progress.total);
+    switch (progress.stage) {
+      case NOOK_BAKE_STAGE_RAYTRACE:
+        return bar_.show("ray tracing", "poses", done, total);
+      case NOOK_BAKE_STAGE_INITIALISE:
+        return bar_.show("initialising", "steps", done, total);
+      case NOOK_BAKE_STAGE_FIT:
+        return bar_.show("fitting", "steps", done, total);
+      case NOOK_BAKE_STAGE_CASTERS:
+        return bar_.show("fitting casters", "steps", done, total);
+      default:
+        return;
+    }
+  }
+
+  ProgressBar bar_;
+};
+
+Job start(const Options& options, nook_bake_character character, Follower& follower) {
+  nook_bake_job_desc desc;
+  require(nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.preset = options.preset;
+  desc.spheres = options.spheres;
+  desc.key_points = options.key_points;
+  desc.rays = options.rays;
+  desc.steps = options.steps;
+  desc.pose_mode = options.poses;
+  desc.auto_pose_count = options.auto_poses;
+  desc.samples_per_clip = options.samples_per_clip;
+  std::vector<const char*> names;
+  for (const std::string& name : options.clips) names.push_back(name.c_str());
+  desc.clip_names = names.data();
+  desc.clip_count = std::uint32_t(names.size());
+  desc.clip_split = options.split;
+  desc.seed = options.common.seed;
+  desc.threads = options.common.threads;
+  desc.kernel = options.kernel;
+  desc.fit = options.fit;
+  desc.gamma = options.gamma;
+  desc.time_limit_s = options.time_limit_s;
+  desc.progress = Follower::call;
+  desc.progress_user = &follower;
+  nook_bake_job handle = nullptr;
+  require(nook_bake_job_start(character, &desc, &handle));
+  return Job(handle);
+}
+
+// The report without what only a file wants.
+void print_summary(const char* report) {
+  nlohmann::ordered_json row = nlohmann::ordered_json::parse(report);
+  for (const char* key : {"clips", "warnings", "recipe", "curve"}) row.erase(key);
+  std::fputs(table_text(nlohmann::ordered_json::array({row})).c_str(), stdout);
+}
+
+void run(const Options& options) {
+  const Character character = import_character(options);
+  OutputFile output(options.output);
+  std::optional<OutputFile> report_file;
+  if (!options.common.report.empty()) report_file.emplace(options.common.report);
+  auto follower = std::make_unique<Follower>(options.common.quiet);
+  const Job job = start(options, character.get(), *follower);
+  const nook_result result = nook_bake_job_wait(job.get());
+  follower.reset();  // ends the bar's line before anything else is said
+  if (result == NOOK_ERROR_CANCELLED) throw ToolError(exit_other, "stopped; nothing was written");
+  require(result);
+  const void* bytes = nullptr;
+  std::size_t size = 0;
+  const char* report = nullptr;
+  require(nook_bake_job_model(job.get(), &bytes, &size));
+  require(nook_bake_job_report(job.get(), &report));
+  output.commit(std::span(static_cast<const std::byte*>(bytes), size));
+  if (report_file) report_file->commit(std::string(report) + "\n");
+  if (!options.common.quiet) print_summary(report);
+}
+
+using Names = std::map<std::string, std::int32_t>;
+
+}  // namespace
+
+void add_bake_character(CLI::App& bake) {
+  CLI::App* command =
+      bake.add_subcommand("character", "bake a rigged character for dynamic ambient occlusion");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  const auto choice = [&](const char* name, std::int32_t& value, const Names& names, const char* help) {
+    std::vector<std::string> keys;
+    for (const auto& entry : names) keys.push_back(entry.first);
+    command
+        ->add_option_function<std::string>(
+            name, [&value, names](const std::string& key) { value = names.at(key); }, help)
+        ->check(CLI::IsMember(keys))
+        ->type_name("NAME");
+  };
+  command->add_option("input", o.input, "character, .glb or .gltf")->required();
+  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  choice("--preset", o.preset,
+         {{"draft", NOOK_BAKE_PRESET_DRAFT},
+          {"standard", NOOK_BAKE_PRESET_STANDARD},
+          {"production", NOOK_BAKE_PRESET_PRODUCTION}},
+         "draft (about 20 s), standard (up to 5 minutes, the default) or production (about half an hour)");
+  choice("--poses", o.poses,
+         {{"auto", NOOK_BAKE_POSES_AUTO},
+          {"single-joint", NOOK_BAKE_POSES_SINGLE_JOINT},
+          {"clips", NOOK_BAKE_POSES_CLIPS},
+          {"all", NOOK_BAKE_POSES_ALL}},
+         "what to fit: auto (generated poses), single-joint (a grid of rotations of each joint alone), "
+         "clips, or all (auto "
+         "and clips, the default)");
+  command->add_option("--clips", o.clips, "fit only these clips of the file")->delimiter(',');
+  choice(
+      "--split", o.split,
+      {{"all", NOOK_BAKE_SPLIT_ALL}, {"half", NOOK_BAKE_SPLIT_HALF}, {"families", NOOK_BAKE_SPLIT_FAMILIES}},
+      "without --clips: all motion clips (default), or half: every second one in byte order of the names, "
+      "so that `evaluate` measures on the others, or families: the same with clips whose names are alike up "
+      "to the "
+      "first underscore taken together. T- and A-poses are never fitted");
+  command->add_option("--spheres", o.spheres, "proxy spheres at most")->check(CLI::Range(1, 1024));
+  command->add_option("--key-points", o.key_points, "key points at most")->check(CLI::Range(1, 4096));
+  command->add_option("--rays", o.rays, "rays a vertex and pose")->check(CLI::Range(1, 65536));
+  command->add_option("--auto-poses", o.auto_poses, "number of generated poses")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--samples-per-clip", o.samples_per_clip, "poses of each clip")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--steps", o.steps, "steps of the fit (--fit paper: rounds)")
+      ->check(CLI::Range(1, 10000000));
+  choice("--kernel", o.kernel,
+         {{"nook", NOOK_BAKE_KERNEL_NOOK},
+          {"paper", NOOK_BAKE_KERNEL_PAPER},
+          {"rational", NOOK_BAKE_KERNEL_RATIONAL}},
+         "shadow of a sphere: nook (default), paper (Le et al. 2019) or rational");
+  choice("--fit", o.fit, {{"nook", NOOK_BAKE_FIT_NOOK}, {"paper", NOOK_BAKE_FIT_PAPER}},
+         "nook (mini-batches, default) or paper (block coordinate descent with L-BFGS)");
+  command
+      ->add_option_function<std::string>(
+          "--gamma", [&o](const std::string& text) { o.gamma = gamma_of(text); },
+          "exponent of the shadow norm, 1 to 8 (default 1), or learned: the best of several short fits")
+      ->type_name("G|learned")
+      ->check(CLI::Range(1.0, 8.0) | CLI::IsMember({"learned"}));
+  command
+      ->add_option("--time-limit", o.time_limit_s,
+                   "end the fit after so many seconds; such a bake is not reproducible bit for bit")
+      ->check(CLI::PositiveNumber);
+  add_common_options(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,240 @@
+// nook bake material: ray traces a meso-structure, or reads a measured BTF, and compresses it.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/images/ubo_reader.h"
+#include "bakers/job/material_source.h"
+#include "bakers/job/worker_arena.h"
+#include "bakers/measure/material/pictures.h"
+#include "bakers/measure/material/report.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/material/options.h"
+#include "bakers/tool/output_file.h"
+#include "bakers/tool/progress_bar.h"
+#include "bakers/tool/table.h"
+#include "sdk/src/material/material_file.h"
+
+namespace nook::tool {
+namespace {
+
+using namespace bake::material;
+using nook::material::VisibilityForm;
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  CommonOptions common;
+  CompressionOptions compression;
+  std::string meso, visibility_mapping;
+  std::filesystem::path btf, raw, output, keep_raw, images;
+  std::uint32_t directions = 100, lights = 0, texels = 0;
+  float max_tilt_deg = bake::material::default_max_tilt_deg;
+  TraceSettings trace;
+  std::optional<std::uint32_t> count;
+  std::optional<float> radius, thickness, roughness;
+  float detail = 1;
+};
+
+MesoParameters meso_of(const Options& o) {
+  MesoParameters p = meso_parameters(o.meso);
+  if (o.count) p.count = *o.count;
+  if (o.radius) p.radius = *o.radius;
+  if (o.thickness) p.thickness = *o.thickness;
+  if (o.roughness) p.roughness = *o.roughness;
+  p.detail = o.detail;
+  p.seed = o.common.seed;
+  return p;
+}
+
+Json recipe_of_trace(const Options& o) {
+  if (!o.btf.empty()) return {{"btf", o.btf.filename().string()}, {"texels", o.texels}};
+  if (!o.raw.empty()) return {{"raw", o.raw.filename().string()}};
+  const MesoParameters p = meso_of(o);
+  return {{"meso", p.name},
+          {"count", p.count},
+          {"radius", p.radius},
+          {"thickness", p.thickness},
+          {"roughness", p.roughness},
+          {"detail", p.detail},
+          {"directions", o.directions},
+          {"lights", o.lights ? o.lights : o.directions},
+          {"max_tilt_deg", o.max_tilt_deg},
+          {"texels", o.trace.width},
+          {"samples", o.trace.samples},
+          {"bounces", o.trace.bounces},
+          {"bounce_rays", o.trace.bounce_rays},
+          {"seed", o.common.seed}};
+}
+
+RawMaterial obtain(const Options& o, ProgressBar& bar) {
+  const auto progress = [&](const char* label, const char* unit) {
+    return [&bar, label, unit](std::size_t done, std::size_t total) {
+      bar.show(label, unit, done, total);
+      return !interrupted();
+    };
+  };
+  if (!o.raw.empty()) return naming_file(o.raw, [&] { return read_raw_material(read_file(o.raw)); });
+  if (!o.btf.empty())
+    return naming_file(o.btf,
+                       [&] { return read_ubo_folder(o.btf, o.texels, progress("reading", "images")); });
+  RawMaterial raw = bake::trace_meso_source({meso_of(o), o.directions, o.lights, o.max_tilt_deg, o.trace},
+                                            progress("ray tracing", "views"));
+  raw.name = o.meso;
+  return raw;
+}
+
+Json bake(const Options& o, OutputFile& output, std::optional<OutputFile>& raw_file) {
+  ProgressBar bar(o.common.quiet);
+  auto start = Clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  const RawMaterial raw = obtain(o, bar);
+  const double seconds_obtain = seconds();
+  if (raw_file) raw_file->commit(write_raw_material(raw));
+  CompressionSettings settings = compression_settings(o.compression, raw);
+  settings.seed = o.common.seed;
+  if (!o.visibility_mapping.empty())
+    settings.mapping = visibility_mapping(o.visibility_mapping, settings.visibility);
+
+  start = Clock::now();
+  nook::material::Material material = compress(raw, settings, stage_progress(bar, "compressing the "));
+  const double seconds_compress = seconds();
+  if (!o.common.quiet && settings.method == Method::k_cta && settings.map_side == 0)
+    std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
+                 std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);
+  const Json recipe = {{"source", recipe_of_trace(o)}, {"compression", describe(settings)}};
+  material.recipe = recipe.dump().c_str();
+  const std::vector<std::byte> file = nook::material::write_material(material);
+  material = nook::material::read_material(file);
+  MethodRow row = measure_material(raw, material);
+  row.method = method_name(settings.method);
+  row.seconds = seconds_compress;
+  if (!o.images.empty()) {
+    std::filesystem::create_directories(o.images);
+    bake::write_png(o.images / (raw.name + "_raw.png"), measure::raw_sheet(raw));
+    bake::write_png(o.images / (raw.name + "_difference.png"), measure::difference_sheet(raw, material));
+  }
+  Json json = report_row(raw.name, row);
+  json["lights"] = raw.lights.size();
+  json["views"] = raw.views.size();
+  json["width"] = raw.width;
+  json["height"] = raw.height;
+  json["raw_bytes"] = sizeof(float) * raw.btf.size();
+  json["file_bytes"] = file.size();
+  json["seconds_source"] = seconds_obtain;
+  output.commit(file);
+  return {{"rows", Json::array({json})}, {"recipe", recipe}};
+}
+
+void run(Options& o) {
+  if (int(!o.meso.empty()) + int(!o.btf.empty()) + int(!o.raw.empty()) != 1)
+    throw ToolError(exit_bad_arguments, "bake material: one of --meso, --btf and --raw is needed");
+  if (!o.meso.empty()) meso_parameters(o.meso);
+  if (o.texels) o.trace.width = o.trace.height = o.texels;
+  o.trace.seed = o.common.seed;
+  OutputFile output(o.output);
+  std::optional<OutputFile> raw_file, report_file;
+  if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);
+  if (!o.common.report.empty()) report_file.emplace(o.common.report);
+  Json report;
+  try {
+    bake::run_with_threads(o.common.threads, [&] { report = bake(o, output, raw_file); });
+  } catch (const Failure& failure) {
+    if (failure.code() != NOOK_ERROR_CANCELLED) throw;
+    throw ToolError(exit_other, "stopped; no material was written");
+  }
+  if (report_file) report_file->commit(report.dump(2) + "\n");
+  if (!o.common.quiet) std::fputs(table_text(report["rows"]).c_str(), stdout);
+}
+
+}  // namespace
+
+void add_bake_material(CLI::App& bake) {
+  CLI::App* command =
+      bake.add_subcommand("material", "compress a meso-structure or a measured BTF for real-time decoding");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  std::vector<std::string> names;
+  for (const std::string_view name : meso_names()) names.emplace_back(name);
+  command->add_option("--meso", o.meso, "a built-in meso-structure, ray traced")
+      ->check(CLI::IsMember(names))
+      ->type_name("NAME");
+  command->add_option("--btf", o.btf, "a folder of measured images, tl pl tv pv in their names (UBO 2003)");
+  command->add_option("--raw", o.raw, "a raw material that --keep-raw wrote");
+  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  command->add_option("--keep-raw", o.keep_raw, "write the uncompressed material, for `evaluate material`");
+  command->add_option("--images", o.images,
+                      "write pictures of the raw and the decoded material to this folder");
+  command->add_option("--directions", o.directions, "light and view directions of --meso")
+      ->check(CLI::Range(4, 1024))
+      ->capture_default_str();
+  command->add_option("--lights", o.lights, "light directions, where they are to be others than the views")
+      ->check(CLI::Range(4, 1024));
+  command->add_option("--max-tilt", o.max_tilt_deg, "their largest angle to the normal, degrees")
+      ->check(CLI::Range(10.0, 80.0))
+      ->capture_default_str();
+  command
+      ->add_option("--texels", o.texels,
+                   "--meso: texels a side, default 96; --btf: a square from the middle, default all")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--samples", o.trace.samples, "view rays along a texel's side")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  command->add_option("--bounces", o.trace.bounces, "diffuse inter-reflections")
+      ->check(CLI::Range(0, 16))
+      ->capture_default_str();
+  command->add_option("--bounce-rays", o.trace.bounce_rays, "rays that gather light at a vertex")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command->add_option("--count", o.count, "of --meso: fibres; holes a side; yarns a side")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--radius", o.radius, "of --meso: of a fibre; of a hole; half a yarn's width; tiles");
+  command->add_option("--thickness", o.thickness, "of --meso: of the mat; of the plate; of a yarn; tiles");
+  command->add_option("--roughness", o.roughness, "of --meso: wander of fibres; noise; depth of plies");
+  command->add_option("--detail", o.detail, "of --meso: triangles along a length, relative to the default")
+      ->check(CLI::Range(0.1, 4.0));
+  CompressionSettings& s = o.compression.settings;
+  command
+      ->add_option_function<std::string>(
+          "--method",
+          [&s](const std::string& v) {
+            s.method = v == "n-svd" ? Method::n_svd : v == "cta" ? Method::cta : Method::k_cta;
+          },
+          "k-cta (default), cta or n-svd")
+      ->check(CLI::IsMember({"k-cta", "cta", "n-svd"}))
+      ->type_name("NAME");
+  command
+      ->add_option_function<std::string>(
+          "--votf",
+          [&s](const std::string& v) {
+            s.visibility = v == "none"     ? VisibilityForm::none
+                           : v == "binary" ? VisibilityForm::binary
+                                           : VisibilityForm::distance;
+          },
+          "visibility as distance (default), binary or none")
+      ->check(CLI::IsMember({"distance", "binary", "none"}))
+      ->type_name("NAME");
+  command
+      ->add_option(
+          "--visibility-mapping", o.visibility_mapping,
+          "threshold and weight that make visibility of the VOTF's values; paper: 0.5,1 of masks, 0.05,12 of "
+          "distances. Default: 0.5,1 of masks; of distances T half a texel, W = 1 / T")
+      ->type_name("T,W|paper");
+  command
+      ->add_option("--view-map", s.map_side,
+                   "cells along the side of K-CTA's resampled view maps; 0: none, decoding then "
+                   "mixes the three nearest views, for up to three times the work")
+      ->check(CLI::Range(0, 512))
+      ->capture_default_str();
+  add_compression_options(*command, o.compression);
+  add_common_options(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

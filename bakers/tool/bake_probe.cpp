@@ -1,0 +1,119 @@
+// nook bake probe: one probe of an environment map, or a grid of them in a path-traced scene.
+#include "bakers/tool/probe/bake.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "bakers/job/worker_arena.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/tool_error.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
+
+namespace nook::tool {
+namespace {
+
+std::array<std::uint32_t, 3> parse_grid(const std::string& text) {
+  std::array<std::uint32_t, 3> counts{};
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%ux%ux%u%n", &counts[0], &counts[1], &counts[2], &used) != 3 ||
+      std::size_t(used) != text.size() || counts[0] < 1 || counts[1] < 1 || counts[2] < 1 ||
+      counts[0] > 1024 || counts[1] > 1024 || counts[2] > 1024)
+    throw ToolError(exit_bad_arguments,
+                    "--grid: got " + text + ", need AxBxC, probes along x, y and z, each 1 to 1024");
+  return counts;
+}
+
+void parse_box(const std::string& text, BakeProbeOptions& options) {
+  float v[6];
+  int used = 0;
+  bool good =
+      std::sscanf(text.c_str(), "%f,%f,%f,%f,%f,%f%n", v, v + 1, v + 2, v + 3, v + 4, v + 5, &used) == 6 &&
+      std::size_t(used) == text.size();
+  good = good && is_place({v[0], v[1], v[2]}) && is_place({v[3], v[4], v[5]});
+  for (int i = 0; good && i < 3; ++i) good = v[i] <= v[i + 3];
+  if (!good)
+    throw ToolError(exit_bad_arguments, "--box: got " + text +
+                                            ", need x0,y0,z0,x1,y1,z1: the low corner, then the high one, in "
+                                            "metres up to 1e6");
+  options.has_box = true;
+  options.box_low_ws = {v[0], v[1], v[2]};
+  options.box_high_ws = {v[3], v[4], v[5]};
+}
+
+void run(const BakeProbeOptions& options) {
+  const bool is_grid = options.grid[0] > 0;
+  if (is_grid != !options.light.empty())
+    throw ToolError(exit_bad_arguments,
+                    "bake probe: a scene needs both --grid and --light, a map needs neither");
+  try {
+    bake::run_with_threads(options.common.threads, [&] {
+      if (is_grid)
+        bake_probe_grid(options);
+      else
+        bake_probe_of_map(options);
+    });
+  } catch (const Failure& failure) {
+    if (failure.code() != NOOK_ERROR_CANCELLED) throw;
+    throw ToolError(exit_other, is_grid && options.preview_every_s > 0
+                                    ? "stopped; " + options.output.string() +
+                                          " holds the latest preview, if there was one"
+                                    : std::string("stopped; nothing was written"));
+  }
+}
+
+}  // namespace
+
+void add_bake_probe(CLI::App& bake_command) {
+  CLI::App* command = bake_command.add_subcommand(
+      "probe", "spherical-Gaussian light probes of an environment map, or of a path-traced scene");
+  const auto options = std::make_shared<BakeProbeOptions>();
+  BakeProbeOptions& o = *options;
+  command->add_option("input", o.input, "a latitude-longitude map, .hdr or .exr, or a scene, .glb or .gltf")
+      ->required();
+  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  add_probe_options(*command, o.probe);
+  command
+      ->add_option(
+          "--sampling", o.sampling,
+          "of a map: texels takes each once, luminance and uniform draw; automatic: texels where the method "
+          "solves, else luminance")
+      ->check(CLI::IsMember({"automatic", "texels", "luminance", "uniform"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--samples", o.samples,
+          "of a map: how many to draw (default 1048576); of a scene: at most for each probe (default 65536)")
+      ->check(CLI::Range(64u, 1u << 30));
+  command->add_option(
+      "--picture", o.picture,
+      "of a map: write its picture, the probe's radiance and irradiance and the error as one .png");
+  command
+      ->add_option_function<std::string>(
+          "--grid", [&o](const std::string& text) { o.grid = parse_grid(text); },
+          "of a scene: probes along x, y and z, AxBxC")
+      ->type_name("AxBxC");
+  command->add_option("--light", o.light, "of a scene: the map round it");
+  command
+      ->add_option_function<std::string>(
+          "--box", [&o](const std::string& text) { parse_box(text, o); },
+          "of a scene: what the grid fills, x0,y0,z0,x1,y1,z1 in metres; default all of it")
+      ->type_name("BOX");
+  command
+      ->add_option("--error", o.error,
+                   "of a scene: stop at this statistical error, relative to the light there is")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--preview-every", o.preview_every_s,
+                   "of a scene: seconds after which the output is written as far as it is")
+      ->check(CLI::Range(0.0, 1e9));
+  command->add_option("--max-bounces", o.max_bounces, "of a scene: reflections that count; default all");
+  command->add_flag("--no-textures", o.no_textures,
+                    "of a scene: colour factors stand for textures, and alpha masks are solid");
+  add_common_options(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,19 @@
+#include "bakers/tool/common_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace nook::tool {
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+  command.add_option("--threads", options.threads, "threads to work with; 0: all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command
+      .add_option("--seed", options.seed,
+                  "of everything random; the same seed gives the same output on any number of threads")
+      ->capture_default_str();
+  command.add_option("--report", options.report, "write a report as JSON to this file");
+  command.add_flag("--quiet", options.quiet, "say nothing but errors");
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,112 @@
+// nook evaluate character: a model against ray tracing, beside what a team would use instead.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/measure/character/pictures.h"
+#include "bakers/measure/character/report.h"
+#include "bakers/tool/character/clip_names.h"
+#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/evaluation.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/progress_bar.h"
+
+namespace nook::tool {
+namespace {
+
+using namespace measure;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::filesystem::path character, model;
+  PoseChoice poses;
+  std::uint32_t rays = 256;
+  bool peers = false;
+  std::filesystem::path images;
+  std::size_t image_count = 4;
+};
+
+std::optional<bake::Recipe> known_recipe(const BakedCharacter& baked, const Options& options) {
+  const auto recipe = naming_file(options.model, [&] { return recipe_of(baked); });
+  if (recipe && recipe->source_hash != baked.character.source_hash && !options.common.quiet)
+    std::fprintf(stderr, "%s: the character file has changed since the bake; the numbers mix old and new\n",
+                 options.model.c_str());
+  return recipe;
+}
+
+Json evaluate(const Options& options) {
+  const BakedCharacter baked = read_evaluated_files(options.character, options.model);
+  std::vector<std::string> present;
+  for (const bake::Clip& clip : baked.character.clips) present.push_back(clip.name);
+  require_clips(options.poses.clips, present);
+  const std::optional<bake::Recipe> recipe = known_recipe(baked, options);
+  const EvaluatedPoses measured = choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);
+
+  ProgressBar bar(options.common.quiet);
+  const auto stage = [&bar](const char* label) {
+    return [&bar, label](std::size_t done, std::size_t total) {
+      bar.show(label, "poses", done, total);
+      return !interrupted();
+    };
+  };
+  CharacterReport measured_report = measure_character(
+      baked, recipe ? &*recipe : nullptr, measured,
+      {options.character.stem().string(), options.rays, options.common.seed, options.peers}, stage);
+  if (!options.images.empty())
+    write_pictures(options.images, baked.character.mesh, baked.model, measured.poses, options.image_count,
+                   measured_report.evaluation.vertex_rms, options.rays,
+                   evaluation_ray_seed(options.common.seed));
+  Json report;
+  report["rows"] = Json::array({std::move(measured_report.row)});
+  report["clips"] = measured.clips;
+  report["seed"] = options.common.seed;
+  return report;
+}
+
+}  // namespace
+
+void add_evaluate_character(CLI::App& evaluate_command) {
+  CLI::App* command =
+      evaluate_command.add_subcommand("character",
+                                      "measure a baked character against ray tracing.\n"
+                                      "mse is over all vertices and poses; mse_area weights vertices by "
+                                      "area; mse_static is the AO baked in the rest pose, "
+                                      "mse_oracle the best that any static bake could do");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  add_evaluated_files(*command, o.character, o.model);
+  command
+      ->add_option_function<std::string>(
+          "--poses", [&o](const std::string& name) { o.poses.training = name == "training"; },
+          "clips (default: without --clips those that were not fitted, or all if all were), or training (the "
+          "poses it was "
+          "fitted to)")
+      ->check(CLI::IsMember({"clips", "training"}))
+      ->type_name("NAME");
+  command->add_option("--clips", o.poses.clips, "measure only these clips")->delimiter(',');
+  command->add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+      ->check(CLI::Range(1, 10000000));
+  command->add_option("--rays", o.rays, "rays a vertex and pose")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command->add_flag(
+      "--peers", o.peers,
+      "also fit a linear pose model (Kontkanen & Aila 2006) and pose clusters (Kirk & Arikan 2007) to the "
+      "model's training poses, tuned by cross-validation, and measure them");
+  command->add_option("--images", o.images, "draw the error on the body: PNG files in this directory");
+  command->add_option("--image-count", o.image_count, "poses to draw")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  add_common_options(*command, o.common);
+  command->callback([options] { run_evaluation(options->common, [&] { return evaluate(*options); }); });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,120 @@
+// nook evaluate material: a compressed material against the raw one, beside its baselines, with pictures and
+// plots.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bakers/measure/material/baselines.h"
+#include "bakers/measure/material/pictures.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/evaluation.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/material/options.h"
+#include "bakers/tool/output_file.h"
+#include "bakers/tool/progress_bar.h"
+
+namespace nook::tool {
+namespace {
+
+using bake::material::CompressionSettings;
+using bake::material::RawMaterial;
+using nook::material::Material;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::filesystem::path raw, material, unseen, images;
+  std::vector<std::uint32_t> sweep;
+  std::vector<std::string> methods;  // baselines; empty: all, where baselines are asked for
+  bool peers = false, seeding = false;
+};
+
+void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, const Options& o,
+               const measure::MethodProgress& progress, Json& report) {
+  const measure::Sweep sweep = measure::measure_sweep(raw, settings, o.sweep, progress);
+  report["sweep"] = measure::sweep_rows(sweep, raw.name);
+  report["crossing_rank_n_svd"] = measure::crossing_rank(sweep.series[0]);
+  report["crossing_rank_k_cta_3"] = measure::crossing_rank(sweep.series[3]);
+  if (o.images.empty()) return;
+  const char* names[] = {"se", "distance", "forms"};
+  const std::vector<measure::Chart> charts = measure::sweep_charts(sweep, raw.name);
+  for (std::size_t i = 0; i < charts.size(); ++i)
+    OutputFile(o.images / (raw.name + "_sweep_" + names[i] + ".svg")).commit(measure::chart_svg(charts[i]));
+}
+
+RawMaterial read_raw(const std::filesystem::path& path) {
+  return naming_file(path, [&] { return bake::material::read_raw_material(read_file(path)); });
+}
+
+Json evaluate(const Options& o) {
+  ProgressBar bar(o.common.quiet);
+  const measure::MethodProgress progress = [&bar](const std::string& method) {
+    return stage_progress(bar, method);
+  };
+  const RawMaterial raw = read_raw(o.raw);
+  const Material material =
+      naming_file(o.material, [&] { return nook::material::read_material(read_file(o.material)); });
+  if (!o.images.empty()) std::filesystem::create_directories(o.images);
+  bar.show("measuring", "files", 0, 1);
+  RawMaterial unseen_material;
+  const RawMaterial* unseen = nullptr;
+  if (!o.unseen.empty()) {
+    unseen_material = read_raw(o.unseen);
+    unseen = &unseen_material;
+  }
+  Json rows = Json::array(
+      {naming_file(o.material, [&] { return measure::material_file_row(raw, material, unseen); })});
+  if (!o.images.empty()) {
+    bake::write_png(o.images / (raw.name + "_raw.png"), measure::raw_sheet(raw));
+    bake::write_png(o.images / (raw.name + "_file.png"), measure::difference_sheet(raw, material));
+  }
+  measure::BaselineRequest request;
+  request.names = o.methods;
+  if (request.names.empty() && o.peers) request.names = measure::material_baseline_names();
+  request.unseen = unseen;
+  request.progress = progress;
+  if (!o.images.empty())
+    request.keep = [&](const std::string& name, const Material& compressed) {
+      bake::write_png(o.images / (raw.name + "_" + name + ".png"),
+                      measure::difference_sheet(raw, compressed));
+    };
+  for (const Json& row : measure::material_baseline_rows(raw, material, o.common.seed, request))
+    rows.push_back(row);
+  const CompressionSettings settings = measure::settings_of(material, o.common.seed);
+  Json report;
+  report["rows"] = rows;
+  report["settings"] = describe(settings);
+  if (o.seeding) report["seeding"] = measure::seeding_rows(raw, settings, progress);
+  if (!o.sweep.empty()) add_sweep(raw, settings, o, progress, report);
+  return report;
+}
+
+}  // namespace
+
+void add_evaluate_material(CLI::App& evaluate_command) {
+  CLI::App* command =
+      evaluate_command.add_subcommand("material", "measure a compressed material against the raw one");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command->add_option("raw", o.raw, "the raw material, written by `bake material --keep-raw`")->required();
+  command->add_option("material", o.material, "the .nook file")->required();
+  command->add_flag(
+      "--peers", o.peers,
+      "compress by N-SVD, CTA, K-CTA with K = 2, 3, 4 at the file's ranks, and PCA at its bytes");
+  command->add_option("--methods", o.methods, "only these peers: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, pca")
+      ->delimiter(',')
+      ->check(CLI::IsMember(measure::material_baseline_names()))
+      ->type_name("NAME,...");
+  command->add_option(
+      "--unseen", o.unseen,
+      "a raw material of the same lights and other views, for the error between sampled views");
+  command->add_flag("--compare-seeding", o.seeding,
+                    "CTA and K-CTA from clusters of directions and of values");
+  command->add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")
+      ->delimiter(',');
+  command->add_option("--images", o.images, "write pictures and plots to this folder");
+  add_common_options(*command, o.common);
+  command->callback([options] { run_evaluation(options->common, [&] { return evaluate(*options); }); });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,283 @@
+// nook evaluate nnao: the screen-space pass and its baselines against ray tracing, on OpenGL without a
+// display.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/measure/nnao/comparison.h"
+#include "bakers/measure/nnao/network_picture.h"
+#include "bakers/measure/nnao/report.h"
+#include "bakers/measure/nnao/scene_views.h"
+#include "bakers/measure/nnao/sheet.h"
+#include "bakers/measure/nnao/tuning.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/evaluation.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/nnao/scenes.h"
+#include "bakers/tool/output_file.h"
+#include "bakers/tool/progress_bar.h"
+#include "sdk/src/nnao/network_file.h"
+
+namespace nook::tool {
+namespace {
+
+using namespace measure;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  TruthSettings truth;
+  SceneWords scenes;
+  std::filesystem::path network, images, markdown;
+  std::vector<std::string> methods;  // empty: all
+  std::uint32_t placed_cameras = 3;
+  float max_radius_px = 0;
+  std::string tune;  // a baseline's name, or all; empty: no tuning
+};
+
+void parse_size(const std::string& text, TruthSettings& truth) {
+  unsigned width = 0, height = 0;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%ux%u%n", &width, &height, &used) != 2 || std::size_t(used) != text.size() ||
+      width < 16 || height < 16 || width > 4096 || height > 4096)
+    throw ToolError(exit_bad_arguments, "--size: got " + text + ", need WxH, each 16 to 4096 pixels");
+  truth.width = width;
+  truth.height = height;
+}
+
+// What a picture shows after the scene and the truth.
+struct Shown {
+  const char* suffix;
+  std::vector<std::pair<std::string, int>> methods;
+};
+const Shown sheets[] = {
+    {"", {{"nnao", 64}, {"hbao", 64}, {"gtao_bitmask", 16}, {"ssao+", 16}}},
+    // 60 to 64 fetches a pixel each, with the blur.
+    {"_equal_fetches", {{"nnao", 16}, {"gtao_bitmask", 16}, {"hbao", 16}, {"ssao+", 16}}}};
+
+bool is_shown(const std::string& method, int taps) {
+  for (const Shown& sheet : sheets)
+    for (const auto& [shown_method, shown_taps] : sheet.methods)
+      if (method == shown_method && taps == shown_taps) return true;
+  return false;
+}
+
+void write_sheets(const std::filesystem::path& folder, std::span<const MeasuredView> views,
+                  std::span<const KeptImage> images) {
+  for (const Shown& sheet : sheets)
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      std::vector<std::vector<float>> row;
+      for (const auto& [method, taps] : sheet.methods)
+        for (const KeptImage& image : images)
+          if (image.view == v && image.method == method && image.taps == taps) row.push_back(image.ao);
+      platform::write_image(folder / (views[v].scene + "_" + std::to_string(v) + sheet.suffix + ".png"),
+                            make_sheet(views[v], row));
+    }
+}
+
+std::unique_ptr<platform::Context> make_context() {
+  platform::ContextRequest request;
+  request.major = request.minor = 3;
+  return platform::create_context(request);
+}
+
+// The embedded network, and that of --network.
+struct Networks {
+  nook::nnao::Network embedded;
+  std::vector<std::byte> file;  // empty: none
+  nook::nnao::Network other;
+};
+
+Networks read_networks(const Options& options) {
+  Networks networks;
+  networks.embedded = nook::nnao::read_network(nook::nnao::default_network_file());
+  if (options.network.empty()) return networks;
+  networks.file = read_file(options.network);
+  networks.other = naming_file(options.network, [&] { return nook::nnao::read_network(networks.file); });
+  return networks;
+}
+
+// In tables.
+std::string other_name(const Networks& networks) {
+  if (networks.file.empty()) return "";
+  return networks.other.form == nook::nnao::NetworkForm::paper ? "nnao_paper" : "nnao_file";
+}
+
+void write_network_pictures(const std::filesystem::path& folder, const std::string& prefix,
+                            const nook::nnao::Network& network, std::span<const MeasuredView> views) {
+  platform::write_image(folder / (prefix + "_filters.png"), filter_picture(network));
+  for (std::size_t v = 0; v < views.size(); ++v)
+    platform::write_image(folder / (views[v].scene + "_" + std::to_string(v) + "_" + prefix + "_units.png"),
+                          unit_picture(network, views[v]));
+}
+
+Comparison compare_views(const Options& options, platform::Context& context, const Networks& networks,
+                         std::span<const MeasuredView> views) {
+  ComparisonSettings settings;
+  settings.other_network = networks.file;
+  settings.other_name = other_name(networks);
+  settings.methods = options.methods;
+  settings.request.max_radius_px =
+      options.max_radius_px > 0 ? options.max_radius_px : 0.5f * float(options.truth.height);
+  ProgressBar bar(options.common.quiet);
+  const std::string label = views.front().scene + ", measuring";
+  return compare(
+      context, views, settings,
+      [&](const std::string& method, int taps) { return !options.images.empty() && is_shown(method, taps); },
+      [&](std::size_t done, std::size_t total) {
+        bar.show(label, "methods", done, total);
+        return !interrupted();
+      });
+}
+
+std::vector<MeasuredView> traced_views(const SceneRequest& scene, const Options& options) {
+  ProgressBar bar(options.common.quiet);
+  const std::string label = scene.name + ", ray tracing";
+  return naming_file(scene.file, [&] {
+    return trace_views(scene, options.truth, options.placed_cameras,
+                       [&](std::size_t done, std::size_t total) {
+                         bar.show(label, "views", done, total);
+                         return !interrupted();
+                       });
+  });
+}
+
+Json evaluate(const Options& options) {
+  const std::vector<SceneRequest> scenes = parse_scenes(options.scenes);
+  const Networks networks = read_networks(options);
+  std::optional<OutputFile> markdown;
+  if (!options.markdown.empty()) markdown.emplace(options.markdown);
+  const std::string other = other_name(networks);
+  for (const std::string& method : options.methods)
+    if (method.starts_with("nnao_") && method != other)
+      throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: --network gives no " + method);
+  const auto context = make_context();
+  const std::string resolution =
+      std::to_string(options.truth.width) + "x" + std::to_string(options.truth.height);
+  Json report{{"rows", Json::array()}, {"scenes", Json::array()}, {"borders", Json::array()}};
+  Json& rows = report["rows"];
+  for (const SceneRequest& scene : scenes) {
+    const std::vector<MeasuredView> views = traced_views(scene, options);
+    const Comparison comparison = compare_views(options, *context, networks, views);
+    if (!options.images.empty()) {
+      std::filesystem::create_directories(options.images);
+      write_sheets(options.images, views, comparison.images);
+      write_network_pictures(options.images, "nnao", networks.embedded, views);
+      if (!networks.file.empty()) write_network_pictures(options.images, "other", networks.other, views);
+    }
+    for (const Json& row : nnao_rows(comparison, scene.name, resolution, context->renderer()))
+      rows.push_back(row);
+    for (const Json& row : nnao_border_rows(comparison, scene.name)) report["borders"].push_back(row);
+    double noise = 0;
+    for (const MeasuredView& view : views) noise += view.noise / double(views.size());
+    report["scenes"].push_back({{"scene", scene.name},
+                                {"views", views.size()},
+                                {"radius", scene.radius},
+                                {"noise_floor_mse", noise}});
+  }
+  if (scenes.size() > 1)
+    for (const Json& row : nnao_mean_rows(rows)) rows.push_back(row);
+  if (markdown) markdown->commit(nnao_markdown(rows));
+  report["rays"] = options.truth.rays;
+  report["opengl"] = context->version();
+  report["seed"] = options.common.seed;
+  return report;
+}
+
+Json tune(const Options& options) {
+  ProgressBar bar(options.common.quiet);
+  const std::vector<MeasuredView> views =
+      tuning_views(options.common.seed, [&](std::size_t done, std::size_t total) {
+        bar.show("ray tracing", "views", done, total);
+        return !interrupted();
+      });
+  const auto context = make_context();
+  std::vector<BaselineMethod> methods;
+  for (const BaselineMethod& method : baseline_methods())
+    if (options.tune == "all" || options.tune == baseline_name(method.baseline)) methods.push_back(method);
+  const std::vector<TunedBaseline> tuned =
+      tune_baselines(*context, views, methods, [&](std::size_t done, std::size_t total) {
+        bar.show("tuning", "methods", done, total);
+        return !interrupted();
+      });
+  Json report;
+  report["rows"] = Json::array();
+  for (const TunedBaseline& t : tuned) {
+    std::fputs(tuning_line(t.method).c_str(), stdout);
+    report["rows"].push_back({{"method", baseline_name(t.method.baseline)},
+                              {"taps", t.method.taps},
+                              {"radius_scale", t.method.tuning.radius_scale},
+                              {"power", t.method.tuning.power},
+                              {"shape", t.method.tuning.shape},
+                              {"equal_weights", t.method.tuning.equal_weights},
+                              {"mse", t.mse}});
+  }
+  return report;
+}
+
+void run(Options& options) {
+  const bool has_scenes = !options.scenes.files.empty() || options.scenes.thin;
+  if (has_scenes == !options.tune.empty())
+    throw ToolError(exit_bad_arguments, "evaluate nnao: need scenes (files or --thin) or else --tune");
+  options.truth.seed = options.common.seed;
+  run_evaluation(options.common, [&] { return !options.tune.empty() ? tune(options) : evaluate(options); });
+}
+
+}  // namespace
+
+void add_evaluate_nnao(CLI::App& evaluate_command) {
+  CLI::App* command = evaluate_command.add_subcommand(
+      "nnao",
+      "the screen-space pass, and SSAO, SSAO+, HBAO, GTAO and GTAO with a visibility bitmask, against ray "
+      "tracing");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command->add_option("scene", o.scenes.files,
+                      "scenes in metres, y up, .glb or .gltf; of several, the means are told as well");
+  command->add_flag("--thin", o.scenes.thin, "a built-in scene of thin things, called thin");
+  std::vector<std::string> baselines{"all"};
+  for (const Baseline baseline : all_baselines) baselines.push_back(baseline_name(baseline));
+  command
+      ->add_option("--tune", o.tune,
+                   "tune one baseline, or all, on training scenes and print their table instead")
+      ->check(CLI::IsMember(baselines));
+  command
+      ->add_option(
+          "--camera", o.scenes.cameras,
+          "eye, target and vertical field of view in degrees: [SCENE:]ox,oy,oz,tx,ty,tz,fov; any number "
+          "of times. SCENE is a file's name without .glb, or thin; without it, of every scene")
+      ->type_name("CAMERA");
+  command->add_option("--cameras", o.placed_cameras, "how many to place where none is given")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--radius", o.scenes.radii, "of the AO, metres, 0.5 by default: [SCENE:]R")
+      ->type_name("RADIUS");
+  command
+      ->add_option("--max-radius-px", o.max_radius_px,
+                   "where the radius covers more pixels, every method shrinks it; 0: half the height")
+      ->check(CLI::Range(0.0, 1e4));
+  command
+      ->add_option_function<std::string>(
+          "--size", [&o](const std::string& text) { parse_size(text, o.truth); }, "pixels; 640x360")
+      ->type_name("WxH");
+  command->add_option("--rays", o.truth.rays, "rays a pixel")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  std::vector<std::string> methods{"nnao", "nnao_paper", "nnao_file"};
+  methods.insert(methods.end(), baselines.begin() + 1, baselines.end());
+  command->add_option("--methods", o.methods, "measure these alone, separated by commas; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(methods));
+  command->add_option("--network", o.network,
+                      "a file of `nook train nnao`, such as the paper's form, measured as well");
+  command->add_option("--images", o.images,
+                      "write sheets of each view and pictures of the networks into this folder");
+  command->add_option("--markdown", o.markdown, "write the tables of docs/nnao.md to this file");
+  add_common_options(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,29 @@
+#include "bakers/tool/evaluation.h"
+
+#include <cstdio>
+#include <optional>
+
+#include "bakers/job/worker_arena.h"
+#include "bakers/tool/output_file.h"
+#include "bakers/tool/table.h"
+#include "bakers/tool/tool_error.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::tool {
+
+void run_evaluation(const CommonOptions& options, const std::function<nlohmann::ordered_json()>& evaluate) {
+  using Json = nlohmann::ordered_json;
+  std::optional<OutputFile> report_file;
+  if (!options.report.empty()) report_file.emplace(options.report);
+  Json report;
+  try {
+    bake::run_with_threads(options.threads, [&] { report = evaluate(); });
+  } catch (const Failure& failure) {
+    if (failure.code() == NOOK_ERROR_CANCELLED) throw ToolError(exit_other, "stopped; nothing was written");
+    throw;
+  }
+  if (report_file) report_file->commit(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (!options.quiet) std::fputs(table_text(report["rows"]).c_str(), stdout);
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,77 @@
+// nook inspect: what is inside a .nook file.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "bakers/job/material_source.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/inspect/describe.h"
+#include "bakers/tool/output_file.h"
+#include "bakers/tool/table.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/material/material_file.h"
+#include "sdk/src/nnao/network_file.h"
+#include "sdk/src/probe/probe_file.h"
+
+namespace nook::tool {
+
+void add_recipe(Row& row, std::string_view recipe) {
+  const Row entries = Row::parse(recipe, nullptr, false);
+  if (!entries.is_object()) return;
+  for (const auto& item : entries.items())
+    if (item.value().is_object())
+      for (const auto& part : item.value().items()) row[item.key() + "_" + part.key()] = part.value();
+    else
+      row["recipe_" + item.key()] = item.value();
+}
+
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::string input;
+};
+
+struct Kind {
+  FourLetters kind;
+  Row (*describe)(std::span<const std::byte> bytes);
+};
+constexpr Kind kinds[] = {{character_kind.kind, describe_character},
+                          {nnao::network_kind.kind, describe_network},
+                          {probe::probe_kind.kind, describe_probes},
+                          {material::material_kind.kind, describe_material},
+                          {bake::material::raw_kind.kind, describe_raw_material}};
+
+Row describe(std::span<const std::byte> bytes) {
+  const FourLetters found = bytes.size() >= 16 ? container_kind(bytes) : 0;
+  for (const Kind& kind : kinds)
+    if (kind.kind == found) return kind.describe(bytes);
+  if (found != 0)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "a .nook file of a kind that this version cannot inspect; use a newer one");
+  return describe_character(bytes);  // says what is wrong with bytes that are no .nook file
+}
+
+void run(const Options& options) {
+  const std::vector<std::byte> bytes = read_file(options.input);
+  std::optional<OutputFile> report;
+  if (!options.common.report.empty()) report.emplace(options.common.report);
+  const Row rows = Row::array({naming_file(options.input, [&] { return describe(bytes); })});
+  if (report) report->commit(Row{{"rows", rows}}.dump(2, ' ', false, Row::error_handler_t::replace) + "\n");
+  if (!options.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& tool) {
+  CLI::App* command = tool.add_subcommand("inspect", "show what a .nook file holds");
+  const auto options = std::make_shared<Options>();
+  command->add_option("file", options->input, "a .nook file")->required();
+  add_common_options(*command, options->common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

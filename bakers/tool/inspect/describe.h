@@ -1,0 +1,24 @@
+// What a .nook file of each kind holds, as one row: kind, format_version, bytes, sizes, and the recipe's
+// entries as recipe_*. Each throws BAD_FILE or FILE_VERSION for bytes that do not validate.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
+
+namespace nook::tool {
+
+using Row = nlohmann::ordered_json;
+
+Row describe_character(std::span<const std::byte> bytes);
+Row describe_network(std::span<const std::byte> bytes);
+Row describe_probes(std::span<const std::byte> bytes);
+Row describe_material(std::span<const std::byte> bytes);
+Row describe_raw_material(std::span<const std::byte> bytes);
+
+// Adds the entries of a recipe, a JSON object, to row, those of an object in it as object_entry; anything
+// else adds nothing.
+void add_recipe(Row& row, std::string_view recipe);
+
+}  // namespace nook::tool

@@ -1,0 +1,39 @@
+#include "bakers/tool/inspect/describe.h"
+
+#include <string>
+
+#include "sdk/src/character/model_file.h"
+
+namespace nook::tool {
+namespace {
+
+constexpr const char* kernel_names[] = {"paper", "nook", "rational"};
+
+}  // namespace
+
+Row describe_character(std::span<const std::byte> bytes) {
+  const CharacterModel model = read_character_model(bytes);
+  const Container container(bytes, character_kind);
+  Row row;
+  row["kind"] = "character model";
+  row["format_version"] = container.version();
+  row["bytes"] = bytes.size();
+  row["vertices"] = model.vertex_count();
+  row["file_vertices"] = model.file_to_welded.size();
+  row["primitives"] = model.primitives.size();
+  row["bones"] = model.bone_count();
+  row["spheres"] = model.spheres.size();
+  row["key_points"] = model.key_points.size();
+  row["influences"] = model.influences;
+  row["kernel"] = kernel_names[std::size_t(model.kernel.form)];
+  row["gamma"] = model.kernel.gamma;
+  row["bounding_radius_m"] = model.bounding_radius;
+  for (const char* name : {"HEAD", "BONE", "SPHR", "KEYP", "LINR", "STAO", "FMAP", "PRIM", "RECP"}) {
+    const char letters[5] = {name[0], name[1], name[2], name[3], 0};
+    row[std::string("bytes_") + name] = container.has(letters) ? container.section(letters).remaining() : 0;
+  }
+  add_recipe(row, model.recipe);
+  return row;
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,52 @@
+#include "bakers/tool/inspect/describe.h"
+
+#include <string>
+
+#include "bakers/job/material_source.h"
+#include "sdk/src/material/material_file.h"
+#include "sdk/src/material/view_cells.h"
+
+namespace nook::tool {
+namespace {
+
+void describe_tensor(Row& row, const std::string& name, const material::ClusteredTensor& tensor) {
+  const material::TensorShape& shape = tensor.shape;
+  row[name + "_ranks"] = Row::array({shape.rank_light, shape.rank_view, shape.rank_x, shape.rank_y});
+  row[name + "_clusters"] = shape.clusters;
+  row[name + "_mixture"] = shape.mixture;
+  row[name + "_view_map"] = tensor.map.side;
+  row[name + "_terms"] = material::cell_terms(tensor);
+}
+
+}  // namespace
+
+Row describe_material(std::span<const std::byte> bytes) {
+  const material::Material material = material::read_material(bytes);
+  constexpr const char* forms[] = {"none", "binary", "distance"};
+  Row row;
+  row["kind"] = "material";
+  row["format_version"] = Container(bytes, material::material_kind).version();
+  row["bytes"] = bytes.size();
+  row["compressed_bytes"] = material::compressed_bytes(material);
+  row["lights"] = material.lights.size();
+  row["views"] = material.views.size();
+  row["width"] = material.btf.shape.width;
+  row["height"] = material.btf.shape.height;
+  describe_tensor(row, "btf", material.btf);
+  row["visibility"] = forms[std::size_t(material.visibility)];
+  if (material.visibility != material::VisibilityForm::none) {
+    row["visibility_mapping"] = Row::array({material.mapping.threshold, material.mapping.weight});
+    describe_tensor(row, "votf", material.votf);
+  }
+  add_recipe(row, material.recipe);
+  return row;
+}
+
+Row describe_raw_material(std::span<const std::byte> bytes) {
+  const bake::material::RawMaterial raw = bake::material::read_raw_material(bytes);
+  return {{"kind", "raw material"},      {"name", raw.name},          {"bytes", bytes.size()},
+          {"lights", raw.lights.size()}, {"views", raw.views.size()}, {"width", raw.width},
+          {"height", raw.height},        {"votf", !raw.mask.empty()}};
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,45 @@
+#include "bakers/tool/inspect/describe.h"
+
+#include <algorithm>
+
+#include "sdk/src/probe/probe_file.h"
+
+namespace nook::tool {
+namespace {
+
+constexpr const char* basis_names[] = {"spherical Gaussians", "spherical harmonics", "ambient dice"};
+constexpr const char* domain_names[] = {"sphere", "hemisphere"};
+constexpr const char* packing_names[] = {"float", "half", "RGB9E5"};
+
+}  // namespace
+
+Row describe_probes(std::span<const std::byte> bytes) {
+  const probe::Probes probes = probe::read_probes(bytes);
+  const probe::Basis& basis = probes.basis;
+  const probe::Grid& grid = probes.grid;
+  Row row;
+  row["kind"] = "light probe";
+  row["format_version"] = Container(bytes, probe::probe_kind).version();
+  row["bytes"] = bytes.size();
+  row["probes"] = grid.size();
+  if (grid.size() > 1) {
+    row["counts"] = grid.counts;
+    row["origin_m"] = {grid.origin_ws.x, grid.origin_ws.y, grid.origin_ws.z};
+    row["spacing_m"] = {grid.spacing_ws.x, grid.spacing_ws.y, grid.spacing_ws.z};
+  }
+  row["basis"] = basis_names[std::size_t(basis.kind)];
+  row["domain"] = domain_names[std::size_t(basis.domain)];
+  row["functions"] = basis.count;
+  row["ambient"] = basis.ambient;
+  if (basis.kind == probe::BasisKind::gaussians) {
+    const auto [low, high] = std::minmax_element(
+        basis.sharpness.begin(), basis.sharpness.begin() + basis.count - (basis.ambient ? 1 : 0));
+    row["sharpness_lowest"] = *low;
+    row["sharpness_highest"] = *high;
+  }
+  row["packing"] = packing_names[std::size_t(probe::packing_of(bytes))];
+  add_recipe(row, probes.recipe);
+  return row;
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,64 @@
+// nook: bakes, measures and inspects what the runtime loads.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+
+#include "bakers/tool/commands.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/tool_error.h"
+#include "sdk/src/core/failure.h"
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App tool(
+      "Bakes ambient occlusion, light probes and materials, measures them against ray tracing, and inspects "
+      ".nook files.\n"
+      "Exit codes: 0 done, 2 bad arguments, 3 bad input, 1 anything else.",
+      "nook");
+  tool.set_version_flag("--version", std::to_string(NOOK_VERSION_MAJOR) + "." +
+                                         std::to_string(NOOK_VERSION_MINOR) + "." +
+                                         std::to_string(NOOK_VERSION_PATCH));
+  tool.require_subcommand(1);
+  CLI::App* bake = tool.add_subcommand("bake", "make .nook files")->require_subcommand(1);
+  CLI::App* evaluate =
+      tool.add_subcommand("evaluate", "measure .nook files against ray tracing")->require_subcommand(1);
+  nook::tool::add_bake_character(*bake);
+  nook::tool::add_bake_probe(*bake);
+  nook::tool::add_bake_material(*bake);
+  nook::tool::add_evaluate_character(*evaluate);
+  nook::tool::add_evaluate_casters(*evaluate);
+  nook::tool::add_evaluate_nnao(*evaluate);
+  nook::tool::add_evaluate_probe(*evaluate);
+  nook::tool::add_evaluate_material(*evaluate);
+  CLI::App* train = tool.add_subcommand("train", "train networks")->require_subcommand(1);
+  nook::tool::add_train_nnao(*train);
+  nook::tool::add_inspect(tool);
+  try {
+    tool.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return tool.exit(e) == 0 ? nook::tool::exit_done : nook::tool::exit_bad_arguments;
+  }
+  return nook::tool::exit_done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  nook::tool::watch_for_interrupt();
+  const auto fail = [](int code, const char* text) {
+    std::fprintf(stderr, "nook: %s\n", text);
+    return code;
+  };
+  try {
+    return run(argc, argv);
+  } catch (const nook::tool::ToolError& e) {
+    return fail(e.code(), e.what());
+  } catch (const nook::Failure& e) {
+    return fail(nook::tool::exit_code_of(e.code()), e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(nook::tool::exit_other, "not enough memory; use fewer poses, or a smaller preset");
+  } catch (const std::exception& e) {
+    return fail(nook::tool::exit_other, e.what());
+  }
+}

@@ -1,0 +1,109 @@
+#include "bakers/tool/material/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "bakers/job/material_source.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/tool_error.h"
+
+namespace nook::tool {
+namespace {
+
+using namespace bake::material;
+using nook::material::VisibilityForm;
+
+std::vector<std::uint32_t> read_numbers(const std::string& text, std::size_t count, const char* option) {
+  std::vector<std::uint32_t> numbers;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::string part = text.substr(at, comma - at);
+    if (part.empty() || part.size() > 6 || part.find_first_not_of("0123456789") != std::string::npos) break;
+    numbers.push_back(std::uint32_t(std::stoul(part)));
+    at = comma + 1;
+  }
+  if (numbers.size() != count || at != text.size() + 1)
+    throw ToolError(exit_bad_arguments, std::string(option) + ": got " + text + ", need " +
+                                            std::to_string(count) +
+                                            " whole numbers with commas between them");
+  return numbers;
+}
+
+}  // namespace
+
+void add_compression_options(CLI::App& command, CompressionOptions& o) {
+  CompressionSettings& s = o.settings;
+  command
+      .add_option(
+          "--ranks", o.ranks,
+          "L,V,X,Y: ranks of the BTF's modes, V in total over the clusters; auto: by --threshold. Built-in "
+          "materials have ranks of their own, others auto")
+      ->type_name("L,V,X,Y|auto");
+  command.add_option("--votf-ranks", o.votf_ranks, "X,Y: ranks of the VOTF")->type_name("X,Y");
+  command
+      .add_option("--threshold", o.threshold,
+                  "squared error that --ranks auto allows in each mode, a share of the square norm")
+      ->check(CLI::Range(1e-6, 0.5))
+      ->capture_default_str();
+  command.add_option("--cluster-rank", s.cluster_rank_view, "view rank of one cluster")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command.add_option("--clusters", s.clusters, "clusters of views; default V / cluster rank")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--mixture", s.mixture, "clusters K that a view is mixed from")
+      ->check(CLI::Range(1, 8))
+      ->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--seeding",
+          [&s](const std::string& v) { s.seeding = v == "values" ? Seeding::values : Seeding::directions; },
+          "first clusters by view directions (default) or by k-means of values")
+      ->check(CLI::IsMember({"directions", "values"}))
+      ->type_name("NAME");
+}
+
+CompressionSettings compression_settings(const CompressionOptions& options, const RawMaterial& raw) {
+  CompressionSettings s = options.settings;
+  if (!options.ranks.empty() && options.ranks != "auto") {
+    const auto r = read_numbers(options.ranks, 4, "--ranks");
+    s.rank_light = r[0];
+    s.rank_view = r[1];
+    s.rank_x = r[2];
+    s.rank_y = r[3];
+    s.votf_rank_x = std::min(s.votf_rank_x, raw.width);
+    s.votf_rank_y = std::min(s.votf_rank_y, raw.height);
+  } else if (options.ranks == "auto" || !set_builtin_ranks(raw, s)) {
+    s = ranks_by_threshold(raw, options.threshold, s);
+  }
+  if (!options.votf_ranks.empty()) {
+    const auto r = read_numbers(options.votf_ranks, 2, "--votf-ranks");
+    s.votf_rank_x = r[0];
+    s.votf_rank_y = r[1];
+  }
+  if (s.method == Method::k_cta && options.settings.clusters == 0)
+    s.mixture = std::min(s.mixture, s.cluster_count());
+  check_settings(s, raw);
+  return s;
+}
+
+nook::material::VisibilityMapping visibility_mapping(const std::string& text, VisibilityForm form) {
+  if (text == "paper") return nook::material::paper_mapping(form);
+  nook::material::VisibilityMapping mapping;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%f,%f%c", &mapping.threshold, &mapping.weight, &rest) != 2)
+    throw ToolError(exit_bad_arguments,
+                    "--visibility-mapping: got " + text + ", need T,W, such as 0.05,12, or paper");
+  return mapping;
+}
+
+StageProgress stage_progress(ProgressBar& bar, std::string prefix) {
+  return [&bar, prefix = std::move(prefix)](const char* stage, std::size_t done, std::size_t total) {
+    bar.show(prefix + stage, "steps", done, total);
+    return !interrupted();
+  };
+}
+
+}  // namespace nook::tool

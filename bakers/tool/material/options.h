@@ -1,0 +1,35 @@
+// What the commands on materials share: the options of compression.
+#pragma once
+
+#include <string>
+
+#include "bakers/measure/material/report.h"
+#include "bakers/tool/progress_bar.h"
+
+namespace CLI {
+class App;
+}
+
+namespace nook::tool {
+
+struct CompressionOptions {
+  std::string ranks, votf_ranks;  // as given; empty: the material's defaults
+  double threshold = 0.01;        // of --ranks auto
+  bake::material::CompressionSettings settings;
+};
+
+void add_compression_options(CLI::App& command, CompressionOptions& options);
+
+// The settings for a material: given ranks, or those of the built-in materials, or ranks by threshold. Throws
+// ToolError for ranks that cannot be read, Failure for ranks that do not fit.
+bake::material::CompressionSettings compression_settings(const CompressionOptions& options,
+                                                         const bake::material::RawMaterial& raw);
+
+// "T,W", or "paper": the paper's numbers for the form. Throws ToolError for a text that is neither.
+nook::material::VisibilityMapping visibility_mapping(const std::string& text,
+                                                     nook::material::VisibilityForm form);
+
+// Shows stages on a bar and stops at Ctrl-C.
+bake::material::StageProgress stage_progress(ProgressBar& bar, std::string prefix);
+
+}  // namespace nook::tool

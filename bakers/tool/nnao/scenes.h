@@ -1,0 +1,23 @@
+// The scenes that `nook evaluate nnao` is asked for, with their cameras and radii.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bakers/measure/nnao/scene_views.h"
+
+namespace nook::tool {
+
+// What the options say, still as text.
+struct SceneWords {
+  std::vector<std::filesystem::path> files;
+  bool thin = false;
+  std::vector<std::string> cameras;  // [NAME:]ox,oy,oz,tx,ty,tz,fov; without a name, of every scene
+  std::vector<std::string> radii;    // [NAME:]metres
+};
+
+// Throws ToolError (bad arguments).
+std::vector<measure::SceneRequest> parse_scenes(const SceneWords& words);
+
+}  // namespace nook::tool

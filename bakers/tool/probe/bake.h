@@ -1,0 +1,36 @@
+// nook bake probe, its two kinds of input.
+#pragma once
+
+#include <array>
+#include <filesystem>
+
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/probe/options.h"
+#include "sdk/src/core/vec.h"
+
+namespace nook::tool {
+
+struct BakeProbeOptions {
+  CommonOptions common;
+  ProbeOptions probe;
+  std::filesystem::path input, output;
+
+  // One map.
+  std::filesystem::path picture;
+  std::string sampling = "automatic";
+  std::uint32_t samples = 0;  // 0: 1,048,576 for a map; 65,536 at most for each probe of a grid
+
+  // A scene.
+  std::array<std::uint32_t, 3> grid{0, 0, 0};
+  std::filesystem::path light;
+  bool has_box = false;
+  Vec3 box_low_ws, box_high_ws;
+  double error = 0.01, preview_every_s = 0;
+  std::uint32_t max_bounces = ~0u;
+  bool no_textures = false;
+};
+
+void bake_probe_of_map(const BakeProbeOptions& options);
+void bake_probe_grid(const BakeProbeOptions& options);
+
+}  // namespace nook::tool

@@ -1,0 +1,81 @@
+// nook bake probe MAP: one probe of an environment map.
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/images/map_picture.h"
+#include "bakers/job/probe_bake.h"
+#include "bakers/measure/probe/report.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/output_file.h"
+#include "bakers/tool/probe/bake.h"
+#include "bakers/tool/probe/scene.h"
+#include "bakers/tool/progress_bar.h"
+#include "bakers/tool/table.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using bake::probe::MapBakeSettings;
+using bake::probe::Sampling;
+
+Sampling sampling_of(const std::string& name) {
+  return name == "texels"      ? Sampling::texels
+         : name == "luminance" ? Sampling::luminance
+         : name == "uniform"   ? Sampling::uniform
+                               : Sampling::automatic;
+}
+
+Json row_of(const BakeProbeOptions& options, const bake::Environment& map, const probe::Probes& probes,
+            std::size_t bytes, double seconds) {
+  Json row;
+  row["map"] = options.input.stem().string();
+  row.update(describe(options.probe, probes.basis));
+  row.update(measure::probe_errors(map, probes));
+  row["bytes"] = bytes;
+  row["seconds_fit"] = seconds;
+  return row;
+}
+
+}  // namespace
+
+void bake_probe_of_map(const BakeProbeOptions& options) {
+  MapBakeSettings settings;
+  settings.basis = basis_of(options.probe);
+  settings.fit = fit_of(options.probe);
+  settings.sampling = sampling_of(options.sampling);
+  if (options.samples > 0) settings.samples = options.samples;
+  settings.seed = options.common.seed;
+  OutputFile output(options.output);
+  std::optional<OutputFile> report, picture;
+  if (!options.common.report.empty()) report.emplace(options.common.report);
+  if (!options.picture.empty()) picture.emplace(options.picture);
+  const bake::Environment map = read_map(options.input);
+
+  ProgressBar bar(options.common.quiet);
+  const auto began = std::chrono::steady_clock::now();
+  bake::MapProbe baked = bake::bake_map_probe(map, settings, [&](std::size_t done, std::size_t total) {
+    bar.show("fitting", "samples", done, total);
+    return !interrupted();
+  });
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
+  Json recipe = describe(options.probe, settings.basis);
+  recipe["source"] = options.input.filename().string();
+  recipe["sampling"] = options.sampling;
+  recipe["samples"] = baked.samples;
+  recipe["seed"] = settings.seed;
+  baked.probes.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::vector<std::byte> bytes = probe::write_probes(baked.probes, packing_of(options.probe));
+
+  // What is measured and shown is what the file gives back, its packing included.
+  const probe::Probes stored = probe::read_probes(bytes);
+  const Json rows = Json::array({row_of(options, map, stored, bytes.size(), seconds.count())});
+  if (picture) picture->commit(bake::png_bytes(bake::probe::map_picture(map, stored.basis, stored.of(0))));
+  output.commit(bytes);
+  if (report) report->commit(Json{{"rows", rows}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (!options.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+}
+
+}  // namespace nook::tool

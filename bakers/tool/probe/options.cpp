@@ -1,0 +1,85 @@
+#include "bakers/tool/probe/options.h"
+
+#include <CLI/CLI.hpp>
+#include <vector>
+
+namespace nook::tool {
+namespace {
+
+// In the order of probe::FitMethod and probe::Packing.
+const std::vector<std::string> method_names{
+    "naive",   "running-average", "running-average-original",  "running-average-non-negative",
+    "moments", "least-squares",   "non-negative-least-squares"};
+const std::vector<std::string> packing_names{"float", "half", "rgb9e5"};
+const std::vector<std::string> basis_names{"gaussians", "harmonics", "dice"};
+
+std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
+  return std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+}  // namespace
+
+void add_probe_options(CLI::App& command, ProbeOptions& options) {
+  command.add_option("--lobes", options.lobes, "spherical Gaussians, on a Vogel spiral")
+      ->check(CLI::Range(1u, probe::max_functions))
+      ->capture_default_str();
+  command.add_option("--sharpness", options.sharpness, "of all lobes; 0: by their number")
+      ->check(CLI::Range(0.0f, probe::max_sharpness))
+      ->capture_default_str();
+  command.add_flag("--ambient", options.ambient, "a constant term after the lobes");
+  command.add_flag("--hemisphere", options.hemisphere, "only directions above the horizon (+y)");
+  command.add_option("--method", options.method, "how coefficients are fitted")
+      ->check(CLI::IsMember(method_names))
+      ->capture_default_str();
+  command.add_option("--basis", options.basis, "what the probe is made of")
+      ->check(CLI::IsMember(basis_names))
+      ->capture_default_str();
+  command.add_option("--order", options.order, "harmonics: the highest band")
+      ->check(CLI::Range(1u, probe::max_order))
+      ->capture_default_str();
+  command.add_option("--packing", options.packing, "of coefficients in the file")
+      ->check(CLI::IsMember(packing_names))
+      ->capture_default_str();
+}
+
+probe::Basis basis_of(const ProbeOptions& options) {
+  const probe::Domain domain = options.hemisphere ? probe::Domain::hemisphere : probe::Domain::sphere;
+  const Vec3 up{0, 1, 0};
+  switch (probe::BasisKind(index_of(basis_names, options.basis))) {
+    case probe::BasisKind::harmonics:
+      return probe::harmonic_basis(options.order, domain, up);
+    case probe::BasisKind::dice:
+      return probe::dice_basis(domain, up);
+    default:
+      break;
+  }
+  probe::Basis basis = probe::vogel_basis(options.lobes, options.ambient, domain, up);
+  if (options.sharpness > 0)
+    for (std::uint32_t i = 0; i < options.lobes; ++i) basis.sharpness[i] = options.sharpness;
+  probe::check_basis(basis, NOOK_ERROR_INVALID_ARGUMENT);
+  return basis;
+}
+
+probe::FitSettings fit_of(const ProbeOptions& options) {
+  probe::FitSettings settings;
+  settings.method = probe::FitMethod(index_of(method_names, options.method));
+  return settings;
+}
+
+probe::Packing packing_of(const ProbeOptions& options) {
+  return probe::Packing(index_of(packing_names, options.packing));
+}
+
+nlohmann::ordered_json describe(const ProbeOptions& options, const probe::Basis& basis) {
+  nlohmann::ordered_json text;
+  text["basis"] = options.basis;
+  text["domain"] = options.hemisphere ? "hemisphere" : "sphere";
+  text["method"] = options.method;
+  text["functions"] = basis.count;
+  text["floats"] = 3 * basis.count;
+  if (basis.kind == probe::BasisKind::gaussians) text["sharpness"] = basis.sharpness[0];
+  text["packing"] = options.packing;
+  return text;
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,37 @@
+// Progress of long work on the error stream: a bar on a terminal, plain lines elsewhere.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace nook::tool {
+
+class ProgressBar {
+ public:
+  explicit ProgressBar(bool quiet);
+  ~ProgressBar();  // leaves the cursor on a fresh line
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  // One call at a time. unit names what is counted, such as "poses". A new label begins a new line.
+  void show(const std::string& label, const char* unit, std::size_t done, std::size_t total);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void begin(const std::string& label, std::size_t done);
+  void end_line();
+  void draw(const char* unit, double rate, double seconds_left);
+
+  bool quiet_, terminal_;
+  std::string label_;
+  std::size_t first_ = 0, done_ = 0, total_ = 0, tenths_ = 0;
+  Clock::time_point began_, drawn_;
+  bool line_open_ = false;
+};
+
+// "12 s", "3 min 05 s", "1 h 02 min".
+std::string duration_text(double seconds);
+
+}  // namespace nook::tool

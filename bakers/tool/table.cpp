@@ -1,0 +1,51 @@
+#include "bakers/tool/table.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+namespace nook::tool {
+namespace {
+
+std::string cell_text(const nlohmann::ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_number_float()) return value.is_null() ? "-" : value.dump();
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value.get<double>());
+  return text;
+}
+
+}  // namespace
+
+std::string table_text(const nlohmann::ordered_json& rows) {
+  if (rows.empty()) return "";
+  std::vector<std::string> keys;
+  for (const auto& item : rows.front().items()) keys.push_back(item.key());
+  std::vector<std::vector<std::string>> cells;
+  for (const auto& row : rows) {
+    cells.emplace_back();
+    for (const std::string& key : keys)
+      cells.back().push_back(row.contains(key) ? cell_text(row.at(key)) : "-");
+  }
+  std::string text;
+  // One row reads better downwards.
+  if (cells.size() == 1) {
+    std::size_t width = 0;
+    for (const std::string& key : keys) width = std::max(width, key.size());
+    for (std::size_t c = 0; c < keys.size(); ++c)
+      text += keys[c] + std::string(width - keys[c].size() + 2, ' ') + cells[0][c] + "\n";
+    return text;
+  }
+  cells.insert(cells.begin(), keys);
+  std::vector<std::size_t> width(keys.size(), 0);
+  for (const auto& line : cells)
+    for (std::size_t c = 0; c < keys.size(); ++c) width[c] = std::max(width[c], line[c].size());
+  for (const auto& line : cells) {
+    for (std::size_t c = 0; c < keys.size(); ++c)
+      text += std::string(width[c] - line[c].size() + (c ? 2 : 0), ' ') + line[c];
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace nook::tool

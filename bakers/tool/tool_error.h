@@ -1,0 +1,36 @@
+// What ends a command: a text for the user and the exit code that design and help promise.
+#pragma once
+
+#include <nook/nook.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace nook::tool {
+
+enum ExitCode { exit_done = 0, exit_other = 1, exit_bad_arguments = 2, exit_bad_input = 3 };
+
+class ToolError : public std::runtime_error {
+ public:
+  ToolError(ExitCode code, const std::string& text) : std::runtime_error(text), code_(code) {}
+  ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+inline ExitCode exit_code_of(nook_result result) {
+  switch (result) {
+    case NOOK_OK:
+      return exit_done;
+    case NOOK_ERROR_INVALID_ARGUMENT:
+      return exit_bad_arguments;
+    case NOOK_ERROR_BAD_FILE:
+    case NOOK_ERROR_FILE_VERSION:
+      return exit_bad_input;
+    default:
+      return exit_other;
+  }
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,165 @@
+// nook train nnao: makes the training set, trains a screen-space network and tells its validation error.
+#include <tbb/task_arena.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/job/network_training.h"
+#include "bakers/measure/nnao/validation_report.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/output_file.h"
+#include "bakers/tool/progress_bar.h"
+#include "bakers/tool/table.h"
+#include "bakers/tool/tool_error.h"
+
+namespace nook::tool {
+namespace {
+
+using namespace nook::bake::nnao;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::string output;
+  double time_limit_s = 0;  // 0: none
+  DatasetSettings data;
+  TrainingSettings training;
+
+  std::string resume() const { return output + ".resume"; }
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TrainingState starting_state(const Options& options, const Dataset& data, const std::string& recipe) {
+  if (!std::filesystem::exists(options.resume())) return start_training(data, options.training);
+  const auto state = naming_file(options.resume(), [&] {
+    return read_checkpoint(read_file(options.resume()), recipe, options.training.form);
+  });
+  if (!options.common.quiet)
+    std::fprintf(stderr, "%s: going on after %u of %u epochs\n", options.resume().c_str(), state.epochs_done,
+                 options.training.epochs);
+  return state;
+}
+
+Network train_with_progress(const Options& options, const Dataset& data, const std::string& recipe) {
+  TrainingState state = starting_state(options, data, recipe);
+  ProgressBar bar(options.common.quiet);
+  // A new label begins a new line of the bar: one for every tenth of the epochs.
+  const std::uint32_t tenth = std::max(1u, options.training.epochs / 10);
+  std::string label = "training";
+  std::uint32_t labelled = 0;
+  const auto start = std::chrono::steady_clock::now();
+  const auto show = [&](const TrainingProgress& now) {
+    if (now.validation_mse > 0 && now.epoch / tenth != labelled) {
+      labelled = now.epoch / tenth;
+      char text[80];
+      std::snprintf(text, sizeof text, "training, validation mse %.5f", now.validation_mse);
+      label = text;
+    }
+    bar.show(label, "steps", now.steps_done, now.steps);
+    const bool in_time = options.time_limit_s == 0 || seconds_since(start) < options.time_limit_s;
+    return in_time && !interrupted();
+  };
+  return train(data, options.training, state, show, [&](const TrainingState& s) {
+    OutputFile(options.resume()).commit(write_checkpoint(s, recipe));
+  });
+}
+
+void run_in_arena(Options& options) {
+  OutputFile output(options.output);
+  std::optional<OutputFile> report_file;
+  if (!options.common.report.empty()) report_file.emplace(options.common.report);
+  const std::string recipe = bake::network_recipe(options.data, options.training);
+  auto start = std::chrono::steady_clock::now();
+  const Dataset data = [&] {
+    ProgressBar bar(options.common.quiet);
+    return make_dataset(options.data, [&](std::size_t done, std::size_t total) {
+      bar.show("ray tracing", "scenes", done, total);
+      return !interrupted();
+    });
+  }();
+  const double seconds_data = seconds_since(start);
+  start = std::chrono::steady_clock::now();
+  Network network = train_with_progress(options, data, recipe);
+  const double seconds_training = seconds_since(start);
+  network.recipe = recipe;
+  const std::vector<std::byte> file = nook::nnao::write_network(network);
+  const Json rows = measure::validation_rows(network, data);
+  output.commit(file);
+  std::error_code gone;
+  std::filesystem::remove(options.resume(), gone);
+  if (report_file) {
+    Json report = {{"rows", rows},
+                   {"recipe", Json::parse(recipe)},
+                   {"training_points", data.training.size()},
+                   {"validation_points", data.validation.size()},
+                   {"seconds_data", seconds_data},
+                   {"seconds_training", seconds_training},
+                   {"bytes", file.size()}};
+    report_file->commit(report.dump(2) + "\n");
+  }
+  if (!options.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+}
+
+void run(Options& options) {
+  options.training.seed = options.data.seed = options.common.seed;
+  options.training = with_defaults(options.training);
+  options.data.normals = options.training.form == NetworkForm::paper;
+  tbb::task_arena arena(options.common.threads == 0 ? tbb::task_arena::automatic
+                                                    : int(options.common.threads));
+  try {
+    arena.execute([&] { run_in_arena(options); });
+  } catch (const Failure& failure) {
+    if (failure.code() != NOOK_ERROR_CANCELLED) throw;
+    throw ToolError(exit_other, std::filesystem::exists(options.resume())
+                                    ? "stopped; the same command goes on from " + options.resume()
+                                    : std::string("stopped; nothing was written"));
+  }
+}
+
+}  // namespace
+
+void add_train_nnao(CLI::App& train) {
+  CLI::App* command = train.add_subcommand(
+      "nnao", "train a screen-space network on procedural scenes; Ctrl-C stops, the same command goes on");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  command
+      ->add_option_function<std::string>(
+          "--form",
+          [&o](const std::string& name) {
+            o.training.form = name == "paper" ? NetworkForm::paper : NetworkForm::horizon;
+          },
+          "horizon (default; the embedded network) or paper (Holden et al. 2016)")
+      ->check(CLI::IsMember({"horizon", "paper"}))
+      ->type_name("NAME");
+  command->add_option("--scenes", o.data.scenes, "procedural scenes, a sixth of them for validation")
+      ->check(CLI::Range(20, 100000));
+  command->add_option("--views", o.data.views, "cameras over all scenes")->check(CLI::Range(16, 1000000));
+  command->add_option("--points", o.data.points_per_view, "points of each view")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--rays", o.data.rays, "rays of each point")->check(CLI::Range(1, 65536));
+  command->add_option("--epochs", o.training.epochs, "passes over the training points")
+      ->check(CLI::Range(1, 100000));
+  command
+      ->add_option("--time-limit", o.time_limit_s,
+                   "stop after so many seconds of training, as Ctrl-C does: the same command goes on")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--batch", o.training.batch, "points a step, a multiple of 16")
+      ->check(CLI::Range(16, 65536));
+  add_common_options(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,88 @@
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/gl/handle.h"
+#include "sdk/src/core/descriptors.h"
+
+using namespace nook;
+
+namespace {
+
+nook_gl_desc default_gl_desc() {
+  nook_gl_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.header_version = NOOK_VERSION;
+  desc.state_mode = NOOK_GL_STATE_PRESERVE;
+  return desc;
+}
+constexpr std::size_t first_gl_desc = offsetof(nook_gl_desc, state_mode) + sizeof(nook_gl_state_mode);
+constexpr std::size_t first_gl_info = offsetof(nook_gl_info, ao_bytes) + sizeof(std::uint64_t);
+
+void check(const nook_gl_desc& desc) {
+  need(reinterpret_cast<const void*>(desc.get_proc), "desc.get_proc");
+  if (desc.max_tier != 0 && desc.max_tier != 33 && desc.max_tier != 43)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.max_tier is unknown (got %d, need 0, 33 or 43)",
+                  desc.max_tier);
+  if (desc.state_mode < NOOK_GL_STATE_PRESERVE || desc.state_mode > NOOK_GL_STATE_HOST)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.state_mode is unknown (got %d, need 0 to %d)",
+                  desc.state_mode, NOOK_GL_STATE_HOST);
+}
+
+const char* text_of(const GLubyte* text) {
+  return text ? reinterpret_cast<const char*>(text) : "unknown";
+}
+
+}  // namespace
+
+nook_gl_s::nook_gl_s(nook_context_s* made_by, const nook_gl_desc& desc)
+    : device(*made_by, desc),
+      version(text_of(device.gl.GetString(GL_VERSION)), device.memory),
+      renderer(text_of(device.gl.GetString(GL_RENDERER)), device.memory) {
+  device.report_host_errors();
+  guarded([&] {
+    characters.emplace(device);
+    device.check("making shaders and buffers");
+  });
+}
+
+nook_result nook_gl_desc_init(nook_gl_desc* desc, size_t size, uint32_t header_version) {
+  return api::enter("nook_gl_desc_init",
+                    [&] { init_descriptor(desc, size, header_version, first_gl_desc, default_gl_desc()); });
+}
+
+nook_result nook_gl_create(nook_context context, const nook_gl_desc* desc, nook_gl* out) {
+  return api::enter("nook_gl_create", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(context, "context");
+    const nook_gl_desc known = read_descriptor(desc, "nook_gl_desc_init", first_gl_desc, default_gl_desc());
+    check(known);
+    *out = Owned<nook_gl_s>::make(context->memory(), Ref<nook_context_s>::share(context), context, known)
+               .detach();
+  });
+}
+
+void nook_gl_destroy(nook_gl* gl) {
+  if (!gl || !*gl) return;
+  (*gl)->release();
+  *gl = nullptr;
+}
+
+nook_result nook_gl_context_lost(nook_gl gl) {
+  return api::enter("nook_gl_context_lost", [&] {
+    need(gl, "gl");
+    gl->device.lost = true;
+    gl->characters.reset();
+  });
+}
+
+nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info) {
+  return api::enter("nook_gl_describe", [&] {
+    need(gl, "gl");
+    nook_gl_info known{};
+    known.tier = gl->device.gl.tier;
+    known.version = gl->version.c_str();
+    known.renderer = gl->renderer.c_str();
+    known.buffer_bytes = gl->device.buffer_bytes;
+    known.ao_bytes = gl->device.ao_bytes;
+    write_info(info, first_gl_info, known);
+  });
+}

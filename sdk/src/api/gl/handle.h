@@ -1,0 +1,32 @@
+// The object behind the handle nook_gl.
+#pragma once
+
+#include <nook/nook_gl.h>
+
+#include <string>
+
+#include "sdk/src/api/handles.h"
+#include "sdk/src/gl/character/character_gl.h"
+#include "sdk/src/gl/state_guard.h"
+
+struct nook_gl_s : nook::RefCounted {
+  nook_gl_s(nook_context_s* made_by, const nook_gl_desc& desc);
+
+  // Runs body with the OpenGL state of these users, see touched_state.h, kept as promised at creation.
+  template <class Body>
+  void guarded(unsigned users, Body&& body) {
+    device.need_alive();
+    const nook::gl::StateGuard guard(device.gl, device.state_mode, users);
+    body();
+  }
+  // Of evaluating characters.
+  template <class Body>
+  void guarded(Body&& body) {
+    guarded(nook::gl::character_users(device.gl), std::forward<Body>(body));
+  }
+
+  nook::gl::Device device;
+  std::pmr::string version;
+  std::pmr::string renderer;
+  std::optional<nook::gl::CharacterGl> characters;
+};

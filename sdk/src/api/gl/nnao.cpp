@@ -1,0 +1,185 @@
+#include <nook/nook_nnao.h>
+
+#include <cmath>
+
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/gl/handle.h"
+#include "sdk/src/core/descriptors.h"
+#include "sdk/src/gl/nnao/pass.h"
+#include "sdk/src/nnao/network_file.h"
+#include "sdk/src/nnao/taps.h"
+
+using namespace nook;
+
+// The OpenGL half's objects outlive the handle nook_gl through this object's owner reference.
+struct nook_nnao_s : RefCounted {
+  nook_nnao_s(nook_gl_s* made_by, const nook_nnao_desc& known, const nnao::Network& network)
+      : gl(made_by), desc(known), horizon_form(network.form == nnao::NetworkForm::horizon) {
+    gl->device.report_host_errors();
+    gl->guarded(gl::screen, [&] { pass.emplace(gl->device, known, network); });
+  }
+
+  // Of the state that a frame touches.
+  unsigned users() const {
+    return pass->path() == NOOK_NNAO_PATH_COMPUTE ? gl::screen | gl::screen_compute : gl::screen;
+  }
+
+  nook_gl_s* gl;
+  nook_nnao_desc desc;
+  bool horizon_form;
+  std::optional<gl::NnaoPass> pass;
+};
+
+namespace {
+
+nook_nnao_desc default_desc() {
+  nook_nnao_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.header_version = NOOK_VERSION;
+  desc.taps = 64;
+  desc.blur = 1;
+  desc.blur_sharpness = 16;
+  return desc;
+}
+constexpr std::size_t first_desc = offsetof(nook_nnao_desc, network_size) + sizeof(std::size_t);
+
+nook_nnao_frame_desc default_frame() {
+  nook_nnao_frame_desc frame{};
+  frame.struct_size = sizeof frame;
+  frame.header_version = NOOK_VERSION;
+  frame.normal_scale = 1;
+  frame.normal_matrix[0] = frame.normal_matrix[4] = frame.normal_matrix[8] = 1;
+  frame.intensity = frame.power = 1;
+  return frame;
+}
+constexpr std::size_t first_frame = offsetof(nook_nnao_frame_desc, view) + sizeof(nook_nnao_view);
+constexpr std::size_t first_info = offsetof(nook_nnao_info, horizon_form) + sizeof(std::int32_t);
+constexpr std::size_t first_timings = offsetof(nook_nnao_timings, total) + sizeof(float);
+
+void check_switch(const char* field, std::int32_t value) {
+  if (value != 0 && value != 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is neither on nor off (got %d, need 0 or 1)", field,
+                  value);
+}
+
+nook_nnao_desc checked(const nook_nnao_desc* given) {
+  const nook_nnao_desc desc = read_descriptor(given, "nook_nnao_desc_init", first_desc, default_desc());
+  constexpr int largest = 16384;
+  if (desc.max_width < 1 || desc.max_height < 1 || desc.max_width > largest || desc.max_height > largest)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.max_width and desc.max_height are out of range (got %d x %d, need 1 x 1 to %d x %d)",
+                  desc.max_width, desc.max_height, largest, largest);
+  if (desc.taps < 0 || nnao::horizon_grid(static_cast<std::uint32_t>(desc.taps)).steps == 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.taps is unknown (got %d, need 16, 32, 64, 128 or 256)",
+                  desc.taps);
+  check_switch("half_resolution", desc.half_resolution);
+  check_switch("blur", desc.blur);
+  check_switch("timers", desc.timers);
+  if (!(desc.blur_sharpness > 0) || !std::isfinite(desc.blur_sharpness))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.blur_sharpness is out of range (got %g, need more than 0)",
+                  double(desc.blur_sharpness));
+  if (desc.path < NOOK_NNAO_PATH_AUTOMATIC || desc.path > NOOK_NNAO_PATH_COMPUTE)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.path is unknown (got %d, need 0 to %d)", desc.path,
+                  NOOK_NNAO_PATH_COMPUTE);
+  if (!desc.network && desc.network_size != 0)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.network is NULL with desc.network_size %zu; give the bytes, or 0 for the embedded network",
+        desc.network_size);
+  return desc;
+}
+
+std::span<const std::byte> network_bytes(const nook_nnao_desc& desc) {
+  if (!desc.network) return nnao::default_network_file();
+  return {static_cast<const std::byte*>(desc.network), desc.network_size};
+}
+
+template <class Body>
+nook_result with_pass(const char* function, nook_nnao pass, Body&& body) noexcept {
+  return api::enter(function, [&] {
+    need(pass, "pass");
+    body();
+  });
+}
+
+}  // namespace
+
+nook_result nook_nnao_desc_init(nook_nnao_desc* desc, size_t size, uint32_t header_version) {
+  return api::enter("nook_nnao_desc_init",
+                    [&] { init_descriptor(desc, size, header_version, first_desc, default_desc()); });
+}
+
+nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes) {
+  return api::enter("nook_nnao_memory", [&] {
+    need(bytes, "bytes");
+    *bytes = gl::texture_bytes(checked(desc));
+  });
+}
+
+nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, nook_nnao* out) {
+  return api::enter("nook_nnao_create", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(gl, "gl");
+    gl->device.need_alive();
+    const nook_nnao_desc known = checked(desc);
+    const nnao::Network network = nnao::read_network(network_bytes(known), gl->device.memory);
+    *out =
+        Owned<nook_nnao_s>::make(gl->device.memory, Ref<nook_gl_s>::share(gl), gl, known, network).detach();
+  });
+}
+
+void nook_nnao_destroy(nook_nnao* pass) {
+  if (!pass || !*pass) return;
+  (*pass)->release();
+  *pass = nullptr;
+}
+
+nook_result nook_nnao_frame_desc_init(nook_nnao_frame_desc* desc, size_t size, uint32_t header_version) {
+  return api::enter("nook_nnao_frame_desc_init",
+                    [&] { init_descriptor(desc, size, header_version, first_frame, default_frame()); });
+}
+
+nook_result nook_nnao_render(nook_nnao pass, const nook_nnao_frame_desc* frame) {
+  return with_pass("nook_nnao_render", pass, [&] {
+    const nook_nnao_frame_desc known =
+        read_descriptor(frame, "nook_nnao_frame_desc_init", first_frame, default_frame());
+    gl::check_frame(known, pass->desc);
+    pass->gl->guarded(pass->users(), [&] { pass->pass->render(known); });
+  });
+}
+
+nook_result nook_nnao_recheck(nook_nnao pass) {
+  return with_pass("nook_nnao_recheck", pass, [&] { pass->pass->recheck(); });
+}
+
+nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info) {
+  return with_pass("nook_nnao_describe", pass, [&] {
+    nook_nnao_info known{};
+    known.texture = pass->pass->ao_texture();
+    known.texture_bytes = gl::texture_bytes(pass->desc);
+    known.taps = pass->desc.taps;
+    known.horizon_form = pass->horizon_form;
+    known.path = pass->pass->path();
+    write_info(info, first_info, known);
+  });
+}
+
+nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* timings) {
+  return with_pass("nook_nnao_read_timings", pass, [&] {
+    nook_nnao_timings known{};
+    std::optional<gl::StageTimer::Milliseconds> stages;
+    if (pass->pass->timer())
+      pass->gl->guarded(gl::screen_timers, [&] { stages = pass->pass->timer()->newest(); });
+    if (stages) {
+      known.valid = 1;
+      known.normals = (*stages)[0];
+      known.occlusion = (*stages)[1];
+      known.blur = (*stages)[2];
+      known.resolve = (*stages)[3];
+      known.total = known.normals + known.occlusion + known.blur + known.resolve;
+    }
+    write_info(timings, first_timings, known);
+  });
+}

@@ -1,0 +1,120 @@
+// Image files as environment maps: what comes through, and what is refused with which words.
+#include "bakers/images/environment_file.h"
+
+#include <OpenImageIO/imageio.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
+
+using namespace nook;
+using namespace nook::bake::probe;
+
+namespace {
+
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / ("nook maps " + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::filesystem::path write(const std::string& name, int width, int height, int channels,
+                              OIIO::TypeDesc type, const std::vector<float>& values) const {
+    const std::filesystem::path path = path_ / name;
+    const auto out = OIIO::ImageOutput::create(path.string());
+    REQUIRE(out);
+    REQUIRE(out->open(path.string(), OIIO::ImageSpec(width, height, channels, type)));
+    REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+    REQUIRE(out->close());
+    return path;
+  }
+  std::filesystem::path write_text(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+  std::filesystem::path path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// 8 x 4 texels, each another value, a bright one and a negative one.
+std::vector<float> values_of(int channels) {
+  std::vector<float> values;
+  for (int i = 0; i < 8 * 4 * channels; ++i) values.push_back(0.5f + 0.0625f * float(i % 16));
+  values[5] = 3000;
+  values[7] = -1;
+  return values;
+}
+
+std::string failure_of(const std::filesystem::path& path) {
+  try {
+    read_environment(path);
+  } catch (const Failure& failure) {
+    CHECK(failure.code() == NOOK_ERROR_BAD_FILE);
+    return failure.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("radiance comes through .exr exactly and through .hdr to a 256th") {
+  const Folder folder;
+  std::vector<float> expected = values_of(3);
+  expected[7] = 0;  // negative light does not exist
+  for (OIIO::TypeDesc type : {OIIO::TypeDesc(OIIO::TypeDesc::FLOAT), OIIO::TypeDesc(OIIO::TypeDesc::HALF)}) {
+    const nook::bake::Environment map = read_environment(folder.write("a.exr", 8, 4, 3, type, values_of(3)));
+    CHECK(map.width() == 8);
+    CHECK(map.height() == 4);
+    CHECK(std::equal(expected.begin(), expected.end(), map.rgb().begin(), map.rgb().end()));
+  }
+  const nook::bake::Environment map =
+      read_environment(folder.write("a.hdr", 8, 4, 3, OIIO::TypeDesc::FLOAT, expected));
+  for (std::size_t t = 0; t < map.texel_count(); ++t) {
+    // RGBE keeps 8 bits of the largest channel of each texel.
+    float largest = 0;
+    for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, expected[3 * t + c]);
+    for (std::size_t c = 0; c < 3; ++c)
+      CHECK(std::abs(map.rgb()[3 * t + c] - expected[3 * t + c]) <= largest / 128);
+  }
+  CHECK(read_environment(folder.write("b.exr", 8, 4, 4, OIIO::TypeDesc::FLOAT, values_of(4))).width() == 8);
+}
+
+TEST_CASE("images that are no maps of radiance are refused") {
+  const Folder folder;
+  const std::vector<float> values = values_of(3);
+  CHECK(failure_of(folder.write("a.png", 8, 4, 3, OIIO::TypeDesc::UINT8, values))
+            .find("png image of uint8 values") != std::string::npos);
+  CHECK(failure_of(folder.write("square.exr", 4, 4, 3, OIIO::TypeDesc::FLOAT, values)).find("4 x 4 pixels") !=
+        std::string::npos);
+  CHECK(failure_of(folder.write("grey.exr", 8, 4, 1, OIIO::TypeDesc::FLOAT, values)).find("1 channels") !=
+        std::string::npos);
+  std::vector<float> broken = values;
+  broken[1] = std::nanf("");
+  broken[2] = std::numeric_limits<float>::infinity();
+  CHECK(failure_of(folder.write("nan.exr", 8, 4, 3, OIIO::TypeDesc::FLOAT, broken)).find("2 of its values") !=
+        std::string::npos);
+  CHECK(failure_of(folder.write_text("text.hdr", "not an image")).find("cannot be read as an image") !=
+        std::string::npos);
+  CHECK_FALSE(failure_of(folder.write_text("empty.exr", "")).empty());
+  CHECK_FALSE(failure_of(folder.path() / "missing.hdr").empty());
+  CHECK_FALSE(failure_of(folder.path()).empty());
+}
+
+TEST_CASE("damaged images are refused at any length") {
+  const Folder folder;
+  for (const char* name : {"a.exr", "a.hdr"}) {
+    std::ifstream file(folder.write(name, 8, 4, 3, OIIO::TypeDesc::FLOAT, values_of(3)), std::ios::binary);
+    const std::string whole{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    for (std::size_t size = 0; size + 16 < whole.size(); size += 37)
+      CHECK_FALSE(failure_of(folder.write_text(std::string("cut-") + name, whole.substr(0, size))).empty());
+  }
+}

@@ -1,0 +1,185 @@
+#include <OpenImageIO/imageio.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "bakers/images/ubo_names.h"
+#include "bakers/images/ubo_reader.h"
+#include "bakers/material/directions.h"
+#include "sdk/src/core/failure.h"
+#include "tests/catch.h"
+
+using namespace nook;
+using namespace nook::bake::material;
+namespace fs = std::filesystem;
+
+namespace {
+
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "nook ubo XXXXXX").string();
+    path = mkdtemp(pattern.data());
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  fs::path path;
+};
+
+void write_image(const fs::path& path, int width, int height, const std::vector<float>& rgb) {
+  const auto out = OIIO::ImageOutput::create(path.string());
+  REQUIRE(out);
+  OIIO::ImageSpec spec(width, height, 3,
+                       path.extension() == ".exr" ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+  REQUIRE(out->open(path.string(), spec));
+  REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, rgb.data()));
+  out->close();
+}
+
+std::string name_of(int tl, int pl, int tv, int pv, const char* ending = ".exr") {
+  char text[80];
+  std::snprintf(text, sizeof text, "00007_tl%03d_pl%03d_tv%03d_pv%03d%s", tl, pl, tv, pv, ending);
+  return text;
+}
+
+// Two lights, three views; every texel tells where it belongs.
+constexpr int light_angles[2][2] = {{0, 0}, {30, 120}}, view_angles[3][2] = {{0, 0}, {30, 60}, {60, 180}};
+void write_small_set(const fs::path& folder) {
+  for (int l = 0; l < 2; ++l)
+    for (int v = 0; v < 3; ++v) {
+      const fs::path place = folder / ("tv" + std::to_string(v));
+      fs::create_directories(place);
+      std::vector<float> rgb;
+      for (int i = 0; i < 4 * 6; ++i)
+        for (int c = 0; c < 3; ++c)
+          rgb.push_back(0.01f * float(i) + 0.25f * float(c) + float(l) + 2 * float(v));
+      write_image(
+          place / name_of(light_angles[l][0], light_angles[l][1], view_angles[v][0], view_angles[v][1]), 4, 6,
+          rgb);
+    }
+}
+
+std::string refusal(const fs::path& folder, std::uint32_t texels = 0) {
+  try {
+    read_ubo_folder(folder, texels);
+  } catch (const Failure& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("names tell directions in any order, and those that do not are refused") {
+  const auto a = parse_ubo_name("00012_tl015_pl060_tv030_pv090.png");
+  REQUIRE(a);
+  CHECK((a->light_tilt == 15 && a->light_azimuth == 60 && a->view_tilt == 30 && a->view_azimuth == 90));
+  const auto b = parse_ubo_name("wool pv1.5 tv 2 tl3 pl4.exr");
+  CHECK(!b);  // no number behind tv
+  const auto c = parse_ubo_name("wool-pv1.5-tv2-tl3-pl4.exr");
+  REQUIRE(c);
+  CHECK((c->view_azimuth == 1.5f && c->light_azimuth == 4));
+  CHECK(!parse_ubo_name("tl1_pl2_tv3.png"));
+  CHECK(!parse_ubo_name("tl1_tl2_pl2_tv3_pv4.png"));
+  CHECK(!parse_ubo_name("xtl1_pl2_tv3_pv4.png"));
+}
+
+TEST_CASE("a grid of names is ordered by tilt and azimuth; gaps and doubles are named") {
+  std::vector<std::string> names;
+  for (const auto& v : view_angles)
+    for (const auto& l : light_angles) names.push_back(name_of(l[0], l[1], v[0], v[1]));
+  const UboGrid grid = arrange_ubo_names(names);
+  REQUIRE(grid.lights.size() == 2);
+  REQUIRE(grid.views.size() == 3);
+  CHECK(grid.image[1 * 3 + 2] == 5);
+  CHECK(length(grid.views[1] - direction_from_angles(30, 60)) < 1e-6f);
+
+  const auto message = [](const std::vector<std::string>& list) {
+    try {
+      arrange_ubo_names(list);
+    } catch (const Failure& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  std::vector<std::string> gap = names;
+  gap.erase(gap.begin() + 3);
+  CHECK(message(gap).find("tl 30, pl 120, tv 30, pv 60 (1 of 6") != std::string::npos);
+  std::vector<std::string> twice = names;
+  twice.push_back(name_of(0, 90, 60, 180));  // an azimuth at tilt 0 is no direction of its own
+  CHECK(message(twice).find("same directions") != std::string::npos);
+  std::vector<std::string> odd = names;
+  odd.push_back("readme_first.png");
+  CHECK(message(odd).find("readme_first.png") != std::string::npos);
+  CHECK(message({}).find("no images") != std::string::npos);
+}
+
+TEST_CASE("a measured folder becomes a raw material, y up, linear") {
+  const Folder folder;
+  write_small_set(folder.path);
+  const RawMaterial raw = read_ubo_folder(folder.path, 0);
+  REQUIRE((raw.width == 4 && raw.height == 6 && raw.lights.size() == 2 && raw.views.size() == 3 &&
+           raw.mask.empty()));
+  for (std::size_t l = 0; l < 2; ++l)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t v = 0; v < 3; ++v)
+        for (std::size_t x = 0; x < 4; ++x)
+          for (std::size_t y = 0; y < 6; ++y) {
+            const std::size_t pixel = (5 - y) * 4 + x;  // images begin at the top
+            const float wanted = 0.01f * float(pixel) + 0.25f * float(c) + float(l) + 2 * float(v);
+            // Half floats of up to 8.
+            REQUIRE(raw.btf[(((3 * l + c) * 3 + v) * 4 + x) * 6 + y] == Approx(wanted).margin(0.003));
+          }
+  const RawMaterial square = read_ubo_folder(folder.path, 2);
+  REQUIRE((square.width == 2 && square.height == 2));
+  CHECK(square.btf[0] == Approx(0.01f * float(3 * 4 + 1)).margin(1e-3));
+}
+
+TEST_CASE("8-bit images are taken as sRGB") {
+  const Folder folder;
+  const std::vector<float> grey(3 * 4, 128 / 255.0f);
+  write_image(folder.path / name_of(0, 0, 0, 0, ".png"), 2, 2, grey);
+  // IEC 61966-2-1: 128 / 255 is 0.2159 linear.
+  CHECK(read_ubo_folder(folder.path, 0).btf[0] == Approx(0.2159).margin(2e-4));
+}
+
+TEST_CASE("faults of a measured folder are named") {
+  const Folder folder;
+  CHECK(refusal(folder.path / "nowhere").find("cannot be read") != std::string::npos);
+  CHECK(refusal(folder.path).find("no images") != std::string::npos);
+  write_small_set(folder.path);
+  CHECK(refusal(folder.path, 5).find("5 texels") != std::string::npos);
+  const fs::path target = folder.path / "tv1" / name_of(30, 120, 30, 60);
+  SECTION("another size") {
+    write_image(target, 4, 5, std::vector<float>(3 * 20, 0.5f));
+    const std::string text = refusal(folder.path);
+    CHECK(text.find(target.filename().string()) != std::string::npos);
+    CHECK(text.find("4 x 5") != std::string::npos);
+  }
+  SECTION("not a number") {
+    std::vector<float> rgb(3 * 24, 0.5f);
+    rgb[3 * (2 * 4 + 3) + 1] = std::nanf("");
+    write_image(target, 4, 6, rgb);
+    const std::string text = refusal(folder.path);
+    CHECK(text.find(target.filename().string()) != std::string::npos);
+    CHECK(text.find("texel (3, 2)") != std::string::npos);
+  }
+  SECTION("no image inside") {
+    std::ofstream(target) << "not an image";
+    CHECK(refusal(folder.path).find(target.filename().string()) != std::string::npos);
+  }
+  SECTION("missing") {
+    fs::remove(target);
+    CHECK(refusal(folder.path).find("tl 30, pl 120, tv 30, pv 60") != std::string::npos);
+  }
+  SECTION("too large") {
+    CHECK_THROWS_AS(read_ubo_folder(folder.path, 0, {}, 1000), Failure);
+  }
+  SECTION("stopped") {
+    CHECK_THROWS_AS(read_ubo_folder(folder.path, 0, [](std::size_t, std::size_t) { return false; }), Failure);
+  }
+}

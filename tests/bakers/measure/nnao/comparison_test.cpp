@@ -1,0 +1,69 @@
+// All methods over one small view.
+#include "bakers/measure/nnao/comparison.h"
+
+#include <cmath>
+#include <set>
+
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/measure/nnao/small_scenes.h"
+#include "tests/catch.h"
+
+using namespace nook;
+using namespace nook::measure;
+using namespace nook::test;
+
+namespace {
+
+MeasuredView measured_corner() {
+  TruthSettings settings;
+  settings.width = width;
+  settings.height = height;
+  settings.rays = 64;
+  return measure_view(bake::RayScene(corner()), "corner", camera(), settings);
+}
+
+}  // namespace
+
+TEST_CASE("a slid image shows the same surfaces one pixel aside") {
+  const MeasuredView measured = measured_corner();
+  for (std::size_t i = 0; i + 1 < measured.view.depth.size(); ++i)
+    if (i % width != width - 1)
+      REQUIRE(std::abs(measured.slid.depth[i] - measured.view.depth[i + 1]) < 1e-4f);  // rounding of rays
+}
+
+TEST_CASE("the truth's noise is what its rays promise") {
+  // A mean of 64 stratified yes-or-no rays: below the 1/4 / 64 of independent ones, above none.
+  const MeasuredView measured = measured_corner();
+  CHECK(measured.noise > 0);
+  CHECK(measured.noise < 0.25 / 64);
+}
+
+TEST_CASE("a comparison has every method blurred and raw, with sane numbers") {
+  const auto context = make_context();
+  const MeasuredView measured = measured_corner();
+  ComparisonSettings settings;
+  settings.request.max_radius_px = 0.5f * float(height);
+  const Comparison comparison = compare(
+      *context, {&measured, 1}, settings,
+      [](const std::string& method, int taps) { return method == "nnao" && taps == 16; },
+      [](std::size_t, std::size_t) { return true; });
+  CHECK(comparison.rows.size() == 2 * (5 + baseline_methods().size()));
+  REQUIRE(comparison.images.size() == 1);
+  CHECK(comparison.images[0].ao.size() == measured.truth.size());
+  std::set<std::string> names;
+  for (const ComparisonRow& row : comparison.rows) {
+    INFO(row.method << ' ' << row.taps << ' ' << row.blurred);
+    names.insert(row.method);
+    CHECK(row.mse > 0);
+    CHECK(row.mse < 0.3);
+    CHECK(row.ssim <= 1);
+    CHECK(row.flicker >= 0);
+    CHECK(row.fetches >= row.taps);
+    CHECK(row.ms > 0);
+  }
+  CHECK(names.size() == 6);
+  CHECK_THROWS_AS(compare(
+                      *context, {&measured, 1}, settings, [](const std::string&, int) { return false; },
+                      [](std::size_t, std::size_t) { return false; }),
+                  Failure);
+}

@@ -1,0 +1,52 @@
+// The grid search finds the tuning that made its own truth.
+#include "bakers/measure/nnao/tuning.h"
+
+#include <cmath>
+
+#include "tests/bakers/measure/nnao/small_scenes.h"
+#include "tests/catch.h"
+
+using namespace nook;
+using namespace nook::measure;
+using namespace nook::test;
+
+TEST_CASE("the table of tunings is a row for each method of the comparison") {
+  int count[5] = {};
+  for (const BaselineMethod& method : baseline_methods()) {
+    ++count[int(method.baseline)];
+    const BaselineGrid grid = baseline_grid(method.baseline, method.taps);
+    const int halves = method.baseline == Baseline::gtao || method.baseline == Baseline::bitmask ? 2 : 1;
+    CHECK(grid.groups * grid.steps * halves == method.taps);
+    CHECK(method.tuning.radius_scale > 0);
+    CHECK(method.tuning.power > 0);
+  }
+  CHECK(count[0] == 3);
+  CHECK(count[1] == 3);
+  CHECK(count[2] == 3);
+  CHECK(count[3] == 6);
+  CHECK(count[4] == 6);
+}
+
+TEST_CASE("tuning never ends above where it began, and a planted truth is found") {
+  const auto context = make_context();
+  MeasuredView measured;
+  measured.radius = 0.5f;
+  measured.view = traced(corner(), camera());
+  const BaselineMethod planted{Baseline::ssao_plus, 16, {0.8f, 1.6f, 0.03f, false}};
+  {
+    BaselinePass pass(context->gl(), width, height);
+    const GpuView images(context->gl(), measured.view);
+    AoRequest request;
+    request.radius = measured.radius;
+    request.max_radius_px = 0.5f * float(height);
+    const GLuint texture = pass.draw(planted, images, request, true);
+    measured.truth = read_red(context->gl(), texture, width, height);
+  }
+  const BaselineMethod start{Baseline::ssao_plus, 16, {1.26f, 1.0f, 0.1f, false}};
+  const std::vector<TunedBaseline> tuned =
+      tune_baselines(*context, {&measured, 1}, {&start, 1}, [](std::size_t, std::size_t) { return true; });
+  REQUIRE(tuned.size() == 1);
+  // The corner alone is matched by neighbours on the grid nearly as well: a level of 8 bits, squared, four
+  // times.
+  CHECK(tuned[0].mse < 4.0 / (255 * 255));
+}

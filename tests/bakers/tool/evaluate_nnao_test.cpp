@@ -1,0 +1,129 @@
+// nook evaluate nnao as a user runs it, on the built-in scene and on files.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/bakers/tool/tool_run.h"
+#include "tests/catch.h"
+
+namespace {
+
+std::vector<std::string> tiny(std::vector<std::string> scene, const TestFolder& folder) {
+  std::vector<std::string> arguments{"evaluate", "nnao"};
+  arguments.insert(arguments.end(), scene.begin(), scene.end());
+  for (const char* word : {"--size", "64x48", "--rays", "16", "--report"}) arguments.push_back(word);
+  arguments.push_back(folder.path("r.json"));
+  return arguments;
+}
+
+// A floor of 4 m x 4 m and a wall along one side: 6 positions, 12 indices.
+const std::string corner_gltf =
+    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+    R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)"
+    R"("accessors":[{"bufferView":0,"componentType":5126,"count":6,"type":"VEC3","min":[-2,0,-2],"max":[2,2,2]},)"
+    R"({"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}],)"
+    R"("bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":72},{"buffer":0,"byteOffset":72,"byteLength":24}],)"
+    R"("buffers":[{"byteLength":96,"uri":"data:application/octet-stream;base64,)"
+    "AAAAwAAAAAAAAADAAAAAQAAAAAAAAADAAAAAQAAAAAAAAABAAAAAwAAAAAAAAABAAAAAwAAAAEAAAADAAAAAQAAAAE"
+    "AAAADAAAACAAEAAAADAAIAAAABAAUAAAAFAAQA"
+    R"("}]})";
+
+}  // namespace
+
+TEST_CASE("evaluate nnao measures every method on the thin scene and draws a sheet") {
+  const TestFolder folder;
+  auto arguments = tiny({"--thin", "--camera=0.6,1.1,1.6,0.2,0.4,-0.7,55"}, folder);
+  arguments.insert(arguments.end(), {"--images", folder.path("sheets")});
+  const ToolRun run = folder.run(arguments);
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  CHECK(run.out.find("gtao_bitmask") != std::string::npos);
+  CHECK(folder.names() == std::vector<std::string>{"r.json", "sheets"});
+  for (const char* picture : {"thin_0", "thin_0_equal_fetches", "nnao_filters", "thin_0_nnao_units"})
+    CHECK(read_text(folder.path("sheets/" + std::string(picture) + ".png")).substr(1, 3) == "PNG");
+  const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
+  CHECK(report.at("scenes").at(0).at("noise_floor_mse") > 0);
+  REQUIRE(report.at("rows").size() == 2 * (5 + 3 + 3 + 3 + 6 + 6));
+  for (const auto& row : report.at("rows"))
+    for (const char* key : {"method", "taps", "blurred", "scene", "resolution", "gpu", "mse", "rmse", "ssim",
+                            "r", "border_bias", "flicker", "fetches", "ms", "ratio_to_nnao"})
+      CHECK(row.contains(key));
+  CHECK(report.at("rows").at(0).at("resolution") == "64x48");
+  REQUIRE(report.at("borders").size() == 5 + 3 + 3 + 3 + 6 + 6);
+  for (const char* border : {"left", "right", "bottom", "top"})
+    CHECK(report.at("borders").at(0).at(border).size() == 3);
+}
+
+TEST_CASE("evaluate nnao tells of several scenes each and their mean, with another network beside") {
+  const TestFolder folder;
+  write_text(folder.path("corner.gltf"), corner_gltf);
+  REQUIRE(folder
+              .run({"train", "nnao", "--form", "paper", "-o", folder.path("paper.nook"), "--scenes", "20",
+                    "--views", "20", "--points", "16", "--rays", "4", "--epochs", "1"})
+              .exit_code == 0);
+  auto arguments = tiny({folder.path("corner.gltf"), "--thin", "--camera=thin:0.6,1.1,1.6,0.2,0.4,-0.7,55",
+                         "--camera=corner:0,1.5,1.5,0,0,-2,60", "--radius=corner:0.8"},
+                        folder);
+  arguments.insert(arguments.end(),
+                   {"--markdown", folder.path("t.md"), "--network", folder.path("paper.nook")});
+  const ToolRun run = folder.run(arguments);
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
+  const auto& rows = report.at("rows");
+  const std::size_t methods = 2 * (5 + 5 + 3 + 3 + 3 + 6 + 6);
+  REQUIRE(rows.size() == 3 * methods);
+  for (std::size_t i = 0; i < methods; ++i) {
+    const auto &corner = rows.at(i), &thin = rows.at(methods + i), &mean = rows.at(2 * methods + i);
+    CHECK(corner.at("scene") == "corner");
+    CHECK(thin.at("scene") == "thin");
+    CHECK(mean.at("scene") == "mean");
+    CHECK(mean.at("method") == corner.at("method"));
+    const double sum = corner.at("mse").get<double>() + thin.at("mse").get<double>();
+    CHECK(std::abs(mean.at("mse").get<double>() - sum / 2) < 1e-12);
+  }
+  CHECK(rows.at(10).at("method") == "nnao_paper");
+  CHECK(std::abs(report.at("scenes").at(0).at("radius").get<double>() - 0.8) < 1e-6);
+  CHECK(std::abs(report.at("scenes").at(1).at("radius").get<double>() - 0.5) < 1e-6);
+  const std::string markdown = read_text(folder.path("t.md"));
+  CHECK(markdown.find("| method | taps | corner | thin | mean |\n") == 0);
+  CHECK(markdown.find("| nnao | 64 | no |") != std::string::npos);
+}
+
+TEST_CASE("evaluate nnao measures chosen methods alone") {
+  const TestFolder folder;
+  auto arguments = tiny({"--thin", "--cameras", "1", "--methods", "nnao,hbao"}, folder);
+  REQUIRE(folder.run(arguments).exit_code == 0);
+  const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
+  REQUIRE(report.at("rows").size() == 2 * (5 + 3));
+  for (const auto& row : report.at("rows")) CHECK((row.at("method") == "nnao" || row.at("method") == "hbao"));
+  CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "other"}).exit_code == 2);
+  // No file, no method of that name.
+  CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "nnao_paper"}).exit_code == 2);
+}
+
+TEST_CASE("evaluate nnao refuses bad arguments and bad scenes, and leaves no half file") {
+  const TestFolder folder;
+  CHECK(folder.run({"evaluate", "nnao"}).exit_code == 2);
+  CHECK(folder.run({"evaluate", "nnao", "--thin", "--tune", "all"}).exit_code == 2);
+  CHECK(folder.run({"evaluate", "nnao", "--tune", "other"}).exit_code == 2);
+  CHECK(folder.run({"evaluate", "nnao", "--thin", "--radius", "-1"}).exit_code == 2);
+  for (const char* size : {"0x10", "640", "640x360x3", "99999x16"})
+    CHECK(folder.run({"evaluate", "nnao", "--thin", "--size", size}).exit_code == 2);
+  for (const char* camera :
+       {"1,2,3", "0,0,0,0,0,0,60", "0,0,1,0,0,0,0", "nan,0,1,0,0,0,60", "0,0,1,0,0,0,60,1"})
+    CHECK(folder.run({"evaluate", "nnao", "--thin", std::string("--camera=") + camera}).exit_code == 2);
+  for (const char* word :
+       {"--camera=other:0,0,1,0,0,0,60", "--radius=other:1", "--radius=thin:0", "--radius=1m"})
+    CHECK(folder.run({"evaluate", "nnao", "--thin", word}).exit_code == 2);
+  CHECK(folder.run({"evaluate", "nnao", "a/room.glb", "b/room.glb"}).exit_code == 2);
+  CHECK(folder.run(tiny({folder.path("none.glb")}, folder)).exit_code == 3);
+  write_text(folder.path("bad.glb"), "glTF nonsense");
+  const ToolRun run = folder.run(tiny({folder.path("bad.glb")}, folder));
+  CHECK(run.exit_code == 3);
+  CHECK(run.error.find("bad.glb") != std::string::npos);
+  write_text(folder.path("bad.nook"), "not a network");
+  auto arguments = tiny({"--thin", "--cameras", "1"}, folder);
+  arguments.insert(arguments.end(), {"--network", folder.path("bad.nook")});
+  CHECK(folder.run(arguments).exit_code == 3);
+  CHECK(folder.names() == std::vector<std::string>{"bad.glb", "bad.nook"});
+}

@@ -1,0 +1,185 @@
+#include <nlohmann/json.hpp>
+
+#include "tests/bakers/tool/glb_tube.h"
+#include "tests/bakers/tool/tool_run.h"
+#include "tests/catch.h"
+
+namespace {
+
+using Names = std::vector<std::string>;
+using Json = nlohmann::json;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// A folder with a character of four clips and a model that was fitted to half of them.
+struct Baked {
+  TestFolder folder;
+  std::string glb = folder.path("hero.glb"), model = folder.path("hero.nook"), report = folder.path("r.json");
+
+  explicit Baked(const Names& more = {"--split", "half"}) {
+    write_text(glb, glb_tube({"walk", "run", "jump", "sit"}));
+    Names arguments{"bake",
+                    "character",
+                    glb,
+                    "-o",
+                    model,
+                    "--preset",
+                    "draft",
+                    "--quiet",
+                    "--auto-poses",
+                    "30",
+                    "--samples-per-clip",
+                    "6",
+                    "--rays",
+                    "16",
+                    "--steps",
+                    "100",
+                    "--spheres",
+                    "8",
+                    "--key-points",
+                    "30"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ToolRun run = folder.run(arguments);
+    INFO(run.error);
+    REQUIRE(run.exit_code == 0);
+  }
+  ToolRun evaluate(const Names& more = {}) const {
+    Names arguments{"evaluate", "character", glb, model, "--report", report, "--rays", "64"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return folder.run(arguments);
+  }
+  Json row() const { return Json::parse(read_text(report)).at("rows").at(0); }
+  Json clips() const { return Json::parse(read_text(report)).at("clips"); }
+};
+
+}  // namespace
+
+TEST_CASE("by default the clips that were not fitted are measured, 20 poses each") {
+  const Baked baked;
+  const ToolRun run = baked.evaluate();
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  CHECK(baked.clips() == Names{"run", "walk"});  // jump and sit are first and third in byte order
+  const Json row = baked.row();
+  CHECK(row.at("poses") == 40);
+  CHECK(row.at("protocol") == "unseen clips");
+  for (const char* key :
+       {"vertices", "bones", "spheres", "key_points", "model_bytes", "poses", "rays", "noise_floor_mse",
+        "mse", "rmse", "mse_area", "mse_body", "mse_hands", "mse_static", "mse_area_static", "mse_oracle"}) {
+    INFO(key);
+    CHECK(row.contains(key));
+    CHECK(has(run.out, key));
+  }
+  CHECK(row.at("mse").get<double>() > 0);
+  CHECK(row.at("mse_oracle").get<double>() <=
+        row.at("mse_static").get<double>());  // the oracle is the best static bake
+  CHECK(row.at("model_bytes") == read_text(baked.model).size());
+}
+
+TEST_CASE("named clips, and all of them when all were fitted") {
+  const Baked baked(Names{});
+  REQUIRE(baked.evaluate({"--samples-per-clip", "3"}).exit_code == 0);
+  CHECK(baked.clips() == Names{"jump", "run", "sit", "walk"});
+  CHECK(baked.row().at("protocol") == "all clips");
+  CHECK(baked.row().at("poses") == 12);
+  REQUIRE(baked.evaluate({"--clips", "sit", "--samples-per-clip", "3"}).exit_code == 0);
+  CHECK(baked.clips() == Names{"sit"});
+  const ToolRun unknown = baked.evaluate({"--clips", "fly"});
+  CHECK(unknown.exit_code == 2);
+  CHECK(has(unknown.error, "no clip \"fly\"; the file has these:\n  jump\n  run\n  sit\n  walk"));
+}
+
+TEST_CASE("the training poses can be made again from the model's recipe, for the peers too") {
+  const Baked baked;
+  const ToolRun run = baked.evaluate({"--poses", "training", "--peers"});
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  const Json row = baked.row();
+  CHECK(row.at("poses") == 30 + 2 * 6);
+  // On the poses they were fitted to, regressions of the joint angle beat the mean of those poses.
+  CHECK(row.at("mse_linear_pose").get<double>() < row.at("mse_oracle").get<double>());
+  CHECK(row.at("mse_pose_clusters").get<double>() < row.at("mse_oracle").get<double>());
+  CHECK(row.at("bytes_linear_pose").get<int>() > 0);
+  CHECK(row.at("bytes_pose_clusters").get<int>() > 0);
+}
+
+TEST_CASE("the same evaluation gives the same numbers on any number of threads") {
+  const Baked baked;
+  REQUIRE(baked.evaluate({"--threads", "1", "--peers"}).exit_code == 0);
+  const Json one = baked.row();
+  REQUIRE(baked.evaluate({"--threads", "2", "--peers"}).exit_code == 0);
+  CHECK(baked.row() == one);
+}
+
+TEST_CASE("pictures of the error") {
+  const Baked baked;
+  const ToolRun run =
+      baked.evaluate({"--images", baked.folder.path("pictures"), "--image-count", "2", "--quiet"});
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  for (const char* name : {"pictures/pose_0.png", "pictures/pose_1.png", "pictures/rms.png"})
+    CHECK(read_text(baked.folder.path(name)).substr(1, 3) == "PNG");
+}
+
+TEST_CASE("a neighbour darkens less the farther it is, by each form and by ray tracing") {
+  const Baked baked;
+  const auto rows_with = [&](const char* threads) {
+    const ToolRun run =
+        baked.folder.run({"evaluate", "casters", baked.glb, baked.model, "--report", baked.report, "--rays",
+                          "64", "--bearings", "2", "--poses", "2", "--threads", threads});
+    INFO(run.error);
+    REQUIRE(run.exit_code == 0);
+    CHECK(has(run.out, "darkening_traced"));
+    return Json::parse(read_text(baked.report)).at("rows");
+  };
+  const Json rows = rows_with("1");
+  CHECK(rows == rows_with("2"));
+  REQUIRE(rows.size() == 10);  // five distances, two forms
+  for (std::size_t i = 0; i < rows.size(); i += 2) {
+    const Json &composed = rows[i], &paper = rows[i + 1];
+    CHECK(composed.at("form") == "composed");
+    CHECK(paper.at("form") == "paper");
+    CHECK(composed.at("darkening_traced") == paper.at("darkening_traced"));
+    CHECK(composed.at("darkening").get<double>() > 0);
+    if (i == 0) continue;
+    CHECK(composed.at("distance_m") > rows[i - 2].at("distance_m"));
+    for (const std::size_t form : {i, i + 1})
+      CHECK(rows[form].at("darkening") < rows[form - 2].at("darkening"));
+  }
+  // Between 1 m and 10 m a body's solid angle falls by two orders of magnitude; rays resolve one of them.
+  CHECK(rows[8].at("darkening_traced").get<double>() < 0.1 * rows[0].at("darkening_traced").get<double>());
+}
+
+TEST_CASE("a model of another character is refused") {
+  const Baked baked;
+  SECTION("other clips") {
+    write_text(baked.glb, glb_tube({"walk"}));
+    const ToolRun run = baked.evaluate();
+    CHECK(run.exit_code == 3);
+    CHECK(has(run.error, "hero.nook: the model was baked from a file with other clips"));
+  }
+  SECTION("a damaged model") {
+    std::string bytes = read_text(baked.model);
+    bytes[bytes.size() / 2] ^= 1;
+    write_text(baked.model, bytes);
+    const ToolRun run = baked.evaluate();
+    CHECK(run.exit_code == 3);
+    CHECK(has(run.error, "hero.nook: "));
+  }
+  SECTION("no model") {
+    const ToolRun run =
+        baked.folder.run({"evaluate", "character", baked.glb, baked.folder.path("none.nook")});
+    CHECK(run.exit_code == 3);
+    CHECK(has(run.error, "none.nook: cannot be read"));
+  }
+  SECTION("a report that cannot be written, before any ray is traced") {
+    const ToolRun run = baked.folder.run(
+        {"evaluate", "casters", baked.glb, baked.model, "--report", baked.folder.path("no folder/r.json")});
+    CHECK(run.exit_code != 0);
+    CHECK(has(run.error, "no folder/r.json"));
+    CHECK_FALSE(has(run.error, "ray tracing"));
+  }
+  CHECK(baked.folder.names() == Names{"hero.glb", "hero.nook"});  // no report of what failed
+}
