@@ -8,6 +8,7 @@
 #include "bakers/import/skinning.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "sdk/src/character/kernel.h"
+#include "sdk/src/character/model_check.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -97,7 +98,8 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
   Eigen::VectorXd weight = Eigen::VectorXd::Constant(n, common);
   for (int sweep = 0; sweep < 400; ++sweep)
     for (Eigen::Index h = 0; h < n; ++h)
-      weight[h] = std::max(0.0, weight[h] + (right[h] - gram.row(h).dot(weight)) / gram(h, h));
+      weight[h] = std::clamp(weight[h] + (right[h] - gram.row(h).dot(weight)) / gram(h, h), 0.0,
+                             double(max_coefficient));
   for (std::size_t h = 0; h < spheres; ++h) model.spheres[h].caster_weight = float(weight[Eigen::Index(h)]);
 }
 

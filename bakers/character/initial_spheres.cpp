@@ -8,6 +8,13 @@
 namespace nook::bake {
 namespace {
 
+// A flat bone's spheres stand for patches of a surface, and those of a bone whose vertices lie on a line for
+// stretches of it: as small as its thickness they would cast no shadow at all. These shares of its breadth
+// and length are thinner than any limb, ear or finger.
+float least_radius(const float (&spread)[3]) {
+  return std::max({0.05f * spread[1], 0.02f * spread[2], 1e-4f});
+}
+
 struct BoneShape {
   double area = 0;
   Vec3 mean;
@@ -82,7 +89,7 @@ std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<co
     const auto more = std::size_t(std::floor(carried + 1e-9));
     carried -= double(more);
     const std::size_t count = 1 + more;
-    const float radius = std::max(s.spread[0], 1e-4f);
+    const float radius = std::max(s.spread[0], least_radius(s.spread));
     // Uniform density over a length l has standard deviation l / sqrt(12).
     const float half = 0.5f * std::sqrt(12.0f) * s.spread[2] * (1 - 1 / float(count + 1));
     for (std::size_t j = 0; j < count; ++j) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
+#include "bakers/character/clip_families.h"
 #include "bakers/character/rotation.h"
 
 namespace nook::bake {
@@ -70,15 +72,12 @@ ClipSplit split_clips(std::span<const std::size_t> clips) {
 }
 
 ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips) {
-  const auto family = [&](std::size_t clip) {
-    const std::string_view name = character.clips[clip].name;
-    return name.substr(0, name.find('_'));
-  };
   ClipSplit split;
-  std::size_t families = 0;
-  for (std::size_t i = 0; i < clips.size(); ++i) {
-    families += i > 0 && family(clips[i]) != family(clips[i - 1]);
-    (families % 2 == 0 ? split.fitted : split.measured).push_back(clips[i]);
+  std::map<std::string, std::size_t> number;  // of a family; its clips need not stand together in byte order
+  for (const std::size_t clip : clips) {
+    const std::size_t family =
+        number.emplace(clip_family(character.clips[clip].name), number.size()).first->second;
+    (family % 2 == 0 ? split.fitted : split.measured).push_back(clip);
   }
   return split;
 }

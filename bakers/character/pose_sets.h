@@ -31,8 +31,8 @@ struct ClipSplit {
   std::vector<std::size_t> fitted, measured;
 };
 ClipSplit split_clips(std::span<const std::size_t> clips);
-// The same with families, so that no two parts of one motion are on both sides: clips whose names are alike
-// up to the first underscore. The clips are in byte order of their names.
+// The same with families (clip_families.h) in the order of their first clips, so that no two parts of one
+// motion are on both sides. With one family nothing is measured.
 ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips);
 
 // Joints that move some but not all vertices.

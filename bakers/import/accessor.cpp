@@ -9,7 +9,7 @@
 namespace nook::bake {
 namespace {
 
-// An accessor without a buffer view costs no bytes in the file, so nothing else bounds what it asks for.
+// An accessor without a buffer view costs no bytes in the file, so that nothing else bounds its memory.
 constexpr std::size_t max_elements = std::size_t{1} << 24;
 
 template <typename T>

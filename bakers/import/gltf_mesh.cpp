@@ -68,8 +68,7 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
         sum += weight;
         ++positive;
       }
-    // Exporters round weights to bytes or shorts: 4 x half a step of 1/255 is the most that an honest one is
-    // off.
+    // Exporters round weights to bytes or shorts, which changes the sum by at most 4 x half a step of 1/255.
     if (positive > 0 && std::abs(sum - 1) > 0.01) {
       ++repairs.sums_not_one;
       if (std::abs(sum - 1) > std::abs(repairs.worst_sum - 1)) repairs.worst_sum = sum;

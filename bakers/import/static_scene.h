@@ -1,4 +1,4 @@
-// What stands still in a glTF 2.0 file: every triangle that its default scene shows, where its nodes put it.
+// The static geometry of a glTF 2.0 file: every triangle of its default scene, placed by its nodes.
 #pragma once
 
 #include <array>
@@ -39,9 +39,9 @@ struct StaticScene {
 enum class SceneTextures { skip, read };
 
 // Skins and morph targets are ignored; points and lines are left out. Of materials the base colour, the
-// emission with KHR_materials_emissive_strength, alpha masks and, if asked for, colour textures are read;
-// blended alpha is solid. Fails with BAD_FILE, also where no triangle is shown; the message names the fault,
-// and the caller adds the name of the file.
+// emission with KHR_materials_emissive_strength, alpha masks and, with SceneTextures::read, colour textures
+// are read; blended alpha is solid. Fails with BAD_FILE, also if the scene has no triangle; the message names
+// the fault, and the caller adds the name of the file.
 StaticScene import_static_scene(const std::filesystem::path& path,
                                 SceneTextures textures = SceneTextures::skip);
 

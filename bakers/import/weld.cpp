@@ -8,6 +8,7 @@
 #include <cstring>
 #include <unordered_map>
 
+#include "bakers/import/opposite_faces.h"
 #include "bakers/import/validate.h"
 #include "sdk/src/core/failure.h"
 
@@ -32,9 +33,27 @@ Vec3 without_negative_zero(Vec3 p) {
   return {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};
 }
 
+// Equal numbers for equal positions with equal weights, counted from 0 in the order of their first vertex.
+struct Places {
+  std::vector<std::uint32_t> of_vertex;
+  std::size_t count = 0;
+};
+Places find_places(const FileMesh& file) {
+  Places places;
+  places.of_vertex.reserve(file.position.size());
+  std::unordered_map<WeldKey, std::uint32_t, WeldHash> known;
+  known.reserve(file.position.size());
+  for (std::size_t v = 0; v < file.position.size(); ++v) {
+    const WeldKey key{without_negative_zero(file.position[v]), file.weights[v]};
+    const auto [found, is_new] = known.emplace(key, std::uint32_t(places.count));
+    if (is_new) ++places.count;
+    places.of_vertex.push_back(found->second);
+  }
+  return places;
+}
+
 // Corners on one line within the rounding of float positions: height below 1e-7 of the longest edge.
 bool is_degenerate(const std::vector<Vec3>& position, const std::array<std::uint32_t, 3>& t) {
-  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
   const auto edge = [&](int a, int b) {
     const Vec3 p = position[t[a]];
     const Vec3 q = position[t[b]];
@@ -47,6 +66,29 @@ bool is_degenerate(const std::vector<Vec3>& position, const std::array<std::uint
   const double normal =
       square({a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]});
   return std::sqrt(normal) <= 1e-7 * longest;
+}
+
+// The file's vertices as welded ones, numbered in the order in which the file first has them.
+void weld_vertices(const FileMesh& file, SkinnedMesh& mesh) {
+  const Places places = find_places(file);
+  const std::vector<std::uint32_t> side =
+      sides_of_vertices({file.position, places.of_vertex, places.count, file.triangle});
+  constexpr std::uint32_t none = ~0u;
+  std::vector<std::uint32_t> first(places.count, none);  // of the welded vertices of a place, one a side
+  std::vector<std::uint32_t> next, side_of_welded;
+  mesh.file_to_welded.reserve(file.position.size());
+  for (std::size_t v = 0; v < file.position.size(); ++v) {
+    std::uint32_t* at = &first[places.of_vertex[v]];
+    while (*at != none && side_of_welded[*at] != side[v]) at = &next[*at];
+    if (*at == none) {
+      *at = static_cast<std::uint32_t>(mesh.position.size());
+      mesh.position.push_back(without_negative_zero(file.position[v]));
+      mesh.weights.push_back(file.weights[v]);
+      side_of_welded.push_back(side[v]);
+    }
+    mesh.file_to_welded.push_back(*at);
+    next.resize(mesh.position.size(), none);
+  }
 }
 
 }  // namespace
@@ -117,33 +159,22 @@ SkinnedMesh weld(FileMesh file, std::vector<std::string>& warnings, nook_result 
   validate(file, code);
 
   SkinnedMesh mesh;
-  mesh.bones = std::move(file.bones);
-  mesh.primitives = std::move(file.primitives);
-  mesh.file_to_welded.reserve(file.position.size());
-  std::unordered_map<WeldKey, std::uint32_t, WeldHash> welded;
-  welded.reserve(file.position.size());
-  for (std::size_t v = 0; v < file.position.size(); ++v) {
-    const WeldKey key{without_negative_zero(file.position[v]), file.weights[v]};
-    const auto [found, is_new] = welded.emplace(key, static_cast<std::uint32_t>(mesh.position.size()));
-    if (is_new) {
-      mesh.position.push_back(key.position);
-      mesh.weights.push_back(key.weights);
-    }
-    mesh.file_to_welded.push_back(found->second);
-  }
-
-  mesh.triangle.reserve(file.triangle.size());
-  for (const auto& t : file.triangle) {
-    const std::array<std::uint32_t, 3> w = {mesh.file_to_welded[t[0]], mesh.file_to_welded[t[1]],
-                                            mesh.file_to_welded[t[2]]};
-    if (!is_degenerate(mesh.position, w)) mesh.triangle.push_back(w);
-  }
-  const std::size_t dropped = file.triangle.size() - mesh.triangle.size();
-  if (mesh.triangle.empty())
+  const std::size_t all = file.triangle.size();
+  std::erase_if(file.triangle, [&](const auto& t) { return is_degenerate(file.position, t); });
+  const std::size_t dropped = all - file.triangle.size();
+  if (file.triangle.empty())
     throw Failure(code, "no triangles: all %zu have no area; export the mesh again", dropped);
   if (dropped > 0)
-    warnings.push_back(std::to_string(dropped) + " of " + std::to_string(file.triangle.size()) +
+    warnings.push_back(std::to_string(dropped) + " of " + std::to_string(all) +
                        " triangles have no area and were left out");
+
+  weld_vertices(file, mesh);
+  mesh.triangle.reserve(file.triangle.size());
+  for (const auto& t : file.triangle)
+    mesh.triangle.push_back(
+        {mesh.file_to_welded[t[0]], mesh.file_to_welded[t[1]], mesh.file_to_welded[t[2]]});
+  mesh.bones = std::move(file.bones);
+  mesh.primitives = std::move(file.primitives);
   return mesh;
 }
 

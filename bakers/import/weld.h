@@ -1,5 +1,5 @@
 // From vertices in file order to a welded mesh. Vertices split at UV or normal seams become one again, so
-// that ambient occlusion agrees across seams.
+// that ambient occlusion agrees across seams; the two sides of a card stay apart, since each has its own.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +40,9 @@ struct MeshArrays {
 };
 FileMesh to_file_mesh(const MeshArrays& arrays, nook_result code);
 
-// Welds exactly equal rest positions (-0 equals 0) with equal weights, drops degenerate triangles (says so in
-// warnings) and validates the result; fails with `code`.
+// Welds exactly equal rest positions (-0 equals 0) with equal weights, except for those whose faces have
+// opposite normals (opposite_faces.h), drops degenerate triangles with a warning, and validates the mesh.
+// Fails with `code`.
 SkinnedMesh weld(FileMesh mesh, std::vector<std::string>& warnings, nook_result code);
 
 }  // namespace nook::bake

@@ -9,7 +9,7 @@
 namespace nook::bake {
 namespace {
 
-// Bounds that no sensible bake comes near; they keep hostile numbers from asking for all of memory.
+// The bounds are far above any sensible bake, and keep hostile numbers from allocating all memory.
 constexpr std::uint32_t most_spheres = 1024, most_key_points = 4096, most_rays = 65536,
                         most_poses = 1'000'000, most_threads = 1024, most_steps = 10'000'000;
 
@@ -94,7 +94,16 @@ std::vector<std::size_t> chosen_clips(const nook_bake_job_desc& desc, const Impo
   }
   clips = motion_clips(character);
   if (desc.clip_split == NOOK_BAKE_SPLIT_HALF) return split_clips(clips).fitted;
-  if (desc.clip_split == NOOK_BAKE_SPLIT_FAMILIES) return split_families(character, clips).fitted;
+  if (desc.clip_split == NOOK_BAKE_SPLIT_FAMILIES) {
+    const ClipSplit split = split_families(character, clips);
+    if (!clips.empty() && split.measured.empty())
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "desc.clip_split: the names of all clips (%zu) begin with the same word and are one family, which "
+          "leaves none to measure; split by half, or name the clips to fit",
+          clips.size());
+    return split.fitted;
+  }
   if (desc.clip_split != NOOK_BAKE_SPLIT_ALL) unknown("desc.clip_split", desc.clip_split);
   return clips;
 }

@@ -9,6 +9,7 @@
 #include "bakers/job/worker_arena.h"
 #include "bakers/measure/probe/report.h"
 #include "bakers/tool/commands.h"
+#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/tool_error.h"
 #include "sdk/src/core/failure.h"
 
@@ -44,6 +45,10 @@ void parse_box(const std::string& text, BakeProbeOptions& options) {
 }
 
 void run(const BakeProbeOptions& options) {
+  require_distinct_files(
+      {{{"the input", options.input}, {"--light", options.light}},
+       {{"-o", options.output}, {"--picture", options.picture}, {"--report", options.common.report}},
+       {}});
   const bool is_grid = options.grid[0] > 0;
   if (is_grid != !options.light.empty())
     throw ToolError(exit_bad_arguments,

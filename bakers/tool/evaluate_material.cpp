@@ -8,10 +8,11 @@
 #include "bakers/measure/material/pictures.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
+#include "bakers/tool/image_folder.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/material/options.h"
-#include "bakers/tool/output_file.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -39,7 +40,8 @@ void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, cons
   const char* names[] = {"se", "distance", "forms"};
   const std::vector<measure::Chart> charts = measure::sweep_charts(sweep, raw.name);
   for (std::size_t i = 0; i < charts.size(); ++i)
-    OutputFile(o.images / (raw.name + "_sweep_" + names[i] + ".svg")).commit(measure::chart_svg(charts[i]));
+    platform::OutputFile(o.images / (as_file_name(raw.name) + "_sweep_" + names[i] + ".svg"))
+        .commit(measure::chart_svg(charts[i]));
 }
 
 RawMaterial read_raw(const std::filesystem::path& path) {
@@ -47,14 +49,14 @@ RawMaterial read_raw(const std::filesystem::path& path) {
 }
 
 Json evaluate(const Options& o) {
-  ProgressBar bar(o.common.quiet);
+  platform::ProgressBar bar(o.common.quiet);
   const measure::MethodProgress progress = [&bar](const std::string& method) {
     return stage_progress(bar, method);
   };
   const RawMaterial raw = read_raw(o.raw);
-  const Material material =
-      naming_file(o.material, [&] { return nook::material::read_material(read_file(o.material)); });
-  if (!o.images.empty()) std::filesystem::create_directories(o.images);
+  const std::vector<std::byte> bytes = read_file(o.material);
+  const Material material = naming_file(o.material, [&] { return nook::material::read_material(bytes); });
+  const measure::MaterialFile file{bytes, material};
   bar.show("measuring", "files", 0, 1);
   RawMaterial unseen_material;
   const RawMaterial* unseen = nullptr;
@@ -62,11 +64,12 @@ Json evaluate(const Options& o) {
     unseen_material = read_raw(o.unseen);
     unseen = &unseen_material;
   }
-  Json rows = Json::array(
-      {naming_file(o.material, [&] { return measure::material_file_row(raw, material, unseen); })});
+  Json rows =
+      Json::array({naming_file(o.material, [&] { return measure::material_file_row(raw, file, unseen); })});
   if (!o.images.empty()) {
-    bake::write_png(o.images / (raw.name + "_raw.png"), measure::raw_sheet(raw));
-    bake::write_png(o.images / (raw.name + "_file.png"), measure::difference_sheet(raw, material));
+    bake::write_png(o.images / (as_file_name(raw.name) + "_raw.png"), measure::raw_sheet(raw));
+    bake::write_png(o.images / (as_file_name(raw.name) + "_file.png"),
+                    measure::difference_sheet(raw, material));
   }
   measure::BaselineRequest request;
   request.names = o.methods;
@@ -75,10 +78,10 @@ Json evaluate(const Options& o) {
   request.progress = progress;
   if (!o.images.empty())
     request.keep = [&](const std::string& name, const Material& compressed) {
-      bake::write_png(o.images / (raw.name + "_" + name + ".png"),
+      bake::write_png(o.images / (as_file_name(raw.name) + "_" + name + ".png"),
                       measure::difference_sheet(raw, compressed));
     };
-  for (const Json& row : measure::material_baseline_rows(raw, material, o.common.seed, request))
+  for (const Json& row : measure::material_baseline_rows(raw, file, o.common.seed, request))
     rows.push_back(row);
   const CompressionSettings settings = measure::settings_of(material, o.common.seed);
   Json report;
@@ -100,8 +103,11 @@ void add_evaluate_material(CLI::App& evaluate_command) {
   command->add_option("material", o.material, "the .nook file")->required();
   command->add_flag(
       "--peers", o.peers,
-      "compress by N-SVD, CTA, K-CTA with K = 2, 3, 4 at the file's ranks, and PCA at its bytes");
-  command->add_option("--methods", o.methods, "only these peers: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, pca")
+      "compress by N-SVD, CTA, K-CTA with K = 2, 3, 4 at the file's ranks, and by N-SVD and PCA at the bytes "
+      "of the whole file");
+  command
+      ->add_option("--methods", o.methods,
+                   "only these peers: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca")
       ->delimiter(',')
       ->check(CLI::IsMember(measure::material_baseline_names()))
       ->type_name("NAME,...");
@@ -114,7 +120,14 @@ void add_evaluate_material(CLI::App& evaluate_command) {
       ->delimiter(',');
   command->add_option("--images", o.images, "write pictures and plots to this folder");
   add_common_options(*command, o.common);
-  command->callback([options] { run_evaluation(options->common, [&] { return evaluate(*options); }); });
+  command->callback([options] {
+    const CommandFiles files{{{"the raw material", options->raw},
+                              {"the material", options->material},
+                              {"--unseen", options->unseen}},
+                             {},
+                             options->images};
+    run_evaluation(options->common, files, [&] { return evaluate(*options); });
+  });
 }
 
 }  // namespace nook::tool

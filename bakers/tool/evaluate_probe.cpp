@@ -11,10 +11,10 @@
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/output_file.h"
 #include "bakers/tool/probe/evaluate_grid.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -32,7 +32,7 @@ struct Options {
 };
 
 void append_methods(const Options& options, const std::string& name, const bake::Environment& map,
-                    ProgressBar& bar, Json& rows, measure::OverMaps& over_maps) {
+                    platform::ProgressBar& bar, Json& rows, measure::OverMaps& over_maps) {
   for (const bool hemisphere : {false, true}) {
     const std::string label = name + (hemisphere ? ", hemisphere" : ", sphere");
     const auto progress = [&](std::size_t done, std::size_t total) {
@@ -56,9 +56,8 @@ void write_picture(const Options& options, const std::string& name, const bake::
   MapBakeSettings settings;
   settings.basis = nook::probe::vogel_basis(options.lobes);
   settings.seed = options.common.seed;
-  std::filesystem::create_directories(options.images);
   constexpr std::uint32_t panel_width = 320;  // four of them fit a page
-  OutputFile(options.images / (name + ".png"))
+  platform::OutputFile(options.images / (name + ".png"))
       .commit(bake::png_bytes(map_picture(map, settings.basis, bake_map(map, settings), panel_width)));
 }
 
@@ -68,7 +67,7 @@ Json evaluate(const Options& options) {
   if (!options.grid.scene.empty()) return evaluate_grids(options.grid, options.common, options.files);
   Json report;
   report["rows"] = Json::array();
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   std::string name;
   std::unique_ptr<bake::Environment> map;
   measure::OverMaps over_maps;
@@ -140,7 +139,10 @@ void add_evaluate_probe(CLI::App& evaluate_command) {
   add_common_options(*command, o.common);
   command->callback([options] {
     options->comparison.seed = options->common.seed;
-    run_evaluation(options->common, [&] { return evaluate(*options); });
+    CommandFiles files{
+        {{"--scene", options->grid.scene}, {"--light", options->grid.light}}, {}, options->images};
+    for (const std::filesystem::path& file : options->files) files.inputs.push_back({"an input", file});
+    run_evaluation(options->common, files, [&] { return evaluate(*options); });
   });
 }
 

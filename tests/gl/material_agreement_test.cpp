@@ -38,7 +38,8 @@ void put(float (&out)[3], Vec3 v) {
 // other cell. Levels are whole, since OpenGL leaves how they mix to the driver.
 std::vector<nook_material_sample> samples_of(const nook_material_info& info, std::size_t count) {
   material::test::Numbers numbers(17);
-  const std::uint32_t side = info.btf.view_map_side ? info.btf.view_map_side : 256;
+  const std::uint32_t side =
+      info.btf.view_map_side ? 256 / info.btf.view_map_side * info.btf.view_map_side : 256;
   const auto levels = std::uint32_t(std::log2(float(std::max(info.width, info.height)))) + 1;
   std::vector<nook_material_sample> samples(count);
   for (nook_material_sample& s : samples) {

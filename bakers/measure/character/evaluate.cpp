@@ -22,7 +22,7 @@ float linear_ao(const CharacterModel& model, std::size_t vertex, const float* sh
 
 // Sums of squared errors of one pose, kept apart so that they can be added in order.
 struct ErrorSums {
-  double all = 0, area = 0, body = 0, hands = 0;
+  double all = 0, visible = 0, area = 0, body = 0, hands = 0;
 
   void add(double error, float vertex_area, bool hand) {
     const double e2 = error * error;
@@ -30,13 +30,15 @@ struct ErrorSums {
     area += e2 * double(vertex_area);
     (hand ? hands : body) += e2;
   }
+  void add_visible(double error) { visible += error * error; }
 };
 
-ErrorColumns columns_of(const std::vector<ErrorSums>& poses, std::span<const float> vertex_area,
-                        std::span<const char> hands) {
+ErrorColumns columns_of(const std::vector<ErrorSums>& poses, std::size_t visible_count,
+                        std::span<const float> vertex_area, std::span<const char> hands) {
   ErrorSums total;
   for (const ErrorSums& p : poses) {
     total.all += p.all;
+    total.visible += p.visible;
     total.area += p.area;
     total.body += p.body;
     total.hands += p.hands;
@@ -45,10 +47,43 @@ ErrorColumns columns_of(const std::vector<ErrorSums>& poses, std::span<const flo
   for (float a : vertex_area) area += double(a);
   const double hand_count = double(std::count(hands.begin(), hands.end(), char(1)));
   const double body_count = double(hands.size()) - hand_count, count = double(poses.size());
-  return {total.all / (count * double(hands.size())), total.area / (count * area),
-          body_count > 0 ? total.body / (count * body_count) : 0,
-          hand_count > 0 ? total.hands / (count * hand_count) : 0};
+  ErrorColumns columns;
+  columns.mse = total.all / (count * double(hands.size()));
+  if (visible_count > 0) columns.mse_visible = total.visible / double(visible_count);
+  columns.mse_area = total.area / (count * area);
+  if (body_count > 0) columns.mse_body = total.body / (count * body_count);
+  if (hand_count > 0) columns.mse_hands = total.hands / (count * hand_count);
+  return columns;
 }
+
+double truth_at(const AoTargets& targets, std::size_t pose, std::size_t vertex) {
+  return double(targets.row(pose)[vertex]) * double(AoTargets::scale);
+}
+
+// The mean truth of every vertex: of all poses, and of those in which it is visible.
+struct Oracle {
+  std::vector<double> mean, visible_mean;
+  std::size_t visible_count = 0;  // vertex-poses
+
+  explicit Oracle(const AoTargets& targets)
+      : mean(targets.vertex_count, 0.0), visible_mean(targets.vertex_count, 0.0) {
+    const std::size_t poses = targets.pose_count();
+    std::vector<std::size_t> visible_poses(targets.vertex_count, 0);
+    for (std::size_t t = 0; t < poses; ++t)
+      for (std::size_t i = 0; i < mean.size(); ++i) {
+        const double truth = truth_at(targets, t, i);
+        mean[i] += truth;
+        if (truth < visible_truth) continue;
+        visible_mean[i] += truth;
+        ++visible_poses[i];
+      }
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+      mean[i] /= double(poses);
+      if (visible_poses[i] > 0) visible_mean[i] /= double(visible_poses[i]);
+      visible_count += visible_poses[i];
+    }
+  }
+};
 
 }  // namespace
 
@@ -83,46 +118,47 @@ std::vector<float> predict_ao(const CharacterModel& model, std::span<const Mat3x
 CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
                                        const Progress& progress) {
-  const AoTargets targets = trace_character_ao(mesh, poses, rays, seed, progress);
+  AoTargets targets = trace_character_ao(mesh, poses, rays, seed, progress);
   const FitState state = state_of_model(model);
   const std::vector<float> shadows = shadows_of(state, poses);
   const std::size_t padded = state.structure.padded_count(), vertices = mesh.vertex_count();
   const std::vector<float> area = vertex_areas(mesh, mesh.position);
   const std::vector<char> hands = hand_vertices(mesh);
 
-  std::vector<double> mean(vertices, 0.0);
-  for (std::size_t t = 0; t < poses.size(); ++t)
-    for (std::size_t i = 0; i < vertices; ++i)
-      mean[i] += double(targets.row(t)[i]) * double(AoTargets::scale);
-  for (double& m : mean) m /= double(poses.size());
-
+  const Oracle best(targets);
   std::vector<ErrorSums> model_sums(poses.size()), static_sums(poses.size()), oracle_sums(poses.size());
   tbb::parallel_for(std::size_t(0), poses.size(), [&](std::size_t t) {
-    const auto row = targets.row(t);
     for (std::size_t i = 0; i < vertices; ++i) {
-      const double truth = double(row[i]) * double(AoTargets::scale);
-      model_sums[t].add(double(linear_ao(model, i, &shadows[t * padded])) - truth, area[i], hands[i]);
-      if (!model.static_ao.empty()) static_sums[t].add(double(model.static_ao[i]) - truth, area[i], hands[i]);
-      oracle_sums[t].add(mean[i] - truth, area[i], hands[i]);
+      const double truth = truth_at(targets, t, i);
+      const bool visible = truth >= visible_truth;
+      const auto add = [&](ErrorSums& sums, double value) {
+        sums.add(value - truth, area[i], hands[i]);
+        if (visible) sums.add_visible(value - truth);
+      };
+      add(model_sums[t], double(linear_ao(model, i, &shadows[t * padded])));
+      if (!model.static_ao.empty()) add(static_sums[t], double(model.static_ao[i]));
+      oracle_sums[t].add(best.mean[i] - truth, area[i], hands[i]);
+      if (visible) oracle_sums[t].add_visible(best.visible_mean[i] - truth);
     }
   });
   CharacterEvaluation result;
   result.poses = poses.size();
   result.rays = rays;
-  result.model = columns_of(model_sums, area, hands);
-  result.static_bake = columns_of(static_sums, area, hands);
-  result.oracle = columns_of(oracle_sums, area, hands);
+  result.visible_share = double(best.visible_count) / double(vertices * poses.size());
+  result.model = columns_of(model_sums, best.visible_count, area, hands);
+  result.static_bake = columns_of(static_sums, best.visible_count, area, hands);
+  result.oracle = columns_of(oracle_sums, best.visible_count, area, hands);
   result.noise_floor_mse = measure_noise_floor(mesh, poses, targets, rays, seed);
   result.vertex_rms.resize(vertices);
   tbb::parallel_for(std::size_t(0), vertices, [&](std::size_t i) {
     double sum = 0;
     for (std::size_t t = 0; t < poses.size(); ++t) {
-      const double e = double(linear_ao(model, i, &shadows[t * padded])) -
-                       double(targets.row(t)[i]) * double(AoTargets::scale);
+      const double e = double(linear_ao(model, i, &shadows[t * padded])) - truth_at(targets, t, i);
       sum += e * e;
     }
     result.vertex_rms[i] = float(std::sqrt(sum / double(poses.size())));
   });
+  result.truth = std::move(targets);
   return result;
 }
 

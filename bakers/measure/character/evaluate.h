@@ -12,8 +12,14 @@
 
 namespace nook::bake {
 
+// Vertex-poses whose ray-traced AO is below this are black: inside the body or in a fist, where no camera
+// sees them and any model is right that says 0. Two rays of 128 reach it.
+inline constexpr double visible_truth = 0.01;
+
 struct ErrorColumns {
-  double mse = 0;        // over all welded vertices and poses, as the paper has it
+  double mse = 0;  // over all welded vertices and poses, as the paper has it
+  double mse_visible =
+      0;  // over those vertex-poses whose truth is at least visible_truth; 0 where there are none
   double mse_area = 0;   // weighted by rest Voronoi area
   double mse_body = 0;   // vertices that no hand bone or anything below it moves
   double mse_hands = 0;  // the others; 0 where there are none
@@ -23,7 +29,11 @@ struct CharacterEvaluation {
   std::size_t poses = 0;
   std::uint32_t rays = 0;
   double noise_floor_mse = 0;  // expected squared error of the ray-traced targets themselves
+  double visible_share = 0;    // of all vertex-poses
+  // The oracle is the best static bake of each column: the mean truth of a vertex over all poses, in
+  // mse_visible over those in which the vertex is visible.
   ErrorColumns model, static_bake, oracle;
+  AoTargets truth;                // what was measured against, for baselines on the same
   std::vector<float> vertex_rms;  // of the model, a value a welded vertex: what a picture of the error shows
 };
 

@@ -16,6 +16,10 @@ namespace {
 using namespace bake;
 using Json = nlohmann::ordered_json;
 
+double ratio(double error, double baseline) {
+  return baseline > 0 ? error / baseline : 0;
+}
+
 Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, const std::string& name,
                const CharacterEvaluation& e) {
   const CharacterModel& model = baked.model;
@@ -31,6 +35,11 @@ Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, cons
   row["poses"] = e.poses;
   row["rays"] = e.rays;
   row["noise_floor_mse"] = e.noise_floor_mse;
+  row["visible_share"] = e.visible_share;
+  row["mse_visible"] = e.model.mse_visible;
+  row["mse_static_visible"] = e.static_bake.mse_visible;
+  row["mse_oracle_visible"] = e.oracle.mse_visible;
+  row["ratio_to_static_visible"] = ratio(e.model.mse_visible, e.static_bake.mse_visible);
   row["mse"] = e.model.mse;
   row["rmse"] = std::sqrt(e.model.mse);
   row["mse_area"] = e.model.mse_area;
@@ -40,15 +49,15 @@ Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, cons
   row["mse_area_static"] = e.static_bake.mse_area;
   row["mse_oracle"] = e.oracle.mse;
   row["mse_area_oracle"] = e.oracle.mse_area;
-  row["ratio_to_static"] = e.static_bake.mse > 0 ? e.model.mse / e.static_bake.mse : 0;
-  row["ratio_to_static_area"] = e.static_bake.mse_area > 0 ? e.model.mse_area / e.static_bake.mse_area : 0;
+  row["ratio_to_static"] = ratio(e.model.mse, e.static_bake.mse);
+  row["ratio_to_static_area"] = ratio(e.model.mse_area, e.static_bake.mse_area);
   return row;
 }
 
 // Fits the baselines to the model's own training poses and measures them on the same targets.
 void add_baselines(Json& row, const ImportedCharacter& character, const Recipe* recipe,
-                   std::span<const Pose> measured, const CharacterReportSettings& settings,
-                   const StageProgress& progress) {
+                   std::span<const Pose> measured, const AoTargets& truth,
+                   const CharacterReportSettings& settings, const StageProgress& progress) {
   const std::vector<Pose> training = recipe ? recipe_poses(character, *recipe) : std::vector<Pose>();
   if (training.empty())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -57,13 +66,10 @@ void add_baselines(Json& row, const ImportedCharacter& character, const Recipe* 
   const std::vector<float> area = vertex_areas(mesh, mesh.position);
   const AoTargets fitted = trace_character_ao(mesh, training, recipe->settings.rays, recipe->settings.seed,
                                               progress("ray tracing the baselines' training poses"));
-  // The same rays as the model's own evaluation, so that all columns have the same truth.
-  const AoTargets truth =
-      trace_character_ao(mesh, measured, settings.rays, evaluation_ray_seed(settings.seed),
-                         progress("ray tracing again for the baselines"));
   const auto measure = [&](const char* name, const std::unique_ptr<PoseRegression>& baseline) {
     const RegressionError error = measure_regression(*baseline, measured, truth, area);
     row[std::string("mse_") + name] = error.mse;
+    row[std::string("mse_") + name + "_visible"] = error.mse_visible;
     row[std::string("mse_area_") + name] = error.mse_area;
     row[std::string("bytes_") + name] = baseline->model_bytes();
     row[std::string("tuned_") + name] = baseline->description();
@@ -91,7 +97,8 @@ CharacterReport measure_character(const BakedCharacter& baked, const Recipe* rec
                                          evaluation_ray_seed(settings.seed), progress("ray tracing"));
   report.row = model_row(baked, measured, settings.name, report.evaluation);
   if (settings.baselines)
-    add_baselines(report.row, baked.character, recipe, measured.poses, settings, progress);
+    add_baselines(report.row, baked.character, recipe, measured.poses, report.evaluation.truth, settings,
+                  progress);
   return report;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bakers/measure/material/unseen_views.h"
-#include "sdk/src/material/tables.h"
+#include "bakers/measure/material/whole_file.h"
 
 namespace nook::measure {
 namespace {
@@ -23,7 +23,7 @@ constexpr Baseline baselines[] = {{"n-svd", Method::n_svd, 1},
                                   {"k-cta-2", Method::k_cta, 2},
                                   {"k-cta-3", Method::k_cta, 3},
                                   {"k-cta-4", Method::k_cta, 4}};
-constexpr const char* pca_name = "pca";
+constexpr const char *pca_name = "pca", *n_svd_filled_name = "n-svd-filled";
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -36,11 +36,30 @@ void add_unseen(const RawMaterial* unseen, const Material& material, MethodRow& 
   row.error_texels_unseen = error.error_texels;
 }
 
+// The view rank at which an N-SVD takes as many bytes as a file, its recipe counted: the text of the greatest
+// rank is the longest.
+std::uint32_t filling_view_rank(const RawMaterial& raw, CompressionSettings s, std::size_t file_bytes) {
+  s.method = Method::n_svd;
+  s.rank_view = std::uint32_t(raw.views.size());
+  const std::size_t recipe = describe(s).dump().size();
+  return file_bytes > recipe ? n_svd_view_rank(raw, s, file_bytes - recipe) : 0;
+}
+
+MethodRow measure_baseline(const RawMaterial& raw, const CompressionSettings& s, const std::string& name,
+                           const BaselineRequest& request) {
+  Material compressed;
+  MethodRow row = measure_method(raw, s, request.progress(name + ", "), &compressed);
+  add_unseen(request.unseen, compressed, row);
+  if (request.keep) request.keep(name, compressed);
+  return row;
+}
+
 }  // namespace
 
 std::vector<std::string> material_baseline_names() {
   std::vector<std::string> names;
   for (const Baseline& baseline : baselines) names.emplace_back(baseline.name);
+  names.emplace_back(n_svd_filled_name);
   names.emplace_back(pca_name);
   return names;
 }
@@ -58,41 +77,44 @@ CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
     s.votf_rank_x = votf.rank_x;
     s.votf_rank_y = votf.rank_y;
   }
-  s.map_side = 0;
+  if (btf.clusters > 1 && btf.mixture > 1) s.map_side = material.btf.map.side;
   s.seed = seed;
   return s;
 }
 
-Json material_file_row(const RawMaterial& raw, const Material& material, const RawMaterial* unseen) {
-  MethodRow own = measure_material(raw, material);
+Json material_file_row(const RawMaterial& raw, const MaterialFile& file, const RawMaterial* unseen) {
+  MethodRow own = measure_material(raw, file.material);
   own.method = "file: " + own.method;
-  add_unseen(unseen, material, own);
+  own.file_bytes = file.bytes.size();
+  add_unseen(unseen, file.material, own);
   return report_row(raw.name, own);
 }
 
-Json material_baseline_rows(const RawMaterial& raw, const Material& material, std::uint64_t seed,
+Json material_baseline_rows(const RawMaterial& raw, const MaterialFile& file, std::uint64_t seed,
                             const BaselineRequest& request) {
-  const CompressionSettings settings = settings_of(material, seed);
+  const CompressionSettings settings = settings_of(file.material, seed);
   Json rows = Json::array();
   for (const Baseline& baseline : baselines) {
     CompressionSettings s = settings;
     s.method = baseline.method;
     s.mixture = baseline.mixture;
-    if (request.unseen) s.map_side = nook::material::default_map_side;
     if (!contains(request.names, baseline.name) ||
         (s.method == Method::k_cta && s.mixture > s.cluster_count()))
       continue;
-    Material compressed;
-    MethodRow row = measure_method(raw, s, request.progress(std::string(baseline.name) + ", "), &compressed);
-    add_unseen(request.unseen, compressed, row);
+    rows.push_back(report_row(raw.name, measure_baseline(raw, s, baseline.name, request)));
+  }
+  const std::uint32_t filling = filling_view_rank(raw, settings, file.bytes.size());
+  if (contains(request.names, n_svd_filled_name) && filling > 0) {
+    CompressionSettings s = settings;
+    s.method = Method::n_svd;
+    s.rank_view = filling;
+    MethodRow row = measure_baseline(raw, s, n_svd_filled_name, request);
+    row.method = "N-SVD, equal bytes";
     rows.push_back(report_row(raw.name, row));
-    if (request.keep) request.keep(baseline.name, compressed);
   }
   if (!contains(request.names, pca_name)) return rows;
   request.progress("")("principal components", 0, 1);
-  const std::size_t btf_bytes =
-      light_basis_bytes(raw.lights.size(), material.btf.shape) + compressed_bytes(material.btf.shape);
-  rows.push_back(report_row(raw.name, measure_pca(raw, btf_bytes, settings.seed)));
+  rows.push_back(report_row(raw.name, measure_pca(raw, file.bytes, settings.seed)));
   return rows;
 }
 

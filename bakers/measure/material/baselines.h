@@ -16,10 +16,10 @@
 
 namespace nook::measure {
 
-// n-svd, cta, k-cta-2, k-cta-3, k-cta-4, pca.
+// n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca.
 std::vector<std::string> material_baseline_names();
 
-// The settings that the sizes of a material's tensors give, without a view map.
+// The settings that the sizes of a material's tensors give: those of its view map where K-CTA made it.
 bake::material::CompressionSettings settings_of(const nook::material::Material& material, std::uint64_t seed);
 
 struct BaselineRequest {
@@ -30,15 +30,20 @@ struct BaselineRequest {
   std::function<void(const std::string& name, const nook::material::Material& material)> keep;
 };
 
+// A material and the bytes of the file that it was read from.
+struct MaterialFile {
+  std::span<const std::byte> bytes;
+  const nook::material::Material& material;
+};
+
 // The file's own row: its errors, and where unseen is given its errors in those views.
-nlohmann::ordered_json material_file_row(const bake::material::RawMaterial& raw,
-                                         const nook::material::Material& material,
+nlohmann::ordered_json material_file_row(const bake::material::RawMaterial& raw, const MaterialFile& file,
                                          const bake::material::RawMaterial* unseen);
 
-// Compresses the raw material anew by each named method, at the ranks of the file, and PCA at the bytes of
-// its BTF.
+// Compresses the raw material anew by each named method, at the ranks of the file; n-svd-filled and PCA take
+// as many bytes as the whole file.
 nlohmann::ordered_json material_baseline_rows(const bake::material::RawMaterial& raw,
-                                              const nook::material::Material& material, std::uint64_t seed,
+                                              const MaterialFile& file, std::uint64_t seed,
                                               const BaselineRequest& request);
 
 // CTA and K-CTA with K = 3, each from first clusters by directions and by values.

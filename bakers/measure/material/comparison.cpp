@@ -4,6 +4,8 @@
 
 #include "bakers/measure/material/measures.h"
 #include "bakers/measure/material/pca.h"
+#include "bakers/measure/material/report.h"
+#include "bakers/measure/material/whole_file.h"
 #include "sdk/src/material/material_file.h"
 
 namespace nook::bake::material {
@@ -35,7 +37,9 @@ MethodRow measure_material(const RawMaterial& raw, const Material& material) {
                            : shape.mixture == 1 ? Method::cta
                                                 : Method::k_cta);
   row.mixture = shape.mixture;
+  row.view_rank = shape.rank_view * shape.clusters;
   row.bytes = nook::material::compressed_bytes(material);
+  row.file_bytes = whole_file_bytes(material, 0);
   const BtfError error = measure_btf(raw, plain(material.light_basis), material.btf);
   row.se_db = error.se_db();
   row.psnr_db = error.psnr_db();
@@ -47,12 +51,16 @@ MethodRow measure_material(const RawMaterial& raw, const Material& material) {
 
 MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, const StageProgress& progress,
                          Material* material) {
+  const std::uint32_t map_side = settings.method == Method::k_cta ? settings.map_side : 0;
+  const nlohmann::ordered_json recipe = describe(settings);
   if (!material) settings.map_side = 0;
   const auto start = Clock::now();
   Material whole = compress(raw, settings, progress);
   const double seconds = seconds_since(start);
+  whole.recipe = recipe.dump().c_str();
   whole = nook::material::quantise(whole);
   MethodRow row = measure_material(raw, whole);
+  row.file_bytes = whole_file_bytes(whole, map_side);
   row.method = method_name(settings.method);
   row.seconds = seconds;
   if (whole.visibility != VisibilityForm::none) {
@@ -77,12 +85,14 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
   return row;
 }
 
-MethodRow measure_pca(const RawMaterial& raw, std::size_t bytes, std::uint64_t seed) {
+MethodRow measure_pca(const RawMaterial& raw, std::span<const std::byte> file, std::uint64_t seed) {
   const auto start = Clock::now();
-  const PcaResult pca = fit_pca(raw, bytes, seed);
+  const std::size_t beside = bytes_beside_btf(file);
+  const PcaResult pca = fit_pca(raw, file.size() - beside, seed);
   MethodRow row;
   row.method = "PCA";
   row.bytes = pca.bytes;
+  row.file_bytes = beside + pca.bytes;
   row.se_db = pca.se_db;
   row.psnr_db = pca.psnr_db;
   row.seconds = seconds_since(start);

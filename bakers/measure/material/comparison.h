@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "bakers/material/compression.h"
@@ -11,11 +12,13 @@ namespace nook::bake::material {
 struct MethodRow {
   std::string method;  // "PCA", "N-SVD", "CTA", "K-CTA"
   std::uint32_t mixture = 1;
-  std::size_t bytes =
-      0;  // half floats and indices, view maps apart; with the VOTF of distances where there is one
+  std::optional<std::uint32_t> view_rank;  // in total over the clusters; of tensors
+  // Of the whole file that a user ships, view maps of the settings' size included, and of the numbers alone
+  // that the paper's Table I counts: half floats and indices without view maps.
+  std::size_t file_bytes = 0, bytes = 0;
   double se_db = 0, psnr_db = 0;
   std::optional<std::size_t> error_texels_binary, error_texels_distance;
-  // In views that the fit has not seen.
+  // Errors in views that were not fitted.
   std::optional<double> se_db_unseen;
   std::optional<std::size_t> error_texels_unseen;
   double seconds = 0;  // of the BTF and of one VOTF
@@ -23,15 +26,16 @@ struct MethodRow {
 };
 
 // Compresses and measures what is left after rounding to half floats. `material`, where given, receives it
-// with the VOTF of settings.visibility; without it no view maps are made.
+// with the VOTF of settings.visibility and with view maps; without it they are counted but not made.
 MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings,
                          const StageProgress& progress = {}, nook::material::Material* material = nullptr);
 
 // A material that is there already.
 MethodRow measure_material(const RawMaterial& raw, const nook::material::Material& material);
 
-// As many bytes of principal components as the BTF of another row takes.
-MethodRow measure_pca(const RawMaterial& raw, std::size_t bytes, std::uint64_t seed);
+// Principal components in the place of the BTF in another material's file, as many as its bytes hold: the
+// VOTF and the rest of that file stay and are counted.
+MethodRow measure_pca(const RawMaterial& raw, std::span<const std::byte> file, std::uint64_t seed);
 
 const char* method_name(Method method);
 

@@ -14,8 +14,12 @@ std::size_t peak_bytes() {
 }  // namespace
 
 nlohmann::ordered_json report_row(const std::string& material, const MethodRow& row) {
-  nlohmann::ordered_json json = {{"material", material}, {"method", row.method}, {"k", row.mixture},
-                                 {"bytes", row.bytes},   {"se_db", row.se_db},   {"psnr_db", row.psnr_db}};
+  nlohmann::ordered_json json = {{"material", material}, {"method", row.method}, {"k", row.mixture}};
+  json["view_rank"] = row.view_rank ? nlohmann::ordered_json(*row.view_rank) : nlohmann::ordered_json();
+  json["file_bytes"] = row.file_bytes;
+  json["bytes"] = row.bytes;
+  json["se_db"] = row.se_db;
+  json["psnr_db"] = row.psnr_db;
   const auto texels = [&](const char* key, const std::optional<std::size_t>& count) {
     json[key] = count ? nlohmann::ordered_json(*count) : nlohmann::ordered_json();
   };

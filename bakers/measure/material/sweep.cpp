@@ -75,10 +75,7 @@ std::vector<Chart> sweep_charts(const Sweep& sweep, const std::string& material)
 nlohmann::ordered_json sweep_rows(const Sweep& sweep, const std::string& material) {
   auto rows = nlohmann::ordered_json::array();
   for (const Sweep::Series& s : sweep.series)
-    for (std::size_t i = 0; i < s.rows.size(); ++i) {
-      rows.push_back(report_row(material, s.rows[i]));
-      rows.back()["view_rank"] = s.ranks[i];
-    }
+    for (const MethodRow& row : s.rows) rows.push_back(report_row(material, row));
   return rows;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using Bits = CharacterBits;
 
-// Bounds of ranges: those of check_model, which has the last word; these only keep decoded numbers finite.
+// The bounds of ranges are those of check_model, which decides; these only keep decoded numbers finite.
 constexpr float max_metres = 2e6f, max_coefficient = 1e4f;
 
 void read_head(ByteReader in, CharacterModel& model) {
@@ -108,7 +108,7 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
   model.alpha.assign(std::size_t(vertices) * influences, 0.0f);
   model.blend.assign(std::size_t(vertices) * influences, 0.0f);
   model.bias.reserve(vertices);
-  std::array<std::uint32_t, max_references> counts{};  // of the vertices before
+  std::array<std::uint32_t, max_references> counts{};  // of the earlier vertices
   for (std::uint32_t i = 0; i < vertices; ++i) {
     const std::uint32_t count = in.bits(Bits::entry_count) + 1;
     if (count > influences)
@@ -135,7 +135,7 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
     counts[i % max_references] = count;
     for (; e < count; ++e) model.influence[first + e] = static_cast<std::uint16_t>(in.bits(key_point_bits));
     for (e = 0; e < count; ++e) model.alpha[first + e] = decode_alpha(in.bits(Bits::alpha), max_alpha);
-    float left = 1;  // sixteenths, so exact
+    float left = 1;  // sixteenths, which are exact
     for (e = 1; e < count; ++e) left -= model.blend[first + e] = decode_blend(in.bits(Bits::blend));
     model.blend[first] = left;
     model.bias.push_back(bias.decode(in.bits(Bits::bias), Bits::bias));

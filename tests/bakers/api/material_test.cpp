@@ -74,6 +74,7 @@ nook_bake_material_desc small_weave() {
   desc.width = desc.height = 12;
   desc.bounces = 1;
   desc.bounce_rays = 2;
+  CHECK(desc.view_map_side == 64);
   desc.view_map_side = 8;
   return desc;
 }

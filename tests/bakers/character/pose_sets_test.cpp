@@ -47,3 +47,27 @@ TEST_CASE("a family of clips stays on one side") {
         Names{"Crouch_Idle", "Crouch_Walk", "Jump_Land", "Jump_Start", "Sit_Enter", "Sit_Exit"});
   CHECK(names_of(character, split.measured) == Names{"Dance", "Roll"});
 }
+
+TEST_CASE("no family straddles the split, however its clips are named") {
+  const auto split_of = [](std::initializer_list<const char*> names) {
+    const ImportedCharacter character = with_clips(names);
+    const ClipSplit split = split_families(character, motion_clips(character));
+    return std::pair(names_of(character, split.fitted), names_of(character, split.measured));
+  };
+  using Split = std::pair<Names, Names>;
+  // Between Jump and Jump_Start stand others in byte order.
+  CHECK(split_of({"Jump", "JumpTwice", "Jump2", "Jump_Start", "Sit"}) ==
+        Split({"Jump", "Jump2", "JumpTwice", "Jump_Start"}, {"Sit"}));
+  CHECK(split_of({"Death01", "Death02", "Idle"}) == Split({"Death01", "Death02"}, {"Idle"}));
+  CHECK(split_of({"walk.001", "walk.002", "walk-end", "run"}) ==
+        Split({"run"}, {"walk-end", "walk.001", "walk.002"}));
+  CHECK(split_of({"JumpStart", "JumpLand", "Idle"}) == Split({"Idle"}, {"JumpLand", "JumpStart"}));
+  CHECK(split_of({"Walk_Loop", "walk_end", "Run"}) == Split({"Run"}, {"Walk_Loop", "walk_end"}));
+  CHECK(split_of({"Armature|Sit_Enter", "Armature|Sit_Exit", "Armature|Walk"}) ==
+        Split({"Armature|Sit_Enter", "Armature|Sit_Exit"}, {"Armature|Walk"}));
+  CHECK(split_of({"hero:Sit Enter", "hero:Sit Exit", "hero:Walk"}) ==
+        Split({"hero:Sit Enter", "hero:Sit Exit"}, {"hero:Walk"}));
+  CHECK(split_of({"UALWalk", "UAL_Run", "Idle"}) == Split({"Idle"}, {"UALWalk", "UAL_Run"}));
+  // What names do not tell apart stays together.
+  CHECK(split_of({"001", "002", "003"}) == Split({"001", "002", "003"}, {}));
+}

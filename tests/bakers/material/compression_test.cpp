@@ -157,10 +157,13 @@ TEST_CASE("a view that turns changes what K-CTA decodes about as smoothly as wha
     return std::sqrt(largest);
   };
   const double n_svd = largest_step(Method::n_svd, 0);
-  INFO("N-SVD " << n_svd << ", K-CTA with a map " << largest_step(Method::k_cta, 256) << ", without "
-                << largest_step(Method::k_cta, 0));
+  INFO("N-SVD " << n_svd << ", K-CTA with a map " << largest_step(Method::k_cta, 256) << ", of 64 cells "
+                << largest_step(Method::k_cta, 64) << ", without " << largest_step(Method::k_cta, 0));
   // Where the map's clusters change, both sets are near the data, but not the same.
   CHECK(largest_step(Method::k_cta, 256) < 1.5 * n_svd);
+  // A small map is refined where it is decoded: read as it is, its cells of 3.6 degrees would be steps of
+  // seven times that of half a degree.
+  CHECK(largest_step(Method::k_cta, 64) < 1.5 * n_svd);
   // Mixed linearly from the same views as N-SVD is.
   CHECK(largest_step(Method::k_cta, 0) < 1.5 * n_svd);
 }

@@ -70,6 +70,17 @@ TEST_CASE("half of the clips in byte order of their names") {
   CHECK(nlohmann::json::parse(read_text(folder.path("r.json"))).at("clips") == Names{"Run", "sit"});
 }
 
+TEST_CASE("a family of clips is fitted whole or left whole") {
+  const TestFolder folder;
+  write_text(folder.path("hero.glb"), glb_tube({"Jump", "JumpTwice", "Jump2", "Jump_Start", "sit"}));
+  const ToolRun run = folder.run(small_bake(folder.path("hero.glb"), folder.path("hero.nook"),
+                                            {"--split", "families", "--report", folder.path("r.json")}));
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  CHECK(nlohmann::json::parse(read_text(folder.path("r.json"))).at("clips") ==
+        Names{"Jump", "Jump2", "JumpTwice", "Jump_Start"});
+}
+
 TEST_CASE("bad arguments exit with 2, name the fault and write nothing") {
   const TestFolder folder;
   write_text(folder.path("hero.glb"), glb_tube({"walk", "jump"}));
@@ -103,6 +114,11 @@ TEST_CASE("bad arguments exit with 2, name the fault and write nothing") {
   SECTION("clips that --poses does not use") {
     run = folder.run(small_bake(in, out, {"--clips", "jump", "--poses", "auto"}));
     expected = "uses no clips";
+  }
+  SECTION("clips of one family, split by families") {
+    write_text(in, glb_tube({"Walk_Start", "WalkLoop", "walk2"}));
+    run = folder.run(small_bake(in, out, {"--split", "families"}));
+    expected = "all clips (3) begin with the same word";
   }
   INFO(run.error);
   CHECK(run.exit_code == 2);

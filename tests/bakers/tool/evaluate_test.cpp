@@ -65,9 +65,26 @@ TEST_CASE("by default the clips that were not fitted are measured, 20 poses each
   const Json row = baked.row();
   CHECK(row.at("poses") == 40);
   CHECK(row.at("protocol") == "unseen clips");
-  for (const char* key :
-       {"vertices", "bones", "spheres", "key_points", "model_bytes", "poses", "rays", "noise_floor_mse",
-        "mse", "rmse", "mse_area", "mse_body", "mse_hands", "mse_static", "mse_area_static", "mse_oracle"}) {
+  for (const char* key : {"vertices",
+                          "bones",
+                          "spheres",
+                          "key_points",
+                          "model_bytes",
+                          "poses",
+                          "rays",
+                          "noise_floor_mse",
+                          "mse",
+                          "rmse",
+                          "mse_area",
+                          "mse_body",
+                          "mse_hands",
+                          "mse_static",
+                          "mse_area_static",
+                          "mse_oracle",
+                          "visible_share",
+                          "mse_visible",
+                          "mse_static_visible",
+                          "mse_oracle_visible"}) {
     INFO(key);
     CHECK(row.contains(key));
     CHECK(has(run.out, key));
@@ -75,6 +92,12 @@ TEST_CASE("by default the clips that were not fitted are measured, 20 poses each
   CHECK(row.at("mse").get<double>() > 0);
   CHECK(row.at("mse_oracle").get<double>() <=
         row.at("mse_static").get<double>());  // the oracle is the best static bake
+  CHECK(row.at("mse_oracle_visible").get<double>() <= row.at("mse_static_visible").get<double>());
+  const double share = row.at("visible_share").get<double>();
+  CHECK(share > 0);
+  CHECK(share <= 1);
+  // What is left out adds to the error over all.
+  CHECK(share * row.at("mse_visible").get<double>() <= row.at("mse").get<double>() * (1 + 1e-12));
   CHECK(row.at("model_bytes") == read_text(baked.model).size());
 }
 
@@ -101,6 +124,8 @@ TEST_CASE("the training poses can be made again from the model's recipe, for the
   // On the poses they were fitted to, regressions of the joint angle beat the mean of those poses.
   CHECK(row.at("mse_linear_pose").get<double>() < row.at("mse_oracle").get<double>());
   CHECK(row.at("mse_pose_clusters").get<double>() < row.at("mse_oracle").get<double>());
+  CHECK(row.at("mse_linear_pose_visible").get<double>() < row.at("mse_oracle_visible").get<double>());
+  CHECK(row.at("mse_pose_clusters_visible").get<double>() < row.at("mse_oracle_visible").get<double>());
   CHECK(row.at("bytes_linear_pose").get<int>() > 0);
   CHECK(row.at("bytes_pose_clusters").get<int>() > 0);
 }

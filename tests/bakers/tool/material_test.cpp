@@ -36,6 +36,7 @@ TEST_CASE(
   const auto& row = baked.at("rows").at(0);
   CHECK(row.at("method") == "K-CTA");
   CHECK(row.at("views") == 12);
+  CHECK(row.at("file_bytes") == read_text(folder.path("a.nook")).size());
   CHECK(baked.at("recipe").at("source").at("meso") == "fiber");
 
   const ToolRun measured =
@@ -44,12 +45,26 @@ TEST_CASE(
   INFO(measured.error);
   REQUIRE(measured.exit_code == 0);
   const auto report = nlohmann::json::parse(read_text(folder.path("e.json")));
-  // The file, N-SVD, CTA, K-CTA with K = 2 (two clusters allow no more), PCA.
-  REQUIRE(report.at("rows").size() == 5);
+  // The file, N-SVD, CTA, K-CTA with K = 2 (two clusters allow no more), N-SVD and PCA of the file's bytes.
+  REQUIRE(report.at("rows").size() == 6);
+  CHECK(report.at("rows").at(0).at("file_bytes") == read_text(folder.path("a.nook")).size());
+  for (const char* list : {"rows", "sweep"})
+    for (const auto& each : report.at(list)) {
+      INFO(each);
+      // Numbers alone, and what a user ships.
+      CHECK(each.at("file_bytes").get<int>() > each.at("bytes").get<int>());
+    }
+  // 16 x 16 cells of 2 clusters, each with an index of a byte and 4 half floats, in BTF and VOTF.
+  CHECK(report.at("rows").at(3).at("file_bytes").get<int>() - report.at("rows").at(3).at("bytes").get<int>() >
+        2 * 16 * 16 * 2 * 9);
+  CHECK(report.at("rows").at(4).at("method") == "N-SVD, equal bytes");
+  CHECK(report.at("rows").at(4).at("view_rank") > report.at("rows").at(1).at("view_rank"));
+  CHECK(report.at("rows").at(4).at("file_bytes") <= report.at("rows").at(0).at("file_bytes"));
+  CHECK(report.at("rows").at(4).at("se_db") > report.at("rows").at(1).at("se_db"));
   CHECK(report.at("rows").at(0).at("se_db").get<double>() ==
         Approx(row.at("se_db").get<double>()).margin(1e-6));
-  CHECK(report.at("rows").at(4).at("method") == "PCA");
-  CHECK(report.at("rows").at(4).at("bytes") <= report.at("rows").at(3).at("bytes"));
+  CHECK(report.at("rows").at(5).at("method") == "PCA");
+  CHECK(report.at("rows").at(5).at("file_bytes") <= report.at("rows").at(0).at("file_bytes"));
   CHECK(report.at("sweep").size() == 5);
   CHECK(read_text(folder.path("images") + "/fiber_sweep_se.svg").find("</svg>") != std::string::npos);
   CHECK(!read_text(folder.path("images") + "/fiber_file.png").empty());

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""Bakes the built-in materials, compares the methods of compression, and prints the tables of docs/materials.md.
+
+    docs/material_tables.py --out out/material_tables [--write]
+
+A step whose report is in the output folder already is not repeated: remove the folder to measure anew. Raw materials of
+the full size take 0.5 GB of disk each and 3 GB of memory while they are baked.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+
+from markdown_table import show, table
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+# Name: options of its bake.
+FULL = {"fiber": [], "roughhole": []}
+SMALL = {"weave": ["--directions", "49", "--texels", "48"],
+         "small roughhole": ["--directions", "100", "--lights", "8", "--texels", "48"]}
+SWEEP = [12, 20, 28, 36, 44, 60, 76]
+# The least that `bake material` can compress of a raw material that is only to be measured against.
+REST = ["--ranks", "4,8,8,8", "--votf-ranks", "8,8"]
+
+
+class Bench:
+    def __init__(self, tool, out):
+        self.tool, self.out = tool, out
+        out.mkdir(parents=True, exist_ok=True)
+
+    def path(self, name):
+        return str(self.out / name.replace(" ", "_"))
+
+    def run(self, name, *arguments):
+        """The report of a step, made unless it is there."""
+        report = pathlib.Path(self.path(name) + ".json")
+        if not report.exists():
+            print("+ nook " + " ".join(arguments), file=sys.stderr, flush=True)
+            subprocess.run([str(self.tool), *arguments, "--quiet", "--report", str(report)], check=True)
+        return json.loads(report.read_text())
+
+    def bake(self, material, options):
+        """Bakes, with the raw material kept."""
+        return self.run(f"{material} bake", "bake", "material", "--meso", material.split()[-1], *options, "-o",
+                        self.path(f"{material}.nook"), "--keep-raw", self.path(f"{material}.raw"))
+
+    def compress(self, material, variant, options):
+        """Compresses a kept raw material once more."""
+        return self.run(f"{material} {variant}", "bake", "material", "--raw", self.path(f"{material}.raw"), *options,
+                        "-o", self.path(f"{material} {variant}.nook"))
+
+    def evaluate(self, material, variant, options):
+        return self.run(f"{material} {variant} evaluated", "evaluate", "material", self.path(f"{material}.raw"),
+                        self.path(f"{material}.nook"), *options)
+
+
+def mib(bytes_):
+    return f"{bytes_ / 2**20:.2f}"
+
+
+def count(texels):
+    return "-" if texels is None else str(texels)
+
+
+def mixture(row):
+    return str(row["k"]) if "K-CTA" in row["method"] else "-"
+
+
+def methods_table(reports):
+    return table(["material", "method", "K", "view rank", "file, MiB", "numbers, MiB", "S/E, dB", "error texels (B)", "(S)"],
+                 [[material, r["method"], mixture(r), count(r["view_rank"]), mib(r["file_bytes"]), mib(r["bytes"]),
+                   f"{r['se_db']:.2f}", count(r["votf_error_texels_binary"]), count(r["votf_error_texels_distance"])]
+                  for material, report in reports.items() for r in report["rows"][1:]])
+
+
+def unseen_table(reports, views, unseen_views):
+    """Error texels are of 10,000."""
+    def share(texels, of):
+        return "-" if texels is None else f"{1e4 * texels / (of * 96 * 96):.0f}"
+    return table(["material", "method", "K", "file, MiB", "S/E, dB: fitted views", "unseen views",
+                  "error texels (S), of 10,000: fitted", "unseen"],
+                 [[material, r["method"], mixture(r), mib(r["file_bytes"]), f"{r['se_db']:.2f}", f"{r['se_db_unseen']:.2f}",
+                   share(r["votf_error_texels_distance"], views), share(r.get("votf_error_texels_unseen"), unseen_views)]
+                  for material, report in reports.items() for r in report["rows"] if "se_db_unseen" in r])
+
+
+def maps_table(maps):
+    return table(["material", "cells a side", "file, MiB", "S/E, dB, unseen views", "error texels (S), unseen views"],
+                 [[material, str(side), mib(r["file_bytes"]), f"{r['se_db_unseen']:.2f}", count(r["votf_error_texels_unseen"])]
+                  for material, side, r in maps])
+
+
+def sweep_table(report):
+    rows = {}
+    for r in report["sweep"]:
+        label = r["method"] + (f" ({r['k']})" if r["method"] == "K-CTA" else "")
+        rows.setdefault(label, {})[r["view_rank"]] = r
+    columns = {"file, KiB": lambda r: f"{r['file_bytes'] / 1024:.0f}", "S/E, dB": lambda r: f"{r['se_db']:.2f}",
+               "(B)": lambda r: count(r["votf_error_texels_binary"]),
+               "(S)": lambda r: count(r["votf_error_texels_distance"])}
+    return table(["total view rank", *map(str, SWEEP)],
+                 [[f"{label}, {name}", *(show(of[rank]) if rank in of else "-" for rank in SWEEP)]
+                  for label, of in rows.items() for name, show in columns.items()])
+
+
+def thresholds_table(reports):
+    rows = []
+    for material, threshold, report in reports:
+        compression, r = report["recipe"]["compression"], report["rows"][0]
+        ranks = ", ".join(map(str, compression["ranks"])) + "; " + ", ".join(map(str, compression["votf_ranks"]))
+        rows.append([material, f"{100 * threshold:g} %", ranks, str(compression["clusters"]),
+                     f"{r['file_bytes'] / 1024:.0f}", f"{r['se_db']:.2f}", count(r["votf_error_texels_distance"])])
+    return table(["material", "threshold", "ranks: light, view, x, y; VOTF x, y", "C", "file, KiB", "S/E, dB",
+                  "error texels (S)"], rows)
+
+
+def seeding_table(report):
+    return table(["first clusters", "method", "file, KiB", "S/E, dB", "error texels (B)", "(S)"],
+                 [[r["seeding"], r["method"] + (" (3)" if r["method"] == "K-CTA" else ""), f"{r['file_bytes'] / 1024:.0f}",
+                   f"{r['se_db']:.2f}", count(r["votf_error_texels_binary"]), count(r["votf_error_texels_distance"])]
+                  for r in report["seeding"]])
+
+
+def summary_table(reports):
+    """Signal to error of the methods, each with its file."""
+    def cell(rows, method, mixture):
+        row = next(r for r in rows if r["method"] == method and r["k"] == mixture)
+        return f"{row['se_db']:.2f} ({mib(row['file_bytes'])})"
+    columns = {"PCA": ("PCA", 1), "N-SVD": ("N-SVD, equal bytes", 1), "CTA": ("CTA", 1), "K-CTA": ("K-CTA", 3)}
+    return table(["", "raw", *columns],
+                        [[material, "1.03 GiB", *(cell(report["rows"], *of) for of in columns.values())]
+                         for material, report in reports.items()])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook")
+    parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for materials and reports")
+    parser.add_argument("--write", action="store_true", help="put the tables into the documents instead of printing them")
+    options = parser.parse_args()
+    bench = Bench(options.tool, options.out)
+
+    for material, its in SMALL.items():
+        bench.bake(material, its)
+    weave = bench.evaluate("weave", "peers", ["--peers"])
+    small = "small roughhole"
+    sweep = bench.evaluate(small, "sweep", ["--sweep", ",".join(map(str, SWEEP)), "--images", bench.path("images")])
+    seeding = bench.evaluate(small, "seeding", ["--compare-seeding"])
+    thresholds = [(material, threshold,
+                   bench.compress(material, f"threshold {threshold}", ["--ranks", "auto", "--threshold", str(threshold)]))
+                  for material in (small, "weave") for threshold in (0.01, 0.003)]
+    methods, maps = {}, []
+    for material, its in FULL.items():
+        bench.bake(material, its)
+        unseen = bench.path(f"{material} unseen.raw")
+        bench.run(f"{material} unseen", "bake", "material", "--meso", material, "--directions", "37", "--lights", "100",
+                  *REST, "-o", bench.path(f"{material} unseen.nook"), "--keep-raw", unseen)
+        for side in (256, 64, 32):
+            bench.compress(material, f"map {side}", ["--view-map", str(side)])
+            report = bench.run(f"{material} map {side} evaluated", "evaluate", "material", bench.path(f"{material}.raw"),
+                               bench.path(f"{material} map {side}.nook"), "--unseen", unseen)
+            maps.append((material, side, report["rows"][0]))
+        methods[material] = bench.evaluate(material, "peers", ["--peers", "--unseen", unseen, "--images",
+                                                               bench.path("images")])
+    show(ROOT / "docs/materials.md", pathlib.Path(__file__).name,
+         {"methods": methods_table({**methods, "weave": weave}), "unseen views": unseen_table(methods, 100, 37),
+          "view maps": maps_table(maps), "view ranks": sweep_table(sweep), "thresholds": thresholds_table(thresholds),
+          "first clusters": seeding_table(seeding)}, options.write)
+    show(ROOT / "README.md", pathlib.Path(__file__).name, {"materials": summary_table(methods)}, options.write)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,91 @@
+// Meshes without any volume, as cloth, flags, cards and leaves are.
+#include <algorithm>
+
+#include "bakers/character/bake.h"
+#include "bakers/import/skinning.h"
+#include "bakers/measure/character/evaluate.h"
+#include "sdk/src/character/model_file.h"
+#include "tests/bakers/character/waving_flag.h"
+#include "tests/catch.h"
+
+using namespace nook;
+using namespace nook::bake;
+
+TEST_CASE("a flag bakes and follows poses that it has not seen") {
+  const FlagSides sides = GENERATE(FlagSides::front, FlagSides::both);
+  const SkinnedMesh mesh = flag(sides);
+  REQUIRE(mesh.vertex_count() == (sides == FlagSides::both ? 800 : 400));
+  BakeSettings settings;
+  settings.spheres = 32;
+  settings.key_points = 100;
+  settings.rays = 64;
+  settings.steps = 600;
+  const BakeResult baked = bake_character(mesh, flag_poses(mesh, 200, 0), settings);
+  const CharacterModel shipped = read_character_model(write_character_model(baked.model));
+  const CharacterEvaluation e = evaluate_character(mesh, shipped, flag_poses(mesh, 12, 0.35f), 256, 5);
+  INFO("mse " << e.model.mse << " static " << e.static_bake.mse << " oracle " << e.oracle.mse << " noise "
+              << e.noise_floor_mse);
+  CHECK(e.static_bake.mse > 1e-3);  // the poses do occlude
+  CHECK(e.model.mse < 0.25 * e.static_bake.mse);
+}
+
+TEST_CASE("the least of meshes bake") {
+  // What they hide of themselves is nothing, or next to it.
+  const auto bake = [](const SkinnedMesh& mesh) {
+    BakeSettings settings;
+    settings.spheres = 8;
+    settings.key_points = 20;
+    settings.steps = 50;
+    const BakeResult baked = bake_character(mesh, std::vector<Pose>(8, Pose(mesh.bones.size())), settings);
+    const CharacterModel shipped = read_character_model(write_character_model(baked.model));
+    for (const float ao : predict_ao(shipped, Pose(mesh.bones.size()))) CHECK(ao > 0.999f);
+  };
+  const auto make = [](std::vector<Vec3> position, std::vector<std::array<std::uint32_t, 3>> triangle,
+                       std::vector<std::uint16_t> bone) {
+    FileMesh file;
+    file.bones.resize(2);
+    file.bones[1].parent = 0;
+    file.position = std::move(position);
+    file.triangle = std::move(triangle);
+    for (const std::uint16_t b : bone) {
+      const std::pair<std::uint16_t, float> rigid{b, 1.0f};
+      file.weights.push_back(make_weights({&rigid, 1}));
+    }
+    std::vector<std::string> warnings;
+    return weld(std::move(file), warnings, NOOK_ERROR_INVALID_ARGUMENT);
+  };
+  SECTION("a triangle") {
+    bake(make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {0, 0, 0}));
+  }
+  SECTION("a card whose bones each hold one edge") {
+    bake(make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}, {0, 1, 1, 0}));
+  }
+}
+
+TEST_CASE("each side of a card is traced with its own normal") {
+  // A card of two sides 5 cm above a floor of 20 m.
+  FileMesh file;
+  file.bones.resize(1);
+  const auto add_square = [&](float half, float y, bool up) {
+    const auto first = std::uint32_t(file.position.size());
+    for (const Vec3 p : {Vec3{-half, y, -half}, {-half, y, half}, {half, y, half}, {half, y, -half}})
+      file.position.push_back(p);
+    for (std::array<std::uint32_t, 3> t : {std::array{0u, 1u, 2u}, std::array{0u, 2u, 3u}}) {
+      if (!up) std::swap(t[1], t[2]);
+      file.triangle.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+  };
+  add_square(10, 0, true);
+  add_square(0.5f, 0.05f, true);
+  add_square(0.5f, 0.05f, false);
+  const std::pair<std::uint16_t, float> rigid{std::uint16_t{0}, 1.0f};
+  file.weights.assign(file.position.size(), make_weights({&rigid, 1}));
+  std::vector<std::string> warnings;
+  const SkinnedMesh mesh = weld(std::move(file), warnings, NOOK_ERROR_INVALID_ARGUMENT);
+  const AoTargets traced = trace_character_ao(mesh, std::vector<Pose>(1, Pose(1)), 256, 1);
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    // The floor ends 10 m away, 0.3 degrees below the horizon.
+    CHECK(float(traced.row(0)[mesh.file_to_welded[4 + corner]]) * AoTargets::scale == 1);
+    CHECK(float(traced.row(0)[mesh.file_to_welded[8 + corner]]) * AoTargets::scale < 0.01f);
+  }
+}
