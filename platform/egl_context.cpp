@@ -64,7 +64,7 @@ class EglContext final : public Context {
   EGLContext context_;
 };
 
-// Some drivers refuse the debug attribute whatever its value.
+// Some drivers refuse the debug attribute with any value.
 EGLContext create(EGLDisplay display, const ContextRequest& request, bool debug) {
   const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                request.major,

@@ -20,7 +20,7 @@ struct ContextRequest {
   int height = 720;
   int major = 4;  // the version of the core profile; Mesa's software renderer has 4.5 at most
   int minor = 5;
-  bool debug = false;  // a debug context where the driver has one
+  bool debug = false;  // true: a debug context if the driver supports one
   std::string title = "Nook";
 };
 
@@ -90,8 +90,8 @@ struct FloatImage {
 // Reads the first three channels of an image of floating-point values (.hdr, .exr).
 FloatImage read_float_image(const std::filesystem::path& path);
 
-// Reads the framebuffer that is bound for reading. Waits for the GPU. Pixel-pack state is set and not
-// restored.
+// Reads the framebuffer that is bound for reading. Waits for the GPU. Sets pixel-pack state and does not
+// restore it.
 Image read_pixels(const Context& context, int width, int height, int channels = 3);
 // The format follows the file's extension, such as .png. A failed run leaves no half-written file.
 void write_image(const std::filesystem::path& path, const Image& image);

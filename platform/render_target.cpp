@@ -71,7 +71,7 @@ void RenderTarget::show(unsigned framebuffer, int width_px, int height_px) const
   resolve();
   const GladGLContext& gl = context_.gl();
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  // The pixels are encoded already.
+  // The pixels are already encoded.
   gl.Disable(GL_FRAMEBUFFER_SRGB);
   gl.BlitFramebuffer(0, 0, width_px_, height_px_, 0, 0, width_px, height_px, GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }

@@ -70,7 +70,7 @@ Colour grey(float value) {
   return {v, v, v};
 }
 
-// A polynomial of the sixth degree through matplotlib's table (M. Zucker, public domain), within 0.01 of it.
+// A polynomial of degree six through matplotlib's table (M. Zucker, public domain), within 0.01 of it.
 Colour viridis(float value) {
   static constexpr float c[7][3] = {{0.27773f, 0.00541f, 0.33410f},   {0.10509f, 1.40461f, 1.38459f},
                                     {-0.33086f, 0.21485f, 0.09510f},  {-4.63423f, -5.79910f, -19.33244f},
@@ -89,7 +89,8 @@ BodyView::BodyView(std::span<const std::array<std::uint32_t, 3>> triangles,
   const Box box = bounds_of(positions_ws);
   const Vec3 centre = 0.5f * (box.low + box.high), size = box.high - box.low;
   const float metres_per_pixel =
-      margin * std::max({size.x / float(width), size.y / float(height), 1e-6f});  // a point still has a scale
+      // A single point also has a scale.
+      margin * std::max({size.x / float(width), size.y / float(height), 1e-6f});
   const float towards = side == BodySide::front ? 1.0f : -1.0f;
   const EmbreeDevice device;
   const EmbreeScene scene(device.get());

@@ -18,8 +18,9 @@ std::uint64_t fingerprint(std::string_view recipe) {
 // Far above any training; each of these steps takes its time.
 constexpr std::uint64_t max_steps = std::uint64_t{1} << 48;
 
-// Whether a training can have left these numbers, so that the next step is finite. Adam's decay rates make the square of the
-// mean gradient at most 53 times the mean squared gradient (by Cauchy and Schwarz); squares of gradients below 1e-18 vanish.
+// Whether a training can have left these numbers, so that the next step is finite. Adam's decay rates make
+// the square of the mean gradient at most 53 times the mean squared gradient (by Cauchy and Schwarz); squares
+// of gradients below 1e-18 vanish.
 bool is_reachable(float parameter, float mean, float square) {
   return std::abs(parameter) <= nook::nnao::max_parameter && std::isfinite(square) && square >= 0 &&
          std::abs(mean) <= 8 * std::sqrt(square) + 1e-18f;
@@ -51,13 +52,16 @@ TrainingState read_checkpoint(std::span<const std::byte> bytes, std::string_view
   state.adam.steps = head.u64();
   head.check_end();
   if (state.adam.steps > max_steps)
-    throw Failure(NOOK_ERROR_BAD_FILE, "the checkpoint says that %llu steps were taken (need at most %llu); remove it",
-                  static_cast<unsigned long long>(state.adam.steps), static_cast<unsigned long long>(max_steps));
+    throw Failure(
+        NOOK_ERROR_BAD_FILE, "the checkpoint says that %llu steps were taken (need at most %llu); remove it",
+        static_cast<unsigned long long>(state.adam.steps), static_cast<unsigned long long>(max_steps));
   for (std::size_t i = 0; i < state.parameter.size(); ++i) {
-    for (float* value : {&state.parameter[i], &state.adam.mean[i], &state.adam.square[i]}) *value = numbers.f32();
+    for (float* value : {&state.parameter[i], &state.adam.mean[i], &state.adam.square[i]})
+      *value = numbers.f32();
     if (!is_reachable(state.parameter[i], state.adam.mean[i], state.adam.square[i]))
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "parameter %zu of the checkpoint is no number that training leaves (got %g, its mean gradient %g, mean "
+                    "parameter %zu of the checkpoint is no number that training leaves (got %g, its mean "
+                    "gradient %g, mean "
                     "squared gradient %g); remove it",
                     i, double(state.parameter[i]), double(state.adam.mean[i]), double(state.adam.square[i]));
   }

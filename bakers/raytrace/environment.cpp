@@ -17,9 +17,10 @@ constexpr double darkest = 1e-30;  // integral of luminance
 Environment::Environment(std::uint32_t width, std::uint32_t height, std::vector<float> rgb)
     : width_(width), height_(height), rgb_(std::move(rgb)) {
   if (texel_count() == 0 || rgb_.size() != 3 * texel_count())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "an environment of %u x %u texels has %zu numbers (need 3 a texel, and one texel or more)",
-                  width, height, rgb_.size());
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "an environment of %u x %u texels has %zu numbers (need 3 for each texel, and one texel or more)",
+        width, height, rgb_.size());
   for (std::size_t i = 0; i < rgb_.size(); ++i)
     if (!(rgb_[i] >= 0 && double(rgb_[i]) <= max_radiance))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -38,8 +38,8 @@ Vec3 direct_radiance(const LitScene& scene, Vec3 radiance, DirectLight direct) {
   return radiance;
 }
 
-// Light of the environment at a surface, by a direction that the light chose, weighed by the balance
-// heuristic (Veach 1997) against the cosine's choice of the same direction.
+// Returns the light of the environment at a surface from a direction that was sampled by luminance, weighted
+// by the balance heuristic (Veach 1997) against the cosine-weighted density of the same direction.
 Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, DirectLight direct,
                         PathRandom& random) {
   const double choice = random.next_double();
@@ -51,7 +51,7 @@ Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, DirectL
   return radiance * (cosine / (light.density + cosine / pi));
 }
 
-// Irradiance at a point, whose first path leaves along `direction`, a cosine-weighted choice.
+// Estimates the irradiance at a point by a path that leaves along `direction`, a cosine-weighted sample.
 Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 direction,
                      const PathSettings& settings, PathRandom& random) {
   Vec3 irradiance, share{1, 1, 1};
@@ -70,8 +70,8 @@ Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 dir
     }
     const SurfaceColours surface = scene.colours(hit);
     irradiance += pi * by_channel(share, surface.emission);
-    // A cosine-weighted direction carries pi times its radiance, and a diffuse surface sends irradiance *
-    // base colour / pi.
+    // A cosine-weighted direction contributes pi times its radiance, and a diffuse surface reflects
+    // irradiance * base colour / pi.
     share = by_channel(share, surface.base_colour);
     if (bounce >= settings.max_bounces || is_black(share)) return irradiance;
     if (bounce >= certain_bounces) {

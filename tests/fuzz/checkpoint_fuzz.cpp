@@ -1,6 +1,6 @@
-// Loads bytes as the checkpoint of a training and takes one step from it: nothing may crash, the parameters stay finite, and
-// what loads is written and loaded again alike, whatever the bytes. Built for libFuzzer with clang; elsewhere
-// checkpoint_fuzz_replay.cpp drives it.
+// Loads bytes as the checkpoint of a training and takes one step from it: nothing may crash, the parameters
+// stay finite, and what loads is written and loaded again alike, whatever the bytes. Built for libFuzzer with
+// clang; elsewhere checkpoint_fuzz_replay.cpp drives it.
 #include <cmath>
 
 #include "bakers/nnao/checkpoint.h"
@@ -24,8 +24,8 @@ void train_on(TrainingState state) {
 void load(const std::vector<std::byte>& file, NetworkForm form) {
   try {
     const TrainingState state = read_checkpoint(file, nook::test::checkpoint_recipe, form);
-    const TrainingState again =
-        read_checkpoint(write_checkpoint(state, nook::test::checkpoint_recipe), nook::test::checkpoint_recipe, form);
+    const TrainingState again = read_checkpoint(write_checkpoint(state, nook::test::checkpoint_recipe),
+                                                nook::test::checkpoint_recipe, form);
     require(again.parameter == state.parameter && again.adam.mean == state.adam.mean);
     require(again.epochs_done == state.epochs_done && again.adam.steps == state.adam.steps);
     train_on(state);

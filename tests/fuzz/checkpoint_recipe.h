@@ -1,4 +1,5 @@
-// The settings that the checkpoints of the corpus belong to: a checkpoint of others is refused by its fingerprint.
+// The settings that the checkpoints of the corpus belong to: a checkpoint of others is refused by its
+// fingerprint.
 #pragma once
 
 namespace nook::test {

@@ -1,5 +1,6 @@
-// What a fuzz target of a .nook file is given: the file, and behind it a script, bytes that choose what is done with what
-// was loaded. The size in the file's head says where it ends, so that a plain .nook file is an input with an empty script.
+// What a fuzz target of a .nook file is given: the file, and behind it a script, bytes that choose what is
+// done with what was loaded. The size in the file's head says where it ends, so that a plain .nook file is an
+// input with an empty script.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// Mutates inputs of container_input.h by their parts: one section of the file, or the script. The table of the file follows,
-// so that a longer or shorter section does not end in the checks of the container. One mutation in eight is blind.
+// Mutates inputs of container_input.h by their parts: one section of the file, or the script. The table of
+// the file follows, so that a longer or shorter section does not end in the checks of the container. One
+// mutation in eight is blind.
 #include <cstring>
 #include <random>
 #include <span>

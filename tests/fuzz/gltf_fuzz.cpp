@@ -1,6 +1,6 @@
-// Imports bytes as a rigged character through the C ABI and asks for everything that can be read from it, and as a static
-// scene: nothing may crash, and every number that comes out is finite, whatever the bytes. Built for libFuzzer with clang;
-// elsewhere gltf_fuzz_replay.cpp drives it.
+// Imports bytes as a rigged character through the C ABI and asks for everything that can be read from it, and
+// as a static scene: nothing may crash, and every number that comes out is finite, whatever the bytes. Built
+// for libFuzzer with clang; elsewhere gltf_fuzz_replay.cpp drives it.
 #include <nook/nook_bake.h>
 
 #include <cmath>
@@ -59,16 +59,19 @@ Arrays read_arrays(nook_bake_character character, const nook_bake_character_info
            std::vector<std::uint32_t>(3 * std::size_t(info.triangle_count)),
            std::vector<std::uint16_t>(4 * vertices)};
   require(ok(nook_bake_character_read_bones(character, a.parents.data(), a.frames.data(), info.bone_count)));
-  require(ok(nook_bake_character_read_vertices(character, a.positions.data(), a.normals.data(), info.file_vertex_count)));
+  require(ok(nook_bake_character_read_vertices(character, a.positions.data(), a.normals.data(),
+                                               info.file_vertex_count)));
   require(ok(nook_bake_character_read_triangles(character, a.indices.data(), 3 * info.triangle_count)));
-  require(ok(nook_bake_character_read_skin(character, a.joints.data(), a.weights.data(), info.file_vertex_count)));
+  require(ok(
+      nook_bake_character_read_skin(character, a.joints.data(), a.weights.data(), info.file_vertex_count)));
   for (const auto* numbers : {&a.frames, &a.positions, &a.normals, &a.weights}) require_finite(*numbers);
   for (const std::uint32_t index : a.indices) require(index < info.file_vertex_count);
   for (const std::uint16_t joint : a.joints) require(joint < info.bone_count);
   std::uint32_t next = 0;
   for (std::uint32_t p = 0; p < info.primitive_count; ++p) {
     nook_bake_primitive primitive{};
-    require(ok(nook_bake_character_describe_primitive(character, p, &primitive)) && primitive.first_vertex == next);
+    require(ok(nook_bake_character_describe_primitive(character, p, &primitive)) &&
+            primitive.first_vertex == next);
     next += primitive.vertex_count;
   }
   return a;
@@ -86,7 +89,8 @@ void sample_clips(nook_bake_character character, const nook_bake_character_info&
   std::vector<float> pose(12 * std::size_t(info.bone_count));
   for (std::uint32_t clip = 0; clip < info.clip_count; ++clip) {
     float seconds = 0;
-    require(ok(nook_bake_character_clip_duration(character, clip, &seconds)) && std::isfinite(seconds) && seconds >= 0);
+    require(ok(nook_bake_character_clip_duration(character, clip, &seconds)) && std::isfinite(seconds) &&
+            seconds >= 0);
     for (const float time_s : {0.0f, 0.3f * seconds, seconds, -1.0f}) {
       require(ok(nook_bake_character_sample_clip(character, clip, time_s, pose.data(), info.bone_count)));
       require_finite(pose);
@@ -101,10 +105,12 @@ void make_poses(nook_bake_character character, const nook_bake_character_info& i
   require_finite(poses);
   skin(character, info, poses.data());
   std::uint32_t count = 0;
-  if (!ok(nook_bake_character_single_joint_poses(character, 2, 30, &count, nullptr, info.bone_count)) || count > 64)
+  if (!ok(nook_bake_character_single_joint_poses(character, 2, 30, &count, nullptr, info.bone_count)) ||
+      count > 64)
     return;
   poses.resize(12 * std::size_t(count) * info.bone_count);
-  require(ok(nook_bake_character_single_joint_poses(character, 2, 30, &count, poses.data(), info.bone_count)));
+  require(
+      ok(nook_bake_character_single_joint_poses(character, 2, 30, &count, poses.data(), info.bone_count)));
   require_finite(poses);
 }
 

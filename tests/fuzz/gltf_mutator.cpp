@@ -1,5 +1,6 @@
-// Mutates glTF by what it says: a value of the JSON document becomes another number, is removed, or takes the place of another
-// value; or the binary chunk changes. The headers of a .glb follow. One mutation in eight is blind.
+// Mutates glTF by what it says: a value of the JSON document becomes another number, is removed, or takes the
+// place of another value; or the binary chunk changes. The headers of a .glb follow. One mutation in eight is
+// blind.
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -65,8 +66,9 @@ void collect(Json& value, std::vector<Json*>& all) {
 }
 
 Json any_number(Random& random) {
-  constexpr double numbers[] = {0,    1,    2,    3,    4,    5,     7,     16,    -1,    0.5,        1e-30, 1e18, 3e38, 1e300,
-                                5120, 5121, 5122, 5123, 5125, 5126,  33071, 65535, 65536, 16777217.0, 2147483647.0};
+  constexpr double numbers[] = {0,    1,     2,     3,     4,     5,          7,           16,   -1,
+                                0.5,  1e-30, 1e18,  3e38,  1e300, 5120,       5121,        5122, 5123,
+                                5125, 5126,  33071, 65535, 65536, 16777217.0, 2147483647.0};
   const double number = random() % 4 ? numbers[random() % std::size(numbers)] : double(random() % 64);
   return std::abs(number) < 1e15 && number == std::trunc(number) ? Json(std::int64_t(number)) : Json(number);
 }
@@ -115,7 +117,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   if (choice <= 5) {
     mutate_json(document.json, random);
   } else if (!document.buffer.empty()) {
-    document.buffer.resize(LLVMFuzzerMutate(document.buffer.data(), document.buffer.size(), document.buffer.size()));
+    document.buffer.resize(
+        LLVMFuzzerMutate(document.buffer.data(), document.buffer.size(), document.buffer.size()));
   }
   const std::vector<std::uint8_t> whole = write_document(std::move(document));
   if (whole.empty() || whole.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);

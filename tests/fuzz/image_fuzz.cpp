@@ -1,7 +1,7 @@
-// Gives bytes to the readers of image files: textures of glTF files, environment maps, folders of measured images. Nothing may
-// crash or take more memory than the file can fill, and every number is finite, whatever the bytes. OpenImageIO is not
-// instrumented: what guides the fuzzer is the code round it. Built for libFuzzer with clang; elsewhere
-// image_fuzz_replay.cpp drives it.
+// Gives bytes to the readers of image files: textures of glTF files, environment maps, folders of measured
+// images. Nothing may crash or take more memory than the file can fill, and every number is finite, whatever
+// the bytes. OpenImageIO is not instrumented: what guides the fuzzer is the code round it. Built for
+// libFuzzer with clang; elsewhere image_fuzz_replay.cpp drives it.
 #include <unistd.h>
 
 #include <cmath>
@@ -11,8 +11,8 @@
 #include <span>
 
 #include "bakers/images/environment_file.h"
-#include "bakers/images/ubo_reader.h"
 #include "bakers/images/texture_file.h"
+#include "bakers/images/ubo_reader.h"
 #include "sdk/src/core/failure.h"
 #include "tests/fuzz/image_kinds.h"
 

@@ -1,4 +1,5 @@
-// What the first byte of an input of the image target says: which reader gets the rest as a file, and of which ending.
+// What the first byte of an input of the image target says: which reader gets the rest as a file, and of
+// which ending.
 #pragma once
 
 #include <array>

@@ -13,7 +13,8 @@ namespace nook::test {
 namespace {
 
 std::vector<std::byte> written(const char* ending, int width, int height, int channels) {
-  const auto path = std::filesystem::temp_directory_path() / ("nook_image_seed_" + std::to_string(getpid()) + "." + ending);
+  const auto path =
+      std::filesystem::temp_directory_path() / ("nook_image_seed_" + std::to_string(getpid()) + "." + ending);
   const std::string kind = ending;
   OIIO::ImageSpec spec(width, height, channels,
                        kind == "exr"   ? OIIO::TypeDesc::HALF
@@ -22,8 +23,8 @@ std::vector<std::byte> written(const char* ending, int width, int height, int ch
   std::vector<float> values(std::size_t(width * height * channels));
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = float(i * 7 % 16) / 16;
   const auto output = OIIO::ImageOutput::create(path.string());
-  if (!output || !output->open(path.string(), spec) || !output->write_image(OIIO::TypeDesc::FLOAT, values.data()) ||
-      !output->close())
+  if (!output || !output->open(path.string(), spec) ||
+      !output->write_image(OIIO::TypeDesc::FLOAT, values.data()) || !output->close())
     throw std::runtime_error("an image could not be written: " + path.string());
   std::ifstream file(path, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

@@ -1,5 +1,6 @@
-// Loads bytes as a material, evaluates it and uploads it through the C ABI: nothing may crash, radiance is finite and
-// visibility lies in [0, 1], whatever the bytes. Built for libFuzzer with clang; elsewhere material_fuzz_replay.cpp drives it.
+// Loads bytes as a material, evaluates it and uploads it through the C ABI: nothing may crash, radiance is
+// finite and visibility lies in [0, 1], whatever the bytes. Built for libFuzzer with clang; elsewhere
+// material_fuzz_replay.cpp drives it.
 #include <nook/nook_material.h>
 
 #include <cmath>
@@ -20,7 +21,8 @@ bool is_small(std::span<const std::byte> file) {
   };
   try {
     const nook::material::Material material = nook::material::read_material(file);
-    return expanded(material.btf.shape) + expanded(material.votf.shape) <= 1 << 16 && material.views.size() <= 64;
+    return expanded(material.btf.shape) + expanded(material.votf.shape) <= 1 << 16 &&
+           material.views.size() <= 64;
   } catch (const nook::Failure&) {
     return true;  // the library refuses it as fast
   }
@@ -42,14 +44,16 @@ void evaluate(nook_material material, const nook_material_sample& sample) {
   nook_material_value value{};
   if (!ok(nook_material_evaluate(material, &sample, 1, &value))) return;
   require(value.visibility >= 0 && value.visibility <= 1);
-  if (is_reasonable(sample)) require(std::isfinite(value.radiance[0] + value.radiance[1] + value.radiance[2]));
+  if (is_reasonable(sample))
+    require(std::isfinite(value.radiance[0] + value.radiance[1] + value.radiance[2]));
 }
 
 void evaluate_directions(nook_material material, Script& script) {
   for (const float level : {0.0f, 0.5f, 40.0f})
     for (int i = 0; i < 5; ++i) {
       const float angle = 1.3f * float(i), z = 0.2f * float(i + 1), r = std::sqrt(1 - z * z);
-      evaluate(material, {{0.3f * float(i), -0.7f}, level, {r * std::cos(angle), r * std::sin(angle), z}, {0, r, z}});
+      evaluate(material,
+               {{0.3f * float(i), -0.7f}, level, {r * std::cos(angle), r * std::sin(angle), z}, {0, r, z}});
     }
   for (int i = 0; i < 32 && !script.at_end(); ++i) {
     nook_material_sample sample;
@@ -85,7 +89,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!is_small(input.file)) return 0;
   const std::uint32_t settings = input.script.byte();
   nook_material material = nullptr;
-  if (!ok(nook_material_load(context_with_jobs(settings & 1), input.file.data(), input.file.size(), &material))) {
+  if (!ok(nook_material_load(context_with_jobs(settings & 1), input.file.data(), input.file.size(),
+                             &material))) {
     require(material == nullptr);
     return 0;
   }

@@ -1,6 +1,7 @@
-// Loads bytes as a character model and plays a script with it through the C ABI: a scene of one instruction set, instances,
-// poses, links, lights, ground, occluders, levels of detail, both tiers of the OpenGL half. Nothing may crash, and AO lies in
-// [0, 1], whatever the bytes. Built for libFuzzer with clang; elsewhere model_fuzz_replay.cpp drives it.
+// Loads bytes as a character model and plays a script with it through the C ABI: a scene of one instruction
+// set, instances, poses, links, lights, ground, occluders, levels of detail, both tiers of the OpenGL half.
+// Nothing may crash, and AO lies in [0, 1], whatever the bytes. Built for libFuzzer with clang; elsewhere
+// model_fuzz_replay.cpp drives it.
 #include <nook/nook_character.h>
 
 #include <cmath>
@@ -47,7 +48,8 @@ void remove_instance(Crowd& crowd, Script& script) {
   if (ok(nook_scene_remove_instance(crowd.scene, id))) std::erase(crowd.instances, id);
 }
 
-// All bones turn about an axis by one angle, scaled and moved; one of them gets any numbers in one case of eight.
+// All bones turn about an axis by one angle, scaled and moved; one of them gets any numbers in one case of
+// eight.
 void set_pose(Crowd& crowd, Script& script) {
   const nook_instance_id id = crowd.instance(script);
   const std::uint32_t form = script.byte();
@@ -173,10 +175,10 @@ void release_from_gl(Crowd& crowd, Script& script) {
 }
 
 using Command = void (*)(Crowd&, Script&);
-constexpr Command commands[] = {add_instance,    update,       set_pose,      link,         set_light,
-                                set_ground,      add_occluder, set_camera,    link_nearest, update_on_gl,
-                                remove_instance, unlink,       set_occluder,  set_terms,    remove_occluder,
-                                release_from_gl};
+constexpr Command commands[] = {add_instance, update,       set_pose,        link,
+                                set_light,    set_ground,   add_occluder,    set_camera,
+                                link_nearest, update_on_gl, remove_instance, unlink,
+                                set_occluder, set_terms,    remove_occluder, release_from_gl};
 
 nook_scene_desc plain_scene() {
   nook_scene_desc desc;
@@ -226,8 +228,8 @@ void play(Crowd& crowd, Script& script) {
 
 // What a small file may ask for is bounded, but not worth a fuzzer's time beyond this.
 bool is_small(const nook_character_model_info& info) {
-  return std::uint64_t(info.sphere_count) * info.key_point_count <= 1 << 12 && info.file_vertex_count <= 1 << 12 &&
-         info.bone_count <= 1 << 8;
+  return std::uint64_t(info.sphere_count) * info.key_point_count <= 1 << 12 &&
+         info.file_vertex_count <= 1 << 12 && info.bone_count <= 1 << 8;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Loads bytes as a network of the screen-space pass, renders frames with it through the C ABI and evaluates it by the
-// reference: nothing may crash, and AO lies in [0, 1], whatever the bytes. Built for libFuzzer with clang; elsewhere
-// network_fuzz_replay.cpp drives it.
+// Loads bytes as a network of the screen-space pass, renders frames with it through the C ABI and evaluates
+// it by the reference: nothing may crash, and AO lies in [0, 1], whatever the bytes. Built for libFuzzer with
+// clang; elsewhere network_fuzz_replay.cpp drives it.
 #include <nook/nook_nnao.h>
 
 #include "sdk/src/core/failure.h"
@@ -92,8 +92,8 @@ nook_nnao_frame_desc frame_of(Script& script) {
   }
   if (settings & 32) frame.projection[script.below(16)] = script.number();
   if (settings & 64)
-    for (float* number : {&frame.radius, &frame.max_radius_px, &frame.intensity, &frame.power, &frame.normal_scale,
-                          &frame.normal_matrix[4]})
+    for (float* number : {&frame.radius, &frame.max_radius_px, &frame.intensity, &frame.power,
+                          &frame.normal_scale, &frame.normal_matrix[4]})
       *number = script.number();
   if (settings & 128)
     for (std::int32_t& number : frame.viewport) number = std::int32_t(script.below(20)) - 4;

@@ -1,6 +1,6 @@
-// Loads bytes as light probes, evaluates, writes and uploads what loads, and fits other probes by a script, through the C ABI:
-// nothing may crash, light of a file is finite, and a file that was written loads again, whatever the bytes. Built for
-// libFuzzer with clang; elsewhere probe_fuzz_replay.cpp drives it.
+// Loads bytes as light probes, evaluates, writes and uploads what loads, and fits other probes by a script,
+// through the C ABI: nothing may crash, light of a file is finite, and a file that was written loads again,
+// whatever the bytes. Built for libFuzzer with clang; elsewhere probe_fuzz_replay.cpp drives it.
 #include <nook/nook_gl_probe.h>
 
 #include <cmath>
@@ -59,15 +59,16 @@ void use_lobes(Script& script, std::vector<nook_probe_lobe>& lobes) {
   const auto count = std::uint32_t(lobes.size());
   float light[3 * direction_count], coefficients[75], rotation[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1};
   ok(nook_probe_lobes_radiance(lobes.data(), count, directions, light, direction_count));
-  ok(nook_probe_lobes_irradiance(lobes.data(), count, nook_probe_irradiance_form(script.below(4)), directions, light,
-                                 direction_count));
+  ok(nook_probe_lobes_irradiance(lobes.data(), count, nook_probe_irradiance_form(script.below(4)), directions,
+                                 light, direction_count));
   nook_probe_surface surface{};
   surface.normal[2] = surface.tangent[0] = 1;
   fill_direction(script, surface.view);
   surface.alpha_x = script.number();
   surface.alpha_y = script.below(2) ? surface.alpha_x : script.number();
   surface.reflectance = script.number();
-  ok(nook_probe_lobes_specular(lobes.data(), count, nook_probe_specular_form(script.below(3)), &surface, light, 1));
+  ok(nook_probe_lobes_specular(lobes.data(), count, nook_probe_specular_form(script.below(3)), &surface,
+                               light, 1));
   if (count >= 2) {
     nook_probe_lobe out{};
     ok(nook_probe_lobe_integral(&lobes[0], light));
@@ -85,8 +86,10 @@ void use_probe(nook_context context, nook_probe probe, Script& script) {
   info.struct_size = sizeof info;
   require(ok(nook_probe_describe(probe, &info)) && info.function_count <= NOOK_PROBE_MAX_FUNCTIONS);
   std::vector<float> coefficients(3 * std::size_t(info.function_count));
-  require(ok(nook_probe_read_coefficients(probe, info.probe_count - 1, coefficients.data(), info.function_count)));
-  require(!ok(nook_probe_read_coefficients(probe, info.probe_count, coefficients.data(), info.function_count)));
+  require(ok(
+      nook_probe_read_coefficients(probe, info.probe_count - 1, coefficients.data(), info.function_count)));
+  require(
+      !ok(nook_probe_read_coefficients(probe, info.probe_count, coefficients.data(), info.function_count)));
   const float outside[3] = {0.4f, -1, 1e6f};
   evaluate(probe, nullptr);
   evaluate(probe, outside);
@@ -197,7 +200,8 @@ void fit(nook_context context, Script& script) {
   Axes given;
   const nook_probe_fit_desc desc = fit_desc(script, given);
   nook_probe_fit fits[2] = {};
-  if (ok(nook_probe_fit_create(context, &desc, &fits[0])) && ok(nook_probe_fit_create(context, &desc, &fits[1]))) {
+  if (ok(nook_probe_fit_create(context, &desc, &fits[0])) &&
+      ok(nook_probe_fit_create(context, &desc, &fits[1]))) {
     for (std::uint32_t i = 0; i < max_commands && !script.at_end(); ++i) {
       const std::uint32_t command = script.byte(), which = command >> 4 & 1;
       switch (command % 8) {

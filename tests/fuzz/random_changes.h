@@ -7,8 +7,8 @@
 
 namespace nook::test {
 
-// below(n): a random number from 0 to n - 1. is_container: the size in the head of a .nook file follows, or nearly every
-// change would end there.
+// below(n): a random number from 0 to n - 1. is_container: the size in the head of a .nook file follows, or
+// nearly every change would end there.
 template <class Below>
 void change_bytes(std::vector<std::byte>& file, bool is_container, const Below& below) {
   for (std::uint32_t change = below(6) + 1; change > 0; --change) {

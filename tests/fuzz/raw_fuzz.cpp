@@ -1,5 +1,6 @@
-// Loads bytes as a raw material, and what loads is written and loaded again: nothing may crash, every texel is finite, and the
-// second reading equals the first, whatever the bytes. Built for libFuzzer with clang; elsewhere raw_fuzz_replay.cpp drives it.
+// Loads bytes as a raw material, and what loads is written and loaded again: nothing may crash, every texel
+// is finite, and the second reading equals the first, whatever the bytes. Built for libFuzzer with clang;
+// elsewhere raw_fuzz_replay.cpp drives it.
 #include <cmath>
 
 #include "bakers/material/raw_file.h"

@@ -10,7 +10,8 @@ std::vector<Seed> seeds() {
   material::RawMaterial open = material::test::small_material(4, 4, 1, 2);
   open.mask.clear();
   open.name = "";
-  return {{"raw_0.nook", material::write_raw_material(masked)}, {"raw_1.nook", material::write_raw_material(open)}};
+  return {{"raw_0.nook", material::write_raw_material(masked)},
+          {"raw_1.nook", material::write_raw_material(open)}};
 }
 
 }  // namespace nook::test

@@ -1,4 +1,5 @@
-// Drives a fuzz target without libFuzzer: every file of its corpus, then sound inputs changed at a few random bytes.
+// Drives a fuzz target without libFuzzer: every file of its corpus, then sound inputs changed at a few random
+// bytes.
 //   replay RUNS CORPUS          as a test
 //   replay --seeds FOLDER       writes the sound inputs, for a corpus of a new format version
 #include <cstdint>

@@ -32,7 +32,8 @@ std::vector<std::byte>& bound_store(GLenum target) {
 }
 
 void need_inside(GLenum target, GLintptr offset, GLsizeiptr size) {
-  if (offset < 0 || size < 0 || std::size_t(offset) + std::size_t(size) > bound_store(target).size()) std::abort();
+  if (offset < 0 || size < 0 || std::size_t(offset) + std::size_t(size) > bound_store(target).size())
+    std::abort();
 }
 
 std::size_t channels_of(GLenum format) {
@@ -56,7 +57,8 @@ std::size_t bytes_of(GLenum type) {
 
 // The copy is what the address sanitizer checks.
 void read_texels(GLsizei width, GLsizei height, GLsizei depth, GLenum format, GLenum type, const void* data) {
-  const std::size_t bytes = std::size_t(width) * std::size_t(height) * std::size_t(depth) * channels_of(format) * bytes_of(type);
+  const std::size_t bytes =
+      std::size_t(width) * std::size_t(height) * std::size_t(depth) * channels_of(format) * bytes_of(type);
   const auto* first = static_cast<const std::byte*>(data);
   if (data) std::vector<std::byte>(first, first + bytes).swap(state().mapped);
 }
@@ -112,8 +114,9 @@ enum Id {
 };
 
 constexpr bool makes_names(Id id) {
-  return id == id_GenBuffers || id == id_GenFramebuffers || id == id_GenQueries || id == id_GenRenderbuffers ||
-         id == id_GenSamplers || id == id_GenTextures || id == id_GenTransformFeedbacks || id == id_GenVertexArrays;
+  return id == id_GenBuffers || id == id_GenFramebuffers || id == id_GenQueries ||
+         id == id_GenRenderbuffers || id == id_GenSamplers || id == id_GenTextures ||
+         id == id_GenTransformFeedbacks || id == id_GenVertexArrays;
 }
 
 // 0, or what the library must see so that it goes on.
@@ -136,12 +139,14 @@ struct Silent<id, R(GLAD_API_PTR*)(A...)> {
       *std::get<2>(arguments) = GL_TRUE;
     } else if constexpr (id == id_CheckFramebufferStatus) {
       return GL_FRAMEBUFFER_COMPLETE;
-    } else if constexpr (id == id_IsTexture || id == id_IsFramebuffer || id == id_IsProgram || id == id_UnmapBuffer) {
+    } else if constexpr (id == id_IsTexture || id == id_IsFramebuffer || id == id_IsProgram ||
+                         id == id_UnmapBuffer) {
       return GL_TRUE;
     } else if constexpr (id == id_GetTexLevelParameteriv) {
       *std::get<3>(arguments) = level_value(std::get<2>(arguments));
     } else if constexpr (id == id_GetTexParameteriv) {
-      *std::get<2>(arguments) = std::get<1>(arguments) == GL_DEPTH_STENCIL_TEXTURE_MODE ? GL_DEPTH_COMPONENT : 0;
+      *std::get<2>(arguments) =
+          std::get<1>(arguments) == GL_DEPTH_STENCIL_TEXTURE_MODE ? GL_DEPTH_COMPONENT : 0;
     } else if constexpr (id == id_GetFramebufferAttachmentParameteriv) {
       *std::get<3>(arguments) = 0;
     } else if constexpr (id == id_GetQueryObjectiv) {
@@ -194,7 +199,7 @@ SilentGl& silent_gl() {
 }
 
 void* silent_gl_proc(void*, const char* name) {
-#define NOOK_X(function)                \
+#define NOOK_X(function)                      \
   if (std::strcmp(name, "gl" #function) == 0) \
     return reinterpret_cast<void*>(&Silent<id_##function, decltype(gl::Functions::function)>::call);
   NOOK_GL_FUNCTIONS_33(NOOK_X)

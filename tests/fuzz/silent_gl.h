@@ -1,6 +1,6 @@
-// An OpenGL that draws nothing and accepts everything, so that what the library uploads can be fuzzed without a driver. It
-// reads every byte that it is given and hands out mappings of exactly the size asked for, so that the address sanitizer
-// sees an access outside of them; it aborts where a buffer is used beyond its end.
+// An OpenGL that draws nothing and accepts everything, so that what the library uploads can be fuzzed without
+// a driver. It reads every byte that it is given and hands out mappings of exactly the size asked for, so
+// that the address sanitizer sees an access outside of them; it aborts where a buffer is used beyond its end.
 #pragma once
 
 namespace nook::test {

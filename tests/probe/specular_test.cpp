@@ -25,7 +25,8 @@ Surface surface(float alpha_x, float alpha_y, double facing, double azimuth = 0.
   return s;
 }
 
-// 12 lobes whose amplitudes differ by up to 1 : 9, and no constant term, under which every relative error is smaller.
+// 12 lobes whose amplitudes differ by up to 1 : 9, and no constant term, under which every relative error is
+// smaller.
 std::vector<SphericalGaussian> lights() {
   std::vector<SphericalGaussian> all;
   const Basis basis = vogel_basis(12);
@@ -153,7 +154,7 @@ TEST_CASE("glossy reflection of a probe against the GGX integral") {
   const struct {
     float alpha;
     double isotropic, anisotropic;
-  } bounds[] = {{0.05f, 0.08, 0.06},  {0.1f, 0.08, 0.1}, {0.2f, 0.1, 0.17},
+  } bounds[] = {{0.05f, 0.08, 0.06},  {0.1f, 0.08, 0.1},  {0.2f, 0.1, 0.17},
                 {0.4f, 0.065, 0.085}, {0.7f, 0.06, 0.07}, {1, 0.05, 0.05}};
   for (const auto& bound : bounds) {
     const Errors errors = errors_of(bound.alpha, bound.alpha);
@@ -170,7 +171,8 @@ TEST_CASE("anisotropic surfaces against the GGX integral") {
     INFO("alpha " << x << " " << y << " isotropic " << errors.isotropic << " anisotropic "
                   << errors.anisotropic);
     CHECK(errors.anisotropic < 0.32);
-    // From 0.1, 0.3 on both forms are alike in the mean square, and the anisotropic one is better where widths differ more.
+    // From 0.1, 0.3 on both forms are alike in the mean square, and the anisotropic one is better where
+    // widths differ more.
     if (x * 3.5f < y || y * 3.5f < x) CHECK(errors.anisotropic_square < 0.6 * errors.isotropic_square);
   }
 }

@@ -102,7 +102,6 @@ class Fit {
   const Basis& basis() const { return basis_; }
   const FitSettings& settings() const { return settings_; }
   const SampleCounts& counts() const { return counts_; }
-  const char* instruction_set() const { return kernels_->name; }
 
  private:
   void prepare_gram(std::pmr::memory_resource* memory);

@@ -119,7 +119,7 @@ void place_ground(const Scene& scene, Instance& receiver) {
 
 // Distant instances take turns, each at least every lod_max_interval frames, and use the coarsest level whose
 // error their distance allows.
-void choose_detail(const Scene& scene, std::uint32_t slot, Instance& instance) {
+void choose_detail(const Scene& scene, std::uint32_t slot, bool has_result, Instance& instance) {
   instance.level = 0;
   instance.due = true;
   if (!scene.has_camera) return;
@@ -130,22 +130,22 @@ void choose_detail(const Scene& scene, std::uint32_t slot, Instance& instance) {
     if (levels[level].error_rms < settings.lod_error * distance) instance.level = level + 1;
   const float most = static_cast<float>(settings.lod_max_interval);
   const auto interval = static_cast<std::uint32_t>(std::min(std::max(distance, 1.0f), most));
-  instance.due = instance.evaluated_frame == 0 || (scene.frame + slot) % interval == 0;
+  instance.due = !has_result || (scene.frame + slot) % interval == 0;
 }
 
 }  // namespace
 
-void resolve_casters(Scene& scene) noexcept {
+void resolve_casters(Scene& scene, HasResult has_result) noexcept {
   if (scene.nearest > 0) {
-    clear_grid(scene.neighbours);
+    clear_tree(scene.neighbours);
     for (std::uint32_t slot = 0; slot < scene.instances.size(); ++slot)
-      if (scene.instances[slot].id) add_to_grid(scene.neighbours, slot, scene.instances[slot].bound.centre);
-    finish_grid(scene.neighbours, scene.nearest, scene.nearest_max_distance);
+      if (scene.instances[slot].id) add_to_tree(scene.neighbours, slot, scene.instances[slot].bound.centre);
+    build_tree(scene.neighbours);
   }
   auto resolve = [&](std::uint32_t slot) noexcept {
     Instance& instance = scene.instances[slot];
     if (instance.id == 0) return;
-    choose_detail(scene, slot, instance);
+    choose_detail(scene, slot, has_result(slot), instance);
     if (!instance.due) return;
     instance.culled = 0;
     gather_casters(scene, slot, instance);

@@ -1,4 +1,4 @@
-#include "sdk/src/gl/character/frame_stream.h"
+#include "sdk/src/gl/character/compute_frame.h"
 
 #include <bit>
 #include <cstring>
@@ -26,21 +26,18 @@ std::uint32_t exact_count(const Instance& instance) {
   return static_cast<std::uint32_t>(instance.occluders.size()) + (instance.ground_sphere.radius > 0);
 }
 
-bool moved(const Instance& instance, const Placement& placement) {
-  return placement.transformed_revision != instance.pose_revision;
-}
-
 // Calls visit(slot) for the instances that are evaluated, level by level, then for those that only moved.
 template <class Visit>
-void for_selected(const SceneBuffers& buffers, const Scene& scene, const Chunk& chunk, Visit&& visit) {
+void for_selected(const Scene& scene, const ComputeChunk& chunk, Visit&& visit) {
   for (std::uint32_t level = 0; level < chunk.model->level_count(); ++level)
     for (const std::uint32_t slot : chunk.slots)
-      if (slot != Chunk::empty && scene.instances[slot].due && scene.instances[slot].level == level)
+      if (slot != ComputeChunk::empty && scene.instances[slot].due && scene.instances[slot].level == level)
         visit(slot);
-  for (const std::uint32_t slot : chunk.slots)
-    if (slot != Chunk::empty && !scene.instances[slot].due &&
-        moved(scene.instances[slot], buffers.placements[slot]))
-      visit(slot);
+  for (std::uint32_t place = 0; place < chunk.capacity; ++place) {
+    const std::uint32_t slot = chunk.slots[place];
+    if (slot == ComputeChunk::empty || scene.instances[slot].due) continue;
+    if (chunk.transformed[place] != pose_of(scene.instances[slot])) visit(slot);
+  }
 }
 
 std::uint64_t aligned(const Device& device, std::uint64_t offset) {
@@ -48,20 +45,21 @@ std::uint64_t aligned(const Device& device, std::uint64_t offset) {
 }
 
 // The bytes that the whole frame takes.
-std::uint64_t lay_out(const Device& device, SceneBuffers& buffers, const Scene& scene) {
+std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
+  const Scene& scene = *placed.scene;
   std::uint64_t end = 0;
-  for (Chunk& chunk : buffers.chunks) {
-    Chunk::Frame& frame = chunk.frame;
+  for (ComputeChunk& chunk : placed.chunks) {
+    ComputeChunk::Frame& frame = chunk.frame;
     frame = {};
     std::uint64_t caster_words = 0;
-    for_selected(buffers, scene, chunk, [&](std::uint32_t slot) {
+    for_selected(scene, chunk, [&](std::uint32_t slot) {
       const Instance& instance = scene.instances[slot];
       ++frame.selected;
       if (!instance.due) return;
       ++frame.due;
       frame.lit += instance.light.count > 0;
       ++frame.due_at_level[instance.level];
-      caster_words += 2 * instance.casters.size() + exact_count(instance);
+      caster_words += NOOK_CASTER_UVEC4S * instance.casters.size() + exact_count(instance);
     });
     frame.records = aligned(device, end);
     frame.bones = aligned(device, frame.records + frame.selected * sizeof(InstanceRecord));
@@ -95,22 +93,23 @@ Word4 exact_sphere(const Instance& receiver, const Sphere& sphere) {
                 std::bit_cast<std::uint32_t>(inverse_sphere_radius(sphere.radius)));
 }
 
-std::uint32_t first_sphere(const SceneBuffers& buffers, std::uint32_t slot) {
-  const Placement& placement = buffers.placements[slot];
+std::uint32_t first_sphere(const ComputeScene& placed, std::uint32_t slot) {
+  const Placement<ComputeChunk>& placement = placed.placements[slot];
   return placement.chunk->first_sphere + placement.place * placement.chunk->model->spheres();
 }
 
 // Casters are seen at the receiver's level. Appends the casters of an instance from `next` on and describes
 // them in the record.
-void write_casters(const SceneBuffers& buffers, const Scene& scene, const Instance& instance, Word4* casters,
-                   std::uint32_t& next, InstanceRecord& record) {
+void write_casters(const ComputeScene& placed, const Instance& instance, Word4* casters, std::uint32_t& next,
+                   InstanceRecord& record) {
+  const Scene& scene = *placed.scene;
   record.first_caster = next;
   record.caster_count = static_cast<std::uint32_t>(instance.casters.size());
   for (const std::uint32_t slot : instance.casters) {
     const Instance& caster = scene.instances[slot];
-    const LevelRange& level = buffers.placements[slot].chunk->model->level(instance.level);
+    const LevelRange& level = placed.placements[slot].chunk->model->level(instance.level);
     casters[next++] =
-        floats(origin(caster) - origin(instance), first_sphere(buffers, slot) + level.first_sphere);
+        floats(origin(caster) - origin(instance), first_sphere(placed, slot) + level.first_sphere);
     casters[next++] = {level.spheres, 0, 0, 0};
   }
   record.first_exact = next;
@@ -120,20 +119,21 @@ void write_casters(const SceneBuffers& buffers, const Scene& scene, const Instan
     casters[next++] = exact_sphere(instance, scene.occluders[slot].sphere);
 }
 
-void write_chunk(const SceneBuffers& buffers, const Scene& scene, const Chunk& chunk, std::byte* memory) {
+void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, std::byte* memory) {
+  const Scene& scene = *placed.scene;
   auto* const records = reinterpret_cast<InstanceRecord*>(memory + chunk.frame.records);
   auto* const bones = reinterpret_cast<Mat3x4*>(memory + chunk.frame.bones);
   auto* const casters = reinterpret_cast<Word4*>(memory + chunk.frame.casters);
   std::uint32_t written = 0, next_caster = 0;
-  for_selected(buffers, scene, chunk, [&](std::uint32_t slot) {
+  for_selected(scene, chunk, [&](std::uint32_t slot) {
     const Instance& instance = scene.instances[slot];
     InstanceRecord record{};
     record.first_bone = written * chunk.model->bones();
-    record.first_sphere = first_sphere(buffers, slot);
-    record.place = buffers.placements[slot].place;
+    record.first_sphere = first_sphere(placed, slot);
+    record.place = placed.placements[slot].place;
     // no_light wraps to 0.
-    record.light = buffers.placements[slot].first_light_texel + 1;
-    if (instance.due) write_casters(buffers, scene, instance, casters, next_caster, record);
+    record.light = placed.lights.first_texel(slot) + 1;
+    if (instance.due) write_casters(placed, instance, casters, next_caster, record);
     write_pose(instance, bones + record.first_bone);
     // Mapped memory is written once and in order, never read.
     std::memcpy(records + written++, &record, sizeof record);
@@ -142,13 +142,13 @@ void write_chunk(const SceneBuffers& buffers, const Scene& scene, const Chunk& c
 
 }  // namespace
 
-bool upload_frame(const Device& device, SceneBuffers& buffers, const Scene& scene) {
-  const std::uint64_t bytes = lay_out(device, buffers, scene);
+bool upload_frame(const Device& device, ComputeScene& placed) {
+  const std::uint64_t bytes = lay_out(device, placed);
   if (bytes == 0) return false;
-  auto* const memory = static_cast<std::byte*>(buffers.stream.begin_write(bytes));
-  for (const Chunk& chunk : buffers.chunks)
-    if (chunk.frame.selected) write_chunk(buffers, scene, chunk, memory);
-  buffers.stream.end_write();
+  placed.stream.write(bytes, [&](void* memory) {
+    for (const ComputeChunk& chunk : placed.chunks)
+      if (chunk.frame.selected) write_chunk(placed, chunk, static_cast<std::byte*>(memory));
+  });
   return true;
 }
 

@@ -101,7 +101,7 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
 
 void update(Scene& scene) noexcept {
   ++scene.frame;
-  resolve_casters(scene);
+  resolve_casters(scene, [&](std::uint32_t slot) { return scene.instances[slot].evaluated_frame > 0; });
   const auto slots = static_cast<std::uint32_t>(scene.instances.size());
   auto transform = [&](std::uint32_t slot) noexcept {
     Instance& instance = scene.instances[slot];
