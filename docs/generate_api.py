@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADERS = sorted((ROOT / "sdk/include/nook").glob("*.h"))
 PAGES = ROOT / "docs/api"
 NAME = re.compile(r"\b((?:nook|NOOK)_\w+)(?:\(\))?")
-# First sentences that say nothing of what a function is for.
+# First sentences that do not describe the function.
 CONTRACT = re.compile(r"(Any thread|One at a time|Context thread|On failure|Errors)\b")
 
 
@@ -43,7 +43,7 @@ class Item:
 
 
 def declared_names(code):
-    """What a block of declarations is called: functions and types, or constants where nothing else has a name."""
+    """The names of a block of declarations: functions and types, or constants if nothing else has a name."""
     code = re.sub(r"/\*.*?\*/", "", code, flags=re.S)
     functions = re.findall(r"^NOOK_API [^;(]*?(nook_\w+)\(", code, re.M)
     types = re.findall(r"^typedef [^;{]*\(\*(nook_\w+)\)", code, re.M)
@@ -59,7 +59,8 @@ def comment_lines(lines):
 
 
 def parse(text):
-    """The comment at the top, then sections (strings) and items in the header's order."""
+    """The comment at the top, then sections (their title, and their text as a list of lines) and items in the
+    header's order."""
     blocks, comment, code, depth = [], [], [], 0
 
     def close():
@@ -70,7 +71,7 @@ def parse(text):
 
     lines = iter(text.split("\n"))
     for line in lines:
-        # Depth 1 is the include guard; below it is plumbing for compilers.
+        # Depth 1 is the include guard; deeper levels only serve compilers.
         if re.match(r"#\s*if", line):
             depth += 1
         elif re.match(r"#\s*endif", line):
@@ -84,8 +85,14 @@ def parse(text):
             close()
             comment = comment_lines(found)
             section = re.match(r"-+ (.*?) -+$", comment[0])
-            if section or not blocks:
-                blocks.append(section.group(1) if section else comment)
+            if not blocks:
+                blocks.append(comment)
+                comment = []
+            elif section:
+                blocks.append(section.group(1))
+                # The text of a section follows its title.
+                if len(comment) > 1:
+                    blocks.append(comment[1:])
                 comment = []
         elif line.strip():
             code.append(line)
@@ -96,12 +103,12 @@ def parse(text):
 
 
 def escape(text):
-    """Text that Markdown shows as it is."""
+    """Escapes the characters that have a meaning in Markdown."""
     return re.sub(r"([*<\[])", r"\\\1", text)
 
 
 def prose(lines, link):
-    """Comment lines as Markdown; what is indented in the comment keeps its lines."""
+    """Comment lines as Markdown; indented text keeps its lines."""
     out = []
     for indented, run in itertools.groupby(lines, key=lambda line: line.startswith("  ")):
         if indented:
@@ -125,6 +132,8 @@ def page(name, blocks, places):
     out = [f"# {name}.h", "", f"Made from `sdk/include/nook/{name}.h` by `docs/generate_api.py`.", "",
            prose(blocks[0], link_from(None)), ""]
     for block in blocks[1:]:
+        if isinstance(block, list):
+            continue
         if isinstance(block, str):
             out += ["", f"**{block}**", ""]
             continue
@@ -133,6 +142,9 @@ def page(name, blocks, places):
     for block in blocks[1:]:
         if isinstance(block, str):
             out += ["", f"## {block}"]
+            continue
+        if isinstance(block, list):
+            out += ["", prose(block, link_from(None))]
             continue
         out += ["", f"### {block.title()}", ""]
         if block.comment:

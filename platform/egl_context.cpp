@@ -1,4 +1,5 @@
-// EGL without a display: Mesa's surfaceless platform, else the first EGL device that gives a context.
+// EGL without a display. Mesa's surfaceless platform comes first, and then the first EGL device that gives a
+// context.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -37,8 +38,8 @@ std::vector<EGLDisplay> displays() {
   return found;
 }
 
-// The display is never terminated: it may be shared with other code of the process, and Mesa's LLVM leaks
-// when it is.
+// The display is never terminated, because other code of the process may share it, and because Mesa's LLVM
+// leaks when it is terminated.
 class EglContext final : public Context {
  public:
   EglContext(const ContextRequest& request, EGLDisplay display, EGLContext context)
@@ -63,7 +64,7 @@ class EglContext final : public Context {
   EGLContext context_;
 };
 
-// Some drivers refuse the debug attribute whatever its value.
+// Some drivers refuse the debug attribute with any value.
 EGLContext create(EGLDisplay display, const ContextRequest& request, bool debug) {
   const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                request.major,

@@ -1,9 +1,12 @@
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 
+#include "platform/output_file.h"
 #include "platform/platform.h"
 
 namespace platform {
@@ -17,7 +20,7 @@ Image read_pixels(const Context& context, int width, int height, int channels) {
     gl.PixelStorei(name, 0);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.ReadPixels(0, 0, width, height, channels == 4 ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
-  // OpenGL's first row is the lowest.
+  // The first row of OpenGL is the lowest one.
   const std::size_t row = static_cast<std::size_t>(width) * channels;
   for (int y = 0; y < height / 2; ++y)
     std::swap_ranges(image.pixels.begin() + y * row, image.pixels.begin() + (y + 1) * row,
@@ -32,7 +35,7 @@ FloatImage read_float_image(const std::filesystem::path& path) {
   const auto input = OIIO::ImageInput::open(path.string());
   if (!input) fail(OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
-  if (!spec.format.is_floating_point()) fail("it holds no floating-point values; use .hdr or .exr");
+  if (!spec.format.is_floating_point()) fail("it has no floating-point values; use .hdr or .exr");
   if (spec.nchannels < 3 || spec.depth > 1) fail("it is not a flat image of three channels");
   FloatImage image{spec.width, spec.height, {}};
   image.rgb.resize(3 * std::size_t(spec.width) * std::size_t(spec.height));
@@ -41,22 +44,15 @@ FloatImage read_float_image(const std::filesystem::path& path) {
 }
 
 void write_image(const std::filesystem::path& path, const Image& image) {
-  std::filesystem::path partial = path;
-  partial.replace_filename(path.stem().string() + ".part" + path.extension().string());
-  const auto fail = [&](const std::string& why) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw std::runtime_error("write_image: " + path.string() + " cannot be written (" + why + ")");
-  };
-  const auto output = OIIO::ImageOutput::create(partial.string());
-  if (!output) fail(OIIO::geterror());
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto output = OIIO::ImageOutput::create(path.string());
   const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
-  if (!output->open(partial.string(), spec) ||
+  if (!output || !output->set_ioproxy(&memory) || !output->open(path.string(), spec) ||
       !output->write_image(OIIO::TypeDesc::UINT8, image.pixels.data()) || !output->close())
-    fail(output->geterror());
-  std::error_code error;
-  std::filesystem::rename(partial, path, error);
-  if (error) fail(error.message());
+    throw std::runtime_error("write_image: " + path.string() + " cannot be written (" +
+                             (output ? output->geterror() : OIIO::geterror()) + ")");
+  OutputFile(path).commit(std::as_bytes(std::span(bytes)));
 }
 
 }  // namespace platform

@@ -1,6 +1,6 @@
-// OpenGL contexts and pictures for the tool, the samples and the tests. One context is current per thread; a
-// context is used on the thread that made it. Every function that fails throws std::runtime_error with a text
-// that says what to do.
+// OpenGL contexts and pictures for the tool, the samples and the tests. Each thread has one current context,
+// and a context is used on the thread that made it. Every function that fails throws std::runtime_error with
+// a text that says what to do.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ struct ContextRequest {
   std::string kind = "egl";  // "egl" (no display needed), "osmesa" or "window"
   int width = 1280;          // pixels
   int height = 720;
-  int major = 4;  // OpenGL core profile wanted; Mesa's software renderer has 4.5 at most
+  int major = 4;  // the version of the core profile; Mesa's software renderer has 4.5 at most
   int minor = 5;
-  bool debug = false;  // a debug context where the driver has one
+  bool debug = false;  // true: a debug context if the driver supports one
   std::string title = "Nook";
 };
 
@@ -32,29 +32,29 @@ class Context {
 
   virtual void make_current() = 0;
   virtual void clear_current() = 0;
-  // Shows what was drawn and reads the events of a window; nothing without one.
+  // Shows the drawn picture and reads the events of a window. Does nothing without a window.
   virtual void present() {}
   virtual bool should_close() const { return false; }
-  // NULL unless the kind is "window".
+  // Null unless the kind is "window".
   virtual GLFWwindow* window() const { return nullptr; }
-  // Size of the drawable in pixels; a window may be resized.
+  // The size of the drawable in pixels. The user may resize a window.
   virtual void size(int* width, int* height) const;
   virtual void* proc(const char* name) const = 0;
 
-  // What to draw into: 0 where the context has a framebuffer of its own, else one made at the first call
-  // (RGBA8 and a 24-bit depth buffer). The call leaves it bound.
+  // The framebuffer to draw into. It is 0 if the context has one of its own. Otherwise the first call makes
+  // one with RGBA8 and a 24-bit depth buffer. The call leaves it bound.
   unsigned framebuffer();
-  // The whole table of functions that this context has.
+  // The OpenGL functions of this context.
   const GladGLContext& gl() const { return *gl_; }
   std::string version() const;
   std::string renderer() const;
 
-  // The loader in the form of nook_gl_desc.get_proc; user is the Context.
+  // Loads one function. The user pointer is the Context.
   static void* loader(void* user, const char* name);
 
  protected:
   Context(int width, int height, bool has_framebuffer);
-  // Called by each kind once it is current for the first time.
+  // Each kind of context calls this when it is current for the first time.
   void load_functions();
 
   int width_;
@@ -69,10 +69,10 @@ class Context {
 
 // Creates a context and makes it current.
 std::unique_ptr<Context> create_context(const ContextRequest& request);
-// The kinds that this build knows, in words fit for a message.
+// The kinds that this build has, as text for a message.
 const char* context_kinds();
 
-// Rows from top to bottom, three or four bytes a pixel.
+// Rows run from top to bottom. A pixel has three or four bytes.
 struct Image {
   int width = 0;
   int height = 0;
@@ -80,20 +80,20 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 };
 
-// Linear RGB, rows from top to bottom.
+// Linear RGB. Rows run from top to bottom.
 struct FloatImage {
   int width = 0;
   int height = 0;
   std::vector<float> rgb;
 };
 
-// Reads an image of floating-point values (.hdr, .exr); its first three channels.
+// Reads the first three channels of an image of floating-point values (.hdr, .exr).
 FloatImage read_float_image(const std::filesystem::path& path);
 
-// Reads the framebuffer that is bound for reading. Waits for the GPU. Pixel-pack state is set and not
-// restored.
+// Reads the framebuffer that is bound for reading. Waits for the GPU. Sets pixel-pack state and does not
+// restore it.
 Image read_pixels(const Context& context, int width, int height, int channels = 3);
-// The format follows the file's extension; the file is written beside its target and renamed.
+// The format follows the file's extension, such as .png. A failed run leaves no half-written file.
 void write_image(const std::filesystem::path& path, const Image& image);
 
 }  // namespace platform

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace platform {
 namespace {
@@ -16,7 +17,7 @@ void attach(const GladGLContext& gl, GLuint program, GLenum stage, std::initiali
   if (!compiled) gl.GetShaderInfoLog(shader, sizeof log, nullptr, log);
   gl.AttachShader(program, shader);
   gl.DeleteShader(shader);  // with the program that it is attached to
-  if (!compiled) throw std::runtime_error(std::string("a shader does not compile: ") + log);
+  if (!compiled) throw std::runtime_error(std::string("link_program: a shader does not compile: ") + log);
 }
 
 void link(const GladGLContext& gl, GLuint program) {
@@ -26,7 +27,7 @@ void link(const GladGLContext& gl, GLuint program) {
   if (linked) return;
   char log[2048] = "";
   gl.GetProgramInfoLog(program, sizeof log, nullptr, log);
-  throw std::runtime_error(std::string("a program does not link: ") + log);
+  throw std::runtime_error(std::string("link_program: a program does not link: ") + log);
 }
 
 }  // namespace
@@ -43,6 +44,16 @@ GLuint link_program(const GladGLContext& gl, std::initializer_list<const char*> 
     throw;
   }
   return program;
+}
+
+Program::Program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
+                 std::initializer_list<const char*> fragment)
+    : gl_(gl), name_(link_program(gl, vertex, fragment)) {}
+
+Program::Program(Program&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
+
+Program::~Program() {
+  gl_.DeleteProgram(name_);
 }
 
 }  // namespace platform

@@ -16,7 +16,8 @@ void attach(const GladGLContext& gl, GLuint renderbuffer, GLenum attachment, GLe
 
 void require_complete(const GladGLContext& gl) {
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw std::runtime_error("this OpenGL cannot draw into an sRGB framebuffer");
+    throw std::runtime_error(
+        "RenderTarget: this OpenGL cannot draw into an sRGB framebuffer; use another driver");
 }
 
 }  // namespace
@@ -24,10 +25,10 @@ void require_complete(const GladGLContext& gl) {
 RenderTarget::RenderTarget(const Context& context, int width_px, int height_px)
     : context_(context), width_px_(width_px), height_px_(height_px) {
   const GladGLContext& gl = context.gl();
-  GLint most = 0;
-  gl.GetIntegerv(GL_MAX_SAMPLES, &most);
-  // Softpipe has no multisampling: a plain framebuffer then.
-  const GLint samples = most >= 4 ? 4 : 0;
+  GLint max_samples = 0;
+  gl.GetIntegerv(GL_MAX_SAMPLES, &max_samples);
+  // Softpipe has no multisampling, so that it gets a plain framebuffer.
+  const GLint samples = max_samples >= 4 ? 4 : 0;
   gl.GenFramebuffers(2, framebuffers_);
   gl.GenRenderbuffers(3, renderbuffers_);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffers_[0]);
@@ -70,7 +71,7 @@ void RenderTarget::show(unsigned framebuffer, int width_px, int height_px) const
   resolve();
   const GladGLContext& gl = context_.gl();
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  // The pixels are encoded already.
+  // The pixels are already encoded.
   gl.Disable(GL_FRAMEBUFFER_SRGB);
   gl.BlitFramebuffer(0, 0, width_px_, height_px_, 0, 0, width_px, height_px, GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }

@@ -1,5 +1,5 @@
-// What the samples draw pictures into: an sRGB framebuffer of four samples where OpenGL has them, and the one
-// it is resolved to.
+// The framebuffers that the samples draw pictures into: an sRGB framebuffer with four samples, if OpenGL has
+// them, and the framebuffer to which it is resolved.
 #pragma once
 
 #include "platform/platform.h"
@@ -15,12 +15,12 @@ class RenderTarget {
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
-  void bind() const;     // for drawing, viewport and sRGB encoding set
+  void bind() const;     // for drawing, and sets the viewport and sRGB encoding
   void resolve() const;  // leaves the resolved picture bound for reading
-  // Resolves, waits for the GPU, returns rows from top to bottom.
+  // Resolves, waits for the GPU, and returns rows from top to bottom.
   Image read() const;
-  // Resolves onto a framebuffer that shows its bytes as they are, such as a window's; filtered where sizes
-  // differ.
+  // Resolves to a framebuffer that shows its bytes as they are, for example that of a window. The picture is
+  // filtered if the sizes differ.
   void show(unsigned framebuffer, int width_px, int height_px) const;
 
  private:

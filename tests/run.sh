@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds everything and runs all tests from a fresh checkout: the plain build, then the library and the bakers under the
-# address and undefined-behaviour sanitizers, then the library's threads under the thread sanitizer. NOOK_BUILD_DIR says
-# where (default: build).
+# Builds everything and runs all tests from a fresh checkout: the format of the sources, the plain build with GCC, then the
+# library and the bakers under the address and undefined-behaviour sanitizers with Clang, then the library's threads under
+# the thread sanitizer. NOOK_BUILD_DIR says where (default: build).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${NOOK_BUILD_DIR:-$root/build}
@@ -11,7 +11,8 @@ jobs=$(nproc)
 
 # GL tests that find no context fail instead of being skipped.
 export NOOK_REQUIRE_GL=1
-export LSAN_OPTIONS=suppressions=$root/tests/lsan.supp:print_suppressions=0
+# The quotes are for a path with spaces, which would end the option.
+export LSAN_OPTIONS="suppressions=\"$root/tests/lsan.supp\":print_suppressions=0"
 
 configure() {  # folder, options...
   local folder=$1
@@ -21,6 +22,13 @@ configure() {  # folder, options...
 }
 mkdir -p "$(dirname "$build")"
 
+# One version, because each formats a little differently.
+echo "== format"
+git -C "$root" ls-files -z -- '*.h' '*.hpp' '*.cpp' '*.c' '*.inl' |
+  (cd "$root" && xargs -0 clang-format-14 --dry-run --Werror)
+
+# A second compiler for the sanitized builds: it warns of other things, and has the fuzzers.
+clang=("-DCMAKE_C_COMPILER=$(command -v clang-16)" "-DCMAKE_CXX_COMPILER=$(command -v clang++-16)")
 # Sanitized code is compiled more than twice as fast as with -O2 -g, and its reports still name lines.
 sanitized=(-DCMAKE_BUILD_TYPE=RelWithDebInfo)
 for language in C CXX; do
@@ -28,17 +36,17 @@ for language in C CXX; do
 done
 
 echo "== build and tests"
-configure "$build"
+configure "$build" "-DCMAKE_C_COMPILER=$(command -v gcc)" "-DCMAKE_CXX_COMPILER=$(command -v g++)"
 ninja -C "$build"
 ctest --test-dir "$build" --output-on-failure -j "$jobs"
 
 echo "== library and bakers under address and undefined-behaviour sanitizers"
-configure "$build-asan" "${sanitized[@]}" -DNOOK_SANITIZE=ON -DNOOK_TOOL=OFF -DNOOK_SAMPLES=OFF
+configure "$build-asan" "${clang[@]}" "${sanitized[@]}" -DNOOK_SANITIZE=ON -DNOOK_TOOL=OFF -DNOOK_SAMPLES=OFF
 ninja -C "$build-asan"
 ctest --test-dir "$build-asan" --output-on-failure -j "$jobs"
 
 echo "== library under the thread sanitizer"
-configure "$build-tsan" "${sanitized[@]}" -DNOOK_SANITIZE_THREAD=ON -DNOOK_BAKERS=OFF -DNOOK_SAMPLES=OFF
+configure "$build-tsan" "${clang[@]}" "${sanitized[@]}" -DNOOK_SANITIZE_THREAD=ON -DNOOK_BAKERS=OFF -DNOOK_SAMPLES=OFF
 ninja -C "$build-tsan" nook_abi_tests
 "$build-tsan/tests/abi/nook_abi_tests"
 

@@ -1,4 +1,4 @@
-// Characters: import, creation from memory, and everything that can be read from them.
+// Characters: import, creation from memory, and all queries.
 #include <nook/nook_bake.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ void need_index(const char* name, std::size_t index, std::size_t count) {
                   count);
 }
 
-// Vertices in file order for welded values.
+// Writes values of welded vertices in file order.
 void write_vertices(const SkinnedMesh& mesh, const std::vector<Vec3>& position, float* positions,
                     float* normals) {
   if (positions) write_points(position, mesh.file_to_welded, positions);
@@ -64,7 +64,7 @@ nook_result nook_bake_import_gltf(const char* path, nook_bake_character* out) {
     try {
       hand_out(import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path))), out);
     } catch (const Failure& failure) {
-      // The importer may or may not have named the file itself.
+      // The message of the importer may already contain the name of the file.
       if (std::string_view(failure.what()).find(path) != std::string_view::npos) throw;
       throw Failure(failure.code(), "%s: %s", path, failure.what());
     }

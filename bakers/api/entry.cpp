@@ -7,7 +7,7 @@
 namespace nook::bake::api {
 namespace {
 
-// Plain bytes, so that nothing has to be destroyed when a thread ends or the library is unloaded.
+// Plain bytes need no destruction when a thread ends or the library is unloaded.
 thread_local char last_message[640] = "";
 
 }  // namespace

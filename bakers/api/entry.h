@@ -1,5 +1,4 @@
-// Every C function that can fail runs its body through here: whatever is thrown becomes a result and this
-// thread's message.
+// Every C function that can fail runs its body here; an exception becomes a result and this thread's message.
 #pragma once
 
 #include <utility>
@@ -9,7 +8,7 @@
 
 namespace nook::bake::api {
 
-// Keeps "function: text" as this thread's last message and returns the code.
+// Stores "function: text" as this thread's last message and returns the code.
 nook_result fail(const char* function, const Outcome& outcome) noexcept;
 
 template <class Body>

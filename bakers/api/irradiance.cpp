@@ -47,10 +47,10 @@ Surface read_surface(const nook_bake_lit_mesh& mesh, std::uint32_t number) {
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "desc.meshes[%u].base_colour is out of range (got %g, need 0 to 1)", number,
                     double(mesh.base_colour[i]));
-    if (!(mesh.emission[i] >= 0) || !std::isfinite(mesh.emission[i]))
+    if (!(mesh.emission[i] >= 0 && double(mesh.emission[i]) <= max_radiance))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.meshes[%u].emission is out of range (got %g, need 0 or above)", number,
-                    double(mesh.emission[i]));
+                    "desc.meshes[%u].emission is out of range (got %g, need 0 to %g)", number,
+                    double(mesh.emission[i]), max_radiance);
   }
   return {{mesh.base_colour[0], mesh.base_colour[1], mesh.base_colour[2]},
           {mesh.emission[0], mesh.emission[1], mesh.emission[2]}};

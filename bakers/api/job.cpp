@@ -1,4 +1,4 @@
-// Bake jobs: descriptor to recipe, and the life of a job.
+// Bake jobs: the conversion of a descriptor to a recipe, and the life of a job.
 #include <nook/nook_bake.h>
 
 #include "bakers/api/entry.h"
@@ -53,8 +53,8 @@ nook_result nook_bake_job_start(nook_bake_character character, const nook_bake_j
         read_poses(settings.extra_poses_3x4, settings.extra_pose_count, imported.mesh.bones.size());
     auto bake = [shared = character->character, recipe = std::move(recipe), extra = std::move(extra)](
                     const StageReport& report) { return bake_by_recipe(*shared, recipe, extra, report); };
-    *out = new nook_bake_job_s{BakeJob(std::move(bake), settings.threads,
-                                       listener_of(settings.progress, settings.progress_user))};
+    *out = new nook_bake_job_s{
+        BakeJob(std::move(bake), settings.threads, listener_of(settings.progress, settings.progress_user))};
   });
 }
 

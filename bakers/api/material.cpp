@@ -1,4 +1,4 @@
-// Material jobs: how they begin. The rest of their life is in job.cpp.
+// The start of material jobs; job.cpp has the other functions of jobs.
 #include <nook/nook_bake.h>
 
 #include "bakers/api/entry.h"
@@ -55,7 +55,6 @@ nook_result nook_bake_material_start(const nook_bake_material_desc* desc, nook_b
         read_descriptor(desc, "nook_bake_material_desc_init", first_material_desc, default_material_desc());
     auto task = std::make_shared<MaterialTask>(material_task_of(d));
     auto bake = [task](const StageReport& report) { return bake_material(*task, report); };
-    *out = new nook_bake_job_s{
-        BakeJob(std::move(bake), d.threads, listener_of(d.progress, d.progress_user))};
+    *out = new nook_bake_job_s{BakeJob(std::move(bake), d.threads, listener_of(d.progress, d.progress_user))};
   });
 }

@@ -11,6 +11,7 @@ namespace nook::bake::probe {
 namespace {
 
 constexpr int most_columns = 16384, fewest_columns = 4;
+constexpr double most_negative = 0.01;
 
 void check_layout(const OIIO::ImageSpec& spec, const char* format) {
   if (spec.format != OIIO::TypeDesc::FLOAT && spec.format != OIIO::TypeDesc::HALF)
@@ -27,6 +28,27 @@ void check_layout(const OIIO::ImageSpec& spec, const char* format) {
         spec.width, spec.height, fewest_columns, most_columns);
 }
 
+void check_radiance(const std::vector<float>& rgb) {
+  std::size_t out_of_range = 0;
+  double light = 0, negative = 0;
+  for (const float value : rgb) {
+    out_of_range += !(std::abs(double(value)) <= max_radiance);
+    (value < 0 ? negative : light) += std::abs(double(value));
+  }
+  if (out_of_range > 0)
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "%zu of its values are not finite or above %g in magnitude; clamp them in an image editor or scale "
+        "the light down",
+        out_of_range, max_radiance);
+  if (negative > most_negative * light)
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "its negative values add up to %.3g of the positive ones (need at most %g, which filters leave); "
+        "an image of differences is no map",
+        light > 0 ? negative / light : 1.0, most_negative);
+}
+
 }  // namespace
 
 Environment read_environment(const std::filesystem::path& path) {
@@ -37,14 +59,8 @@ Environment read_environment(const std::filesystem::path& path) {
   std::vector<float> rgb(3 * std::size_t(spec.width) * std::size_t(spec.height));
   if (!image->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, rgb.data()))
     throw Failure(NOOK_ERROR_BAD_FILE, "a damaged image (%s)", image->geterror().c_str());
-  std::size_t not_finite = 0;
-  for (float& value : rgb) {
-    not_finite += !std::isfinite(value);
-    value = std::max(value, 0.0f);
-  }
-  if (not_finite > 0)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%zu of its values are not finite; clamp them in an image editor",
-                  not_finite);
+  check_radiance(rgb);
+  for (float& value : rgb) value = std::max(value, 0.0f);
   return Environment(std::uint32_t(spec.width), std::uint32_t(spec.height), std::move(rgb));
 }
 

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "bakers/raytrace/embree.h"
+#include "platform/output_file.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -69,7 +70,7 @@ Colour grey(float value) {
   return {v, v, v};
 }
 
-// A polynomial of the sixth degree through matplotlib's table (M. Zucker, public domain), within 0.01 of it.
+// A polynomial of degree six through matplotlib's table (M. Zucker, public domain), within 0.01 of it.
 Colour viridis(float value) {
   static constexpr float c[7][3] = {{0.27773f, 0.00541f, 0.33410f},   {0.10509f, 1.40461f, 1.38459f},
                                     {-0.33086f, 0.21485f, 0.09510f},  {-4.63423f, -5.79910f, -19.33244f},
@@ -88,7 +89,8 @@ BodyView::BodyView(std::span<const std::array<std::uint32_t, 3>> triangles,
   const Box box = bounds_of(positions_ws);
   const Vec3 centre = 0.5f * (box.low + box.high), size = box.high - box.low;
   const float metres_per_pixel =
-      margin * std::max({size.x / float(width), size.y / float(height), 1e-6f});  // a point still has a scale
+      // A single point also has a scale.
+      margin * std::max({size.x / float(width), size.y / float(height), 1e-6f});
   const float towards = side == BodySide::front ? 1.0f : -1.0f;
   const EmbreeDevice device;
   const EmbreeScene scene(device.get());
@@ -158,15 +160,7 @@ std::vector<std::byte> png_bytes(const Picture& picture) {
 }
 
 void write_png(const std::filesystem::path& path, const Picture& picture) {
-  const std::string name = path.string();
-  const auto out = OIIO::ImageOutput::create("png");
-  const OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
-  // write_image before a successful open crashes.
-  if (!out || !out->open(name, spec))
-    throw Failure(NOOK_ERROR_INTERNAL, "%s cannot be written: %s", name.c_str(),
-                  (out ? out->geterror() : OIIO::geterror()).c_str());
-  if (!out->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) || !out->close())
-    throw Failure(NOOK_ERROR_INTERNAL, "%s cannot be written: %s", name.c_str(), out->geterror().c_str());
+  platform::OutputFile(path).commit(png_bytes(picture));
 }
 
 }  // namespace nook::bake

@@ -1,4 +1,4 @@
-// Pictures of a body with a value at each vertex, by primary rays: what an error looks like where it sits.
+// Pictures of a body with a value at each vertex, by primary rays, such as the error on the body.
 #pragma once
 
 #include <array>
@@ -21,22 +21,23 @@ struct Picture {
 using Colour = std::array<float, 3>;  // display values in [0, 1]
 
 Colour grey(float value);     // black at 0, white at 1
-Colour viridis(float value);  // perceptually even from dark violet (0) to yellow (1)
+Colour viridis(float value);  // perceptually uniform from dark violet (0) to yellow (1)
 
 enum class BodySide { front, back };  // seen from +z or from -z, +y up
 
-// Which triangle every sample of an orthographic picture sees. Cast once, drawn with any values.
+// The triangle that every sample of an orthographic picture sees. Rays are cast once, and the view is drawn
+// with any values.
 class BodyView {
  public:
-  // The body fills the picture but for a margin; both sides of one body have the same scale.
+  // The body fills the picture up to a margin; both sides of one body have the same scale.
   BodyView(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Vec3> positions_ws,
            BodySide side, int width, int height);
 
-  // Interpolates a value a vertex and colours it.
+  // Interpolates one value for each vertex and colours it.
   Picture draw(std::span<const float> vertex_value, Colour (*colour)(float)) const;
 
  private:
-  static constexpr int samples = 3;  // a pixel's side
+  static constexpr int samples = 3;  // along the side of a pixel
 
   struct Hit {
     std::uint32_t triangle;
@@ -46,16 +47,16 @@ class BodyView {
 
   int width_, height_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
-  std::vector<Hit> hits_;  // samples^2 a pixel
+  std::vector<Hit> hits_;  // samples^2 for each pixel
 };
 
-// Pictures of equal height in a row.
+// Joins pictures of equal height in a row.
 Picture side_by_side(std::span<const Picture> pictures);
 
-// The bytes of a .png file. Throws Failure(INTERNAL) with the reason.
+// Returns the bytes of a .png file. Throws Failure(INTERNAL) with the reason.
 std::vector<std::byte> png_bytes(const Picture& picture);
 
-// Throws Failure(INTERNAL) with the reason where the file cannot be written.
+// Throws std::runtime_error with the reason if the file cannot be written.
 void write_png(const std::filesystem::path& path, const Picture& picture);
 
 }  // namespace nook::bake

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_texels = std::size_t{1} << 26;
 
-// OpenImageIO chooses the format by the name, which glTF's images need not have.
+// OpenImageIO chooses the format by the name, which images of glTF may lack.
 const char* format_of(const std::vector<std::byte>& bytes) {
   const auto starts = [&](std::initializer_list<unsigned> magic) {
     std::size_t i = 0;
@@ -33,7 +33,7 @@ Texture decode_texture(const EncodedImage& image) {
     throw Failure(NOOK_ERROR_BAD_FILE, "%s is neither PNG nor JPEG; convert it", image.name.c_str());
   OIIO::Filesystem::IOMemReader reader(image.bytes.data(), image.bytes.size());
   OIIO::Filesystem::IOProxy* proxy = &reader;
-  // In the configuration: beside one, OpenImageIO 2.4 loses a reader that is passed for itself.
+  // The reader is passed in the configuration; OpenImageIO 2.4 loses a reader that is passed beside one.
   OIIO::ImageSpec config;
   config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   config["oiio:UnassociatedAlpha"] = 1;

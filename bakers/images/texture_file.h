@@ -1,13 +1,13 @@
-// Textures from encoded images. Compiled into the tool alone: the library would otherwise load OpenImageIO
-// for nothing.
+// Textures from encoded images. Only the tool compiles this file, because the library would otherwise load
+// OpenImageIO.
 #pragma once
 
 #include "bakers/raytrace/texture.h"
 
 namespace nook::bake {
 
-// Fails with BAD_FILE on what OpenImageIO cannot read and on more than 2^26 texels; the message begins with
-// the image's name.
+// Fails with BAD_FILE if OpenImageIO cannot read the image, or if it has more than 2^26 texels; the message
+// starts with the image's name.
 Texture decode_texture(const EncodedImage& image);
 
 }  // namespace nook::bake

@@ -117,7 +117,7 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
                   names.size(), raw.width, raw.height, double(values) * sizeof(float) / double(1 << 30));
   raw.btf.resize(values);
 
-  // Of all faults the first image's is told, whatever the order of threads.
+  // The fault of the first image is reported, for any order of threads.
   std::vector<std::string> fault(names.size());
   std::atomic<bool> failed{false}, stopped{false};
   std::mutex turn;

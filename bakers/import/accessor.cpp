@@ -9,7 +9,7 @@
 namespace nook::bake {
 namespace {
 
-// An accessor without a buffer view costs no bytes in the file, so nothing else bounds what it asks for.
+// An accessor without a buffer view costs no bytes in the file, so that nothing else bounds its memory.
 constexpr std::size_t max_elements = std::size_t{1} << 24;
 
 template <typename T>
@@ -197,6 +197,10 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
 }
 
 }  // namespace
+
+std::size_t element_count(const tinygltf::Model& model, int accessor, const std::string& what) {
+  return checked_accessor(model, accessor, what).count;
+}
 
 Floats read_floats(const tinygltf::Model& model, int accessor_index, int components,
                    const std::string& what) {

@@ -143,7 +143,7 @@ Similarity nearest_similarity(const Affine& a, const std::array<double, 3>& fixe
     for (V3& c : columns) c = scaled(c, 1 / norm);
   const std::array<V3, 3> r = nearest_rotation(columns);
 
-  // For a given R, |A - s R|^2 is least at s = <A, R> / <R, R>. A bone scaled to nothing keeps a tiny
+  // For a given R, |A - s R|^2 is smallest at s = <A, R> / <R, R>. A bone scaled to nothing keeps a tiny
   // positive scale, because a pose matrix must stay invertible.
   const double s = (dot(columns[0], r[0]) + dot(columns[1], r[1]) + dot(columns[2], r[2])) / 3 * norm;
   Similarity result;

@@ -10,8 +10,8 @@
 
 namespace nook::bake {
 
-// Channels of morph targets are left out, and so are clips that move no node (both are told in warnings).
-// Fails with BAD_FILE.
+// Leaves out channels of morph targets and clips that move no node, with a warning for both. Fails with
+// BAD_FILE.
 std::vector<Clip> read_clips(const tinygltf::Model& model, const NodeTree& nodes,
                              std::vector<std::string>& warnings);
 

@@ -15,7 +15,8 @@ struct Skin {
   std::vector<Affine> inverse_bind;  // one a joint, invertible
 };
 
-// How one mesh node gets to rest space and which bones its joints are; a rigid part has one joint, number 0.
+// The transformation of one mesh node to rest space, and the bones of its joints; a rigid part has one joint,
+// number 0.
 struct MeshBinding {
   Affine rest_from_mesh;
   std::vector<std::uint16_t> bone;  // one for each joint of the skin
@@ -29,7 +30,7 @@ struct Skeleton {
       rigid_parts;  // one for each rigid node given; without a bone: it is static and belongs to nobody
 };
 
-// `moves` says which nodes a clip animates, `rigid_nodes` are mesh nodes without a skin.
+// `moves` is true for nodes that a clip animates, `rigid_nodes` are mesh nodes without a skin.
 Skeleton build_skeleton(const NodeTree& nodes, const std::vector<Skin>& skins, const std::vector<bool>& moves,
                         const std::vector<std::uint32_t>& rigid_nodes);
 

@@ -1,4 +1,4 @@
-// What stands still in a glTF 2.0 file: every triangle that its default scene shows, where its nodes put it.
+// The static geometry of a glTF 2.0 file: every triangle of its default scene, placed by its nodes.
 #pragma once
 
 #include <array>
@@ -8,15 +8,19 @@
 #include <span>
 #include <vector>
 
+#include "bakers/import/linked_files.h"
 #include "bakers/import/texture_use.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook::bake {
 
+// The largest radiance that a surface may send of its own.
+inline constexpr double max_emission = 1e15;
+
 // A diffuse surface, the same from both sides. RGB.
 struct Surface {
   Vec3 base_colour{0.8f, 0.8f, 0.8f};  // share of light that it sends back, each in [0, 1]
-  Vec3 emission;                       // radiance of its own, 0 or above
+  Vec3 emission;                       // radiance of its own, 0 to max_emission
   TextureUse base_colour_texture = {}, emission_texture = {};  // they multiply
   float alpha = 1;                                             // multiplies that of base_colour_texture
   float alpha_cutoff = 0;                                      // less alpha is a hole; 0: none
@@ -35,12 +39,13 @@ struct StaticScene {
 // skip: colour factors stand for their textures, and alpha masks are solid.
 enum class SceneTextures { skip, read };
 
-// Skins and morph targets are ignored; points and lines are left out. Of materials the base colour, the
-// emission with KHR_materials_emissive_strength, alpha masks and, if asked for, colour textures are read;
-// blended alpha is solid. Fails with BAD_FILE, also where no triangle is shown; the message names the fault,
-// and the caller adds the name of the file.
+// Skins are ignored, and morph targets have their default weights; points and lines are left out. Of
+// materials the base colour, the emission with KHR_materials_emissive_strength, alpha masks and, with
+// SceneTextures::read, colour textures are read; blended alpha is solid. Fails with BAD_FILE, also if the
+// scene has no triangle; the message names the fault, and the caller adds the name of the file.
 StaticScene import_static_scene(const std::filesystem::path& path,
-                                SceneTextures textures = SceneTextures::skip);
+                                SceneTextures textures = SceneTextures::skip,
+                                LinkedFiles linked = LinkedFiles::folder);
 
 // From memory, without access to any file: buffers and images must be in the bytes or in data URIs.
 StaticScene import_static_scene(std::span<const std::byte> bytes,

@@ -1,4 +1,4 @@
-// What a mesh must be before anything is baked from it, whether it came from a file or from a game's memory.
+// The check of a mesh before a bake, for meshes from files and from memory.
 #pragma once
 
 #include <nook/nook.h>

@@ -40,9 +40,9 @@ struct MeshArrays {
 };
 FileMesh to_file_mesh(const MeshArrays& arrays, nook_result code);
 
-// Welds exactly equal rest positions (-0 equals 0) with equal weights, but for those whose faces look opposite
-// ways (opposite_faces.h), drops degenerate triangles (says so in warnings) and validates the mesh; fails with
-// `code`.
+// Welds exactly equal rest positions (-0 equals 0) with equal weights, except for those whose faces have
+// opposite normals (opposite_faces.h), drops degenerate triangles with a warning, and validates the mesh.
+// Fails with `code`.
 SkinnedMesh weld(FileMesh mesh, std::vector<std::string>& warnings, nook_result code);
 
 }  // namespace nook::bake

@@ -22,7 +22,8 @@ void BakeJob::run(const Bake& bake, std::size_t threads) {
         return report(stage, done, total);
       });
     });
-    // A request that came after the last chance to stop still holds: whoever cancels does not want the file.
+    // A request to cancel after the last report of progress still counts, because the caller does not need
+    // the file.
     if (cancelled_) throw Failure(NOOK_ERROR_CANCELLED, "cancelled when the bake was nearly done");
   } catch (...) {
     outcome = outcome_of(std::current_exception());

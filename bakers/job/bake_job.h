@@ -13,7 +13,7 @@
 
 namespace nook::bake {
 
-// What a job is at; finished once its result is known.
+// The stage of a job; it is finished once its result is known.
 struct JobProgress {
   bool finished = false;
   nook_bake_stage stage = NOOK_BAKE_STAGE_WAITING;
@@ -25,7 +25,7 @@ class BakeJob {
   using Listener =
       std::function<bool(const JobProgress&)>;  // false cancels; never called once the job has finished
 
-  // bake runs once, on `threads` threads (0: all cores), and is destroyed with the job.
+  // Runs once, on `threads` threads (0: all cores), and is destroyed with the job.
   using Bake = std::function<BakedFile(const StageReport&)>;
 
   BakeJob(Bake bake, std::size_t threads, Listener listener);
@@ -34,10 +34,10 @@ class BakeJob {
   JobProgress progress() const;
   void cancel() { cancelled_ = true; }
   void wait() const;
-  // The file of a job that has succeeded. Throws Failure: INVALID_ARGUMENT while it runs, what it failed with
-  // otherwise.
+  // Returns the file of a job that succeeded. Throws Failure: INVALID_ARGUMENT while the job runs, else the
+  // failure of the job.
   const BakedFile& file() const;
-  // Of a finished job.
+  // Returns the outcome of a finished job.
   const Outcome& outcome() const { return outcome_; }
 
  private:
@@ -46,12 +46,12 @@ class BakeJob {
 
   Listener listener_;
   std::atomic<bool> cancelled_{false};
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   mutable std::condition_variable changed_;
   JobProgress progress_;
   BakedFile file_;
   Outcome outcome_;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // the last member, because it uses all of the above
 };
 
 }  // namespace nook::bake

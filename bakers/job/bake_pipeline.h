@@ -1,4 +1,4 @@
-// From a recipe to the bytes of a .nook file and a report.
+// Makes the bytes of a .nook file and a report from a recipe.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace nook::bake {
 
-// Throws Failure: INVALID_ARGUMENT (no poses, settings out of range), CANCELLED.
+// Throws Failure: INVALID_ARGUMENT (there are no poses, or settings are out of range), CANCELLED.
 BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recipe,
                          std::span<const Pose> extra_poses, const StageReport& progress);
 

@@ -1,4 +1,4 @@
-// What a bake makes, and how it tells where it is.
+// The result of a bake, and its report of progress.
 #pragma once
 
 #include <nook/nook_bake.h>

@@ -1,4 +1,4 @@
-// Progress as callers of the C interface see it.
+// Progress in the form of the C interface.
 #pragma once
 
 #include <nook/nook_bake.h>
@@ -11,7 +11,7 @@ inline nook_bake_progress public_progress(const JobProgress& p) {
   return {std::uint32_t(sizeof(nook_bake_progress)), p.stage, p.done, p.total};
 }
 
-// Empty where there is no callback.
+// Returns an empty listener if there is no callback.
 inline BakeJob::Listener listener_of(nook_bake_progress_fn call, void* user) {
   if (!call) return {};
   return [call, user](const JobProgress& p) {

@@ -9,7 +9,7 @@
 namespace nook::bake {
 namespace {
 
-// Bounds that no sensible bake comes near; they keep hostile numbers from asking for all of memory.
+// The bounds are far above any sensible bake, and keep hostile numbers from allocating all memory.
 constexpr std::uint32_t most_spheres = 1024, most_key_points = 4096, most_rays = 65536,
                         most_poses = 1'000'000, most_threads = 1024, most_steps = 10'000'000;
 

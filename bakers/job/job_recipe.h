@@ -1,4 +1,4 @@
-// What a job's descriptor asks for, with the preset's values filled in.
+// The recipe of a job's descriptor, with the preset's values filled in.
 #pragma once
 
 #include <nook/nook_bake.h>
@@ -7,7 +7,8 @@
 
 namespace nook::bake {
 
-// Throws INVALID_ARGUMENT: unknown enum values, numbers out of range, unknown clips, no poses at all.
+// Throws INVALID_ARGUMENT for unknown enum values, numbers out of range, unknown clips, and if there are no
+// poses.
 Recipe recipe_of(const nook_bake_job_desc& desc, const ImportedCharacter& character);
 
 }  // namespace nook::bake

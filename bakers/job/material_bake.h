@@ -1,4 +1,4 @@
-// From a material task to the bytes of a .nook file and a report.
+// Makes the bytes of a .nook file and a report from a material task.
 #pragma once
 
 #include "bakers/job/baked_file.h"

@@ -72,7 +72,7 @@ std::vector<float> coverage_of(const nook_bake_material_desc& desc, const RawMat
   return coverage;
 }
 
-// From images of RGB to rows of lights and channels, times the coverage where there is one.
+// Converts images of RGB to rows of lights and channels, multiplied by the coverage if there is one.
 void read_btf(const float* images, const std::vector<float>& coverage, RawMaterial& raw) {
   const std::size_t views = raw.views.size(), texels = raw.texels();
   raw.btf.resize(raw.light_rows() * views * texels);
@@ -97,7 +97,7 @@ void read_measured(const nook_bake_material_desc& desc, MaterialTask& task) {
   try {
     check_raw_material(task.raw);
   } catch (const Failure& failure) {
-    // Not a file's fault here.
+    // The fault is not that of a file here.
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.btf or its directions: %s", failure.what());
   }
 }
@@ -140,7 +140,7 @@ CompressionSettings settings_of(const nook_bake_material_desc& desc) {
   return s;
 }
 
-// Whether a group of ranks is given; it is as a whole or not at all.
+// Returns true if a group of ranks is set. A group must be set completely or not at all.
 bool given(const char* names, std::initializer_list<std::uint32_t> ranks) {
   std::size_t zeros = 0;
   for (const std::uint32_t rank : ranks) zeros += rank == 0;
@@ -149,7 +149,8 @@ bool given(const char* names, std::initializer_list<std::uint32_t> ranks) {
   return zeros == 0;
 }
 
-// Settings as far as they are known before the data: ranks by threshold can still be as low as one cluster's.
+// Returns the settings that do not depend on the data. Ranks by threshold may turn out as low as those of one
+// cluster.
 CompressionSettings known_settings(const MaterialTask& task) {
   CompressionSettings s = task.settings;
   if (!set_builtin_ranks(task.raw, s)) {

@@ -1,4 +1,4 @@
-// What a material job is to do, out of its descriptor.
+// The task of a material job, from its descriptor.
 #pragma once
 
 #include <nook/nook_bake.h>
@@ -13,9 +13,9 @@
 namespace nook::bake {
 
 struct MaterialTask {
-  std::optional<material::MesoParameters> meso;  // none: measured
+  std::optional<material::MesoParameters> meso;  // empty: measured data
   material::TraceSettings trace;                 // of meso
-  // Directions and sizes; of measured data all but the gaps, which coverage tells: see fill_gaps.h.
+  // Directions and sizes, and all measured data except for the gaps, which coverage defines; see fill_gaps.h.
   material::RawMaterial raw;
   std::vector<float> coverage;  // empty: all 1
   material::CompressionSettings settings;
@@ -23,8 +23,8 @@ struct MaterialTask {
   double rank_threshold = 0.01;
 };
 
-// Throws INVALID_ARGUMENT: unknown names and enum values, numbers out of range or not finite, directions that
-// are none.
+// Throws INVALID_ARGUMENT for unknown names and enum values, numbers that are out of range or not finite, and
+// invalid directions.
 MaterialTask material_task_of(const nook_bake_material_desc& desc);
 
 }  // namespace nook::bake

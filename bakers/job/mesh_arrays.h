@@ -1,4 +1,4 @@
-// A character out of a host's arrays.
+// Makes a character from a host's arrays.
 #pragma once
 
 #include <nook/nook_bake.h>
@@ -7,7 +7,7 @@
 
 namespace nook::bake {
 
-// Throws INVALID_ARGUMENT, naming the first fault.
+// Throws INVALID_ARGUMENT with the first fault.
 ImportedCharacter character_of_arrays(const nook_bake_mesh_desc& desc);
 
 }  // namespace nook::bake

@@ -1,4 +1,4 @@
-// Triangles and receivers that a caller gives to a ray tracer, checked. Everything here throws
+// Triangles and receivers of a caller for ray tracing, which are checked here. All functions throw
 // Failure(INVALID_ARGUMENT).
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace nook::bake {
 
-// desc.meshes[number], of either kind, appended to a soup.
+// Appends desc.meshes[number], of either kind, to a soup.
 void add_mesh(const nook_bake_occluder_mesh& mesh, std::uint32_t number, TriangleSoup& soup);
 
 std::vector<Vec3> read_points(const char* name, const float* xyz, std::uint32_t count);

@@ -1,4 +1,4 @@
-// Limits how many threads one piece of work may use, whatever else the process does.
+// Limits the number of threads of one piece of work, independently of the rest of the process.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -7,7 +7,7 @@
 
 namespace nook::bake {
 
-// threads 0: all cores. The calling thread counts as one of them.
+// 0 threads means all cores. The calling thread is one of them.
 template <class Body>
 void run_with_threads(std::size_t threads, Body&& body) {
   tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : int(threads));

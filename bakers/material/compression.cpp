@@ -36,7 +36,7 @@ Matrix as_rows(const std::vector<Vec3>& directions) {
   return rows;
 }
 
-// What fits a tensor, the clustered mode being its view mode.
+// The settings of the fit of a tensor, whose clustered mode is the view mode.
 struct FitTask {
   const RawMaterial& raw;
   tensor::TensorView values;
@@ -140,7 +140,8 @@ ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task
   return t;
 }
 
-// What a file can hold, known before hours of tracing and fitting: check_shape() in sdk's material/check.h.
+// Checks the limits of a file before hours of tracing and fitting, as check_shape() of sdk's material/check.h
+// does.
 void check_file_limits(const CompressionSettings& s, const RawMaterial& raw) {
   const bool clustered = s.method != Method::n_svd;
   const std::uint64_t rank = clustered ? s.cluster_rank_view : s.rank_view;

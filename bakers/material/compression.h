@@ -43,9 +43,9 @@ struct CompressionSettings {
 // Returns false to stop. stage names what goes on.
 using StageProgress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
 
-// What (26) reads of a VOTF where no other mapping is asked for: masks as in the paper, T = 0.5 and W = 1. Of
-// distances, visibility rises steadily over half a texel inwards from the boundary: T is that distance, 1/6
-// at 96 texels, and W = 1 / T. The paper's T = 0.05 and W = 12, sdk's paper_mapping(), jump from 0.6 to 1.
+// Returns the default mapping of (26). Masks have the paper's, T = 0.5 and W = 1. For distances, visibility
+// rises continuously over half a texel inwards from the boundary: T is that distance, 1/6 at 96 texels, and W
+// = 1 / T. The paper's T = 0.05 and W = 12, sdk's paper_mapping(), jump from 0.6 to 1.
 nook::material::VisibilityMapping default_mapping(nook::material::VisibilityForm form, std::uint32_t width,
                                                   std::uint32_t height);
 
@@ -76,8 +76,8 @@ std::vector<float> votf_values(const RawMaterial& raw, nook::material::Visibilit
 nook::material::Material compress(const RawMaterial& raw, const CompressionSettings& settings,
                                   const StageProgress& progress = {});
 
-// The paper's choice of ranks (section 6), for light, view, x, y, and x, y of the VOTF: in each mode alone
-// the least multiple of 4 at which the squared error stays below a share of the square norm.
+// Chooses ranks as in section 6 of the paper, for light, view, x, y, and x, y of the VOTF: in each mode alone
+// the smallest multiple of 4 at which the squared error stays below a share of the squared norm.
 CompressionSettings ranks_by_threshold(const RawMaterial& raw, double share, CompressionSettings settings);
 
 }  // namespace nook::bake::material

@@ -31,7 +31,7 @@ MesoSurface make_fiber(const MesoParameters& p) {
     const float span = std::hypot(float(course[0]), float(course[1]));
     const Vec3 along = normalised({float(course[0]), float(course[1]), 0}), across{-along.y, along.x, 0};
     const Vec3 start{random(), random(), 0};
-    // Even layers, in a random order of courses, so that the mat has the wanted height with any count.
+    // Even layers, in a random order of courses, so that the mat has its height with any count.
     const float layer = (float(i) + random()) / float(p.count) - 0.5f;
     const float centre_height = (p.thickness - 2 * p.radius) * layer * 0.8f;
     Wave sideways[3], up[2];

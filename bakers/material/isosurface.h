@@ -14,8 +14,9 @@ struct IsoGrid {
   float bottom = -0.1f, top = 0.1f;
 };
 
-// field: positive inside; it repeats after 1 along x and y and is negative at bottom and top. Normals are its
-// gradient's. albedo is asked at each vertex. The tile's opposite sides match vertex by vertex.
+// field is positive inside, has the period 1 along x and y, and is negative at bottom and top. Normals are
+// those of its gradient. albedo is evaluated at each vertex. Opposite sides of the tile match vertex by
+// vertex.
 MesoSurface extract_isosurface(const std::function<float(Vec3)>& field,
                                const std::function<Vec3(Vec3)>& albedo, const IsoGrid& grid);
 

@@ -23,8 +23,8 @@ struct MesoSurface {
   float shininess = 1;  // its exponent
 };
 
-// What the built-in structures are made of. The defaults of each are in `meso_parameters`, and
-// docs/materials.md publishes them.
+// The parameters of the built-in structures. The defaults of each are in `meso_parameters`, and
+// docs/materials.md lists them.
 struct MesoParameters {
   std::string name;         // "fiber", "roughhole" or "weave"
   std::uint32_t count = 1;  // fibres; holes along a side; yarns along a side

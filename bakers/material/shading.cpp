@@ -24,7 +24,7 @@ Vec3 shading_normal(const MesoSurface& surface, const SurfaceHit& hit) {
   return normalised(at_hit<Vec3>(surface.normal, surface.triangle, hit));
 }
 
-// What gathers light at a vertex: the triangles that its rays meet.
+// Returns the triangles that the rays of each vertex hit, from which it gathers light.
 std::vector<SurfaceHit> gather_hits(const MesoSurface& surface, const TiledScene& scene, std::uint32_t rays,
                                     std::uint64_t seed) {
   const HemispherePatterns patterns(rays, seed);

@@ -18,7 +18,7 @@ double radial(ParabolicPoint a, ParabolicPoint b) {
   return square > 0 ? square * std::log(square) : 0;
 }
 
-// What a linear part needs: it is there where the points span a plane.
+// Returns the number of terms of the linear part, which needs points that span a plane.
 Index linear_terms(std::size_t points) {
   return points >= 3 ? 3 : 1;
 }

@@ -10,7 +10,7 @@ namespace nook::bake::nnao {
 struct Adam {
   explicit Adam(std::size_t parameters) : mean(parameters), square(parameters) {}
 
-  // One step against the gradient.
+  // Takes one step against the gradient.
   void step(std::span<float> parameters, std::span<const float> gradient, float rate);
 
   std::vector<float> mean, square;

@@ -10,7 +10,7 @@ Vec3 inside(const Box& box, Random& random) {
   return {x, y, random.between(box.low.z, box.high.z)};
 }
 
-// How much there is to see: the share of the screen with a surface between 0.35 m and 9 m.
+// Returns the share of the screen with a surface between 0.35 m and 9 m.
 float worth(const RayScene& rays, Camera camera) {
   constexpr int columns = 24, rows = 14;
   int good = 0, near = 0;
@@ -53,7 +53,7 @@ Camera place_camera(const RayScene& rays, const TrainingScene& scene, Random& ra
                     std::uint32_t height) {
   Camera best;
   float best_worth = -10;
-  // Most places do; the best of the tries if none does.
+  // Most places pass. If none does, the best of the attempts is taken.
   for (int attempt = 0; attempt < 24 && best_worth < 0.85f; ++attempt) {
     const Vec3 eye = inside(scene.cameras, random), target = inside(scene.subject, random);
     const float roll = random.between(-0.15f, 0.15f), fov = random.between(0.6f, 1.4f);

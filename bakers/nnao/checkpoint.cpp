@@ -6,12 +6,24 @@
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/nnao/network_file.h"
 
 namespace nook::bake::nnao {
 namespace {
 
 std::uint64_t fingerprint(std::string_view recipe) {
   return XXH64(recipe.data(), recipe.size(), 0);
+}
+
+// Far above any training; each of these steps takes its time.
+constexpr std::uint64_t max_steps = std::uint64_t{1} << 48;
+
+// Whether a training can have left these numbers, so that the next step is finite. Adam's decay rates make
+// the square of the mean gradient at most 53 times the mean squared gradient (by Cauchy and Schwarz); squares
+// of gradients below 1e-18 vanish.
+bool is_reachable(float parameter, float mean, float square) {
+  return std::abs(parameter) <= nook::nnao::max_parameter && std::isfinite(square) && square >= 0 &&
+         std::abs(mean) <= 8 * std::sqrt(square) + 1e-18f;
 }
 
 }  // namespace
@@ -39,12 +51,20 @@ TrainingState read_checkpoint(std::span<const std::byte> bytes, std::string_view
   state.epochs_done = head.u32();
   state.adam.steps = head.u64();
   head.check_end();
-  for (std::size_t i = 0; i < state.parameter.size(); ++i)
-    for (float* value : {&state.parameter[i], &state.adam.mean[i], &state.adam.square[i]}) {
+  if (state.adam.steps > max_steps)
+    throw Failure(
+        NOOK_ERROR_BAD_FILE, "the checkpoint says that %llu steps were taken (need at most %llu); remove it",
+        static_cast<unsigned long long>(state.adam.steps), static_cast<unsigned long long>(max_steps));
+  for (std::size_t i = 0; i < state.parameter.size(); ++i) {
+    for (float* value : {&state.parameter[i], &state.adam.mean[i], &state.adam.square[i]})
       *value = numbers.f32();
-      if (!std::isfinite(*value))
-        throw Failure(NOOK_ERROR_BAD_FILE, "the checkpoint holds a number that is not finite; remove it");
-    }
+    if (!is_reachable(state.parameter[i], state.adam.mean[i], state.adam.square[i]))
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "parameter %zu of the checkpoint is no number that training leaves (got %g, its mean "
+                    "gradient %g, mean "
+                    "squared gradient %g); remove it",
+                    i, double(state.parameter[i]), double(state.adam.mean[i]), double(state.adam.square[i]));
+  }
   numbers.check_end();
   return state;
 }

@@ -14,11 +14,11 @@ namespace {
 
 constexpr float min_radius = 0.08f, max_radius = 1.6f;  // metres
 constexpr float min_radius_px = 4;
-// Ray origins leave the surface by so much, metres: far above the rounding of hits a few metres away, far
-// below any thing in the scenes.
+// The distance of ray origins from the surface, metres. It is far above the rounding of hits a few metres
+// away, and far below the size of objects in the scenes.
 constexpr float origin_offset = 3e-4f;
 
-// Every sixth round of the families is kept for validation, or the last where there are fewer.
+// Every sixth round of the families is for validation, or the last one if there are fewer rounds.
 bool is_validation(std::uint32_t scene, std::uint32_t scenes) {
   const std::uint32_t rounds = scenes / family_count;
   return scene / family_count % 6 == std::min(rounds - 1, 5u);

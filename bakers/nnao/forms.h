@@ -1,5 +1,5 @@
-// What training needs of each form: its numbers in a row, where they start, their gradient over a minibatch,
-// and the way into a network.
+// The part of training that depends on the form: its numbers in a row, their initial values, their gradient
+// over a minibatch, and the conversion to a network.
 #pragma once
 
 #include <span>
@@ -9,22 +9,23 @@
 
 namespace nook::bake::nnao {
 
-// In the order of nnao/layers.h.
+// The numbers are in the order of nnao/layers.h.
 std::size_t horizon_parameter_count();
 void start_horizon(std::span<float> parameters, float mean_ao, Random& random);
 void export_horizon(std::span<const float> parameters, nook::nnao::HorizonNetwork& network);
 
-// One minibatch, a multiple of 16 points: the gradient of the mean loss over them; random draws come from
+// Computes the gradient of the mean loss over one minibatch, a multiple of 16 points. Random draws depend on
 // step_seed. Returns the loss.
 double horizon_step_gradient(const Dataset& data, const TrainingSettings& settings,
                              std::span<const float> parameters, std::span<const std::uint32_t> points,
                              std::uint64_t step_seed, std::span<float> gradient);
 
-// The filters, one unit after the other (unit, cell, input), then the rest in the order of nnao/layers.h.
+// The numbers are the filters, one unit after another (unit, cell, input), then the rest in the order of
+// nnao/layers.h.
 std::size_t paper_parameter_count();
 void start_paper(std::span<float> parameters, float mean_ao, Random& random);
 
-// Mean and inverse deviation of each input of the grid; an input that never changes has inverse deviation 0.
+// Mean and inverse deviation of each input of the grid; a constant input has inverse deviation 0.
 struct PaperNormalisation {
   std::vector<float> mean, inverse_deviation;
 };
@@ -32,7 +33,7 @@ PaperNormalisation paper_normalisation(const Dataset& data);
 void export_paper(std::span<const float> parameters, const PaperNormalisation& normalisation,
                   nook::nnao::PaperNetwork& network);
 
-// As horizon_step_gradient, of any number of points.
+// The counterpart of horizon_step_gradient, for any number of points.
 double paper_step_gradient(const Dataset& data, const PaperNormalisation& normalisation,
                            const TrainingSettings& settings, std::span<const float> parameters,
                            std::span<const std::uint32_t> points, std::uint64_t step_seed,

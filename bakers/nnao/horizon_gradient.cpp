@@ -7,7 +7,7 @@ constexpr int units = HorizonNetwork::units, tap_inputs = HorizonNetwork::tap_in
 constexpr int direction_inputs = HorizonBatch::direction_inputs, pooled_inputs = 2 * units + direction_inputs,
               joined_inputs = units + 2;
 
-// Where each layer begins among the parameters.
+// The offset of each layer among the parameters.
 constexpr int tap_layer = 0;
 constexpr int direction_layer = tap_layer + LayerOrder<tap_inputs, units>::count;
 constexpr int join_layer = direction_layer + LayerOrder<pooled_inputs, units>::count;
@@ -111,7 +111,7 @@ NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& b
                      gradient + out_layer, g_join);
   backward<joined_inputs, units>(parameters + join_layer, trace.joined, trace.join_before, g_join,
                                  gradient + join_layer, g_joined);
-  // The tap layer's gradient is summed here: the loop over taps is where the time goes.
+  // The gradient of the tap layer is summed here, because the loop over taps takes most of the time.
   Lanes g_tap_layer[LayerOrder<tap_inputs, units>::count] = {};
   for (std::uint32_t d = 0; d < directions; ++d) {
     Lanes g_pooled[pooled_inputs], g_out[units];

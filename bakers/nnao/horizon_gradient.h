@@ -1,4 +1,4 @@
-// The horizon form on sixteen samples at once, with its gradient. nnao/network.h defines it.
+// The horizon form on sixteen samples at once, with its gradient. nnao/network.h defines the form.
 #pragma once
 
 #include <span>
@@ -22,14 +22,14 @@ struct HorizonBatch {
   explicit HorizonBatch(TapGrid tap_grid);
 
   TapGrid grid;
-  LaneArray tap;        // tap_inputs a tap, direction by direction
+  LaneArray tap;        // tap_inputs for each tap, one direction after another
   LaneArray direction;  // direction_inputs of each direction
   Lanes join[2]{};      // dot(n, o), share of the taps off the screen
 
   void set(int lane, const View& view, const DataPoint& point, TapNoise noise);
 };
 
-// What the forward pass leaves for the backward one.
+// Values of the forward pass that the backward pass reads.
 struct HorizonTrace {
   explicit HorizonTrace(TapGrid grid);
 
@@ -39,11 +39,10 @@ struct HorizonTrace {
       join_output[HorizonNetwork::units], out_before[1];
 };
 
-// parameters: in the order of layers.h. Returns the network's output, not
-// clamped.
+// parameters are in the order of layers.h. Returns the network's output before the clamp.
 void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace, Lanes& output);
 
-// Adds, for each parameter and lane, the gradient of the output times output_gradient.
+// Adds the gradient of the output times output_gradient for each parameter and lane.
 void horizon_backward(const float* parameters, const HorizonBatch& batch, const HorizonTrace& trace,
                       const Lanes& output_gradient, Lanes* gradient);
 

@@ -11,13 +11,14 @@
 namespace nook::bake::nnao {
 namespace {
 
-// AO is clamped where it is written; the gradient passes through, so that no sample that lies outside is
-// lost.
+// AO is clamped when it is written. The gradient passes through the clamp, so that samples outside the range
+// still contribute.
 float error_of(float output, float ao) {
   return std::clamp(output, 0.0f, 1.0f) - ao;
 }
 
-// Sixteen points under two noise values each. Returns the loss summed over lanes and sets the gradient.
+// Evaluates sixteen points with two noise values each. Returns the loss summed over lanes and sets the
+// gradient.
 double block_gradient(const Dataset& data, const TrainingSettings& settings, const float* parameters,
                       std::span<const std::uint32_t> points, TapGrid grid, std::uint64_t seed,
                       float* gradient) {
@@ -100,8 +101,8 @@ double horizon_step_gradient(const Dataset& data, const TrainingSettings& settin
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the minibatch has no whole blocks (got %zu points, need a multiple of %d)", points.size(),
                   lane_count);
-  // 16, 32 and 64 taps, and 16 steps as 128 and 256 taps have: the number of directions only changes the
-  // noise.
+  // These grids have 16, 32 and 64 taps, and the 16 steps of 128 and 256 taps. The number of directions only
+  // changes the noise.
   constexpr TapGrid grids[] = {{4, 4}, {8, 4}, {8, 8}, {4, 16}};
   const TapGrid grid = grids[Random(step_seed).below(4)];
   const std::size_t blocks = points.size() / lane_count, count = horizon_parameter_count();

@@ -1,4 +1,4 @@
-// The layers of network.h forwards and backwards, on one sample (float) or sixteen side by side (Lanes).
+// The layers of network.h forwards and backwards, on one sample (float) or sixteen at once (Lanes).
 #pragma once
 
 #include "sdk/src/core/aligned_array.h"
@@ -8,7 +8,7 @@ namespace nook::bake::nnao {
 
 inline constexpr int lane_count = 16;
 typedef float Lanes __attribute__((vector_size(4 * lane_count)));
-// Not std::vector: its allocator may not know the alignment that the widest instructions need.
+// std::vector is not used, because its allocator may not support the alignment of the widest instructions.
 using LaneArray = AlignedArray<Lanes>;
 inline LaneArray lane_array(std::size_t count) {
   return {count, std::pmr::new_delete_resource()};
@@ -21,7 +21,7 @@ struct LayerOrder {
                        positive = negative + units, count = positive + units;
 };
 
-// before: ahead of the PReLU.
+// before receives the values before the PReLU.
 template <int inputs, int units, class Number>
 NOOK_INLINE void forward(const float* layer, const Number* input, Number* before, Number* output) {
   using Order = LayerOrder<inputs, units>;
@@ -33,7 +33,8 @@ NOOK_INLINE void forward(const float* layer, const Number* input, Number* before
   }
 }
 
-// Adds to `gradient`, one Number a number of the layer, and sets the gradient of the inputs where wanted.
+// Adds the gradient of the layer's numbers to `gradient`, and sets the gradient of the inputs if it is not
+// null.
 template <int inputs, int units, class Number>
 NOOK_INLINE void backward(const float* layer, const Number* input, const Number* before,
                           const Number* output_gradient, Number* gradient, Number* input_gradient) {

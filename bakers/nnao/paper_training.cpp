@@ -17,14 +17,14 @@ constexpr int units = PaperNetwork::units, tap_inputs = PaperNetwork::tap_inputs
 constexpr std::uint32_t cells = PaperNetwork::grid_size * PaperNetwork::grid_size;
 constexpr std::size_t input_count = std::size_t(cells) * tap_inputs;
 
-// Where each part begins among the parameters.
+// The offset of each part among the parameters.
 constexpr std::size_t filters = 0, first_bias = input_count * units, first_negative = first_bias + units,
                       first_positive = first_negative + units, layer_1 = first_positive + units,
                       layer_2 = layer_1 + LayerOrder<units, units>::count,
                       layer_3 = layer_2 + LayerOrder<units, units>::count,
                       parameter_total = layer_3 + LayerOrder<units, 1>::count;
 
-// All inputs of a point, not normalised.
+// Gathers all inputs of a point, not normalised.
 void gather(const Dataset& data, const DataPoint& point, float* inputs) {
   using namespace nook::nnao;
   const View view = data.views[point.view].view();
@@ -43,7 +43,7 @@ void gather(const Dataset& data, const DataPoint& point, float* inputs) {
 
 NOOK_CLONES void dots(const float* weights, const float* inputs, float* sums) {
   for (int u = 0; u < units; ++u) {
-    // Sixteen sums side by side, so that their order is the same whatever the registers' width.
+    // Sixteen parallel sums have the same order for any width of registers.
     Lanes sum{};
     const float* w = weights + std::size_t(u) * input_count;
     std::size_t i = 0;
@@ -65,14 +65,14 @@ NOOK_CLONES void add_outer(const float* unit_gradient, const float* inputs, floa
       gradient[std::size_t(u) * input_count + i] += unit_gradient[u] * inputs[i];
 }
 
-// One point: the loss, and its gradient added.
+// Returns the loss of one point and adds its gradient.
 double point_gradient(const Dataset& data, const PaperNormalisation& normalisation,
                       const TrainingSettings& settings, const float* parameters, const DataPoint& point,
                       Random& random, std::vector<float>& inputs, float* gradient) {
   gather(data, point, inputs.data());
   const float keep = 1 - settings.dropout, scale = 1 / keep;
   for (std::size_t i = 0; i < input_count; i += 2) {
-    // Two draws of 32 bits from one of 64.
+    // One number of 64 bits gives two draws of 32.
     const std::uint64_t bits = random.bits();
     for (std::size_t j = 0; j < 2; ++j) {
       const bool kept = float(std::uint32_t(bits >> (32 * j)) >> 8) * 0x1p-24f < keep;
@@ -137,7 +137,7 @@ void start_paper(std::span<float> parameters, float mean_ao, Random& random) {
 }
 
 PaperNormalisation paper_normalisation(const Dataset& data) {
-  // Mean and deviation settle long before all points are seen.
+  // Mean and deviation converge long before all points are used.
   const std::size_t stride = data.training.size() / 20000 + 1, count = data.training.size() / stride;
   std::vector<double> sum(input_count), squares(input_count);
   std::vector<float> inputs(input_count);
@@ -158,9 +158,8 @@ PaperNormalisation paper_normalisation(const Dataset& data) {
     largest[i % tap_inputs] = std::max(largest[i % tap_inputs], variance(i));
   for (std::size_t i = 0; i < input_count; ++i) {
     normalisation.mean[i] = float(sum[i] / double(count));
-    // The weight of a tap falls to 0 at the rim, and its deviation with it: divided by that, the rim would be
-    // the loudest part of the filters. So no deviation counts as less than a quarter of the largest of its
-    // kind.
+    // The weight of a tap falls to 0 at the rim, and so does its deviation; divided by it, the rim would
+    // dominate the filters. So no deviation counts as less than a quarter of the largest of its kind.
     const double deviation = std::sqrt(std::max(variance(i), largest[i % tap_inputs] / 16));
     normalisation.inverse_deviation[i] = deviation > 0 ? float(1 / deviation) : 0;
   }
@@ -193,7 +192,8 @@ double paper_step_gradient(const Dataset& data, const PaperNormalisation& normal
                            const TrainingSettings& settings, std::span<const float> parameters,
                            std::span<const std::uint32_t> points, std::uint64_t step_seed,
                            std::span<float> gradient) {
-  // Blocks of a fixed size, summed in their order, so that the number of threads does not matter.
+  // Blocks have a fixed size and are summed in order, so that the result does not depend on the number of
+  // threads.
   constexpr std::size_t block = 8;
   const std::size_t blocks = (points.size() + block - 1) / block;
   std::vector<float> parts(blocks * parameter_total);

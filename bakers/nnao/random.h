@@ -1,4 +1,4 @@
-// Seeded numbers: the same on every machine, unlike the standard distributions.
+// Seeded random numbers that are the same on every machine, unlike the standard distributions.
 #pragma once
 
 #include <cmath>
@@ -15,10 +15,10 @@ class Random {
   std::uint64_t bits() { return mix_bits(counter_++); }
   float unit() { return unit_float(bits()); }  // in [0, 1)
   float between(float low, float high) { return low + (high - low) * unit(); }
-  // Evenly spread logarithms; low > 0.
+  // Returns a number whose logarithm is uniform; low > 0.
   float log_between(float low, float high) { return low * std::exp(unit() * std::log(high / low)); }
   std::uint32_t below(std::uint32_t count) { return std::uint32_t((bits() >> 32) * count >> 32); }
-  // Both ends included.
+  // Both ends are included.
   int whole(int low, int high) { return low + int(below(std::uint32_t(high - low + 1))); }
   bool chance(float probability) { return unit() < probability; }
 

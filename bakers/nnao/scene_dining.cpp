@@ -62,7 +62,7 @@ void add_dining_table(TriangleSoup& soup, const Mat3x4& frame, Vec3 half, Random
                  random);
 }
 
-// Seat and back in one bent sheet, on four thin legs with struts.
+// A chair whose seat and back are one bent sheet, on four thin legs with struts.
 void add_shell_chair(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const float half = random.between(0.19f, 0.25f), seat = random.between(0.4f, 0.48f);
   const float back = random.between(0.28f, 0.5f), bend = random.between(0, 0.09f);
@@ -113,7 +113,7 @@ TrainingScene make_dining_room(Random& random) {
     const Mat3x4 frame = standing_frame({-half * std::sin(angle), 0, -half * std::cos(angle)}, angle);
     add_box(soup, moved(frame, {0, 0.5f * height, -0.1f}), {half, 0.5f * height, 0.1f});
     add_box(soup, moved(frame, {0, 0.06f, 0.01f}), {half, 0.06f, 0.012f});
-    // Pictures, and now and then a sideboard.
+    // Pictures, and sometimes a sideboard.
     const int pictures = random.whole(0, 2);
     for (int i = 0; i < pictures; ++i)
       add_box(soup, moved(frame, {random.between(-0.7f, 0.7f) * half, random.between(1.3f, 1.8f), 0.015f}),

@@ -1,5 +1,6 @@
-// Procedural training scenes, one family of shapes a file: seeded, about the size of a room, in metres, y up,
-// the floor at y = 0. No picture of these need please; they hold the occlusions that pictures hold.
+// Procedural training scenes with one family of shapes in each file: seeded, about the size of a room, in
+// metres, y up, the floor at y = 0. They are not made to look good; they contain the occlusions that images
+// contain.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,8 @@ struct Box {
 
 struct TrainingScene {
   TriangleSoup soup;
-  Box cameras;  // where a camera may stand
-  Box subject;  // what it looks at
+  Box cameras;  // the camera is inside
+  Box subject;  // the camera looks at a point inside
 };
 
 TrainingScene make_clutter(Random& random);      // heaps of boxes, balls and drums
@@ -30,10 +31,10 @@ TrainingScene make_stairs(Random& random);       // flights, landings, balustrad
 TrainingScene make_terrain(Random& random);      // rolling ground, rocks, caves
 
 inline constexpr std::uint32_t family_count = 10;
-// The families take turns.
+// The families alternate.
 TrainingScene make_scene(std::uint64_t seed, std::uint32_t index);
 
-// Pieces that more than one family uses.
+// Pieces that several families use.
 void add_floor(TriangleSoup& soup, float half_width);
 void add_table(TriangleSoup& soup, const Mat3x4& frame, Random& random);
 void add_chair(TriangleSoup& soup, const Mat3x4& frame, Random& random);

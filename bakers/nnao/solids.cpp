@@ -7,7 +7,7 @@ namespace {
 
 constexpr float turn = 2 * std::numbers::pi_v<float>;
 
-// A net of rings x sides quads over a point function of (ring, side); sides close on themselves.
+// A grid of rings x sides quads over a point function of (ring, side); the sides are closed.
 template <class Point>
 void add_net(TriangleSoup& soup, int rings, int sides, const Point& point) {
   const auto first = std::uint32_t(soup.position.size());
@@ -78,7 +78,7 @@ void add_capsule(TriangleSoup& soup, Vec3 from, Vec3 to, float radius, int sides
   axes_across(to - from, u, v);
   const Vec3 axis = normalised(to - from);
   add_net(soup, rings, sides, [&](int ring, int side) {
-    // Rings 0 to 4 round the first end, 5 to 9 the other.
+    // Rings 0 to 4 are around the first end, 5 to 9 around the other.
     const float latitude = 0.25f * turn * (ring < 5 ? float(ring - 4) / 4 : float(ring - 5) / 4);
     const float angle = turn * float(side) / float(sides);
     return (ring < 5 ? from : to) +

@@ -12,7 +12,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// All points once, in an order of the epoch's own.
+// Returns all points once, in an order that depends on the epoch.
 std::vector<std::uint32_t> shuffled(std::size_t points, std::uint64_t seed) {
   std::vector<std::uint32_t> order(points);
   std::iota(order.begin(), order.end(), 0u);
@@ -25,7 +25,7 @@ float rate_at(float rate, double share_done) {
   return rate * float(0.5 + 0.5 * std::cos(std::numbers::pi * share_done));
 }
 
-// The live validation error takes about so many points.
+// The validation error during training uses about this many points.
 constexpr std::size_t live_points = 8000;
 
 }  // namespace
@@ -79,7 +79,7 @@ Network train(const Dataset& data, const TrainingSettings& asked, TrainingState&
   std::vector<float> gradient(state.parameter.size());
   for (std::uint32_t epoch = state.epochs_done; epoch < settings.epochs; ++epoch) {
     now.epoch = epoch;
-    // What an interrupt inside the epoch goes back to.
+    // An interruption inside the epoch returns to this state.
     const TrainingState before = state;
     const std::uint64_t epoch_seed = mix_bits(settings.seed + mix_bits(epoch));
     const std::vector<std::uint32_t> order = shuffled(data.training.size(), epoch_seed);

@@ -1,6 +1,6 @@
-// Training of the screen-space networks: Adam on minibatches of the data set, its rate falling to nothing
-// along a half cosine. The same bits for the same seed on any number of threads, also when it is stopped and
-// resumed.
+// Training of the screen-space networks: Adam on minibatches of the data set, with a rate that falls to 0
+// along a half cosine. The same seed gives the same bits on any number of threads, also if the training is
+// stopped and resumed.
 #pragma once
 
 #include <functional>
@@ -18,23 +18,23 @@ using nook::nnao::NetworkForm;
 struct TrainingSettings {
   NetworkForm form = NetworkForm::horizon;
   std::uint32_t epochs = 0;  // 0: the form's default
-  std::uint32_t batch = 0;   // samples a step, a multiple of 16; 0: the form's default
+  std::uint32_t batch = 0;   // samples in each step, a multiple of 16; 0: the form's default
   float rate = 0;            // at the start; 0: the form's default
   std::uint64_t seed = 1;
 
-  // Horizon form. A pass blurs, so that what is seen is the mean over the noise of neighbouring pixels: the
-  // loss is (1 - w) (bias of the mean)^2 + w (error of one pixel)^2, of which the first is the product of the
-  // errors under two independent noise values.
+  // Horizon form. A pass blurs, so that the visible value is the mean over the noise of neighbouring pixels.
+  // The loss is (1 - w) (bias of the mean)^2 + w (error of one pixel)^2, of which the first is the product of
+  // the errors with two independent noise values.
   float unblurred_weight = 0.15f;
 
-  // Paper form, equation 2: gamma times the mean of |theta|. (The sum over 15,500 numbers would outweigh any
-  // error of an AO that lies between 0 and 1.)
+  // Paper form, equation 2: gamma times the mean of |theta|. The sum over 15,500 numbers would exceed any
+  // error of an AO between 0 and 1.
   float gamma = 0.01f;
-  float dropout = 0.5f;  // share of the first layer's inputs that a sample misses
+  float dropout = 0.5f;  // share of the first layer's inputs that a sample drops
 };
 TrainingSettings with_defaults(TrainingSettings settings);
 
-// Where training stands after some epochs; all that resuming needs.
+// The state of a training after some epochs, which is sufficient to resume it.
 struct TrainingState {
   explicit TrainingState(std::size_t parameters) : parameter(parameters), adam(parameters) {}
 
@@ -46,21 +46,21 @@ struct TrainingState {
 struct TrainingProgress {
   std::uint32_t epoch = 0, epochs = 0;
   std::size_t steps_done = 0, steps = 0;  // of all epochs
-  double validation_mse = 0;              // after the last epoch that ended, at 64 taps; 0 before
+  double validation_mse = 0;              // after the last finished epoch, at 64 taps; 0 before
 };
 // Returns false to stop after the step.
 using OnTraining = std::function<bool(const TrainingProgress&)>;
 
-// Called after every epoch.
+// Runs after every epoch.
 using OnEpoch = std::function<void(const TrainingState&)>;
 
 std::size_t parameter_count(NetworkForm form);
 TrainingState start_training(const Dataset& data, const TrainingSettings& settings);
-// The network of a state, its numbers rounded as a file rounds them.
+// Returns the network of a state, with numbers rounded as in a file.
 Network network_of(const TrainingState& state, const Dataset& data, const TrainingSettings& settings);
 
-// Continues from the state to the last epoch. Throws Failure(NOOK_ERROR_CANCELLED) where progress returned
-// false; the state is then that of the last whole epoch.
+// Continues from the state to the last epoch. Throws Failure(NOOK_ERROR_CANCELLED) if progress returned
+// false; the state is then that of the last complete epoch.
 Network train(const Dataset& data, const TrainingSettings& settings, TrainingState& state,
               const OnTraining& progress = {}, const OnEpoch& epoch_done = {});
 

@@ -11,7 +11,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// The sum of term(point) in a fixed order.
+// Returns the sum of term(point) in a fixed order.
 template <class Term>
 std::array<double, 2> mean_over(const Dataset& data, std::size_t stride, const Term& term) {
   std::vector<std::array<double, 2>> terms((data.validation.size() + stride - 1) / stride);

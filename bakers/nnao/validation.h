@@ -1,4 +1,4 @@
-// The error of a network on points of scenes that no training saw.
+// The error of a network on points of scenes that no training used.
 #pragma once
 
 #include <vector>
@@ -10,19 +10,19 @@ namespace nook::bake::nnao {
 
 struct ValidationRow {
   std::uint32_t taps = 0;
-  double mse = 0;  // of one pixel's AO, as the pass writes it before the blur
+  double mse = 0;  // of one pixel's AO before the blur
   double mse_blurred =
       0;  // of the mean over the 16 noise values: what a perfect blur over 4 x 4 pixels leaves
 };
 
-// Every stride-th point; threads share the work, the result does not depend on their number.
+// Evaluates every stride-th point. Threads share the work, and the result does not depend on their number.
 ValidationRow validate(const nook::nnao::Network& network, const Dataset& data, std::uint32_t taps,
                        std::size_t stride = 1);
-// Without mse_blurred, which costs 16 times as much.
+// The same without mse_blurred, which costs 16 times as much.
 double validation_mse(const nook::nnao::Network& network, const Dataset& data, std::uint32_t taps,
                       std::size_t stride = 1);
 
-// Of the predictor that says the mean AO of the training points everywhere.
+// Returns the error of the constant predictor, the mean AO of the training points.
 double constant_mse(const Dataset& data);
 
 }  // namespace nook::bake::nnao

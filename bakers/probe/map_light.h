@@ -40,8 +40,8 @@ std::vector<Channels> moments(const Environment& map, const Basis& basis);
 // Irradiance on surfaces with these unit normals, of the light in the region; texels count at their centres.
 std::vector<Vec3> map_irradiance(const Environment& map, const Region& region, std::span<const Vec3> normals);
 
-// The same light in fewer texels: halved while it has more columns than asked for, and an even number of rows
-// and columns.
+// Returns the same light in fewer texels: the map is halved while it has more columns than the maximum, and
+// an even number of rows and columns.
 Environment reduced(Environment map, std::uint32_t most_columns);
 
 }  // namespace nook::bake::probe

@@ -1,5 +1,5 @@
-// Ray-traced ambient occlusion: the ground truth of everything that Nook claims. Cosine-weighted visibility
-// over the hemisphere round a normal, both triangle sides occlude, 1 is open.
+// Ray-traced ambient occlusion, the reference of all AO in Nook: cosine-weighted visibility over the
+// hemisphere around a normal. Both sides of triangles occlude; 1 is open.
 #pragma once
 
 #include <array>
@@ -16,31 +16,31 @@
 
 namespace nook::bake {
 
-// Points whose AO is wanted, world space; normals are unit length.
+// Points to evaluate, in world space; normals have unit length.
 struct Receivers {
   std::span<const Vec3> position;
   std::span<const Vec3> normal;
-  std::span<const float> radius = {};  // metres, in place of the settings' radius; empty: that one for all
+  std::span<const float> radius = {};  // metres, replaces the settings' radius; empty: that one for all
 };
 
 struct AoSettings {
-  std::uint32_t rays = 64;  // per point
+  std::uint32_t rays = 64;  // for each point
   std::uint64_t seed = 1;
-  float radius = std::numeric_limits<float>::infinity();  // metres; longer rays count as open
+  float radius = std::numeric_limits<float>::infinity();  // metres; hits beyond it count as open
   float origin_offset = 0;                                // metres along the normal
 };
 
-// AO of every receiver against one soup; threads work on blocks of receivers, the result does not depend on
-// their number.
+// Returns the AO of every receiver against one soup. Threads work on blocks of receivers, and the result does
+// not depend on their number.
 std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers,
                             const AoSettings& settings);
 std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings);
 
-// Returns false to stop; called from any worker thread, one call at a time.
+// Returns false to stop. Worker threads call it, one call at a time.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// AO targets of a character: row-major poses x vertices, 16-bit fixed point (value / 65535), half the size of
-// floats at a quantum far below the ray noise.
+// The AO targets of a character: poses x vertices in 16-bit fixed point (value / 65535), which has half the
+// size of floats and a step far below the noise of the rays.
 struct AoTargets {
   std::size_t vertex_count = 0;
   std::vector<std::uint16_t> value;
@@ -51,17 +51,17 @@ struct AoTargets {
   static constexpr float scale = 1.0f / 65535.0f;
 };
 
-// Poses are distributed over all threads, each with a BVH of its own; the same seed gives the same targets on
-// any number of threads. Throws Failure(NOOK_ERROR_CANCELLED) when progress returns false.
+// Distributes poses over all threads, with one BVH for each pose. The same seed gives the same targets on any
+// number of threads. Throws Failure(NOOK_ERROR_CANCELLED) if progress returns false.
 AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays,
                              std::uint64_t seed, const Progress& progress = {});
 
-// The expected squared error of such targets: half the mean squared difference to a second, independent
-// tracing of a few of the poses.
+// Returns the expected squared error of such targets: half the mean squared difference to a second,
+// independent tracing of some of the poses.
 double measure_noise_floor(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
                            std::uint32_t rays, std::uint64_t seed);
 
-// The offset of the ray origins for a character: 1e-4 of its rest bounding-box diagonal.
+// Returns the offset of ray origins for a character: 1e-4 of the diagonal of its rest bounding box.
 float ray_origin_offset(std::span<const Vec3> rest_positions);
 
 }  // namespace nook::bake

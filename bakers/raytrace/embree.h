@@ -1,4 +1,4 @@
-// One spelling for Embree 3 (Debian 12) and Embree 4 (Debian 13): owned devices and scenes, and the 16-wide
+// One interface to Embree 3 (Debian 12) and Embree 4 (Debian 13): owned devices and scenes, and the 16-wide
 // occlusion call.
 #pragma once
 
@@ -14,8 +14,8 @@ namespace nook::bake {
 
 class EmbreeDevice {
  public:
-  // Single-threaded inside: callers parallelise over scenes, so that results do not depend on Embree's own
-  // scheduling.
+  // The device is single-threaded inside. Callers parallelise over scenes, so that results do not depend on
+  // Embree's scheduling.
   EmbreeDevice() : handle_(rtcNewDevice("threads=1,set_affinity=0")) {}
   ~EmbreeDevice() { rtcReleaseDevice(handle_); }
   EmbreeDevice(const EmbreeDevice&) = delete;
@@ -38,7 +38,7 @@ class EmbreeScene {
   RTCScene handle_;
 };
 
-// Occlusion of 16 rays; tfar of an occluded ray becomes -infinity.
+// Tests 16 rays for occlusion; tfar of an occluded ray becomes -infinity.
 inline void occluded16(RTCScene scene, const int* valid, RTCRay16& rays) {
 #if RTC_VERSION_MAJOR >= 4
   rtcOccluded16(valid, scene, &rays, nullptr);
@@ -49,7 +49,7 @@ inline void occluded16(RTCScene scene, const int* valid, RTCRay16& rays) {
 #endif
 }
 
-// Occlusion of one ray; tfar of an occluded ray becomes -infinity.
+// Tests one ray for occlusion; tfar of an occluded ray becomes -infinity.
 inline void occluded1(RTCScene scene, RTCRay& ray) {
 #if RTC_VERSION_MAJOR >= 4
   rtcOccluded1(scene, &ray, nullptr);
@@ -60,7 +60,7 @@ inline void occluded1(RTCScene scene, RTCRay& ray) {
 #endif
 }
 
-// The nearest hit of a ray; both triangle sides count.
+// Finds the nearest hit of a ray; both sides of triangles count.
 inline void intersect1(RTCScene scene, RTCRayHit& ray) {
 #if RTC_VERSION_MAJOR >= 4
   rtcIntersect1(scene, &ray, nullptr);

@@ -10,20 +10,24 @@ namespace nook::bake {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double darkest = 1e-30;  // integral of luminance
 
 }  // namespace
 
 Environment::Environment(std::uint32_t width, std::uint32_t height, std::vector<float> rgb)
     : width_(width), height_(height), rgb_(std::move(rgb)) {
   if (texel_count() == 0 || rgb_.size() != 3 * texel_count())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "an environment of %u x %u texels has %zu numbers (need 3 a texel, and one texel or more)",
-                  width, height, rgb_.size());
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "an environment of %u x %u texels has %zu numbers (need 3 for each texel, and one texel or more)",
+        width, height, rgb_.size());
   for (std::size_t i = 0; i < rgb_.size(); ++i)
-    if (!std::isfinite(rgb_[i]) || rgb_[i] < 0)
+    if (!(rgb_[i] >= 0 && double(rgb_[i]) <= max_radiance))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "an environment's texel is negative or not finite (row %zu, column %zu); repair the map",
-                    i / 3 / width, i / 3 % width);
+                    "an environment's texel is out of range (got %g in row %zu, column %zu, need 0 to %g); "
+                    "repair the map "
+                    "or scale its light down",
+                    double(rgb_[i]), i / 3 / width, i / 3 % width, max_radiance);
 }
 
 std::size_t Environment::texel_at(Vec3 d) const {
@@ -55,9 +59,9 @@ LightSampler::LightSampler(const Environment& environment, float uniform_share) 
   for (std::size_t i = 0; i < count; ++i)
     total += double(luminance(environment.texel(i))) *
              environment.solid_angle(std::uint32_t(i / environment.width()));
-  const double uniform = total > 0 ? double(uniform_share) : 1.0;
+  const double uniform = total > darkest ? double(uniform_share) : 1.0;
   uniform_ = float(uniform / (4 * pi));
-  per_luminance_ = total > 0 ? float((1 - uniform) / total) : 0.0f;
+  per_luminance_ = total > darkest ? float((1 - uniform) / total) : 0.0f;
   for (std::size_t i = 0; i < count; ++i)
     share[i] = double(texel_density(i)) * environment.solid_angle(std::uint32_t(i / environment.width()));
   total = 0;

@@ -1,5 +1,4 @@
-// Light from infinitely far away: a latitude-longitude map of radiance, and its samples in proportion to
-// luminance.
+// Light from infinity: a latitude-longitude map of radiance, and samples of it in proportion to luminance.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +10,17 @@
 
 namespace nook::bake {
 
-// Rows go from +y down to -y, columns once round y: the middle column looks along +x, a quarter further right
-// along +z. Radiance is constant over a texel, so that integrals over the map are sums over its texels.
+// The maximum radiance of a map's texel and of an emissive surface. With it, sums of squares over any number
+// of paths stay far below the maximum of a float.
+inline constexpr double max_radiance = 1e15;
+
+// Rows go from +y to -y, and columns around y: the middle column looks along +x, and the column a quarter of
+// the width to its right along +z. Radiance is constant over a texel, so that integrals over the map are sums
+// over its texels.
 class Environment {
  public:
-  // rgb: 3 floats a texel, rows from the top, each finite and 0 or above; width and height 1 or more.
+  // rgb has 3 floats for each texel, rows from the top, each 0 to max_radiance. width and height are at least
+  // 1.
   Environment(std::uint32_t width, std::uint32_t height, std::vector<float> rgb);
 
   std::uint32_t width() const { return width_; }
@@ -24,11 +29,11 @@ class Environment {
   std::span<const float> rgb() const { return rgb_; }
 
   Vec3 texel(std::size_t index) const { return {rgb_[3 * index], rgb_[3 * index + 1], rgb_[3 * index + 2]}; }
-  std::size_t texel_at(Vec3 direction) const;  // of any length but 0
+  std::size_t texel_at(Vec3 direction) const;  // of any non-zero length
   Vec3 radiance(Vec3 direction) const { return texel(texel_at(direction)); }
 
-  double solid_angle(std::uint32_t row) const;  // of one texel, steradians; 4 pi together
-  // u to the right and v down, each in [0, 1) over a texel; uniform in solid angle.
+  double solid_angle(std::uint32_t row) const;  // of one texel, steradians; the sum over the map is 4 pi
+  // u points to the right and v down, each in [0, 1) over a texel, uniform in solid angle.
   Vec3 direction(std::uint32_t column, std::uint32_t row, float u, float v) const;
 
  private:
@@ -47,14 +52,15 @@ struct LightSample {
   float density = 0;  // per steradian
 };
 
-// Directions by luminance, mixed with uniform ones: density (1 - uniform) * luminance / integral of luminance
-// + uniform / (4 pi).
+// Samples directions by luminance, mixed with uniform ones: the density is (1 -
+// uniform) * luminance / integral of luminance + uniform / (4 pi).
 class LightSampler {
  public:
-  // The environment must outlive the sampler. uniform_share in [0, 1]; a black map is sampled uniformly.
+  // The environment must outlive the sampler. uniform_share is in [0, 1]. A map that is black, or so dark
+  // that its density is no float, is sampled uniformly.
   explicit LightSampler(const Environment& environment, float uniform_share = 0);
 
-  // Four numbers in [0, 1); choice in double, which reaches every texel of large maps.
+  // Takes four numbers in [0, 1). The choice is a double, which reaches every texel of large maps.
   LightSample sample(double choice, float alias, float u, float v) const;
   float density(Vec3 direction) const { return texel_density(environment_->texel_at(direction)); }
 
@@ -63,7 +69,7 @@ class LightSampler {
 
   const Environment* environment_;
   float uniform_ = 0, per_luminance_ = 0;  // density = uniform_ + per_luminance_ * luminance
-  std::vector<float> keep_;                // Walker's alias table, with Vose's construction
+  std::vector<float> keep_;                // Walker's alias table, by Vose's construction
   std::vector<std::uint32_t> other_;
 };
 

@@ -1,4 +1,4 @@
-// Cosine-weighted directions over the hemisphere, stratified: the samples of ray-traced ambient occlusion and
+// Stratified cosine-weighted directions over the hemisphere, the samples of ray-traced ambient occlusion and
 // irradiance.
 #pragma once
 
@@ -10,19 +10,18 @@
 
 namespace nook::bake {
 
-// Many independent patterns of `rays` directions each, round +z, so that neighbouring vertices and poses do
-// not share noise. Directions are cosine-weighted, so that visibility is their plain mean (design: ground
-// truth of character AO).
+// Many independent patterns of `rays` directions each around +z, so that neighbouring vertices and poses do
+// not share noise. Directions are cosine-weighted, so that visibility is their plain mean.
 class HemispherePatterns {
  public:
   static constexpr std::uint32_t pattern_count = 256;
 
-  // rays is split into rows x columns strata of equal probability, as near to a square as its divisors allow;
-  // any rays >= 1 is fine.
+  // rays is split into rows x columns strata of equal probability, as near to a square as its divisors allow.
+  // Any rays >= 1 is valid.
   HemispherePatterns(std::uint32_t rays, std::uint64_t seed);
 
   std::uint32_t rays() const { return rays_; }
-  // rays() unit directions, z >= 0.
+  // Returns rays() unit directions with z >= 0.
   const Vec3* pattern(std::uint32_t index) const {
     return &directions_[std::size_t(index % pattern_count) * rays_];
   }
@@ -36,8 +35,8 @@ struct Frame {
   Vec3 x, y, z;
 };
 
-// An orthonormal basis round a unit normal, turned by an angle given as cosine and sine (Duff et al. 2017 for
-// the basis).
+// Returns an orthonormal basis around a unit normal (Duff et al. 2017), turned by an angle with the given
+// cosine and sine.
 inline Frame turned_frame(Vec3 n, float cosine, float sine) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1 / (sign + n.z);
@@ -51,15 +50,15 @@ constexpr Vec3 to_world(const Frame& frame, Vec3 v) {
   return v.x * frame.x + v.y * frame.y + v.z * frame.z;
 }
 
-// A direction round +z with density cos / pi, by Malley's method: uniform on the disc, projected up. u, v in
-// [0, 1).
+// Returns a direction around +z with the density cos / pi, by Malley's method: uniform on the disc, projected
+// up. u and v are in [0, 1).
 inline Vec3 cosine_direction(float u, float v) {
   const float radius = std::sqrt(u);
   const float angle = 6.2831853f * v;
   return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::fmax(0.0f, 1 - u))};
 }
 
-// SplitMix64's finaliser: decorrelates consecutive integers.
+// The finaliser of SplitMix64, which decorrelates consecutive integers.
 constexpr std::uint64_t mix_bits(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ull;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -67,7 +66,7 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// Uniform in [0, 1) from the upper bits.
+// Returns a uniform number in [0, 1) from the upper bits.
 constexpr float unit_float(std::uint64_t bits) {
   return float(bits >> 40) * 0x1p-24f;
 }

@@ -7,6 +7,8 @@
 
 namespace nook::bake {
 
+static_assert(max_emission == max_radiance, "one bound for all light of a scene");
+
 LitScene::LitScene(LitTriangles triangles, Environment environment)
     : rays_(triangles.soup),
       surface_(std::move(triangles.surface)),
@@ -16,7 +18,8 @@ LitScene::LitScene(LitTriangles triangles, Environment environment)
       masked_(
           std::any_of(surface_.begin(), surface_.end(), [](const Surface& s) { return s.alpha_cutoff > 0; })),
       environment_(std::move(environment)),
-      light_(environment_) {
+      light_(environment_),
+      sun_limit_(nook::bake::sun_limit(environment_)) {
   if (!uv_.empty()) triangle_ = std::move(triangles.soup.triangle);
 }
 

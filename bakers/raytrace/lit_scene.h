@@ -1,4 +1,4 @@
-// A scene that light can be traced through: diffuse triangles under an environment.
+// A scene for light transport: diffuse triangles under an environment.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include "bakers/import/static_scene.h"
 #include "bakers/raytrace/environment.h"
 #include "bakers/raytrace/ray_scene.h"
+#include "bakers/raytrace/suns.h"
 #include "bakers/raytrace/texture.h"
 
 namespace nook::bake {
@@ -16,8 +17,8 @@ struct LitTriangles {
   TriangleSoup soup;  // world space, metres; may be empty
   std::vector<Surface> surface;
   std::vector<std::uint32_t> triangle_surface = {};  // an index of surface for each triangle
-  std::vector<Texture> texture = {};                 // that the surfaces' texture uses name
-  std::vector<std::array<TexturePoint, 2>> uv = {};  // of each vertex; empty where no surface has a texture
+  std::vector<Texture> texture = {};                 // the textures that surfaces refer to
+  std::vector<std::array<TexturePoint, 2>> uv = {};  // of each vertex; empty if no surface has a texture
 };
 
 // A surface at one point.
@@ -25,20 +26,21 @@ struct SurfaceColours {
   Vec3 base_colour, emission;
 };
 
-// Any thread may trace; it must not be moved, since its sampler looks at its environment.
+// Any thread may trace. The scene must not be moved, because its sampler refers to its environment.
 class LitScene {
  public:
   LitScene(LitTriangles triangles, Environment environment);
   LitScene(const LitScene&) = delete;
   LitScene& operator=(const LitScene&) = delete;
 
-  // What rays meet; they pass through the holes of alpha masks.
+  // Returns the nearest hit. Rays pass through the holes of alpha masks.
   RayHit nearest(Vec3 origin, Vec3 direction) const;
   bool occluded(Vec3 origin, Vec3 direction) const;
   SurfaceColours colours(const RayHit& hit) const;
 
   const Environment& environment() const { return environment_; }
   const LightSampler& light() const { return light_; }
+  float sun_limit() const { return sun_limit_; }  // of the environment, see suns.h
 
  private:
   const Surface& surface(const RayHit& hit) const { return surface_[triangle_surface_[hit.triangle]]; }
@@ -50,13 +52,14 @@ class LitScene {
   std::vector<std::uint32_t> triangle_surface_;
   std::vector<Texture> texture_;
   std::vector<std::array<TexturePoint, 2>> uv_;
-  std::vector<std::array<std::uint32_t, 3>> triangle_;  // only where there are textures
+  std::vector<std::array<std::uint32_t, 3>> triangle_;  // only if there are textures
   bool masked_ = false;
   Environment environment_;
   LightSampler light_;
+  float sun_limit_;
 };
 
-// textures: those of scene.image, decoded.
+// textures are the decoded ones of scene.image.
 LitTriangles lit_triangles(StaticScene scene, std::vector<Texture> textures);
 
 }  // namespace nook::bake

@@ -26,36 +26,52 @@ bool is_black(Vec3 v) {
   return v.x == 0 && v.y == 0 && v.z == 0;
 }
 
-// Light of the environment at a surface, by a direction that the light chose, weighed by the balance
-// heuristic (Veach 1997) against the cosine's choice of the same direction.
-Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, PathRandom& random) {
+Vec3 direct_radiance(const LitScene& scene, Vec3 radiance, DirectLight direct) {
+  switch (direct) {
+    case DirectLight::none:
+      return {};
+    case DirectLight::sky:
+      return without_sun(radiance, scene.sun_limit());
+    case DirectLight::all:
+      break;
+  }
+  return radiance;
+}
+
+// Returns the light of the environment at a surface from a direction that was sampled by luminance, weighted
+// by the balance heuristic (Veach 1997) against the cosine-weighted density of the same direction.
+Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, DirectLight direct,
+                        PathRandom& random) {
   const double choice = random.next_double();
   const float alias = random.next(), u = random.next(), v = random.next();
   const LightSample light = scene.light().sample(choice, alias, u, v);
   const float cosine = dot(light.direction, normal);
-  if (cosine <= 0 || is_black(light.radiance) || scene.occluded(origin, light.direction)) return {};
-  return light.radiance * (cosine / (light.density + cosine / pi));
+  const Vec3 radiance = direct_radiance(scene, light.radiance, direct);
+  if (cosine <= 0 || is_black(radiance) || scene.occluded(origin, light.direction)) return {};
+  return radiance * (cosine / (light.density + cosine / pi));
 }
 
-// Irradiance at a point, whose first path leaves along `direction`, a cosine-weighted choice.
+// Estimates the irradiance at a point by a path that leaves along `direction`, a cosine-weighted sample.
 Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 direction,
                      const PathSettings& settings, PathRandom& random) {
   Vec3 irradiance, share{1, 1, 1};
   for (std::uint32_t bounce = 0;; ++bounce) {
     const Vec3 origin = position + settings.origin_offset * normal;
-    irradiance += by_channel(share, light_by_luminance(scene, origin, normal, random));
+    const DirectLight direct = bounce == 0 ? settings.direct : DirectLight::all;
+    irradiance += by_channel(share, light_by_luminance(scene, origin, normal, direct, random));
     const RayHit hit = scene.nearest(origin, direction);
     if (std::isinf(hit.distance)) {
       const float density = std::max(dot(direction, normal), 0.0f) / pi;
       if (density > 0)
-        irradiance += by_channel(share, scene.environment().radiance(direction)) *
-                      (pi * density / (density + scene.light().density(direction)));
+        irradiance +=
+            by_channel(share, direct_radiance(scene, scene.environment().radiance(direction), direct)) *
+            (pi * density / (density + scene.light().density(direction)));
       return irradiance;
     }
     const SurfaceColours surface = scene.colours(hit);
     irradiance += pi * by_channel(share, surface.emission);
-    // A cosine-weighted direction carries pi times its radiance, and a diffuse surface sends irradiance *
-    // base colour / pi.
+    // A cosine-weighted direction contributes pi times its radiance, and a diffuse surface reflects
+    // irradiance * base colour / pi.
     share = by_channel(share, surface.base_colour);
     if (bounce >= settings.max_bounces || is_black(share)) return irradiance;
     if (bounce >= certain_bounces) {
@@ -75,10 +91,12 @@ Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 dir
 Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const PathSettings& settings,
                     PathRandom& random) {
   const RayHit hit = scene.nearest(origin, direction);
-  if (std::isinf(hit.distance)) return scene.environment().radiance(direction);
+  if (std::isinf(hit.distance))
+    return direct_radiance(scene, scene.environment().radiance(direction), settings.direct);
   const SurfaceColours surface = scene.colours(hit);
   if (settings.max_bounces == 0 || is_black(surface.base_colour)) return surface.emission;
   PathSettings rest = settings;
+  rest.direct = DirectLight::all;
   if (rest.max_bounces != ~0u) --rest.max_bounces;
   const float u = random.next(), v = random.next();
   const Vec3 onward = to_world(turned_frame(hit.normal, 1, 0), cosine_direction(u, v));

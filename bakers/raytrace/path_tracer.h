@@ -1,4 +1,4 @@
-// Unbiased path tracing of diffuse scenes: the ground truth of everything that light probes claim.
+// Unbiased path tracing of diffuse scenes, the reference of all light probes.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,22 @@
 
 namespace nook::bake {
 
-struct PathSettings {
-  std::uint32_t max_bounces = ~0u;  // reflections that count; 0: light that comes straight from its source
-  float origin_offset = 1e-4f;      // metres along the normal, of rays that leave a surface
+// What counts of the environment's light that comes straight to the point that is asked about. Its light by
+// way of surfaces always counts, suns included, and so does light that surfaces emit.
+enum class DirectLight : std::uint8_t {
+  none = 0,
+  sky = 1,  // the environment without its suns, see suns.h
+  all = 2
 };
 
-// A stream of numbers in [0, 1) that its key alone decides: paths do not depend on which thread traces them.
+struct PathSettings {
+  std::uint32_t max_bounces = ~0u;  // maximum number of reflections; 0: direct light only
+  float origin_offset = 1e-4f;      // metres along the normal, of rays that leave a surface
+  DirectLight direct = DirectLight::all;
+};
+
+// A stream of numbers in [0, 1) that depends only on its key, so that paths do not depend on the thread that
+// traces them.
 class PathRandom {
  public:
   explicit PathRandom(std::uint64_t key) : state_(mix_bits(key)) {}
@@ -26,19 +36,21 @@ class PathRandom {
   std::uint64_t state_;
 };
 
-// One estimate of the radiance that arrives at a point from a unit direction.
+// Returns one estimate of the radiance that arrives at a point from a unit direction. settings.direct selects
+// the part of the map's light that arrives without a reflection.
 Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const PathSettings& settings,
                     PathRandom& random);
 
 struct IrradianceSettings {
-  std::uint32_t rays = 64;  // paths a point
+  std::uint32_t rays = 64;  // paths for each point
   std::uint64_t seed = 1;
   PathSettings path;
 };
 
-// Irradiance (RGB, the integral of radiance times cosine over the hemisphere round the normal) of every
-// receiver, whose radii are not used. Threads work on blocks of receivers, the result does not depend on
-// their number. progress counts receivers; throws Failure(NOOK_ERROR_CANCELLED) when it returns false.
+// Returns the irradiance (RGB, the integral of radiance times cosine over the hemisphere around the normal)
+// of every receiver; the radii of receivers are not used. Threads work on blocks of receivers, and the result
+// does not depend on their number. progress counts receivers. Throws Failure(NOOK_ERROR_CANCELLED) if it
+// returns false.
 std::vector<Vec3> trace_irradiance(const LitScene& scene, const Receivers& receivers,
                                    const IrradianceSettings& settings, const Progress& progress = {});
 

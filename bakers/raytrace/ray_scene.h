@@ -1,4 +1,4 @@
-// Triangles that rays can be traced against, and the camera rays of a picture.
+// Triangles for ray tracing, and the camera rays of a picture.
 #pragma once
 
 #include <pmmintrin.h>
@@ -13,13 +13,13 @@
 
 namespace nook::bake {
 
-// Occluders, world space, metres.
+// Occluders in world space and metres.
 struct TriangleSoup {
   std::vector<Vec3> position;
   std::vector<std::array<std::uint32_t, 3>> triangle;
 };
 
-// Embree wants denormals flushed on every thread that traces; the caller's mode comes back afterwards.
+// Embree needs denormals flushed on every thread that traces. The caller's mode is restored afterwards.
 class FlushDenormals {
  public:
   FlushDenormals() : saved_(_mm_getcsr()) {
@@ -37,23 +37,23 @@ class FlushDenormals {
 void build_scene(RTCDevice device, RTCScene scene, std::span<const Vec3> positions,
                  std::span<const std::array<std::uint32_t, 3>> triangles);
 
-// What a ray meets first.
+// The first hit of a ray.
 struct RayHit {
-  float distance = 0;  // in lengths of the ray's direction; infinite: nothing
+  float distance = 0;  // in lengths of the ray's direction; infinite if there is no hit
   Vec3 normal;         // geometric, unit length, against the ray
   std::uint32_t triangle = ~0u;
-  float u = 0, v = 0;        // shares of the triangle's second and third vertex
-  bool from_behind = false;  // the ray met the side from which the vertices go round clockwise
+  float u = 0, v = 0;        // barycentric weights of the triangle's second and third vertex
+  bool from_behind = false;  // the ray hit the side from which the vertices are clockwise
 };
 
-// A soup with its BVH, which may be empty; any thread may trace.
+// A soup with its BVH, which may be empty. Any thread may trace.
 class RayScene {
  public:
   explicit RayScene(const TriangleSoup& soup);
   RTCScene get() const { return scene_.get(); }
-  // Hits up to and at `beyond` do not count; in lengths of direction.
+  // Hits up to and at `beyond`, in lengths of the direction, do not count.
   RayHit nearest(Vec3 origin, Vec3 direction, float beyond = 0) const;
-  bool occluded(Vec3 origin, Vec3 direction) const;  // by anything at any distance
+  bool occluded(Vec3 origin, Vec3 direction) const;  // by any triangle at any distance
 
  private:
   EmbreeDevice device_;

@@ -13,7 +13,7 @@ float linear_of_srgb(float value) {
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
-// Within two images' widths of the first, so that no coordinate is too large for integers.
+// Moves a coordinate to within two widths of the first image, so that it is not too large for integers.
 float near_first(float u) {
   return u - 2 * std::floor(u / 2);
 }
@@ -32,8 +32,8 @@ Texture::Texture(std::uint32_t width, std::uint32_t height, std::vector<std::uin
     : width_(width), height_(height), rgba_(std::move(rgba)) {
   if (width_ < 1 || height_ < 1 || rgba_.size() != std::size_t(4) * width_ * height_)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "a texture of %u x %u texels has %zu bytes (need 4 a texel, and one texel or more)", width_,
-                  height_, rgba_.size());
+                  "a texture of %u x %u texels has %zu bytes (need 4 for each texel, and one texel or more)",
+                  width_, height_, rgba_.size());
   for (std::size_t i = 0; i < linear_.size(); ++i) linear_[i] = linear_of_srgb(float(i) / 255);
 }
 

@@ -1,4 +1,4 @@
-// Decoded colour textures, looked up in linear light.
+// Decoded colour textures with look-ups in linear light.
 #pragma once
 
 #include <array>
@@ -17,11 +17,12 @@ struct TextureColour {
 
 class Texture {
  public:
-  // rgba: 4 bytes a texel, rows from the top; colours in sRGB, not multiplied by alpha. width and height 1 or
-  // more.
+  // rgba has 4 bytes for each texel, rows from the top; colours are sRGB and not multiplied by alpha. width
+  // and height are at least 1.
   Texture(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgba);
 
-  // Texels stand at the centres of equal cells; bilinear between them, in linear light, or the nearest.
+  // Texels are at the centres of equal cells. The look-up is bilinear in linear light, or takes the nearest
+  // texel.
   TextureColour at(const TextureUse& use, TexturePoint vertex_uv) const;
 
  private:

@@ -9,7 +9,7 @@
 namespace nook::bake::tensor {
 namespace {
 
-// The modes that have a basis, from `first` on and round.
+// Returns the modes that have a basis, cyclically from `first` on.
 std::vector<std::size_t> fitted_modes(const Dimensions& dimensions, const Alternation& settings) {
   std::vector<std::size_t> modes;
   for (std::size_t k = 0; k < dimensions.size(); ++k) {
@@ -56,14 +56,14 @@ Nsvd alternate(const TensorView& a, double squared, std::vector<Matrix> bases, c
     Tensor core;
     for (std::size_t n : modes) {
       report(progress, {sweep + 1, settings.sweeps, n, best.objective.empty() ? 0 : best.objective.back()});
-      // All other modes projected; what is left to choose is the best subspace of this one.
+      // All other modes are projected, so that the best subspace of this mode is optimal.
       bases[n] = Matrix();
       const Tensor projected = project(a, bases);
       bases[n] = leading_eigenvectors(gram(projected, n), settings.ranks[n]);
       if (n == modes.back()) core = mode_product(projected, n, bases[n].transpose());
     }
     const double error = error_of(core), before = best.objective.empty() ? squared : best.objective.back();
-    // Only rounding can raise it: the fit is as good as floats make it.
+    // Only rounding can raise it: the fit is at the precision of floats.
     if (!best.objective.empty() && error >= before) break;
     best.core = std::move(core);
     best.basis = bases;

@@ -13,10 +13,10 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// Of the greatest eigenvalue of uf(Z) uf(Z)^T: what lies below is the rounding of a core in floats.
+// Relative to the largest eigenvalue of uf(Z) uf(Z)^T; smaller eigenvalues are rounding of a core in floats.
 constexpr double least_eigenvalue = 1e-12;
 
-// A^(-1/2), or the root of the pseudo-inverse.
+// Returns A^(-1/2), or the root of the pseudo-inverse.
 MatrixXd inverse_root(const MatrixXd& a) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(a);
   Eigen::VectorXd roots = solver.eigenvalues();

@@ -1,4 +1,4 @@
-// The dual bases of clusters and the atoms that they stand for.
+// The dual bases of clusters and their atoms.
 #pragma once
 
 #include "bakers/tensor/clustered_fit.h"
@@ -6,17 +6,17 @@
 
 namespace nook::bake::tensor {
 
-// V_{m,c} of equation (7), folded as the core is, and what leads back: (uf(Z) uf(Z)^T)^(-1/2). Where the core
-// lacks rank, the root is that of the pseudo-inverse and rows of V fall to fewer dimensions.
+// V_{m,c} of equation (7), folded like the core, and the inverse transformation (uf(Z) uf(Z)^T)^(-1/2). If
+// the core lacks rank, the root is that of the pseudo-inverse, and rows of V span fewer dimensions.
 struct DualBasis {
   Tensor v;                      // R_1 x ... x R_N
   Eigen::MatrixXd inverse_root;  // R_m x R_m
 };
 DualBasis dual_basis(const Tensor& core, std::size_t mode);
 
-// O_c = V_{m,c} x_{n != m} U_{n,c} of all clusters, joined along mode m: its size there is C R_m. Global
-// modes stay reduced. To expand the few atoms of a cluster costs less than to project every sub-tensor on its
-// bases, as (10) and (14) have it, and their inner products are the same numbers.
+// Returns O_c = V_{m,c} x_{n != m} U_{n,c} of all clusters, joined along mode m, whose size is C R_m. Global
+// modes stay reduced. Expanding the few atoms of a cluster costs less than projecting every sub-tensor on its
+// bases, as in (10) and (14), and gives the same inner products.
 Tensor join_atoms(const std::vector<ClusteredFit::Cluster>& clusters, const std::vector<DualBasis>& dual,
                   const Dimensions& reduced, std::size_t mode);
 

@@ -1,5 +1,5 @@
-// Work in blocks whose bounds depend on the size alone: their results, taken in order, have the same bits on
-// any number of threads.
+// Work in blocks whose bounds depend only on the size, so that results that are combined in order have the
+// same bits on any number of threads.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -10,14 +10,14 @@
 
 namespace nook::bake::tensor {
 
-// body(first, last) for each block, in parallel.
+// Runs body(first, last) for each block, in parallel.
 template <class Body>
 void for_each_block(std::size_t count, std::size_t block, const Body& body) {
   tbb::parallel_for(std::size_t(0), (count + block - 1) / block,
                     [&](std::size_t b) { body(b * block, std::min(count, (b + 1) * block)); });
 }
 
-// The sum of sum(first, last) over the blocks, which run in parallel.
+// Returns the sum of sum(first, last) over the blocks, which run in parallel.
 template <class Sum>
 double ordered_sum(std::size_t count, std::size_t block, const Sum& sum) {
   std::vector<double> part((count + block - 1) / block);

@@ -1,8 +1,8 @@
-// What the clustered tensor approximations take and give: CTA (Tsai and Shih 2006) and K-CTA (Tsai and Shih
-// 2012), equation (8):
+// Settings and results of the clustered tensor approximations: CTA (Tsai and Shih 2006) and K-CTA (Tsai and
+// Shih 2012), equation (8):
 //   A ~ sum_c Z_c x_1 U_{1,c} ... x_N U_{N,c},
-// where every mode-m sub-tensor belongs to K clusters: the rows of the mixing matrices U_{m,c} are zero
-// elsewhere.
+// where every mode-m sub-tensor belongs to K clusters; the rows of the mixing matrices U_{m,c} are zero for
+// all other clusters.
 #pragma once
 
 #include <cstdint>
@@ -12,59 +12,59 @@
 
 namespace nook::bake::tensor {
 
-// How the clustering stage looks for the K clusters of a sub-tensor.
+// The search of the clustering stage for the K clusters of a sub-tensor.
 enum class Pursuit : std::uint8_t {
-  greedy,      // one after the other, (9) and (13), as Algorithm 1
+  greedy,      // one after another, (9) and (13), as in Algorithm 1
   exchange,    // greedy, then single clusters exchanged while that lowers the error
   exhaustive,  // every set of K clusters: exact, and affordable while C choose K is a few thousand
 };
 
 struct ClusteredSettings {
   std::size_t mode = 0;                   // the clustered mode m
-  std::vector<std::size_t> ranks;         // R_n for each mode; that of mode m is a cluster's
+  std::vector<std::size_t> ranks;         // R_n for each mode; for mode m that of a cluster
   std::size_t clusters = 1;               // C, 1 to I_m
-  std::size_t mixture = 1;                // K, 1 to C; CTA takes no other than 1
+  std::size_t mixture = 1;                // K, 1 to C; 1 for CTA
   std::vector<std::size_t> global_modes;  // G: modes with one basis for all clusters, equation (23); never m
-  // The cluster of each mode-m sub-tensor to begin with, none empty: see tensor/seed_clusters.h.
+  // The first cluster of each mode-m sub-tensor; no cluster is empty. See tensor/seed_clusters.h.
   std::vector<std::uint32_t> seeds;
 
-  int iterations = 40;  // of Algorithm 1, at most; 0: the start, one cluster a sub-tensor
-  // Ends when an iteration lowers the squared error by less than this share of it. Algorithm 1 watches the
-  // sum of the cores' norms, which for K > 1 can stand still by chance while the error goes on falling.
+  int iterations = 40;  // maximum number in Algorithm 1; 0: the start, with one cluster for each sub-tensor
+  // The fit ends when an iteration lowers the squared error by less than this share of it. Algorithm 1 tests
+  // the sum of the cores' norms, which for K > 1 can be stationary by chance while the error still falls.
   double tolerance = 3e-4;
   int sweeps = 1;  // of the N-SVD of one cluster in an update stage; more change little
   Pursuit pursuit = Pursuit::greedy;
-  // A sub-tensor keeps the clusters that it had where the search found worse ones; false: Algorithm 1 to the
-  // letter, which then has to undo iterations more often.
+  // A sub-tensor keeps its previous clusters if the search found worse ones. false: exactly Algorithm 1,
+  // which then has to undo iterations more often.
   bool keep_better_clusters = true;
 };
 
-// For each sub-tensor of mode m the clusters that it mixes, in the order in which they were found, and the
-// rows of their mixing matrices: all of U_{m,c} that is not zero.
+// The clusters that each sub-tensor of mode m mixes, in the order in which they were found, and the rows of
+// their mixing matrices, which are all non-zero entries of U_{m,c}.
 struct Mixture {
   std::size_t count = 0;                  // K
-  std::vector<std::uint32_t> membership;  // I_m x K, different in a row
+  std::vector<std::uint32_t> membership;  // I_m x K, all different within a row
   Matrix coefficients;                    // I_m x (K R_m)
 };
 
-// An empty basis is the identity: of a mode that keeps its full rank. A cluster of fewer than R_m members has
-// zeros in the last mode-m slices of its core and in the columns of U_{m,c} that go with them.
+// An empty basis is the identity, for a mode with full rank. A cluster of fewer than R_m members has zeros in
+// the last mode-m slices of its core and in the corresponding columns of U_{m,c}.
 struct ClusteredFit {
   std::size_t mode = 0;
   Dimensions dimensions, ranks;
-  std::vector<Matrix> global_basis;  // a mode: I_n x R_n, empty where n is not in G
+  std::vector<Matrix> global_basis;  // for each mode: I_n x R_n, empty if n is not in G
 
   struct Cluster {
     Tensor core;                // R_1 x ... x R_N
-    std::vector<Matrix> basis;  // a mode: I_n x R_n; empty for global modes and for m
+    std::vector<Matrix> basis;  // for each mode: I_n x R_n; empty for global modes and for m
   };
   std::vector<Cluster> clusters;
   Mixture mixture;
 
   std::vector<double> objective;  // || A - A^ ||^2 after the start and each iteration; never rises
-  bool undone = false;            // the last iteration made it worse, and the one before stands
-  std::size_t splits = 0;         // clusters that had become empty and were filled by splitting another
-  std::size_t peak_bytes = 0;     // the most memory the process has held until the end of the fit
+  bool undone = false;            // the last iteration raised the error, and the result is the one before
+  std::size_t splits = 0;         // clusters that became empty and were filled by splitting another one
+  std::size_t peak_bytes = 0;     // peak memory of the process until the end of the fit
 };
 
 struct ClusteredProgress {
@@ -72,13 +72,13 @@ struct ClusteredProgress {
   std::size_t cluster = 0;            // of the update stage
   double objective = 0;               // after the last iteration, 0 before
 };
-// Returns false to stop; called from the calling thread.
+// Returns false to stop. The calling thread runs it.
 using OnClustered = std::function<bool(const ClusteredProgress&)>;
 
-// Both: the same bits for the same seeds on any number of threads (those of the caller's TBB arena). Throw
-// INVALID_ARGUMENT for what check_tensor refuses and for settings that do not fit, CANCELLED where progress
+// Both functions give the same bits for the same seeds on any number of threads (those of the caller's TBB
+// arena). They throw INVALID_ARGUMENT if check_tensor fails or settings do not fit, and CANCELLED if progress
 // returned false. Memory: the input, three tensors of the input's size after its global modes are reduced,
-// and less beside.
+// and smaller parts.
 ClusteredFit fit_cta(const TensorView& a, const ClusteredSettings& settings,
                      const OnClustered& progress = {});
 ClusteredFit fit_k_cta(const TensorView& a, const ClusteredSettings& settings,

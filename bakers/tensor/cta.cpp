@@ -41,8 +41,8 @@ std::size_t classify(WorkingFit& fit, const TensorView& reduced) {
   return filled;
 }
 
-// Each cluster's N-SVD from its bases; the mixing rows of new members come out of the sweep, which begins
-// with them. Returns the squared error.
+// Each cluster's N-SVD from its bases; the sweep, which begins with them, gives the mixing rows of new
+// members. Returns the squared error.
 double update(WorkingFit& fit, const TensorView& reduced, const ClusteredSettings& settings,
               const OnClustered& progress, int iteration, double objective) {
   double error = 0;

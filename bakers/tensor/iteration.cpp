@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Index;
 
-// Of the whole process since it began.
+// Returns the peak memory of the process since it started.
 std::size_t peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -1,4 +1,4 @@
-// Telling a clustered fit's caller where it stands.
+// Reports the progress of a clustered fit to its caller.
 #pragma once
 
 #include "bakers/tensor/clustered_fit.h"
@@ -6,7 +6,7 @@
 
 namespace nook::bake::tensor {
 
-// Throws CANCELLED where the caller asks to stop.
+// Throws CANCELLED if the caller's function returns false.
 inline void report(const OnClustered& progress, int iteration, const ClusteredSettings& settings,
                    std::size_t cluster, double objective) {
   if (progress && !progress({iteration, settings.iterations, cluster, objective}))

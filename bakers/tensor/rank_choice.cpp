@@ -17,7 +17,7 @@ std::vector<std::size_t> ranks_for_error(const TensorView& a, const std::vector<
   std::vector<std::size_t> ranks(a.order());
   for (std::size_t n = 0; n < a.order(); ++n) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram(a, n), Eigen::EigenvaluesOnly);
-    // What is lost at rank r is the sum of all eigenvalues but the r greatest; they come in rising order.
+    // The loss at rank r is the sum of all eigenvalues except for the r largest; they are in ascending order.
     const Eigen::VectorXd energy = solver.eigenvalues().cwiseMax(0.0);
     const double allowed = share[n] * energy.sum();
     double lost = 0;

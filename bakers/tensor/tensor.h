@@ -31,7 +31,7 @@ struct Tensor {
   operator TensorView() const { return {dimensions, data.data()}; }
 };
 
-// How a mode lies in memory: entry (o, i, r) at (o * size + i) * inner + r, o < outer, r < inner.
+// The layout of a mode in memory: entry (o, i, r) at (o * size + i) * inner + r, o < outer, r < inner.
 struct ModeLayout {
   std::size_t outer = 1, size = 1, inner = 1;
 };

@@ -22,8 +22,8 @@ struct WorkingFit {
 // Lists the members of each cluster from the membership; parts stay.
 void list_members(WorkingFit& fit);
 
-// What an N-SVD of the shrunk tensor, a cluster's members only, gives: core, bases and mixing rows, from
-// those there are (mixing rows need not be), or from the HOSVD. Returns the squared error.
+// Fits core, bases and mixing rows of a cluster by an N-SVD of the shrunk tensor, which has its members only.
+// It starts from the present ones (mixing rows may be missing), or from the HOSVD. Returns the squared error.
 double fit_members(WorkingCluster& cluster, const Tensor& shrunk, const ClusteredSettings& settings);
 
 // Z_c x_n U_{n,c}, members only.

@@ -12,11 +12,13 @@
 #include "bakers/tool/character/clip_names.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
+#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/output_file.h"
-#include "bakers/tool/progress_bar.h"
 #include "bakers/tool/table.h"
 #include "bakers/tool/tool_error.h"
+#include "platform/output_file.h"
+#include "platform/printable.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -59,7 +61,8 @@ Character import_character(const Options& options) {
   Character character(handle);
   if (!options.common.quiet)
     for (std::uint32_t i = 0; const char* text = nook_bake_character_warning(handle, i); ++i)
-      std::fprintf(stderr, "%s: %s\n", options.input.c_str(), text);
+      std::fprintf(stderr, "%s: %s\n", platform::printable(options.input).c_str(),
+                   platform::printable(text).c_str());
   std::vector<std::string> present;
   for (std::uint32_t i = 0; const char* name = nook_bake_character_clip_name(handle, i); ++i)
     present.emplace_back(name);
@@ -94,7 +97,7 @@ class Follower {
     }
   }
 
-  ProgressBar bar_;
+  platform::ProgressBar bar_;
 };
 
 Job start(const Options& options, nook_bake_character character, Follower& follower) {
@@ -134,9 +137,11 @@ void print_summary(const char* report) {
 }
 
 void run(const Options& options) {
+  require_distinct_files(
+      {{{"the input", options.input}}, {{"-o", options.output}, {"--report", options.common.report}}, {}});
   const Character character = import_character(options);
-  OutputFile output(options.output);
-  std::optional<OutputFile> report_file;
+  platform::OutputFile output(options.output);
+  std::optional<platform::OutputFile> report_file;
   if (!options.common.report.empty()) report_file.emplace(options.common.report);
   auto follower = std::make_unique<Follower>(options.common.quiet);
   const Job job = start(options, character.get(), *follower);

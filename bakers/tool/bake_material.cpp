@@ -13,12 +13,14 @@
 #include "bakers/measure/material/report.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
+#include "bakers/tool/distinct_files.h"
+#include "bakers/tool/image_folder.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/material/options.h"
-#include "bakers/tool/output_file.h"
-#include "bakers/tool/progress_bar.h"
 #include "bakers/tool/table.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
 #include "sdk/src/material/material_file.h"
 
 namespace nook::tool {
@@ -73,7 +75,7 @@ Json recipe_of_trace(const Options& o) {
           {"seed", o.common.seed}};
 }
 
-RawMaterial obtain(const Options& o, ProgressBar& bar) {
+RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
   const auto progress = [&](const char* label, const char* unit) {
     return [&bar, label, unit](std::size_t done, std::size_t total) {
       bar.show(label, unit, done, total);
@@ -90,8 +92,8 @@ RawMaterial obtain(const Options& o, ProgressBar& bar) {
   return raw;
 }
 
-Json bake(const Options& o, OutputFile& output, std::optional<OutputFile>& raw_file) {
-  ProgressBar bar(o.common.quiet);
+Json bake(const Options& o, platform::OutputFile& output, std::optional<platform::OutputFile>& raw_file) {
+  platform::ProgressBar bar(o.common.quiet);
   auto start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   const RawMaterial raw = obtain(o, bar);
@@ -109,16 +111,16 @@ Json bake(const Options& o, OutputFile& output, std::optional<OutputFile>& raw_f
     std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
                  std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);
   const Json recipe = {{"source", recipe_of_trace(o)}, {"compression", describe(settings)}};
-  material.recipe = recipe.dump().c_str();
+  material.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
   const std::vector<std::byte> file = nook::material::write_material(material);
   material = nook::material::read_material(file);
   MethodRow row = measure_material(raw, material);
   row.method = method_name(settings.method);
   row.seconds = seconds_compress;
   if (!o.images.empty()) {
-    std::filesystem::create_directories(o.images);
-    bake::write_png(o.images / (raw.name + "_raw.png"), measure::raw_sheet(raw));
-    bake::write_png(o.images / (raw.name + "_difference.png"), measure::difference_sheet(raw, material));
+    bake::write_png(o.images / (as_file_name(raw.name) + "_raw.png"), measure::raw_sheet(raw));
+    bake::write_png(o.images / (as_file_name(raw.name) + "_difference.png"),
+                    measure::difference_sheet(raw, material));
   }
   Json json = report_row(raw.name, row);
   json["lights"] = raw.lights.size();
@@ -134,13 +136,17 @@ Json bake(const Options& o, OutputFile& output, std::optional<OutputFile>& raw_f
 void run(Options& o) {
   if (int(!o.meso.empty()) + int(!o.btf.empty()) + int(!o.raw.empty()) != 1)
     throw ToolError(exit_bad_arguments, "bake material: one of --meso, --btf and --raw is needed");
+  require_distinct_files({{{"--btf", o.btf}, {"--raw", o.raw}},
+                          {{"-o", o.output}, {"--keep-raw", o.keep_raw}, {"--report", o.common.report}},
+                          o.images});
   if (!o.meso.empty()) meso_parameters(o.meso);
   if (o.texels) o.trace.width = o.trace.height = o.texels;
   o.trace.seed = o.common.seed;
-  OutputFile output(o.output);
-  std::optional<OutputFile> raw_file, report_file;
+  platform::OutputFile output(o.output);
+  std::optional<platform::OutputFile> raw_file, report_file;
   if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);
   if (!o.common.report.empty()) report_file.emplace(o.common.report);
+  make_image_folder(o.images);
   Json report;
   try {
     bake::run_with_threads(o.common.threads, [&] { report = bake(o, output, raw_file); });
@@ -148,7 +154,7 @@ void run(Options& o) {
     if (failure.code() != NOOK_ERROR_CANCELLED) throw;
     throw ToolError(exit_other, "stopped; no material was written");
   }
-  if (report_file) report_file->commit(report.dump(2) + "\n");
+  if (report_file) report_file->commit(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   if (!o.common.quiet) std::fputs(table_text(report["rows"]).c_str(), stdout);
 }
 

@@ -2,14 +2,16 @@
 #include "bakers/tool/probe/bake.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "bakers/job/worker_arena.h"
+#include "bakers/measure/probe/report.h"
 #include "bakers/tool/commands.h"
+#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/tool_error.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::tool {
 namespace {
@@ -31,18 +33,22 @@ void parse_box(const std::string& text, BakeProbeOptions& options) {
   bool good =
       std::sscanf(text.c_str(), "%f,%f,%f,%f,%f,%f%n", v, v + 1, v + 2, v + 3, v + 4, v + 5, &used) == 6 &&
       std::size_t(used) == text.size();
-  for (int i = 0; good && i < 3; ++i)
-    good = std::isfinite(v[i]) && std::isfinite(v[i + 3]) && v[i] <= v[i + 3];
+  good = good && is_place({v[0], v[1], v[2]}) && is_place({v[3], v[4], v[5]});
+  for (int i = 0; good && i < 3; ++i) good = v[i] <= v[i + 3];
   if (!good)
-    throw ToolError(
-        exit_bad_arguments,
-        "--box: got " + text + ", need x0,y0,z0,x1,y1,z1: the low corner, then the high one, in metres");
+    throw ToolError(exit_bad_arguments, "--box: got " + text +
+                                            ", need x0,y0,z0,x1,y1,z1: the low corner, then the high one, in "
+                                            "metres up to 1e6");
   options.has_box = true;
   options.box_low_ws = {v[0], v[1], v[2]};
   options.box_high_ws = {v[3], v[4], v[5]};
 }
 
 void run(const BakeProbeOptions& options) {
+  require_distinct_files(
+      {{{"the input", options.input}, {"--light", options.light}},
+       {{"-o", options.output}, {"--picture", options.picture}, {"--report", options.common.report}},
+       {}});
   const bool is_grid = options.grid[0] > 0;
   if (is_grid != !options.light.empty())
     throw ToolError(exit_bad_arguments,
@@ -110,6 +116,14 @@ void add_bake_probe(CLI::App& bake_command) {
                    "of a scene: seconds after which the output is written as far as it is")
       ->check(CLI::Range(0.0, 1e9));
   command->add_option("--max-bounces", o.max_bounces, "of a scene: reflections that count; default all");
+  command
+      ->add_option(
+          "--direct", o.direct,
+          "of a scene: what probes hold of the map's light that reaches them straight: none, the sky without "
+          "suns, "
+          "or all; reflected light always counts, and the report names the suns that are left to the host")
+      ->check(CLI::IsMember(measure::direct_names()))
+      ->capture_default_str();
   command->add_flag("--no-textures", o.no_textures,
                     "of a scene: colour factors stand for textures, and alpha masks are solid");
   add_common_options(*command, o.common);

@@ -8,7 +8,7 @@
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -26,7 +26,7 @@ Json evaluate(const Options& options) {
   const measure::BakedCharacter baked = read_evaluated_files(options.character, options.model);
   bake::CasterStudy study = options.study;
   study.seed = options.common.seed;
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const auto rows = bake::measure_casters(baked.character.mesh, baked.model,
                                           measure::caster_poses(baked.character, options.poses), study,
                                           [&](std::size_t done, std::size_t total) {
@@ -60,7 +60,10 @@ void add_evaluate_casters(CLI::App& evaluate_command) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_common_options(*command, o.common);
-  command->callback([options] { run_evaluation(options->common, [&] { return evaluate(*options); }); });
+  command->callback([options] {
+    run_evaluation(options->common, {evaluated_files(options->character, options->model), {}, {}},
+                   [&] { return evaluate(*options); });
+  });
 }
 
 }  // namespace nook::tool

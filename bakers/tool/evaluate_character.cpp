@@ -13,7 +13,8 @@
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/printable.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -35,7 +36,7 @@ std::optional<bake::Recipe> known_recipe(const BakedCharacter& baked, const Opti
   const auto recipe = naming_file(options.model, [&] { return recipe_of(baked); });
   if (recipe && recipe->source_hash != baked.character.source_hash && !options.common.quiet)
     std::fprintf(stderr, "%s: the character file has changed since the bake; the numbers mix old and new\n",
-                 options.model.c_str());
+                 platform::printable(options.model.string()).c_str());
   return recipe;
 }
 
@@ -47,7 +48,7 @@ Json evaluate(const Options& options) {
   const std::optional<bake::Recipe> recipe = known_recipe(baked, options);
   const EvaluatedPoses measured = choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);
 
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const auto stage = [&bar](const char* label) {
     return [&bar, label](std::size_t done, std::size_t total) {
       bar.show(label, "poses", done, total);
@@ -108,7 +109,11 @@ void add_evaluate_character(CLI::App& evaluate_command) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_common_options(*command, o.common);
-  command->callback([options] { run_evaluation(options->common, [&] { return evaluate(*options); }); });
+  command->callback([options] {
+    run_evaluation(options->common,
+                   {evaluated_files(options->character, options->model), {}, options->images},
+                   [&] { return evaluate(*options); });
+  });
 }
 
 }  // namespace nook::tool

@@ -8,10 +8,11 @@
 #include "bakers/measure/material/pictures.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
+#include "bakers/tool/image_folder.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/material/options.h"
-#include "bakers/tool/output_file.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -39,7 +40,8 @@ void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, cons
   const char* names[] = {"se", "distance", "forms"};
   const std::vector<measure::Chart> charts = measure::sweep_charts(sweep, raw.name);
   for (std::size_t i = 0; i < charts.size(); ++i)
-    OutputFile(o.images / (raw.name + "_sweep_" + names[i] + ".svg")).commit(measure::chart_svg(charts[i]));
+    platform::OutputFile(o.images / (as_file_name(raw.name) + "_sweep_" + names[i] + ".svg"))
+        .commit(measure::chart_svg(charts[i]));
 }
 
 RawMaterial read_raw(const std::filesystem::path& path) {
@@ -47,7 +49,7 @@ RawMaterial read_raw(const std::filesystem::path& path) {
 }
 
 Json evaluate(const Options& o) {
-  ProgressBar bar(o.common.quiet);
+  platform::ProgressBar bar(o.common.quiet);
   const measure::MethodProgress progress = [&bar](const std::string& method) {
     return stage_progress(bar, method);
   };
@@ -55,7 +57,6 @@ Json evaluate(const Options& o) {
   const std::vector<std::byte> bytes = read_file(o.material);
   const Material material = naming_file(o.material, [&] { return nook::material::read_material(bytes); });
   const measure::MaterialFile file{bytes, material};
-  if (!o.images.empty()) std::filesystem::create_directories(o.images);
   bar.show("measuring", "files", 0, 1);
   RawMaterial unseen_material;
   const RawMaterial* unseen = nullptr;
@@ -66,8 +67,9 @@ Json evaluate(const Options& o) {
   Json rows =
       Json::array({naming_file(o.material, [&] { return measure::material_file_row(raw, file, unseen); })});
   if (!o.images.empty()) {
-    bake::write_png(o.images / (raw.name + "_raw.png"), measure::raw_sheet(raw));
-    bake::write_png(o.images / (raw.name + "_file.png"), measure::difference_sheet(raw, material));
+    bake::write_png(o.images / (as_file_name(raw.name) + "_raw.png"), measure::raw_sheet(raw));
+    bake::write_png(o.images / (as_file_name(raw.name) + "_file.png"),
+                    measure::difference_sheet(raw, material));
   }
   measure::BaselineRequest request;
   request.names = o.methods;
@@ -76,7 +78,7 @@ Json evaluate(const Options& o) {
   request.progress = progress;
   if (!o.images.empty())
     request.keep = [&](const std::string& name, const Material& compressed) {
-      bake::write_png(o.images / (raw.name + "_" + name + ".png"),
+      bake::write_png(o.images / (as_file_name(raw.name) + "_" + name + ".png"),
                       measure::difference_sheet(raw, compressed));
     };
   for (const Json& row : measure::material_baseline_rows(raw, file, o.common.seed, request))
@@ -118,7 +120,14 @@ void add_evaluate_material(CLI::App& evaluate_command) {
       ->delimiter(',');
   command->add_option("--images", o.images, "write pictures and plots to this folder");
   add_common_options(*command, o.common);
-  command->callback([options] { run_evaluation(options->common, [&] { return evaluate(*options); }); });
+  command->callback([options] {
+    const CommandFiles files{{{"the raw material", options->raw},
+                              {"the material", options->material},
+                              {"--unseen", options->unseen}},
+                             {},
+                             options->images};
+    run_evaluation(options->common, files, [&] { return evaluate(*options); });
+  });
 }
 
 }  // namespace nook::tool

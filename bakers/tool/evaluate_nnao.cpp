@@ -17,8 +17,8 @@
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/nnao/scenes.h"
-#include "bakers/tool/output_file.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
 #include "sdk/src/nnao/network_file.h"
 
 namespace nook::tool {
@@ -122,7 +122,7 @@ Comparison compare_views(const Options& options, platform::Context& context, con
   settings.methods = options.methods;
   settings.request.max_radius_px =
       options.max_radius_px > 0 ? options.max_radius_px : 0.5f * float(options.truth.height);
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const std::string label = views.front().scene + ", measuring";
   return compare(
       context, views, settings,
@@ -134,7 +134,7 @@ Comparison compare_views(const Options& options, platform::Context& context, con
 }
 
 std::vector<MeasuredView> traced_views(const SceneRequest& scene, const Options& options) {
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const std::string label = scene.name + ", ray tracing";
   return naming_file(scene.file, [&] {
     return trace_views(scene, options.truth, options.placed_cameras,
@@ -148,7 +148,7 @@ std::vector<MeasuredView> traced_views(const SceneRequest& scene, const Options&
 Json evaluate(const Options& options) {
   const std::vector<SceneRequest> scenes = parse_scenes(options.scenes);
   const Networks networks = read_networks(options);
-  std::optional<OutputFile> markdown;
+  std::optional<platform::OutputFile> markdown;
   if (!options.markdown.empty()) markdown.emplace(options.markdown);
   const std::string other = other_name(networks);
   for (const std::string& method : options.methods)
@@ -163,7 +163,6 @@ Json evaluate(const Options& options) {
     const std::vector<MeasuredView> views = traced_views(scene, options);
     const Comparison comparison = compare_views(options, *context, networks, views);
     if (!options.images.empty()) {
-      std::filesystem::create_directories(options.images);
       write_sheets(options.images, views, comparison.images);
       write_network_pictures(options.images, "nnao", networks.embedded, views);
       if (!networks.file.empty()) write_network_pictures(options.images, "other", networks.other, views);
@@ -188,7 +187,7 @@ Json evaluate(const Options& options) {
 }
 
 Json tune(const Options& options) {
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const std::vector<MeasuredView> views =
       tuning_views(options.common.seed, [&](std::size_t done, std::size_t total) {
         bar.show("ray tracing", "views", done, total);
@@ -223,7 +222,10 @@ void run(Options& options) {
   if (has_scenes == !options.tune.empty())
     throw ToolError(exit_bad_arguments, "evaluate nnao: need scenes (files or --thin) or else --tune");
   options.truth.seed = options.common.seed;
-  run_evaluation(options.common, [&] { return !options.tune.empty() ? tune(options) : evaluate(options); });
+  CommandFiles files{{{"--network", options.network}}, {{"--markdown", options.markdown}}, options.images};
+  for (const std::filesystem::path& scene : options.scenes.files) files.inputs.push_back({"a scene", scene});
+  run_evaluation(options.common, files,
+                 [&] { return !options.tune.empty() ? tune(options) : evaluate(options); });
 }
 
 }  // namespace

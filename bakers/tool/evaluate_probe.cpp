@@ -11,10 +11,10 @@
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/output_file.h"
 #include "bakers/tool/probe/evaluate_grid.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -32,14 +32,15 @@ struct Options {
 };
 
 void append_methods(const Options& options, const std::string& name, const bake::Environment& map,
-                    ProgressBar& bar, Json& rows) {
+                    platform::ProgressBar& bar, Json& rows, measure::OverMaps& over_maps) {
   for (const bool hemisphere : {false, true}) {
     const std::string label = name + (hemisphere ? ", hemisphere" : ", sphere");
+    const auto progress = [&](std::size_t done, std::size_t total) {
+      bar.show(label, "methods", done, total);
+      return !interrupted();
+    };
     const Json measured = measure::probe_method_rows(map, name, options.lobes, hemisphere, options.comparison,
-                                                     [&](std::size_t done, std::size_t total) {
-                                                       bar.show(label, "methods", done, total);
-                                                       return !interrupted();
-                                                     });
+                                                     progress, &over_maps);
     for (const Json& row : measured) rows.push_back(row);
   }
 }
@@ -55,9 +56,8 @@ void write_picture(const Options& options, const std::string& name, const bake::
   MapBakeSettings settings;
   settings.basis = nook::probe::vogel_basis(options.lobes);
   settings.seed = options.common.seed;
-  std::filesystem::create_directories(options.images);
   constexpr std::uint32_t panel_width = 320;  // four of them fit a page
-  OutputFile(options.images / (name + ".png"))
+  platform::OutputFile(options.images / (name + ".png"))
       .commit(bake::png_bytes(map_picture(map, settings.basis, bake_map(map, settings), panel_width)));
 }
 
@@ -67,9 +67,10 @@ Json evaluate(const Options& options) {
   if (!options.grid.scene.empty()) return evaluate_grids(options.grid, options.common, options.files);
   Json report;
   report["rows"] = Json::array();
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   std::string name;
   std::unique_ptr<bake::Environment> map;
+  measure::OverMaps over_maps;
   for (const std::filesystem::path& path : options.files) {
     if (path.extension() == ".nook") {
       if (!map)
@@ -79,9 +80,10 @@ Json evaluate(const Options& options) {
     }
     name = path.stem().string();
     map = std::make_unique<bake::Environment>(read_map(path));
-    append_methods(options, name, *map, bar, report["rows"]);
+    append_methods(options, name, *map, bar, report["rows"], over_maps);
     if (!options.images.empty()) write_picture(options, name, *map);
   }
+  for (const Json& row : over_maps.rows()) report["rows"].push_back(row);
   report["seeds"] = options.comparison.seeds;
   report["seed"] = options.common.seed;
   return report;
@@ -113,6 +115,11 @@ void add_evaluate_probe(CLI::App& evaluate_command) {
       ->check(CLI::Range(2u, 1u << 24))
       ->capture_default_str();
   command->add_option("--max-bounces", o.grid.max_bounces, "of grids: reflections that count; default all");
+  command
+      ->add_option("--direct", o.grid.direct,
+                   "of grids: what both sides hold of the map's light that comes straight: none, the sky "
+                   "without suns, or all; default as the grid was baked")
+      ->check(CLI::IsMember(measure::direct_names()));
   command->add_flag("--no-textures", o.grid.no_textures,
                     "of grids: colour factors stand for textures, and alpha masks are solid");
   command->add_option("--lobes", o.lobes, "spherical Gaussians of the forms that are fitted here")
@@ -121,11 +128,21 @@ void add_evaluate_probe(CLI::App& evaluate_command) {
   command->add_option("--seeds", o.comparison.seeds, "independent sets of samples")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--images", o.images, "write a picture of each map and its running average here");
+  command
+      ->add_option(
+          "--rotations", o.comparison.rotations,
+          "solve the lobes' forms again with their axes rotated at random, this often, and report the "
+          "spread")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command->add_option("--images", o.images, "write a picture of each map and its lobes here");
   add_common_options(*command, o.common);
   command->callback([options] {
     options->comparison.seed = options->common.seed;
-    run_evaluation(options->common, [&] { return evaluate(*options); });
+    CommandFiles files{
+        {{"--scene", options->grid.scene}, {"--light", options->grid.light}}, {}, options->images};
+    for (const std::filesystem::path& file : options->files) files.inputs.push_back({"an input", file});
+    run_evaluation(options->common, files, [&] { return evaluate(*options); });
   });
 }
 

@@ -4,16 +4,21 @@
 #include <optional>
 
 #include "bakers/job/worker_arena.h"
-#include "bakers/tool/output_file.h"
+#include "bakers/tool/image_folder.h"
 #include "bakers/tool/table.h"
 #include "bakers/tool/tool_error.h"
+#include "platform/output_file.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::tool {
 
-void run_evaluation(const CommonOptions& options, const std::function<nlohmann::ordered_json()>& evaluate) {
+void run_evaluation(const CommonOptions& options, CommandFiles files,
+                    const std::function<nlohmann::ordered_json()>& evaluate) {
   using Json = nlohmann::ordered_json;
-  std::optional<OutputFile> report_file;
+  files.outputs.push_back({"--report", options.report});
+  require_distinct_files(files);
+  make_image_folder(files.images);
+  std::optional<platform::OutputFile> report_file;
   if (!options.report.empty()) report_file.emplace(options.report);
   Json report;
   try {

@@ -7,10 +7,11 @@
 #include "bakers/job/material_source.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
+#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/inspect/describe.h"
-#include "bakers/tool/output_file.h"
 #include "bakers/tool/table.h"
+#include "platform/output_file.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/nnao/network_file.h"
@@ -56,8 +57,9 @@ Row describe(std::span<const std::byte> bytes) {
 }
 
 void run(const Options& options) {
+  require_distinct_files({{{"the input", options.input}}, {{"--report", options.common.report}}, {}});
   const std::vector<std::byte> bytes = read_file(options.input);
-  std::optional<OutputFile> report;
+  std::optional<platform::OutputFile> report;
   if (!options.common.report.empty()) report.emplace(options.common.report);
   const Row rows = Row::array({naming_file(options.input, [&] { return describe(bytes); })});
   if (report) report->commit(Row{{"rows", rows}}.dump(2, ' ', false, Row::error_handler_t::replace) + "\n");

@@ -1,6 +1,7 @@
 #include "bakers/tool/interrupt.h"
 
 #include <csignal>
+#include <initializer_list>
 
 namespace nook::tool {
 namespace {
@@ -18,8 +19,14 @@ void watch_for_interrupt() {
   struct sigaction action = {};
   action.sa_handler = note_signal;
   action.sa_flags = int(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before = {};
+    sigaction(signal, nullptr, &before);
+    // Under nohup, and in the background of a script, the work goes on.
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
+  // A reader that went away makes a write fail, which is told; it does not end the process.
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool interrupted() {

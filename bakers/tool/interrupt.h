@@ -3,7 +3,8 @@
 
 namespace nook::tool {
 
-// The first SIGINT or SIGTERM sets the flag, a second one ends the process at once.
+// The first SIGINT, SIGTERM or SIGHUP sets the flag, a second one ends the process at once. A signal that was
+// ignored when the program began stays ignored.
 void watch_for_interrupt();
 bool interrupted();
 

@@ -2,10 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <new>
+#include <sstream>
 
 #include "bakers/tool/commands.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/tool_error.h"
+#include "platform/printable.h"
 #include "sdk/src/core/failure.h"
 
 namespace {
@@ -37,7 +39,11 @@ int run(int argc, char** argv) {
   try {
     tool.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return tool.exit(e) == 0 ? nook::tool::exit_done : nook::tool::exit_bad_arguments;
+    std::ostringstream out, error;
+    const bool done = tool.exit(e, out, error) == 0;
+    std::fputs(platform::printable_lines(out.str()).c_str(), stdout);
+    std::fputs(platform::printable_lines(error.str()).c_str(), stderr);
+    return done ? nook::tool::exit_done : nook::tool::exit_bad_arguments;
   }
   return nook::tool::exit_done;
 }
@@ -47,7 +53,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   nook::tool::watch_for_interrupt();
   const auto fail = [](int code, const char* text) {
-    std::fprintf(stderr, "nook: %s\n", text);
+    std::fprintf(stderr, "nook: %s\n", platform::printable_lines(text).c_str());
     return code;
   };
   try {

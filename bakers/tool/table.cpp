@@ -4,12 +4,17 @@
 #include <cstdio>
 #include <vector>
 
+#include "platform/printable.h"
+
 namespace nook::tool {
 namespace {
 
 std::string cell_text(const nlohmann::ordered_json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (!value.is_number_float()) return value.is_null() ? "-" : value.dump();
+  if (value.is_string()) return platform::printable(value.get<std::string>());
+  if (!value.is_number_float())
+    return value.is_null() ? "-"
+                           : platform::printable(value.dump(
+                                 -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value.get<double>());
   return text;
@@ -28,6 +33,7 @@ std::string table_text(const nlohmann::ordered_json& rows) {
       cells.back().push_back(row.contains(key) ? cell_text(row.at(key)) : "-");
   }
   std::string text;
+  for (std::string& key : keys) key = platform::printable(key);
   // One row reads better downwards.
   if (cells.size() == 1) {
     std::size_t width = 0;

@@ -13,12 +13,14 @@
 #include "bakers/measure/nnao/validation_report.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
+#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/output_file.h"
-#include "bakers/tool/progress_bar.h"
 #include "bakers/tool/table.h"
 #include "bakers/tool/tool_error.h"
+#include "platform/output_file.h"
+#include "platform/printable.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -33,7 +35,8 @@ struct Options {
   DatasetSettings data;
   TrainingSettings training;
 
-  std::string resume() const { return output + ".resume"; }
+  // Empty: the output is a device or a pipe, and no checkpoint is kept.
+  std::string resume;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -41,19 +44,20 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 TrainingState starting_state(const Options& options, const Dataset& data, const std::string& recipe) {
-  if (!std::filesystem::exists(options.resume())) return start_training(data, options.training);
-  const auto state = naming_file(options.resume(), [&] {
-    return read_checkpoint(read_file(options.resume()), recipe, options.training.form);
+  if (options.resume.empty() || !std::filesystem::exists(options.resume))
+    return start_training(data, options.training);
+  const auto state = naming_file(options.resume, [&] {
+    return read_checkpoint(read_file(options.resume), recipe, options.training.form);
   });
   if (!options.common.quiet)
-    std::fprintf(stderr, "%s: going on after %u of %u epochs\n", options.resume().c_str(), state.epochs_done,
-                 options.training.epochs);
+    std::fprintf(stderr, "%s: going on after %u of %u epochs\n", platform::printable(options.resume).c_str(),
+                 state.epochs_done, options.training.epochs);
   return state;
 }
 
 Network train_with_progress(const Options& options, const Dataset& data, const std::string& recipe) {
   TrainingState state = starting_state(options, data, recipe);
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   // A new label begins a new line of the bar: one for every tenth of the epochs.
   const std::uint32_t tenth = std::max(1u, options.training.epochs / 10);
   std::string label = "training";
@@ -71,18 +75,19 @@ Network train_with_progress(const Options& options, const Dataset& data, const s
     return in_time && !interrupted();
   };
   return train(data, options.training, state, show, [&](const TrainingState& s) {
-    OutputFile(options.resume()).commit(write_checkpoint(s, recipe));
+    if (!options.resume.empty()) platform::OutputFile(options.resume).commit(write_checkpoint(s, recipe));
   });
 }
 
 void run_in_arena(Options& options) {
-  OutputFile output(options.output);
-  std::optional<OutputFile> report_file;
+  platform::OutputFile output(options.output);
+  if (output.is_regular()) options.resume = options.output + ".resume";
+  std::optional<platform::OutputFile> report_file;
   if (!options.common.report.empty()) report_file.emplace(options.common.report);
   const std::string recipe = bake::network_recipe(options.data, options.training);
   auto start = std::chrono::steady_clock::now();
   const Dataset data = [&] {
-    ProgressBar bar(options.common.quiet);
+    platform::ProgressBar bar(options.common.quiet);
     return make_dataset(options.data, [&](std::size_t done, std::size_t total) {
       bar.show("ray tracing", "scenes", done, total);
       return !interrupted();
@@ -97,7 +102,7 @@ void run_in_arena(Options& options) {
   const Json rows = measure::validation_rows(network, data);
   output.commit(file);
   std::error_code gone;
-  std::filesystem::remove(options.resume(), gone);
+  if (!options.resume.empty()) std::filesystem::remove(options.resume, gone);
   if (report_file) {
     Json report = {{"rows", rows},
                    {"recipe", Json::parse(recipe)},
@@ -112,6 +117,11 @@ void run_in_arena(Options& options) {
 }
 
 void run(Options& options) {
+  require_distinct_files({{},
+                          {{"-o", options.output},
+                           {"the checkpoint of -o", options.output + ".resume"},
+                           {"--report", options.common.report}},
+                          {}});
   options.training.seed = options.data.seed = options.common.seed;
   options.training = with_defaults(options.training);
   options.data.normals = options.training.form == NetworkForm::paper;
@@ -121,8 +131,8 @@ void run(Options& options) {
     arena.execute([&] { run_in_arena(options); });
   } catch (const Failure& failure) {
     if (failure.code() != NOOK_ERROR_CANCELLED) throw;
-    throw ToolError(exit_other, std::filesystem::exists(options.resume())
-                                    ? "stopped; the same command goes on from " + options.resume()
+    throw ToolError(exit_other, !options.resume.empty() && std::filesystem::exists(options.resume)
+                                    ? "stopped; the same command goes on from " + options.resume
                                     : std::string("stopped; nothing was written"));
   }
 }

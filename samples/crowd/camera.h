@@ -1,7 +1,10 @@
-// Cameras: an orbit round the crowd, and a close view of one group.
+// Cameras: what a picture looks at, and the matrices that follow from it.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace crowd {
 
@@ -11,10 +14,31 @@ struct Camera {
   float fov_rad = 0.6f;  // vertical
 };
 
-glm::mat4 view_from_world(const Camera& camera);
-glm::mat4 clip_from_view(const Camera& camera, float aspect);
-glm::mat4 clip_from_world(const Camera& camera, float aspect);
-// turn in [0, 1) goes once round a crowd whose members stand within radius_m of the origin.
-Camera orbit(float radius_m, float turn);
+inline glm::mat4 view_from_world(const Camera& camera) {
+  return glm::lookAt(camera.eye_ws, camera.target_ws, glm::vec3(0, 1, 0));
+}
+
+inline glm::mat4 clip_from_view(const Camera& camera, float aspect) {
+  const float distance_m = glm::length(camera.eye_ws - camera.target_ws);
+  return glm::perspective(camera.fov_rad, aspect, 0.1f, 60.0f + 4 * distance_m);
+}
+
+inline glm::mat4 clip_from_world(const Camera& camera, float aspect) {
+  return clip_from_view(camera, aspect) * view_from_world(camera);
+}
+
+// A camera that goes once round the crowd while turn goes from 0 to 1. The crowd's members stand within
+// radius_m of the origin.
+inline Camera orbit(float radius_m, float turn) {
+  const float angle = turn * glm::two_pi<float>() + 0.5f;
+  const float distance_m = 0.85f * radius_m + 3.5f;
+  Camera camera;
+  camera.eye_ws = {distance_m * std::sin(angle), 1.4f + 0.2f * distance_m, distance_m * std::cos(angle)};
+  // The target is a little nearer than the middle, so that the picture does not cut off the front rows.
+  camera.target_ws =
+      0.02f * radius_m * glm::vec3(std::sin(angle), 0, std::cos(angle)) + glm::vec3(0, 0.3f, 0);
+  camera.fov_rad = 0.5f;
+  return camera;
+}
 
 }  // namespace crowd

@@ -1,141 +1,260 @@
-#include "comparison.h"
+#include "samples/crowd/comparison.h"
 
-#include <cmath>
-#include <cstdio>
+#include <glad/gl.h>
+
+#include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 
-#include "sheets.h"
-#include "truth.h"
+#include "bakers/measure/crowd/light_comparison.h"
+#include "samples/crowd/shaders.h"
 
 namespace crowd {
 namespace {
 
-constexpr std::uint32_t kRays = 128;         // of the report
-constexpr std::uint32_t kPictureRays = 256;  // of the sheets, where noise would be seen
-constexpr std::uint32_t kFloorSide = 320;    // points of the floor, about 2 cm apart
-constexpr std::size_t kSampled = 12;
-constexpr float kNear_m = 1.0f;
+namespace measure = nook::measure::crowd;
 
-using Values = std::vector<std::vector<float>>;
+const glm::vec3 kAlbedo(0.72f), kBackground(0.62f);
 
-Values read_all(const CrowdScene& scene, std::span<const std::uint32_t> members) {
-  Values ao;
-  for (const std::uint32_t member : members) ao.push_back(scene.read_ao(member));
-  return ao;
+Camera camera_of(const measure::Group& group) {
+  return {group.view.eye_ws, group.view.target_ws, group.view.fov_rad};
 }
 
-Values differences(const Values& a, const Values& b) {
-  Values grey = a;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t v = 0; v < a[i].size(); ++v)
-      grey[i][v] = std::max(0.0f, 1 - 4 * std::abs(a[i][v] - b[i][v]));
-  return grey;
+// A vertex buffer with the values of all members of a group, one after the other.
+class VertexBuffer {
+ public:
+  VertexBuffer(const GladGLContext& gl, const measure::VertexValues& values, std::uint32_t channels)
+      : gl_(gl) {
+    if (values.empty()) return;
+    gl.GenBuffers(1, &buffer_);
+    std::vector<float> all;
+    for (const std::vector<float>& member : values) {
+      sources_.push_back({buffer_, all.size() * sizeof(float), channels * std::uint32_t(sizeof(float))});
+      all.insert(all.end(), member.begin(), member.end());
+    }
+    gl.BindBuffer(GL_ARRAY_BUFFER, buffer_);
+    gl.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(all.size() * sizeof(float)), all.data(), GL_STREAM_DRAW);
+  }
+  ~VertexBuffer() { gl_.DeleteBuffers(1, &buffer_); }
+  VertexBuffer(const VertexBuffer&) = delete;
+  VertexBuffer& operator=(const VertexBuffer&) = delete;
+
+  // No buffer if there are no values.
+  VertexSource source(std::size_t member) const {
+    return sources_.empty() ? VertexSource{} : sources_[member];
+  }
+
+ private:
+  const GladGLContext& gl_;
+  GLuint buffer_ = 0;
+  std::vector<VertexSource> sources_;
+};
+
+// A texture that lies on the floor.
+class FloorImage {
+ public:
+  FloorImage(const GladGLContext& gl, const measure::FloorValues& floor, std::uint32_t channels) : gl_(gl) {
+    const measure::FloorPatch& patch = floor.patch;
+    // The centres of texels lie on the patch's points, so the texture is wider by half a texel on each side.
+    const float texel_m = patch.size_m / float(patch.side - 1);
+    floor_.first_m = glm::vec2(patch.low_x_m, patch.low_z_m) - 0.5f * texel_m;
+    floor_.extent_m = glm::vec2(patch.size_m + texel_m);
+    gl.GenTextures(1, &floor_.texture);
+    gl.ActiveTexture(GL_TEXTURE0);
+    gl.BindTexture(GL_TEXTURE_2D, floor_.texture);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+      gl.TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+      gl.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, channels == 3 ? GL_RGB32F : GL_R16F, GLsizei(patch.side),
+                  GLsizei(patch.side), 0, channels == 3 ? GL_RGB : GL_RED, GL_FLOAT, floor.values.data());
+  }
+  ~FloorImage() { gl_.DeleteTextures(1, &floor_.texture); }
+  FloorImage(const FloorImage&) = delete;
+  FloorImage& operator=(const FloorImage&) = delete;
+
+  const FloorTexture& floor() const { return floor_; }
+
+ private:
+  const GladGLContext& gl_;
+  FloorTexture floor_;
+};
+
+Look panel_look() {
+  Look look;
+  look.key_strength = 0.16f;  // the light is mostly ambient, so that AO is what the picture shows
+  look.ground_albedo = glm::vec3(0.5f);
+  look.background = kBackground;
+  look.fog_start_m = 14;
+  return look;
 }
 
-std::string gamma_label(float gamma, const char* rest) {
-  char text[96];
-  std::snprintf(text, sizeof text, "gamma %.2f, %s", double(gamma), rest);
-  return text;
+// Draws the panels of the sheets: a group of the crowd with values that are given at its vertices.
+class Panels final : public measure::PanelRenderer {
+ public:
+  Panels(const Stage& stage, const std::vector<Bones>& poses)
+      : stage_(stage),
+        poses_(poses),
+        character_(stage.context.gl(), {kCharacterVertex}, {kGivenLightFragment}),
+        ground_(stage.context.gl(), {kGroundVertex}, {kGivenLightFragment}) {}
+
+  platform::Image draw(const measure::Group& group, const measure::AoPanel& panel) override;
+  platform::Image draw(const measure::Group& group, const measure::IrradiancePanel& panel) override;
+
+ private:
+  std::vector<DrawnInstance> instances_of(const measure::Group& group) const;
+
+  const Stage& stage_;
+  const std::vector<Bones>& poses_;
+  platform::Program character_, ground_;  // that show irradiance which is given
+};
+
+std::vector<DrawnInstance> Panels::instances_of(const measure::Group& group) const {
+  std::vector<DrawnInstance> drawn;
+  for (const std::uint32_t member : group.members) drawn.push_back({&poses_[member], {}, kAlbedo, {}, 0});
+  return drawn;
 }
 
-std::string screen_space_label(const ScreenSpaceQuality& quality) {
-  return "screen-space AO (NNAO) alone, " + std::to_string(quality.taps) + " taps" +
-         (quality.half_resolution ? ", half resolution" : "");
+platform::Image Panels::draw(const measure::Group& group, const measure::AoPanel& panel) {
+  const GladGLContext& gl = stage_.context.gl();
+  const VertexBuffer ao(gl, panel.ao, 1);
+  std::vector<DrawnInstance> drawn = instances_of(group);
+  for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i].ao = ao.source(i);
+  std::optional<FloorImage> floor;
+  if (panel.floor_ao) floor.emplace(gl, *panel.floor_ao, 1);
+  const Camera camera = camera_of(group);
+  Look look = panel_look();
+  if (floor) look.floor_ao = floor->floor();
+  if (panel.screen_space != measure::ScreenSpace::kNowhere)
+    look.screen_ao = stage_.screen_space->draw(stage_.renderer, drawn, camera,
+                                               panel.screen_space == measure::ScreenSpace::kEverywhere
+                                                   ? NOOK_NNAO_LAYER_NONE
+                                                   : NOOK_NNAO_LAYER_REPLACE);
+  stage_.target.bind();
+  stage_.renderer.draw(drawn, camera, look, camera.target_ws, 6.0f);
+  return stage_.target.read();
+}
+
+platform::Image Panels::draw(const measure::Group& group, const measure::IrradiancePanel& panel) {
+  const GladGLContext& gl = stage_.context.gl();
+  const VertexBuffer irradiance(gl, panel.irradiance, 3);
+  std::vector<DrawnInstance> drawn = instances_of(group);
+  for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i].light = irradiance.source(i);
+  const FloorImage image(gl, panel.floor, 3);
+  const FloorTexture& floor = image.floor();
+  stage_.target.bind();
+  gl.Enable(GL_DEPTH_TEST);
+  gl.ClearColor(kBackground.r, kBackground.g, kBackground.b, 1);
+  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl.ActiveTexture(GL_TEXTURE4);
+  gl.BindTexture(GL_TEXTURE_2D, floor.texture);
+  for (const platform::Program* program : {&ground_, &character_}) {
+    program->use();
+    gl.Uniform1i(program->uniform("floor_light"), 4);
+    gl.Uniform1i(program->uniform("use_floor_light"), program == &ground_);
+    gl.Uniform2fv(program->uniform("floor_first_m"), 1, glm::value_ptr(floor.first_m));
+    gl.Uniform2fv(program->uniform("floor_extent_m"), 1, glm::value_ptr(floor.extent_m));
+    gl.Uniform1f(program->uniform("exposure"), panel.exposure);
+    gl.Uniform3fv(program->uniform("background"), 1, glm::value_ptr(kBackground));
+  }
+  const float aspect = float(stage_.target.width_px()) / float(stage_.target.height_px());
+  const glm::mat4 view = clip_from_world(camera_of(group), aspect);
+  stage_.renderer.draw_ground(ground_, glm::vec3(0.5f), view);
+  stage_.renderer.draw_characters(character_, drawn, view);
+  return stage_.target.read();
+}
+
+// Evaluates the poses that a scene holds.
+class Evaluated final : public measure::EvaluatedCrowd {
+ public:
+  explicit Evaluated(CrowdScene& scene) : scene_(scene) {}
+
+  void update(std::uint32_t terms) override { scene_.update(terms); }
+  std::vector<float> ao(std::uint32_t character) const override { return scene_.read_ao(character); }
+  std::vector<float> static_ao() const override { return scene_.model().static_ao(); }
+  float gamma() const override { return scene_.model().info().gamma; }
+  measure::VertexValues directional_ao(std::span<const std::uint32_t> characters,
+                                       std::span<const nook_probe_lobe> lobes) override {
+    return scene_.directional_ao(characters, lobes);
+  }
+
+ private:
+  CrowdScene& scene_;
+};
+
+// Everything that a measure::Subject refers to.
+struct Measured {
+  Measured(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
+           const ComparisonRequest& request)
+      : crowd(stage.hero.handle(), poses), evaluated(scene), panels(stage, poses), seed(request.seed) {
+    for (const Placement& p : stage.places) places.push_back({p.x_m, p.z_m});
+  }
+  measure::Subject subject() { return {crowd, places, evaluated, panels, seed}; }
+
+  measure::PosedCrowd crowd;
+  std::vector<measure::Place> places;
+  Evaluated evaluated;
+  Panels panels;
+  std::uint64_t seed;
+};
+
+std::optional<measure::ScreenSpaceSettings> settings_of(const ScreenSpaceAo* screen_space) {
+  if (!screen_space) return {};
+  const ScreenSpaceQuality& quality = screen_space->quality();
+  return measure::ScreenSpaceSettings{quality.taps, quality.half_resolution, ScreenSpaceAo::kRadius_m};
+}
+
+CrowdScene one_norm_scene(platform::Context& context, const std::vector<Bones>& poses,
+                          const ComparisonRequest& request, std::span<const unsigned char> model) {
+  return CrowdScene(context, model,
+                    {std::uint32_t(poses.size()), request.neighbours, request.tier, NOOK_COMBINE_PAPER});
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> sample_of(const std::vector<Placement>& places, bool& have_neighbours) {
-  std::vector<std::uint32_t> candidates = with_neighbour_within(places, kNear_m);
-  have_neighbours = !candidates.empty();
-  if (candidates.empty()) candidates = nearest_to(places, 0, 0, kSampled);
-  std::vector<std::uint32_t> sample;
-  const std::size_t count = std::min(kSampled, candidates.size());
-  for (std::size_t i = 0; i < count; ++i) sample.push_back(candidates[i * candidates.size() / count]);
-  return sample;
+void measure_ao(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
+                const ComparisonRequest& request, nlohmann::ordered_json& report) {
+  Measured measured(stage, scene, poses, request);
+  const measure::AoErrors errors = measure::measure_ao(measured.subject());
+  report["rays"] = errors.rays;
+  report["noise_floor_mse"] = errors.noise_floor_mse;
+  report["sampled_instances"] = errors.characters;
+  report["sampled_have_neighbour_within_1_m"] = errors.have_neighbours;
+  for (const auto& [form, e] : errors.forms)
+    report["rows"].push_back({{"form", form}, {"mse", e.mse}, {"mse_area", e.mse_area}});
+  report["links_cut_mse_area"] = errors.links_cut_mse_area;
 }
 
-void measure_errors(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
-                    const ComparisonRequest& request, nlohmann::ordered_json& report) {
-  bool have_neighbours = false;
-  const std::vector<std::uint32_t> sample = sample_of(stage.places, have_neighbours);
-  const Values truth = traced_ao(stage.hero, poses, sample, {kRays, request.seed});
-  const Values again = traced_ao(stage.hero, poses, sample, {kRays, request.seed + 1});
-  // Two independent estimates differ by twice the variance of one.
-  report["rays"] = kRays;
-  report["noise_floor_mse"] = compare(stage.hero, poses, sample, again, truth).mse / 2;
-  report["sampled_instances"] = sample.size();
-  report["sampled_have_neighbour_within_1_m"] = have_neighbours;
-  struct Form {
-    const char* name;
-    std::uint32_t terms;
-  };
-  double mse_area[4] = {};
-  const Form forms[4] = {{"self", NOOK_TERM_SELF},
-                         {"self_ground", NOOK_TERM_SELF | NOOK_TERM_GROUND},
-                         {"self_links", NOOK_TERM_SELF | NOOK_TERM_LINKS},
-                         {"all", NOOK_TERM_ALL}};
-  for (int f = 0; f < 4; ++f) {
-    scene.update(forms[f].terms);
-    const Errors e = compare(stage.hero, poses, sample, read_all(scene, sample), truth);
-    mse_area[f] = e.mse_area;
-    report["rows"].push_back({{"form", forms[f].name}, {"mse", e.mse}, {"mse_area", e.mse_area}});
-  }
-  const Values fixed(sample.size(), scene.model().static_ao());
-  const Errors e = compare(stage.hero, poses, sample, fixed, truth);
-  report["rows"].push_back({{"form", "static"}, {"mse", e.mse}, {"mse_area", e.mse_area}});
-  // With ground in both.
-  report["links_cut_mse_area"] = 1 - mse_area[3] / mse_area[1];
-}
-
-void write_comparison_sheet(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
-                            const ComparisonRequest& request) {
-  SheetPainter painter(stage, poses, choose_group(stage.places, kSheetMembers));
-  const std::vector<std::uint32_t>& members = painter.group().members;
-  const Values truth = traced_ao(stage.hero, poses, members, {kPictureRays, request.seed});
-  painter.add("no AO", Values{});
-  painter.add("static AO, baked in the rest pose", Values(members.size(), scene.model().static_ao()));
-  if (stage.screen_space) painter.add_screen_space_alone(screen_space_label(stage.screen_space->quality()));
-  scene.update(NOOK_TERM_SELF);
-  painter.add("Nook, self only", scene);
-  scene.update(NOOK_TERM_ALL);
-  painter.add("Nook, self + neighbours + ground", scene);
-  if (stage.screen_space) painter.add_with_screen_space("the same, screen-space AO on the floor", scene);
-  if (stage.screen_space) {
-    constexpr float radius_m = ScreenSpaceAo::kRadius_m;
-    const FloorPatch patch = floor_under(painter.group(), stage.places, radius_m, kFloorSide);
-    painter.add("ray traced, the floor to 0.5 m like screen-space AO", truth, patch,
-                traced_floor_ao(stage.hero, poses, members, patch, radius_m, {kPictureRays, request.seed}));
-  } else {
-    painter.add("ray traced", truth);
-  }
-  painter.add("error of Nook x 4, dark is wrong", differences(read_all(scene, members), truth));
-  painter.write(request.out / "sheet.png", stage.screen_space ? 4 : 3);
+void write_ao_sheet(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
+                    const ComparisonRequest& request) {
+  Measured measured(stage, scene, poses, request);
+  const std::optional<measure::ScreenSpaceSettings> screen_space = settings_of(stage.screen_space);
+  platform::write_image(request.out / "sheet.png",
+                        measure::ao_sheet(measured.subject(), screen_space ? &*screen_space : nullptr));
 }
 
 void write_double_shadowing_sheet(platform::Context& context, const Stage& stage, CrowdScene& scene,
                                   const std::vector<Bones>& poses, const ComparisonRequest& request) {
-  SheetPainter painter(stage, poses, choose_group(stage.places, kSheetMembers));
-  // Without the ground, whose darkening would drown what overlapping spheres do.
-  const Values truth =
-      traced_ao(stage.hero, poses, painter.group().members, {kPictureRays, request.seed, false});
-  for (const auto model : {request.model, request.gamma_2_model}) {
-    CrowdScene one_norm(context, model,
-                        {std::uint32_t(poses.size()), request.neighbours, request.tier, NOOK_COMBINE_PAPER});
-    one_norm.set_poses(poses);
-    const float gamma = one_norm.model().info().gamma;
-    one_norm.update(NOOK_TERM_SELF);
-    painter.add(gamma_label(gamma, "self"), one_norm);
-    one_norm.update(NOOK_TERM_SELF | NOOK_TERM_LINKS);
-    painter.add(gamma_label(gamma, "self + neighbours in one norm"), one_norm);
-    if (model.data() == request.model.data()) {
-      painter.add("ray traced, no ground", truth);
-    } else {
-      scene.update(NOOK_TERM_SELF | NOOK_TERM_LINKS);
-      painter.add(gamma_label(scene.model().info().gamma, "composed (default)"), scene);
-    }
-  }
-  painter.write(request.out / "double_shadowing.png", 3);
+  Measured measured(stage, scene, poses, request);
+  CrowdScene scenes[] = {one_norm_scene(context, poses, request, request.model),
+                         one_norm_scene(context, poses, request, request.gamma_2_model)};
+  for (CrowdScene& s : scenes) s.set_poses(poses);
+  Evaluated own(scenes[0]), gamma_2(scenes[1]);
+  platform::write_image(request.out / "double_shadowing.png",
+                        measure::double_shadowing_sheet(measured.subject(), own, gamma_2));
+}
+
+void compare_light(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses, const Light& light,
+                   const ComparisonRequest& request, nlohmann::ordered_json& report) {
+  Measured measured(stage, scene, poses, request);
+  const measure::Light given{light.lobes(), light.environment(), light.mean_radiance()};
+  const measure::LightErrors errors = measure::measure_light(measured.subject(), given);
+  for (const auto& [form, e] : errors.forms)
+    report["rows"].push_back(
+        {{"form", form}, {"light", light.name()}, {"mse", e.mse}, {"mse_area", e.mse_area}});
+  report["light_noise_floor_mse"][light.name()] = errors.noise_floor_mse;
+  platform::write_image(request.out / ("light_" + light.name() + ".png"),
+                        measure::light_sheet(measured.subject(), given));
 }
 
 }  // namespace crowd

@@ -1,41 +1,39 @@
-// The crowd against ray tracing: rows of the report and the two sheets.
+// The crowd against ray tracing: what bakers/measure/crowd measures, as rows of the report and sheets of
+// pictures.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 
-#include "frames.h"
+#include "samples/crowd/frames.h"
 
 namespace crowd {
-
-inline constexpr std::size_t kSheetMembers = 12;
-
-// The characters of the report: those with a neighbour nearby, spread over the crowd; any where there is
-// none.
-std::vector<std::uint32_t> sample_of(const std::vector<Placement>& places, bool& have_neighbours);
 
 struct ComparisonRequest {
   std::uint32_t neighbours = 4;
   int tier = 0;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  // of the rays
   std::filesystem::path out;
-  std::span<const unsigned char> gamma_2_model;  // the same character fitted with gamma 2, the paper's
-  std::span<const unsigned char> model;
+  // The character's model, and the same character fitted with the gamma 2 of the paper.
+  std::span<const unsigned char> model, gamma_2_model;
 };
 
-// Adds rows, what was sampled and the noise of the rays to the report. scene holds the poses.
-void measure_errors(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
-                    const ComparisonRequest& request, nlohmann::ordered_json& report);
+// Adds the errors of AO to the report. scene holds the poses.
+void measure_ao(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
+                const ComparisonRequest& request, nlohmann::ordered_json& report);
 
-// sheet.png: no AO, static, screen-space AO alone, self, all, all with screen-space AO on the floor, ray
-// traced, difference. Only where its label says so has the floor AO.
-void write_comparison_sheet(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
-                            const ComparisonRequest& request);
+// Writes sheet.png.
+void write_ao_sheet(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
+                    const ComparisonRequest& request);
 
-// double_shadowing.png: the model's gamma against 2, self and linked in one norm, beside the default and
-// rays; no ground.
+// Writes double_shadowing.png, for which it makes two scenes that add up all spheres in one norm.
 void write_double_shadowing_sheet(platform::Context& context, const Stage& stage, CrowdScene& scene,
                                   const std::vector<Bones>& poses, const ComparisonRequest& request);
+
+// Adds the errors under a light to the report and writes light_NAME.png.
+void compare_light(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses, const Light& light,
+                   const ComparisonRequest& request, nlohmann::ordered_json& report);
 
 }  // namespace crowd

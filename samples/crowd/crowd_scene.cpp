@@ -1,4 +1,4 @@
-#include "crowd_scene.h"
+#include "samples/crowd/crowd_scene.h"
 
 #include <tbb/parallel_for.h>
 
@@ -8,7 +8,8 @@ namespace crowd {
 namespace {
 
 constexpr float kGroundPlane[4] = {0, 1, 0, 0};
-constexpr float kLinkDistance_m = 4.0f;  // between bounding-sphere centres; farther neighbours hardly darken
+// Between the centres of bounding spheres. Neighbours that are farther away hardly darken.
+constexpr float kLinkDistance_m = 4.0f;
 
 nook_context_desc host_services() {
   nook_context_desc desc = nook::context_desc();
@@ -27,15 +28,12 @@ nook_scene_desc scene_settings(nook_combine combine) {
   return desc;
 }
 
-nook_gl create_gl(const nook::Context& nook_context, platform::Context& context, int tier) {
-  nook_gl_desc desc;
-  nook::check(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+nook_gl_desc gl_settings(platform::Context& context, int tier) {
+  nook_gl_desc desc = nook::gl_desc();
   desc.get_proc = platform::Context::loader;
   desc.get_proc_user = &context;
   desc.max_tier = tier;
-  nook_gl gl = nullptr;
-  nook::check(nook_gl_create(nook_context.get(), &desc, &gl));
-  return gl;
+  return desc;
 }
 
 }  // namespace
@@ -45,13 +43,13 @@ CrowdScene::CrowdScene(platform::Context& context, std::span<const unsigned char
     : context_(host_services()),
       model_(context_, model_bytes.data(), model_bytes.size()),
       scene_(context_, scene_settings(request.combine)),
-      gl_(create_gl(context_, context, request.tier)) {
+      gl_(context_, gl_settings(context, request.tier)) {
   for (std::uint32_t i = 0; i < request.characters; ++i) {
     instances_.push_back(scene_.add_instance(model_));
     scene_.set_ground(instances_.back(), kGroundPlane);
   }
   link_nearest(request.neighbours);
-  nook::check(nook_gl_scene_prepare(gl_.get(), scene_.get()));
+  gl_.prepare(scene_);
 }
 
 void CrowdScene::link_nearest(std::uint32_t neighbours) {
@@ -65,14 +63,18 @@ void CrowdScene::set_poses(const std::vector<Bones>& poses) {
 
 void CrowdScene::update(std::uint32_t terms) {
   scene_.set_terms(terms);
-  nook::check(nook_gl_scene_update(gl_.get(), scene_.get()));
+  gl_.update(scene_);
 }
 
-AoSource CrowdScene::ao(std::size_t character) const {
-  nook_gl_ao_view view{};
-  view.struct_size = sizeof view;
-  nook::check(nook_gl_scene_ao_buffer(gl_.get(), scene_.get(), instances_[character], &view));
+VertexSource CrowdScene::ao(std::size_t character) const {
+  const nook_gl_ao_view view = gl_.ao_buffer(scene_, instances_[character]);
   return {view.buffer, view.offset, view.stride};
+}
+
+std::vector<float> CrowdScene::read_ao(std::size_t character) const {
+  std::vector<float> ao(model_.info().file_vertex_count);
+  gl_.read_ao(scene_, instances_[character], ao.data(), std::uint32_t(ao.size()));
+  return ao;
 }
 
 void CrowdScene::set_light(std::span<const nook_probe_lobe> lobes) {
@@ -81,17 +83,7 @@ void CrowdScene::set_light(std::span<const nook_probe_lobe> lobes) {
 }
 
 nook_gl_light_view CrowdScene::light(std::size_t character) const {
-  nook_gl_light_view view{};
-  view.struct_size = sizeof view;
-  nook::check(nook_gl_scene_light(gl_.get(), scene_.get(), instances_[character], &view));
-  return view;
-}
-
-std::vector<float> CrowdScene::read_ao(std::size_t character) const {
-  std::vector<float> ao(model_.info().file_vertex_count);
-  nook::check(nook_gl_scene_read_ao(gl_.get(), scene_.get(), instances_[character], ao.data(),
-                                    std::uint32_t(ao.size())));
-  return ao;
+  return gl_.light(scene_, instances_[character]);
 }
 
 std::vector<std::vector<float>> CrowdScene::directional_ao(std::span<const std::uint32_t> characters,
@@ -107,13 +99,6 @@ std::vector<std::vector<float>> CrowdScene::directional_ao(std::span<const std::
     scene_.set_light(instances_[c], nullptr, 0);
   }
   return occlusion;
-}
-
-nook_gl_info CrowdScene::gl_info() const {
-  nook_gl_info info{};
-  info.struct_size = sizeof info;
-  nook::check(nook_gl_describe(gl_.get(), &info));
-  return info;
 }
 
 }  // namespace crowd

@@ -1,44 +1,20 @@
-#include "frames.h"
+#include "samples/crowd/frames.h"
 
 #include <glad/gl.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
-#include "animation.h"
-#include "floor_light.h"
+#include "platform/stopwatch.h"
+#include "samples/crowd/floor_light.h"
 
 namespace crowd {
 namespace {
 
 constexpr float kSecondsPerFrame = 1.0f / 30;
 
-class Stopwatch {
- public:
-  double lap_ms() {
-    const auto now = Clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    return ms;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point last_ = Clock::now();
-};
-
-}  // namespace
-
-std::vector<Bones> pose_crowd(const Hero& hero, const std::vector<Placement>& places, float time_s) {
-  std::vector<Bones> poses(places.size());
-  tbb::parallel_for(std::size_t(0), places.size(),
-                    [&](std::size_t i) { poses[i] = placed_pose(hero, places[i], time_s); });
-  return poses;
-}
-
+// A muted colour that stays with a character.
 glm::vec3 albedo_of(std::size_t character) {
   // Linear reflectances of plaster, sand, terracotta, sage, slate and rose.
   static const glm::vec3 colours[] = {{0.62f, 0.60f, 0.56f}, {0.58f, 0.48f, 0.34f}, {0.52f, 0.28f, 0.19f},
@@ -46,11 +22,7 @@ glm::vec3 albedo_of(std::size_t character) {
   return colours[character * 7 % 6];
 }
 
-float crowd_radius_m(const std::vector<Placement>& places) {
-  float radius = 0;
-  for (const Placement& p : places) radius = std::max(radius, std::hypot(p.x_m, p.z_m));
-  return radius + 1.0f;
-}
+}  // namespace
 
 std::vector<DrawnInstance> drawn_crowd(const CrowdScene& scene, const std::vector<Bones>& poses, bool lit) {
   std::vector<DrawnInstance> drawn(poses.size());
@@ -89,7 +61,7 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
       request.light ? std::make_unique<FloorLight>(gl, stage.hero, stage.places, *request.light) : nullptr;
   FrameTimes sum;
   for (std::uint32_t frame = 0; frame < request.frames; ++frame) {
-    Stopwatch watch;
+    platform::Stopwatch watch;
     const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, float(frame) * kSecondsPerFrame);
     scene.set_poses(poses);
     FrameTimes now;
@@ -123,7 +95,7 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
     std::snprintf(name, sizeof name, "frame_%04u.png", frame);
     platform::write_image(request.out / name, picture);
     progress(frame + 1);
-    // The first frame also makes buffers and compiles.
+    // The first frame also makes buffers and compiles shaders, so it does not count.
     if (frame == 0 && request.frames > 1) continue;
     sum.pose += now.pose;
     sum.scene_update += now.scene_update;

@@ -1,9 +1,11 @@
-// A character as the sample needs it: shape, skin and clips, through the public interface of the bakers.
+// The sample's character through the public interface of the bakers: its shape, its clips and its baked
+// model.
 #pragma once
 
 #include <nook/nook_bake.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -12,6 +14,7 @@
 
 namespace crowd {
 
+// A call of the bakers' library failed.
 class BakeError : public std::runtime_error {
  public:
   BakeError(nook_result result, const char* text) : std::runtime_error(text), result_(result) {}
@@ -21,13 +24,12 @@ class BakeError : public std::runtime_error {
   nook_result result_;
 };
 
-// Throws BakeError with the last message of the bakers' library where a call failed.
-void bake_check(nook_result result);
-
-using Bones = std::vector<float>;  // 12 floats a bone, rows of a 3x4 matrix
+// The skinning matrices of one character: 12 floats for each bone, the three rows of a matrix that takes the
+// rest pose to world space.
+using Bones = std::vector<float>;
 
 struct Clip {
-  std::uint32_t index;
+  std::uint32_t index;  // in the character's file
   std::string name;
   float duration_s;
 };
@@ -35,24 +37,26 @@ struct Clip {
 class Hero {
  public:
   explicit Hero(std::span<const unsigned char> glb_bytes);
-  explicit Hero(const std::string& path);  // a .gltf may have files beside it
+  // A .gltf file may have other files beside it.
+  explicit Hero(const std::filesystem::path& path);
 
   nook_bake_character handle() const { return character_.get(); }
+  // A hash of the file's bytes, after which cached models are named.
+  std::uint64_t source_hash() const { return source_hash_; }
   std::uint32_t vertex_count() const { return info_.file_vertex_count; }
   std::uint32_t bone_count() const { return info_.bone_count; }
-  // Clips fit for a crowd that stands and moves; never empty, the rest pose stands in.
+  // The clips in which a character stands or moves. If the file has none, this is the rest pose as a clip.
   const std::vector<Clip>& clips() const { return clips_; }
-  // phase in [0, 1) runs once through the clip.
+  // The pose of a clip at a phase from 0 to 1, which runs once through the clip.
   Bones pose(std::size_t clip, float phase) const;
 
-  // World positions and normals of a pose, three floats a vertex.
+  // The positions and normals of a pose in world space, three floats for each vertex.
   void skin(const Bones& bones, std::vector<float>& positions_ws, std::vector<float>& normals_ws) const;
 
-  std::vector<float> positions_m, normals;  // rest pose
-  std::vector<std::uint32_t> triangles;     // three a triangle
-  std::vector<std::uint16_t> joints;        // four a vertex
-  std::vector<float> weights;               // four a vertex
-  float height_m() const { return info_.bounds_high[1] - info_.bounds_low[1]; }
+  std::vector<float> positions_m, normals;  // in the rest pose, three for each vertex
+  std::vector<std::uint32_t> triangles;     // three indices each
+  std::vector<std::uint16_t> joints;        // four for each vertex
+  std::vector<float> weights;               // four for each vertex
 
  private:
   struct Release {
@@ -61,8 +65,22 @@ class Hero {
   void read();
 
   std::unique_ptr<nook_bake_character_s, Release> character_;
+  std::uint64_t source_hash_ = 0;
   nook_bake_character_info info_{};
   std::vector<Clip> clips_;
 };
+
+// Makes the built-in character and leaves its .glb in the cache, where other tools find it.
+std::vector<unsigned char> built_in_glb(const std::filesystem::path& cache);
+
+struct ModelRequest {
+  std::filesystem::path cache;
+  float gamma = 0;  // exponent of the norm that adds up shadows; 0 takes the preset's
+  bool quiet = false;
+};
+
+// The bytes of the hero's .nook file, from the cache. If the cache has none, this bakes one with the draft
+// preset and shows the progress.
+std::vector<unsigned char> cached_model(const Hero& hero, const ModelRequest& request);
 
 }  // namespace crowd

@@ -1,9 +1,10 @@
-#include "layout.h"
+#include "samples/crowd/layout.h"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <random>
 
 namespace crowd {
@@ -19,7 +20,7 @@ int bearing_index(float bearing_rad) {
   return int((turns - std::floor(turns)) * Outline::kBearings) % Outline::kBearings;
 }
 
-// std's distributions differ between libraries; this does not.
+// The distributions of the standard library differ between its implementations, and this one does not.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
@@ -34,7 +35,7 @@ float squared_distance(const Placement& a, const Placement& b) {
   return (a.x_m - b.x_m) * (a.x_m - b.x_m) + (a.z_m - b.z_m) * (a.z_m - b.z_m);
 }
 
-// Bearings turn from +z towards +x, as yaw does.
+// Bearings turn from +z towards +x, as the yaw does.
 bool overlap(const std::vector<Outline>& outlines, const Placement& a, const Placement& b) {
   const float bearing = std::atan2(b.x_m - a.x_m, b.z_m - a.z_m);
   const float needed = outlines[a.clip].reach(bearing - a.yaw_rad) +
@@ -54,7 +55,7 @@ Placement beside(const Placement& leader, float bearing_rad, float distance_m, P
   return member;
 }
 
-// Tries bearings round the leader from near to far; false where the group has no room.
+// Tries bearings round the leader, from near to far. Returns false if the group has no room.
 bool place_beside(const std::vector<Outline>& outlines, std::vector<Placement>& crowd,
                   const Placement& leader, const Placement& member, Random& random) {
   const float first = random.unit() * kTwoPi;
@@ -99,7 +100,7 @@ std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::ui
   std::uint32_t made = 0;
   const auto next_member = [&] {
     Placement p;
-    // Clips in turn, so that a small crowd shows all of them.
+    // The clips come in turn, so that a small crowd shows all of them.
     p.clip = made++ % std::uint32_t(outlines.size());
     p.phase = random.unit();
     p.yaw_rad = random.unit() * kTwoPi;
@@ -112,7 +113,7 @@ std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::ui
     widest = std::max(widest, *std::max_element(o.reach_m.begin(), o.reach_m.end()));
   const float spacing = std::max(kGroupSpacing_m, 2.4f * widest);
   std::vector<Placement> crowd;
-  // Groups that have no room for all their members leave some over; they go to further rows of the grid.
+  // Members for whom their group has no room go to further rows of the grid.
   for (int cell = 0; crowd.size() < count; ++cell) {
     Placement leader = next_member();
     leader.x_m = (float(cell % columns) - float(columns - 1) / 2 + random.between(-0.2f, 0.2f)) * spacing;
@@ -125,46 +126,37 @@ std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::ui
   return crowd;
 }
 
-std::vector<std::uint32_t> with_neighbour_within(const std::vector<Placement>& crowd, float distance_m) {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < crowd.size(); ++i)
-    for (std::uint32_t j = 0; j < crowd.size(); ++j)
-      if (i != j && squared_distance(crowd[i], crowd[j]) <= distance_m * distance_m) {
-        found.push_back(i);
-        break;
-      }
-  return found;
+float crowd_radius_m(const std::vector<Placement>& places) {
+  float radius = 0;
+  for (const Placement& p : places) radius = std::max(radius, std::hypot(p.x_m, p.z_m));
+  return radius + 1.0f;
 }
 
-std::vector<std::uint32_t> nearest_to(const std::vector<Placement>& crowd, float x_m, float z_m,
-                                      std::size_t count) {
-  Placement point;
-  point.x_m = x_m;
-  point.z_m = z_m;
-  std::vector<std::uint32_t> order(crowd.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return squared_distance(crowd[a], point) < squared_distance(crowd[b], point);
-  });
-  order.resize(std::min(count, order.size()));
-  return order;
-}
-
-std::uint32_t busiest(const std::vector<Placement>& crowd, float distance_m) {
-  std::uint32_t best = 0;
-  float best_score = -1;
-  for (std::uint32_t i = 0; i < crowd.size(); ++i) {
-    float score = 0;
-    for (const Placement& other : crowd)
-      if (squared_distance(crowd[i], other) <= distance_m * distance_m) score += 1;
-    // Less than one neighbour's worth: only breaks ties.
-    score -= 0.5f * std::min(1.0f, std::hypot(crowd[i].x_m, crowd[i].z_m) / 100);
-    if (score > best_score) {
-      best_score = score;
-      best = i;
+Bones placed_pose(const Hero& hero, const Placement& placement, float time_s) {
+  const float duration_s = hero.clips()[placement.clip].duration_s;
+  const float loops = placement.phase + (duration_s > 0 ? time_s / duration_s : 0);
+  Bones bones = hero.pose(placement.clip, loops - std::floor(loops));
+  const float c = std::cos(placement.yaw_rad), s = std::sin(placement.yaw_rad);
+  for (std::size_t b = 0; b < bones.size(); b += 12)
+    for (std::size_t column = 0; column < 4; ++column) {
+      float& x = bones[b + column];
+      float& z = bones[b + 8 + column];
+      const float rotated = c * x + s * z;
+      z = -s * x + c * z;
+      x = rotated;
     }
+  for (std::size_t b = 0; b < bones.size(); b += 12) {
+    bones[b + 3] += placement.x_m;
+    bones[b + 11] += placement.z_m;
   }
-  return best;
+  return bones;
+}
+
+std::vector<Bones> pose_crowd(const Hero& hero, const std::vector<Placement>& places, float time_s) {
+  std::vector<Bones> poses(places.size());
+  tbb::parallel_for(std::size_t(0), places.size(),
+                    [&](std::size_t i) { poses[i] = placed_pose(hero, places[i], time_s); });
+  return poses;
 }
 
 }  // namespace crowd

@@ -1,27 +1,29 @@
-// Where the characters of a crowd stand: small groups on a jittered grid, close but not inside each other.
+// Where the characters of a crowd stand, and their poses there. They form small groups on a jittered grid,
+// close together but not inside each other.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "hero.h"
+#include "samples/crowd/hero.h"
 
 namespace crowd {
 
-// One character's place on the ground plane y = 0 and its motion.
+// One character's place on the ground plane y = 0, and its motion.
 struct Placement {
   float x_m = 0, z_m = 0;
   float yaw_rad = 0;  // about +y
   std::uint32_t clip = 0;
-  float phase = 0;  // [0, 1)
+  float phase = 0;  // from 0 to 1, at the time 0
 };
 
-// How far a body reaches from its root in the ground plane, by bearing, over a whole clip. Metres.
+// How far a body reaches from its root in the ground plane over a whole clip, by bearing.
 struct Outline {
   static constexpr int kBearings = 24;
   std::array<float, kBearings> reach_m{};
-  float reach(float bearing_rad) const;  // the largest within 30 degrees
+  // The largest reach within 30 degrees of the bearing.
+  float reach(float bearing_rad) const;
 };
 
 std::vector<Outline> clip_outlines(const Hero& hero);
@@ -30,14 +32,13 @@ std::vector<Outline> clip_outlines(const Hero& hero);
 std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::uint32_t count,
                                    std::uint32_t seed);
 
-// Indices of the placements whose nearest other root is within distance_m.
-std::vector<std::uint32_t> with_neighbour_within(const std::vector<Placement>& crowd, float distance_m);
+// The distance of the farthest root from the origin, with room for the body.
+float crowd_radius_m(const std::vector<Placement>& places);
 
-// Indices, nearest to a point of the ground plane first, at most count.
-std::vector<std::uint32_t> nearest_to(const std::vector<Placement>& crowd, float x_m, float z_m,
-                                      std::size_t count);
+// The pose of a character's clip at a time, moved to the character's place in the world.
+Bones placed_pose(const Hero& hero, const Placement& placement, float time_s);
 
-// The member with the most others within distance_m; the one nearest to the middle if there are several.
-std::uint32_t busiest(const std::vector<Placement>& crowd, float distance_m);
+// The placed poses of all characters.
+std::vector<Bones> pose_crowd(const Hero& hero, const std::vector<Placement>& places, float time_s);
 
 }  // namespace crowd

@@ -1,11 +1,11 @@
-#include "light.h"
+#include "samples/crowd/light.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-#include "file_bytes.h"
+#include "platform/file_bytes.h"
 #include "platform/platform.h"
 
 namespace crowd {
@@ -13,11 +13,10 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-using Probe = nook::Unique<nook_probe, nook_probe_destroy>;
-using ProbeFit = nook::Unique<nook_probe_fit, nook_probe_fit_destroy>;
+constexpr std::uint32_t kSkyHeight = 64, kProbeHeight = 128;  // texels
 
-// Centre of a texel as nook_bake_environment has them: the middle column looks along +x, a quarter further
-// right along +z.
+// The direction of a texel's centre in the layout of nook_bake_environment: the middle column looks along +x,
+// and the column a quarter farther right looks along +z.
 void texel_direction(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height,
                      float* out) {
   const float polar = kPi * (float(y) + 0.5f) / float(height);
@@ -27,14 +26,15 @@ void texel_direction(std::uint32_t x, std::uint32_t y, std::uint32_t width, std:
   out[2] = std::sin(polar) * std::sin(azimuth);
 }
 
-// A texel's share of the sphere.
+// The share of the sphere that a texel covers.
 float texel_share(std::uint32_t y, std::uint32_t width, std::uint32_t height) {
   const float top = std::cos(kPi * float(y) / float(height)),
               bottom = std::cos(kPi * float(y + 1) / float(height));
   return (top - bottom) / (2 * float(width));
 }
 
-// Blue above, white at the horizon, a warm sun 30 degrees high and 15 wide, and what dry ground sends back.
+// The sky is blue above and white at the horizon. A warm sun stands 30 degrees high and is 15 degrees wide,
+// and dry ground reflects its light.
 void sky_radiance(const float direction[3], float* rgb) {
   static constexpr float zenith[3] = {0.16f, 0.34f, 0.80f}, horizon[3] = {0.45f, 0.58f, 0.80f},
                          sun[3] = {40.0f, 30.0f, 18.0f}, ground[3] = {0.30f, 0.25f, 0.19f};
@@ -57,13 +57,15 @@ Light::Light(const nook::Context& context, const std::filesystem::path& path) : 
     fit_lobes(context);
   }
   measure_mean();
-  if (!(mean_radiance_ > 0)) throw std::runtime_error("crowd: " + path.string() + " holds no light");
+  if (!(mean_radiance_ > 0))
+    throw std::runtime_error("crowd: " + path.string() +
+                             " holds no light (its mean radiance is 0); choose another");
 }
 
 Light Light::built_in_sky(const nook::Context& context) {
   Light sky("sky");
-  sky.width_ = 128;
-  sky.height_ = 64;
+  sky.width_ = 2 * kSkyHeight;
+  sky.height_ = kSkyHeight;
   sky.rgb_.resize(3 * std::size_t(sky.width_) * sky.height_);
   for (std::uint32_t y = 0; y < sky.height_; ++y)
     for (std::uint32_t x = 0; x < sky.width_; ++x) {
@@ -85,32 +87,25 @@ void Light::measure_mean() {
 }
 
 void Light::read_probe(const nook::Context& context, const std::filesystem::path& path) {
-  const std::vector<unsigned char> bytes = read_file(path);
-  nook_probe handle = nullptr;
-  nook::check(nook_probe_load(context.get(), bytes.data(), bytes.size(), &handle));
-  const Probe probe(handle);
-  nook_probe_info info{};
-  info.struct_size = sizeof info;
-  nook::check(nook_probe_describe(handle, &info));
-  lobes_.resize(info.function_count);
-  nook::check(nook_probe_read_lobes(handle, nullptr, lobes_.data(), info.function_count));
-  // Sharp enough for the narrowest lobes that a probe of a few dozen has.
-  width_ = 256;
-  height_ = 128;
+  const std::vector<unsigned char> bytes = platform::read_file(path);
+  lobes_ = nook::Probe(context, bytes.data(), bytes.size()).lobes();
+  // The map is sharp enough for the narrowest lobes that a probe of a few dozen has.
+  width_ = 2 * kProbeHeight;
+  height_ = kProbeHeight;
   std::vector<float> directions(3 * std::size_t(width_) * height_);
   for (std::uint32_t y = 0; y < height_; ++y)
     for (std::uint32_t x = 0; x < width_; ++x)
       texel_direction(x, y, width_, height_, &directions[3 * (std::size_t(y) * width_ + x)]);
   rgb_.resize(directions.size());
-  nook::check(nook_probe_lobes_radiance(lobes_.data(), info.function_count, directions.data(), rgb_.data(),
-                                        directions.size() / 3));
+  nook::check(nook_probe_lobes_radiance(lobes_.data(), std::uint32_t(lobes_.size()), directions.data(),
+                                        rgb_.data(), directions.size() / 3));
   for (float& channel : rgb_) channel = std::max(channel, 0.0f);
 }
 
 void Light::read_map(const std::filesystem::path& path) {
   platform::FloatImage map = platform::read_float_image(path);
   if (map.width != 2 * map.height)
-    throw std::runtime_error("crowd: " + path.string() + " is no latitude-longitude map (got " +
+    throw std::runtime_error("crowd: " + path.string() + " is not a latitude-longitude map (got " +
                              std::to_string(map.width) + " x " + std::to_string(map.height) +
                              ", need twice as wide as high)");
   width_ = std::uint32_t(map.width);
@@ -120,24 +115,16 @@ void Light::read_map(const std::filesystem::path& path) {
 }
 
 void Light::fit_lobes(const nook::Context& context) {
-  nook_probe_fit_desc desc;
-  nook::check(nook_probe_fit_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  nook_probe_fit_desc desc = nook::probe_fit_desc();
   desc.method = NOOK_PROBE_LEAST_SQUARES;
-  nook_probe_fit handle = nullptr;
-  nook::check(nook_probe_fit_create(context.get(), &desc, &handle));
-  const ProbeFit fit(handle);
+  nook::ProbeFit fit(context, desc);
   std::vector<float> directions(3 * std::size_t(width_)), weights(width_);
   for (std::uint32_t y = 0; y < height_; ++y) {
     for (std::uint32_t x = 0; x < width_; ++x) texel_direction(x, y, width_, height_, &directions[3 * x]);
     std::ranges::fill(weights, texel_share(y, width_, height_) * float(width_) * float(height_));
-    nook::check(nook_probe_fit_add_samples(handle, directions.data(), &rgb_[3 * std::size_t(y) * width_],
-                                           weights.data(), width_));
+    fit.add_samples(directions.data(), &rgb_[3 * std::size_t(y) * width_], weights.data(), width_);
   }
-  nook_probe solved = nullptr;
-  nook::check(nook_probe_fit_solve(handle, &solved));
-  const Probe probe(solved);
-  lobes_.resize(desc.lobe_count);
-  nook::check(nook_probe_read_lobes(solved, nullptr, lobes_.data(), desc.lobe_count));
+  lobes_ = fit.solve().lobes();
 }
 
 std::vector<float> Light::irradiance(const std::vector<float>& normals) const {
@@ -155,16 +142,6 @@ std::vector<float> Light::radiance(const float direction[3]) const {
       nook_probe_lobes_radiance(lobes_.data(), std::uint32_t(lobes_.size()), direction, rgb.data(), 1));
   for (float& channel : rgb) channel = std::max(channel, 0.0f);
   return rgb;
-}
-
-std::vector<float> Light::mean_irradiance() const {
-  std::vector<float> mean(3, 0.0f);
-  for (const nook_probe_lobe& lobe : lobes_) {
-    float integral[3];
-    nook::check(nook_probe_lobe_integral(&lobe, integral));
-    for (int c = 0; c < 3; ++c) mean[c] += integral[c] / 4;  // pi / (4 pi)
-  }
-  return mean;
 }
 
 }  // namespace crowd

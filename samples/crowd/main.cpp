@@ -1,52 +1,38 @@
 // Bakes a character, fills a plane with a crowd of it, draws the crowd and compares it with ray tracing.
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "baked_hero.h"
-#include "comparison.h"
-#include "file_bytes.h"
-#include "frames.h"
-#include "layout.h"
-#include "light_comparison.h"
-#include "options.h"
-#include "progress_line.h"
+#include "platform/file_bytes.h"
+#include "platform/progress_bar.h"
+#include "samples/crowd/comparison.h"
+#include "samples/crowd/frames.h"
+#include "samples/crowd/layout.h"
+#include "samples/crowd/options.h"
 #ifdef CROWD_HAS_WINDOW_LOOP
-#include "window_loop.h"
+#include "samples/crowd/window_loop.h"
 #endif
 
 namespace crowd {
 namespace {
 
-struct Character {
-  Hero hero;
-  std::uint64_t source_hash;
-  std::vector<unsigned char> model;
-};
-
-Character load_character(const Options& o) {
-  const bool built_in = o.hero_glb.empty();
-  const std::vector<unsigned char> source = built_in ? built_in_glb(o.cache) : read_file(o.hero_glb);
-  Character c{
-      built_in ? Hero(source) : Hero(o.hero_glb.string()), hash_bytes(source.data(), source.size()), {}};
-  c.model = o.hero_nook.empty() ? cached_model(c.hero, {c.source_hash, o.cache, 0, o.quiet})
-                                : read_file(o.hero_nook);
-  return c;
+Hero load_hero(const Options& o) {
+  return o.hero_glb.empty() ? Hero(built_in_glb(o.cache)) : Hero(o.hero_glb);
 }
 
 void require_same_character(const Hero& hero, const nook::CharacterModel& model) {
   const nook_character_model_info info = model.info();
   if (info.file_vertex_count == hero.vertex_count() && info.bone_count == hero.bone_count()) return;
-  throw std::runtime_error(
-      "crowd: the model does not belong to the character (it has " + std::to_string(info.file_vertex_count) +
-      " vertices and " + std::to_string(info.bone_count) + " bones, need " +
-      std::to_string(hero.vertex_count()) + " and " + std::to_string(hero.bone_count()) + "); bake it anew");
+  throw std::runtime_error("crowd: the model does not belong to the character (got " +
+                           std::to_string(info.file_vertex_count) + " vertices and " +
+                           std::to_string(info.bone_count) + " bones, need " +
+                           std::to_string(hero.vertex_count()) + " and " + std::to_string(hero.bone_count()) +
+                           "); bake the character again");
 }
 
 nlohmann::ordered_json describe(const platform::Context& context, const CrowdScene& scene, const Options& o) {
-  const nook_gl_info gl = scene.gl_info();
+  const nook_gl_info gl = scene.gl().info();
   const nook_character_model_info model = scene.model().info();
   return {{"characters", o.characters},
           {"neighbours", o.neighbours},
@@ -73,33 +59,32 @@ nlohmann::ordered_json describe(const ScreenSpaceQuality& quality) {
 }
 
 void compare_with_rays(platform::Context& context, const Stage& stage, CrowdScene& scene, const Options& o,
-                       const Character& character, nlohmann::ordered_json& report, ProgressLine& line) {
+                       std::span<const unsigned char> model, nlohmann::ordered_json& report,
+                       platform::ProgressBar& bar) {
   const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
   scene.set_poses(poses);
-  ComparisonRequest request{o.neighbours, o.tier, o.seed, o.out, {}, character.model};
-  measure_errors(stage, scene, poses, request, report);
-  line.show("comparing", "parts", 1, 3);
-  write_comparison_sheet(stage, scene, poses, request);
-  line.show("comparing", "parts", 2, 3);
-  const std::vector<unsigned char> gamma_2 =
-      cached_model(stage.hero, {character.source_hash, o.cache, 2.0f, o.quiet});
+  ComparisonRequest request{o.neighbours, o.tier, o.seed, o.out, model, {}};
+  measure_ao(stage, scene, poses, request, report);
+  bar.show("comparing", "parts", 1, 3);
+  write_ao_sheet(stage, scene, poses, request);
+  bar.show("comparing", "parts", 2, 3);
+  const std::vector<unsigned char> gamma_2 = cached_model(stage.hero, {o.cache, 2.0f, o.quiet});
   request.gamma_2_model = gamma_2;
   write_double_shadowing_sheet(context, stage, scene, poses, request);
-  line.show("comparing", "parts", 3, 3);
+  bar.show("comparing", "parts", 3, 3);
 }
 
 void compare_lights(const Stage& stage, CrowdScene& scene, const Options& o, nlohmann::ordered_json& report,
-                    ProgressLine& line) {
+                    platform::ProgressBar& bar) {
   const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
   scene.set_poses(poses);
-  const LightComparisonRequest request{o.seed, o.out};
+  const ComparisonRequest request{o.neighbours, o.tier, o.seed, o.out, {}, {}};
   for (std::size_t i = 0; i < o.lights.size(); ++i) {
-    line.show("lights", "lights", std::uint32_t(i), std::uint32_t(o.lights.size()));
+    bar.show("lights", "lights", i, o.lights.size());
     const Light light(scene.context(), o.lights[i]);
-    measure_light(stage, scene, poses, light, request, report);
-    write_light_sheet(stage, scene, poses, light, request);
+    compare_light(stage, scene, poses, light, request, report);
   }
-  line.show("lights", "lights", std::uint32_t(o.lights.size()), std::uint32_t(o.lights.size()));
+  bar.show("lights", "lights", o.lights.size(), o.lights.size());
 }
 
 std::unique_ptr<Light> light_of_frames(const nook::Context& context, const Options& o) {
@@ -108,32 +93,34 @@ std::unique_ptr<Light> light_of_frames(const nook::Context& context, const Optio
                                                   : Light(context, o.lights.front()));
 }
 
-// The newest OpenGL that there is, down to 3.3, which is all that the crowd needs.
+// Asks for the newest OpenGL first and then for 3.3, which is all that the crowd needs.
 std::unique_ptr<platform::Context> create_context(const Options& o) {
-  platform::ContextRequest wanted;
-  wanted.kind = o.context;
-  wanted.width = o.width_px;
-  wanted.height = o.height_px;
-  wanted.title = "Nook crowd";
+  platform::ContextRequest request;
+  request.kind = o.context;
+  request.width = o.width_px;
+  request.height = o.height_px;
+  request.title = "Nook crowd";
   try {
-    return platform::create_context(wanted);
+    return platform::create_context(request);
   } catch (const std::runtime_error&) {
-    wanted.major = wanted.minor = 3;
-    return platform::create_context(wanted);
+    request.major = request.minor = 3;
+    return platform::create_context(request);
   }
 }
 
 void run(const Options& o) {
-  const Character character = load_character(o);
+  const Hero hero = load_hero(o);
+  const std::vector<unsigned char> model =
+      o.hero_nook.empty() ? cached_model(hero, {o.cache, 0, o.quiet}) : platform::read_file(o.hero_nook);
   const std::unique_ptr<platform::Context> context = create_context(o);
-  const std::vector<Placement> places = make_layout(clip_outlines(character.hero), o.characters, o.seed);
-  CrowdScene scene(*context, character.model, {o.characters, o.neighbours, o.tier, NOOK_COMBINE_COMPOSED});
-  require_same_character(character.hero, scene.model());
-  Renderer renderer(context->gl(), character.hero);
+  const std::vector<Placement> places = make_layout(clip_outlines(hero), o.characters, o.seed);
+  CrowdScene scene(*context, model, {o.characters, o.neighbours, o.tier, NOOK_COMBINE_COMPOSED});
+  require_same_character(hero, scene.model());
+  Renderer renderer(context->gl(), hero);
 #ifdef CROWD_HAS_WINDOW_LOOP
   if (o.context == "window" && o.frames == 0) {
     const std::unique_ptr<Light> light = light_of_frames(scene.context(), o);
-    run_window(*context, character.hero, character.model, places, renderer, light.get(), o);
+    run_window(*context, hero, model, places, renderer, light.get(), o);
     return;
   }
 #endif
@@ -142,14 +129,14 @@ void run(const Options& o) {
   std::unique_ptr<ScreenSpaceAo> screen_space;
   if (o.screen_space)
     screen_space = std::make_unique<ScreenSpaceAo>(*context, scene.gl(), o.width_px, o.height_px);
-  const Stage stage{*context, character.hero, places, renderer, target, screen_space.get()};
-  ProgressLine line(o.quiet);
+  const Stage stage{*context, hero, places, renderer, target, screen_space.get()};
+  platform::ProgressBar bar(o.quiet);
   const std::unique_ptr<Light> light = light_of_frames(scene.context(), o);
   if (light) scene.set_light(light->lobes());
   const FrameTimes ms = draw_frames(stage, scene, {o.frames, o.out, light.get()}, [&](std::uint32_t done) {
-    line.show("drawing", "frames", done, o.frames);
+    bar.show("drawing", "frames", done, o.frames);
   });
-  // What follows compares AO.
+  // The comparisons below set their own lights.
   scene.set_light({});
   nlohmann::ordered_json report = describe(*context, scene, o);
   report["links"] = scene.stats().links;
@@ -161,10 +148,10 @@ void run(const Options& o) {
                   {"read", ms.read}};
   report["screen_space"] = screen_space ? describe(screen_space->quality()) : nlohmann::ordered_json();
   report["rows"] = nlohmann::ordered_json::array();
-  if (o.sheets) compare_with_rays(*context, stage, scene, o, character, report, line);
-  if (!o.lights.empty()) compare_lights(stage, scene, o, report, line);
+  if (o.sheets) compare_with_rays(*context, stage, scene, o, model, report, bar);
+  if (!o.lights.empty()) compare_lights(stage, scene, o, report, bar);
   const std::string text = report.dump(2) + "\n";
-  write_file(o.report, text.data(), text.size());
+  platform::write_file(o.report, text.data(), text.size());
   std::printf("pictures: %s\nreport:   %s\n", std::filesystem::absolute(o.out).c_str(),
               std::filesystem::absolute(o.report).c_str());
 }

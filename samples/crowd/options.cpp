@@ -1,4 +1,4 @@
-#include "options.h"
+#include "samples/crowd/options.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -28,7 +28,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
       "Draws a crowd of animated characters with Nook's ambient occlusion and compares it with ray tracing.");
   std::string size = "1280x720", tier = "best", screen_space = "on";
   o.cache = CROWD_CACHE;
-  // A later option wins, so that a script's own values can be overridden.
+  // The last of several values wins, so that the caller of a script can override its values.
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("hero", o.hero_glb, "a rigged .glb or .gltf; without it, the built-in character")
       ->check(CLI::ExistingFile);
@@ -40,7 +40,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--neighbours", o.neighbours, "nearest neighbours that darken each character")
       ->check(CLI::Range(0, 16));
   CLI::Option* const frames =
-      app.add_option("--frames", o.frames, "pictures to draw (window: 0 runs until it is closed)")
+      app.add_option("--frames", o.frames, "pictures to draw; in a window 0 runs until it is closed")
           ->check(CLI::Range(0, 100000));
   app.add_option("--size", size, "pixels of a picture, WIDTHxHEIGHT");
   app.add_option("--out", o.out, "folder of the pictures");
@@ -48,26 +48,26 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--tier", tier, "highest OpenGL tier: 33, 43 or best")
       ->check(CLI::IsMember({"33", "43", "best"}));
   app.add_option("--screen-space", screen_space,
-                 "on: screen-space AO on the floor, beside the characters' own")
+                 "on or off: screen-space AO on the floor, beside the AO of the characters")
       ->check(CLI::IsMember({"on", "off"}));
-  app.add_option(
-         "--light", o.lights,
-         "probe (.nook) or environment (.hdr, .exr): the first lights the frames, each is compared with path "
-         "tracing; may repeat. Without one, a built-in sky lights the frames")
+  app.add_option("--light", o.lights,
+                 "probe (.nook) or environment (.hdr, .exr). The first one lights the frames, and each is "
+                 "compared with path "
+                 "tracing. The option may repeat. Without it a built-in sky lights the frames")
       ->check(CLI::ExistingFile)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_flag("!--no-light", o.probe_light, "frames in plain ambient light times AO, with a key light");
-  app.add_option("--seed", o.seed, "of the places, the clips and the rays");
+  app.add_flag("!--no-light", o.probe_light,
+               "light the frames by plain ambient light times AO and a key light");
+  app.add_option("--seed", o.seed, "seed of the places, the clips and the rays");
   app.add_option("--cache", o.cache, "folder where baked characters are kept");
-  app.add_flag("!--no-sheets", o.sheets,
-               "draw frames only: no comparison sheets, no ray tracing but that of --light");
-  app.add_flag("--quiet", o.quiet, "no progress");
+  app.add_flag("!--no-sheets", o.sheets, "no comparison sheets, and no ray tracing except for --light");
+  app.add_flag("--quiet", o.quiet, "show no progress");
   try {
     app.parse(argc, argv);
     for (const std::string& fault : {parse_size(size, o), parse_tier(tier, o)})
       if (!fault.empty()) throw CLI::ValidationError("--size", fault);
     o.screen_space = screen_space == "on";
-    // A window stays open until it is closed, unless pictures are asked for.
+    // A window runs until it is closed, unless the user asks for a number of pictures.
     if (o.context == "window" && frames->count() == 0) o.frames = 0;
     if (o.report.empty()) o.report = o.out / "report.json";
     return true;

@@ -9,19 +9,20 @@
 namespace crowd {
 
 struct Options {
-  std::filesystem::path hero_glb, hero_nook;  // empty: the built-in character, and a model baked here
+  // Without a .glb this is the built-in character, and without a .nook its model is baked here.
+  std::filesystem::path hero_glb, hero_nook;
   std::string context = "egl";
   std::uint32_t characters = 100, neighbours = 4, frames = 4, seed = 1;
   int width_px = 1280, height_px = 720;
-  int tier = 0;  // 33, 43 or 0 for the best there is
+  int tier = 0;  // 33, 43, or 0 for the best that the context has
   std::filesystem::path out = "out/crowd", report;
   std::filesystem::path cache;
   std::vector<std::filesystem::path> lights;  // probes (.nook) or maps of the environment (.hdr, .exr)
-  bool probe_light = true;                    // frames under the first of the lights, or the built-in sky
+  bool probe_light = true;                    // the frames have the first of the lights, or the built-in sky
   bool screen_space = true, sheets = true, quiet = false;
 };
 
-// Fills options; returns false with *exit_code set where the program should end at once.
+// Fills options. Returns false with exit_code set if the program should end at once.
 bool parse_options(int argc, char** argv, Options& options, int& exit_code);
 
 }  // namespace crowd

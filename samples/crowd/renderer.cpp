@@ -1,11 +1,11 @@
-#include "renderer.h"
+#include "samples/crowd/renderer.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "shaders.h"
+#include "samples/crowd/shaders.h"
 
 namespace crowd {
 namespace {
@@ -39,52 +39,56 @@ const void* at(std::uint64_t offset) {
 
 Renderer::Renderer(const GladGLContext& gl, const Hero& hero)
     : gl_(gl),
-      character_(gl, kCharacterVertex, {kVersion, kScreenAo, kLitFragment}),
-      ground_(gl, kGroundVertex, {kVersion, kScreenAo, kLitFragment}),
-      character_surface_(gl, kCharacterVertex, {kSurfaceFragment}),
-      ground_surface_(gl, kGroundVertex, {kSurfaceFragment}),
-      shadow_(gl, kCharacterVertex, {kShadowFragment}),
-      character_given_light_(gl, kCharacterVertex, {kGivenLightFragment}),
-      ground_given_light_(gl, kGroundVertex, {kGivenLightFragment}),
+      character_(gl, {kCharacterVertex}, {kVersion, kScreenAo, kLitFragment}),
+      ground_(gl, {kGroundVertex}, {kVersion, kScreenAo, kLitFragment}),
+      character_surface_(gl, {kCharacterVertex}, {kSurfaceFragment}),
+      ground_surface_(gl, {kGroundVertex}, {kSurfaceFragment}),
+      shadow_(gl, {kCharacterVertex}, {kShadowFragment}),
       index_count_(GLsizei(hero.triangles.size())),
       bone_texels_(3 * std::size_t(hero.bone_count())),
       to_key_ws_(glm::normalize(glm::vec3(0.5f, 0.95f, 0.35f))) {
-  const std::vector<Vertex> vertices = interleave(hero);
   gl.GenVertexArrays(2, arrays_);
   gl.GenBuffers(3, buffers_);
-  gl.BindVertexArray(arrays_[0]);
-  gl.BindBuffer(GL_ARRAY_BUFFER, buffers_[0]);
-  gl.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices.size() * sizeof(Vertex)), vertices.data(),
-                GL_STATIC_DRAW);
-  gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[1]);
-  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(4 * hero.triangles.size()), hero.triangles.data(),
-                GL_STATIC_DRAW);
-  for (GLuint slot = 0; slot < kAoSlot; ++slot) gl.EnableVertexAttribArray(slot);
-  gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, position_m)));
-  gl.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, normal)));
-  gl.VertexAttribIPointer(2, 4, GL_UNSIGNED_SHORT, sizeof(Vertex), at(offsetof(Vertex, joints)));
-  gl.VertexAttribPointer(3, 4, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, weights)));
-
+  gl.GenTextures(1, &bone_texture_);
   GLint texels = 65536;
   gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
   chunk_ = std::max<std::size_t>(1, std::size_t(texels) / bone_texels_);
-  gl.GenTextures(1, &bone_texture_);
+  make_character(hero);
+  make_shadow_map();
+}
 
-  gl.GenTextures(1, &shadow_texture_);
-  gl.BindTexture(GL_TEXTURE_2D, shadow_texture_);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, kShadowSize_px, kShadowSize_px, 0, GL_DEPTH_COMPONENT,
-                GL_UNSIGNED_INT, nullptr);
+void Renderer::make_character(const Hero& hero) {
+  const std::vector<Vertex> vertices = interleave(hero);
+  gl_.BindVertexArray(arrays_[0]);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[0]);
+  gl_.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices.size() * sizeof(Vertex)), vertices.data(),
+                 GL_STATIC_DRAW);
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[1]);
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(4 * hero.triangles.size()), hero.triangles.data(),
+                 GL_STATIC_DRAW);
+  for (GLuint slot = 0; slot < kAoSlot; ++slot) gl_.EnableVertexAttribArray(slot);
+  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, position_m)));
+  gl_.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, normal)));
+  gl_.VertexAttribIPointer(2, 4, GL_UNSIGNED_SHORT, sizeof(Vertex), at(offsetof(Vertex, joints)));
+  gl_.VertexAttribPointer(3, 4, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, weights)));
+}
+
+void Renderer::make_shadow_map() {
+  gl_.GenTextures(1, &shadow_texture_);
+  gl_.BindTexture(GL_TEXTURE_2D, shadow_texture_);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, kShadowSize_px, kShadowSize_px, 0,
+                 GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
   for (const GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-    gl.TexParameteri(GL_TEXTURE_2D, name, GL_LINEAR);
+    gl_.TexParameteri(GL_TEXTURE_2D, name, GL_LINEAR);
   for (const GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-    gl.TexParameteri(GL_TEXTURE_2D, name, GL_CLAMP_TO_EDGE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  gl.GenFramebuffers(1, &shadow_framebuffer_);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, shadow_framebuffer_);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_texture_, 0);
-  gl.DrawBuffer(GL_NONE);
-  gl.ReadBuffer(GL_NONE);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl_.TexParameteri(GL_TEXTURE_2D, name, GL_CLAMP_TO_EDGE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  gl_.GenFramebuffers(1, &shadow_framebuffer_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, shadow_framebuffer_);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_texture_, 0);
+  gl_.DrawBuffer(GL_NONE);
+  gl_.ReadBuffer(GL_NONE);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
 Renderer::~Renderer() {
@@ -107,21 +111,23 @@ void Renderer::upload_bones(std::span<const DrawnInstance> instances) {
   gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffers_[2]);
 }
 
-void Renderer::bind_light(const AoSource& light) {
-  if (light.buffer == 0) {
-    gl_.DisableVertexAttribArray(kLightSlot);
+// This is all that an engine does with Nook's buffers.
+void Renderer::bind_values(GLuint slot, GLint components, const VertexSource& values) {
+  if (values.buffer == 0) {
+    gl_.DisableVertexAttribArray(slot);
+    gl_.VertexAttrib3f(slot, 1, 1, 1);  // fully open
     return;
   }
-  gl_.BindBuffer(GL_ARRAY_BUFFER, light.buffer);
-  gl_.EnableVertexAttribArray(kLightSlot);
-  gl_.VertexAttribPointer(kLightSlot, 3, GL_FLOAT, GL_FALSE, GLsizei(light.stride), at(light.offset));
+  gl_.BindBuffer(GL_ARRAY_BUFFER, values.buffer);
+  gl_.EnableVertexAttribArray(slot);
+  gl_.VertexAttribPointer(slot, components, GL_FLOAT, GL_FALSE, GLsizei(values.stride), at(values.offset));
 }
 
-void Renderer::draw_characters(const GpuProgram& program, std::span<const DrawnInstance> instances,
-                               const glm::mat4& view) {
+void Renderer::draw_characters(const platform::Program& program, std::span<const DrawnInstance> instances,
+                               const glm::mat4& clip_from_ws) {
   program.use();
   gl_.Uniform1i(program.uniform("bones"), 0);
-  gl_.UniformMatrix4fv(program.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(view));
+  gl_.UniformMatrix4fv(program.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip_from_ws));
   const GLint first_texel = program.uniform("first_bone_texel"), light = program.uniform("light"),
               albedo = program.uniform("instance_albedo");
   gl_.BindVertexArray(arrays_[0]);
@@ -129,17 +135,8 @@ void Renderer::draw_characters(const GpuProgram& program, std::span<const DrawnI
     const auto chunk = instances.subspan(first, std::min(chunk_, instances.size() - first));
     upload_bones(chunk);
     for (std::size_t i = 0; i < chunk.size(); ++i) {
-      const AoSource& ao = chunk[i].ao;
-      if (ao.buffer) {
-        // All that an engine does with Nook's buffer.
-        gl_.BindBuffer(GL_ARRAY_BUFFER, ao.buffer);
-        gl_.EnableVertexAttribArray(kAoSlot);
-        gl_.VertexAttribPointer(kAoSlot, 1, GL_FLOAT, GL_FALSE, GLsizei(ao.stride), at(ao.offset));
-      } else {
-        gl_.DisableVertexAttribArray(kAoSlot);
-        gl_.VertexAttrib1f(kAoSlot, 1.0f);
-      }
-      bind_light(chunk[i].light);
+      bind_values(kAoSlot, 1, chunk[i].ao);
+      bind_values(kLightSlot, 3, chunk[i].light);
       gl_.Uniform1i(light, chunk[i].light_texel);
       gl_.Uniform1i(first_texel, GLint(i * bone_texels_));
       gl_.Uniform3fv(albedo, 1, glm::value_ptr(chunk[i].albedo));
@@ -148,9 +145,10 @@ void Renderer::draw_characters(const GpuProgram& program, std::span<const DrawnI
   }
 }
 
-void Renderer::draw_ground(const GpuProgram& program, const glm::vec3& albedo, const glm::mat4& view) {
+void Renderer::draw_ground(const platform::Program& program, const glm::vec3& albedo,
+                           const glm::mat4& clip_from_ws) {
   program.use();
-  gl_.UniformMatrix4fv(program.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(view));
+  gl_.UniformMatrix4fv(program.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip_from_ws));
   gl_.Uniform3fv(program.uniform("instance_albedo"), 1, glm::value_ptr(albedo));
   gl_.Uniform1f(program.uniform("ground_half_size_m"), 400.0f);
   gl_.BindVertexArray(arrays_[1]);
@@ -175,7 +173,7 @@ void Renderer::draw_shadow_map(std::span<const DrawnInstance> instances) {
   draw_characters(shadow_, instances, shadow_from_world_);
 }
 
-void Renderer::set_look(const GpuProgram& program, const Camera& camera, const Look& look) {
+void Renderer::set_look(const platform::Program& program, const Camera& camera, const Look& look) {
   program.use();
   gl_.ActiveTexture(GL_TEXTURE1);
   gl_.BindTexture(GL_TEXTURE_2D, shadow_texture_);
@@ -222,6 +220,59 @@ void Renderer::draw(std::span<const DrawnInstance> instances, const Camera& came
   draw_ground(ground_, look.ground_albedo, view);
   set_look(character_, camera, look);
   draw_characters(character_, instances, view);
+}
+
+void Renderer::set_probe_light(const platform::Program& program, const Camera& camera,
+                               const ProbeLight& light, const glm::vec3& background) {
+  program.use();
+  const struct {
+    GLint unit;
+    GLenum target;
+    GLuint texture;
+    const char* name;
+  } textures[] = {{2, GL_TEXTURE_2D, light.screen_ao.texture, "screen_ao"},
+                  {3, GL_TEXTURE_2D, light.screen_ao.depth, "screen_depth"},
+                  {4, GL_TEXTURE_2D, light.floor.texture, "floor_light"},
+                  {5, GL_TEXTURE_BUFFER, light.texture, "nook_scene_lights"}};
+  for (const auto& t : textures) {
+    gl_.ActiveTexture(GL_TEXTURE0 + GLenum(t.unit));
+    gl_.BindTexture(t.target, t.texture);
+    gl_.Uniform1i(program.uniform(t.name), t.unit);
+  }
+  gl_.Uniform3fv(program.uniform("ground_irradiance"), 1, glm::value_ptr(light.ground_irradiance));
+  gl_.Uniform2fv(program.uniform("floor_first_m"), 1, glm::value_ptr(light.floor.first_m));
+  gl_.Uniform2fv(program.uniform("floor_extent_m"), 1, glm::value_ptr(light.floor.extent_m));
+  gl_.Uniform1i(program.uniform("use_screen_ao"), light.screen_ao.texture != 0);
+  gl_.Uniform1f(program.uniform("ao_strength"), light.ao_strength);
+  gl_.Uniform1f(program.uniform("exposure"), light.exposure);
+  gl_.Uniform1f(program.uniform("fog_start_m"), light.fog_start_m);
+  gl_.Uniform3fv(program.uniform("eye_ws"), 1, glm::value_ptr(camera.eye_ws));
+  gl_.Uniform3fv(program.uniform("background"), 1, glm::value_ptr(background));
+}
+
+// An engine does no more with Nook's lights: it binds their texture, and for each instance it sets the number
+// of its light and binds its directional AO.
+void Renderer::draw_probe_light(std::span<const DrawnInstance> instances, const Camera& camera,
+                                const ProbeLight& light) {
+  GLint viewport[4];
+  gl_.GetIntegerv(GL_VIEWPORT, viewport);
+  if (!character_probe_light_) {
+    character_probe_light_.emplace(
+        gl_, std::initializer_list<const char*>{kCharacterVertex},
+        std::initializer_list<const char*>{kVersion, light.glsl, kScreenAo, kProbeLightFragment});
+    ground_probe_light_.emplace(gl_, std::initializer_list<const char*>{kGroundVertex},
+                                std::initializer_list<const char*>{kVersion, "#define GROUND\n", light.glsl,
+                                                                   kScreenAo, kProbeLightFragment});
+  }
+  gl_.Enable(GL_DEPTH_TEST);
+  const glm::vec3 background = 1.0f - glm::exp(-light.exposure * light.horizon);
+  gl_.ClearColor(background.r, background.g, background.b, 1);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  const glm::mat4 view = clip_from_world(camera, float(viewport[2]) / float(viewport[3]));
+  set_probe_light(*ground_probe_light_, camera, light, background);
+  draw_ground(*ground_probe_light_, light.ground_albedo, view);
+  set_probe_light(*character_probe_light_, camera, light, background);
+  draw_characters(*character_probe_light_, instances, view);
 }
 
 }  // namespace crowd

@@ -1,4 +1,4 @@
-#include "screen_space.h"
+#include "samples/crowd/screen_space.h"
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
@@ -16,16 +16,13 @@ void make_texture(const GladGLContext& gl, GLuint name, GLenum attachment, GLenu
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, name, 0);
 }
 
-nook_nnao create_pass(nook_gl gl, int width, int height, const ScreenSpaceQuality& quality) {
-  nook_nnao_desc desc;
-  nook::check(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+nook_nnao_desc pass_settings(int width, int height, const ScreenSpaceQuality& quality) {
+  nook_nnao_desc desc = nook::nnao_desc();
   desc.max_width = width;
   desc.max_height = height;
   desc.taps = quality.taps;
   desc.half_resolution = quality.half_resolution;
-  nook_nnao pass = nullptr;
-  nook::check(nook_nnao_create(gl, &desc, &pass));
-  return pass;
+  return desc;
 }
 
 }  // namespace
@@ -36,12 +33,13 @@ ScreenSpaceQuality quality_for(const std::string& gl_renderer) {
   return {};
 }
 
-ScreenSpaceAo::ScreenSpaceAo(const platform::Context& context, nook_gl gl, int width_px, int height_px)
+ScreenSpaceAo::ScreenSpaceAo(const platform::Context& context, const nook::Gl& gl, int width_px,
+                             int height_px)
     : gl_(context.gl()),
       width_px_(width_px),
       height_px_(height_px),
       quality_(quality_for(context.renderer())),
-      pass_(create_pass(gl, width_px, height_px, quality_)) {
+      pass_(gl, pass_settings(width_px, height_px, quality_)) {
   gl_.GenTextures(kTextures, textures_);
   gl_.GenFramebuffers(1, &framebuffer_);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
@@ -56,7 +54,10 @@ ScreenSpaceAo::ScreenSpaceAo(const platform::Context& context, nook_gl gl, int w
   gl_.DrawBuffers(2, buffers);
   const bool complete = gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
-  if (!complete) throw std::runtime_error("crowd: this OpenGL cannot draw normals beside depth");
+  if (!complete)
+    throw std::runtime_error(
+        "crowd: this OpenGL cannot draw normals beside depth (RGB10_A2 and RG8 with 24-bit depth); use "
+        "--screen-space off");
 }
 
 ScreenSpaceAo::~ScreenSpaceAo() {
@@ -74,8 +75,7 @@ ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> 
   gl_.ClearBufferfv(GL_COLOR, 1, open);
   gl_.ClearBufferfv(GL_DEPTH, 0, &far_plane);
   renderer.draw_surfaces(instances, camera, aspect);
-  nook_nnao_frame_desc frame;
-  nook::check(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+  nook_nnao_frame_desc frame = nook::nnao_frame_desc();
   frame.width = width_px_;
   frame.height = height_px_;
   frame.depth_texture = textures_[kDepth];
@@ -89,11 +89,8 @@ ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> 
   frame.radius = kRadius_m;
   frame.layer = layer;
   frame.layer_texture = textures_[kLayer];
-  nook::check(nook_nnao_render(pass_.get(), &frame));
-  nook_nnao_info info{};
-  info.struct_size = sizeof info;
-  nook::check(nook_nnao_describe(pass_.get(), &info));
-  return {info.texture, textures_[kDepth]};
+  pass_.render(frame);
+  return {pass_.info().texture, textures_[kDepth]};
 }
 
 }  // namespace crowd

@@ -1,4 +1,4 @@
-// Nook's screen-space AO for the crowd: depth and normals drawn ahead of the lighting, and the pass over
+// Nook's screen-space AO for the crowd: depth and normals are drawn before the lighting, and the pass reads
 // them.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <nook/nook.hpp>
 
 #include "platform/platform.h"
-#include "renderer.h"
+#include "samples/crowd/renderer.h"
 
 namespace crowd {
 
@@ -16,15 +16,15 @@ struct ScreenSpaceQuality {
   bool half_resolution = false;
 };
 
-// 16 taps at half resolution where the processor draws, else the defaults.
+// Software renderers get 16 taps at half resolution, and others get the defaults.
 ScreenSpaceQuality quality_for(const std::string& gl_renderer);
 
 class ScreenSpaceAo {
  public:
   static constexpr float kRadius_m = 0.5f;
 
-  // gl must be of the same OpenGL context; draw needs it, the destructor does not.
-  ScreenSpaceAo(const platform::Context& context, nook_gl gl, int width_px, int height_px);
+  // gl must belong to the same OpenGL context. draw needs it, and the destructor does not.
+  ScreenSpaceAo(const platform::Context& context, const nook::Gl& gl, int width_px, int height_px);
   ~ScreenSpaceAo();
   ScreenSpaceAo(const ScreenSpaceAo&) = delete;
   ScreenSpaceAo& operator=(const ScreenSpaceAo&) = delete;
@@ -33,9 +33,9 @@ class ScreenSpaceAo {
   int height_px() const { return height_px_; }
   const ScreenSpaceQuality& quality() const { return quality_; }
 
-  // NOOK_NNAO_LAYER_REPLACE: 1 on characters, whose vertices have AO that counts already what the pass would
-  // count again; the lighting multiplies the two. NOOK_NNAO_LAYER_NONE: on characters as well. Leaves
-  // another framebuffer bound.
+  // With NOOK_NNAO_LAYER_REPLACE the texture has 1 on characters: the lighting multiplies it with the AO of
+  // their vertices, which already has what the pass would count again. With NOOK_NNAO_LAYER_NONE the texture
+  // has screen-space AO on characters too. Leaves another framebuffer bound.
   ScreenAo draw(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
                 nook_nnao_layer layer = NOOK_NNAO_LAYER_REPLACE);
 
@@ -47,7 +47,7 @@ class ScreenSpaceAo {
   ScreenSpaceQuality quality_;
   GLuint textures_[kTextures] = {};
   GLuint framebuffer_ = 0;
-  nook::Unique<nook_nnao, nook_nnao_destroy> pass_;
+  nook::Nnao pass_;
 };
 
 }  // namespace crowd

@@ -1,4 +1,4 @@
-#include "shaders.h"
+#include "samples/crowd/shaders.h"
 
 namespace crowd {
 
@@ -70,17 +70,17 @@ const char* const kScreenAo = R"(
 uniform bool use_screen_ao;
 uniform sampler2D screen_ao;
 uniform sampler2D screen_depth;
-// The picture is multisampled and AO is not: on an edge the texel may be another surface's. Of it and the
-// four beside it, that nearest in depth.
+// The picture is multisampled and AO is not, so that at an edge the texel may belong to another surface. This takes
+// the texel, of this one and the four beside it, whose depth is nearest.
 float fetch_screen_ao() {
   const ivec2 steps[5] = ivec2[5](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
   ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(screen_depth, 0) - 1, best = pixel;
-  float least = 2.0;
+  float min_off = 2.0;
   for (int i = 0; i < 5; ++i) {
     ivec2 candidate = clamp(pixel + steps[i], ivec2(0), last);
     float off = abs(texelFetch(screen_depth, candidate, 0).r - gl_FragCoord.z);
-    if (off < least) best = candidate;
-    least = min(least, off);
+    if (off < min_off) best = candidate;
+    min_off = min(min_off, off);
   }
   return texelFetch(screen_ao, best, 0).r;
 }
@@ -105,7 +105,7 @@ uniform vec3 background;
 uniform float fog_start_m;
 out vec4 colour;
 float key_visibility(vec3 n) {
-  // Moved along the normal by about a texel of the map, against self-shadow.
+  // The point moves along its normal by about a texel of the map, so that it does not shadow itself.
   vec4 s = shadow_from_world * vec4(surface_position_ws + 0.025 * n, 1.0);
   vec3 uvz = s.xyz * 0.5 + 0.5;
   if (any(lessThan(uvz, vec3(0.0))) || any(greaterThan(uvz, vec3(1.0)))) return 1.0;
@@ -149,7 +149,7 @@ void main() {
   if (use_floor_light) {
     vec2 uv = (surface_position_ws.xz - floor_first_m) / floor_extent_m;
     irradiance = texture(floor_light, uv).rgb;
-    // The floor ends where no light is known.
+    // The picture fades out where the floor's light is no longer known.
     edge = smoothstep(0.85, 1.0, 2.0 * length(uv - 0.5));
   }
   vec3 seen = 1.0 - exp(-exposure * surface_albedo * irradiance * 0.31830989);
@@ -181,7 +181,7 @@ void main() {
 #else
   vec3 occlusion = surface_light;
 #endif
-  // The screen's AO, 1 on characters, knows contacts that the floor's texels do not.
+  // Screen-space AO, which is 1 on characters, has the contacts that are finer than the floor's texels.
   if (use_screen_ao) occlusion = min(occlusion, vec3(fetch_screen_ao()));
   occlusion = mix(vec3(1.0), occlusion, ao_strength);
 #ifdef GROUND

@@ -1,32 +1,32 @@
-// The sample's own shaders, OpenGL 3.3 core.
+// The sample's own shaders, for OpenGL 3.3 core. Fragment shaders write linear light to an sRGB target.
 #pragma once
 
 namespace crowd {
 
-// Characters: linear blend skinning with bones in a texture buffer, three texels a bone. ao is Nook's value;
-// light_value is irradiance for kGivenLightFragment, Nook's directional AO for kProbeLightFragment.
+// Characters: linear blend skinning with the bones in a texture buffer, three texels for each bone. The
+// attribute ao is Nook's value. The attribute light_value is Nook's directional AO for kProbeLightFragment,
+// and irradiance for kGivenLightFragment.
 extern const char* const kCharacterVertex;
-// One big quad on y = 0, made from gl_VertexID.
+// The ground: one big quad on y = 0, made from gl_VertexID.
 extern const char* const kGroundVertex;
-// Ahead of the lighting, for the screen-space pass: world normals as (n + 1) / 2, and its layer, which is 1
-// everywhere with a weight that is 1 on characters alone.
+// The surfaces that the screen-space pass reads: world normals as (n + 1) / 2, and the pass's layer. The
+// layer is 1 everywhere, and its weight is 1 on characters and 0 elsewhere.
 extern const char* const kSurfaceFragment;
-// The first line of a fragment shader of several texts.
+// The first line of a fragment shader that has several texts.
 extern const char* const kVersion;
-// What fragments read of the screen-space pass, for the two that follow.
+// How a fragment reads the result of the screen-space pass.
 extern const char* const kScreenAo;
-// Behind #version and kScreenAo: hemisphere ambient times AO, and a key light with a soft shadow map. Writes
-// linear light to an sRGB target. AO is that of the vertices, where use_screen_ao is set times that of the
-// screen-space pass, and on the ground where use_floor_ao is set times that of a texture laid on it.
+// Follows kVersion and kScreenAo: ambient light of two hemispheres times AO, and a key light with a soft
+// shadow map. AO is that of the vertices. If use_screen_ao is set, it is multiplied by screen-space AO, and
+// on the ground, if use_floor_ao is set, by a texture that lies on the ground.
 extern const char* const kLitFragment;
-// Irradiance that is given, at vertices or in a texture laid on the ground, and nothing else; linear light to
-// an sRGB target, bright parts rolled off.
+// Irradiance that is given, at vertices or in a texture that lies on the ground. Bright parts are rolled off.
 extern const char* const kGivenLightFragment;
-// Behind #version, GROUND for the ground, Nook's GLSL for lights, and kScreenAo: a probe's irradiance times
-// directional AO, which the ground has in a texture laid on it and from the screen-space pass; linear light
-// to an sRGB target, bright parts rolled off.
+// Follows kVersion, a definition of GROUND for the ground, Nook's GLSL for lights, and kScreenAo: a probe's
+// irradiance times directional AO. On the ground that AO is the darker one of a texture that lies there and
+// of screen-space AO. Bright parts are rolled off.
 extern const char* const kProbeLightFragment;
-// Depth from the key light; draws characters only.
+// The depth that the key light sees. Only characters are drawn with it.
 extern const char* const kShadowFragment;
 
 }  // namespace crowd

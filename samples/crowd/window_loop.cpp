@@ -1,4 +1,4 @@
-#include "window_loop.h"
+#include "samples/crowd/window_loop.h"
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -6,12 +6,12 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
-#include "floor_light.h"
-#include "frames.h"
+#include "platform/stopwatch.h"
+#include "samples/crowd/floor_light.h"
+#include "samples/crowd/frames.h"
 
 namespace crowd {
 namespace {
@@ -21,7 +21,7 @@ struct Controls {
        playing = true;
   float intensity = 1.0f, key = 0.5f;
   int link_count = 4;
-  int tier = 0;  // 33, 43 or 0 for the best
+  int tier = 0;  // 33, 43, or 0 for the best
   float turn = 0, height = 0.35f, distance_m = 8;
 
   std::uint32_t terms() const {
@@ -60,7 +60,7 @@ class Gui {
   }
 };
 
-// True if the tier was changed.
+// Returns true if the user has changed the tier.
 bool show_controls(Controls& c, const CrowdScene& scene, bool have_light, double update_ms) {
   ImGui::Begin("Nook");
   ImGui::Checkbox("ambient occlusion", &c.ao);
@@ -75,7 +75,7 @@ bool show_controls(Controls& c, const CrowdScene& scene, bool have_light, double
   if (have_light) ImGui::Checkbox("light of a probe", &c.probe_light);
   if (!have_light || !c.probe_light) ImGui::SliderFloat("key light", &c.key, 0, 1);
   ImGui::Checkbox("play", &c.playing);
-  const int tier = scene.gl_info().tier;
+  const int tier = scene.gl().info().tier;
   ImGui::Text("OpenGL tier:");
   const int before = c.tier;
   for (const int choice : {33, 43}) {
@@ -109,7 +109,6 @@ Camera camera_of(const Controls& c) {
 void run_window(platform::Context& context, const Hero& hero, std::span<const unsigned char> model,
                 const std::vector<Placement>& places, Renderer& renderer, const Light* light,
                 const Options& options) {
-  using Clock = std::chrono::steady_clock;
   const GladGLContext& gl = context.gl();
   Gui gui(context.window());
   Controls controls;
@@ -125,7 +124,7 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
   bool lit = false;
   const auto floor = light ? std::make_unique<FloorLight>(gl, hero, places, *light) : nullptr;
   double time_s = 0, update_ms = 0;
-  auto last = Clock::now();
+  platform::Stopwatch frame_watch;
   while (!context.should_close()) {
     if (tier_changed) {
       screen_space.reset();
@@ -141,14 +140,13 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
       lit = want;
     }
     if (linked != controls.link_count) scene->link_nearest(std::uint32_t(linked = controls.link_count));
-    const auto now = Clock::now();
-    if (controls.playing) time_s += std::chrono::duration<double>(now - last).count();
-    last = now;
+    const double frame_ms = frame_watch.lap_ms();
+    if (controls.playing) time_s += frame_ms / 1000;
     const std::vector<Bones> poses = pose_crowd(hero, places, float(time_s));
     scene->set_poses(poses);
-    const auto before = Clock::now();
+    platform::Stopwatch update_watch;
     scene->update(controls.terms());
-    update_ms = std::chrono::duration<double, std::milli>(Clock::now() - before).count();
+    update_ms = update_watch.lap_ms();
     const std::vector<DrawnInstance> drawn = drawn_crowd(*scene, poses, lit);
     Look look;
     look.ao_strength = controls.ao ? controls.intensity : 0;
@@ -161,7 +159,7 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
     const Camera camera = camera_of(controls);
     if (controls.screen_space) {
       if (!screen_space || screen_space->width_px() != width || screen_space->height_px() != height) {
-        screen_space.reset();  // frees its memory first
+        screen_space.reset();  // frees its memory before the next one takes its own
         screen_space = std::make_unique<ScreenSpaceAo>(context, scene->gl(), width, height);
       }
       look.screen_ao = screen_space->draw(renderer, drawn, camera);

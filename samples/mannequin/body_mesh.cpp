@@ -1,21 +1,21 @@
-#include "body_mesh.h"
+#include "samples/mannequin/body_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "ramp.h"
-#include "remesher.h"
-#include "skeleton.h"
-#include "surface_mesher.h"
+#include "samples/mannequin/ramp.h"
+#include "samples/mannequin/remesher.h"
+#include "samples/mannequin/skeleton.h"
+#include "samples/mannequin/surface_mesher.h"
 
 namespace nook_samples::mannequin {
 namespace {
 
-// Fine enough that the gaps between the fingers stay open.
+// The cells are fine enough that the gaps between the fingers stay open.
 constexpr double kCell_m = 0.0060;
 constexpr int kRounds = 7;
 
-double wanted_edge_m(const Vec3& point_m) {
+double target_edge_m(const Vec3& point_m) {
   static const ArmFrame arm = left_arm_frame();
   const Vec3 p(std::abs(point_m.x), point_m.y, point_m.z);
   double edge_m = 0.0268;
@@ -46,7 +46,7 @@ double wanted_edge_m(const Vec3& point_m) {
 
 TriangleMesh make_body_mesh() {
   const BodySdf sdf;
-  return remesh(march_tetrahedra(sdf, kCell_m), sdf, wanted_edge_m, kRounds);
+  return remesh(march_tetrahedra(sdf, kCell_m), sdf, target_edge_m, kRounds);
 }
 
 }  // namespace nook_samples::mannequin

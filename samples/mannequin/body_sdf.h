@@ -3,7 +3,7 @@
 #include <variant>
 #include <vector>
 
-#include "shape_primitives.h"
+#include "samples/mannequin/shape_primitives.h"
 
 namespace nook_samples::mannequin {
 
@@ -11,7 +11,7 @@ namespace nook_samples::mannequin {
 struct Mass {
   std::variant<RoundCone, Ellipsoid, Loft> shape;
   double blend_m;
-  bool carved = false;  ///< Taken away instead of added.
+  bool carved = false;  ///< Whether the mass is taken away instead of added.
   Vec3 bound_centre_m{0.0};
   double bound_radius_m = 0.0;
 };
@@ -27,9 +27,10 @@ class Part {
   void carve(const RoundCone& cone, double blend_m);
   void carve(const Ellipsoid& ellipsoid, double blend_m);
 
-  /// Joins this part to what is known already; parts that are too far to matter cost one comparison.
+  /// Joins this part to a distance that is known already. A part that is too far to matter costs one
+  /// comparison.
   double join(double known_m, const Vec3& point_m) const;
-  void close();  ///< Computes the bound; called once, after the last mass.
+  void close();  ///< Computes the bound. This is called once, after the last mass.
 
  private:
   double distance(const Vec3& point_m) const;
@@ -40,7 +41,8 @@ class Part {
   double bound_radius_m_ = 0.0;
 };
 
-/// Signed distance to the skin in metres, negative inside; approximate away from the surface. Mirrored in x.
+/// The signed distance to the skin in metres, negative inside. It is approximate away from the surface and
+/// mirrored in x.
 class BodySdf {
  public:
   BodySdf();

@@ -1,4 +1,4 @@
-#include "clips.h"
+#include "samples/mannequin/clips.h"
 
 namespace nook_samples::mannequin {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pose.h"
+#include "samples/mannequin/pose.h"
 
 namespace nook_samples::mannequin {
 
@@ -13,15 +13,15 @@ struct Clip {
   Pose (*pose_at)(const Skeleton& skeleton, double phase);
 };
 
-/// Idle, Walk, Run, Crouch, Sit, Wave, Punch, Dance.
+/// The clips Idle, Walk, Run, Crouch, Sit, Wave, Punch and Dance.
 const std::vector<Clip>& all_clips();
 
-// Moving about on foot.
+// Clips that move about on foot.
 Pose pose_idle(const Skeleton& skeleton, double phase);
 Pose pose_walk(const Skeleton& skeleton, double phase);
 Pose pose_run(const Skeleton& skeleton, double phase);
 
-// Staying in one place.
+// Clips that stay in one place.
 Pose pose_crouch(const Skeleton& skeleton, double phase);
 Pose pose_sit(const Skeleton& skeleton, double phase);
 Pose pose_wave(const Skeleton& skeleton, double phase);

@@ -1,4 +1,4 @@
-#include "glb_writer.h"
+#include "samples/mannequin/glb_writer.h"
 
 #include <tiny_gltf.h>
 
@@ -23,7 +23,7 @@ class Builder {
     model_.buffers.emplace_back();
   }
 
-  /// Appends tightly packed components; `bounds` asks for the minimum and maximum that glTF wants on some
+  /// Appends tightly packed components. `bounds` adds the minimum and maximum that glTF requires of some
   /// accessors.
   template <typename Component>
   int add_accessor(const std::vector<Component>& values, int component_type, int type, int target,
@@ -192,7 +192,7 @@ void add_animation(Builder& builder, const Skeleton& skeleton, const Clip& clip)
     append(pelvis, local_offset_m(skeleton, skeleton.bones()[pelvis_bone]) + pose.pelvis_shift_m());
     for (std::size_t i = 0; i < skeleton.size(); ++i) {
       Quat q = pose.local_rotation(static_cast<int>(i));
-      // Of the two quaternions of a rotation, the one near the previous key gives players the short way.
+      // A rotation has two quaternions. With the one near the previous key, players take the short way.
       if (glm::dot(q, previous[i]) < 0.0) {
         q = -q;
       }
@@ -219,7 +219,7 @@ void add_animation(Builder& builder, const Skeleton& skeleton, const Clip& clip)
   add_channel(pelvis_bone, "translation", key_times, builder.add_floats(pelvis, TINYGLTF_TYPE_VEC3));
   const int end_times = builder.add_floats({times.front(), times.back()}, TINYGLTF_TYPE_SCALAR, 0, true);
   for (std::size_t i = 1; i < skeleton.size(); ++i) {
-    // Most fingers hold still: two keys say so in a fraction of the bytes.
+    // Most fingers hold still, for which two keys are enough and take a fraction of the bytes.
     std::vector<float>& keys = rotations[i];
     const bool is_still = std::equal(keys.begin() + 4, keys.end(), keys.begin());
     if (is_still) {

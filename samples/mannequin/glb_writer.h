@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "clips.h"
-#include "skeleton.h"
-#include "skin_weights.h"
-#include "triangle_mesh.h"
+#include "samples/mannequin/clips.h"
+#include "samples/mannequin/skeleton.h"
+#include "samples/mannequin/skin_weights.h"
+#include "samples/mannequin/triangle_mesh.h"
 
 namespace nook_samples::mannequin {
 

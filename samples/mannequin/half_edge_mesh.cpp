@@ -1,4 +1,4 @@
-#include "half_edge_mesh.h"
+#include "samples/mannequin/half_edge_mesh.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "triangle_mesh.h"
+#include "samples/mannequin/triangle_mesh.h"
 
 namespace nook_samples::mannequin {
 
-/// A closed triangle manifold that can be edited in place. Half-edge `3 f + k` leaves corner k of face f;
-/// removed faces stay as dead entries until the mesh is packed.
+/// A closed triangle manifold that can be edited in place. Half-edge `3 f + k` leaves corner k of face f.
+/// Removed faces stay as dead entries until the mesh is packed.
 class HalfEdgeMesh {
  public:
   using Index = std::uint32_t;
@@ -43,9 +43,9 @@ class HalfEdgeMesh {
   int valence(Index v) const;
 
   void split(Index h, const Vec3& middle_m);
-  /// Turns the edge inside its two triangles; refuses, changing nothing, where the new edge exists already.
+  /// Turns the edge inside its two triangles. Refuses and changes nothing if the new edge exists already.
   bool flip(Index h);
-  /// Merges both ends into one vertex; refuses where that would break the manifold or turn a triangle over.
+  /// Merges both ends into one vertex. Refuses if that would break the manifold or turn a triangle over.
   bool collapse(Index h, const Vec3& merged_m, double longest_edge_m);
 
  private:

@@ -1,4 +1,4 @@
-#include "limb_placement.h"
+#include "samples/mannequin/limb_placement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,15 +114,15 @@ void place_foot(Pose& pose, Side side, const FootPlan& plan) {
   const Vec3 flat_ball = bind_ball_m(side);
   const Vec3 pivot = plan.pitch_deg > 0.0 ? flat_ball : mirrored(left_leg_frame().heel_m, side);
   const Vec3 rolled = pivot - flat_ball + pitch * (bind_m(foot) - pivot);
-  const Vec3 wanted_ankle = plan.ball_m + yaw * rolled;
+  const Vec3 target_ankle = plan.ball_m + yaw * rolled;
 
   const Vec3 hip = pose.joint_m(thigh);
   const double upper = glm::length(bind_m(calf) - bind_m(thigh)),
                lower = glm::length(bind_m(foot) - bind_m(calf));
-  const Vec3 wish = wanted_ankle - hip;
+  const Vec3 to_ankle = target_ankle - hip;
   // A leg that is never quite straight keeps the knee from snapping.
-  const double reach = std::clamp(glm::length(wish), 0.25, 0.9985 * (upper + lower));
-  const Vec3 down = glm::normalize(wish);
+  const double reach = std::clamp(glm::length(to_ankle), 0.25, 0.9985 * (upper + lower));
+  const Vec3 down = glm::normalize(to_ankle);
   const Vec3 knee_way = pose.facing(skeleton.find("pelvis")) * mirrored(Vec3(plan.knee_out, 0.0, 1.0), side);
   const Vec3 ahead = axes_from(down, knee_way)[1];
   const double cosine = (upper * upper + reach * reach - lower * lower) / (2.0 * upper * reach);
@@ -131,7 +131,7 @@ void place_foot(Pose& pose, Side side, const FootPlan& plan) {
   const Vec3 ankle = hip + down * reach;
 
   face(pose, thigh, between(bind_m(calf) - bind_m(thigh), kAhead, knee - hip, ahead));
-  // The calf's front is what the thigh shows in front of the knee, however far it bends.
+  // The front of the calf continues the front of the thigh, however far the knee bends.
   const Vec3 hinge = glm::cross(down, ahead);
   face(pose, calf,
        between(bind_m(foot) - bind_m(calf), kAhead, ankle - knee,
@@ -157,16 +157,16 @@ void place_hand(Pose& pose, Side side, const ReachPlan& plan) {
   const Vec3 shoulder = pose.joint_m(skeleton.find(sided("upperarm", side)));
   const double upper = glm::length(left.elbow_m - left.shoulder_m),
                lower = glm::length(left.wrist_m - left.elbow_m);
-  const Vec3 wish = plan.wrist_m - shoulder;
-  const double reach = std::clamp(glm::length(wish), 0.15, 0.995 * (upper + lower));
-  const Vec3 away = glm::normalize(wish);
+  const Vec3 to_ankle = plan.wrist_m - shoulder;
+  const double reach = std::clamp(glm::length(to_ankle), 0.15, 0.995 * (upper + lower));
+  const Vec3 away = glm::normalize(to_ankle);
   const Vec3 elbow_to = axes_from(away, plan.elbow_to)[1];
   const double cosine = (upper * upper + reach * reach - lower * lower) / (2.0 * upper * reach);
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   const Vec3 upper_way = away * cosine + elbow_to * sine;
   const Vec3 lower_way = (away * reach - upper_way * upper) / lower;
 
-  // The arm's plan speaks the chest's language, in which outwards is +x on both sides.
+  // The plan's directions are relative to the chest, and outwards is +x on both sides.
   const Quat to_chest = glm::conjugate(pose.facing(skeleton.find("spine_03")));
   arm.upper = mirrored(to_chest * upper_way, side);
   arm.bends_to = mirrored(to_chest * lower_way, side);

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "pose.h"
+#include "samples/mannequin/pose.h"
 
 namespace nook_samples::mannequin {
 
-/// Where a foot stands. Given for a flat foot and then rolled over its heel or its ball, so that it cannot
-/// sink in.
+/// Where a foot stands. The plan describes a flat foot, which then rolls over its heel or its ball, so that
+/// it cannot sink into the ground.
 struct FootPlan {
   Vec3 ball_m;             ///< Under the ball of the foot; y is the height of the sole over the ground.
   double yaw_deg = 0.0;    ///< Toes outwards, beyond the bind pose's own turn.
@@ -14,10 +14,10 @@ struct FootPlan {
 };
 /// Turns thigh, calf, foot and toes so that the foot stands as planned, or as near as the leg reaches.
 void place_foot(Pose& pose, Side side, const FootPlan& plan);
-/// The plan's `ball_m` of the bind pose.
+/// The `ball_m` that a plan has in the bind pose.
 Vec3 bind_ball_m(Side side);
 
-/// Where an arm goes. Directions are seen from the chest, outwards being away from the middle of the body.
+/// Where an arm goes. Directions are relative to the chest, and outwards is away from the middle of the body.
 struct ArmPlan {
   Vec3 upper;               ///< Direction of the upper arm: x outwards, y up, z ahead.
   Vec3 bends_to;            ///< Where the elbow takes the forearm.
@@ -41,10 +41,10 @@ struct ReachPlan {
 /// Turns the arm so that the hand lies as planned, or as near as the arm reaches.
 void place_hand(Pose& pose, Side side, const ReachPlan& plan);
 
-/// Curls the fingers by degrees a joint, thumb apart.
+/// Curls the fingers by so many degrees at each joint. The thumb has a value of its own.
 void curl_fingers(Pose& pose, Side side, double fingers_deg, double thumb_deg);
 void make_fist(Pose& pose, Side side);
-/// Brings the spread fingers of the bind pose together; one is parallel.
+/// Brings the spread fingers of the bind pose together. At 1 they are parallel.
 void close_fingers(Pose& pose, Side side, double amount);
 
 }  // namespace nook_samples::mannequin

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "body_sdf.h"
-#include "skeleton.h"
+#include "samples/mannequin/body_sdf.h"
+#include "samples/mannequin/skeleton.h"
 
 namespace nook_samples::mannequin {
 namespace {

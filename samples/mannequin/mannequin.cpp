@@ -1,10 +1,10 @@
-#include "mannequin.h"
+#include "samples/mannequin/mannequin.h"
 
-#include "body_mesh.h"
-#include "clips.h"
-#include "glb_writer.h"
-#include "skeleton.h"
-#include "skin_weights.h"
+#include "samples/mannequin/body_mesh.h"
+#include "samples/mannequin/clips.h"
+#include "samples/mannequin/glb_writer.h"
+#include "samples/mannequin/skeleton.h"
+#include "samples/mannequin/skin_weights.h"
 
 namespace nook_samples::mannequin {
 

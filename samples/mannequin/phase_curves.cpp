@@ -1,9 +1,9 @@
-#include "phase_curves.h"
+#include "samples/mannequin/phase_curves.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "ramp.h"
+#include "samples/mannequin/ramp.h"
 
 namespace nook_samples::mannequin {
 

@@ -1,4 +1,4 @@
-#include "pose.h"
+#include "samples/mannequin/pose.h"
 
 namespace nook_samples::mannequin {
 

@@ -1,14 +1,14 @@
-#include "remesher.h"
+#include "samples/mannequin/remesher.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "half_edge_mesh.h"
+#include "samples/mannequin/half_edge_mesh.h"
 
 namespace nook_samples::mannequin {
 namespace {
 
-// Botsch and Kobbelt's bounds: splitting above and collapsing below them brings an edge nearer to the wanted
+// Botsch and Kobbelt's bounds: splitting above and collapsing below them brings an edge nearer to the target
 // length.
 constexpr double kSplitAbove = 4.0 / 3.0;
 constexpr double kCollapseBelow = 4.0 / 5.0;
@@ -34,7 +34,7 @@ class Remesher {
       even_out_valences();
       relax(true);
     }
-    // Valences are settled; the last rounds open the narrow angles that are left.
+    // The valences have settled, and the last rounds open the narrow angles that are left.
     for (int round = 0; round < 4; ++round) {
       open_narrow_angles();
       relax(true);
@@ -139,7 +139,7 @@ class Remesher {
     }
   }
 
-  // The mean of the surrounding triangles' centres, weighted by their area over the wanted one, kept in the
+  // The mean of the surrounding triangles' centres, weighted by their area over the target area, kept in the
   // tangent plane so that the figure does not shrink.
   Vec3 relaxed(Index v) const {
     const Vec3 p = mesh_.position_m(v);
@@ -149,8 +149,8 @@ class Remesher {
       const Vec3 a = mesh_.position_m(mesh_.to(h)), b = mesh_.position_m(mesh_.opposite(h));
       const Vec3 twice_area = glm::cross(a - p, b - p);
       const Vec3 centre = (p + a + b) / 3.0;
-      const double wanted = edge_length_m_(centre);
-      const double w = glm::length(twice_area) / (wanted * wanted);
+      const double target_m = edge_length_m_(centre);
+      const double w = glm::length(twice_area) / (target_m * target_m);
       sum += centre * w;
       normal += twice_area;
       weight += w;

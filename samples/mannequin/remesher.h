@@ -2,15 +2,15 @@
 
 #include <functional>
 
-#include "body_sdf.h"
-#include "triangle_mesh.h"
+#include "samples/mannequin/body_sdf.h"
+#include "samples/mannequin/triangle_mesh.h"
 
 namespace nook_samples::mannequin {
 
-/// Wanted edge length in metres at a point of the skin.
+/// The target length of edges at a point of the skin, in metres.
 using EdgeLength = std::function<double(const Vec3& point_m)>;
 
-/// Rebuilds a closed manifold with edges near the wanted length: splits long edges, collapses short ones,
+/// Rebuilds a closed manifold with edges near the target length: splits long edges, collapses short ones,
 /// flips for even valences, slides vertices along the skin, and ends with every vertex on it.
 TriangleMesh remesh(const TriangleMesh& dense, const BodySdf& sdf, const EdgeLength& edge_length_m,
                     int rounds);

@@ -1,4 +1,4 @@
-#include "shape_primitives.h"
+#include "samples/mannequin/shape_primitives.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "skeleton.h"
+#include "samples/mannequin/skeleton.h"
 
 #include <cmath>
 #include <stdexcept>

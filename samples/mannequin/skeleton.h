@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shape_primitives.h"
+#include "samples/mannequin/shape_primitives.h"
 
 namespace nook_samples::mannequin {
 
@@ -13,7 +13,7 @@ using Quat = glm::dquat;
 
 struct Bone {
   std::string name;
-  int parent;        ///< Index of the parent, -1 at the root; parents stand before their children.
+  int parent;        ///< Index of the parent, -1 at the root. Parents come before their children.
   Vec3 position_m;   ///< Joint in the bind pose, model space.
   Vec3 tip_m;        ///< Where the bone ends: its main child's joint, or the end of the flesh at a leaf.
   Quat orientation;  ///< Bind orientation in model space: y runs along the bone.
@@ -26,7 +26,7 @@ class Skeleton {
 
   const std::vector<Bone>& bones() const { return bones_; }
   std::size_t size() const { return bones_.size(); }
-  /// Throws std::out_of_range for a name that is not there.
+  /// Throws std::out_of_range if there is no such name.
   int find(std::string_view name) const;
   const Bone& bone(std::string_view name) const { return bones_[static_cast<std::size_t>(find(name))]; }
 

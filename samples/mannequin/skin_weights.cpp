@@ -1,9 +1,9 @@
-#include "skin_weights.h"
+#include "samples/mannequin/skin_weights.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "weight_seeds.h"
+#include "samples/mannequin/weight_seeds.h"
 
 namespace nook_samples::mannequin {
 namespace {
@@ -14,7 +14,7 @@ using Table = std::vector<double>;
 // One implicit diffusion step decays exponentially; a second one rounds its cusp into a smooth S.
 constexpr int kSteps = 2;
 constexpr int kSweeps = 50;
-// Weaker influences are cut, so that a joint's reach ends somewhere.
+// Weaker influences are cut, so that the reach of a joint ends.
 constexpr double kFaintest = 0.012;
 
 Table seed_table(const std::vector<WeightSeed>& seeds, const Skeleton& skeleton) {

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "skeleton.h"
-#include "triangle_mesh.h"
+#include "samples/mannequin/skeleton.h"
+#include "samples/mannequin/triangle_mesh.h"
 
 namespace nook_samples::mannequin {
 
-/// Up to four bones that carry a vertex; weights fall from first to last and sum to one, unused slots are
-/// zero.
+/// Up to four bones that move a vertex. The weights fall from the first to the last and sum to one. Unused
+/// slots are zero.
 struct VertexWeights {
   std::array<std::uint16_t, 4> bones{};
   std::array<float, 4> weights{};

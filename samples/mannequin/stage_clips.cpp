@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "clips.h"
-#include "limb_placement.h"
-#include "phase_curves.h"
+#include "samples/mannequin/clips.h"
+#include "samples/mannequin/limb_placement.h"
+#include "samples/mannequin/phase_curves.h"
 
 namespace nook_samples::mannequin {
 namespace {

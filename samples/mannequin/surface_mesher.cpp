@@ -1,4 +1,4 @@
-#include "surface_mesher.h"
+#include "samples/mannequin/surface_mesher.h"
 
 #include <cmath>
 #include <unordered_map>

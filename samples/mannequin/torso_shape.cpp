@@ -1,4 +1,4 @@
-#include "body_sdf.h"
+#include "samples/mannequin/body_sdf.h"
 
 namespace nook_samples::mannequin {
 namespace {

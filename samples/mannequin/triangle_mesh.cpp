@@ -1,4 +1,4 @@
-#include "triangle_mesh.h"
+#include "samples/mannequin/triangle_mesh.h"
 
 namespace nook_samples::mannequin {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "shape_primitives.h"
+#include "samples/mannequin/shape_primitives.h"
 
 namespace nook_samples::mannequin {
 

@@ -1,10 +1,10 @@
-#include "weight_seeds.h"
+#include "samples/mannequin/weight_seeds.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "ramp.h"
+#include "samples/mannequin/ramp.h"
 
 namespace nook_samples::mannequin {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "skeleton.h"
+#include "samples/mannequin/skeleton.h"
 
 namespace nook_samples::mannequin {
 
-/// What the bind pose says of a point before any smoothing.
+/// The weights of a point in the bind pose before any smoothing.
 struct WeightSeed {
   struct Share {
     int bone;

@@ -1,15 +1,16 @@
-#include "frames.h"
+#include "samples/material/frames.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <limits>
 
+#include "platform/stopwatch.h"
+
 namespace material {
 namespace {
 
-// The target bound for drawing, cleared to the background.
+// Binds the target for drawing and clears it to the background.
 void begin_picture(const Stage& stage) {
   const GladGLContext& gl = stage.context.gl();
   stage.target.bind();
@@ -38,29 +39,28 @@ void draw_frame(const Stage& stage, const MaterialProgram& program, const View& 
 
 FrameTimes draw_frames(const Stage& stage, const MaterialProgram& program, const FrameRequest& request,
                        const std::function<void(std::uint32_t)>& progress) {
-  using Clock = std::chrono::steady_clock;
   const GladGLContext& gl = stage.context.gl();
-  // The first draw compiles; it also gives the picture without silhouettes.
+  // The first draw compiles the shaders and also gives the picture without silhouettes.
   draw_frame(stage, program, view_at(0, stage.aspect), false);
   platform::write_image(request.out / (request.name + "_flat.png"), stage.target.read());
   draw_frame(stage, program, view_at(0, stage.aspect), true);
   constexpr double unknown = std::numeric_limits<double>::infinity();
-  FrameTimes least{unknown, unknown};
+  FrameTimes min{unknown, unknown};
   for (std::uint32_t frame = 0; frame < request.frames; ++frame) {
     const View view = view_at(float(frame) / float(request.frames), stage.aspect);
     gl.Finish();
-    const Clock::time_point begin = Clock::now();
+    platform::Stopwatch watch;
     const std::clock_t cpu_begin = std::clock();
     draw_frame(stage, program, view, true);
     gl.Finish();
-    least.ms = std::min(least.ms, std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
-    least.cpu_ms = std::min(least.cpu_ms, 1e3 * double(std::clock() - cpu_begin) / CLOCKS_PER_SEC);
+    min.ms = std::min(min.ms, watch.lap_ms());
+    min.cpu_ms = std::min(min.cpu_ms, 1e3 * double(std::clock() - cpu_begin) / CLOCKS_PER_SEC);
     char number[16];
     std::snprintf(number, sizeof number, "_%03u.png", frame);
     platform::write_image(request.out / (request.name + number), stage.target.read());
     progress(frame + 1);
   }
-  return least;
+  return min;
 }
 
 }  // namespace material

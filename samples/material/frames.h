@@ -1,4 +1,4 @@
-// The pictures of one material.
+// Draws the pictures of one material.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "material_program.h"
-#include "mesh.h"
 #include "platform/render_target.h"
+#include "samples/material/material_program.h"
+#include "samples/material/mesh.h"
 
 namespace material {
 
@@ -20,19 +20,20 @@ struct Stage {
   float aspect = 1;
 };
 
-// Draws all passes of a frame; without the visibility of the meso-structure where `silhouettes` is false.
+// Draws all passes of a frame. Without silhouettes it leaves out the visibility of the meso-structure.
 void draw_frame(const Stage& stage, const MaterialProgram& program, const View& view, bool silhouettes);
 
 struct FrameRequest {
   std::uint32_t frames = 1;
   std::filesystem::path out;
-  std::string name;  // pictures are name_000.png and on, and name_flat.png, the first without silhouettes
+  // The pictures are name_000.png and so on, and name_flat.png, which is the first one without silhouettes.
+  std::string name;
 };
 
-// Of a frame between two glFinish, the least of all frames.
+// The times of a frame between two calls of glFinish, the minimum over all frames.
 struct FrameTimes {
   double ms = 0;
-  // The process's, over all threads: what a software renderer costs whatever else runs on the machine.
+  // The time of the whole process over all threads. A software renderer has this cost whatever else runs.
   double cpu_ms = 0;
 };
 

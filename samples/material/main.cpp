@@ -1,46 +1,33 @@
-// Draws baked materials on several shapes, under a moving light and view, and reports what that costs.
+// Draws baked materials on several shapes under a moving light and view, and reports the cost.
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "frames.h"
-#include "options.h"
+#include "platform/file_bytes.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
+#include "samples/material/frames.h"
+#include "samples/material/options.h"
 
 namespace material {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<char> read_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::vector<char> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in) throw std::runtime_error("material: " + path.string() + " cannot be read");
-  return bytes;
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path beside = path.string() + ".part";
-  std::ofstream out(beside, std::ios::binary);
-  if (!(out << text) || !out.flush())
-    throw std::runtime_error("material: " + beside.string() + " cannot be written");
-  out.close();
-  std::filesystem::rename(beside, path);
-}
-
+// A material that is ready to be drawn.
 struct Loaded {
   Loaded(const nook::Context& host, const nook::Gl& gl, const platform::Context& context,
          const std::filesystem::path& path)
       : name(path.stem().string()),
-        bytes(read_file(path)),
+        bytes(platform::read_file(path)),
         material(host, bytes.data(), bytes.size()),
         uploaded(gl, material),
         program(context.gl(), uploaded) {}
 
   std::string name;
-  std::vector<char> bytes;
+  std::vector<unsigned char> bytes;
   nook::Material material;
   nook::GlMaterial uploaded;
   MaterialProgram program;
@@ -66,7 +53,7 @@ Json describe(const Loaded& loaded, const FrameTimes& times) {
           {"cpu_ms", times.cpu_ms}};
 }
 
-// Until the window is closed; one turn of the light takes ten seconds.
+// Returns when the window is closed. One turn of the light takes ten seconds.
 void run_window(const Stage& stage, const MaterialProgram& program) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
@@ -81,13 +68,13 @@ void run_window(const Stage& stage, const MaterialProgram& program) {
 }
 
 std::unique_ptr<platform::Context> create_context(const Options& o) {
-  platform::ContextRequest wanted;
-  wanted.kind = o.context;
-  wanted.width = o.width_px;
-  wanted.height = o.height_px;
-  wanted.major = wanted.minor = 3;
-  wanted.title = "Nook materials";
-  return platform::create_context(wanted);
+  platform::ContextRequest request;
+  request.kind = o.context;
+  request.width = o.width_px;
+  request.height = o.height_px;
+  request.major = request.minor = 3;
+  request.title = "Nook materials";
+  return platform::create_context(request);
 }
 
 void run(const Options& o) {
@@ -111,15 +98,15 @@ void run(const Options& o) {
               {"width", o.width_px},
               {"height", o.height_px},
               {"rows", Json::array()}};
+  platform::ProgressBar bar(o.quiet);
   for (const std::filesystem::path& path : o.files) {
     const Loaded loaded(host, gl, *context, path);
     const FrameTimes times =
-        draw_frames(stage, loaded.program, {o.frames, o.out, loaded.name}, [&](std::uint32_t done) {
-          if (!o.quiet) std::fprintf(stderr, "%s: %u of %u pictures\n", loaded.name.c_str(), done, o.frames);
-        });
+        draw_frames(stage, loaded.program, {o.frames, o.out, loaded.name},
+                    [&](std::uint32_t done) { bar.show(loaded.name, "pictures", done, o.frames); });
     report["rows"].push_back(describe(loaded, times));
   }
-  write_text(o.report, report.dump(2) + "\n");
+  platform::OutputFile(o.report).commit(report.dump(2) + "\n");
   std::printf("pictures: %s\nreport:   %s\n", std::filesystem::absolute(o.out).c_str(),
               std::filesystem::absolute(o.report).c_str());
 }

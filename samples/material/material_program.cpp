@@ -1,8 +1,6 @@
-#include "material_program.h"
+#include "samples/material/material_program.h"
 
 #include <glm/gtc/type_ptr.hpp>
-
-#include "platform/program.h"
 
 namespace material {
 namespace {
@@ -21,19 +19,19 @@ void main() {
 }
 )glsl";
 
-// Between the version and this stands the material's own text.
+// The material's own text stands between the version and this text.
 constexpr char fragment_text[] = R"glsl(
 in vec3 position_ws, normal_ws, tangent_ws; in vec2 uv;
 uniform vec3 eye, key_direction, fill_direction;
 out vec4 pixel;
 void main() {
   vec2 dx = dFdx(uv), dy = dFdy(uv);
-  // The inside of a surface is its mirror image.
+  // The inside of a surface is the mirror image of its outside.
   float side = gl_FrontFacing ? 1.0 : -1.0;
   vec3 normal = side * normalize(normal_ws);
   vec3 tangent = side * normalize(tangent_ws - normal * dot(normal, tangent_ws));
   vec2 place = vec2(side * uv.x, uv.y); dx.x *= side; dy.x *= side;
-  // The rows of the matrix from world to tangent space are the axes.
+  // The rows of the matrix from world space to tangent space are the axes.
   mat3 to_tangent = transpose(mat3(tangent, cross(normal, tangent), normal));
   vec3 view = to_tangent * normalize(eye - position_ws);
   float alpha = 1.0;
@@ -64,32 +62,27 @@ constexpr const char* pass_choice[] = {"#define PASS DEPTH\n", "#define PASS COL
 
 MaterialProgram::MaterialProgram(const GladGLContext& gl, const nook::GlMaterial& material)
     : gl_(gl), textures_(material.textures()) {
-  for (int pass = 0; pass < 3; ++pass) {
-    programs_[pass] =
-        platform::link_program(gl, {version, vertex_text},
-                               {version, pass_names, pass_choice[pass], material.info().glsl, fragment_text});
-    gl.UseProgram(programs_[pass]);
+  for (const char* choice : pass_choice) {
+    const platform::Program& program = programs_.emplace_back(
+        gl, std::initializer_list<const char*>{version, vertex_text},
+        std::initializer_list<const char*>{version, pass_names, choice, material.info().glsl, fragment_text});
+    program.use();
     for (std::size_t i = 0; i < textures_.size(); ++i)
-      gl.Uniform1i(gl.GetUniformLocation(programs_[pass], textures_[i].uniform), GLint(i));
+      gl.Uniform1i(program.uniform(textures_[i].uniform), GLint(i));
   }
 }
 
-MaterialProgram::~MaterialProgram() {
-  for (const GLuint program : programs_) gl_.DeleteProgram(program);
-}
-
 void MaterialProgram::begin(const View& view, Pass pass) const {
-  const GLuint program = programs_[int(pass == Pass::whole ? Pass::colour : pass)];
-  const auto uniform = [&](const char* name) { return gl_.GetUniformLocation(program, name); };
-  gl_.UseProgram(program);
+  const platform::Program& program = programs_[std::size_t(pass == Pass::whole ? Pass::colour : pass)];
+  program.use();
   for (std::size_t i = 0; i < textures_.size(); ++i) {
     gl_.ActiveTexture(GL_TEXTURE0 + GLenum(i));
     gl_.BindTexture(textures_[i].target, textures_[i].texture);
   }
-  gl_.UniformMatrix4fv(uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(view.view_projection));
-  gl_.Uniform3fv(uniform("eye"), 1, glm::value_ptr(view.eye));
-  gl_.Uniform3fv(uniform("key_direction"), 1, glm::value_ptr(view.key_direction));
-  gl_.Uniform3fv(uniform("fill_direction"), 1, glm::value_ptr(view.fill_direction));
+  gl_.UniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(view.view_projection));
+  gl_.Uniform3fv(program.uniform("eye"), 1, glm::value_ptr(view.eye));
+  gl_.Uniform3fv(program.uniform("key_direction"), 1, glm::value_ptr(view.key_direction));
+  gl_.Uniform3fv(program.uniform("fill_direction"), 1, glm::value_ptr(view.fill_direction));
 
   const bool writes_colour = pass != Pass::depth, writes_depth = pass == Pass::depth || pass == Pass::whole;
   const auto mask = GLboolean(writes_colour);

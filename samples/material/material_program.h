@@ -1,4 +1,4 @@
-// What an engine does with a material: its GLSL in a program, its textures on units.
+// What an engine does with a material: it puts the material's GLSL into a program and binds its textures.
 #pragma once
 
 #include <glad/gl.h>
@@ -7,33 +7,31 @@
 #include <nook/nook.hpp>
 #include <vector>
 
-#include "scene.h"
+#include "platform/program.h"
+#include "samples/material/scene.h"
 
 namespace material {
 
-// Decoding costs many times what the visibility costs, so the depth of the fully visible pixels comes first,
-// and each is decoded once.
+// The passes of a frame. Decoding costs many times as much as the visibility, so that the depth of the fully
+// visible pixels is drawn first, and each of them is decoded once.
 enum class Pass {
-  depth,         // of fully visible pixels
-  colour,        // where that depth is
-  part_visible,  // the other pixels, blended by alpha
-  whole          // colour and depth of every pixel, without the visibility of the meso-structure
+  depth,         // the depth of fully visible pixels
+  colour,        // the colour of the pixels that have that depth
+  part_visible,  // the other pixels, blended by their alpha
+  whole          // the colour and depth of every pixel, without the visibility of the meso-structure
 };
 
 class MaterialProgram {
  public:
   MaterialProgram(const GladGLContext& gl, const nook::GlMaterial& material);
-  ~MaterialProgram();
-  MaterialProgram(const MaterialProgram&) = delete;
-  MaterialProgram& operator=(const MaterialProgram&) = delete;
 
-  // Binds the pass's program and the textures, and sets what a pass needs of OpenGL's state.
+  // Binds the pass's program and the textures, and sets the OpenGL state that the pass needs.
   void begin(const View& view, Pass pass) const;
 
  private:
   const GladGLContext& gl_;
   std::vector<nook_gl_material_texture> textures_;
-  GLuint programs_[3] = {};  // of the first three passes
+  std::vector<platform::Program> programs_;  // one for each of the first three passes
 };
 
 }  // namespace material

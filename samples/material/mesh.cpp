@@ -1,4 +1,4 @@
-#include "mesh.h"
+#include "samples/material/mesh.h"
 
 #include <cstddef>
 #include <utility>

@@ -3,7 +3,7 @@
 
 #include <glad/gl.h>
 
-#include "shapes.h"
+#include "samples/material/shapes.h"
 
 namespace material {
 
@@ -15,7 +15,7 @@ class Mesh {
   Mesh(const Mesh&) = delete;
   Mesh& operator=(const Mesh&) = delete;
 
-  // Attributes 0 to 3: position, normal, tangent, uv.
+  // The attributes 0 to 3 are position, normal, tangent and uv.
   void draw() const;
 
  private:

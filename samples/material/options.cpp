@@ -1,4 +1,4 @@
-#include "options.h"
+#include "samples/material/options.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

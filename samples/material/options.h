@@ -1,4 +1,4 @@
-// The command line.
+// The command line of the material sample.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 namespace material {
 
 struct Options {
-  std::vector<std::filesystem::path>
-      files;  // .nook, drawn one after the other with the same views and lights
+  // .nook files, which are drawn one after the other with the same views and lights.
+  std::vector<std::filesystem::path> files;
   std::string context = "egl";
   std::uint32_t frames = 6;
   int width_px = 960, height_px = 540;
-  float tile_m = 0.16f;  // side of a tile on the shapes
+  float tile_m = 0.16f;  // the side of a tile on the shapes
   std::filesystem::path out = "out/material", report;
   bool quiet = false;
 };
 
-// Fills options; returns false with exit_code set where the program should end at once.
+// Fills options. Returns false with exit_code set if the program should end at once.
 bool parse_options(int argc, char** argv, Options& options, int& exit_code);
 
 }  // namespace material

@@ -1,4 +1,4 @@
-#include "scene.h"
+#include "samples/material/scene.h"
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>

@@ -1,4 +1,4 @@
-#include "shapes.h"
+#include "samples/material/shapes.h"
 
 #include <cmath>
 #include <functional>
@@ -7,7 +7,7 @@
 namespace material {
 namespace {
 
-using Surface = std::function<glm::vec3(float s, float t)>;  // s, t from 0 to 1
+using Surface = std::function<glm::vec3(float s, float t)>;  // s and t go from 0 to 1
 
 struct Closed {
   bool s = false, t = false;
@@ -15,7 +15,7 @@ struct Closed {
 
 constexpr float turn = 2 * glm::pi<float>();
 
-// Mean length of the lines along s, or along t.
+// The mean length of the lines along s, or along t.
 float mean_length(const Surface& surface, bool along_s) {
   constexpr int lines = 16, steps = 128;
   float sum = 0;
@@ -30,7 +30,7 @@ float mean_length(const Surface& surface, bool along_s) {
   return sum / lines;
 }
 
-// Normals point to where cross(d/ds, d/dt) does.
+// Normals point along cross(d/ds, d/dt).
 Shape make_shape(const Surface& surface, Closed closed, int columns, int rows, float tile_m) {
   glm::vec2 tiles(mean_length(surface, true) / tile_m, mean_length(surface, false) / tile_m);
   if (closed.s) tiles.x = std::max(std::round(tiles.x), 1.0f);
@@ -54,7 +54,7 @@ Shape make_shape(const Surface& surface, Closed closed, int columns, int rows, f
   return shape;
 }
 
-// A tube of this radius round a closed curve.
+// A tube round a closed curve.
 Surface tube(std::function<glm::vec3(float)> curve, float radius_m) {
   return [curve, radius_m](float s, float t) {
     constexpr float h = 1e-3f;

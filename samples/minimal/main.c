@@ -1,16 +1,17 @@
-/* The smallest user of Nook: two characters side by side on the ground, ambient occlusion on the CPU.
+/* The smallest program that uses Nook. Two characters stand side by side on the ground, and the CPU evaluates
+ * their ambient occlusion.
  *
  *   minimal MODEL.nook
  *
  * An engine needs the three marked regions. The rest of this file reads a file, prints, and stands in for the
- * engine's own animation. minimal_gl.c is the same with the result left on the GPU. */
+ * engine's own animation. minimal_gl.c does the same and leaves the result on the GPU. */
 #include <nook/nook_character.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The engine's skinning matrices: here the rest pose, moved sideways. Twelve floats a bone, three rows of
- * four. */
+/* An engine passes its own skinning matrices. Here they are the rest pose, moved sideways: twelve floats for
+ * each bone, three rows of four. */
 static float* rest_pose(uint32_t bone_count, float x_m) {
   float* const bones = calloc(bone_count, 12 * sizeof(float));
   for (uint32_t b = 0; bones && b < bone_count; ++b) {
@@ -64,7 +65,7 @@ static nook_result start(Character* c, const void* bytes, size_t size) {
   if (!r) r = nook_scene_add_instance(c->scene, c->model, &c->right);
   if (!r) r = nook_scene_set_ground(c->scene, c->left, ground);
   if (!r) r = nook_scene_set_ground(c->scene, c->right, ground);
-  /* Here two fixed links; nook_scene_link_nearest finds the neighbours of a crowd. */
+  /* These are two fixed links. For a crowd, nook_scene_link_nearest finds the neighbours. */
   if (!r) r = nook_scene_link(c->scene, c->left, c->right);
   if (!r) r = nook_scene_link(c->scene, c->right, c->left);
   return r;
@@ -80,14 +81,14 @@ static nook_result frame(Character* c, const float* left_pose, const float* righ
   return r;
 }
 
-/* ---- 3. At the end: any order will do ---- */
+/* ---- 3. At the end, in any order ---- */
 static void stop(Character* c) {
   nook_scene_destroy(&c->scene);
   nook_character_model_destroy(&c->model);
   nook_context_destroy(&c->context);
 }
 
-/* Frames with the other instance ever nearer: the mean falls. */
+/* The other instance comes nearer from frame to frame, and the mean AO falls. */
 static nook_result approach(Character* c) {
   static const float distances_m[] = {4.0F, 2.0F, 1.0F, 0.6F};
   nook_character_model_info info;
@@ -128,11 +129,11 @@ int main(int argc, char** argv) {
   }
   bytes = read_file(argv[1], &size);
   if (!bytes) {
-    fprintf(stderr, "minimal: %s cannot be read\n", argv[1]);
+    fprintf(stderr, "minimal: %s cannot be read; check the path\n", argv[1]);
     return 3;
   }
   result = start(&character, bytes, size);
-  free(bytes); /* the model keeps a copy */
+  free(bytes); /* the model has its own copy */
   if (!result) result = approach(&character);
   if (result) fprintf(stderr, "%s (%s)\n", nook_last_message(), nook_result_name(result));
   stop(&character);

@@ -1,14 +1,14 @@
-/* The frame of main.c with the result left on the GPU, for an engine that has OpenGL 3.3 or newer.
+/* The frame of main.c for an engine that has OpenGL 3.3 or newer: the result stays on the GPU.
  *
- * The OpenGL functions come in as pointers because this file includes no loader; an engine calls its own. */
-#include "minimal_gl.h"
+ * The OpenGL functions come in as pointers because this file includes no loader. An engine calls its own. */
+#include "samples/minimal/minimal_gl.h"
 
 /* ---- 1. Once for each OpenGL context ---- */
 nook_result minimal_gl_start(nook_context context, nook_gl_proc_fn get_proc, void* user, nook_gl* gl) {
   nook_gl_desc desc;
   nook_result r = nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION);
   if (r) return r;
-  desc.get_proc = get_proc; /* such as a wrapper of glfwGetProcAddress */
+  desc.get_proc = get_proc; /* for example a wrapper of glfwGetProcAddress */
   desc.get_proc_user = user;
   return nook_gl_create(context, &desc, gl);
 }

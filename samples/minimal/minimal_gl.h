@@ -1,4 +1,4 @@
-/* What minimal_gl.c offers, and the three OpenGL functions that it calls. */
+/* The functions of minimal_gl.c, and the three OpenGL functions that they call. */
 #ifndef MINIMAL_GL_H
 #define MINIMAL_GL_H
 

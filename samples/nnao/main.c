@@ -1,9 +1,11 @@
-/* The smallest user of the screen-space pass: a room without a display, before and after.
+/* The smallest program that uses the screen-space pass. It draws a room before and after, without a display.
  *
- *   nnao [FOLDER] [RADIUS]     writes before.png, after.png and ao.png; the radius in metres, 0.5 if not
- * given
+ *   nnao [FOLDER] [RADIUS]
  *
- * An engine needs the three marked regions; offscreen.c, room.c and picture.c stand in for the engine. */
+ * It writes before.png, after.png and ao.png. The radius is in metres and 0.5 by default.
+ *
+ * An engine needs the three marked regions. The rest of this file, room.c and samples/offscreen stand in for
+ * the engine. */
 #include <math.h>
 #include <nook/nook_nnao.h>
 #include <stddef.h>
@@ -11,9 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "offscreen.h"
-#include "picture.h"
-#include "room.h"
+#include "samples/nnao/room.h"
+#include "samples/offscreen/offscreen.h"
+#include "samples/offscreen/picture.h"
 
 enum { width = 960, height = 540 };
 
@@ -24,7 +26,7 @@ static const char vertex_text[] =
     "uniform mat4 view, projection; out vec3 normal_ws, colour;\n"
     "void main() { normal_ws = normal; colour = albedo; gl_Position = projection * view * vec4(position, "
     "1.0); }\n";
-/* Ambient light from everywhere, times AO, and one lamp that AO does not touch. */
+/* Ambient light comes from everywhere and is multiplied by AO. AO does not touch the one lamp. */
 static const char fragment_text[] =
     "#version 330 core\n"
     "in vec3 normal_ws, colour; uniform sampler2D ao; uniform bool use_ao; out vec4 pixel;\n"
@@ -40,7 +42,7 @@ typedef struct Engine {
   float view[16], projection[16];
 } Engine;
 
-/* Column-major. Looks from above the room's open corner to its middle. */
+/* The camera looks from above the room's open corner to its middle. Matrices are column-major. */
 static void place_camera(Engine* e) {
   const float eye[3] = {1.2F, 1.9F, 3.2F}, yaw = 0.42F, pitch = -0.30F, near_m = 0.1F, far_m = 50.0F;
   const float cy = cosf(yaw), sy = sinf(yaw), cp = cosf(pitch), sp = sinf(pitch);
@@ -89,7 +91,7 @@ static int start_engine(Engine* e) {
   return e->depth_framebuffer && e->framebuffer;
 }
 
-/* Draws the room; ao 0: without. */
+/* Draws the room. If ao is 0, it is drawn without AO. */
 static void draw_room(const Engine* e, GLuint framebuffer, GLuint ao) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, width, height);
@@ -114,7 +116,7 @@ static int save(const char* folder, const char* name) {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, rgb);
     ok = picture_write(path, rgb, width, height);
-    if (!ok) fprintf(stderr, "nnao: %s cannot be written\n", path);
+    if (!ok) fprintf(stderr, "nnao: %s cannot be written; check that its folder exists\n", path);
   }
   free(rgb);
   return ok;
@@ -143,7 +145,7 @@ static nook_result start_pass(Pass* p) {
   return r;
 }
 
-/* ---- 2. Each frame, once depth is drawn ---- */
+/* ---- 2. Each frame, after depth has been drawn ---- */
 static nook_result describe_frame(const Engine* e, float radius_m, nook_nnao_frame_desc* frame) {
   nook_result r = nook_nnao_frame_desc_init(frame, sizeof *frame, NOOK_VERSION);
   if (r) return r;
@@ -155,7 +157,7 @@ static nook_result describe_frame(const Engine* e, float radius_m, nook_nnao_fra
   return NOOK_OK;
 }
 
-/* *ao is the texture that the lighting reads. */
+/* Returns in *ao the texture that the lighting reads. */
 static nook_result run_pass(Pass* p, const Engine* e, float radius_m, GLuint* ao) {
   nook_nnao_frame_desc frame;
   nook_nnao_info info = {0};
@@ -168,7 +170,7 @@ static nook_result run_pass(Pass* p, const Engine* e, float radius_m, GLuint* ao
   return r;
 }
 
-/* The AO alone, written over the colours: what NOOK_NNAO_TARGET_TEXTURE is for. */
+/* Writes the AO alone over the colours, which is what NOOK_NNAO_TARGET_TEXTURE is for. */
 static nook_result show_ao(Pass* p, const Engine* e, float radius_m) {
   nook_nnao_frame_desc frame;
   nook_result r = describe_frame(e, radius_m, &frame);
@@ -178,7 +180,7 @@ static nook_result show_ao(Pass* p, const Engine* e, float radius_m) {
   return nook_nnao_render(p->nnao, &frame);
 }
 
-/* ---- 3. At the end: any order will do ---- */
+/* ---- 3. At the end, in any order ---- */
 static void stop_pass(Pass* p) {
   nook_nnao_destroy(&p->nnao);
   nook_gl_destroy(&p->gl);

@@ -1,4 +1,4 @@
-#include "room.h"
+#include "samples/nnao/room.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,7 +27,8 @@ static void put(Mesh* m, float px, float py, float pz, float nx, float ny, float
   m->vertices[m->count++] = v;
 }
 
-/* One side of a box: axis is the normal's, side 0 or 1. */
+/* Adds one side of a box. The axis is that of the normal, and the side is 0 for the low end or 1 for the high
+ * one. */
 static void put_side(Mesh* m, const float low[3], const float high[3], int axis, int side) {
   static const int corners[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -48,7 +49,8 @@ static void put_box(Mesh* m, float x, float y, float z, float width, float heigh
     for (int side = 0; side < 2; ++side) put_side(m, low, high, axis, side);
 }
 
-/* A surface of revolution round a vertical axis, from (r0, y0) to (r1, y1), with the normals' slopes. */
+/* Adds a surface of revolution round a vertical axis, from (r[0], y[0]) to (r[1], y[1]). The normals have the
+ * components nr away from the axis and ny upwards. */
 static void put_ring(Mesh* m, float x, float z, const float r[2], const float y[2], const float nr[2],
                      const float ny[2]) {
   enum { sides = 48 };

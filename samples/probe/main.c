@@ -1,22 +1,24 @@
-/* The smallest user of probes: spheres from rough to glossy, and a character, under the light of a probe.
+/* The smallest program that uses a probe. It draws spheres from glossy to rough, and a character, in the
+ * light of a probe.
  *
  *   probe PROBE.nook OUT.png [CHARACTER.glb MODEL.nook]
  *
- * PROBE.nook is made from any map by `nook bake probe MAP.hdr -o PROBE.nook`, of lobes, its default. The
- * upper row of spheres is metal, the lower one plastic; roughness grows from left to right. A character has
- * the directional occlusion that its model gives it under the same lobes. An engine needs the two marked
- * regions, here and in shapes.c. */
+ * `nook bake probe MAP.hdr -o PROBE.nook` makes PROBE.nook from any map; it has to have lobes, which is the
+ * default. The spheres of the upper row are metal and those of the lower row are plastic. Their roughness
+ * grows from left to right. The character has the directional occlusion that its model gives under the same
+ * lobes. An engine needs the marked regions, here and in shapes.c. */
 #include <math.h>
 #include <nook/nook_gl_probe.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "offscreen.h"
-#include "picture.h"
-#include "shapes.h"
+#include "samples/offscreen/offscreen.h"
+#include "samples/offscreen/picture.h"
+#include "samples/probe/shapes.h"
 
-enum { width = 1280, height = 540, samples_across = 2 }; /* drawn twice as large and averaged */
+/* The picture is drawn twice as large and averaged. */
+enum { width = 1280, height = 540, samples_across = 2 };
 
 static const char vertex_text[] =
     "#version 330 core\n"
@@ -36,7 +38,7 @@ static const char fragment_end[] =
     "void main() {\n"
     "  NookProbePlace probe = nook_probe_place(position_ws);\n"
     "  vec3 v = normalize(eye_ws - position_ws), n = normalize(normal_ws), light;\n"
-    /* Interpolated normals turn away from the eye at silhouettes, where nothing would be reflected. */
+    /* At silhouettes interpolated normals may face away from the eye, and then nothing would be reflected. */
     "  n = normalize(n + max(0.02 - dot(n, v), 0.0) * v);\n"
     "  if (sky) light = max(nook_probe_radiance(probe, -v), 0.0);\n"
     "  else {\n"
@@ -81,7 +83,7 @@ static nook_result start_light(Light* l, const void* bytes, size_t size) {
   return r;
 }
 
-/* ---- At the end: any order will do ---- */
+/* ---- At the end, in any order ---- */
 static void stop_light(Light* l) {
   nook_gl_probe_destroy(&l->uploaded);
   nook_probe_destroy(&l->probe);
@@ -89,7 +91,8 @@ static void stop_light(Light* l) {
   nook_context_destroy(&l->context);
 }
 
-/* A white surface under constant light of the probe's mean radiance comes out at three quarters. */
+/* The exposure at which a white surface in constant light of the probe's mean radiance has three quarters of
+ * full brightness. */
 static float exposure_for(const Light* l) {
   float sum = 0;
   for (unsigned i = 0; i < l->lobe_count; ++i) {
@@ -182,7 +185,7 @@ static void draw_all(GLuint program, const Light* l, const Shape* sphere, const 
   }
 }
 
-/* The mean of each block of samples. */
+/* Writes the picture, in which each pixel is the mean of its block of samples. */
 static int save(const char* path) {
   const int s = samples_across;
   unsigned char* const large = malloc((size_t)(width * s) * (size_t)(height * s) * 3);
@@ -200,7 +203,7 @@ static int save(const char* path) {
             (unsigned char)((at[0] + at[3] + at[row] + at[row + 3] + 2) / 4);
       }
     ok = picture_write(path, rgb, width, height);
-    if (!ok) fprintf(stderr, "probe: %s cannot be written\n", path);
+    if (!ok) fprintf(stderr, "probe: %s cannot be written; check that its folder exists\n", path);
   }
   free(rgb);
   free(large);

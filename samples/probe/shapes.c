@@ -1,4 +1,4 @@
-#include "shapes.h"
+#include "samples/probe/shapes.h"
 
 #include <math.h>
 #include <nook/nook_bake.h>
@@ -61,12 +61,12 @@ unsigned char* read_bytes(const char* path, size_t* size) {
   *size = bytes ? fread(bytes, 1, (size_t)length, file) : 0;
   if (file) fclose(file);
   if (bytes && *size == (size_t)length) return bytes;
-  fprintf(stderr, "probe: %s cannot be read\n", path);
+  fprintf(stderr, "probe: %s cannot be read; check the path\n", path);
   free(bytes);
   return NULL;
 }
 
-/* The file's vertices in the middle of its first clip, or at rest. */
+/* Poses the file's vertices in the middle of its first clip, or in the rest pose if there is no clip. */
 static nook_result pose_character(Shape* shape, nook_bake_character character,
                                   const nook_bake_character_info* info, float* bones) {
   float duration_s = 0;

@@ -1,9 +1,9 @@
-// Directional occlusion at the key points of instances with a light: the colour of their shadow and the added occlusion by
-// channel.
+// Directional occlusion at the key points of instances with a light: the colour of their shadow, and the
+// added occlusion of each channel.
 #include "shaders/character/key_points.glsl"
 #include "shaders/character/light.glsl"
 
-layout(std430, binding = 5) writeonly buffer NookColours {
+layout(std430, binding = NOOK_BINDING_COLOURS) writeonly buffer NookColours {
   vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow; added occlusion
 };
 
@@ -11,8 +11,8 @@ void nook_gather_sphere(inout NookBands bands, vec4 sphere, NookPoint point) {
   vec3 o = (sphere.xyz - point.position) * sphere.w;
   float y = nook_shadow_term(dot(o, point.normal), dot(o, o));
   NookSight sight = nook_sight(point.normal, o);
-  float k = nook_concentration(sight, max(y, nook_smallest_share), nook_self_concentration);
-  nook_gather(bands, point.normal * nook_directional_cosine + sight.towards * k, nook_raised(y, nook_gamma));
+  float k = nook_concentration(sight, max(y, NOOK_SMALLEST_SHARE), NOOK_SELF_CONCENTRATION);
+  nook_gather(bands, point.normal * NOOK_DIRECTIONAL_COSINE + sight.towards * k, nook_raised(y, nook_gamma));
 }
 
 NookBands nook_no_bands() { return NookBands(0.0, vec3(0.0), vec3(0.0), vec3(0.0)); }
@@ -27,7 +27,8 @@ NookBands nook_gather_spheres(uint first, uint count, NookPoint point) {
   return bands;
 }
 
-// The spheres of a caster as one: sum of their directions by what each takes; w is that sum's own.
+// The spheres of a caster as one: the sum of their directions, weighted by their shares; w is the sum of the
+// shares.
 vec4 nook_joint_sight(uint first, uint count, NookPoint point) {
   vec4 joint = vec4(0.0);
   for (uint begin = 0u; begin < count; begin += nook_tile_size) {
@@ -69,8 +70,9 @@ void main() {
   }
   vec3 inverse = nook_inverse_hemisphere(light, surface.normal);
   for (uint c = 0u; c < record.caster_count; ++c) {
-    uvec4 caster = nook_caster[record.first_caster + 2u * c];
-    uint spheres = nook_caster[record.first_caster + 2u * c + 1u].x;
+    uint at = record.first_caster + uint(NOOK_CASTER_UVEC4S) * c;
+    uvec4 caster = nook_caster[at];
+    uint spheres = nook_caster[at + 1u].x;
     vec3 offset = uintBitsToFloat(caster.xyz);
     if (nook_composed != 0) {
       NookPoint point = NookPoint(surface.position - offset, surface.normal);
@@ -81,7 +83,7 @@ void main() {
       coloured += nook_coloured_sum(light, others, fitted.normal);
     }
   }
-  uint grounds = uint(nook_light[light + 1u].w);  // 1 or 0: the first of the exact spheres is the ground
+  uint grounds = uint(nook_light[light + uint(NOOK_LIGHT_DARKEST)].w);  // 1 or 0: the first of the exact spheres is the ground
   NookBands ground = nook_no_bands(), free = nook_no_bands();
   for (uint i = 0u; i < record.exact_count; ++i) {
     vec4 sphere = uintBitsToFloat(nook_caster[record.first_exact + i]);
@@ -96,7 +98,7 @@ void main() {
       open = nook_left(open, share, nook_ground_ratio(light, surface.normal));
     } else {
       NookSight sight = nook_sight(surface.normal, o);
-      open = nook_left(open, share, nook_light_ratio(light, inverse, surface.normal, sight, share, 1e6));
+      open = nook_left(open, share, nook_light_ratio(light, inverse, surface.normal, sight, share, NOOK_NO_SHARPEST));
     }
   }
   if (nook_composed == 0) {
@@ -104,7 +106,7 @@ void main() {
     coloured += nook_coloured_sum(light, ground, fitted.normal) + nook_coloured_sum(light, free, fitted.normal);
   }
   if (gl_GlobalInvocationID.x < nook_key_point_count) {
-    uint place = 2u * (record.place * nook_shadow_stride + nook_shadow_offset + key_point);
+    uint place = uint(NOOK_COLOUR_VEC4S) * (record.place * nook_shadow_stride + nook_shadow_offset + key_point);
     nook_colour[place] = vec4(norm > 0.0 ? coloured / norm : vec3(1.0), 0.0);
     nook_colour[place + 1u] = vec4(1.0 - open * exp(-depth), 0.0);
   }

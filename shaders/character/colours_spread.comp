@@ -1,19 +1,20 @@
-// The colours of key points that a coarser level of detail evaluates to all of them. One thread a key point; y is the instance.
+// Derives the colours of all key points from those that a coarser level of detail evaluates. There is one
+// thread for each key point; y is the instance.
 #include "shaders/character/instance.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = NOOK_GROUP_SIZE) in;
 
-layout(std430, binding = 5) buffer NookColours {
+layout(std430, binding = NOOK_BINDING_COLOURS) buffer NookColours {
   vec4 nook_colour[];  // two for each of all key points, then for the evaluated ones
 };
-layout(std430, binding = 6) readonly buffer NookSpread {
+layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookSpread {
   uint nook_spread[];  // for each level and key point: evaluated key point, scale, offset
 };
 
-layout(location = 0) uniform uint nook_first_record;
-layout(location = 1) uniform uint nook_key_point_count;
-layout(location = 2) uniform uint nook_shadow_stride;
-layout(location = 4) uniform uint nook_level;
+layout(location = NOOK_LOCATION_SPREAD_FIRST_RECORD) uniform uint nook_first_record;
+layout(location = NOOK_LOCATION_SPREAD_KEY_POINT_COUNT) uniform uint nook_key_point_count;
+layout(location = NOOK_LOCATION_SPREAD_SHADOW_STRIDE) uniform uint nook_shadow_stride;
+layout(location = NOOK_LOCATION_SPREAD_LEVEL) uniform uint nook_level;
 
 void main() {
   uint k = gl_GlobalInvocationID.x;
@@ -21,7 +22,8 @@ void main() {
   NookRecord record = nook_read_record(nook_first_record + gl_WorkGroupID.y);
   if (record.light == 0u) return;
   uint first = record.place * nook_shadow_stride;
-  uint source = first + nook_key_point_count + nook_spread[3u * (nook_level * nook_key_point_count + k)];
-  nook_colour[2u * (first + k)] = nook_colour[2u * source];
-  nook_colour[2u * (first + k) + 1u] = nook_colour[2u * source + 1u];
+  uint source = first + nook_key_point_count + nook_spread[uint(NOOK_SPREAD_WORDS) * (nook_level * nook_key_point_count + k)];
+  uint to = uint(NOOK_COLOUR_VEC4S) * (first + k), from = uint(NOOK_COLOUR_VEC4S) * source;
+  nook_colour[to] = nook_colour[from];
+  nook_colour[to + 1u] = nook_colour[from + 1u];
 }

@@ -1,24 +1,27 @@
 // What a host's shader calls for the light of a scene's instances. `light` is that of nook_gl_light_view; normals are unit
 // vectors, world space; colours linear RGB.
+#include "shaders/character/layout.h"
 #include "shaders/probe/irradiance.glsl"
 
-// sdk/src/gl/character/scene_lights.cpp lays it out.
+// sdk/src/gl/character/scene_lights.cpp defines the layout.
 uniform samplerBuffer nook_scene_lights;
 
-// Irradiance of the lobes on an open surface; fits of probes may ring a little below 0, which is cut off.
+// Returns the irradiance of the lobes on an open surface. Fits of probes may ring slightly below 0; negative
+// values are clamped.
 vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
-  int count = int(texelFetch(nook_scene_lights, light).x);
+  int count = int(texelFetch(nook_scene_lights, light + NOOK_LIGHT_HEAD).x);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < count; ++i) {
-    vec4 shape = texelFetch(nook_scene_lights, light + 12 + 2 * i);
-    vec3 amplitude = texelFetch(nook_scene_lights, light + 13 + 2 * i).xyz;
+    int lobe = light + NOOK_LIGHT_LOBES + NOOK_LIGHT_LOBE_TEXELS * i;
+    vec4 shape = texelFetch(nook_scene_lights, lobe);
+    vec3 amplitude = texelFetch(nook_scene_lights, lobe + 1).xyz;
     sum += nook_probe_lobe_irradiance(NookLobe(shape.xyz, shape.w, amplitude, 0.0), normal_ws);
   }
   return max(sum, 0.0);
 }
 
-// What the bodies, the ground and the occluders round the vertex leave of it; directional_ao is the vertex' value of
-// nook_gl_light_view.
+// Returns the irradiance that remains with the occlusion by bodies, ground and occluders. directional_ao is
+// the vertex' value of nook_gl_light_view.
 vec3 nook_scene_irradiance(int light, vec3 normal_ws, vec3 directional_ao) {
   return nook_scene_open_irradiance(light, normal_ws) * directional_ao;
 }

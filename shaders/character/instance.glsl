@@ -1,10 +1,12 @@
 // What the compute passes share: where an instance's data lies. Positions are relative to the instance's origin, so that a
 // scene far from the world's origin keeps its digits.
+#include "shaders/character/constants.h"
+#include "shaders/character/layout.h"
 
-layout(std430, binding = 0) readonly buffer NookRecords {
+layout(std430, binding = NOOK_BINDING_RECORDS) readonly buffer NookRecords {
   uvec4 nook_record[];  // two for each instance, see NookRecord
 };
-layout(std430, binding = 1) readonly buffer NookBones {
+layout(std430, binding = NOOK_BINDING_BONES) readonly buffer NookBones {
   vec4 nook_bone[];  // three rows of each 3x4 matrix
 };
 
@@ -18,9 +20,7 @@ struct NookRecord {
 };
 
 NookRecord nook_read_record(uint instance) {
-  uvec4 a = nook_record[2u * instance], b = nook_record[2u * instance + 1u];
+  uint first = uint(NOOK_RECORD_UVEC4S) * instance;
+  uvec4 a = nook_record[first], b = nook_record[first + 1u];
   return NookRecord(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
-
-// The smallest radius that counts, metres; min_sphere_radius of sdk/src/character/shadow_kernels.h.
-const float nook_min_sphere_radius = 1e-6;

@@ -1,24 +1,25 @@
 // What one sphere does to one key point; the same formulas, and the same names, as sdk/src/character/kernel.h.
 // delta2: squared distance of the centre in radii; xi: height of the centre above the key point's horizon in radii.
+#include "shaders/character/constants.h"
 
 float nook_visibility_paper(float xi) { return max(xi * inversesqrt(4.0 * xi * xi + 1.0) + 0.5, 0.0); }
 
 float nook_shadow_term(float xi, float delta2) {
-#if NOOK_KERNEL_FORM == 0
+#if NOOK_KERNEL_FORM == NOOK_KERNEL_PAPER
   // Le et al. 2019, slide 18.
   float e = sqrt(delta2) - 1.0;
   float inside = max(-e, 0.0);
   return (0.75 + 6.0 * inside) / (1.0 + 4.0 * max(e, inside)) * nook_visibility_paper(xi);
-#elif NOOK_KERNEL_FORM == 1
+#elif NOOK_KERNEL_FORM == NOOK_KERNEL_NOOK
   // Below the horizon xi + sqrt(xi^2 + 1) cancels; rounding must not leave a negative number for the powers.
-  float t = inversesqrt(delta2 + 0.6);
+  float t = inversesqrt(delta2 + NOOK_KERNEL_CORE);
   return max(0.5 * (xi + sqrt(xi * xi + 1.0)), 0.0) * t * t * t;
 #else
   return 1.5 / (1.0 + 2.0 * delta2) * nook_visibility_paper(xi);
 #endif
 }
 
-// Powers of the norm, slide 20. The usual exponents need no logarithm.
+// Powers of the norm (slide 20). The usual exponents need no logarithm.
 float nook_raised(float y, float gamma) {
   if (gamma == 1.5) return y * sqrt(y);
   if (gamma == 2.0) return y * y;
@@ -27,14 +28,14 @@ float nook_raised(float y, float gamma) {
 }
 float nook_norm_root(float sum, float gamma) { return sum > 0.0 ? pow(sum, 1.0 / gamma) : 0.0; }
 
-// acos within 7e-5 (Abramowitz and Stegun 4.4.45); the precision of GLSL's own is not specified.
+// acos within 7e-5 (Abramowitz and Stegun 4.4.45). GLSL does not specify the precision of its own acos.
 float nook_arc_cosine(float x) {
   float a = abs(x);
   float r = sqrt(max(1.0 - a, 0.0)) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - 0.0187293 * a)));
   return x < 0.0 ? 3.14159265 - r : r;
 }
 
-// Share of the cosine-weighted hemisphere that a sphere covers, clipped at the horizon.
+// Returns the share of the cosine-weighted hemisphere that a sphere covers, clipped at the horizon.
 float nook_form_factor_exact(float xi, float delta2) {
   float h2 = max(delta2, 1.0);
   float inverse_h = inversesqrt(h2);
@@ -48,14 +49,15 @@ float nook_form_factor_exact(float xi, float delta2) {
   return f + max(1.0 - f, 0.0) * max(1.0 - delta2, 0.0);
 }
 
-// The same without angles, for the many spheres of a caster; derived in sdk/src/character/kernel.h.
+// Returns the same share without angles, for the many spheres of a caster; sdk/src/character/kernel.h has the
+// derivation.
 float nook_form_factor_fast(float xi, float delta2) {
   float a = inversesqrt(max(delta2, 1.0));
   float a2 = a * a;
   float b = sqrt(max(1.0 - a2, 0.0));
   float t = 0.5 * clamp(xi, -1.0, 1.0) + 0.5;
   float v = t - t * t;
-  float p = b * (v * (4.60908 - 5.21348 * b) + (2.22202 * b - 3.22202));
+  float p = b * (v * (NOOK_FORM_FACTOR_0 + NOOK_FORM_FACTOR_1 * b) + (NOOK_FORM_FACTOR_3 * b + NOOK_FORM_FACTOR_2));
   float f = max(a2 * a * max(xi, 1.0) * (v * p + t), 0.0);
   return f + max(1.0 - f, 0.0) * max(1.0 - delta2, 0.0);
 }

@@ -1,36 +1,36 @@
-// What the passes over key points share: one thread a key point, y is the instance. Spheres pass through shared memory, which
-// all threads of the group then read.
+// Declarations that the passes over key points share. There is one thread for each key point; y is the
+// instance. Spheres are copied to shared memory, from which all threads of the group read.
 #include "shaders/character/instance.glsl"
 #include "shaders/character/kernel.glsl"
 
-const uint nook_tile_size = 64u;
-layout(local_size_x = 64) in;
+const uint nook_tile_size = uint(NOOK_GROUP_SIZE);
+layout(local_size_x = NOOK_GROUP_SIZE) in;
 
-layout(std430, binding = 2) readonly buffer NookCasters {
+layout(std430, binding = NOOK_BINDING_CASTERS) readonly buffer NookCasters {
   // Two for each caster: its origin minus the receiver's, first sphere; number of spheres. Or one for each exact
   // sphere: centre, 1 / radius. Floats as bits.
   uvec4 nook_caster[];
 };
-layout(std430, binding = 3) readonly buffer NookSpheres {
+layout(std430, binding = NOOK_BINDING_SPHERES) readonly buffer NookSpheres {
   vec4 nook_sphere[];
 };
-layout(std430, binding = 4) readonly buffer NookWeights {
+layout(std430, binding = NOOK_BINDING_WEIGHTS) readonly buffer NookWeights {
   float nook_caster_weight[];
 };
-layout(std430, binding = 6) readonly buffer NookKeyPoints {
+layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookKeyPoints {
   vec4 nook_rest_key_point[];  // six for each: position, normal, surface position, surface normal, bones, weights
 };
 
-layout(location = 0) uniform uint nook_first_record;
-layout(location = 1) uniform uint nook_first_sphere;  // of the level of detail, in the instance's spheres
-layout(location = 2) uniform uint nook_sphere_count;
-layout(location = 3) uniform uint nook_first_key_point;  // of the level of detail
-layout(location = 4) uniform uint nook_key_point_count;
-layout(location = 5) uniform float nook_gamma;
-layout(location = 6) uniform int nook_self;      // 0: no shadow from the instance itself
-layout(location = 7) uniform int nook_composed;  // 0: added spheres join the one norm
-layout(location = 8) uniform uint nook_shadow_stride;
-layout(location = 9) uniform uint nook_shadow_offset;  // in the instance's shadows
+layout(location = NOOK_LOCATION_FIRST_RECORD) uniform uint nook_first_record;
+layout(location = NOOK_LOCATION_FIRST_SPHERE) uniform uint nook_first_sphere;  // of the level of detail, in the instance's spheres
+layout(location = NOOK_LOCATION_SPHERE_COUNT) uniform uint nook_sphere_count;
+layout(location = NOOK_LOCATION_FIRST_KEY_POINT) uniform uint nook_first_key_point;  // of the level of detail
+layout(location = NOOK_LOCATION_KEY_POINT_COUNT) uniform uint nook_key_point_count;
+layout(location = NOOK_LOCATION_GAMMA) uniform float nook_gamma;
+layout(location = NOOK_LOCATION_SELF) uniform int nook_self;      // 0: no shadow from the instance itself
+layout(location = NOOK_LOCATION_COMPOSED) uniform int nook_composed;  // 0: added spheres join the one norm
+layout(location = NOOK_LOCATION_SHADOW_STRIDE) uniform uint nook_shadow_stride;
+layout(location = NOOK_LOCATION_SHADOW_OFFSET) uniform uint nook_shadow_offset;  // in the instance's shadows
 
 shared vec4 nook_tile[nook_tile_size];
 shared float nook_tile_weight[nook_tile_size];
@@ -39,13 +39,13 @@ struct NookPoint {
   vec3 position, normal;
 };
 
-// Height above the horizon in radii, and squared distance in radii.
+// Returns the height above the horizon and the squared distance, both in radii.
 vec2 nook_see(vec4 sphere, NookPoint point) {
   vec3 d = (sphere.xyz - point.position) * sphere.w;
   return vec2(dot(d, point.normal), dot(d, d));
 }
 
-// Every thread of the group comes here with the same arguments.
+// Every thread of the group must call this with the same arguments.
 void nook_stage(uint first, uint count) {
   barrier();
   uint i = gl_LocalInvocationID.x;
@@ -56,13 +56,14 @@ void nook_stage(uint first, uint count) {
   barrier();
 }
 
-// Linear blend of up to four bones; the normal is renormalised, and stays zero where opposite bones cancel it.
+// Blends up to four bones linearly. The normal is renormalised, and stays zero where opposite bones cancel
+// it.
 void nook_pose(uint key_point, uint first_bone, out NookPoint fitted, out NookPoint surface) {
-  uint k = 6u * key_point;
+  uint k = uint(NOOK_KEY_POINT_VEC4S) * key_point;
   vec4 bones = nook_rest_key_point[k + 4u], weights = nook_rest_key_point[k + 5u];
   vec4 x = vec4(0.0), y = vec4(0.0), z = vec4(0.0);
   for (int b = 0; b < 4; ++b) {
-    uint row = 3u * (first_bone + uint(bones[b]));
+    uint row = uint(NOOK_BONE_ROWS) * (first_bone + uint(bones[b]));
     x += weights[b] * nook_bone[row];
     y += weights[b] * nook_bone[row + 1u];
     z += weights[b] * nook_bone[row + 2u];

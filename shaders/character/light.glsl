@@ -1,27 +1,26 @@
 // The light of an instance and what stands in it; derived in sdk/src/character/directional.h and directional_bands.h.
+#include "shaders/character/constants.h"
+#include "shaders/character/layout.h"
 #include "shaders/probe/lobe.glsl"
 
-layout(std430, binding = 7) readonly buffer NookLights {
-  vec4 nook_light[];  // sdk/src/gl/character/scene_lights.cpp lays it out
+layout(std430, binding = NOOK_BINDING_LIGHTS) readonly buffer NookLights {
+  vec4 nook_light[];
 };
 
-const float nook_directional_cosine = 2.133;
-const float nook_caster_concentration = 2.0;
-const float nook_self_concentration = 1.0, nook_self_strength = 0.75;
-const float nook_smallest_share = 1e-4, nook_largest_ratio = 8.0;
-
 float nook_lobe_norm(float v) {
-  float q = (((0.26666667 * v + 0.66666667) * v + 1.3333333) * v + 2.0) * v + 2.0;
+  float q = (((NOOK_LOBE_NORM_4 * v + NOOK_LOBE_NORM_3) * v + NOOK_LOBE_NORM_2) * v + NOOK_LOBE_NORM_1) * v + NOOK_LOBE_NORM_0;
   return q / (v * q + 1.0);
 }
 
-// Mean of the lobes, less what the ground hides of each, under the density exp(dot(b, s)).
+// Returns the mean of the lobes under the density exp(dot(b, s)), without the part of each lobe that the
+// ground hides.
 vec3 nook_mean_radiance(uint light, vec3 b) {
   float length_b = length(b);
   int count = int(nook_light[light].x);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < count; ++i) {
-    vec4 shape = nook_light[light + 12u + 2u * uint(i)], amplitude = nook_light[light + 13u + 2u * uint(i)];
+    uint lobe = light + uint(NOOK_LIGHT_LOBES) + uint(NOOK_LIGHT_LOBE_TEXELS) * uint(i);
+    vec4 shape = nook_light[lobe], amplitude = nook_light[lobe + 1u];
     float m = length(b + shape.xyz * shape.w);
     sum += exp(min(m - (length_b + shape.w), 0.0)) * nook_lobe_norm(m) * amplitude.w * amplitude.xyz;
   }
@@ -29,10 +28,10 @@ vec3 nook_mean_radiance(uint light, vec3 b) {
 }
 
 vec3 nook_inverse_hemisphere(uint light, vec3 n) {
-  return 1.0 / max(nook_mean_radiance(light, n * nook_directional_cosine), nook_light[light + 1u].xyz);
+  return 1.0 / max(nook_mean_radiance(light, n * NOOK_DIRECTIONAL_COSINE), nook_light[light + uint(NOOK_LIGHT_DARKEST)].xyz);
 }
 
-// Where something stands above the horizon: unit direction, and its cosine to the normal.
+// The direction to the part of a caster above the horizon, a unit vector, and its cosine to the normal.
 struct NookSight {
   vec3 towards;
   float cosine;
@@ -51,36 +50,37 @@ float nook_concentration(NookSight sight, float f, float concentration) {
 }
 
 vec3 nook_light_ratio(uint light, vec3 inverse, vec3 n, NookSight sight, float share, float sharpest) {
-  float k = min(nook_concentration(sight, max(share, nook_smallest_share), nook_caster_concentration), sharpest);
-  vec3 behind = nook_mean_radiance(light, n * nook_directional_cosine + sight.towards * k);
-  return clamp(behind * inverse, 0.0, nook_largest_ratio);
+  float k = min(nook_concentration(sight, max(share, NOOK_SMALLEST_SHARE), NOOK_CASTER_CONCENTRATION), sharpest);
+  vec3 behind = nook_mean_radiance(light, n * NOOK_DIRECTIONAL_COSINE + sight.towards * k);
+  return clamp(behind * inverse, 0.0, NOOK_LARGEST_RATIO);
 }
 
-// Share below the horizon of a lobe of sharpness m whose vector rises `height` above it.
+// Returns the share below the horizon of a lobe of sharpness m whose vector rises `height` above it.
 float nook_share_below(float height, float m) {
-  float x = height * inversesqrt(m * 2.0 * m / (m + 4.0) + 5.09), a = abs(x);
-  float p = (((0.078108 * a + 0.000972) * a + 0.230389) * a + 0.278393) * a + 1.0;
+  float x = height * inversesqrt(m * 2.0 * m / (m + 4.0) + NOOK_BELOW_WIDTH), a = abs(x);
+  float p = (((NOOK_BELOW_4 * a + NOOK_BELOW_3) * a + NOOK_BELOW_2) * a + NOOK_BELOW_1) * a + 1.0;
   float p2 = min(p * p, 1e9), tail = 0.5 / (p2 * p2);
   return x < 0.0 ? 1.0 - tail : tail;
 }
 
 vec3 nook_ground_ratio(uint light, vec3 n) {
-  float h = nook_directional_cosine;
+  float h = NOOK_DIRECTIONAL_COSINE;
   vec3 b = n * h, up = nook_light[light].yzw, all = vec3(0.0), below = vec3(0.0);
   int count = int(nook_light[light].x);
   for (int i = 0; i < count; ++i) {
-    vec4 shape = nook_light[light + 12u + 2u * uint(i)];
-    vec3 amplitude = nook_light[light + 13u + 2u * uint(i)].xyz, v = b + shape.xyz * shape.w;
+    uint lobe = light + uint(NOOK_LIGHT_LOBES) + uint(NOOK_LIGHT_LOBE_TEXELS) * uint(i);
+    vec4 shape = nook_light[lobe];
+    vec3 amplitude = nook_light[lobe + 1u].xyz, v = b + shape.xyz * shape.w;
     float m = length(v);
     vec3 seen = exp(min(m - (h + shape.w), 0.0)) * nook_lobe_norm(m) * amplitude;
     all += seen;
     below += seen * nook_share_below(dot(v, up), m);
   }
-  vec3 inverse = 1.0 / (max(all, nook_lobe_norm(h) * nook_light[light + 1u].xyz) * nook_share_below(dot(b, up), h));
-  return clamp(below * inverse, 0.0, nook_largest_ratio);
+  vec3 inverse = 1.0 / (max(all, nook_lobe_norm(h) * nook_light[light + uint(NOOK_LIGHT_DARKEST)].xyz) * nook_share_below(dot(b, up), h));
+  return clamp(below * inverse, 0.0, NOOK_LARGEST_RATIO);
 }
 
-// Densities of spheres, gathered over bands 0 to 2.
+// The densities of spheres, summed in bands 0 to 2.
 struct NookBands {
   float scalar;
   vec3 vector, straight, mixed;  // straight: xx, yy, zz; mixed: xy, yz, zx
@@ -97,18 +97,18 @@ void nook_gather(inout NookBands bands, vec3 b, float weight) {
 }
 
 vec3 nook_light_of(uint light, NookBands bands) {
-  vec3 sum = bands.scalar * nook_light[light + 2u].xyz;
+  vec3 sum = bands.scalar * nook_light[light + uint(NOOK_LIGHT_SCALAR)].xyz;
   for (uint i = 0u; i < 3u; ++i)
-    sum += bands.vector[i] * nook_light[light + 3u + i].xyz + bands.straight[i] * nook_light[light + 6u + i].xyz +
-           bands.mixed[i] * nook_light[light + 9u + i].xyz;
+    sum += bands.vector[i] * nook_light[light + uint(NOOK_LIGHT_VECTOR) + i].xyz + bands.straight[i] * nook_light[light + uint(NOOK_LIGHT_STRAIGHT) + i].xyz +
+           bands.mixed[i] * nook_light[light + uint(NOOK_LIGHT_MIXED) + i].xyz;
   return sum;
 }
 
-// The sum of terms, each by the light that it takes.
+// Sums the terms, each times the light that it takes.
 vec3 nook_coloured_sum(uint light, NookBands gathered, vec3 n) {
   NookBands open = NookBands(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
-  nook_gather(open, n * nook_directional_cosine, 1.0);
-  vec3 ratio = nook_light_of(light, gathered) / max(nook_light_of(light, open), nook_light[light + 1u].xyz);
-  vec3 bounded = clamp(ratio, 0.0, nook_largest_ratio * gathered.scalar);
-  return nook_self_strength * bounded + (1.0 - nook_self_strength) * gathered.scalar;
+  nook_gather(open, n * NOOK_DIRECTIONAL_COSINE, 1.0);
+  vec3 ratio = nook_light_of(light, gathered) / max(nook_light_of(light, open), nook_light[light + uint(NOOK_LIGHT_DARKEST)].xyz);
+  vec3 bounded = clamp(ratio, 0.0, NOOK_LARGEST_RATIO * gathered.scalar);
+  return NOOK_SELF_STRENGTH * bounded + (1.0 - NOOK_SELF_STRENGTH) * gathered.scalar;
 }

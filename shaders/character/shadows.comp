@@ -1,7 +1,7 @@
 // The non-linear layer: shadow and added occlusion at the key points of an instance.
 #include "shaders/character/key_points.glsl"
 
-layout(std430, binding = 5) writeonly buffer NookShadows {
+layout(std430, binding = NOOK_BINDING_SHADOWS) writeonly buffer NookShadows {
   vec2 nook_shadow[];  // shadow, added occlusion
 };
 
@@ -35,7 +35,7 @@ float nook_depth(uint first, uint count, NookPoint point) {
 
 void main() {
   NookRecord record = nook_read_record(nook_first_record + gl_WorkGroupID.y);
-  // Threads beyond the end work on the last key point, so that all reach every barrier.
+  // Threads beyond the end evaluate the last key point, so that all of them reach every barrier.
   uint key_point = min(gl_GlobalInvocationID.x, nook_key_point_count - 1u);
   NookPoint fitted, surface;
   nook_pose(nook_first_key_point + key_point, record.first_bone, fitted, surface);
@@ -43,8 +43,9 @@ void main() {
   float norm = 0.0, depth = 0.0, open = 1.0;
   if (nook_self != 0) norm = nook_norm_sum(record.first_sphere + nook_first_sphere, nook_sphere_count, fitted);
   for (uint c = 0u; c < record.caster_count; ++c) {
-    uvec4 caster = nook_caster[record.first_caster + 2u * c];
-    uint spheres = nook_caster[record.first_caster + 2u * c + 1u].x;
+    uint at = record.first_caster + uint(NOOK_CASTER_UVEC4S) * c;
+    uvec4 caster = nook_caster[at];
+    uint spheres = nook_caster[at + 1u].x;
     vec3 offset = uintBitsToFloat(caster.xyz);
     if (nook_composed != 0)
       depth += nook_depth(caster.w, spheres, NookPoint(surface.position - offset, surface.normal));

@@ -1,32 +1,33 @@
-// The linear layer: AO of every vertex in file order from a few key points. One thread a vertex; y is the instance.
-// NOOK_LIGHT: directional occlusion, three floats a vertex; AO in all of them for an instance without light.
+// The linear layer: AO of every vertex in file order from a few key points. There is one thread for each
+// vertex; y is the instance. With NOOK_LIGHT the result is directional occlusion, three floats for each
+// vertex, which are all AO for an instance without light.
 #include "shaders/character/instance.glsl"
 #include "shaders/character/linear.glsl"
 
-layout(local_size_x = 128) in;
+layout(local_size_x = NOOK_VERTEX_GROUP_SIZE) in;
 
-layout(std430, binding = 5) readonly buffer NookShadows {
+layout(std430, binding = NOOK_BINDING_SHADOWS) readonly buffer NookShadows {
   vec2 nook_shadow[];
 };
-layout(std430, binding = 6) readonly buffer NookLinear {
+layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookLinear {
   // Welded vertex of each file vertex, then for each welded vertex: bias, two key points in a word for each pair of
   // influences, the alphas and the blend weights; each of these as an array over the welded vertices.
   uint nook_linear[];
 };
-layout(std430, binding = 7) writeonly buffer NookAo {
+layout(std430, binding = NOOK_BINDING_AO) writeonly buffer NookAo {
   float nook_ao[];
 };
 #if NOOK_LIGHT
-layout(std430, binding = 3) readonly buffer NookColours {
+layout(std430, binding = NOOK_BINDING_VERTEX_COLOURS) readonly buffer NookColours {
   vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow; added occlusion
 };
 #endif
 
-layout(location = 0) uniform uint nook_file_vertex_count;
-layout(location = 1) uniform uint nook_vertex_count;
-layout(location = 2) uniform uint nook_influence_pairs;
-layout(location = 3) uniform uint nook_shadow_stride;
-layout(location = 4) uniform int nook_self;
+layout(location = NOOK_LOCATION_FILE_VERTEX_COUNT) uniform uint nook_file_vertex_count;
+layout(location = NOOK_LOCATION_VERTEX_COUNT) uniform uint nook_vertex_count;
+layout(location = NOOK_LOCATION_INFLUENCE_PAIRS) uniform uint nook_influence_pairs;
+layout(location = NOOK_LOCATION_VERTEX_SHADOW_STRIDE) uniform uint nook_shadow_stride;
+layout(location = NOOK_LOCATION_VERTEX_SELF) uniform int nook_self;
 
 void main() {
   uint file_vertex = gl_GlobalInvocationID.x;
@@ -53,8 +54,8 @@ void main() {
     vec2 weight[2] = vec2[2](first, second);
     for (int j = 0; j < 2; ++j) {
       vec2 grey = nook_shadow[k[j]];
-      shadow += weight[j].x * grey.x * (lit ? nook_colour[2u * k[j]].xyz : vec3(1.0));
-      added += weight[j].y * (lit ? nook_colour[2u * k[j] + 1u].xyz : vec3(grey.y));
+      shadow += weight[j].x * grey.x * (lit ? nook_colour[uint(NOOK_COLOUR_VEC4S) * k[j]].xyz : vec3(1.0));
+      added += weight[j].y * (lit ? nook_colour[uint(NOOK_COLOUR_VEC4S) * k[j] + 1u].xyz : vec3(grey.y));
     }
   }
   uint vertex = 3u * (record.place * nook_file_vertex_count + file_vertex);

@@ -1,18 +1,20 @@
 // The linear layer of OpenGL 3.3: the shadows at key points come in a texture buffer, AO leaves by transform feedback. One
 // point a file vertex; its index picks the welded vertex whose attributes it reads.
+#include "shaders/character/layout.h"
 #include "shaders/character/linear.glsl"
 
-layout(location = 0) in float nook_bias;
-layout(location = 1) in uvec4 nook_key_points_0;
-layout(location = 2) in vec4 nook_alpha_0;
-layout(location = 3) in vec4 nook_blend_0;
+layout(location = NOOK_ATTRIBUTE_BIAS) in float nook_bias;
+layout(location = NOOK_ATTRIBUTE_FIRST_QUAD) in uvec4 nook_key_points_0;
+layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + 1) in vec4 nook_alpha_0;
+layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + 2) in vec4 nook_blend_0;
 #if NOOK_QUADS > 1
-layout(location = 4) in uvec4 nook_key_points_1;
-layout(location = 5) in vec4 nook_alpha_1;
-layout(location = 6) in vec4 nook_blend_1;
+layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + NOOK_ATTRIBUTES_PER_QUAD) in uvec4 nook_key_points_1;
+layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + NOOK_ATTRIBUTES_PER_QUAD + 1) in vec4 nook_alpha_1;
+layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + NOOK_ATTRIBUTES_PER_QUAD + 2) in vec4 nook_blend_1;
 #endif
 
-uniform samplerBuffer nook_shadows;  // shadow and added occlusion in one texel; NOOK_LIGHT: in two, by channel
+// One texel: shadow and added occlusion; with NOOK_LIGHT two texels, by channel.
+uniform samplerBuffer nook_shadows;
 uniform int nook_first_key_point;    // of the draw's first instance, in the page
 uniform int nook_key_point_count;
 uniform int nook_self;
@@ -25,8 +27,8 @@ struct NookSum {
 };
 
 void nook_add(inout NookSum sum, int key_point, float alpha, float blend) {
-  sum.shadow += alpha * texelFetch(nook_shadows, 2 * key_point).xyz;
-  sum.added += blend * texelFetch(nook_shadows, 2 * key_point + 1).xyz;
+  sum.shadow += alpha * texelFetch(nook_shadows, NOOK_COLOUR_VEC4S * key_point).xyz;
+  sum.added += blend * texelFetch(nook_shadows, NOOK_COLOUR_VEC4S * key_point + 1).xyz;
 }
 #else
 out float nook_ao;

@@ -1,11 +1,12 @@
-// What a host's shader calls. Before it stand the constants, the samplers and the functions
+// The functions of a host's shader. sdk/src/gl/material/source.cpp writes the constants, the samplers and the
+// functions
 //   vec4 nook_btf_mode(int layer, vec2 uv, float level)
 //   vec4 nook_votf_mode(int layer, vec2 uv, float level)
-// that sdk/src/gl/material/source.cpp writes for a material's sizes; layers and numbers lie as
-// sdk/src/material/tables.h says. The same as sdk/src/material/evaluate.cpp.
+// before this text, for the sizes of a material. sdk/src/material/tables.h defines the layout of layers and
+// numbers, and sdk/src/material/evaluate.cpp has the same functions.
 #include "shaders/material/parabolic.glsl"
 
-// The mipmap level of a pixel with the sides dx and dy, found once for all fetches: these then need no
+// Returns the mipmap level of a pixel with the sides dx and dy. All fetches share it, so that they need no
 // derivatives, which is faster and works in branches.
 float nook_mipmap_level(vec2 dx, vec2 dy, vec2 texels) {
   dx *= texels;
@@ -13,7 +14,7 @@ float nook_mipmap_level(vec2 dx, vec2 dy, vec2 texels) {
   return 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-30));
 }
 
-// The light mode of the point uv seen from the view, filtered over the pixel whose sides are dx and dy.
+// Computes the light modes of the point uv for the view, filtered over the pixel with the sides dx and dy.
 void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_FOURS]) {
   ivec2 cell = nook_parabolic_cell(view, NOOK_BTF_SIDE);
   float level = nook_mipmap_level(dx, dy, NOOK_BTF_TEXELS);
@@ -37,7 +38,7 @@ void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[N
   }
 }
 
-// Radiance towards the view for an irradiance of 1 on a plane that faces the light.
+// Returns the radiance towards the view for an irradiance of 1 on a plane that faces the light.
 vec3 nook_material_radiance(vec4 modes[NOOK_LIGHT_FOURS], vec3 light) {
   vec3 radiance = vec3(0.0);
   if (light.z <= 0.0) return radiance;
@@ -49,7 +50,7 @@ vec3 nook_material_radiance(vec4 modes[NOOK_LIGHT_FOURS], vec3 light) {
   return radiance;
 }
 
-// The VOTF, a filtered mask or signed distance.
+// Returns the VOTF, a filtered mask or signed distance.
 float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
 #if NOOK_VOTF_TERMS == 0
   return 1.0;
@@ -71,7 +72,8 @@ float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
 #endif
 }
 
-// The visibility mapping, equation (26): 1 is fully visible, 0 invisible, between them partly visible.
+// The visibility mapping, equation (26): 1 is fully visible, 0 is invisible, and values between are partly
+// visible.
 float nook_material_visibility(float occlusion) {
 #if NOOK_VOTF_TERMS == 0
   return 1.0;

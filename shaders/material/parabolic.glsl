@@ -1,10 +1,10 @@
-// The hemisphere as the unit disc; directions below the horizon come to lie on it. The same as
-// sdk/src/material/parabolic.h.
+// Maps the hemisphere to the unit disc; directions below the horizon are moved onto it.
+// sdk/src/material/parabolic.h has the same functions.
 vec2 nook_parabolic(vec3 d) {
   return d.xy / (d.z > 0.0 ? 1.0 + d.z : max(length(d.xy), 1e-6));
 }
 
-// The cell of a side x side map that holds the direction.
+// Returns the cell of a side x side map that contains the direction.
 ivec2 nook_parabolic_cell(vec3 d, int side) {
   vec2 place = clamp(0.5 * nook_parabolic(d) + 0.5, 0.0, 1.0) * float(side);
   return min(ivec2(place), ivec2(side - 1));

@@ -1,17 +1,20 @@
 // Half of a separable bilateral blur: along one axis.
+#include "shaders/nnao/layout.h"
+
 uniform sampler2D nook_ao;
 uniform ivec2 nook_blur_axis;
 uniform int nook_blur_reach;  // texels; 0: none
 
 // A box of 4 between the pixels, then (1, 2, 1) / 4: any noise with a period of 4 pixels averages out exactly.
-const float nook_blur_weights[4] = float[4](1.0, 0.875, 0.5, 0.125);
+const float nook_blur_weights[NOOK_BLUR_REACH + 1] = float[NOOK_BLUR_REACH + 1](1.0, 0.875, 0.5, 0.125);
 
 float nook_ao_at(ivec2 texel) {
   return texelFetch(nook_ao, texel + nook_ao_origin, 0).r;
 }
 
-// How much a texel at `offset` from the pixel has to do with the pixel's surface: 0 off its plane, or round a corner. Within a
-// quarter of the radius a little is left, for pixels whose normal nobody shares.
+// Returns the weight of a texel at `offset` from the pixel: 0 if it is off the pixel's plane or around a
+// corner. Within a quarter of the radius a small weight remains, for pixels whose normal differs from all
+// neighbours.
 float nook_same_surface(ivec2 at, float depth, vec3 position, vec3 normal, float radius) {
   vec3 offset = nook_position(nook_surface_rays, at, depth) - position;
   float turn = max(dot(nook_surface_normal(at), normal), 0.0);
@@ -39,7 +42,7 @@ float nook_blurred(ivec2 texel) {
       sum += weight * nook_ao_at(at);
       weights += weight;
     }
-  // A surface of one pixel, seen from the side or with a normal that went wrong, follows its neighbourhood.
+  // The AO of a surface one pixel wide, or with a wrong normal, follows its neighbourhood.
   float own = clamp(2.0 * weights - 0.12, 0.005, 1.0);
   return (sum + own * centre) / (weights + own);
 }

@@ -7,7 +7,7 @@ float nook_view_depth(float stored) {
   if ((stored - nook_far_stored) * nook_far_sign >= 0.0) return nook_no_surface;
   float depth = (nook_depth_decode.x + nook_depth_decode.y * stored) /
                 (nook_depth_decode.z + nook_depth_decode.w * stored);
-  // Comparisons with what is not a number are false.
+  // Comparisons with NaN are false.
   return depth > nook_min_depth && depth < nook_no_surface ? depth : nook_no_surface;
 }
 

@@ -1,38 +1,39 @@
 // What is the same for every pixel of a frame; frame_constants.h fills it.
 // Pixels are those of the viewport, (0, 0) at its lower left corner. The surface is the viewport at the resolution that AO
 // is computed at: itself, or every second pixel of every second row.
-uniform vec4 nook_frame[11];
+#include "shaders/nnao/layout.h"
+uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
 
-#define nook_screen_rays nook_frame[0]   // x_scale, x_offset, y_scale, y_offset, for pixels of the screen
-#define nook_surface_rays nook_frame[1]  // for texels of the surface
-#define nook_depth_decode nook_frame[2]  // depth = (x + y stored) / (z + w stored)
-#define nook_far_stored nook_frame[3].x  // the stored value of the far plane
-#define nook_far_sign nook_frame[3].y    // 1: stored values grow with the distance; -1: they fall
-#define nook_min_depth nook_frame[3].z
-#define nook_orthographic (nook_frame[3].w != 0.0)
-#define nook_radius nook_frame[4].x         // metres
-#define nook_max_radius_px nook_frame[4].y  // texels of the surface
-#define nook_intensity nook_frame[4].z
-#define nook_power nook_frame[4].w
-#define nook_blur_sharpness nook_frame[5].x
-#define nook_normal_scale nook_frame[5].y
-#define nook_normal_bias nook_frame[5].z
-#define nook_has_normals (nook_frame[5].w != 0.0)
-#define nook_origin ivec2(nook_frame[6].xy)  // of the viewport in the host's textures
-#define nook_screen_size ivec2(nook_frame[6].zw)
-#define nook_surface_size ivec2(nook_frame[7].xy)
-#define nook_layer_mode int(nook_frame[7].z)
-#define nook_view_mode int(nook_frame[7].w)
-#define nook_normal_matrix mat3(nook_frame[8].xyz, nook_frame[9].xyz, nook_frame[10].xyz)
+#define nook_screen_rays nook_frame[NOOK_FRAME_SCREEN_RAYS]   // x_scale, x_offset, y_scale, y_offset, for pixels of the screen
+#define nook_surface_rays nook_frame[NOOK_FRAME_SURFACE_RAYS]  // for texels of the surface
+#define nook_depth_decode nook_frame[NOOK_FRAME_DEPTH_DECODE]  // depth = (x + y stored) / (z + w stored)
+#define nook_far_stored nook_frame[NOOK_FRAME_FAR].x  // the stored value of the far plane
+#define nook_far_sign nook_frame[NOOK_FRAME_FAR].y    // 1: stored values grow with the distance; -1: they fall
+#define nook_min_depth nook_frame[NOOK_FRAME_FAR].z
+#define nook_orthographic (nook_frame[NOOK_FRAME_FAR].w != 0.0)
+#define nook_radius nook_frame[NOOK_FRAME_RADIUS].x         // metres
+#define nook_max_radius_px nook_frame[NOOK_FRAME_RADIUS].y  // texels of the surface
+#define nook_intensity nook_frame[NOOK_FRAME_RADIUS].z
+#define nook_power nook_frame[NOOK_FRAME_RADIUS].w
+#define nook_blur_sharpness nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].x
+#define nook_normal_scale nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].y
+#define nook_normal_bias nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].z
+#define nook_has_normals (nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].w != 0.0)
+#define nook_origin ivec2(nook_frame[NOOK_FRAME_VIEWPORT].xy)  // of the viewport in the host's textures
+#define nook_screen_size ivec2(nook_frame[NOOK_FRAME_VIEWPORT].zw)
+#define nook_surface_size ivec2(nook_frame[NOOK_FRAME_SURFACE].xy)
+#define nook_layer_mode int(nook_frame[NOOK_FRAME_SURFACE].z)
+#define nook_view_mode int(nook_frame[NOOK_FRAME_SURFACE].w)
+#define nook_normal_matrix mat3(nook_frame[NOOK_FRAME_NORMAL_MATRIX].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].xyz)
 
-// Depth where there is no surface: sky, far plane, off the screen.
+// The depth where there is no surface: sky, far plane, off the screen.
 const float nook_no_surface = 1.0e30;
 
 bool nook_inside(ivec2 texel, ivec2 size) {
   return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
 }
 
-// The view-space position of a pixel's centre at a depth.
+// Returns the view-space position of a pixel's centre at a depth.
 vec3 nook_position(vec4 rays, ivec2 pixel, float depth) {
   vec2 ray = rays.xz * (vec2(pixel) + 0.5) + rays.yw;
   return vec3(ray * (nook_orthographic ? 1.0 : depth), -depth);
@@ -42,12 +43,12 @@ vec3 nook_to_viewer(vec3 position) {
   return nook_orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-position);
 }
 
-// Texels of the surface per metre at a depth.
+// Returns the texels of the surface per metre at a depth.
 vec2 nook_pixel_scale(float depth) {
   return 1.0 / (nook_surface_rays.xz * (nook_orthographic ? 1.0 : depth));
 }
 
-// The radius of a pixel: metres, texels. Where it would cover too many texels it shrinks.
+// Returns the radius of a pixel in metres and in texels. It shrinks where it would cover too many texels.
 vec2 nook_pixel_radius(vec2 scale) {
   float per_metre = abs(scale.y);
   float texels = min(nook_radius * per_metre, nook_max_radius_px);

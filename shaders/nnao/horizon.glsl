@@ -1,13 +1,16 @@
 // The horizon form; network.h defines it. Eight units are two vec4.
-uniform vec4 nook_network[87];  // tap, direction, join, out, in the order of network.h
+uniform vec4 nook_network[NOOK_HORIZON_VEC4S];  // tap, direction, join, out, in the order of network.h
 // Directions. Not a constant: compilers would unroll them all, into more code than caches hold.
 uniform int nook_tap_groups;
 
-// Where each layer begins, and its bias, of two vec4, after which negative and positive slopes follow.
-const int nook_tap_layer = 0, nook_tap_bias = 10;
-const int nook_direction_layer = 16, nook_direction_bias = 52;
-const int nook_join_layer = 58, nook_join_bias = 78;
-const int nook_out_layer = 84;
+// Where each layer begins, and its bias, after which negative and positive slopes follow.
+const int nook_tap_layer = NOOK_HORIZON_TAP;
+const int nook_tap_bias = nook_tap_layer + NOOK_HORIZON_TAP_INPUTS * NOOK_HORIZON_UNIT_VEC4S;
+const int nook_direction_layer = NOOK_HORIZON_DIRECTION;
+const int nook_direction_bias = nook_direction_layer + NOOK_HORIZON_DIRECTION_INPUTS * NOOK_HORIZON_UNIT_VEC4S;
+const int nook_join_layer = NOOK_HORIZON_JOIN;
+const int nook_join_bias = nook_join_layer + NOOK_HORIZON_JOIN_INPUTS * NOOK_HORIZON_UNIT_VEC4S;
+const int nook_out_layer = NOOK_HORIZON_OUT;
 
 struct nook_units {
   vec4 low, high;
@@ -34,10 +37,10 @@ nook_units nook_prelu(nook_units x, int bias) {
                     max(x.high, 0.0) * nook_network[bias + 5] + min(x.high, 0.0) * nook_network[bias + 3]);
 }
 
-// Where nothing is, something far beyond any radius; its square is still a float.
+// The sky is a surface far beyond any radius; the square of this depth is still a float.
 const float nook_sky_depth = 1.0e15;
 
-// A tap on the screen: its elevation, its angle, its distance in radii.
+// Returns the elevation, the angle and the distance in radii of a tap on the screen.
 vec3 nook_tap_input(ivec2 at, vec3 position, vec3 normal, vec3 viewer, float radius) {
   float depth = min(nook_surface_depth(at), nook_sky_depth);
   vec3 v = nook_position(nook_surface_rays, at, depth) - position;
@@ -45,7 +48,7 @@ vec3 nook_tap_input(ivec2 at, vec3 position, vec3 normal, vec3 viewer, float rad
   return vec3(dot(v, normal) / away, dot(v, viewer) / away, away / radius);
 }
 
-// And off the screen, where the pixel's own plane is taken to go on.
+// Returns the same off the screen, where the pixel's own plane continues.
 vec3 nook_plane_tap_input(float across, float facing, float distance_r) {
   float slope = across / max(facing, 0.05), stretch = sqrt(1.0 + slope * slope);
   return vec3(0.0, -slope / stretch, distance_r * stretch);
@@ -59,7 +62,7 @@ nook_units nook_tap_units(vec3 tap_input) {
   return nook_prelu(x, nook_tap_bias);
 }
 
-// Adds the steps that lie off the screen to taps_off_screen.
+// Adds the number of steps off the screen to taps_off_screen.
 nook_units nook_direction_units(ivec2 texel, vec2 direction, vec2 noise, vec3 position, vec3 normal, vec3 viewer,
                                 vec2 scale, vec2 radius, inout float taps_off_screen) {
   nook_units most = nook_units(vec4(-nook_no_surface), vec4(-nook_no_surface));
@@ -103,7 +106,7 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
     sum = nook_units(sum.low + x.low, sum.high + x.high);
   }
   float directions = float(nook_tap_groups), taps = directions * float(NOOK_STEPS);
-  // A screen of a pixel or two: nothing is known of any occluder.
+  // A screen of one or two pixels contains no information on occluders.
   if (taps_off_screen == taps) return 1.0;
   nook_units joined = nook_bias(nook_join_bias);
   nook_add(joined, sum.low / directions, nook_join_layer);

@@ -1,15 +1,15 @@
-// The normal of a pixel: the host's, or rebuilt from depth.
+// The normal of a pixel: that of the host, or one that is reconstructed from depth.
 #include "shaders/nnao/depth.glsl"
 
 uniform sampler2D nook_host_normal;
 
-// Over a plane this is linear in pixels.
+// Returns a value that is linear in pixels over a plane.
 float nook_screen_linear(float depth) {
   return nook_orthographic ? depth : 1.0 / depth;
 }
 
-// How badly the line through the two pixels on one side misses the pixel itself; with one of them alone, how far that one
-// is off.
+// Returns the distance between the pixel and the line through the two pixels on one side, or the distance to
+// the nearer one if the other does not exist.
 float nook_side_error(float linear, float near, float far) {
   if (near == nook_no_surface) return nook_no_surface;
   float guess = nook_screen_linear(near);
@@ -17,22 +17,23 @@ float nook_side_error(float linear, float near, float far) {
   return abs(guess - linear);
 }
 
-// The way from a pixel to its neighbour, each side weighted by how well it continues the pixel's own surface: no normal
-// leans over an edge, and on a sliver one pixel wide, which neither side continues, they balance.
+// Returns the difference between a pixel and its neighbour. Each side is weighted by how well it continues
+// the pixel's own surface, so that normals do not lean over edges. On a sliver one pixel wide, which neither
+// side continues, both sides balance.
 vec3 nook_slope(ivec2 pixel, ivec2 axis, float depth, vec3 position) {
   float before = nook_screen_depth(pixel - axis), after = nook_screen_depth(pixel + axis);
   float linear = nook_screen_linear(depth);
   float before_error = nook_side_error(linear, before, nook_screen_depth(pixel - 2 * axis));
   float after_error = nook_side_error(linear, after, nook_screen_depth(pixel + 2 * axis));
-  // Farther off than this many pixels are wide: an edge. With edges on both sides, as on a wire, the slope cannot be known;
-  // a flat one keeps the normal from turning sideways.
+  // A distance of more than this many pixel widths is an edge. With edges on both sides, as on a wire, the
+  // slope is unknown; a slope of 0 keeps the normal from turning sideways.
   float width = abs(dot(nook_screen_rays.xz, vec2(axis))) * (nook_orthographic ? 1.0 : linear);
   if (min(before_error, after_error) > 8.0 * width)
     return nook_position(nook_screen_rays, pixel + axis, depth) - position;
   float before_share = min(before_error / width, 1.0e6), after_share = min(after_error / width, 1.0e6);
   before_share = 1.0 / (before_share * before_share + 1.0e-4);
   after_share = 1.0 / (after_share * after_share + 1.0e-4);
-  // Where there is no surface, its own depth, so that nothing overflows.
+  // Where there is no surface, the pixel's own depth is used, so that nothing overflows.
   vec3 from = nook_position(nook_screen_rays, pixel - axis, before == nook_no_surface ? depth : before);
   vec3 to = nook_position(nook_screen_rays, pixel + axis, after == nook_no_surface ? depth : after);
   return (position - from) * before_share + (to - position) * after_share;
@@ -52,7 +53,7 @@ vec3 nook_pixel_normal(ivec2 pixel, float depth) {
     vec3 stored = texelFetch(nook_host_normal, pixel + nook_origin, 0).xyz;
     vec3 n = nook_normal_matrix * (stored * nook_normal_scale + nook_normal_bias);
     float size = length(n);
-    // Nothing was drawn there, or no normal.
+    // A size outside these bounds means that nothing, or no normal, was drawn here.
     if (size > 1.0e-3 && size < 1.0e6) return n / size;
   }
   return nook_rebuilt_normal(pixel, depth, nook_position(nook_screen_rays, pixel, depth));

@@ -1,4 +1,4 @@
-// The surface: normals for every pixel, or depth and normal of every second pixel of every second row.
+// Writes the surface: normals for every pixel, or depth and normal of every second pixel of every second row.
 #include "shaders/nnao/normal.glsl"
 #include "shaders/nnao/octahedral.glsl"
 

@@ -1,8 +1,9 @@
-// The network's stage as a dispatch: one thread a texel of the surface. The groups at the border reach beyond it.
+// The network as a dispatch, with one thread for each texel of the surface. The groups at the border extend
+// beyond it.
 #include "shaders/nnao/occlusion.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(r8, binding = 0) writeonly uniform image2D nook_out;
+layout(local_size_x = NOOK_OCCLUSION_GROUP_SIZE, local_size_y = NOOK_OCCLUSION_GROUP_SIZE) in;
+layout(r8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;
 
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);

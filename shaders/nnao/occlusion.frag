@@ -1,4 +1,4 @@
-// The network's stage as a draw.
+// The network as a draw.
 #include "shaders/nnao/occlusion.glsl"
 
 out float nook_out;

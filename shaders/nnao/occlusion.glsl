@@ -1,4 +1,5 @@
-// AO of a texel of the surface by the network, not yet blurred: the same for the fragment and the compute path.
+// The AO of a texel of the surface by the network, before the blur. The fragment and the compute path share
+// this file.
 #include "shaders/nnao/depth.glsl"
 #include "shaders/nnao/surface.glsl"
 #include "shaders/nnao/taps.glsl"

@@ -1,4 +1,5 @@
-// Unit vectors as two numbers in [0, 1]: the sphere projected onto an octahedron, unfolded into a square.
+// Unit vectors as two numbers in [0, 1]: the sphere is projected onto an octahedron and unfolded into a
+// square.
 vec2 nook_signs(vec2 v) {
   return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
 }

@@ -1,7 +1,7 @@
-// The paper's network; network.h defines it. A tap's input is
+// The paper's network, which network.h defines. A tap's input is
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
 uniform samplerBuffer nook_filters;  // for each cell of the grid four texels, one an input, of four units
-uniform vec4 nook_network[19];       // the other layers, in the order of network.h
+uniform vec4 nook_network[NOOK_PAPER_VEC4S];  // the other layers, in the order of network.h
 // Of NOOK_STEPS taps each. Not a constant: compilers would unroll them all, into more code than caches hold.
 uniform int nook_tap_groups;
 
@@ -9,7 +9,7 @@ vec4 nook_prelu(vec4 x, int slopes) {
   return max(x, 0.0) * nook_network[slopes + 1] + min(x, 0.0) * nook_network[slopes];
 }
 
-// What one tap adds to the four sums.
+// Returns the contribution of one tap to the four sums.
 vec4 nook_tap_sum(ivec2 texel, int cell, int taps, vec2 noise, vec3 position, vec3 normal, vec2 scale, float radius) {
   ivec2 at = nook_tapped_texel(texel, nook_paper_tap(cell, taps, noise, radius, scale));
   float depth = nook_surface_depth(at);
@@ -41,9 +41,9 @@ vec4 nook_paper_layer(vec4 x, int first) {
 }
 
 float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 radius) {
-  vec4 x = nook_prelu(nook_paper_sum(texel, position, normal, scale, radius.x) + nook_network[0], 1);
-  x = nook_paper_layer(nook_paper_layer(x, 3), 10);
-  vec4 last = nook_network[18];  // bias, negative slope, positive slope
-  float y = dot(x, nook_network[17]) + last.x;
+  vec4 x = nook_prelu(nook_paper_sum(texel, position, normal, scale, radius.x) + nook_network[NOOK_PAPER_FILTERS], NOOK_PAPER_FILTERS + 1);
+  x = nook_paper_layer(nook_paper_layer(x, NOOK_PAPER_LAYER_1), NOOK_PAPER_LAYER_2);
+  vec4 last = nook_network[NOOK_PAPER_LAYER_3 + 1];  // bias, negative slope, positive slope
+  float y = dot(x, nook_network[NOOK_PAPER_LAYER_3]) + last.x;
   return max(y, 0.0) * last.z + min(y, 0.0) * last.y;
 }

@@ -1,4 +1,5 @@
-// From AO of the surface to what the host asked for: the blur's second axis or the upsample, the layer, the view.
+// Computes the output from the AO of the surface: the blur's second axis or the upsample, the layer, the
+// view.
 #include "shaders/nnao/depth.glsl"
 #include "shaders/nnao/surface.glsl"
 #include "shaders/nnao/blur.glsl"
@@ -8,8 +9,8 @@ uniform sampler2D nook_layer;
 out vec4 nook_out;
 
 #if NOOK_HALF
-// Joint-bilateral upsample: of the four texels around, those count whose plane the pixel lies on; the nearest plane if
-// none does.
+// Joint-bilateral upsample: the result is over those of the four texels around the pixel whose plane contains
+// the pixel, or the one with the nearest plane if there is none.
 float nook_upsampled(ivec2 pixel, float depth) {
   vec3 position = nook_position(nook_screen_rays, pixel, depth);
   float tolerance = nook_pixel_radius(nook_pixel_scale(depth)).x / nook_blur_sharpness;
@@ -51,7 +52,7 @@ vec3 nook_shown_normal(ivec2 pixel) {
 
 float nook_strengthened(float ao) {
   float base = max(1.0 - nook_intensity * (1.0 - ao), 0.0);
-  // pow is inexact on some drivers, and open has to stay exactly open.
+  // pow is inexact on some drivers, and open must stay exactly open.
   return nook_power == 1.0 || base == 1.0 ? base : pow(base, nook_power);
 }
 

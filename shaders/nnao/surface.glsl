@@ -7,7 +7,7 @@ uniform usampler2D nook_surface;  // depth as a float's bits, normal as 2 x 16 b
 uniform sampler2D nook_surface;  // normal
 #endif
 
-uniform ivec2 nook_ao_origin;  // where the surface's first texel lies in the texture of its AO
+uniform ivec2 nook_ao_origin;  // the place of the surface's first texel in the texture of its AO
 
 float nook_surface_depth(ivec2 texel) {
 #if NOOK_HALF

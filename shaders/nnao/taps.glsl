@@ -1,4 +1,6 @@
-// Where the taps of a pixel lie; the same as sdk/src/nnao/taps.h.
+// The positions of a pixel's taps, as in sdk/src/nnao/taps.h.
+
+#include "shaders/nnao/layout.h"
 
 // rotation, offset: each takes 16 values over 4 x 4 pixels.
 vec2 nook_tap_noise(ivec2 texel) {
@@ -24,14 +26,14 @@ vec2 nook_horizon_tap(vec2 direction, float distance_px, vec2 scale) {
   return direction * scale * (distance_px / abs(scale.y));
 }
 
-const int nook_grid_size = 31;
+const int nook_grid_size = NOOK_GRID_SIZE;
 const int nook_grid_cells = nook_grid_size * nook_grid_size;
 
 int nook_paper_tap_cell(int tap, int taps, vec2 noise) {
   return min(int((float(tap) + noise.x) * (float(nook_grid_cells) / float(taps))), nook_grid_cells - 1);
 }
 
-// scale: texels per metre.
+// scale is in texels per metre.
 vec2 nook_paper_tap(int cell, int taps, vec2 noise, float radius, vec2 scale) {
   vec2 place = vec2(cell % nook_grid_size, cell / nook_grid_size) + 0.5;
   if (taps < nook_grid_cells) place += vec2(noise.y, fract(4.0 * noise.x)) - 0.5;

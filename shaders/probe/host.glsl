@@ -1,5 +1,6 @@
 // What a host's shader calls. Directions are unit vectors, world space as the probe's lobes; colours linear RGB.
 #include "shaders/probe/grid.glsl"
+#include "shaders/probe/harmonics.glsl"
 #include "shaders/probe/irradiance.glsl"
 #include "shaders/probe/specular.glsl"
 

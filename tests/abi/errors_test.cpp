@@ -1,4 +1,5 @@
 // Every error code with its text, and every parameter out of its range.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -129,6 +130,11 @@ TEST_CASE("scenes: bad handles and parameters of every call") {
   stage.pose[12 * 2 + 5] = NAN;
   CHECK(nook_scene_set_pose(scene, stage.first, stage.pose.data(), stage.info.bone_count) == invalid);
   CHECK(last_is("nook_scene_set_pose: ", "bone 2"));
+  // The axes x and y have unit length and the cosine 0.1 between them.
+  const float sheared[12] = {1, 0.1f, 0, 0, 0, 0.99498744f, 0, 0, 0, 0, 1, 0};
+  std::copy_n(sheared, 12, stage.pose.begin() + 12 * 2);
+  CHECK(nook_scene_set_pose(scene, stage.first, stage.pose.data(), stage.info.bone_count) == invalid);
+  CHECK(last_is("nook_scene_set_pose: ", "bones_3x4 is row-major"));
   CHECK(nook_scene_link(scene, stage.first, stage.first) == invalid);
   CHECK(nook_scene_link(scene, stage.first, 99) == no_handle);
   CHECK(nook_scene_link(scene, 99, stage.first) == no_handle);

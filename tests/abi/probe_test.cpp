@@ -108,10 +108,10 @@ TEST_CASE("a C program calls every function of the probes") {
 }
 
 TEST_CASE("probes: structs of every release") {
-  check_init(nook_probe_fit_desc_init, 92);
+  check_init(nook_probe_fit_desc_init, 100);
   check_init(nook_probe_desc_init, 72);
   ProbeStage stage;
-  check_use(fit_desc(), 92, [&](const nook_probe_fit_desc* desc) {
+  check_use(fit_desc(), 100, [&](const nook_probe_fit_desc* desc) {
     nook_probe_fit fit = nullptr;
     const nook_result result = nook_probe_fit_create(stage.context, desc, &fit);
     nook_probe_fit_destroy(&fit);
@@ -146,6 +146,7 @@ TEST_CASE("fits: bad descriptors name their field") {
   };
   using Desc = nook_probe_fit_desc;
   refused([](Desc& d) { d.method = 7; }, "desc.method is unknown (got 7");
+  refused([](Desc& d) { d.constraint = 2; }, "desc.constraint is unknown (got 2, need 0 to 1)");
   refused([](Desc& d) { d.basis = -1; }, "desc.basis");
   refused([](Desc& d) { d.domain = 2; }, "desc.domain");
   refused([](Desc& d) { d.ambient = 2; }, "desc.ambient");
@@ -320,4 +321,17 @@ TEST_CASE("samples, reading and evaluation allocate nothing") {
     CHECK(stage.host.allocations == before);
     nook_probe_fit_destroy(&fit);
   }
+}
+
+TEST_CASE("harmonics refuse what is no light") {
+  const float c[75] = {1, 1, 1}, bad[27] = {1, NAN, 1}, up[3] = {0, 0, 1};
+  float out[15];
+  CHECK(nook_probe_harmonics_irradiance(c, 0, up, out, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_harmonics_irradiance(c, 5, up, out, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_harmonics_radiance(nullptr, 2, up, out, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_harmonics_radiance(c, 2, nullptr, out, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_harmonics_to_zonal(bad, out) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_harmonics_to_zonal(c, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_zonal_irradiance(c, up, nullptr, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_probe_zonal_radiance(c, nullptr, nullptr, 0) == NOOK_OK);
 }

@@ -1,4 +1,4 @@
-# What is checked of each library's C interface; see the scripts.
+# The checks of each library's C interface; the scripts describe them.
 set(nook_abi_dir ${CMAKE_CURRENT_LIST_DIR})
 
 # nook_add_symbols_test(LIBRARY HEADER...): the library shows the functions of its headers and nothing else. The sanitizers add

@@ -1,4 +1,4 @@
-// What one character costs on one core: the shadow kernels against a plain loop, and the whole AO against
+// The cost of one character on one core: the shadow kernels against a plain loop, and the whole AO against
 // skinning. Ratios come from turns taken side by side, because a shared machine changes its speed between one
 // row and the next.
 #include <benchmark/benchmark.h>
@@ -48,8 +48,7 @@ class Character {
         sum_(array(points_count())),
         depth_(array(points_count())),
         shadow_(array(points_count())),
-        slots_(array(linear_.padded_slots())),
-        ao_(array(linear_.file_to_slot().size())) {
+        slots_(array(linear_.padded_slots())) {
     float* s = sphere_numbers_.data();
     float* p = point_numbers_.data();
     const std::size_t n = sphere_stride(), k = points_count();
@@ -58,7 +57,6 @@ class Character {
     pose();
     shadow();
     blend();
-    write();
   }
 
   void pose() {
@@ -76,16 +74,10 @@ class Character {
   }
   void blend() { kernels_.linear_layer(linear_.view(), shadow_.data(), nullptr, slots_.data()); }
   void blend_added() { kernels_.linear_layer(linear_.view(), shadow_.data(), shadow_.data(), slots_.data()); }
-  void write() {
-    const AlignedArray<std::uint32_t>& index = linear_.file_to_slot();
-    kernels_.scatter(slots_.data(), index.data(), static_cast<std::uint32_t>(index.size()), ao_.data(),
-                     sizeof(float));
-  }
   void all() {
     pose();
     shadow();
     blend();
-    write();
   }
   void clear() {
     std::fill(sum_.begin(), sum_.end(), 0.0f);
@@ -124,7 +116,7 @@ class Character {
   RestSpheres rest_spheres_;
   RestKeyPoints rest_points_;
   LinearLayer linear_;
-  AlignedArray<float> sphere_numbers_, point_numbers_, sum_, depth_, shadow_, slots_, ao_;
+  AlignedArray<float> sphere_numbers_, point_numbers_, sum_, depth_, shadow_, slots_;
   SphereTarget sphere_target_;
   KeyPointTarget point_target_;
 };
@@ -167,7 +159,7 @@ void one_character(benchmark::State& state, const ShadowKernels* kernels, SkinFu
   for (std::size_t b = 0; b < bones.size(); ++b) bones[b] = skinning_matrix(pose[b]);
   AlignedArray<float> posed(6 * vertices.view.count + 16, std::pmr::get_default_resource());
 
-  Stopwatch whole, skinning, posing, shadows, blending, blending_added, writing;
+  Stopwatch whole, skinning, posing, shadows, blending, blending_added;
   for (auto _ : state) {
     skinning.run([&] { skin(vertices.view, bones.data(), posed.data()); });
     whole.run([&] { character.all(); });
@@ -175,7 +167,6 @@ void one_character(benchmark::State& state, const ShadowKernels* kernels, SkinFu
     shadows.run([&] { character.shadow(); });
     blending_added.run([&] { character.blend_added(); });
     blending.run([&] { character.blend(); });
-    writing.run([&] { character.write(); });
     benchmark::ClobberMemory();
   }
   state.counters["ao_us"] = 1e6 * whole.seconds();
@@ -184,7 +175,6 @@ void one_character(benchmark::State& state, const ShadowKernels* kernels, SkinFu
   state.counters["linear_us"] = 1e6 * blending.seconds();
   state.counters["linear_added_us"] = 1e6 * blending_added.seconds();
   state.counters["linear_columns"] = character.linear_columns_per_block();
-  state.counters["write_us"] = 1e6 * writing.seconds();
   state.counters["skinning_us"] = 1e6 * skinning.seconds();
   state.counters["skinning_ns_per_vertex"] = 1e9 * skinning.seconds() / vertices.view.count;
   state.counters["times_skinning"] = whole.seconds() / skinning.seconds();

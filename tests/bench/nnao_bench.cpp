@@ -1,6 +1,7 @@
 // A frame of the screen-space pass on both paths, 640 x 360, through the C ABI: linear depth of a room with
-// balls, normals rebuilt from it. Time is that round glFinish; CPU is of all threads of the process, which on
-// a software renderer is the work and hardly depends on who else uses the machine. Least of all frames.
+// balls, normals reconstructed from it. Time is measured around glFinish. CPU is that of all threads of the
+// process, which on a software renderer hardly depends on the other load of the machine. Both are minima over
+// all frames.
 #include <benchmark/benchmark.h>
 #include <glad/gl.h>
 #include <nook/nook_nnao.h>

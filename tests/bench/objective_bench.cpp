@@ -1,6 +1,6 @@
-// What caching the linear layer as A and B gains block coordinate descent (Le et al. 2019, slides 55 to 57):
-// one evaluation of the error and its gradient over many poses, cached and summed directly over vertices, in
-// turns on the same data.
+// The gain of block coordinate descent from the linear layer cached as A and B (Le et al. 2019, slides 55 to
+// 57): one evaluation of the error and its gradient over many poses, cached and summed directly over
+// vertices, in turns on the same data.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

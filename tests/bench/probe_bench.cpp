@@ -61,7 +61,6 @@ void add_samples(benchmark::State& state, FitMethod method, Step step) {
   const auto done = std::int64_t(state.iterations()) * std::int64_t(Samples::count);
   state.SetItemsProcessed(done);
   state.counters["ratio_to_scalar"] = scalar * double(done) / seconds;
-  state.SetLabel(fit.instruction_set());
 }
 
 }  // namespace

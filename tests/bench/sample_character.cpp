@@ -20,7 +20,7 @@ class Draw {
   std::uint32_t below(std::uint32_t count) {
     return std::uniform_int_distribution<std::uint32_t>(0, count - 1)(random_);
   }
-  // In a body 1.8 m tall.
+  // Returns a place in a body of a height of 1.8 m.
   Vec3 place() { return {between(-0.4f, 0.4f), between(0, 1.8f), between(-0.2f, 0.2f)}; }
   Vec3 direction() {
     const float y = between(-1, 1), turn = between(0, 6.2831853f), r = std::sqrt(1 - y * y);

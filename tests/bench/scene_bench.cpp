@@ -1,4 +1,4 @@
-// How the cost of an instance changes with the size of the crowd, through the C ABI on one thread: constant
+// The cost of an instance against the size of the crowd, through the C ABI on one thread: constant
 // density, four nearest neighbours linked, ground, no level of detail, no cut-off.
 #include <benchmark/benchmark.h>
 #include <nook/nook_character.h>

@@ -23,8 +23,8 @@ struct SkinnedVertices {
   std::uint32_t count = 0;
 };
 
-// posed takes six floats a vertex and two floats of slack after the last. Normals are not renormalised, as
-// usual where a shader does it: the cheaper, harder yardstick.
+// posed has six floats for each vertex and two floats of slack after the last. Normals are not renormalised,
+// as is usual if a shader does it, which makes this baseline faster.
 using SkinFunction = void (*)(const SkinnedVertices& vertices, const SkinningMatrix* bones, float* posed);
 void skin_scalar(const SkinnedVertices& vertices, const SkinningMatrix* bones, float* posed);
 SkinFunction skin_avx2();    // nullptr where the processor lacks it

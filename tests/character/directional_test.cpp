@@ -214,7 +214,7 @@ TEST_CASE("the share of a lobe below the horizon keeps its bound") {
   }
 }
 
-TEST_CASE("a sphere over a surface takes the light that rays say it takes") {
+TEST_CASE("the light that a sphere over a surface takes agrees with ray tracing") {
   std::mt19937 random(5);
   double squares = 0, squares_without = 0;
   int count = 0;

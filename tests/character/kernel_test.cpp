@@ -73,7 +73,7 @@ TEST_CASE("the nook form is half on the horizon and a far sphere's form factor a
   CHECK(std::abs(shadow_nook(-1000.0, 1e6)) < 1e-12);
 }
 
-TEST_CASE("shadow_term picks the form it is asked for") {
+TEST_CASE("shadow_term evaluates the form of its argument") {
   CHECK(shadow_term(KernelForm::paper, 0.3, 2.0) == shadow_paper(0.3, 2.0));
   CHECK(shadow_term(KernelForm::nook, 0.3, 2.0) == shadow_nook(0.3, 2.0));
   CHECK(shadow_term(KernelForm::rational, 0.3, 2.0) == shadow_rational(0.3, 2.0));

@@ -14,7 +14,7 @@ using namespace nook;
 
 namespace {
 
-// The code and text with which reading fails; NOOK_OK if it does not.
+// The code and text of a failed read; NOOK_OK if it succeeds.
 struct Outcome {
   nook_result code = NOOK_OK;
   std::string text;
@@ -33,7 +33,7 @@ bool mentions(const Outcome& outcome, const char* part) {
   return outcome.text.find(part) != std::string::npos;
 }
 
-// Counts what a reader asks for.
+// Counts the bytes that a reader allocates.
 class CountingMemory final : public std::pmr::memory_resource {
  public:
   std::size_t total = 0;
@@ -122,7 +122,7 @@ TEST_CASE("quantising twice changes nothing more") {
   CHECK(write_character_model(once) == write_character_model(quantise(once)));
 }
 
-TEST_CASE("a file stays within 16 bytes a vertex and 16 KB") {
+TEST_CASE("a file stays within 16 bytes for each vertex and 16 KB") {
   // The largest model of the product's tables, with 6 entries a vertex on average, of which it shares 4 with
   // the vertex before; of real characters' 6.7 entries 4.3 are shared.
   CharacterModel model = test::sample_model(9, {80, 130, 500, 6000, 0, 8});

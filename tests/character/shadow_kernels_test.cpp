@@ -217,20 +217,3 @@ TEST_CASE("composed occlusion joins depth and what is open") {
     CHECK(std::abs(occlusion[9] - (1 - std::exp(-1.8))) < 1e-6);
   }
 }
-
-TEST_CASE("scatter writes through the index with any stride and nothing else") {
-  const std::vector<float> values{0.5f, 1.5f, 2.5f, 3.5f, 4.5f};
-  std::vector<std::uint32_t> index(37);
-  for (std::size_t i = 0; i < index.size(); ++i) index[i] = static_cast<std::uint32_t>(i * 3 % values.size());
-  for (const ShadowKernels* kernels : available_kernels())
-    for (const std::size_t stride : {4u, 12u, 32u}) {
-      std::vector<unsigned char> out(index.size() * stride + 64, 0xab);
-      kernels->scatter(values.data(), index.data(), static_cast<std::uint32_t>(index.size()),
-                       reinterpret_cast<float*>(out.data()), stride);
-      std::vector<unsigned char> expected(out.size(), 0xab);
-      for (std::size_t i = 0; i < index.size(); ++i)
-        std::memcpy(expected.data() + i * stride, &values[index[i]], sizeof(float));
-      INFO(kernels->name << " stride " << stride);
-      CHECK(out == expected);
-    }
-}

@@ -118,7 +118,8 @@ TEST_CASE("bands are Legendre moments") {
 }
 
 TEST_CASE("irradiance of a lobe, all forms, against quadrature") {
-  // What each form promises, in units of a light's full irradiance; at 400 the quadrature itself has 1e-4.
+  // The error bound of each form, in units of a light's full irradiance; at 400 the quadrature itself has
+  // 1e-4.
   const auto fitted_error = [](float s) { return s < hill_min_sharpness ? 3e-4 : 1.65e-2; };
   const auto best_error = [](float s) {
     return s <= 3 ? 3e-4 : s <= 6 ? 1.7e-3 : s <= 16 ? 1.1e-2 : 1.65e-2;

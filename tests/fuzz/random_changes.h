@@ -1,4 +1,4 @@
-// Files of the .nook container with a few random bytes changed, or cut, for fuzz targets without libFuzzer.
+// Inputs with a few random bytes changed, or cut, for fuzz targets without libFuzzer.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,10 @@
 
 namespace nook::test {
 
-// below(n): a random number from 0 to n - 1.
+// below(n): a random number from 0 to n - 1. is_container: the size in the head of a .nook file follows, or
+// nearly every change would end there.
 template <class Below>
-void change_bytes(std::vector<std::byte>& file, const Below& below) {
+void change_bytes(std::vector<std::byte>& file, bool is_container, const Below& below) {
   for (std::uint32_t change = below(6) + 1; change > 0; --change) {
     // Half of the changes meet the section table and the heads.
     const std::size_t reach = below(2) ? file.size() : file.size() / 8 + 1;
@@ -19,8 +20,7 @@ void change_bytes(std::vector<std::byte>& file, const Below& below) {
     else
       file[at] = std::byte(below(3) ? below(256) : below(2) * 255);
     if (file.empty()) break;
-    // The size in the head follows, or nearly every change would end there.
-    if (file.size() >= 24)
+    if (is_container && file.size() >= 24)
       for (std::size_t i = 0; i < 8; ++i) file[16 + i] = std::byte(file.size() >> (8 * i) & 255);
   }
 }

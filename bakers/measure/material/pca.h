@@ -1,4 +1,4 @@
-// The linear peer: principal components of texels, what BTF compression was before tensors.
+// The linear baseline: principal components of texels.
 #pragma once
 
 #include <cstdint>

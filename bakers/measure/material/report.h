@@ -1,4 +1,4 @@
-// What files and reports say of a compression.
+// The description of a compression in files and reports.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -10,7 +10,7 @@ namespace {
 constexpr int reach = 5;
 constexpr double sigma = 1.5;
 
-// Gaussian means, the windows cut off at the borders.
+// Returns Gaussian means; the windows are cut off at the borders.
 std::vector<double> window_means(const std::vector<double>& image, int width, int height) {
   double weight[reach + 1];
   for (int i = 0; i <= reach; ++i) weight[i] = std::exp(-0.5 * i * i / (sigma * sigma));
@@ -77,7 +77,7 @@ double ImageError::ssim() const {
 
 double ImageError::correlation() const {
   const double va = count_ * aa_ - a_ * a_, vb = count_ * bb_ - b_ * b_;
-  // Far below what two grey levels in one pixel of a million make.
+  // The bound is far below the variance of two grey levels in one pixel of a million.
   if (!(va > 1e-9 * count_) || !(vb > 1e-9 * count_)) return 0;
   return (count_ * ab_ - a_ * b_) / std::sqrt(va * vb);
 }

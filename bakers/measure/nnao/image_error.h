@@ -1,4 +1,4 @@
-// How far an AO image is from the truth.
+// The error of an AO image.
 #pragma once
 
 #include <cstdint>
@@ -6,18 +6,18 @@
 
 namespace nook::bake::nnao {
 
-// Sums over pixels with a surface, of any number of images.
+// Sums over pixels with a surface of any number of images.
 class ImageError {
  public:
-  // Row by row, as many values as pixels; a pixel counts where its depth is finite.
+  // Adds an image, row by row, with one value for each pixel. A pixel counts if its depth is finite.
   void add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth,
            std::uint32_t width);
 
   double mse() const;
-  // Structural similarity (Wang et al. 2004) of values in [0, 1]: Gaussian windows of 11 x 11 pixels,
-  // standard deviation 1.5; the mean over windows round a pixel that counts.
+  // Structural similarity (Wang et al. 2004) of values in [0, 1]: Gaussian windows of 11 x 11 pixels with
+  // standard deviation 1.5, and the mean over the windows around pixels that count.
   double ssim() const;
-  // Pearson's correlation; 0 where either image is constant.
+  // Returns Pearson's correlation, or 0 if either image is constant.
   double correlation() const;
 
  private:

@@ -19,7 +19,7 @@ void add_picket_fence(TriangleSoup& soup, float x, float z, float length) {
 void add_wire_mesh(TriangleSoup& soup, float x, float z, float length) {
   const float height = 1.1f;
   for (float along = -height; along < length; along += 0.09f) {
-    // Where a diagonal meets the frame's left and right ends.
+    // The diagonal meets the frame's left and right ends here.
     const float low = along < 0 ? -along : 0, high = along + height > length ? length - along : height;
     add_rod(soup, {x + along + low, low, z}, {x + along + high, high, z}, 0.004f, 5);
     add_rod(soup, {x + along + low, height - low, z + 0.008f}, {x + along + high, height - high, z + 0.008f},

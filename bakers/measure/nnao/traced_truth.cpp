@@ -7,7 +7,8 @@
 namespace nook::bake::nnao {
 namespace {
 
-// As in the training set: far above the rounding of hits a few metres away, far below any thing.
+// The same as in the training set: far above the rounding of hits a few metres away, and far below the size
+// of objects.
 constexpr float origin_offset = 3e-4f;
 
 struct Surfaces {
@@ -65,8 +66,8 @@ Camera slid_by_one_pixel(Camera camera) {
 }
 
 TrainingScene scene_to_look_at(TriangleSoup soup) {
-  // Vertices crowd in the smallest things, area in backdrops; half of the points by each finds what lies
-  // between.
+  // Small objects have most vertices, and backdrops most area. Half of the points are chosen by vertices and
+  // half by area, which together also find objects between.
   std::vector<double> area_below;
   double area = 0;
   for (const auto& t : soup.triangle) {

@@ -5,16 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "bakers/probe/map_bake.h"
 #include "bakers/probe/map_samples.h"
 #include "bakers/raytrace/hemisphere.h"
+#include "bakers/raytrace/path_tracer.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::probe {
 namespace {
 
+using nook::probe::Constraint;
 using nook::probe::Denominator;
 using nook::probe::Fit;
 using nook::probe::FitMethod;
@@ -24,9 +27,10 @@ using nook::probe::Step;
 constexpr std::size_t few_samples = 1024, many_samples = 20000;
 constexpr std::size_t seeding_share = 64;  // of the samples that go to the short run of a seeded fit
 
-FitSettings settings_of(FitMethod method) {
+FitSettings settings_of(FitMethod method, Constraint constraint = Constraint::none) {
   FitSettings settings;
   settings.method = method;
+  settings.constraint = constraint;
   return settings;
 }
 
@@ -62,7 +66,7 @@ SampledError measure(const ProbeMethod& method, const ExactFit& exact, const Irr
   });
   SampledError all;
   all.irradiance_minimum = std::numeric_limits<double>::infinity();
-  all.mean_worst = 1;
+  all.mean_worst = of_seed.front().mean_worst;
   for (const SampledError& e : of_seed) {
     all.excess_mse += e.excess_mse / double(seeds.size());
     all.distance += e.distance / double(seeds.size());
@@ -71,6 +75,37 @@ SampledError measure(const ProbeMethod& method, const ExactFit& exact, const Irr
     all.irradiance_minimum = std::min(all.irradiance_minimum, e.irradiance_minimum);
   }
   return all;
+}
+
+// Uniform over all rotations: a unit quaternion (K. Shoemake 1992).
+Basis rotated(Basis basis, PathRandom& random) {
+  const double share = random.next_double(), turn = 2 * std::numbers::pi * random.next_double(),
+               other = 2 * std::numbers::pi * random.next_double();
+  const auto x = float(std::sqrt(1 - share) * std::sin(turn)),
+             y = float(std::sqrt(1 - share) * std::cos(turn)), z = float(std::sqrt(share) * std::sin(other)),
+             w = float(std::sqrt(share) * std::cos(other));
+  const Vec3 v{x, y, z};
+  for (std::uint32_t i = 0; i < basis.count; ++i) {
+    const Vec3 a = basis.axis[i], across = cross(v, a) * 2.0f;
+    basis.axis[i] = normalised(a + across * w + cross(v, across));
+  }
+  return basis;
+}
+
+std::vector<double> rotated_errors(const ProbeMethod& method, const Samples& texels,
+                                   const IrradianceTruth& truth, const ComparisonSettings& settings) {
+  if (method.basis.kind != nook::probe::BasisKind::gaussians || method.basis.domain == Domain::hemisphere ||
+      nook::probe::is_running(method.fit.method))
+    return {};
+  std::vector<double> errors(settings.rotations);
+  tbb::parallel_for(std::size_t(0), errors.size(), [&](std::size_t r) {
+    PathRandom random(mix_bits(settings.seed) + r);
+    MapBakeSettings bake;
+    bake.basis = rotated(method.basis, random);
+    bake.fit = method.fit;
+    errors[r] = truth.error(bake.basis, bake_map(bake, texels)).rms / truth.mean();
+  });
+  return errors;
 }
 
 }  // namespace
@@ -100,11 +135,20 @@ std::vector<ProbeMethod> probe_methods(std::uint32_t lobes, const Region& region
   add("moments", gaussians, settings_of(FitMethod::moments));
   add("least_squares", gaussians, settings_of(FitMethod::least_squares));
   add("non_negative_least_squares", gaussians, settings_of(FitMethod::non_negative_least_squares));
+  constexpr std::pair<const char*, FitMethod> with_bands[] = {
+      {"running_average, bands", FitMethod::running_average},
+      {"running_average_non_negative, bands", FitMethod::running_average_non_negative},
+      {"moments, bands", FitMethod::moments},
+      {"least_squares, bands", FitMethod::least_squares},
+      {"non_negative_least_squares, bands", FitMethod::non_negative_least_squares}};
+  for (const auto& [name, method] : with_bands) add(name, gaussians, settings_of(method, Constraint::bands));
   if (region.domain == Domain::hemisphere) return methods;
   add("running_average, ambient", with_ambient, running);
   add("least_squares, ambient", with_ambient, settings_of(FitMethod::least_squares));
   add("non_negative_least_squares, ambient", with_ambient,
       settings_of(FitMethod::non_negative_least_squares));
+  add("least_squares, ambient, bands", with_ambient,
+      settings_of(FitMethod::least_squares, Constraint::bands));
   add("sh_l1", nook::probe::harmonic_basis(1), settings_of(FitMethod::least_squares));
   add("sh_l2", nook::probe::harmonic_basis(2), settings_of(FitMethod::least_squares));
   add("ambient_dice", nook::probe::dice_basis(), settings_of(FitMethod::least_squares));
@@ -146,6 +190,8 @@ std::vector<MethodError> compare_methods(const Environment& map, const std::vect
     error.irradiance_rms_inner_product = truth.error(method.basis, b, IrradianceForm::inner_product).rms;
     error.mean_ratio = exact->mean_ratio(b);
     error.irradiance_minimum = irradiance.minimum;
+    error.irradiance_mean = truth.mean();
+    error.rotated = rotated_errors(method, texels, truth, settings);
     error.uniform_1024 = measure(method, *exact, truth, seeds, &SeedSamples::uniform, few_samples);
     error.uniform_20000 = measure(method, *exact, truth, seeds, &SeedSamples::uniform, many_samples);
     error.luminance_20000 = measure(method, *exact, truth, seeds, &SeedSamples::luminance, many_samples);

@@ -28,6 +28,8 @@ std::vector<ProbeMethod> probe_methods(std::uint32_t lobes, const Region& region
 struct ComparisonSettings {
   std::uint32_t seeds = 20;
   std::uint32_t baked_samples = 1u << 20;  // by luminance, of the whole map's bake, for running averages
+  std::uint32_t rotations =
+      0;  // random ones, uniform over all, of the lobes' axes; solving forms on the sphere
   std::uint64_t seed = 1;
 };
 
@@ -46,6 +48,10 @@ struct MethodError {
   // lobes alone.
   double radiance_rms = 0, irradiance_rms = 0, irradiance_rms_fitted = 0, irradiance_rms_inner_product = 0;
   double mean_ratio = 0, irradiance_minimum = 0;
+  double irradiance_mean = 0;  // of the map, luminance
+  // irradiance_rms over irradiance_mean, of the same lobes with their axes rotated; empty for other functions
+  // and where no rotation was asked for.
+  std::vector<double> rotated;
   SampledError uniform_1024, uniform_20000, luminance_20000;
 };
 

@@ -52,6 +52,8 @@ class IrradianceTruth {
     double minimum =
         0;  // the lowest irradiance of any normal and channel, as a share of the map's mean irradiance
   };
+  // Luminance of the map's irradiance, the mean over the normals.
+  double mean() const { return mean_; }
   Error error(const Basis& basis, std::span<const Vec3> coefficients,
               IrradianceForm form = IrradianceForm::bands) const;
 

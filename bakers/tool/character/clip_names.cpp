@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bakers/tool/tool_error.h"
+#include "platform/printable.h"
 
 namespace nook::tool {
 
@@ -15,7 +16,7 @@ void require_clips(const std::vector<std::string>& wanted, const std::vector<std
     std::string text = "--clips: there is no clip \"" + name + "\"; the file has these:";
     std::vector<std::string> sorted = present;
     std::sort(sorted.begin(), sorted.end());
-    for (const std::string& there : sorted) text += "\n  " + there;
+    for (const std::string& there : sorted) text += "\n  " + platform::printable(there);
     throw ToolError(exit_bad_arguments, text);
   }
 }

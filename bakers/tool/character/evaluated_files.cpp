@@ -11,6 +11,11 @@ void add_evaluated_files(CLI::App& command, std::filesystem::path& character, st
   command.add_option("model", model, "the .nook file")->required();
 }
 
+std::vector<NamedFile> evaluated_files(const std::filesystem::path& character,
+                                       const std::filesystem::path& model) {
+  return {{"the character", character}, {"the model", model}};
+}
+
 measure::BakedCharacter read_evaluated_files(const std::filesystem::path& character,
                                              const std::filesystem::path& model) {
   auto imported = naming_file(character, [&] { return measure::read_character(character); });

@@ -99,7 +99,7 @@ nook::material::VisibilityMapping visibility_mapping(const std::string& text, Vi
   return mapping;
 }
 
-StageProgress stage_progress(ProgressBar& bar, std::string prefix) {
+StageProgress stage_progress(platform::ProgressBar& bar, std::string prefix) {
   return [&bar, prefix = std::move(prefix)](const char* stage, std::size_t done, std::size_t total) {
     bar.show(prefix + stage, "steps", done, total);
     return !interrupted();

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bakers/measure/material/report.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/progress_bar.h"
 
 namespace CLI {
 class App;
@@ -30,6 +30,6 @@ nook::material::VisibilityMapping visibility_mapping(const std::string& text,
                                                      nook::material::VisibilityForm form);
 
 // Shows stages on a bar and stops at Ctrl-C.
-bake::material::StageProgress stage_progress(ProgressBar& bar, std::string prefix);
+bake::material::StageProgress stage_progress(platform::ProgressBar& bar, std::string prefix);
 
 }  // namespace nook::tool

@@ -7,12 +7,14 @@
 #include <optional>
 
 #include "bakers/job/probe_bake.h"
+#include "bakers/measure/probe/report.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/output_file.h"
 #include "bakers/tool/probe/bake.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/tool/progress_bar.h"
 #include "bakers/tool/table.h"
+#include "bakers/tool/tool_error.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -33,6 +35,7 @@ std::vector<std::byte> file_of(const BakeProbeOptions& options, GridBake& grid, 
   Json recipe = describe(options.probe, probes.basis);
   recipe["source"] = options.input.filename().string();
   recipe["light"] = options.light.filename().string();
+  recipe["direct"] = options.direct;
   recipe["samples"] = grid.samples();
   recipe["error"] = error;
   recipe["seed"] = options.common.seed;
@@ -42,7 +45,7 @@ std::vector<std::byte> file_of(const BakeProbeOptions& options, GridBake& grid, 
 
 // Passes until the error is small enough, the samples are used up, or the user stops it.
 double refine(const BakeProbeOptions& options, GridBake& grid, std::uint32_t max_passes) {
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   bake::GridRefinement refinement;
   refinement.max_passes = max_passes;
   refinement.error = options.error;
@@ -52,7 +55,7 @@ double refine(const BakeProbeOptions& options, GridBake& grid, std::uint32_t max
     return !interrupted();
   };
   refinement.preview = [&](double error) {
-    OutputFile(options.output).commit(file_of(options, grid, error));
+    platform::OutputFile(options.output).commit(file_of(options, grid, error));
     char label[64];
     std::snprintf(label, sizeof label, "preview written, error %.3g", error);
     bar.show(label, "passes at most", grid.passes(), max_passes);
@@ -63,9 +66,14 @@ double refine(const BakeProbeOptions& options, GridBake& grid, std::uint32_t max
 }  // namespace
 
 void bake_probe_grid(const BakeProbeOptions& options) {
-  OutputFile output(options.output);
-  std::optional<OutputFile> report;
+  platform::OutputFile output(options.output);
+  std::optional<platform::OutputFile> report;
   if (!options.common.report.empty()) report.emplace(options.common.report);
+  if (options.preview_every_s > 0 && !output.is_regular())
+    throw ToolError(exit_bad_arguments,
+                    "--preview-every: -o is a device or a pipe, where no later version can replace "
+                    "a preview (got " +
+                        options.output.string() + "); give a file");
   const bake::ProbeScene scene = read_probe_scene(options.input, options.light, !options.no_textures);
   GridBakeSettings settings;
   settings.basis = basis_of(options.probe);
@@ -75,6 +83,7 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   settings.seed = options.common.seed;
   settings.path.max_bounces = options.max_bounces;
   settings.path.origin_offset = scene.origin_offset;
+  settings.path.direct = measure::direct_of(options.direct);
 
   const auto began = Clock::now();
   GridBake bake(*scene.lit, settings);
@@ -89,6 +98,9 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   row["probes_inside"] = bake.inside_count();
   const Json made_of = describe(options.probe, settings.basis);
   for (const auto& item : made_of.items()) row[item.key()] = item.value();
+  row["direct"] = options.direct;
+  if (settings.path.direct != bake::DirectLight::all)
+    row["suns"] = measure::sun_rows(scene.lit->environment());
   row["samples_per_probe"] = bake.samples();
   row["error"] = error;
   row["error_reached"] = error <= options.error;

@@ -8,11 +8,11 @@
 #include "bakers/job/probe_bake.h"
 #include "bakers/measure/probe/report.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/output_file.h"
 #include "bakers/tool/probe/bake.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/tool/progress_bar.h"
 #include "bakers/tool/table.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -48,13 +48,13 @@ void bake_probe_of_map(const BakeProbeOptions& options) {
   settings.sampling = sampling_of(options.sampling);
   if (options.samples > 0) settings.samples = options.samples;
   settings.seed = options.common.seed;
-  OutputFile output(options.output);
-  std::optional<OutputFile> report, picture;
+  platform::OutputFile output(options.output);
+  std::optional<platform::OutputFile> report, picture;
   if (!options.common.report.empty()) report.emplace(options.common.report);
   if (!options.picture.empty()) picture.emplace(options.picture);
   const bake::Environment map = read_map(options.input);
 
-  ProgressBar bar(options.common.quiet);
+  platform::ProgressBar bar(options.common.quiet);
   const auto began = std::chrono::steady_clock::now();
   bake::MapProbe baked = bake::bake_map_probe(map, settings, [&](std::size_t done, std::size_t total) {
     bar.show("fitting", "samples", done, total);

@@ -4,7 +4,7 @@
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/tool/progress_bar.h"
+#include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void append_grid(const EvaluateGridOptions& options, const CommonOptions& common,
-                 const bake::ProbeScene& scene, const std::filesystem::path& path, ProgressBar& bar,
+                 const bake::ProbeScene& scene, const std::filesystem::path& path, platform::ProgressBar& bar,
                  Json& rows) {
   const std::vector<std::byte> bytes = read_file(path);
   const std::string file = path.filename().string();
@@ -23,9 +23,10 @@ void append_grid(const EvaluateGridOptions& options, const CommonOptions& common
     };
   };
   const Json measured = naming_file(path, [&] {
-    return measure::grid_rows(
-        *scene.lit, scene.soup, probe::read_probes(bytes),
-        {options.points, options.paths, options.max_bounces, scene.origin_offset, common.seed}, progress);
+    return measure::grid_rows(*scene.lit, scene.soup, probe::read_probes(bytes),
+                              {options.points, options.paths, options.max_bounces, scene.origin_offset,
+                               common.seed, options.direct},
+                              progress);
   });
   for (const Json& row : measured) {
     Json named{
@@ -42,7 +43,7 @@ Json evaluate_grids(const EvaluateGridOptions& options, const CommonOptions& com
   const bake::ProbeScene scene = read_probe_scene(options.scene, options.light, !options.no_textures);
   Json report;
   report["rows"] = Json::array();
-  ProgressBar bar(common.quiet);
+  platform::ProgressBar bar(common.quiet);
   for (const std::filesystem::path& grid : grids)
     append_grid(options, common, scene, grid, bar, report["rows"]);
   report["seed"] = common.seed;

@@ -15,6 +15,7 @@ struct EvaluateGridOptions {
   std::uint32_t paths = 2048;   // a point
   std::uint32_t max_bounces = ~0u;
   bool no_textures = false;
+  std::string direct;  // empty: as each grid was baked
 };
 
 // Three rows a grid: points on surfaces, the same with probes looked up half a cell off along the normal, and

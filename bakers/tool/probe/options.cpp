@@ -6,10 +6,11 @@
 namespace nook::tool {
 namespace {
 
-// In the order of probe::FitMethod and probe::Packing.
+// In the order of probe::FitMethod, probe::Constraint and probe::Packing.
 const std::vector<std::string> method_names{
     "naive",   "running-average", "running-average-original",  "running-average-non-negative",
     "moments", "least-squares",   "non-negative-least-squares"};
+const std::vector<std::string> constraint_names{"bands", "none"};
 const std::vector<std::string> packing_names{"float", "half", "rgb9e5"};
 const std::vector<std::string> basis_names{"gaussians", "harmonics", "dice"};
 
@@ -30,6 +31,12 @@ void add_probe_options(CLI::App& command, ProbeOptions& options) {
   command.add_flag("--hemisphere", options.hemisphere, "only directions above the horizon (+y)");
   command.add_option("--method", options.method, "how coefficients are fitted")
       ->check(CLI::IsMember(method_names))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--constraint", options.constraint,
+          "bands: lobes keep the light's spherical harmonics of bands 0 to 2; none: least squares alone")
+      ->check(CLI::IsMember(constraint_names))
       ->capture_default_str();
   command.add_option("--basis", options.basis, "what the probe is made of")
       ->check(CLI::IsMember(basis_names))
@@ -63,6 +70,7 @@ probe::Basis basis_of(const ProbeOptions& options) {
 probe::FitSettings fit_of(const ProbeOptions& options) {
   probe::FitSettings settings;
   settings.method = probe::FitMethod(index_of(method_names, options.method));
+  settings.constraint = probe::Constraint(index_of(constraint_names, options.constraint));
   return settings;
 }
 
@@ -75,6 +83,7 @@ nlohmann::ordered_json describe(const ProbeOptions& options, const probe::Basis&
   text["basis"] = options.basis;
   text["domain"] = options.hemisphere ? "hemisphere" : "sphere";
   text["method"] = options.method;
+  if (probe::meets_bands(basis, fit_of(options))) text["constraint"] = options.constraint;
   text["functions"] = basis.count;
   text["floats"] = 3 * basis.count;
   if (basis.kind == probe::BasisKind::gaussians) text["sharpness"] = basis.sharpness[0];

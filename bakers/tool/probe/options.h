@@ -18,7 +18,7 @@ struct ProbeOptions {
   std::uint32_t lobes = 12;
   float sharpness = 0;  // 0: by the number of lobes
   bool ambient = false, hemisphere = false;
-  std::string basis = "gaussians", method = "running-average", packing = "float";
+  std::string basis = "gaussians", method = "least-squares", constraint = "bands", packing = "float";
   std::uint32_t order = 2;
 };
 

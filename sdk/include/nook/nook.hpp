@@ -1,5 +1,6 @@
-// C++17 over the C headers: handles that destroy what they hold, and failed calls as exceptions. Header only,
-// so that no C++ type crosses the library's boundary.
+// C++17 wrappers of the C headers: handles destroy their objects, and failed calls throw nook::Error. The
+// wrappers are header-only, so that no C++ type crosses the library's boundary. The C headers document every
+// function, its thread contract included.
 #ifndef NOOK_NOOK_HPP
 #define NOOK_NOOK_HPP
 
@@ -18,10 +19,11 @@
 #include "nook_probe.h"
 
 namespace nook {
-// A namespace within, so that these names never meet the library's own at link time. Write nook::Scene all
-// the same.
+// The inline namespace keeps these names apart from the library's own names at link time. Callers write
+// nook::Scene.
 inline namespace wrapper {
 
+// A failed call: what() is the message of nook_last_message().
 class Error : public std::runtime_error {
  public:
   explicit Error(nook_result result) : std::runtime_error(nook_last_message()), result_(result) {}
@@ -31,11 +33,12 @@ class Error : public std::runtime_error {
   nook_result result_;
 };
 
+// Throws Error unless the call succeeded.
 inline void check(nook_result result) {
   if (result != NOOK_OK) throw Error(result);
 }
 
-// Owns one handle. get() is what the C functions take.
+// Owns one handle; the C functions take get().
 template <class Handle, void (*destroy)(Handle*)>
 class Unique {
  public:
@@ -73,14 +76,14 @@ inline nook_probe_fit_desc probe_fit_desc() {
   return desc;
 }
 
-// functions and coefficients are left to the caller.
+// The caller sets functions and coefficients.
 inline nook_probe_desc probe_desc() {
   nook_probe_desc desc;
   check(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
   return desc;
 }
 
-// get_proc is left to the caller.
+// The caller sets get_proc.
 inline nook_gl_desc gl_desc() {
   nook_gl_desc desc;
   check(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
@@ -93,21 +96,21 @@ inline nook_gl_material_desc gl_material_desc() {
   return desc;
 }
 
-// max_width and max_height are left to the caller.
+// The caller sets max_width and max_height.
 inline nook_nnao_desc nnao_desc() {
   nook_nnao_desc desc;
   check(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
   return desc;
 }
 
-// Sizes, depth texture, projection and radius are left to the caller.
+// The caller sets the size, the depth texture, the projection and the radius.
 inline nook_nnao_frame_desc nnao_frame_desc() {
   nook_nnao_frame_desc desc;
   check(nook_nnao_frame_desc_init(&desc, sizeof desc, NOOK_VERSION));
   return desc;
 }
 
-// Texture memory of a pass made from desc.
+// Returns the texture memory of a pass with this descriptor, in bytes.
 inline std::uint64_t nnao_memory(const nook_nnao_desc& desc) {
   std::uint64_t bytes = 0;
   check(nook_nnao_memory(&desc, &bytes));
@@ -137,7 +140,7 @@ class CharacterModel : public Unique<nook_character_model, nook_character_model_
     check(nook_character_model_describe(get(), &info));
     return info;
   }
-  // Empty for an index out of range.
+  // Returns an empty string for an index out of range.
   std::string bone_name(std::uint32_t bone) const {
     const char* name = nook_character_model_bone_name(get(), bone);
     return name ? name : "";
@@ -167,7 +170,7 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
     return id;
   }
   void remove_instance(nook_instance_id id) { check(nook_scene_remove_instance(get(), id)); }
-  // bones_3x4: 12 floats a bone, row-major.
+  // bones_3x4 holds 12 floats for each bone, row-major.
   void set_pose(nook_instance_id id, const float* bones_3x4, std::uint32_t bone_count) {
     check(nook_scene_set_pose(get(), id, bones_3x4, bone_count));
   }
@@ -201,7 +204,7 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
   void set_light(nook_instance_id id, const nook_probe_lobe* lobes, std::uint32_t lobe_count) {
     check(nook_scene_set_light(get(), id, lobes, lobe_count));
   }
-  // Three floats a vertex.
+  // Writes three floats for each vertex.
   void read_directional_ao(nook_instance_id id, float* out_rgb, std::uint32_t count,
                            std::size_t stride = 0) const {
     check(nook_scene_read_directional_ao(get(), id, out_rgb, count, stride));
@@ -234,7 +237,7 @@ class Probe : public Unique<nook_probe, nook_probe_destroy> {
     check(nook_probe_describe(get(), &info));
     return info;
   }
-  // The bytes of a .nook file.
+  // Returns the bytes of a .nook file.
   std::vector<unsigned char> save(nook_probe_packing packing) const {
     std::size_t size = 0;
     check(nook_probe_save(get(), packing, nullptr, &size));
@@ -242,13 +245,13 @@ class Probe : public Unique<nook_probe, nook_probe_destroy> {
     check(nook_probe_save(get(), packing, bytes.data(), &size));
     return bytes;
   }
-  // RGB of each function.
+  // Returns the RGB coefficients of all functions.
   std::vector<float> coefficients(std::uint32_t index = 0) const {
     std::vector<float> rgb(std::size_t(3) * info().function_count);
     check(nook_probe_read_coefficients(get(), index, rgb.data(), static_cast<std::uint32_t>(rgb.size() / 3)));
     return rgb;
   }
-  // position_ws: NULL for the first probe.
+  // position_ws may be NULL for the first probe.
   std::vector<nook_probe_lobe> lobes(const float* position_ws = nullptr) const {
     std::vector<nook_probe_lobe> all(info().function_count);
     check(nook_probe_read_lobes(get(), position_ws, all.data(), static_cast<std::uint32_t>(all.size())));
@@ -280,7 +283,7 @@ class ProbeFit : public Unique<nook_probe_fit, nook_probe_fit_destroy> {
   explicit ProbeFit(const Context& context, const nook_probe_fit_desc& desc = probe_fit_desc())
       : Unique(create(context, desc)) {}
 
-  // weights: NULL for all 1.
+  // weights may be NULL if all are 1.
   void add_samples(const float* directions, const float* radiance, const float* weights, std::size_t count) {
     check(nook_probe_fit_add_samples(get(), directions, radiance, weights, count));
   }
@@ -293,7 +296,7 @@ class ProbeFit : public Unique<nook_probe_fit, nook_probe_fit_destroy> {
     check(nook_probe_fit_describe(get(), &info));
     return info;
   }
-  // RGB of each function.
+  // Returns the RGB coefficients of all functions.
   std::vector<float> read() const {
     std::vector<float> rgb(std::size_t(3) * info().function_count);
     check(nook_probe_fit_read(get(), rgb.data(), static_cast<std::uint32_t>(rgb.size() / 3)));
@@ -313,7 +316,7 @@ class ProbeFit : public Unique<nook_probe_fit, nook_probe_fit_destroy> {
   }
 };
 
-// What nook_gl.h says of the context thread holds for every function here, and for the destructor.
+// Every function and the destructor belong to the context thread, as nook_gl.h documents.
 class Gl : public Unique<nook_gl, nook_gl_destroy> {
  public:
   Gl(const Context& context, const nook_gl_desc& desc) : Unique(create(context, desc)) {}
@@ -326,7 +329,7 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
     return info;
   }
   void prepare(const Scene& scene) { check(nook_gl_scene_prepare(get(), scene.get())); }
-  // Instead of scene.update().
+  // Replaces scene.update().
   void update(Scene& scene) { check(nook_gl_scene_update(get(), scene.get())); }
   nook_gl_ao_view ao_buffer(const Scene& scene, nook_instance_id id) const {
     nook_gl_ao_view view{};
@@ -344,7 +347,7 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
     check(nook_gl_scene_light(get(), scene.get(), id, &view));
     return view;
   }
-  // Three floats a vertex; waits for the GPU.
+  // Writes three floats for each vertex; waits for the GPU.
   void read_directional_ao(const Scene& scene, nook_instance_id id, float* out_rgb,
                            std::uint32_t count) const {
     check(nook_gl_scene_read_directional_ao(get(), scene.get(), id, out_rgb, count));
@@ -359,7 +362,8 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   }
 };
 
-// A probe or a grid in a texture of its own; what nook_gl_probe.h says of the context thread holds.
+// A probe or a grid in a texture of its own. Every function belongs to the context thread, as nook_gl_probe.h
+// documents.
 class GlProbe : public Unique<nook_gl_probe, nook_gl_probe_destroy> {
  public:
   GlProbe(const Gl& gl, nook_probe probe) : Unique(create(gl, probe)) {}
@@ -403,7 +407,7 @@ class Material : public Unique<nook_material, nook_material_destroy> {
   }
 };
 
-// Belongs to the context thread, as Gl does.
+// Every function and the destructor belong to the context thread, as for Gl.
 class GlMaterial : public Unique<nook_gl_material, nook_gl_material_destroy> {
  public:
   GlMaterial() = default;
@@ -433,7 +437,7 @@ class GlMaterial : public Unique<nook_gl_material, nook_gl_material_destroy> {
   }
 };
 
-// What nook_nnao.h says of the context thread holds for every function here, and for the destructor.
+// Every function and the destructor belong to the context thread, as nook_nnao.h documents.
 class Nnao : public Unique<nook_nnao, nook_nnao_destroy> {
  public:
   Nnao(const Gl& gl, const nook_nnao_desc& desc) : Unique(create(gl, desc)) {}

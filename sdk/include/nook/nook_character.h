@@ -1,8 +1,9 @@
 /* Dynamic ambient occlusion of skinned characters: baked models, scenes of instances, evaluation on the CPU.
  *
- * The model (Le et al., I3D 2019): proxy spheres ride on bones and cast shadow on key points; each vertex blends a few
- * key points. A scene holds instances of models with their poses; links let one instance darken another; the ground and
- * free occluders darken what they touch. Nothing of this needs retraining. */
+ * The model is that of B. H. Le et al., I3D 2019. Proxy spheres are rigid to bones and cast shadow on key
+ * points, and each vertex blends the shadows of a few key points. A scene holds instances of models with
+ * their poses. Links let one instance darken another; the ground and free occluders darken instances as well.
+ * None of these needs a new bake. */
 #ifndef NOOK_CHARACTER_H
 #define NOOK_CHARACTER_H
 
@@ -15,173 +16,249 @@ extern "C" {
 
 typedef struct nook_character_model_s* nook_character_model;
 typedef struct nook_scene_s* nook_scene;
-typedef uint32_t nook_instance_id; /* 0 is never a valid id; ids are not reused while their scene lives */
-typedef uint32_t nook_occluder_id; /* the same */
+/* Identify an instance and an occluder of a scene. 0 is never a valid id, and no id is used again while its
+ * scene lives. */
+typedef uint32_t nook_instance_id;
+typedef uint32_t nook_occluder_id;
 
 /* ---- Models: immutable, shared by any number of scenes and threads ---- */
 
-/* Loads a character model from the bytes of a .nook file, which may be freed afterwards. Everything is validated; safe on
- * hostile bytes. On failure *out is NULL. Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+/* Loads a character model from the bytes of a .nook file; the caller may free the bytes afterwards. The
+ * library validates everything, so that hostile bytes are safe. On failure *out is NULL.
+ * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_character_model_load(nook_context context, const void* bytes, size_t size,
                                                nook_character_model* out);
 
-/* Releases the caller's hold and sets *model to NULL; scenes that use it keep it alive. Any thread. */
+/* Releases the caller's reference and sets *model to NULL; scenes that use the model keep it alive.
+ * Any thread. */
 NOOK_API void nook_character_model_destroy(nook_character_model* model);
 
 typedef struct nook_character_model_info {
-  uint32_t struct_size;          /* sizeof(nook_character_model_info), set by the caller */
-  uint32_t bone_count;           /* matrices that nook_scene_set_pose needs */
+  /* sizeof(nook_character_model_info); the caller sets it. */
+  uint32_t struct_size;
+  /* The number of matrices that nook_scene_set_pose needs. */
+  uint32_t bone_count;
   uint32_t sphere_count;
   uint32_t key_point_count;
-  uint32_t vertex_count;         /* welded vertices */
-  uint32_t file_vertex_count;    /* AO values in the imported file's vertex order, all primitives in a row */
+  /* The number of vertices after welding. */
+  uint32_t vertex_count;
+  /* The number of AO values: one for each vertex of the imported file, the primitives one after another. */
+  uint32_t file_vertex_count;
   uint32_t primitive_count;
-  uint32_t lod_count;            /* 1: full detail only */
-  float bounding_radius;         /* metres, of the rest pose round its centroid */
-  float gamma;                   /* exponent of the shadow norm */
+  /* The number of levels of detail, full detail included; at least 1. */
+  uint32_t lod_count;
+  /* Metres; the radius of the rest pose about the centre of its bounding box. */
+  float bounding_radius;
+  /* The exponent of the shadow norm (Le et al. 2019, slide 20). */
+  float gamma;
 } nook_character_model_info;
 
-/* Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_character_model_describe(nook_character_model model, nook_character_model_info* info);
+/* Describes a model.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_character_model_describe(nook_character_model model,
+                                                   nook_character_model_info* info);
 
-/* The name of a bone, so that a host can map its skeleton to the model's order. Valid while the model lives. Any thread.
- * NULL for an index out of range. */
+/* Returns the name of a bone, so that a host can map its skeleton to the model's order, or NULL for an index
+ * out of range. The text is valid while the model lives.
+ * Any thread. */
 NOOK_API const char* nook_character_model_bone_name(nook_character_model model, uint32_t bone);
 
-/* First AO value and number of AO values of one primitive of the imported file. Primitives come in the file's node order,
- * then mesh order. Any thread. Errors: INVALID_ARGUMENT. */
+/* Gives the first AO value and the number of AO values of one primitive of the imported file. Primitives are
+ * in the order of the file's nodes, and within a node in the order of its mesh.
+ * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_character_model_primitive(nook_character_model model, uint32_t primitive,
                                                     uint32_t* first_vertex, uint32_t* vertex_count);
 
-/* The AO of the baked rest pose in file order, what a static bake would give. Any thread.
- * Errors: INVALID_ARGUMENT (count is not file_vertex_count), UNSUPPORTED (the model was baked without it). */
+/* Copies the ray-traced AO of the rest pose in the file's vertex order; this is what a static bake gives.
+ * count must be file_vertex_count.
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model was baked without static AO). */
 NOOK_API nook_result nook_character_model_static_ao(nook_character_model model, float* out, uint32_t count);
 
 /* ---- Scenes ---- */
 
+/* The combination of self-shadow with casters that were not part of the bake. */
 enum {
-  NOOK_COMBINE_COMPOSED = 0, /* added casters form a cosine-weighted term of their own: AO = self * (1 - added) */
-  NOOK_COMBINE_PAPER = 1     /* added spheres join the one norm of the self-shadow, as the paper has it */
+  /* Added casters form a cosine-weighted term of their own: AO = self * (1 - added). */
+  NOOK_COMBINE_COMPOSED = 0,
+  /* Added spheres join the norm of the self-shadow, as in Le et al. 2019. */
+  NOOK_COMBINE_PAPER = 1
 };
 typedef int32_t nook_combine;
 
 typedef struct nook_scene_desc {
-  uint32_t struct_size;         /* set by nook_scene_desc_init */
-  uint32_t header_version;      /* set by nook_scene_desc_init */
-  const void* next;             /* NULL */
-  nook_combine combine;         /* default NOOK_COMBINE_COMPOSED */
-  nook_isa isa;                 /* default NOOK_ISA_AUTO; a better one than the processor has: UNSUPPORTED */
-  float cutoff_error;           /* AO; linked casters and occluders that darken by less than this bound are skipped.
-                                   [0, 1], default 1/1024; 0 culls nothing */
-  float lod_error;              /* AO, rms; the coarsest level whose baked error (of self-shadow) is below this times
-                                   (distance to the camera / lod_distance) is used. >= 0, default 0: full detail */
-  float lod_distance;           /* metres, > 0, default 10 */
-  uint32_t lod_max_interval;    /* frames; a distant instance is updated at least this often. >= 1, default 1: always */
-  float ground_radius;          /* metres, radius of the sphere that stands for a ground plane. > 0, default 10,000 */
-  uint32_t reserved;            /* 0 */
+  /* nook_scene_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t header_version;
+  /* Must be NULL. */
+  const void* next;
+  /* Default NOOK_COMBINE_COMPOSED. */
+  nook_combine combine;
+  /* Default NOOK_ISA_AUTO. An instruction set that the processor lacks fails with UNSUPPORTED. */
+  nook_isa isa;
+  /* AO, in [0, 1], default 1/1024. An update skips each linked caster, occluder and ground whose largest
+   * possible darkening of an instance is below this bound. 0 skips nothing. */
+  float cutoff_error;
+  /* AO, root mean square, >= 0, default 0: full detail. An update uses the coarsest level whose baked error
+   * of self-shadow is below lod_error * (distance to the camera / lod_distance). */
+  float lod_error;
+  /* Metres, > 0, default 10. */
+  float lod_distance;
+  /* Frames, >= 1, default 1: every frame. An update may skip a distant instance, but evaluates it at least
+   * once in this many frames. */
+  uint32_t lod_max_interval;
+  /* Metres, > 0, default 10,000: the radius of the sphere that stands for a ground plane. */
+  float ground_radius;
+  /* Must be 0. */
+  uint32_t reserved;
 } nook_scene_desc;
 
-/* Fills *desc with defaults, as nook_context_desc_init does. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+/* Fills *desc with defaults, as nook_context_desc_init does.
+ * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 NOOK_API nook_result nook_scene_desc_init(nook_scene_desc* desc, size_t size, uint32_t header_version);
 
-/* On failure *out is NULL. Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED, OUT_OF_MEMORY. */
+/* Creates an empty scene. On failure *out is NULL.
+ * Any thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_create(nook_context context, const nook_scene_desc* desc, nook_scene* out);
 
-/* Sets *scene to NULL. GL objects made for it become invalid but may still be destroyed. One at a time. */
+/* Destroys the scene and sets *scene to NULL. GL objects of the scene become invalid but may still be
+ * destroyed.
+ * One at a time. */
 NOOK_API void nook_scene_destroy(nook_scene* scene);
 
-/* Adds an instance in the rest pose, without ground and links. Allocates. One at a time.
- * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_scene_add_instance(nook_scene scene, nook_character_model model, nook_instance_id* out);
+/* Adds an instance in the rest pose, without ground and links. The call allocates.
+ * One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_scene_add_instance(nook_scene scene, nook_character_model model,
+                                             nook_instance_id* out);
 
-/* Removes an instance and every link from and to it. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+/* Removes an instance and every link from and to it.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_id instance);
 
-/* Sets the pose: one 3x4 matrix per bone, row-major (12 floats: three rows of rotation | translation), rest space in metres
- * to world space, rigid or with uniform scale, which scales radii. bone_count must be the model's. No allocation.
- * One at a time. Errors: INVALID_ARGUMENT (wrong count, not finite, sheared or unevenly scaled by more than 1 %: names the
- * bone), INVALID_HANDLE. */
+/* Sets the pose of an instance. bones_3x4 holds one 3x4 matrix for each bone, row-major: 12 floats, three
+ * rows of rotation | translation. A matrix maps rest space to world space, both in metres; it is rigid, or
+ * has a uniform scale, which scales radii. bone_count must be the model's. The call does not allocate.
+ * One at a time. Errors: INVALID_ARGUMENT (the count is wrong, or a matrix is not finite, is sheared, or
+ * scales unevenly by more than 1 %; the message names the bone), INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance, const float* bones_3x4,
                                          uint32_t bone_count);
 
-/* Lets caster darken receiver until unlinked; linking twice is one link. Allocates. One at a time.
- * Errors: INVALID_ARGUMENT (both the same), INVALID_HANDLE, OUT_OF_MEMORY. */
+/* Links two instances, so that caster darkens receiver until nook_scene_unlink; a second call for the same
+ * pair changes nothing. The call allocates.
+ * One at a time. Errors: INVALID_ARGUMENT (receiver and caster are the same), INVALID_HANDLE, OUT_OF_MEMORY.
+ *   */
 NOOK_API nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
-/* Undoes nook_scene_link. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (also: there is no such link). */
+/* Removes a link of nook_scene_link.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (an id is unknown, or the instances are not
+ * linked). */
 NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
-/* From the next update on, each instance is also darkened by its k nearest instances within max_distance (metres between
- * bounding-sphere centres), found anew each update by a grid, so that the cost grows linearly with the crowd. k = 0 turns
- * it off; k <= 16. May allocate here, not in the update. One at a time.
- * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+/* Links each instance to its k nearest instances in addition to the links above, from the next update on. k
+ * is 0 to 16; 0 turns the automatic links off. max_distance is in metres between the centres of bounding
+ * spheres. Each update finds the nearest instances anew with a grid, whose cost grows linearly with the
+ * number of instances where they are spread out. This call may allocate, so that the update does not.
+ * One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance);
 
-/* Ground under an instance: a plane, points p with normal . p = offset, normal (unit length to 1e-3) away from the ground,
- * world space, metres. It is evaluated as a sphere of ground_radius tangent to the plane under the instance, following it.
- * plane_xyzd NULL: no ground. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-NOOK_API nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance, const float* plane_xyzd);
+/* Sets the ground under an instance: the plane of the points p with dot(normal, p) = offset, in world space
+ * and metres. plane_xyzd holds the normal, which points away from the ground and has unit length to 1e-3, and
+ * the offset. The ground is evaluated as a sphere of ground_radius that touches the plane under the instance
+ * and follows it. plane_xyzd NULL removes the ground.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+NOOK_API nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance,
+                                           const float* plane_xyzd);
 
-/* Adds a sphere (world space, metres) that darkens every instance. Allocates. One at a time.
- * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+/* Adds a sphere that darkens every instance; centre_ws and radius are in world space and metres. The call
+ * allocates.
+ * One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_add_occluder(nook_scene scene, const float centre_ws[3], float radius,
                                              nook_occluder_id* out);
-/* Moves or resizes it; no allocation. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-NOOK_API nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id occluder, const float centre_ws[3],
-                                             float radius);
-/* One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+
+/* Moves or resizes an occluder. The call does not allocate.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+NOOK_API nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id occluder,
+                                             const float centre_ws[3], float radius);
+
+/* Removes an occluder.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_id occluder);
 
-/* ---- Directional occlusion: what is taken from the light of a probe, channel by channel ----
+/* ---- Directional occlusion: the occlusion of a probe's light, by colour channel ----
  *
- * Light that comes from few directions is darkened by what stands there, and by nothing else. With lobes set, each sphere takes
- * from its receiver, instead of its share f of the hemisphere, f * rho: rho is the mean radiance of the lobes behind the sphere
- * over their mean in the receiver's hemisphere, for each channel; the spheres of a linked instance share one rho, that of the ground
- * is of the half-space below its plane. What comes out is a colour for each vertex that takes the place of AO in
- * albedo / pi * E * AO, E the irradiance of the same lobes. Under constant light it is AO. Evaluated by nook_scene_update and by
- * nook_gl_scene_update; nook_gl_scene_light says what a shader does with it. */
+ * Light that comes from few directions is darkened only by what stands in these directions. With lobes set, a
+ * sphere that covers the share f of its receiver's hemisphere takes f * rho of the light instead of f. For
+ * each channel, rho is the mean radiance of the lobes behind the sphere over their mean radiance in the
+ * receiver's hemisphere. The spheres of a linked instance share one rho, and the rho of the ground is that of
+ * the half-space below its plane. The result is a colour for each vertex that takes the place of AO in
+ * albedo / pi * E * AO, where E is the irradiance of the same lobes. Under constant light it is equal to AO.
+ * nook_scene_update and nook_gl_scene_update both evaluate it; nook_gl_scene_light describes the use in a
+ * shader. */
 
-/* Sets the light of an instance for the updates that follow: lobes such as nook_probe_read_lobes gives at its place, at most
- * NOOK_PROBE_MAX_FUNCTIONS, copied. lobe_count 0 or lobes NULL: none. With 12 lobes an update of an instance
- * takes 0.1 to 0.2 ms longer on one core with AVX2, and as much for each neighbour. Allocates at an instance's first light. One at a time.
- * Errors: INVALID_ARGUMENT (names the lobe), INVALID_HANDLE, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_probe_lobe* lobes,
-                                          uint32_t lobe_count);
+/* Sets the light of an instance for the updates that follow. lobes are the light at its place, such as the
+ * result of nook_probe_read_lobes; there are at most NOOK_PROBE_MAX_FUNCTIONS, and the call copies them.
+ * lobe_count 0 or lobes NULL removes the light. With 12 lobes an update of an instance takes 0.1 to 0.2 ms
+ * longer on one core with AVX2, and as much again for each linked instance. The call allocates at the first
+ * light of an instance.
+ * One at a time. Errors: INVALID_ARGUMENT (the message names the lobe), INVALID_HANDLE, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance,
+                                          const nook_probe_lobe* lobes, uint32_t lobe_count);
 
-/* As nook_scene_read_ao, with three floats (red, green, blue, in [0, 1]) for each vertex; AO in all three for an instance whose
- * last nook_scene_update saw no light. count is in vertices; stride is in bytes (0: three floats).
- * Any thread while no other call changes the scene. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-NOOK_API nook_result nook_scene_read_directional_ao(nook_scene scene, nook_instance_id instance, float* out_rgb, uint32_t count,
-                                                    size_t stride);
+/* Writes the directional occlusion of the last nook_scene_update as nook_scene_read_ao does, with three
+ * floats (red, green, blue, in [0, 1]) for each vertex. If that update found no light on the instance, all
+ * three are its AO. count is in vertices; stride is in bytes (0: three floats).
+ * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+NOOK_API nook_result nook_scene_read_directional_ao(nook_scene scene, nook_instance_id instance,
+                                                    float* out_rgb, uint32_t count, size_t stride);
 
-/* Where the camera is, for level of detail. Without a call, and after one with NULL, every instance is near.
+/* Sets the position of the camera, in world space and metres, for the choice of levels of detail. Without a
+ * position, and after a call with NULL, every instance has full detail in every update.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]);
 
-enum { NOOK_TERM_SELF = 1, NOOK_TERM_LINKS = 2, NOOK_TERM_GROUND = 4, NOOK_TERM_OCCLUDERS = 8, NOOK_TERM_ALL = 15 };
-/* Which casters count, for debug views and artists; default NOOK_TERM_ALL. Without NOOK_TERM_SELF the bias of the fit is
- * left out too, so that an instance with nothing near it is open. One at a time. Errors: INVALID_ARGUMENT. */
+/* The casters that an update can leave out. */
+enum {
+  NOOK_TERM_SELF = 1,
+  NOOK_TERM_LINKS = 2,
+  NOOK_TERM_GROUND = 4,
+  NOOK_TERM_OCCLUDERS = 8,
+  NOOK_TERM_ALL = 15
+};
+
+/* Chooses the casters that updates evaluate, a sum of NOOK_TERM_ values, for debug views and artists; default
+ * NOOK_TERM_ALL. Without NOOK_TERM_SELF the bias of the fit is left out as well, so that an instance without
+ * added casters is open.
+ * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_terms(nook_scene scene, uint32_t terms);
 
-/* Evaluates the shadows of all instances at their key points on the CPU, through the context's parallel_for if there is one.
- * No allocation, no locks. One at a time. Errors: INVALID_ARGUMENT. */
+/* Evaluates the shadows of all instances at their key points on the CPU, through the context's parallel_for
+ * if there is one. The call neither allocates nor locks.
+ * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_update(nook_scene scene);
 
-/* Writes the AO of the last nook_scene_update in the imported file's vertex order, all primitives in a row; 1 for an instance
- * that none has seen yet. stride is in bytes (0: sizeof(float)); count must be the model's file_vertex_count. No allocation.
- * Any thread while no other call changes the scene. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-NOOK_API nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, float* out, uint32_t count,
-                                        size_t stride);
+/* Writes the AO of the last nook_scene_update in the imported file's vertex order, the primitives one after
+ * another. The AO of an instance that no update has evaluated yet is 1. count must be the model's
+ * file_vertex_count; stride is in bytes (0: sizeof(float)). The call does not allocate.
+ * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+NOOK_API nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, float* out,
+                                        uint32_t count, size_t stride);
 
 typedef struct nook_scene_stats {
-  uint32_t struct_size;           /* sizeof(nook_scene_stats), set by the caller */
+  /* sizeof(nook_scene_stats); the caller sets it. */
+  uint32_t struct_size;
   uint32_t instances;
-  uint32_t instances_updated;     /* in the last update; fewer than instances with lod_max_interval > 1 */
-  uint32_t links;                 /* receiver-caster pairs evaluated in the last update */
-  uint32_t links_culled;          /* pairs skipped by cutoff_error */
-  uint64_t evaluations;           /* sphere-key-point pairs of the last update */
+  /* Instances that the last update evaluated; these can be fewer than `instances` if lod_max_interval is
+   * above 1. */
+  uint32_t instances_updated;
+  /* Pairs of receiver and caster that the last update evaluated. */
+  uint32_t links;
+  /* Linked casters, occluders and grounds that the last update skipped because of cutoff_error. */
+  uint32_t links_culled;
+  /* Pairs of sphere and key point that the last update evaluated. */
+  uint64_t evaluations;
 } nook_scene_stats;
-/* One at a time. Errors: INVALID_ARGUMENT. */
+
+/* Gives the counts of the last update.
+ * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_read_stats(nook_scene scene, nook_scene_stats* stats);
 
 #ifdef __cplusplus

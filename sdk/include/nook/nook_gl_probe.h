@@ -1,16 +1,20 @@
-/* Probes in the host's shaders: a probe or a grid as one texture, and the GLSL that evaluates it there.
+/* Probes in the host's shaders: a probe or a grid as one texture, and the GLSL that evaluates it.
  *
- * In an engine, once: load a probe of lobes, nook_gl_probe_create; put the GLSL of nook_gl_probe_describe behind the #version
- * line of a fragment or vertex shader; set the uniform nook_probe_texels to the unit that the texture will be bound to. Each
- * draw: bind the texture to GL_TEXTURE_BUFFER of that unit. The shader:
- *     NookProbeSurface surface = NookProbeSurface(normal_ws, view_ws, tangent_ws, vec2(alpha_x, alpha_y), reflectance);
- *     NookProbePlace place = nook_probe_place(position_ws);             // once: the probes round a point
+ * An engine loads a probe of lobes and calls nook_gl_probe_create once. It puts the GLSL of
+ * nook_gl_probe_describe after the #version line of a fragment or vertex shader, and sets the uniform
+ * nook_probe_texels to a texture unit. For each draw it binds the texture to GL_TEXTURE_BUFFER of that unit.
+ * The shader:
+ *     NookProbeSurface surface =
+ *         NookProbeSurface(normal_ws, view_ws, tangent_ws, vec2(alpha_x, alpha_y), reflectance);
+ *     NookProbePlace place = nook_probe_place(position_ws);  // once: the probes around a point
  *     vec3 e = nook_probe_irradiance(place, normal_ws);
- *     colour = nook_probe_ambient(albedo, e, vec3(ao));                 // or a directional occlusion in place of ao
- *     colour += nook_probe_specular_anisotropic(place, surface) * nook_probe_specular_occlusion(ao, n_dot_v, roughness);
- * The same functions for a single lobe, such as one in a uniform block (NookLobe has the layout of nook_probe_lobe in std140 and
- * std430), are nook_probe_lobe_radiance, nook_probe_lobe_irradiance and so on; shaders/probe says which. They agree with
- * nook_probe.h on the CPU within 1e-4 of the largest value. Every name begins with nook_ or Nook. */
+ *     colour = nook_probe_ambient(albedo, e, vec3(ao));  // or directional occlusion instead of ao
+ *     colour += nook_probe_specular_anisotropic(place, surface) *
+ *               nook_probe_specular_occlusion(ao, n_dot_v, roughness);
+ * The same functions exist for a single lobe, such as one in a uniform block: nook_probe_lobe_radiance,
+ * nook_probe_lobe_irradiance and so on; shaders/probe documents them. NookLobe has the layout of
+ * nook_probe_lobe in std140 and std430. The GLSL agrees with nook_probe.h on the CPU within 1e-4 of the
+ * largest value. Every name in it begins with nook_ or Nook. */
 #ifndef NOOK_GL_PROBE_H
 #define NOOK_GL_PROBE_H
 
@@ -23,27 +27,39 @@ extern "C" {
 
 typedef struct nook_gl_probe_s* nook_gl_probe;
 
-/* Uploads a probe or a grid of lobes, which may be destroyed afterwards. On failure *out is NULL and no OpenGL object is left.
- * Context thread. Errors: INVALID_ARGUMENT (also: the probe is not of lobes), UNSUPPORTED (more texels than a texture buffer of
- * this OpenGL has: 3 + lobes * (1 + probes), of which every OpenGL has 65,536), GL, OUT_OF_MEMORY. */
+/* Uploads a probe or a grid of lobes; the caller may destroy the probe afterwards. On failure *out is NULL
+ * and no OpenGL object is left.
+ * Context thread. Errors: INVALID_ARGUMENT (also, the basis of the probe is not NOOK_PROBE_GAUSSIANS),
+ * UNSUPPORTED (the probe exceeds the texture buffer of this OpenGL: it takes 3 + lobes * (1 + probes) texels,
+ * and every OpenGL has 65,536), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_probe_create(nook_gl gl, nook_probe probe, nook_gl_probe* out);
 
-/* Uploads a probe or a grid in place of what is there, such as a bake's next preview; the texture keeps its name. What the
- * GPU still reads stays as it was. Context thread. Errors: as nook_gl_probe_create; on failure the old one stays. */
+/* Uploads another probe or grid in place of the present one, such as the next preview of a bake; the texture
+ * keeps its name. Draws that were issued before still read the old values. On failure the old probe stays.
+ * Context thread. Errors: those of nook_gl_probe_create. */
 NOOK_API nook_result nook_gl_probe_update(nook_gl_probe gl_probe, nook_probe probe);
 
-/* Deletes the OpenGL objects and sets *gl_probe to NULL; NULL is fine, and so is a nook_gl that was destroyed before.
- * Context thread, with the OpenGL context of nook_gl_create current (any thread after nook_gl_context_lost). */
+/* Deletes the OpenGL objects and sets *gl_probe to NULL; *gl_probe may be NULL. The nook_gl may have been
+ * destroyed before, but the OpenGL context of nook_gl_create must be current; after nook_gl_context_lost none
+ * is needed.
+ * Context thread. */
 NOOK_API void nook_gl_probe_destroy(nook_gl_probe* gl_probe);
 
 typedef struct nook_gl_probe_info {
-  uint32_t struct_size; /* sizeof(nook_gl_probe_info), set by the caller */
-  uint32_t texture;     /* OpenGL name of a GL_TEXTURE_BUFFER; owned by Nook: bind it, never change or delete it */
-  uint64_t bytes;       /* of its buffer */
-  const char* glsl;     /* GLSL 3.30 without #version: uniform samplerBuffer nook_probe_texels and the functions above, the
-                           same text for every probe. Valid as long as the library is loaded */
+  /* sizeof(nook_gl_probe_info); the caller sets it. */
+  uint32_t struct_size;
+  /* The OpenGL name of a GL_TEXTURE_BUFFER that Nook owns: the host binds it, and never changes or deletes
+   * it. */
+  uint32_t texture;
+  /* The size of the texture's buffer. */
+  uint64_t bytes;
+  /* GLSL 3.30 without #version: the uniform samplerBuffer nook_probe_texels and the functions above. The text
+   * is the same for every probe and valid as long as the library is loaded. */
+  const char* glsl;
 } nook_gl_probe_info;
-/* Makes no OpenGL call. Any thread. Errors: INVALID_ARGUMENT. */
+
+/* Describes the texture. The call makes no OpenGL call.
+ * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_probe_describe(nook_gl_probe gl_probe, nook_gl_probe_info* info);
 
 #ifdef __cplusplus

@@ -25,7 +25,7 @@ nook_scene_desc default_scene_desc() {
 }
 constexpr std::size_t first_scene_desc = offsetof(nook_scene_desc, reserved) + sizeof(std::uint32_t);
 
-// The bounds keep squares finite; written so that NaN fails.
+// The bounds keep squares finite. The comparison fails for NaN.
 void check_range(const char* name, float value, float low, float high, const char* need) {
   if (!(value >= low && value <= high))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is out of range (got %g, need %s)", name,
@@ -56,7 +56,7 @@ SceneSettings settings_of(const nook_scene_desc& desc) {
           desc.lod_max_interval, desc.ground_radius};
 }
 
-// Runs body on the scene behind the handle.
+// Runs body on the scene of the handle.
 template <class Body>
 nook_result with_scene(const char* function, nook_scene scene, Body&& body) noexcept {
   return api::enter(function, [&] {

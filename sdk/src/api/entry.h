@@ -1,5 +1,4 @@
-// Every C function that can fail runs its body through here: whatever is thrown becomes a result and this
-// thread's message.
+// Every C function that can fail runs its body here; an exception becomes a result and this thread's message.
 #pragma once
 
 #include <nook/nook.h>
@@ -12,7 +11,7 @@
 
 namespace nook::api {
 
-// Keeps "function: text" as this thread's last message and returns the code.
+// Stores "function: text" as this thread's last message and returns the code.
 nook_result fail(const char* function, nook_result code, const char* text) noexcept;
 
 template <class Body>

@@ -13,7 +13,7 @@ struct nook_context_s final : nook::Context {
   using Context::Context;
 
  private:
-  // It lies in memory of its own allocator, which a copy outlives.
+  // The object lies in memory of its own allocator. The copy of the allocator outlives it.
   void destroy() noexcept override {
     nook::HostMemory memory(allocator());
     this->~nook_context_s();
@@ -32,7 +32,8 @@ struct nook_scene_s : nook::RefCounted {
   nook_scene_s(nook_context_s* made_by, const nook::SceneSettings& settings)
       : context(made_by), scene(settings, made_by->parallel(), made_by->memory()) {}
 
-  nook_context_s* context;             // kept alive by this object's owner reference
-  std::atomic<bool> destroyed{false};  // the host let go of it; what others hold for it is of no more use
+  nook_context_s* context;  // kept alive by this object's owner reference
+  // The host destroyed the scene; objects that others hold for it are invalid.
+  std::atomic<bool> destroyed{false};
   nook::Scene scene;
 };

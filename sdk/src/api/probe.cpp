@@ -73,7 +73,7 @@ std::span<const Vec3> coefficients_at(const Probes& probes, const float* positio
   return out;
 }
 
-// evaluate(coefficients, direction) for each direction.
+// Calls evaluate(coefficients, direction) for each direction.
 template <class Evaluate>
 nook_result at_directions(const char* function, nook_probe probe, const float* position_ws,
                           const float* directions, float* rgb, std::size_t count,

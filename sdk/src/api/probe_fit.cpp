@@ -18,7 +18,7 @@ nook_probe_fit_desc default_desc() {
   nook_probe_fit_desc desc{};
   desc.struct_size = sizeof desc;
   desc.header_version = NOOK_VERSION;
-  desc.method = NOOK_PROBE_RUNNING_AVERAGE;
+  desc.method = NOOK_PROBE_LEAST_SQUARES;
   desc.up[2] = 1;
   desc.lobe_count = 12;
   desc.order = 2;
@@ -35,6 +35,7 @@ void check_choice(const char* field, std::int32_t value, std::int32_t last) {
 
 void check_choices(const nook_probe_fit_desc& desc) {
   check_choice("method", desc.method, NOOK_PROBE_NON_NEGATIVE_LEAST_SQUARES);
+  check_choice("constraint", desc.constraint, NOOK_PROBE_CONSTRAINT_NONE);
   check_choice("basis", desc.basis, NOOK_PROBE_DICE);
   check_choice("domain", desc.domain, NOOK_PROBE_HEMISPHERE);
   check_choice("ambient", desc.ambient, 1);
@@ -81,6 +82,7 @@ Basis basis_of(const nook_probe_fit_desc& desc) {
 FitSettings settings_of(const nook_probe_fit_desc& desc) {
   FitSettings settings;
   settings.method = static_cast<FitMethod>(desc.method);
+  settings.constraint = static_cast<Constraint>(desc.constraint);
   settings.step = static_cast<Step>(desc.step);
   settings.denominator = static_cast<Denominator>(desc.denominator);
   settings.growing_samples = desc.growing_samples;

@@ -1,4 +1,4 @@
-// The objects behind the probes' public handles.
+// The objects behind the public handles of probes.
 #pragma once
 
 #include <nook/nook_probe.h>

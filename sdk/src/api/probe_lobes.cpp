@@ -40,7 +40,7 @@ SphericalGaussian from_public(const nook_probe_lobe& lobe, std::size_t index) {
   return g;
 }
 
-// The caller's lobes, checked.
+// Checks the caller's lobes and holds them.
 class Lobes {
  public:
   Lobes(const nook_probe_lobe* lobes, std::uint32_t count) : count_(count) {
@@ -85,7 +85,7 @@ Surface surface_of(const nook_probe_surface& s, std::size_t index) {
   return surface;
 }
 
-// evaluate(lobes, direction) for each direction.
+// Calls evaluate(lobes, direction) for each direction.
 template <class Evaluate>
 nook_result at_directions(const char* function, const nook_probe_lobe* lobes, std::uint32_t lobe_count,
                           const float* directions, float* rgb, std::size_t count,
@@ -102,7 +102,7 @@ nook_result at_directions(const char* function, const nook_probe_lobe* lobes, st
   });
 }
 
-// body(a, b) of two lobes of the caller.
+// Calls body(a, b) with two lobes of the caller.
 template <class Body>
 nook_result with_two(const char* function, const nook_probe_lobe* a, const nook_probe_lobe* b,
                      const void* out, Body&& body) noexcept {
@@ -114,7 +114,7 @@ nook_result with_two(const char* function, const nook_probe_lobe* a, const nook_
   });
 }
 
-// The rows and columns of a rotation: unit, and right-handed.
+// Checks that the rows of a rotation are unit vectors and right-handed.
 void check_rotation(const float* m) {
   const Vec3 rows[3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
   for (std::size_t i = 0; i < 3; ++i) check_unit(rows[i], "row", i);
@@ -152,7 +152,7 @@ nook_result nook_probe_lobes_specular(const nook_probe_lobe* lobes, uint32_t lob
     if (count == 0) return;
     need(surfaces, "surfaces");
     need(rgb, "rgb");
-    // All are checked before anything is written.
+    // All surfaces are checked before anything is written.
     for (std::size_t i = 0; i < count; ++i) surface_of(surfaces[i], i);
     for (std::size_t i = 0; i < count; ++i)
       write_vec3(rgb + 3 * i,

@@ -1,4 +1,4 @@
-// Lobes as they cross the C interface.
+// Conversion of lobes between the C interface and the library.
 #pragma once
 
 #include <nook/nook_probe.h>

@@ -1,37 +1,38 @@
-// Directional occlusion: how much of the light that a key point's hemisphere receives comes from behind one
-// sphere. Light is a sum of lobes (core/spherical_gaussian.h). A sphere that covers the share f of the
+// Directional occlusion: the share of the light in a key point's hemisphere that comes from behind one
+// sphere. The light is a sum of lobes (core/spherical_gaussian.h). A sphere that covers the share f of the
 // cosine-weighted hemisphere takes f times
 //   rho = mean radiance behind the sphere / mean radiance of the hemisphere
-// of the irradiance, channel by channel; under constant light rho is 1 and plain occlusion is left.
+// of the irradiance, for each channel. Under constant light rho is 1, and the result is plain occlusion.
 //
-// Both means are taken under a density over directions proportional to exp(dot(b, s)): b = h n stands for the
-// clamped cosine, and b = h n + k d for its product with the sphere's cap, d pointing at the part of the
-// sphere above the horizon. The mean of a lobe of vector a = sharpness * axis is then closed:
+// Both means are under a density over directions that is proportional to exp(dot(b, s)): b = h n represents
+// the clamped cosine, and b = h n + k d its product with the sphere's cap, where d points to the part of the
+// sphere above the horizon. The mean of a lobe with the vector a = sharpness * axis then has the closed form
 //   e^(m - |a| - |b|) N(m) / N(|b|),  m = |a + b|,  N(v) = (1 - e^(-2 v)) / v.
 //
-// Written over a number type F, as kernel.h is.
+// All functions are templates over a number type F, as in kernel.h.
 #pragma once
 
 #include <cstdint>
 
 #include "sdk/src/core/simd_scalar.h"
 #include "sdk/src/core/vec.h"
+#include "shaders/character/constants.h"
 
 namespace nook {
 
-// One lobe of the light: vector = sharpness * axis.
+// One lobe of the light, with vector = sharpness * axis.
 struct LightLobe {
   Vec3 vector;
   float sharpness = 0;
   Vec3 amplitude;   // linear RGB
-  float above = 1;  // share of it that the ground leaves: 1 - share_below
+  float above = 1;  // the share that the ground leaves: 1 - share_below
 };
 
 struct LightView {
   const LightLobe* lobes = nullptr;
   std::uint32_t count = 0;
-  // No hemisphere counts as darker: a small share of the mean radiance of all directions, > 0, so that fits
-  // that ring below 0 on their dark side give no wild ratios there.
+  // A lower bound of the radiance of a hemisphere: a small share of the mean radiance of all directions, > 0.
+  // Without it, fits that ring below 0 on their dark side would give extreme ratios there.
   Vec3 darkest;
 };
 
@@ -40,21 +41,23 @@ struct Colour {
   F r, g, b;
 };
 
-// Sharpness of the lobe that stands for the clamped cosine; cosine_lobe_sharpness of
+// The sharpness of the lobe that approximates the clamped cosine, cosine_lobe_sharpness of
 // core/spherical_gaussian.h.
-inline constexpr float directional_cosine = 2.133f;
+inline constexpr float directional_cosine = float(NOOK_DIRECTIONAL_COSINE);
 // k = caster_concentration sqrt(height) (1 - f^2) / f: a far sphere is a lobe of its solid angle, one that
 // fills the hemisphere is the hemisphere.
-inline constexpr float caster_concentration = 2.0f;
-inline constexpr float smallest_share = 1e-4f;
+inline constexpr float caster_concentration = float(NOOK_CASTER_CONCENTRATION);
+inline constexpr float smallest_share = float(NOOK_SMALLEST_SHARE);
 // Nothing dims its receiver by more than this times its share: a bound on the effect of one bright lobe.
-inline constexpr float largest_ratio = 8.0f;
+inline constexpr float largest_ratio = float(NOOK_LARGEST_RATIO);
 
-// (1 - e^(-2 v)) / v as 1 / (v + v / (e^(2 v) - 1)) with the exponential's series: relative error below
-// 0.006, for v from 0 to 1e6.
+// Returns (1 - e^(-2 v)) / v as 1 / (v + v / (e^(2 v) - 1)) with the series of the exponential. The relative
+// error is below 0.006 for v from 0 to 1e6.
 template <class F>
 F lobe_norm(F v) {
-  const F q = fma(fma(fma(fma(F(0.26666667f), v, F(0.66666667f)), v, F(1.3333333f)), v, F(2.0f)), v, F(2.0f));
+  constexpr float c[] = {float(NOOK_LOBE_NORM_0), float(NOOK_LOBE_NORM_1), float(NOOK_LOBE_NORM_2),
+                         float(NOOK_LOBE_NORM_3), float(NOOK_LOBE_NORM_4)};
+  const F q = fma(fma(fma(fma(F(c[4]), v, F(c[3])), v, F(c[2])), v, F(c[1])), v, F(c[0]));
   return q / fma(v, q, F(1.0f));
 }
 
@@ -63,7 +66,8 @@ struct Direction {
   F x, y, z;
 };
 
-// Mean of the lobes, less what the ground hides of each, under the density of vector b.
+// Returns the mean of the lobes under the density of vector b, without the part of each lobe that the ground
+// hides.
 template <class F>
 Colour<F> mean_radiance(const LightView& light, const Direction<F>& b) {
   const F length_b = sqrt(fma(b.x, b.x, fma(b.y, b.y, b.z * b.z)));
@@ -82,7 +86,7 @@ Colour<F> mean_radiance(const LightView& light, const Direction<F>& b) {
   return {sum.r * scale, sum.g * scale, sum.b * scale};
 }
 
-// 1 / the mean radiance of the hemisphere round n.
+// Returns 1 / the mean radiance of the hemisphere around n.
 template <class F>
 Colour<F> inverse_hemisphere(const LightView& light, const Direction<F>& n) {
   const F h(directional_cosine);
@@ -92,15 +96,16 @@ Colour<F> inverse_hemisphere(const LightView& light, const Direction<F>& n) {
           one / max(mean.b, F(light.darkest.z))};
 }
 
-// Where something that darkens a key point stands above its horizon.
+// The direction from a key point to the part of a caster above its horizon.
 template <class F>
 struct Sight {
   Direction<F> towards;  // unit
   F cosine;              // to the normal
 };
 
-// Of a sphere whose centre lies at o radii from the key point, height xi = dot(o, n) and squared distance
-// delta2. A sphere cut by the horizon is seen at the middle of what shows above it.
+// Returns the sight of a sphere whose centre lies at o from the key point in radii, with height
+// xi = dot(o, n) and squared distance delta2. The sight of a sphere that the horizon cuts is the middle of
+// the part above it.
 template <class F>
 Sight<F> sight_of(const Direction<F>& n, const Direction<F>& o, F xi, F delta2) {
   const F height = max(xi, fma(max(xi, F(-1.0f)), F(0.5f), F(0.5f)));
@@ -111,8 +116,8 @@ Sight<F> sight_of(const Direction<F>& n, const Direction<F>& o, F xi, F delta2) 
           height * inverse_distance};
 }
 
-// k of what covers the share f of the hemisphere there. sqrt(height) / f as height / sqrt(height f^2): one
-// estimate of a root in place of a root and a division.
+// Returns k of a caster that covers the share f of the hemisphere. sqrt(height) / f is computed as
+// height / sqrt(height f^2), which takes one estimate of a root instead of a root and a division.
 template <class F>
 F concentration_of(const Sight<F>& sight, F f, float concentration) {
   const F height = max(sight.cosine, F(1e-12f)), f2 = f * f;
@@ -125,8 +130,8 @@ Colour<F> bounded_ratio(const Colour<F>& behind, const Colour<F>& inverse) {
   return {ratio(behind.r, inverse.r), ratio(behind.g, inverse.g), ratio(behind.b, inverse.b)};
 }
 
-// rho of a caster that covers `share` of the hemisphere there; it is at least as wide as a lobe of sharpness
-// `sharpest`.
+// Returns rho of a caster that covers `share` of the hemisphere. Its lobe is at least as wide as one of
+// sharpness `sharpest`.
 template <class F>
 Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Direction<F>& n,
                       const Sight<F>& sight, F share, F sharpest) {
@@ -139,10 +144,10 @@ Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Di
 }
 
 // Of one sphere.
-inline constexpr float no_sharpest = 1e6f;
+inline constexpr float no_sharpest = float(NOOK_NO_SHARPEST);
 
-// The spheres of one caster as one: the mean of their sights by what each takes, and how much that is
-// together.
+// The spheres of one caster as one: the mean of their sights, weighted by their shares, and the sum of these
+// shares.
 template <class F>
 struct JointSight {
   Direction<F> sum{F(0.0f), F(0.0f), F(0.0f)};
@@ -158,7 +163,7 @@ struct JointSight {
     const Direction<F> d{sum.x * scale, sum.y * scale, sum.z * scale};
     return {d, fma(d.x, n.x, fma(d.y, n.y, d.z * n.z))};
   }
-  // The sharpness of a lobe that scatters as much as the sights do: 1 / (1 - length of their mean).
+  // Returns the sharpness of a lobe that has the spread of the sights: 1 / (1 - length of their mean).
   F sharpest() const {
     const F length = sqrt(squared_length()) / max(taken, F(1e-15f));
     return F(1.0f) / max(F(1.0f) - length, F(1e-4f));
@@ -168,21 +173,24 @@ struct JointSight {
   F squared_length() const { return fma(sum.x, sum.x, fma(sum.y, sum.y, sum.z * sum.z)); }
 };
 
-// Share below the horizon of a lobe of sharpness m whose vector rises `height` above it, -m to m:
-// (1 - erf(x)) / 2 with x = height / sqrt(5.09 + 2 m^2 / (m + 4)), which is exact for small m and tends to
-// the share of a narrow lobe; within 0.016. erf is Abramowitz & Stegun 7.1.27, within 5e-4.
+// Returns the share below the horizon of a lobe of sharpness m whose vector rises `height` (-m to m) above
+// it: (1 - erf(x)) / 2 with x = height / sqrt(5.09 + 2 m^2 / (m + 4)). It is exact for small m, tends to the
+// share of a narrow lobe for large m, and is within 0.016 between. erf is Abramowitz and Stegun 7.1.27,
+// within 5e-4.
 template <class F>
 F share_below(F height, F m) {
-  const F x = height * rsqrt(fma(m, F(2.0f) * m / (m + F(4.0f)), F(5.09f)));
+  const F x = height * rsqrt(fma(m, F(2.0f) * m / (m + F(4.0f)), F(float(NOOK_BELOW_WIDTH))));
   const F a = max(x, F(0.0f) - x);
-  const F p = fma(fma(fma(fma(F(0.078108f), a, F(0.000972f)), a, F(0.230389f)), a, F(0.278393f)), a, F(1.0f));
+  constexpr float c[] = {1, float(NOOK_BELOW_1), float(NOOK_BELOW_2), float(NOOK_BELOW_3),
+                         float(NOOK_BELOW_4)};
+  const F p = fma(fma(fma(fma(F(c[4]), a, F(c[3])), a, F(c[2])), a, F(c[1])), a, F(c[0]));
   const F p2 = min(p * p, F(1e9f));
   const F tail = F(0.5f) / (p2 * p2);
   return select(less(x, F(0.0f)), F(1.0f) - tail, tail);
 }
 
-// rho of the ground, which hides the half-space below its plane, under the density b = h n. `light` is what
-// there is without it: here `above` is not counted.
+// Returns rho of the ground, which hides the half-space below its plane, under the density b = h n. `light`
+// is the light without the ground, so that `above` has no effect here.
 template <class F>
 Colour<F> ground_ratio(const LightView& light, const Direction<F>& n, const Direction<F>& up) {
   const F h(directional_cosine), zero(0.0f);

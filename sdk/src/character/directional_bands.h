@@ -1,34 +1,35 @@
-// The light of a body's own shadow: bands 0 to 2 of the lobes. Spheres that were fitted to darken from all
-// sides say little more than where it is dark, and over bands the sum over spheres needs no lobe: the mean of
-// the light under a density exp(dot(b, s)) is
+// The light of self-shadow: bands 0 to 2 of the lobes. The fitted spheres darken from all sides, so that
+// their shadow has little directional detail. With bands the sum over spheres is independent of the lobes:
+// the mean of the light under a density exp(dot(b, s)) is
 //   scalar + A1 dot(vector, d) + A2 dot(d, tensor d),  d = b / |b|,
-// A1 = 1 - 1 / |b| and A2 = 1 - 3 A1 / |b| being the density's bands but for e^(-2 |b|), which is below 0.015
-// here. So a key point gathers the densities of its spheres, weighted, and meets the light once.
+// where A1 = 1 - 1 / |b| and A2 = 1 - 3 A1 / |b| are the bands of the density without e^(-2 |b|), which is
+// below 0.015 here. So a key point sums the weighted densities of its spheres and combines them with the
+// light once.
 //
-// Written over a number type F, as kernel.h is.
+// All functions are templates over a number type F, as in kernel.h.
 #pragma once
 
 #include "sdk/src/character/directional.h"
 
 namespace nook {
 
-// By channel: x is red, y green, z blue.
+// The components x, y, z are the channels red, green, blue.
 struct LightBands {
   Vec3 scalar;     // mean radiance of all directions
   Vec3 vector[3];  // x, y, z
-  Vec3 tensor[6];  // xx, yy, zz, and twice xy, yz, zx; no trace
-  Vec3 darkest;    // as LightView has it
+  Vec3 tensor[6];  // xx, yy, zz, and twice xy, yz, zx; its trace is 0
+  Vec3 darkest;    // see LightView
 };
 
-// A lobe's own bands; they do not change with its amplitude.
+// The bands of a lobe; they do not depend on its amplitude.
 struct LobeBands {
   float scalar = 0, vector = 0, tensor = 0;
 };
 
 // Of the self-shadow this share follows the light, the rest is shadow of all of it; k as caster_concentration
 // has it. Both measured against rays in a crowd.
-inline constexpr float self_strength = 0.75f;
-inline constexpr float self_concentration = 1.0f;
+inline constexpr float self_strength = float(NOOK_SELF_STRENGTH);
+inline constexpr float self_concentration = float(NOOK_SELF_CONCENTRATION);
 
 template <class F>
 struct GatheredBands {
@@ -38,7 +39,8 @@ struct GatheredBands {
     const F o(0.0f);
     return {o, o, o, o, o, o, o, o, o, o};
   }
-  // The density of vector b, |b| >= directional_cosine but where bones blended the normal away to nothing.
+  // Adds the density of vector b, with |b| >= directional_cosine unless the blend of bones cancels the
+  // normal.
   void add(const Direction<F>& b, F weight) {
     const F t = rsqrt(max(fma(b.x, b.x, fma(b.y, b.y, b.z * b.z)), F(1.0f)));
     const F a1 = F(1.0f) - t, a2 = fma(F(-3.0f) * t, a1, F(1.0f));
@@ -56,7 +58,7 @@ struct GatheredBands {
     yz = fma(sy, d.z, yz);
     zx = fma(sz, d.x, zx);
   }
-  // One channel of the light there, times the sum of weights.
+  // Returns one channel of the light under the summed densities, times the sum of weights.
   F light(const LightBands& bands, float Vec3::*channel) const {
     const auto c = [&](const Vec3& v) { return F(v.*channel); };
     const F one = fma(x, c(bands.vector[0]), fma(y, c(bands.vector[1]), z * c(bands.vector[2])));
@@ -66,7 +68,7 @@ struct GatheredBands {
   }
 };
 
-// Of an own sphere that takes y^gamma = `term` of the light, standing there.
+// Returns the density of a sphere of the body itself that takes y^gamma = `term` of the light.
 template <class F>
 void gather(GatheredBands<F>& gathered, const Direction<F>& n, const Sight<F>& sight, F y, F term) {
   const F k = concentration_of(sight, max(y, F(smallest_share)), self_concentration), h(directional_cosine);
@@ -74,7 +76,7 @@ void gather(GatheredBands<F>& gathered, const Direction<F>& n, const Sight<F>& s
   gathered.add(Direction<F>{fma(d.x, k, n.x * h), fma(d.y, k, n.y * h), fma(d.z, k, n.z * h)}, term);
 }
 
-// The sum of terms, each by the light that it takes.
+// Sums the terms, each times the light that it takes.
 template <class F>
 Colour<F> coloured_sum(const GatheredBands<F>& gathered, const LightBands& bands, const Direction<F>& n) {
   GatheredBands<F> open = GatheredBands<F>::none();

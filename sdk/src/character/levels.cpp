@@ -9,15 +9,15 @@
 namespace nook {
 namespace {
 
-// Shadows of poses by key points.
+// The shadows at all key points in several poses.
 struct Shadows {
   std::size_t poses = 0, points = 0;
-  std::vector<float> value;  // pose by pose
+  std::vector<float> value;  // one pose after another
 
   float at(std::size_t pose, std::size_t point) const { return value[pose * points + point]; }
 };
 
-// What the given spheres cast on all key points of the model.
+// Returns the shadows that the given spheres cast on all key points of the model.
 Shadows evaluate(const CharacterModel& model, const std::pmr::vector<ProxySphere>& spheres,
                  std::span<const std::vector<Mat3x4>> poses) {
   CharacterModel part;
@@ -48,8 +48,8 @@ Shadows evaluate(const CharacterModel& model, const std::pmr::vector<ProxySphere
   return shadows;
 }
 
-// Two spheres of one bone as one: the volume of both, between them by volume, and the same far darkening,
-// which goes with weight * radius^2.
+// Merges two spheres of one bone. The result has the sum of their volumes, their centroid, and the same
+// darkening at a distance, which is proportional to weight * radius^2.
 ProxySphere merge(const ProxySphere& a, const ProxySphere& b) {
   const float va = a.radius * a.radius * a.radius, vb = b.radius * b.radius * b.radius;
   ProxySphere both;
@@ -61,7 +61,8 @@ ProxySphere merge(const ProxySphere& a, const ProxySphere& b) {
   return both;
 }
 
-// The nearest pairs first, small ones before large ones, never across bones.
+// Merges the pairs with the smallest cost until `target` spheres remain: near pairs before distant ones and
+// small spheres before large ones, never across bones.
 std::pmr::vector<ProxySphere> merge_spheres(const CharacterModel& model, std::size_t target) {
   std::pmr::vector<ProxySphere> spheres(model.spheres.begin(), model.spheres.end());
   while (spheres.size() > target) {
@@ -78,7 +79,7 @@ std::pmr::vector<ProxySphere> merge_spheres(const CharacterModel& model, std::si
           second = j;
         }
       }
-    if (least == INFINITY) break;  // one for each bone
+    if (least == INFINITY) break;  // one sphere remains for each bone
     spheres[first] = merge(spheres[first], spheres[second]);
     spheres.erase(spheres.begin() + static_cast<std::ptrdiff_t>(second));
   }
@@ -89,7 +90,8 @@ struct Line {
   float scale = 0, offset = 0, residual = 0;  // mean square
 };
 
-// Means and centred second moments of the even poses, so that a line through any pair is a few operations.
+// Holds means and centred second moments of the even poses, so that a line through any pair takes few
+// operations.
 class Regression {
  public:
   Regression(const Shadows& fine, const Shadows& coarse) : points_(fine.points) {
@@ -98,8 +100,8 @@ class Regression {
     coarse_ = centred(coarse, coarse_mean_);
   }
 
-  // shadow of fine point k = scale * shadow of coarse point r + offset, scale >= 0: a shadow does not fall as
-  // another rises.
+  // Fits shadow of fine point k = scale * shadow of coarse point r + offset, with scale >= 0, because one
+  // shadow does not fall as another rises.
   Line fit(std::size_t k, std::size_t r) const {
     double kk = 0, kr = 0, rr = 0;
     const float *a = &fine_[k * samples_], *b = &coarse_[r * samples_];
@@ -109,7 +111,7 @@ class Regression {
       rr += b[i] * b[i];
     }
     Line line;
-    // A slope above 4 would multiply the error of the coarse point.
+    // A slope above 4 would amplify the error of the coarse point.
     line.scale = static_cast<float>(rr > 0 ? std::clamp(kr / rr, 0.0, 4.0) : 0.0);
     line.offset = fine_mean_[k] - line.scale * coarse_mean_[r];
     const double square = kk - 2 * line.scale * kr + line.scale * line.scale * rr;
@@ -118,7 +120,7 @@ class Regression {
   }
 
  private:
-  // Point by point, so that a fit reads two rows.
+  // The rows are ordered by point, so that a fit reads two of them.
   std::vector<float> centred(const Shadows& shadows, std::vector<float>& mean) const {
     mean.assign(points_, 0.0f);
     std::vector<float> rows(points_ * samples_);
@@ -135,9 +137,10 @@ class Regression {
   std::vector<float> fine_, coarse_, fine_mean_, coarse_mean_;
 };
 
-// What a key point costs when it follows another: the error it leaves in the vertices, and, because casters
-// that no pose knows are taken over from it as well, how far away and how differently turned it is. A
-// decimetre and a turn of 60 degrees count like 0.01 and 0.05 of shadow.
+// Returns the cost of a key point that follows another: the error in the vertices, and a penalty for the
+// distance between the two and the angle between their normals, because the follower also takes over the
+// occlusion by casters that no pose contains. A distance of 0.1 m counts as 0.01 of shadow, and an angle of
+// 60 degrees as 0.05.
 std::vector<float> following_cost(const CharacterModel& model, const Regression& regression) {
   const std::size_t points = model.key_points.size();
   std::vector<float> weight(points, 0.0f);
@@ -155,7 +158,7 @@ std::vector<float> following_cost(const CharacterModel& model, const Regression&
   return cost;
 }
 
-// Greedy: each time the key point that lowers the sum of costs most.
+// Chooses key points greedily: each step adds the one that lowers the sum of costs by the largest amount.
 std::vector<std::uint16_t> choose_evaluated(std::span<const float> cost, std::size_t points,
                                             std::size_t target) {
   std::vector<float> best(points, 1e30f);
@@ -188,7 +191,7 @@ float vertex_ao(const CharacterModel& model, std::size_t vertex, std::span<const
   return std::clamp(1 - sum, 0.0f, 1.0f);
 }
 
-// Over the odd poses.
+// Returns the rms error of a level over the odd poses.
 float measure_error(const CharacterModel& model, const CharacterLevel& level, const Shadows& fine,
                     const Shadows& coarse) {
   double sum = 0;

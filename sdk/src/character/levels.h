@@ -1,5 +1,5 @@
-// Levels of detail of a model: made once, at bake time, from poses, with an error measured on poses of their
-// own.
+// Levels of detail of a model. They are made once, at bake time, from poses, and their error is measured on
+// other poses.
 #pragma once
 
 #include <memory_resource>
@@ -12,15 +12,15 @@
 namespace nook {
 
 struct LevelShare {
-  float spheres = 0.5f;     // of the model's, at least one for each bone that has any
-  float key_points = 0.3f;  // of the model's
+  float spheres = 0.5f;     // share of the model's; at least one for each bone that has any
+  float key_points = 0.3f;  // share of the model's
 };
 inline constexpr LevelShare default_level_shares[] = {{0.5f, 0.35f}, {0.3f, 0.12f}};
 
-// One level for each share. poses: some 50 to 300 poses of model.bone_count() matrices each, such as the
-// bake's own; the odd ones only measure error_rms, the even ones make the level. The same input gives the
-// same levels. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for fewer than four poses or a pose of another
-// length.
+// Makes one level for each share. poses holds about 50 to 300 poses of model.bone_count() matrices each, such
+// as those of the bake. The even ones make the level, and the odd ones only measure error_rms. The same input
+// gives the same levels. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for fewer than four poses or a pose of
+// another length.
 std::vector<CharacterLevel> make_levels(const CharacterModel& model,
                                         std::span<const std::vector<Mat3x4>> poses,
                                         std::span<const LevelShare> shares = default_level_shares);

@@ -27,11 +27,11 @@ std::uint32_t block_count_of(std::size_t vertices) {
   return static_cast<std::uint32_t>((vertices + linear_block_vertices - 1) / linear_block_vertices);
 }
 
-// The columns of all blocks one after another: the key points that a block's vertices use, ascending, each
-// once.
+// The columns of all blocks, one block after another: the key points that the vertices of a block use, each
+// once and in ascending order.
 struct Columns {
   std::pmr::vector<std::uint16_t> key_point;
-  std::pmr::vector<std::uint32_t> first;  // per block, and the end
+  std::pmr::vector<std::uint32_t> first;  // for each block, and the end
 
   Columns(const CharacterModel& model, const std::pmr::vector<std::uint32_t>& order,
           std::pmr::memory_resource* memory)
@@ -62,7 +62,6 @@ struct Columns {
 LinearLayer::LinearLayer(const CharacterModel& model, std::pmr::memory_resource* memory)
     : blocks_(block_count_of(model.vertex_count()), memory),
       open_bias_(blocks_.size() * linear_block_vertices, memory),
-      welded_to_slot_(model.vertex_count(), memory),
       file_to_slot_(model.file_to_welded.size(), memory) {
   check_influences(model);
   const std::pmr::vector<std::uint32_t> order = linear_layer_order(model, linear_block_vertices, memory);
@@ -75,9 +74,10 @@ LinearLayer::LinearLayer(const CharacterModel& model, std::pmr::memory_resource*
   alpha_ = AlignedArray<float>(columns.key_point.size() * linear_block_vertices, memory);
   blend_ = AlignedArray<float>(columns.key_point.size() * linear_block_vertices, memory);
 
+  AlignedArray<std::uint32_t> welded_to_slot(model.vertex_count(), memory);
   for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
     const std::size_t vertex = order[slot];
-    welded_to_slot_[vertex] = slot;
+    welded_to_slot[vertex] = slot;
     float gain = 0;
     for (std::size_t e = vertex * model.influences; e < (vertex + 1) * model.influences; ++e) {
       if (model.alpha[e] == 0) continue;
@@ -95,7 +95,7 @@ LinearLayer::LinearLayer(const CharacterModel& model, std::pmr::memory_resource*
       throw Failure(NOOK_ERROR_BAD_FILE,
                     "file vertex %zu is welded vertex %u, which is not one of the model's (need < %zu)", i,
                     static_cast<unsigned>(model.file_to_welded[i]), order.size());
-    file_to_slot_[i] = welded_to_slot_[model.file_to_welded[i]];
+    file_to_slot_[i] = welded_to_slot[model.file_to_welded[i]];
   }
   view_ = {blocks_.data(),    static_cast<std::uint32_t>(blocks_.size()),
            key_point_.data(), alpha_.data(),

@@ -8,7 +8,7 @@
 namespace nook {
 namespace {
 
-// Position in metres, and the normal scaled to metres, which keeps the two sides of a thin limb apart.
+// A position in metres, and the normal scaled to metres, which separates the two sides of a thin limb.
 using Place = std::array<float, 6>;
 constexpr float normal_scale_metres = 0.05f;
 
@@ -27,7 +27,7 @@ std::pmr::vector<Place> vertex_places(const CharacterModel& model, std::pmr::mem
     if (alpha_sum > 0) position = position * (1 / alpha_sum);
     normal = normalised(normal) * normal_scale_metres;
     places[v] = {position.x, position.y, position.z, normal.x, normal.y, normal.z};
-    // Absurd weights overflow, and what is not a number has no order.
+    // Extreme weights overflow, and NaN has no order.
     if (!std::all_of(places[v].begin(), places[v].end(), [](float c) { return std::isfinite(c); }))
       places[v] = {};
   }
@@ -47,8 +47,8 @@ std::size_t longest_side(std::span<const std::uint32_t> vertices, const std::pmr
   return longest;
 }
 
-// Both halves are whole blocks, but for the last block of all. The depth is the logarithm of the number of
-// blocks.
+// Both halves are whole blocks, except for the last block. The recursion depth is the logarithm of the number
+// of blocks.
 void halve(std::span<std::uint32_t> vertices, std::size_t block_vertices,
            const std::pmr::vector<Place>& places) {
   if (vertices.size() <= block_vertices) return;

@@ -1,5 +1,5 @@
-// Which vertices of the linear layer share a block: near ones, because those share key points, so that a
-// block has few columns.
+// The order of vertices in the linear layer. Vertices of a block are near each other, because near vertices
+// share key points, so that a block has few columns.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace nook {
 
-// All vertices in the order of their slots, by halving the longest side of their bounding box until a block
-// is left; a vertex is where its key points are on average, in space and in direction. The model's influences
-// must be valid.
+// Returns all vertices in the order of their slots, by halving the longest side of their bounding box until
+// each part is one block. The place of a vertex is the weighted mean of its key points, in position and
+// direction. The model's influences must be valid.
 std::pmr::vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
                                                    std::pmr::memory_resource* memory);
 

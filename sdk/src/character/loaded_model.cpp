@@ -9,7 +9,8 @@ void grow(LoadedModel::BoneBound& bound, Vec3 place, float radius) {
   bound.radius = std::max(bound.radius, length(place - bound.centre) + radius);
 }
 
-// Centred on the mean of what the bone moves, which is near enough to the smallest sphere for a bound.
+// The bound is centred on the mean of the points that the bone moves; a slightly larger radius than that of
+// the smallest sphere is sufficient.
 AlignedArray<LoadedModel::BoneBound> make_bone_bounds(const CharacterModel& model,
                                                       std::pmr::memory_resource* memory) {
   AlignedArray<LoadedModel::BoneBound> bounds(model.bone_count(), memory);
@@ -51,7 +52,7 @@ std::pmr::vector<LoadedLevel> load_levels(const CharacterModel& model, std::pmr:
   return loaded;
 }
 
-// Slots of the linear layer to file vertices, as one list of lists.
+// Maps slots of the linear layer to file vertices, as one list of lists.
 void invert_file_order(LoadedModel& loaded, std::pmr::memory_resource* memory) {
   const AlignedArray<std::uint32_t>& slot_of = loaded.linear.file_to_slot();
   const std::size_t slots = loaded.linear.padded_slots(), file_vertices = loaded.model.file_to_welded.size();

@@ -1,4 +1,4 @@
-// A model as the runtime holds it: shared and immutable, with what is worth deriving once from its data.
+// A model in the runtime: shared and immutable, with values that are derived once from its data.
 #pragma once
 
 #include "sdk/src/character/linear_layer.h"
@@ -8,7 +8,7 @@
 
 namespace nook {
 
-// Spheres and evaluated key points of one level of detail, as the pose kernels read them.
+// Spheres and evaluated key points of one level of detail in the layout of the pose kernels.
 struct LoadedLevel {
   LoadedLevel(const CharacterModel& subset, std::pmr::memory_resource* memory)
       : rest_spheres(subset, memory), rest_key_points(subset, memory) {}
@@ -25,18 +25,18 @@ struct LoadedModel : RefCounted {
   const RestSpheres rest_spheres;
   const RestKeyPoints rest_key_points;
   const LinearLayer linear;
-  const std::pmr::vector<LoadedLevel> levels;  // of model.levels; full detail is not among them
+  const std::pmr::vector<LoadedLevel> levels;  // those of model.levels; full detail is not among them
 
-  // File vertices that take the AO of slot s of the linear layer:
+  // The file vertices that take the AO of slot s of the linear layer are
   // slot_file_vertex[slot_begin[s]...slot_begin[s + 1]].
   AlignedArray<std::uint32_t> slot_begin;
   AlignedArray<std::uint32_t> slot_file_vertex;
   AlignedArray<float>
       open_without_bias;  // 1 per slot, in place of LinearView::open_bias where self-shadow is switched off
 
-  // For each bone, a sphere in rest space that holds every key point it moves and every proxy sphere that
-  // rides on it, or radius < 0 where there is none: their images hold the posed character, because a blended
-  // point lies between its images.
+  // For each bone, a sphere in rest space that contains every key point that the bone moves and every proxy
+  // sphere that is rigid to it, or radius < 0 if there is none. The images of these spheres contain the posed
+  // character, because a blended point lies between its images.
   struct BoneBound {
     Vec3 centre;
     float radius = -1;
@@ -44,7 +44,7 @@ struct LoadedModel : RefCounted {
   AlignedArray<BoneBound> bone_bounds;
   float max_alpha_sum =
       0;  // largest sum of alpha over a vertex: the most that a unit of shadow can change an AO
-  float caster_strength = 0;  // sum of caster_weight * radius^2, the most of any level, square metres
+  float caster_strength = 0;  // maximum over the levels of the sum of caster_weight * radius^2, square metres
 };
 
 }  // namespace nook

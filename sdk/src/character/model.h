@@ -1,4 +1,4 @@
-// A character model: the baked regression of Le et al. 2019 as plain data. Rest space, metres.
+// A character model: the baked regression of Le et al. 2019 as plain data, in rest space and metres.
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@
 
 namespace nook {
 
-// Rigid to one bone.
+// A sphere that is rigid to one bone.
 struct ProxySphere {
   Vec3 centre;
   float radius = 0;
   std::uint16_t bone = 0;
-  // Share of the sphere's form factor that counts when it darkens another instance, fitted at bake time
-  // against ray tracing, so that overlapping spheres of one character do not darken twice. >= 0.
+  // The share of the sphere's form factor that counts when it darkens another instance, >= 0. It is fitted at
+  // bake time against ray tracing, so that overlapping spheres of one character do not darken twice.
   float caster_weight = 1;
 };
 
-// Follows up to four bones by linear blend skinning; the blended normal is renormalised.
+// A point that follows up to four bones by linear blend skinning; the blended normal is renormalised.
 struct KeyPoint {
   static constexpr int max_bones = 4;
-  Vec3 position;          // fitted: where self-shadow is evaluated
+  Vec3 position;          // fitted; self-shadow is evaluated here
   Vec3 normal;            // fitted, unit length
-  Vec3 surface_position;  // mean of the vertices nearest to it: where added casters are felt
+  Vec3 surface_position;  // mean of the nearest vertices; added casters are evaluated here
   Vec3 surface_normal;    // their mean normal, unit length
   std::array<std::uint16_t, max_bones> bone{};
-  std::array<float, max_bones> weight{};  // non-negative, sum 1
+  std::array<float, max_bones> weight{};  // non-negative, with sum 1
 };
 
 struct PrimitiveRange {
@@ -39,8 +39,8 @@ struct PrimitiveRange {
   std::uint32_t vertex_count = 0;
 };
 
-// A coarser stand-in for the non-linear layer, for distant instances: fewer spheres act on fewer key points,
-// and the shadow of every key point follows from one that is evaluated. The linear layer stays.
+// A coarser version of the non-linear layer for distant instances: fewer spheres act on fewer key points, and
+// the shadow of every key point is derived from an evaluated one. The linear layer is the same.
 struct CharacterLevel {
   using allocator_type = std::pmr::polymorphic_allocator<>;
   explicit CharacterLevel(const allocator_type& memory = {})
@@ -58,12 +58,13 @@ struct CharacterLevel {
 
   std::pmr::vector<ProxySphere> spheres;
   std::pmr::vector<std::uint16_t> evaluated;  // key points, ascending
-  // For each key point k: shadow[k] = max(0, scale[k] * shadow[evaluated[source[k]]] + offset[k]); what other
-  // casters add is taken over as it is.
+  // For each key point k, shadow[k] = max(0, scale[k] * shadow[evaluated[source[k]]] + offset[k]). The
+  // occlusion by other casters is taken over unchanged.
   std::pmr::vector<std::uint16_t> source;
   std::pmr::vector<float> scale;
   std::pmr::vector<float> offset;
-  float error_rms = 0;  // AO of the instance alone against full detail, over vertices and held-out poses
+  // Error of the AO of the instance alone against full detail, over vertices and held-out poses.
+  float error_rms = 0;
 };
 
 struct CharacterModel {
@@ -84,34 +85,34 @@ struct CharacterModel {
   static constexpr std::uint32_t max_influences = 8;
 
   Kernel kernel;
-  std::pmr::vector<std::pmr::string> bone_names;  // their number is the bone count
+  std::pmr::vector<std::pmr::string> bone_names;  // one for each bone
   std::pmr::vector<ProxySphere> spheres;
   std::pmr::vector<KeyPoint> key_points;
 
-  // Linear layer: AO of welded vertex i is 1 - (sum_s alpha[i * influences + s] * shadow[influence[...]] +
-  // bias[i]).
+  // Linear layer: the AO of welded vertex i is 1 - (sum_s alpha[i * influences + s] * shadow[influence[...]]
+  // + bias[i]).
   std::uint32_t influences = 0;  // entries per vertex, 1 to max_influences; unused ones have alpha 0
   std::pmr::vector<std::uint16_t> influence;  // key-point indices
-  std::pmr::vector<float> alpha;              // >= 0; at least one entry per vertex is > 0
+  std::pmr::vector<float> alpha;              // >= 0; at least one entry of each vertex is > 0
   std::pmr::vector<float> bias;
-  // How what other casters take away is blended from the same key points: AO is also multiplied by
-  // 1 - sum_s blend[i * influences + s] * occlusion[influence[...]]. Those of a vertex sum to 1, some may be
-  // negative; 0 where alpha is 0.
+  // The occlusion by other casters is blended from the same key points: AO is also multiplied by 1 - sum_s
+  // blend[i * influences + s] * occlusion[influence[...]]. The weights of a vertex sum to 1; some may be
+  // negative, and they are 0 where alpha is 0.
   std::pmr::vector<float> blend;
-  std::pmr::vector<float>
-      static_ao;  // AO of the rest pose per welded vertex, what a static bake gives; may be empty
+  // AO of the rest pose for each welded vertex, as in a static bake; may be empty.
+  std::pmr::vector<float> static_ao;
 
-  std::pmr::vector<std::uint32_t> file_to_welded;  // for each vertex in file order, its welded vertex
+  std::pmr::vector<std::uint32_t> file_to_welded;  // the welded vertex of each vertex in file order
   std::pmr::vector<PrimitiveRange> primitives;
 
   static constexpr std::size_t max_levels = 4;
   std::pmr::vector<CharacterLevel> levels;  // from fine to coarse, without full detail; may be empty
 
-  float bounding_radius = 0;  // metres, of the rest pose round bounding_centre
+  float bounding_radius = 0;  // metres, of the rest pose around bounding_centre
   Vec3 bounding_centre;
-  std::uint16_t root_bone = 0;  // bone that the ground and the bounding sphere follow
+  std::uint16_t root_bone = 0;  // the bone that the ground and the bounding sphere follow
 
-  std::pmr::string recipe;  // JSON text of how it was baked; the runtime does not read it
+  std::pmr::string recipe;  // JSON text of the bake's settings; the runtime does not read it
 
   std::size_t vertex_count() const { return bias.size(); }
   std::size_t bone_count() const { return bone_names.size(); }

@@ -8,15 +8,15 @@
 namespace nook {
 namespace {
 
-// A gamma-norm beyond this is the maximum norm to float precision.
+// Beyond this gamma, the norm is equal to the maximum norm in float precision.
 constexpr float max_gamma = 64;
-constexpr float max_blend = 16;          // far above what a file can hold
-constexpr std::size_t max_indexed = 65536;  // what 16-bit indices reach
+constexpr float max_blend = 16;             // far above the values that a file can hold
+constexpr std::size_t max_indexed = 65536;  // the number of 16-bit indices
 
 bool within(float value, float low, float high) {
   return value >= low && value <= high;
 }  // false for NaN
-// 1e-3: far above rounding and quantisation, far below anything that could be meant.
+// The tolerance of 1e-3 is far above rounding and quantisation, and far below any intended difference.
 bool is_unit(Vec3 n) {
   return within(dot(n, n), 1 - 2e-3f, 1 + 2e-3f);
 }
@@ -107,7 +107,7 @@ void check_linear_layer(const CharacterModel& model, const Check& check) {
     for (std::size_t e = i * model.influences; e < (i + 1) * model.influences; ++e)
       check.that(model.alpha[e] > 0 || model.blend[e] == 0, "blend weight of vertex", i, model.blend[e],
                  "0 where alpha is 0");
-    // Eight additions of numbers up to 16.
+    // The sum has eight additions of numbers up to 16.
     check.that(within(blend_sum, 1 - 1e-4f, 1 + 1e-4f), "sum of blend weights of vertex", i, blend_sum, "1");
     check.that(within(std::abs(model.bias[i]), 0, max_coefficient), "bias of vertex", i, model.bias[i],
                "-1e4 to 1e4");

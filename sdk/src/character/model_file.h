@@ -1,8 +1,8 @@
 // Character models as .nook files. Version 2 of the kind "CHAR" has the sections
 //   HEAD kernel, bounds   BONE names   SPHR proxy spheres   KEYP key points   LINR linear layer
-//   STAO static AO, one byte a welded vertex (may be missing)   FMAP file order   PRIM primitives
-//   LODS levels of detail (may be missing)   RECP recipe
-// Numbers are quantised to what the error budget allows; model_file_packing.h says how.
+//   STAO static AO, one byte for each welded vertex (optional)   FMAP file order   PRIM primitives
+//   LODS levels of detail (optional)   RECP recipe
+// Numbers are quantised within the error budget; model_file_packing.h has the number of bits.
 #pragma once
 
 #include <cstddef>
@@ -20,12 +20,12 @@ inline constexpr ContainerKind character_kind{four_letters("CHAR"), "character m
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the model fails check_model.
 std::vector<std::byte> write_character_model(const CharacterModel& model);
 
-// Safe on hostile bytes, also with a right checksum: throws Failure(NOOK_ERROR_BAD_FILE or
+// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
 // NOOK_ERROR_FILE_VERSION), and allocates no more than a small multiple of the file's size.
 CharacterModel read_character_model(std::span<const std::byte> bytes,
                                     std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-// What a model becomes by being written and read, so that the bakers can measure what quantisation costs.
+// Returns the model after a write and a read, so that the bakers can measure the error of quantisation.
 CharacterModel quantise(const CharacterModel& model);
 
 }  // namespace nook

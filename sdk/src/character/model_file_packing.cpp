@@ -10,7 +10,7 @@ Range read_range(ByteReader& in, float limit) {
   Range range;
   range.low = in.f32();
   range.high = in.f32();
-  // Written so that NaN fails.
+  // The comparison fails for NaN.
   if (!(range.low >= -limit && range.low <= range.high && range.high <= limit))
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "section %s holds a bad range (got %g to %g, need within %g); bake the file again",
@@ -58,7 +58,8 @@ std::array<std::uint32_t, KeyPoint::max_bones> weight_codes(
     remainder[i] = weight[i] * 256 - static_cast<float>(code[i]);
     left -= static_cast<int>(code[i]);
   }
-  // Weights sum to 1 but for rounding, so that at most n steps are left; one too many comes off the largest.
+  // The sum of the weights is 1 up to rounding, so that at most n steps remain; a step too many comes off the
+  // largest weight.
   for (; left > 0; --left) {
     const auto most = std::ranges::max_element(remainder) - remainder.begin();
     ++code[most];

@@ -1,4 +1,4 @@
-// How the numbers of a character model become small integers, and back.
+// Conversion of the numbers of a character model to small integers, and back.
 #pragma once
 
 #include <algorithm>
@@ -11,19 +11,21 @@
 
 namespace nook {
 
-// Bits of each field of version 2.
+// The number of bits of each field of version 2.
 struct CharacterBits {
-  static constexpr int sphere_centre = 16;  // a coordinate in the box of all centres: 30 micrometres in 2 m
+  static constexpr int sphere_centre = 16;  // one coordinate in the box of all centres: 30 micrometres in 2 m
   static constexpr int sphere_radius = 16;
   static constexpr int caster_weight = 8;
   static constexpr int key_position = 16;
-  static constexpr int key_normal = 11;      // each of two octahedral coordinates: within 0.1 degree
-  static constexpr int surface_offset = 12;  // surface position less position: 0.1 mm in 0.4 m
+  // Each of two octahedral coordinates; the error is within 0.1 degree.
+  static constexpr int key_normal = 11;
+  static constexpr int surface_offset = 12;  // surface position minus position: 0.1 mm in 0.4 m
   static constexpr int surface_normal = 10;
   static constexpr int bone_count = 2;
-  static constexpr int bone_weight = 8;  // in 1/256, so that the sum of a key point's weights is exactly 1
+  // Units of 1/256, so that the sum of a key point's weights is exactly 1.
+  static constexpr int bone_weight = 8;
   static constexpr int entry_count = 3;
-  static constexpr int reference = 5;  // which of the vertices before shares key points
+  static constexpr int reference = 5;  // the earlier vertex that shares key points
   static constexpr int alpha = 7;      // square-root companded
   static constexpr int bias = 8;
   static constexpr int blend = 5;
@@ -31,14 +33,14 @@ struct CharacterBits {
   static constexpr int level_offset = 8;
 };
 
-// Vertices before a vertex that it may share key points with.
+// The number of earlier vertices that a vertex may share key points with.
 inline constexpr std::size_t max_references = std::size_t{1} << CharacterBits::reference;
 
-// Bytes that a bone's name may take over from the one before it, so that a small file cannot fill the memory
-// with names.
+// The maximum number of bytes that a bone's name takes over from the previous one, so that a small file
+// cannot fill the memory with names.
 inline constexpr std::uint32_t max_shared_name = 64;
 
-// Evenly spaced codes from low to high, both of which are met exactly.
+// Codes at equal distances from low to high, of which both are exact.
 struct Range {
   float low = 0, high = 0;
 
@@ -72,8 +74,8 @@ inline void write_range(ByteWriter& out, const Range& range) {
   out.f32(range.low);
   out.f32(range.high);
 }
-// Throws Failure unless low <= high, both finite and at most `limit` in magnitude: every decoded value is
-// then finite.
+// Throws Failure unless low <= high and both are finite and at most `limit` in magnitude, so that every
+// decoded value is finite.
 Range read_range(ByteReader& in, float limit);
 
 inline void write_box(ByteWriter& out, const Box& box) {
@@ -94,15 +96,16 @@ inline Vec3 read_point(ByteReader& in, const Box& box, int bits) {
   return {x, y, box.z.decode(in.bits(bits), bits)};
 }
 
-// Octahedral mapping of unit vectors: Meyer et al. 2010, "On floating-point normal vectors".
+// The octahedral mapping of unit vectors: Meyer et al. 2010, "On floating-point normal vectors".
 void write_normal(ByteWriter& out, Vec3 normal, int bits);
 Vec3 read_normal(ByteReader& in, int bits);
 
-// Bone weights in 1/256 that sum to 256, by largest remainders.
+// Returns bone weights in units of 1/256 that sum to 256, by the method of largest remainders.
 std::array<std::uint32_t, KeyPoint::max_bones> weight_codes(
     const std::array<float, KeyPoint::max_bones>& weight);
 
-// alpha = max_alpha * (code / last code)^2: fine steps where alpha is small. Code 0 is kept for "no entry".
+// alpha = max_alpha * (code / last code)^2, so that steps are fine where alpha is small. Code 0 means "no
+// entry".
 inline float decode_alpha(std::uint32_t code, float max_alpha) {
   const double share = code / double(Range::last_code(CharacterBits::alpha));
   return static_cast<float>(max_alpha * share * share);
@@ -113,7 +116,7 @@ inline std::uint32_t encode_alpha(float alpha, float max_alpha) {
   return static_cast<std::uint32_t>(std::min(std::max(code, 1.0), double(last)));
 }
 
-// Blend weights in sixteenths from -8 / 16 on, so that those of a vertex sum to exactly 1 and one of them
+// Blend weights are in sixteenths from -8 / 16 on. Those of a vertex sum to exactly 1, so that one of them
 // need not be written.
 inline constexpr int blend_one = 16, blend_low = -8;
 inline float decode_blend(std::uint32_t code) {

@@ -3,14 +3,15 @@
 #include "sdk/src/character/model_check.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/model_file_packing.h"
+#include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {
 
 using Bits = CharacterBits;
 
-// Bounds of ranges: those of check_model, which has the last word; these only keep decoded numbers finite.
-constexpr float max_metres = 2e6f, max_coefficient = 1e4f;
+// The bounds of ranges are those of check_model, which decides; this one only keeps decoded numbers finite.
+constexpr float max_box_metres = 2 * max_metres;
 
 void read_head(ByteReader in, CharacterModel& model) {
   model.kernel.form = static_cast<KernelForm>(in.u8());
@@ -44,8 +45,8 @@ void read_bone_names(ByteReader in, CharacterModel& model) {
 
 void read_spheres(ByteReader& in, std::pmr::vector<ProxySphere>& spheres, int bone_bits) {
   const std::uint32_t count = in.varint();
-  const Box box = read_box(in, max_metres);
-  const Range radius = read_range(in, max_metres);
+  const Box box = read_box(in, max_box_metres);
+  const Range radius = read_range(in, max_box_metres);
   const Range weight = read_range(in, max_coefficient);
   in.check_count(count, 3 * Bits::sphere_centre + Bits::sphere_radius + Bits::caster_weight, "spheres");
   spheres.reserve(count);
@@ -62,8 +63,8 @@ void read_spheres(ByteReader& in, std::pmr::vector<ProxySphere>& spheres, int bo
 void read_key_points(ByteReader in, CharacterModel& model) {
   const int bone_bits = index_bits(model.bone_count());
   const std::uint32_t count = in.varint();
-  const Box box = read_box(in, max_metres);
-  const Box offsets = read_box(in, max_metres);
+  const Box box = read_box(in, max_box_metres);
+  const Box offsets = read_box(in, max_box_metres);
   in.check_count(count, 3 * Bits::key_position + 2 * Bits::key_normal + 3 * Bits::surface_offset,
                  "key points");
   model.key_points.reserve(count);
@@ -108,7 +109,7 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
   model.alpha.assign(std::size_t(vertices) * influences, 0.0f);
   model.blend.assign(std::size_t(vertices) * influences, 0.0f);
   model.bias.reserve(vertices);
-  std::array<std::uint32_t, max_references> counts{};  // of the vertices before
+  std::array<std::uint32_t, max_references> counts{};  // of the earlier vertices
   for (std::uint32_t i = 0; i < vertices; ++i) {
     const std::uint32_t count = in.bits(Bits::entry_count) + 1;
     if (count > influences)
@@ -135,7 +136,7 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
     counts[i % max_references] = count;
     for (; e < count; ++e) model.influence[first + e] = static_cast<std::uint16_t>(in.bits(key_point_bits));
     for (e = 0; e < count; ++e) model.alpha[first + e] = decode_alpha(in.bits(Bits::alpha), max_alpha);
-    float left = 1;  // sixteenths, so exact
+    float left = 1;  // sixteenths, which are exact
     for (e = 1; e < count; ++e) left -= model.blend[first + e] = decode_blend(in.bits(Bits::blend));
     model.blend[first] = left;
     model.bias.push_back(bias.decode(in.bits(Bits::bias), Bits::bias));

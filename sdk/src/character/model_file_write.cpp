@@ -24,8 +24,8 @@ ByteWriter write_head(const CharacterModel& model) {
   return out;
 }
 
-// Front coding: how many bytes a name shares with the one before it, then the rest. Skeletons share long
-// prefixes.
+// Front coding: the number of bytes that a name shares with the previous one, then the rest. Names of bones
+// share long prefixes.
 ByteWriter write_bone_names(const CharacterModel& model) {
   ByteWriter out;
   out.varint(static_cast<std::uint32_t>(model.bone_count()));
@@ -86,14 +86,14 @@ ByteWriter write_key_points(const CharacterModel& model) {
     for (int b = 0; b < KeyPoint::max_bones; ++b) {
       if (codes[b] == 0) continue;
       out.bits(point.bone[b], index_bits(model.bone_count()));
-      // The last weight is what is missing to 256.
+      // The last weight follows from the sum of 256.
       if (--used > 0) out.bits(codes[b], Bits::bone_weight);
     }
   }
   return out;
 }
 
-// What is written of a vertex: its entries with alpha above 0.
+// The entries of a vertex with alpha above 0, which are the ones that the file holds.
 struct CodedEntry {
   std::uint16_t key_point = 0;
   std::uint32_t alpha = 0, blend = 0;  // codes
@@ -103,8 +103,8 @@ struct CodedEntries {
   std::uint32_t count = 0;
 };
 
-// The largest alpha first, each passing its rounding error on to the next, whose steps are finer: the sum of
-// alphas, which matters most because neighbouring key points have like shadows, stays right.
+// Codes alphas in descending order, each passing its rounding error on to the next, whose steps are finer. So
+// the sum of alphas stays accurate; it matters most, because neighbouring key points have similar shadows.
 CodedEntries code_entries(const CharacterModel& model, std::size_t vertex, float max_alpha) {
   const float* const alpha = model.alpha.data() + vertex * model.influences;
   std::array<std::uint32_t, CharacterModel::max_influences> order{};
@@ -125,7 +125,7 @@ CodedEntries code_entries(const CharacterModel& model, std::size_t vertex, float
 }
 
 // Moves the entries whose key points `other` has to the front, in the other's order, and returns their
-// number; bit e of kept says that the other's entry e is among them.
+// number. Bit e of kept is set if the other's entry e is among them.
 std::uint32_t gather_shared(CodedEntries& own, const CodedEntries& other, std::uint32_t& kept) {
   std::uint32_t shared = 0;
   kept = 0;
@@ -139,8 +139,9 @@ std::uint32_t gather_shared(CodedEntries& own, const CodedEntries& other, std::u
   return shared;
 }
 
-// Vertices that follow each other are mostly neighbours and share key points: a vertex names one of the few
-// before it, says which of that one's key points it keeps, and writes only the others as numbers.
+// Consecutive vertices are mostly neighbours and share key points. A vertex names one of the few vertices
+// before it and the key points of that vertex that it keeps, so that only the other key points are written as
+// numbers.
 void write_key_points_of(ByteWriter& out, CodedEntries& own, std::span<const CodedEntries> before,
                          int key_point_bits) {
   std::uint32_t shared = 0, kept = 0;
@@ -182,14 +183,15 @@ ByteWriter write_linear_layer(const CharacterModel& model) {
     write_key_points_of(out, own, std::span(vertices).subspan(first, i - first),
                         index_bits(model.key_points.size()));
     for (std::uint32_t e = 0; e < own.count; ++e) out.bits(own.entry[e].alpha, Bits::alpha);
-    // The first one is what is missing to 1.
+    // The first weight follows from the sum of 1.
     for (std::uint32_t e = 1; e < own.count; ++e) out.bits(own.entry[e].blend, Bits::blend);
     out.bits(bias.encode(model.bias[i], Bits::bias), Bits::bias);
   }
   return out;
 }
 
-// For each key point a bit that says whether it is evaluated, then which one it follows and how.
+// For each key point there is a bit that is set if it is evaluated; otherwise its source, scale and offset
+// follow.
 void write_level(ByteWriter& out, const CharacterLevel& level, std::size_t bones) {
   out.f32(level.error_rms);
   write_spheres(out, level.spheres, bones);
@@ -219,8 +221,8 @@ ByteWriter write_static_ao(const CharacterModel& model) {
   return out;
 }
 
-// Mode 0, when welded vertices are numbered as they first occur: a bit 0 for the next new one, or a bit 1 and
-// the index of one seen before. Mode 1: the index.
+// Mode 0 applies if welded vertices are numbered in the order of their first occurrence: a bit 0 is the next
+// new vertex, and a bit 1 is followed by the index of an earlier one. Mode 1 writes the index.
 ByteWriter write_file_order(const CharacterModel& model) {
   std::uint32_t next = 0;
   const bool in_order = std::ranges::all_of(model.file_to_welded, [&](std::uint32_t welded) {

@@ -1,7 +1,8 @@
-// The k nearest of a set of points, by a hashed grid whose cost grows linearly with their number.
+// The k nearest of a set of points. A balanced tree over the points adapts to any spread of them, so that a
+// query costs as much in a pile of coincident points as on an even field: O(n log n) for the set, O(log n +
+// k) for a query.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -11,21 +12,22 @@
 
 namespace nook {
 
-struct NeighbourGrid {
-  explicit NeighbourGrid(std::pmr::memory_resource* memory)
-      : bucket_begin(memory), entries(memory), scratch(memory) {}
+struct NeighbourTree {
+  explicit NeighbourTree(std::pmr::memory_resource* memory) : entries(memory), nodes(memory) {}
 
   struct Entry {
     Vec3 place;
     std::uint32_t slot = 0;
-    std::array<std::int32_t, 3> cell{};
+  };
+  // The box of a range of `entries`. Node i halves its range between nodes 2 i + 1 and 2 i + 2; all leaves
+  // lie at the same depth.
+  struct Node {
+    Vec3 low, high;
+    std::uint32_t min_slot = 0;
   };
 
-  float cell_size = 1;  // metres
-  std::uint32_t bucket_mask = 0;
-  std::pmr::vector<std::uint32_t> bucket_begin;  // of each hash bucket in `entries`, and one past the end
-  std::pmr::vector<Entry> entries;               // grouped by bucket
-  std::pmr::vector<Entry> scratch;
+  std::pmr::vector<Entry> entries;
+  std::pmr::vector<Node> nodes;
 };
 
 inline constexpr std::uint32_t max_nearest = 16;
@@ -36,17 +38,16 @@ struct Neighbour {
 };
 
 // Makes room for `count` points, so that building allocates nothing.
-void reserve_grid(NeighbourGrid& grid, std::size_t count);
+void reserve_tree(NeighbourTree& tree, std::size_t count);
 
-// Starts a new set, takes its points one by one, then sorts them for queries of k neighbours within
-// max_distance.
-void clear_grid(NeighbourGrid& grid) noexcept;
-void add_to_grid(NeighbourGrid& grid, std::uint32_t slot, Vec3 place) noexcept;
-void finish_grid(NeighbourGrid& grid, std::uint32_t k, float max_distance) noexcept;
+// Starts a new set, takes its points one by one, then sorts them for queries.
+void clear_tree(NeighbourTree& tree) noexcept;
+void add_to_tree(NeighbourTree& tree, std::uint32_t slot, Vec3 place) noexcept;
+void build_tree(NeighbourTree& tree) noexcept;
 
 // The k <= max_nearest points nearest to `place` within max_distance, nearest first and by slot where equally
 // near, without `slot` itself. Returns how many there are.
-std::uint32_t find_nearest(const NeighbourGrid& grid, std::uint32_t slot, Vec3 place, std::uint32_t k,
+std::uint32_t find_nearest(const NeighbourTree& tree, std::uint32_t slot, Vec3 place, std::uint32_t k,
                            float max_distance, std::span<Neighbour, max_nearest> found) noexcept;
 
 }  // namespace nook

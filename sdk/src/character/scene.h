@@ -65,7 +65,7 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, std::pmr::memory_r
 
 struct Instance {
   explicit Instance(std::pmr::memory_resource* memory)
-      : bones(memory), linked(memory), casters(memory), occluders(memory) {}
+      : bones(memory), linked(memory), receivers(memory), casters(memory), occluders(memory) {}
 
   nook_instance_id id = 0;       // 0: this slot is free, and everything below but `generation` is empty
   std::uint32_t generation = 0;  // how often the slot was used before, part of the id
@@ -77,6 +77,8 @@ struct Instance {
   bool has_ground = false;
   Plane ground;
   std::pmr::vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
+  // Slots of the instances that have this one in `linked`, ascending: what a removal must visit.
+  std::pmr::vector<std::uint32_t> receivers;
 
   InstanceLight light;
 
@@ -85,7 +87,8 @@ struct Instance {
   Sphere bound;
   float scale = 1;
 
-  // What resolve_casters decides, for this update.
+  // What resolve_casters decides for this update. Of an instance that is not due the lists are of an earlier
+  // one, may name free slots and must not be read.
   std::pmr::vector<std::uint32_t> casters;    // slots, ascending, each once; capacity reserved by the edits
   std::pmr::vector<std::uint32_t> occluders;  // slots of free occluders that matter here
   Sphere ground_sphere;                       // radius 0: no ground, or too far to matter
@@ -136,7 +139,7 @@ struct Scene {
 
   std::uint32_t nearest = 0;       // k of link_nearest; 0: off
   float nearest_max_distance = 0;  // metres
-  NeighbourGrid neighbours;
+  NeighbourTree neighbours;
   bool has_camera = false;
   Vec3 camera;
   std::uint32_t terms = NOOK_TERM_ALL;
@@ -167,9 +170,26 @@ inline constexpr std::uint32_t max_slots = (1u << id_slot_bits) - 1;
 
 // ---- Steps of an update, in order; none allocates or throws ----
 
-// Levels of detail and who is due, then casters, occluders and ground sphere of each instance that is due:
-// explicit links and the k nearest, less those below the cut-off. Needs the poses only.
-void resolve_casters(Scene& scene) noexcept;
+// Whether whoever evaluates the scene, the CPU or a GPU, holds results of the instance in a slot. References
+// a function object that outlives it.
+class HasResult {
+ public:
+  template <class Function>
+  HasResult(const Function& function)
+      : function_(&function), ask_([](const void* of, std::uint32_t slot) {
+          return bool((*static_cast<const Function*>(of))(slot));
+        }) {}
+  bool operator()(std::uint32_t slot) const { return ask_(function_, slot); }
+
+ private:
+  const void* function_;
+  bool (*ask_)(const void* of, std::uint32_t slot);
+};
+
+// Levels of detail and who is due, at once where there is no result; then casters, occluders and ground
+// sphere of each instance that is due: explicit links and the k nearest, less those below the cut-off. Needs
+// the poses only.
+void resolve_casters(Scene& scene, HasResult has_result) noexcept;
 // World-space spheres of an instance at all levels, which it and its receivers need.
 void transform_spheres(const Scene& scene, Instance& instance) noexcept;
 // World-space key points of an instance that is due, at its level.

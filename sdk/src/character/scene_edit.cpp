@@ -4,6 +4,7 @@
 
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {
@@ -37,11 +38,9 @@ auto& find(Objects& objects, std::uint32_t id, const char* what) {
 // Throws unless the matrix is finite and its 3x3 part a rotation times a scale, to 1 %. Returns the largest
 // squared scale.
 float check_bone_matrix(const Mat3x4& matrix, std::size_t bone) {
-  // Far beyond any world, and small enough that squares stay finite.
-  constexpr float max_metres = 1e9f, max_scale = 1e6f;
   const float* m = matrix.m;
   for (int i = 0; i < 12; ++i)
-    if (!(std::abs(m[i]) <= (i % 4 == 3 ? max_metres : max_scale)))
+    if (!(std::abs(m[i]) <= (i % 4 == 3 ? max_pose_metres : max_pose_scale)))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "the matrix of bone %zu is not finite or far too large (element %d is %g)", bone, i,
                     double(m[i]));
@@ -58,7 +57,7 @@ float check_bone_matrix(const Mat3x4& matrix, std::size_t bone) {
   const float shear = std::max({std::abs(dot(x, y)), std::abs(dot(y, z)), std::abs(dot(z, x))});
   if (shear > most * 0.0101f)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the matrix of bone %zu is sheared (cosine between axes %g, need at most 0.01); bone_3x4 "
+                  "the matrix of bone %zu is sheared (cosine between axes %g, need at most 0.01); bones_3x4 "
                   "is row-major, "
                   "transposing may help",
                   bone, double(shear / most));
@@ -84,6 +83,23 @@ void derive_bound(Instance& instance, float largest_scale_squared) {
 
 std::uint32_t slot_of(const Scene& scene, const Instance& instance) {
   return static_cast<std::uint32_t>(&instance - scene.instances.data());
+}
+
+using Slots = std::pmr::vector<std::uint32_t>;
+
+void make_room_for_one(Slots& slots) {
+  if (slots.size() == slots.capacity()) slots.reserve(std::bit_ceil(slots.size() + 1));
+}
+
+// Both for slots in ascending order.
+void insert_slot(Slots& slots, std::uint32_t slot) {
+  slots.insert(std::ranges::lower_bound(slots, slot), slot);
+}
+bool erase_slot(Slots& slots, std::uint32_t slot) {
+  const auto at = std::ranges::lower_bound(slots, slot);
+  if (at == slots.end() || *at != slot) return false;
+  slots.erase(at);
+  return true;
 }
 
 }  // namespace
@@ -160,7 +176,7 @@ nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model) {
   added.pose_revision = 1;
   derive_bound(added, 1);
   const std::size_t slots = scene.instances.size() + (fresh ? 1 : 0);
-  if (scene.nearest) reserve_grid(scene.neighbours, std::bit_ceil(slots));
+  if (scene.nearest) reserve_tree(scene.neighbours, std::bit_ceil(slots));
   if (fresh) {
     scene.instances.push_back(std::move(added));
   } else {
@@ -176,13 +192,11 @@ void remove_instance(Scene& scene, nook_instance_id id) {
   Instance& removed = instance_of(scene, id);
   const std::uint32_t slot = slot_of(scene, removed);
   const std::uint32_t generation = removed.generation + 1;
+  for (const std::uint32_t receiver : removed.receivers) erase_slot(scene.instances[receiver].linked, slot);
+  for (const std::uint32_t caster : removed.linked) erase_slot(scene.instances[caster].receivers, slot);
   removed = Instance(scene.memory);
   removed.generation = generation;
   if (generation < id_generations) scene.free_instances.push_back(slot);
-  for (Instance& other : scene.instances) {
-    std::erase(other.linked, slot);
-    std::erase(other.casters, slot);
-  }
   --scene.living;
   ++scene.structure_revision;
 }
@@ -202,23 +216,27 @@ void set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) 
 
 void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
   Instance& instance = instance_of(scene, receiver);
-  const std::uint32_t slot = slot_of(scene, instance_of(scene, caster));
+  Instance& casting = instance_of(scene, caster);
   if (receiver == caster)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "receiver and caster are the same instance %u; its own shadow is always there", receiver);
-  const auto at = std::ranges::lower_bound(instance.linked, slot);
-  if (at != instance.linked.end() && *at == slot) return;
-  instance.casters.reserve(instance.linked.size() + 1 + scene.nearest);
-  instance.linked.insert(at, slot);
+  const std::uint32_t slot = slot_of(scene, casting);
+  if (std::ranges::binary_search(instance.linked, slot)) return;
+  make_room_for_one(instance.linked);
+  make_room_for_one(casting.receivers);
+  instance.casters.reserve(instance.linked.capacity() + scene.nearest);
+  insert_slot(instance.linked, slot);
+  insert_slot(casting.receivers, slot_of(scene, instance));
 }
 
 void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
   Instance& instance = instance_of(scene, receiver);
-  const std::uint32_t slot = slot_of(scene, instance_of(scene, caster));
-  if (std::erase(instance.linked, slot) == 0)
+  Instance& casting = instance_of(scene, caster);
+  if (!erase_slot(instance.linked, slot_of(scene, casting)))
     throw Failure(NOOK_ERROR_INVALID_HANDLE,
                   "instance %u is not linked to caster %u; links of link_nearest are not unlinked", receiver,
                   caster);
+  erase_slot(casting.receivers, slot_of(scene, instance));
 }
 
 void link_nearest(Scene& scene, std::uint32_t k, float max_distance) {
@@ -228,7 +246,7 @@ void link_nearest(Scene& scene, std::uint32_t k, float max_distance) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "max_distance is out of range (got %g, need finite metres above 0)", double(max_distance));
   for (Instance& instance : scene.instances) instance.casters.reserve(instance.linked.size() + k);
-  if (k > 0) reserve_grid(scene.neighbours, std::bit_ceil(scene.instances.size()));
+  if (k > 0) reserve_tree(scene.neighbours, std::bit_ceil(scene.instances.size()));
   scene.nearest = k;
   scene.nearest_max_distance = max_distance;
 }
@@ -290,7 +308,6 @@ void remove_occluder(Scene& scene, nook_occluder_id id) {
   ++occluder.generation;
   const auto slot = static_cast<std::uint32_t>(&occluder - scene.occluders.data());
   if (occluder.generation < id_generations) scene.free_occluders.push_back(slot);
-  for (Instance& instance : scene.instances) std::erase(instance.occluders, slot);
   ++scene.structure_revision;
 }
 

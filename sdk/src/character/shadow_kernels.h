@@ -3,7 +3,7 @@
 //
 // A character's frame: pose_spheres and pose_key_points bring the model to world space; self_norm_sum and
 // norm_root give the shadow at each key point; composed_depth, exact_open and composed_occlusion give what
-// other casters take away; linear_layer blends both to vertices; scatter writes them in the file's order.
+// other casters take away; linear_layer blends both to vertices.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@
 
 namespace nook {
 
-// Key points come in groups of this many: arrays that run over key points hold padded_key_points(count)
-// entries, and the padding must hold finite numbers (pose_key_points fills it).
+// Key points come in groups of this many. Arrays over key points have padded_key_points(count) entries, and
+// the padding must hold finite numbers; pose_key_points fills it.
 inline constexpr std::uint32_t key_point_group = 16;
 constexpr std::uint32_t padded_key_points(std::uint32_t count) {
   return (count + key_point_group - 1) / key_point_group * key_point_group;
@@ -26,25 +26,25 @@ constexpr std::uint32_t padded_key_points(std::uint32_t count) {
 
 // Spheres smaller than this count as this large, so that the squares of distances in radii stay finite: 1
 // micrometre.
-inline constexpr float min_sphere_radius = 1e-6f;
+inline constexpr float min_sphere_radius = float(NOOK_MIN_SPHERE_RADIUS);
 // Coordinates up to this many metres from the origin give finite results; float resolution ends far before.
 inline constexpr float max_coordinate = 1e9f;
 constexpr float inverse_sphere_radius(float radius) {
   return 1 / (radius > min_sphere_radius ? radius : min_sphere_radius);
 }
 
-// Spheres in the space of the key points they act on, metres.
+// Spheres in the space of the key points on which they act, in metres.
 struct SphereSoa {
   const float* x = nullptr;
   const float* y = nullptr;
   const float* z = nullptr;
-  const float* inverse_radius = nullptr;  // of inverse_sphere_radius, per metre
+  const float* inverse_radius = nullptr;  // from inverse_sphere_radius, per metre
   const float* caster_weight = nullptr;   // only composed_depth and exact_open read it
   std::uint32_t count = 0;
 };
 
-// Key points, metres; normals have unit length, or zero in the padding. Arrays of padded_count entries;
-// 64-byte alignment is not needed but faster.
+// Key points in metres. Normals have unit length, or are zero in the padding. Arrays have padded_count
+// entries; they need no 64-byte alignment, but are faster with it.
 struct KeyPointSoa {
   const float* x = nullptr;
   const float* y = nullptr;
@@ -55,7 +55,7 @@ struct KeyPointSoa {
   std::uint32_t padded_count = 0;  // a multiple of key_point_group
 };
 
-// Where pose_spheres and pose_key_points write; the same arrays then serve as SphereSoa and KeyPointSoa.
+// The outputs of pose_spheres and pose_key_points; the same arrays then serve as SphereSoa and KeyPointSoa.
 struct SphereTarget {
   float* x = nullptr;
   float* y = nullptr;
@@ -71,7 +71,7 @@ struct KeyPointTarget {
   float* nz = nullptr;
 };
 
-// Proxy spheres of a model, rest space, metres. Owned by RestSpheres.
+// Proxy spheres of a model in rest space and metres, which RestSpheres owns.
 struct RestSphereView {
   const float* x = nullptr;
   const float* y = nullptr;
@@ -81,8 +81,8 @@ struct RestSphereView {
   std::uint32_t count = 0;
 };
 
-// Key points of a model, rest space, metres; four bones and weights for each in a row. Owned by
-// RestKeyPoints.
+// Key points of a model in rest space and metres, which RestKeyPoints owns; each has four bones and weights
+// in a row.
 struct RestKeyPointView {
   KeyPointSoa fitted;
   KeyPointSoa surface;
@@ -91,89 +91,86 @@ struct RestKeyPointView {
   std::uint32_t padded_count = 0;
 };
 
-// 16 vertices of the linear layer as a small dense matrix, one column for each key point that any of them
-// uses: a column is one broadcast and one multiply-add for all 16, while looking key points up vertex by
-// vertex costs a load for each. Column c of the block is key_point[first_column + c]; the alphas of its 16
-// vertices are at alpha[16 (first_column + c)], their blend weights at blend[16 (first_column + c)].
+// 16 vertices of the linear layer as a small dense matrix with one column for each key point that any of them
+// uses. A column takes one broadcast and one multiply-add for all 16 vertices, while looking up key points
+// for each vertex takes a load for each. Column c of the block is key_point[first_column + c]; the alphas of
+// its 16 vertices are at alpha[16 (first_column + c)], their blend weights at blend[16 (first_column + c)].
 struct LinearBlock {
   std::uint32_t first_column = 0;
   std::uint32_t columns = 0;
 };
 inline constexpr std::uint32_t linear_block_vertices = 16;
 
-// The linear layer by slots, the vertices in an order of its own. Owned by LinearLayer.
+// The linear layer by slots, with the vertices in an order of its own. LinearLayer owns it.
 struct LinearView {
   const LinearBlock* blocks = nullptr;
   std::uint32_t block_count = 0;
   const std::uint16_t* key_point = nullptr;
   const float* alpha = nullptr;
-  const float* blend = nullptr;      // blend weights, laid out as alpha
-  const float* open_bias = nullptr;  // 1 - bias, per slot
+  const float* blend = nullptr;      // blend weights, in the layout of alpha
+  const float* open_bias = nullptr;  // 1 - bias, for each slot
 };
 
 struct ShadowKernels {
   Isa isa = Isa::scalar;
   const char* name = nullptr;
 
-  // SIMD tables use the processor's estimates of roots; the shadow after norm_root is within 2e-4 of the
-  // formulas in double precision, relative to shadows above 1. sum[k] += sum over spheres of y^gamma. Several
-  // calls with the same key points join their spheres in one norm.
+  // sum[k] += sum over spheres of y^gamma. Several calls with the same key points join their spheres in one
+  // norm. SIMD tables use the processor's estimates of roots; the shadow after norm_root is within 2e-4 of
+  // the formulas in double precision, relative to shadows above 1.
   void (*self_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                         float* sum);
   // shadow[k] = sum[k]^(1 / gamma); sum and shadow may be the same array.
   void (*norm_root)(const float* sum, std::uint32_t padded_count, float gamma, float* shadow);
 
-  // depth[k] += sum over spheres of caster_weight * form factor, by the fast form; points are the surface key
+  // depth[k] += sum over spheres of caster_weight * form factor, by the fast form. points are the surface key
   // points.
   void (*composed_depth)(const SphereSoa& spheres, const KeyPointSoa& points, float* depth);
-  // open[k] *= 1 - min(1, caster_weight * form factor) for each sphere, by the exact form: the ground and
-  // free occluders. caster_weight NULL: all 1.
+  // open[k] *= 1 - min(1, caster_weight * form factor) for each sphere, by the exact form. The spheres are
+  // the ground and free occluders. With caster_weight NULL all weights are 1.
   void (*exact_open)(const SphereSoa& spheres, const KeyPointSoa& points, float* open);
-  // occlusion[k] = 1 - open[k] * exp(-depth[k]). depth NULL: 0; open NULL: 1.
+  // occlusion[k] = 1 - open[k] * exp(-depth[k]). depth NULL means 0, and open NULL means 1.
   void (*composed_occlusion)(const float* depth, const float* open, std::uint32_t padded_count,
                              float* occlusion);
 
   // ao[slot] = clamp(1 - (sum alpha * shadow + bias), 0, 1) * clamp(1 - sum blend * occlusion, 0, 1) in the
-  // layer's slot order, 16 entries a block. occlusion NULL: self only. Whatever the inputs, ao is a number in
-  // [0, 1].
+  // layer's slot order, with 16 entries for each block. occlusion NULL evaluates self-shadow only. For any
+  // input, ao is a number in [0, 1].
   void (*linear_layer)(const LinearView& layer, const float* shadow, const float* occlusion, float* ao);
-  // For i < count: the float at (char*)out + i * stride_bytes = values[index[i]]. With
-  // LinearLayer::file_to_slot this is file order.
-  void (*scatter)(const float* values, const std::uint32_t* index, std::uint32_t count, float* out,
-                  std::size_t stride_bytes);
 
-  // World space from rest space; bones are rest space to world, rigid or with uniform scale, which scales
-  // radii. offset_ws is subtracted: a scene far from the world's origin keeps its digits by working near the
-  // instance.
+  // Transforms from rest space to world space. bones map rest space to world space; they are rigid or have a
+  // uniform scale, which scales radii. offset_ws is subtracted, so that a scene far from the world's origin
+  // keeps its precision near the instance.
   void (*pose_spheres)(const RestSphereView& rest, const Mat3x4* bones, Vec3 offset_ws,
                        const SphereTarget& out);
-  // surface NULL: only the fitted positions and normals; otherwise also the surface ones, which
-  // composed_depth uses.
+  // With surface NULL only the fitted positions and normals are transformed, otherwise also those of the
+  // surface, which composed_depth uses.
   void (*pose_key_points)(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
                           const KeyPointTarget& out, const KeyPointTarget* surface);
 
-  // Directional occlusion (directional.h); rgb and inverse: one array of padded_count entries for each
-  // channel. rho is the light behind a sphere against its share of the hemisphere.
-  // rgb[k] += sum over spheres of y^gamma rho, by bands (directional_bands.h): self_norm_sum with a colour;
+  // Directional occlusion (directional.h). rgb and inverse have one array of padded_count entries for each
+  // channel. rho is the light behind a sphere relative to its share of the hemisphere. rgb[k] += sum over
+  // spheres of y^gamma rho, by bands (directional_bands.h): the coloured form of self_norm_sum.
   void (*directional_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                                const LightBands& light, float* const* rgb);
-  // inverse[k] = inverse_hemisphere at the key point, which the next two need;
+  // inverse[k] = inverse_hemisphere at the key point, which the next two functions need.
   void (*directional_hemisphere)(const KeyPointSoa& points, const LightView& light, float* const* inverse);
-  // rgb[k] += rho * sum over spheres of caster_weight * form factor: composed_depth with a colour, the
-  // spheres being one caster's, with one rho for all of them;
+  // rgb[k] += rho * sum over spheres of caster_weight * form factor: the coloured form of composed_depth. The
+  // spheres are those of one caster and share one rho.
   void (*directional_depth)(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
                             float* const* inverse, float* const* rgb);
-  // rgb[k] *= 1 - min(1, form factor * rho) for each sphere: exact_open with a colour;
+  // rgb[k] *= 1 - min(1, form factor * rho) for each sphere: the coloured form of exact_open.
   void (*directional_open)(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
                            float* const* inverse, float* const* rgb);
-  // the same for the one sphere of a ground whose plane has the unit normal up.
+  // The same for the sphere of a ground whose plane has the unit normal up.
   void (*directional_ground)(const SphereSoa& ground, const KeyPointSoa& points, const LightView& light,
                              Vec3 up, float* const* rgb);
 };
 
-// The table of one instruction set; NULL where the processor or the build lacks it. scalar is always there.
+// Returns the table of one instruction set, or NULL if the processor or the build lacks it. The scalar table
+// always exists.
 const ShadowKernels* shadow_kernels(Isa isa);
-// The table of the best instruction set there is.
+// Returns the table of the best available instruction set.
 const ShadowKernels& best_shadow_kernels();
 
 }  // namespace nook

@@ -10,28 +10,17 @@
 
 namespace nook::isa_avx2 {
 
-using Wide = simd::Pair<Float>;  // what the loops over spheres run on
+using Wide = simd::Pair<Float>;  // the vector of the loops over spheres
 
 #include "sdk/src/character/shadow_kernels_impl.inl"
 #include "sdk/src/character/shadow_kernels_impl_directional.inl"
 #include "sdk/src/character/shadow_kernels_pose_x86.inl"
 
-constexpr ShadowKernels table{Isa::avx2,
-                              "avx2",
-                              self_norm_sum,
-                              norm_root,
-                              composed_depth,
-                              exact_open,
-                              composed_occlusion,
-                              linear_layer,
-                              scatter,
-                              pose_spheres,
-                              pose_key_points,
-                              directional_norm_sum,
-                              directional_hemisphere,
-                              directional_depth,
-                              directional_open,
-                              directional_ground};
+constexpr ShadowKernels table{
+    Isa::avx2,         "avx2",           self_norm_sum,        norm_root,
+    composed_depth,    exact_open,       composed_occlusion,   linear_layer,
+    pose_spheres,      pose_key_points,  directional_norm_sum, directional_hemisphere,
+    directional_depth, directional_open, directional_ground};
 
 const ShadowKernels& kernels() {
   return table;

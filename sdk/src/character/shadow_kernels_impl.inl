@@ -1,13 +1,13 @@
 // The kernels over one vector type. Each instruction set includes this file inside its own namespace, after
-// defining there
+// it has defined
 //   Float, a vector of `width` numbers with the operations of core/simd_scalar.h,
 //   broadcast, load and store.
-// Everything here has internal linkage or a name that contains the instruction set's type: code compiled for
-// a better processor can never be merged into a function that an older one runs.
+// Everything here has internal linkage or a name that contains the instruction set's type, so that code for a
+// newer processor can never be merged into a function that an older one runs.
 
 namespace {
 
-// How to read and write a number type: one vector, or a pair of them.
+// Loads and stores of a number type, which is one vector or a pair of them.
 template <class F>
 struct Lanes {
   static constexpr std::uint32_t count = width;
@@ -164,7 +164,7 @@ void composed_occlusion(const float* depth, const float* open, std::uint32_t pad
   }
 }
 
-// min and max answer with their second operand when one is NaN, so that a NaN comes out as 1, open.
+// min and max return their second operand if one operand is NaN, so that a NaN becomes 1, open.
 Float clamped_open(Float a) {
   return max(min(a, broadcast(1.0f)), broadcast(0.0f));
 }

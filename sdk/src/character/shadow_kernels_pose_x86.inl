@@ -1,5 +1,6 @@
-// Rest space to world by four floats at a time; included inside an x86 instruction set's namespace. A bone's
-// matrix is three loads, one for each row; four blended key points are then transposed to arrays.
+// Transforms from rest space to world space with four floats at a time. The file is included inside an x86
+// instruction set's namespace. The matrix of a bone takes three loads, one for each row; four blended key
+// points are then transposed to arrays.
 
 namespace {
 
@@ -11,7 +12,7 @@ __m128 multiply_add(__m128 a, __m128 b, __m128 c) {
 #endif
 }
 
-// 1 / sqrt(a) to float's precision; a > 0.
+// Returns 1 / sqrt(a) to float precision, for a > 0.
 __m128 inverse_root(__m128 a) {
   return _mm_div_ps(_mm_set1_ps(1.0f), _mm_sqrt_ps(a));
 }
@@ -80,8 +81,8 @@ void pose_four(const KeyPointSoa& rest, const FourMatrices& m, Vec3 offset_ws, s
   _mm_storeu_ps(out.z + k, p.z);
   const Three n =
       linear_part(m, {_mm_loadu_ps(rest.nx + k), _mm_loadu_ps(rest.ny + k), _mm_loadu_ps(rest.nz + k)});
-  // Opposite bones can blend a normal away to nothing; it then stays zero, which shadows see as no direction
-  // at all.
+  // The blend of opposite bones can cancel a normal. It then stays zero, and shadows treat it as no
+  // direction.
   const __m128 scale = inverse_root(_mm_max_ps(squared_length(n), _mm_set1_ps(1e-30f)));
   _mm_storeu_ps(out.nx + k, _mm_mul_ps(n.x, scale));
   _mm_storeu_ps(out.ny + k, _mm_mul_ps(n.y, scale));
@@ -97,7 +98,7 @@ void pose_key_points(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 off
   }
 }
 
-// Lanes past the last sphere repeat it.
+// The lanes after the last sphere repeat it.
 void pose_spheres(const RestSphereView& rest, const Mat3x4* bones, Vec3 offset_ws, const SphereTarget& out) {
   for (std::uint32_t i = 0; i < rest.count; i += 4) {
     float x[4], y[4], z[4], radius[4];
@@ -113,7 +114,7 @@ void pose_spheres(const RestSphereView& rest, const Mat3x4* bones, Vec3 offset_w
     }
     const FourMatrices m = transposed(rows);
     const Three p = moved_point(m, {_mm_loadu_ps(x), _mm_loadu_ps(y), _mm_loadu_ps(z)}, offset_ws);
-    // Under rigid or uniformly scaled matrices every row of the linear part is as long as the scale.
+    // Under rigid or uniformly scaled matrices, the length of every row of the linear part is the scale.
     const __m128 scale = _mm_sqrt_ps(squared_length({m.m[0], m.m[1], m.m[2]}));
     const __m128 scaled = _mm_max_ps(_mm_mul_ps(_mm_loadu_ps(radius), scale), _mm_set1_ps(min_sphere_radius));
     float ox[4], oy[4], oz[4], inverse[4];

@@ -1,4 +1,4 @@
-// The moving parts of a character model, spheres and key points, laid out as the pose kernels read them.
+// The moving parts of a character model, spheres and key points, in the layout of the pose kernels.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ namespace nook {
 
 class RestSpheres {
  public:
-  // Throws Failure when a sphere's bone is not one of the model's.
+  // Throws Failure if the bone of a sphere is not one of the model's.
   explicit RestSpheres(const CharacterModel& model,
                        std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
   const RestSphereView& view() const { return view_; }
-  // For SphereSoa::caster_weight; it does not change with the pose.
+  // Returns SphereSoa::caster_weight, which does not depend on the pose.
   const float* caster_weight() const { return caster_weight_; }
 
  private:
@@ -27,10 +27,10 @@ class RestSpheres {
   RestSphereView view_;
 };
 
-// Padded to key_point_group with copies of the last key point.
+// Key points, padded to key_point_group with copies of the last one.
 class RestKeyPoints {
  public:
-  // Throws Failure when a key point's bone is not one of the model's.
+  // Throws Failure if a bone of a key point is not one of the model's.
   explicit RestKeyPoints(const CharacterModel& model,
                          std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 

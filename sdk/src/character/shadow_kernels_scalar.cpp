@@ -1,5 +1,4 @@
-// The reference: plain float arithmetic in the order the formulas are written, and what processors without
-// x86 SIMD run.
+// The reference: plain float arithmetic in the order of the formulas. Processors without x86 SIMD run it.
 #include <cstdint>
 
 #include "sdk/src/character/directional.h"
@@ -14,7 +13,7 @@ namespace nook::isa_scalar {
 
 using Float = float;
 constexpr std::uint32_t width = 1;
-using Wide = Float;  // what the loops over spheres run on
+using Wide = Float;  // the vector of the loops over spheres
 
 namespace {
 Float broadcast(float a) {
@@ -32,22 +31,11 @@ void store(float* p, Float a) {
 #include "sdk/src/character/shadow_kernels_impl_directional.inl"
 #include "sdk/src/character/shadow_kernels_pose_scalar.inl"
 
-constexpr ShadowKernels table{Isa::scalar,
-                              "scalar",
-                              self_norm_sum,
-                              norm_root,
-                              composed_depth,
-                              exact_open,
-                              composed_occlusion,
-                              linear_layer,
-                              scatter,
-                              pose_spheres,
-                              pose_key_points,
-                              directional_norm_sum,
-                              directional_hemisphere,
-                              directional_depth,
-                              directional_open,
-                              directional_ground};
+constexpr ShadowKernels table{
+    Isa::scalar,       "scalar",         self_norm_sum,        norm_root,
+    composed_depth,    exact_open,       composed_occlusion,   linear_layer,
+    pose_spheres,      pose_key_points,  directional_norm_sum, directional_hemisphere,
+    directional_depth, directional_open, directional_ground};
 
 const ShadowKernels& kernels() {
   return table;

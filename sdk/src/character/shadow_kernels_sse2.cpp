@@ -16,22 +16,11 @@ using Wide = Float;  // what the loops over spheres run on
 #include "sdk/src/character/shadow_kernels_impl_directional.inl"
 #include "sdk/src/character/shadow_kernels_pose_x86.inl"
 
-constexpr ShadowKernels table{Isa::sse2,
-                              "sse2",
-                              self_norm_sum,
-                              norm_root,
-                              composed_depth,
-                              exact_open,
-                              composed_occlusion,
-                              linear_layer,
-                              scatter,
-                              pose_spheres,
-                              pose_key_points,
-                              directional_norm_sum,
-                              directional_hemisphere,
-                              directional_depth,
-                              directional_open,
-                              directional_ground};
+constexpr ShadowKernels table{
+    Isa::sse2,         "sse2",           self_norm_sum,        norm_root,
+    composed_depth,    exact_open,       composed_occlusion,   linear_layer,
+    pose_spheres,      pose_key_points,  directional_norm_sum, directional_hemisphere,
+    directional_depth, directional_open, directional_ground};
 
 const ShadowKernels& kernels() {
   return table;

@@ -17,7 +17,7 @@ class AlignedArray {
   static constexpr std::size_t alignment = 64;
 
   AlignedArray() = default;
-  // All bytes are zero.
+  // Sets all bytes to zero.
   AlignedArray(std::size_t count, std::pmr::memory_resource* memory) : memory_(memory), size_(count) {
     if (count == 0) return;
     data_ = static_cast<T*>(memory->allocate(count * sizeof(T), alignment));
@@ -55,7 +55,7 @@ class AlignedArray {
   std::size_t size_ = 0;
 };
 
-// Arrays that SIMD loops run over are padded to whole blocks of this many floats, one AVX-512 register.
+// Arrays of SIMD loops are padded to whole blocks of this many floats, which are one AVX-512 register.
 inline constexpr std::size_t simd_width = 16;
 constexpr std::size_t padded_count(std::size_t count) {
   return (count + simd_width - 1) / simd_width * simd_width;

@@ -1,5 +1,5 @@
-// Little-endian bytes and packed bits, written to a vector and read back with every access checked against
-// the end. The same on hosts of either byte order.
+// Writes little-endian bytes and packed bits to a vector, and reads them back with a check of every access
+// against the end. The bytes are the same on hosts of either byte order.
 #pragma once
 
 #include <nook/nook.h>
@@ -22,7 +22,7 @@ class ByteWriter {
   void u32(std::uint32_t value) { little(value, 4); }
   void u64(std::uint64_t value) { little(value, 8); }
   void f32(float value) { u32(std::bit_cast<std::uint32_t>(value)); }
-  // Seven bits a byte, low first; the top bit says that more follow.
+  // Writes seven bits in each byte, low bits first; the top bit is set if more bytes follow.
   void varint(std::uint32_t value) {
     for (; value >= 128; value >>= 7) u8(value | 128);
     u8(value);
@@ -31,7 +31,7 @@ class ByteWriter {
     for (const char c : value) u8(static_cast<unsigned char>(c));
   }
 
-  // Packed bits, low first; align() before bytes follow.
+  // Writes packed bits, low bits first. align() must be called before bytes follow.
   void bits(std::uint32_t value, int count) {
     for (int i = 0; i < count; ++i) {
       if (used_bits_ == 0) bytes_.push_back(std::byte{0});
@@ -54,7 +54,7 @@ class ByteWriter {
 
 class ByteReader {
  public:
-  // name stands in the messages and must outlive the reader.
+  // Messages contain name, which must outlive the reader.
   ByteReader(std::span<const std::byte> bytes, const char* name) : bytes_(bytes), name_(name) {}
 
   const char* name() const { return name_; }
@@ -98,7 +98,7 @@ class ByteReader {
   }
   void align() { left_bits_ = 0; }
 
-  // Refuses a count of items that the rest of the section cannot hold, before anything is allocated for them.
+  // Throws if the rest of the section cannot hold count items, so that nothing is allocated for them.
   std::uint32_t check_count(std::uint32_t count, std::size_t bits_each, const char* what) const {
     if (count > remaining() * 8 / bits_each)
       throw Failure(NOOK_ERROR_BAD_FILE,
@@ -136,7 +136,7 @@ class ByteReader {
   int left_bits_ = 0;
 };
 
-// Bits that hold every index below count.
+// Returns the number of bits that hold every index below count.
 constexpr int index_bits(std::size_t count) {
   return count > 1 ? std::bit_width(count - 1) : 0;
 }

@@ -23,8 +23,8 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes) {
   return XXH64_digest(&state);
 }
 
-// Four letters as a C string, with unprintable ones as '?', so that a hostile file cannot write to the host's
-// terminal.
+// Returns the four letters as a C string, with '?' for unprintable ones, so that a hostile file cannot write
+// control sequences to the host's terminal.
 std::array<char, 5> letters(FourLetters value) {
   std::array<char, 5> text{};
   for (int i = 0; i < 4; ++i) {

@@ -36,10 +36,10 @@ struct ContainerSection {
 
 std::vector<std::byte> write_container(const ContainerKind& kind, std::span<const ContainerSection> sections);
 
-// A view of a file's bytes; allocates nothing.
+// Views the bytes of a file; it does not allocate.
 class Container {
  public:
-  // Checks everything but the contents of the sections; throws Failure with a message of its own for each
+  // Checks everything except the contents of the sections. Throws Failure, with a different message for each
   // fault.
   Container(std::span<const std::byte> bytes, const ContainerKind& kind);
 
@@ -61,9 +61,9 @@ class Container {
   std::uint32_t sections_ = 0;
 };
 
-// Puts the right checksum into bytes that were changed; for tests of what lies behind the checksum.
+// Writes the correct checksum into changed bytes, for tests of the code behind the checksum.
 void repair_checksum(std::span<std::byte> bytes);
-// The kind of a file, so that a tool can choose a reader; 0 if it is no .nook file at all.
+// Returns the kind of a file, so that a tool can choose a reader, or 0 if the bytes are no .nook file.
 FourLetters container_kind(std::span<const std::byte> bytes);
 
 }  // namespace nook

@@ -1,5 +1,5 @@
-// What a context holds: the host's callbacks. Everything made from a context refers to it and so keeps it
-// alive.
+// A context holds the host's callbacks. Everything that is created from a context refers to it and so keeps
+// it alive.
 #pragma once
 
 #include <nook/nook.h>
@@ -20,7 +20,7 @@ class Context : public RefCounted {
 
   std::pmr::memory_resource* memory() noexcept { return &memory_; }
   const Parallel& parallel() const noexcept { return parallel_; }
-  // printf-style, cut at 512 characters; does nothing without a log.
+  // Logs a printf-style text, which is cut at 512 characters. Does nothing if the host set no log.
   void log(nook_log_severity severity, const char* format, ...) const noexcept
       __attribute__((format(printf, 3, 4)));
 

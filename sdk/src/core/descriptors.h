@@ -1,5 +1,5 @@
-// Structs of the C interfaces, which grow: a caller compiled with an older or newer header passes more or
-// fewer bytes than the library knows.
+// The structs of the C interfaces grow, so that a caller compiled with an older or newer header passes fewer
+// or more bytes than the library's struct has.
 #pragma once
 
 #include <nook/nook.h>
@@ -13,11 +13,11 @@
 
 namespace nook {
 
-// Throws VERSION unless headers of `version` fit this library: the same major version, and no newer minor
-// one.
+// Throws VERSION unless headers of `version` fit this library: the major version must be the same, and the
+// minor version not newer.
 void check_version(std::uint32_t version);
 
-// Fills the caller's struct of `size` bytes with `defaults`; bytes that this library does not know become 0.
+// Fills the caller's struct of `size` bytes with `defaults`, and bytes beyond the library's struct with 0.
 // first_size is the size of the struct in its first release.
 template <class Desc>
 void init_descriptor(Desc* desc, std::size_t size, std::uint32_t version, std::size_t first_size,
@@ -33,8 +33,8 @@ void init_descriptor(Desc* desc, std::size_t size, std::uint32_t version, std::s
   std::memcpy(static_cast<void*>(desc), &defaults, std::min(size, sizeof defaults));
 }
 
-// The caller's struct as this library knows it: fields beyond its size keep `defaults`; fields that only a
-// newer header has must be 0.
+// Returns the caller's struct in this library's version: fields beyond the caller's size keep `defaults`.
+// Fields that only a newer header has must be 0.
 template <class Desc>
 Desc read_descriptor(const Desc* desc, const char* init_function, std::size_t first_size, Desc defaults) {
   need(desc, "desc");
@@ -58,7 +58,7 @@ Desc read_descriptor(const Desc* desc, const char* init_function, std::size_t fi
   return defaults;
 }
 
-// Copies as much of `value` as the caller's struct holds, whose struct_size stays.
+// Copies as much of `value` as the caller's struct holds. The caller's struct_size stays.
 template <class Info>
 void write_info(Info* info, std::size_t first_size, Info value) {
   need(info, "the struct for the answer");

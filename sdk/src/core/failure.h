@@ -1,4 +1,4 @@
-// The error that travels inside the library; the api rooms turn it into a nook_result and a message.
+// The exception of the library; the api rooms turn it into a nook_result and a message.
 #pragma once
 
 #include <nook/nook.h>
@@ -9,8 +9,8 @@ namespace nook {
 
 class Failure : public std::exception {
  public:
-  // printf-style; the text says what is wrong, what came and what is needed, without the function's name,
-  // which the api adds. It is cut at the buffer's end: throwing allocates nothing.
+  // Takes a printf-style text: what is wrong, the value and what is needed. The api adds the name of the
+  // function. The text is cut at the buffer's end, so that throwing does not allocate.
   Failure(nook_result code, const char* format, ...) noexcept __attribute__((format(printf, 3, 4)));
 
   nook_result code() const noexcept { return code_; }
@@ -21,7 +21,7 @@ class Failure : public std::exception {
   char text_[480];
 };
 
-// Throws INVALID_ARGUMENT unless the pointer is there.
+// Throws INVALID_ARGUMENT if the pointer is null.
 inline void need(const void* pointer, const char* name) {
   if (!pointer)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is NULL; a valid pointer or handle is needed", name);

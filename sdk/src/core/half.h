@@ -1,4 +1,4 @@
-// IEEE half floats, by integer arithmetic: the same bits on every machine.
+// IEEE half floats by integer arithmetic, with the same bits on every machine.
 #pragma once
 
 #include <bit>
@@ -6,7 +6,7 @@
 
 namespace nook {
 
-// To the nearest half, ties to even; beyond 65504 infinity.
+// Rounds to the nearest half, ties to even. Values beyond 65504 become infinity.
 constexpr std::uint16_t to_half(float value) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
   const std::uint32_t sign = bits >> 16 & 0x8000u, magnitude = bits & 0x7fffffffu;

@@ -1,4 +1,5 @@
-// Instruction sets that kernels are compiled for; which of them the processor has is asked at run time.
+// The instruction sets that kernels are compiled for. The library queries at run time which of them the
+// processor has.
 #pragma once
 
 #include <cstdint>

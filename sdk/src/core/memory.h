@@ -1,4 +1,4 @@
-// The host's allocator as a memory resource, so that every container of the library draws on it.
+// The host's allocator as a memory resource, which every container of the library uses.
 #pragma once
 
 #include <nook/nook.h>
@@ -10,7 +10,7 @@ namespace nook {
 
 class HostMemory final : public std::pmr::memory_resource {
  public:
-  // Both functions null: the global operator new.
+  // If both functions are null, memory comes from the global operator new.
   explicit HostMemory(const nook_allocator& allocator) noexcept : allocator_(allocator) {}
 
   const nook_allocator& allocator() const noexcept { return allocator_; }

@@ -1,4 +1,4 @@
-// Runs a function for every index, through the host's jobs if it gave any.
+// Runs a function for every index, through the host's jobs if the host set them.
 #pragma once
 
 #include <nook/nook.h>
@@ -12,7 +12,7 @@ struct Parallel {
   void* user = nullptr;
 };
 
-// body(index) must not throw: a host's thread would have nobody to catch it.
+// body(index) must not throw, because nothing would catch the exception on a thread of the host.
 template <class Body>
 void parallel_for(const Parallel& parallel, std::uint32_t count, Body& body) {
   static_assert(std::is_nothrow_invocable_v<Body&, std::uint32_t>);

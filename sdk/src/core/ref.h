@@ -1,5 +1,5 @@
-// Intrusive reference counts behind the public handles: whatever refers to an object keeps it and its memory
-// alive, so that every order of destruction is defined.
+// Intrusive reference counts behind the public handles. A reference keeps an object and its memory alive, so
+// that objects may be destroyed in any order.
 #pragma once
 
 #include <atomic>
@@ -66,7 +66,7 @@ class Ref {
   T* object_ = nullptr;
 };
 
-// An object in memory of `memory`, which `owner` (may be null) keeps alive until after the object is gone.
+// Creates an object in `memory`, which `owner` (may be null) keeps alive until after the object is destroyed.
 template <class T>
 class Owned final : public T {
  public:

@@ -1,4 +1,4 @@
-// Eight floats, AVX2 and FMA. Include only in translation units compiled for them.
+// Eight floats for AVX2 and FMA. Only translation units that are compiled for them may include this file.
 #pragma once
 
 #include <immintrin.h>
@@ -62,21 +62,22 @@ inline Float select(Mask m, Float yes, Float no) {
 inline Float sqrt(Float a) {
   return _mm256_sqrt_ps(a.v);
 }
-// The divider has time to spare beside the other ports: its root is cheaper than an estimate with a Newton
-// step.
+// The divider is idle beside the other ports, so that its square root costs less than an estimate with a
+// Newton step.
 inline Float sqrt_positive(Float a) {
   return _mm256_sqrt_ps(a.v);
 }
 inline Float power_three_halves(Float a) {
   return a * Float(_mm256_sqrt_ps(_mm256_max_ps(a.v, _mm256_setzero_ps())));
 }
-// The estimate has 12 bits; one Newton step gives 22.
+// The estimate has 12 bits, and one Newton step gives 22.
 inline Float rsqrt(Float a) {
   const __m256 t = _mm256_rsqrt_ps(a.v);
   const __m256 residual = _mm256_fnmadd_ps(_mm256_mul_ps(a.v, t), t, _mm256_set1_ps(1.0f));
   return _mm256_fmadd_ps(_mm256_mul_ps(t, _mm256_set1_ps(0.5f)), residual, t);
 }
-// From the estimate r with e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) to e^2, 1e-6.
+// With the estimate r and e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) up to e^2, which is
+// 1e-6.
 inline Float rsqrt_cubed(Float a, float scale) {
   const Float r = _mm256_rsqrt_ps(a.v);
   const Float r2 = r * r;
@@ -85,7 +86,7 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const __m256i bits = _mm256_castps_si256(a.v);
-  // 0x3f3504f3 is 1/sqrt(2): subtracting it first makes the shift round at that mantissa.
+  // 0x3f3504f3 is 1/sqrt(2). Subtracting it first makes the shift round at that mantissa.
   const __m256i e = _mm256_srai_epi32(_mm256_sub_epi32(bits, _mm256_set1_epi32(0x3f3504f3)), 23);
   exponent = _mm256_cvtepi32_ps(e);
   mantissa = _mm256_castsi256_ps(_mm256_sub_epi32(bits, _mm256_slli_epi32(e, 23)));
@@ -106,7 +107,7 @@ inline Float exponential(Float a) {
 inline Float arc_cosine(Float a) {
   return simd::arc_cosine_of(a);
 }
-// The sum of all lanes.
+// Returns the sum of all lanes.
 inline float sum(Float a) {
   const __m128 half = _mm_add_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
   const __m128 pairs = _mm_add_ps(half, _mm_movehl_ps(half, half));

@@ -1,4 +1,4 @@
-// Sixteen floats, AVX-512F. Include only in translation units compiled for it.
+// Sixteen floats for AVX-512F. Only translation units that are compiled for it may include this file.
 #pragma once
 
 #include <immintrin.h>
@@ -59,22 +59,22 @@ inline Float select(__mmask16 m, Float yes, Float no) {
 inline Float sqrt(Float a) {
   return _mm512_sqrt_ps(a.v);
 }
-// The estimates have 14 bits, a relative error of 6e-5.
+// The estimates have 14 bits, which is a relative error of 6e-5.
 inline Float sqrt_positive(Float a) {
   return a * Float(_mm512_rsqrt14_ps(a.v));
 }
-// The floor keeps 0 * infinity away.
+// The floor avoids 0 * infinity.
 inline Float power_three_halves(Float a) {
   return a * a * Float(_mm512_rsqrt14_ps(_mm512_max_ps(a.v, _mm512_set1_ps(1e-30f))));
 }
-// One Newton step on the 14-bit estimate gives float's own precision.
+// One Newton step on the 14-bit estimate gives the precision of float.
 inline Float rsqrt(Float a) {
   const __m512 t = _mm512_rsqrt14_ps(a.v);
   const __m512 residual = _mm512_fnmadd_ps(_mm512_mul_ps(a.v, t), t, _mm512_set1_ps(1.0f));
   return _mm512_fmadd_ps(_mm512_mul_ps(t, _mm512_set1_ps(0.5f)), residual, t);
 }
-// From the estimate r with e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) to e^2, below
-// float's rounding.
+// With the estimate r and e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) up to e^2, which is
+// below the rounding of float.
 inline Float rsqrt_cubed(Float a, float scale) {
   const Float r = _mm512_rsqrt14_ps(a.v);
   const Float r2 = r * r;
@@ -83,7 +83,7 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const __m512i bits = _mm512_castps_si512(a.v);
-  // 0x3f3504f3 is 1/sqrt(2): subtracting it first makes the shift round at that mantissa.
+  // 0x3f3504f3 is 1/sqrt(2). Subtracting it first makes the shift round at that mantissa.
   const __m512i e = _mm512_srai_epi32(_mm512_sub_epi32(bits, _mm512_set1_epi32(0x3f3504f3)), 23);
   exponent = _mm512_cvtepi32_ps(e);
   mantissa = _mm512_castsi512_ps(_mm512_sub_epi32(bits, _mm512_slli_epi32(e, 23)));
@@ -103,7 +103,7 @@ inline Float exponential(Float a) {
 inline Float arc_cosine(Float a) {
   return simd::arc_cosine_of(a);
 }
-// The sum of all lanes.
+// Returns the sum of all lanes.
 inline float sum(Float a) {
   return _mm512_reduce_add_ps(a.v);
 }

@@ -1,5 +1,5 @@
-// Two SIMD vectors as one number type: formulas run on both, instruction by instruction, so that one's long
-// latencies hide behind the other. V is a vector of core/simd_*.h.
+// Two SIMD vectors as one number type. Formulas run on both, instruction by instruction, so that the latency
+// of one hides behind the other. V is a vector of core/simd_*.h.
 #pragma once
 
 namespace nook::simd {

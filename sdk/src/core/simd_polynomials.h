@@ -1,14 +1,14 @@
-// Functions that processors lack, over a SIMD vector type F of one instruction set. F brings the operations
-// of core/simd_scalar.h and
+// Functions that processors lack, over a SIMD vector type F of one instruction set. F must have the
+// operations of core/simd_scalar.h and
 //   split(x, exponent, mantissa): x = mantissa * 2^exponent with mantissa in [1/sqrt(2), sqrt(2)), for normal
 //   x > 0; times_power_of_two(a, n): a * 2^n for whole n in [-126, 127]; nearest(a): a rounded to a whole
 //   number.
-// Coefficients are interpolations at Chebyshev nodes, near the best polynomials of their degree.
+// The coefficients interpolate at Chebyshev nodes, which is near the best polynomial of each degree.
 #pragma once
 
 namespace nook::simd {
 
-// Absolute error <= 1e-6 + rounding.
+// The absolute error is at most 1e-6 plus rounding.
 template <class F>
 F log2_of(F a) {
   F exponent, mantissa;
@@ -24,7 +24,8 @@ F log2_of(F a) {
   return fma(p, f, exponent);
 }
 
-// Relative error <= 1e-7 + rounding; the result stays normal: 2^-126 for anything less, 2^127 for more.
+// The relative error is at most 1e-7 plus rounding. The result stays normal: 2^-126 for anything smaller,
+// 2^127 for anything larger.
 template <class F>
 F exp2_of(F a) {
   const F x = min(max(a, F(-126.0f)), F(127.0f));
@@ -39,8 +40,8 @@ F exp2_of(F a) {
   return times_power_of_two(p, whole);
 }
 
-// Relative error <= 1e-5 for base in [1e-6, 1e3] and exponent in (0, 4]: the log's error times the exponent.
-// 0 stays 0.
+// The relative error is at most 1e-5 for base in [1e-6, 1e3] and exponent in (0, 4]: it is the error of the
+// logarithm times the exponent. 0 stays 0.
 template <class F>
 F power_of(F base, F exponent) {
   const F smallest(1e-37f);
@@ -52,7 +53,7 @@ F exponential_of(F a) {
   return exp2_of(a * F(1.44269504f));
 }
 
-// Abramowitz & Stegun 4.4.46, absolute error 2e-8 + rounding; a in [-1, 1].
+// Abramowitz and Stegun 4.4.46, for a in [-1, 1]. The absolute error is 2e-8 plus rounding.
 template <class F>
 F arc_cosine_of(F a) {
   const F x = max(a, F(0.0f) - a);

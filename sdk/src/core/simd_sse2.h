@@ -1,4 +1,4 @@
-// Four floats, SSE2: what every x86-64 processor has.
+// Four floats for SSE2, which every x86-64 processor has.
 #pragma once
 
 #include <emmintrin.h>
@@ -68,12 +68,13 @@ inline Float sqrt_positive(Float a) {
 inline Float power_three_halves(Float a) {
   return a * Float(_mm_sqrt_ps(_mm_max_ps(a.v, _mm_setzero_ps())));
 }
-// The estimate has 12 bits; one Newton step gives 22.
+// The estimate has 12 bits, and one Newton step gives 22.
 inline Float rsqrt(Float a) {
   const Float t = _mm_rsqrt_ps(a.v);
   return t * (Float(1.5f) - Float(0.5f) * a * t * t);
 }
-// From the estimate r with e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) to e^2, 1e-6.
+// With the estimate r and e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) up to e^2, which is
+// 1e-6.
 inline Float rsqrt_cubed(Float a, float scale) {
   const Float r = _mm_rsqrt_ps(a.v);
   const Float r2 = r * r;
@@ -82,7 +83,7 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const __m128i bits = _mm_castps_si128(a.v);
-  // 0x3f3504f3 is 1/sqrt(2): subtracting it first makes the shift round at that mantissa.
+  // 0x3f3504f3 is 1/sqrt(2). Subtracting it first makes the shift round at that mantissa.
   const __m128i e = _mm_srai_epi32(_mm_sub_epi32(bits, _mm_set1_epi32(0x3f3504f3)), 23);
   exponent = _mm_cvtepi32_ps(e);
   mantissa = _mm_castsi128_ps(_mm_sub_epi32(bits, _mm_slli_epi32(e, 23)));
@@ -103,7 +104,7 @@ inline Float exponential(Float a) {
 inline Float arc_cosine(Float a) {
   return simd::arc_cosine_of(a);
 }
-// The sum of all lanes.
+// Returns the sum of all lanes.
 inline float sum(Float a) {
   const __m128 pairs = _mm_add_ps(a.v, _mm_movehl_ps(a.v, a.v));
   return _mm_cvtss_f32(_mm_add_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));

@@ -1,7 +1,7 @@
-// Spherical Gaussians, lobes for short, and their closed forms:
+// Spherical Gaussians, called lobes, and their closed forms:
 //   G(s) = amplitude exp(sharpness (dot(axis, s) - 1)).
-// Every function is safe from sharpness 0, a constant over the sphere, to far beyond what float directions
-// resolve: differences of large numbers are taken before exponentials, never after.
+// Every function is safe from sharpness 0, a constant over the sphere, to far beyond the resolution of float
+// directions, because differences of large numbers are computed before exponentials.
 #pragma once
 
 #include <algorithm>
@@ -20,18 +20,18 @@ struct SphericalGaussian {
   Vec3 amplitude;       // linear RGB
 };
 
-// 1 - dot(a, b) of unit vectors, without the cancellation of nearly equal ones.
+// Returns 1 - dot(a, b) of unit vectors, without cancellation for nearly equal vectors.
 constexpr float one_minus_cosine(Vec3 a, Vec3 b) {
   const Vec3 d = a - b;
   return 0.5f * dot(d, d);
 }
 
-// G(s) at amplitude 1; s unit.
+// Returns G(s) at amplitude 1 for a unit s.
 inline float gaussian_value(Vec3 axis, float sharpness, Vec3 s) {
   return std::exp(-sharpness * one_minus_cosine(axis, s));
 }
 
-// Integral of G over the sphere at amplitude 1: 2 pi (1 - e^(-2 sharpness)) / sharpness.
+// Returns the integral of G over the sphere at amplitude 1: 2 pi (1 - e^(-2 sharpness)) / sharpness.
 template <std::floating_point T>
 T gaussian_integral(T sharpness) {
   constexpr T pi = std::numbers::pi_v<T>;
@@ -39,13 +39,13 @@ T gaussian_integral(T sharpness) {
   return -2 * pi * std::expm1(-2 * sharpness) / sharpness;
 }
 
-// Integral of G^2, itself a lobe of twice the sharpness: pi (1 - e^(-4 sharpness)) / sharpness.
+// Returns the integral of G^2, which is a lobe of twice the sharpness: pi (1 - e^(-4 sharpness)) / sharpness.
 template <std::floating_point T>
 T gaussian_square_integral(T sharpness) {
   return gaussian_integral(2 * sharpness);
 }
 
-// The product of lobes of sharpness a and b with `apart` = 1 - cosine between their axes is a lobe of
+// The product of lobes of sharpness a and b, with `apart` = 1 - cosine between their axes, is a lobe of
 // sharpness l = |a p + b q|, scaled by e^(l - a - b).
 template <std::floating_point T>
 struct ProductShape {
@@ -60,8 +60,8 @@ ProductShape<T> gaussian_product_shape(T a, T b, T apart) {
   return {sharpness, std::exp(drop)};
 }
 
-// Integral of the product, at amplitudes 1: 2 pi e^(l - a - b) (1 - e^(-2 l)) / l, the form that never
-// overflows, where 4 pi e^(-a - b) sinh(l) / l would.
+// Returns the integral of the product at amplitudes 1: 2 pi e^(l - a - b) (1 - e^(-2 l)) / l. This form never
+// overflows, while 4 pi e^(-a - b) sinh(l) / l would.
 template <std::floating_point T>
 T gaussian_product_integral(T a, T b, T apart) {
   const ProductShape<T> shape = gaussian_product_shape(a, b, apart);
@@ -93,7 +93,7 @@ inline SphericalGaussian product(const SphericalGaussian& a, const SphericalGaus
           by_channel(a.amplitude, b.amplitude) * shape.scale};
 }
 
-// 1 - the mean cosine to its axis of a lobe's mass: 1 - (coth(sharpness) - 1 / sharpness).
+// Returns 1 - the mean cosine between a lobe's mass and its axis: 1 - (coth(sharpness) - 1 / sharpness).
 template <std::floating_point T>
 T gaussian_spread(T sharpness) {
   if (sharpness < T(0.01)) return 1 - sharpness / 3;
@@ -101,8 +101,8 @@ T gaussian_spread(T sharpness) {
   return 1 / sharpness - 2 * e / (1 - e);
 }
 
-// The sharpness whose gaussian_spread is `spread`, in (0, 1]: A. Banerjee's estimate (2005) and two Newton
-// steps.
+// Returns the sharpness whose gaussian_spread is `spread`, in (0, 1], by the estimate of A. Banerjee (2005)
+// and two Newton steps.
 template <std::floating_point T>
 T gaussian_sharpness_of_spread(T spread) {
   const T mean = 1 - spread;
@@ -117,8 +117,8 @@ T gaussian_sharpness_of_spread(T spread) {
   return sharpness;
 }
 
-// a blurred by b, a zonal filter: the lobe round a's axis whose integral and mean cosine are the true
-// convolution's, which is no lobe itself.
+// Returns a convolved with b as a zonal filter: the lobe about the axis of a with the integral and the mean
+// cosine of the exact convolution, which is not a lobe.
 inline SphericalGaussian convolution(const SphericalGaussian& a, const SphericalGaussian& b) {
   const float spread_a = gaussian_spread(a.sharpness), spread_b = gaussian_spread(b.sharpness);
   const float sharpness = gaussian_sharpness_of_spread(spread_a + spread_b - spread_a * spread_b);
@@ -126,9 +126,9 @@ inline SphericalGaussian convolution(const SphericalGaussian& a, const Spherical
   return {a.axis, sharpness, by_channel(a.amplitude, b.amplitude) * (mass / gaussian_integral(sharpness))};
 }
 
-// What convolution with a lobe of integral 1 does to bands 0 to 4 of a function on the sphere: the ratios
-// i_l / i_0 of the modified spherical Bessel functions. Their recurrence upwards loses digits below its
-// middle, the continued fraction of i_(l+1) / i_l never does.
+// Returns the factors by which convolution with a lobe of integral 1 scales bands 0 to 4 of a function on the
+// sphere: the ratios i_l / i_0 of the modified spherical Bessel functions. Their upward recurrence loses
+// digits below its middle, while the continued fraction of i_(l+1) / i_l does not.
 template <std::floating_point T>
 std::array<T, 5> gaussian_bands(T sharpness) {
   std::array<T, 5> band{1, 1 - gaussian_spread(sharpness)};
@@ -146,9 +146,10 @@ std::array<T, 5> gaussian_bands(T sharpness) {
   return band;
 }
 
-// Irradiance of a lobe of integral 1 on a surface; cosine is dot(axis, n). Three forms. By bands: the clamped
-// cosine's series of zonal harmonics to band 4 (odd bands above 1 are 0): within 1.5e-3 of a full light at
-// sharpness 6, 1e-2 at 16.
+// Returns the irradiance of a lobe of integral 1 on a surface; cosine is dot(axis, n). There are three forms.
+// This one uses the clamped cosine's series of zonal harmonics up to band 4 (odd bands above 1 are 0). Its
+// error, relative to the irradiance of a perpendicular light, is at most 1.5e-3 at sharpness 6 and 1e-2 at
+// 16.
 inline float gaussian_unit_irradiance_bands(float sharpness, float cosine) {
   const std::array<float, 5> band = gaussian_bands(sharpness);
   const float c2 = cosine * cosine;
@@ -157,8 +158,8 @@ inline float gaussian_unit_irradiance_bands(float sharpness, float cosine) {
   return std::max(0.25f + 0.5f * band[1] * cosine + even, 0.0f);
 }
 
-// S. Hill's fit, within 1.6e-2 of a full light from sharpness 3 on; the bands below, where it leaves its
-// range.
+// S. Hill's fit is within 1.6e-2 of the irradiance of a perpendicular light from sharpness 3 on. Below, where
+// the fit is not defined, the bands are used.
 inline constexpr float hill_min_sharpness = 3;
 inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
   if (sharpness < hill_min_sharpness) return gaussian_unit_irradiance_bands(sharpness, cosine);
@@ -172,15 +173,15 @@ inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
   return std::max((1 - rest) * y + bias, 0.0f);
 }
 
-// The better of both: bands up to this sharpness, the fit above.
+// The best form uses the bands up to this sharpness and the fit above.
 inline constexpr float bands_max_sharpness = 16;
 inline float gaussian_unit_irradiance_best(float sharpness, float cosine) {
   return sharpness <= bands_max_sharpness ? gaussian_unit_irradiance_bands(sharpness, cosine)
                                           : gaussian_unit_irradiance_fitted(sharpness, cosine);
 }
 
-// The clamped cosine max(dot(n, s), 0) as a lobe round n (B. Karis' values, used by The Order: 1886): the
-// inner product with it is the cheapest form, and never 0 behind a light.
+// The clamped cosine max(dot(n, s), 0) as a lobe about n, with B. Karis' values, which The Order: 1886 used.
+// The inner product with it is the cheapest form, and is never 0 behind a light.
 inline constexpr float cosine_lobe_sharpness = 2.133f;
 inline constexpr float cosine_lobe_amplitude = 1.17f;
 inline float gaussian_irradiance_inner_product(Vec3 axis, float sharpness, Vec3 n) {

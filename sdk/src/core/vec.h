@@ -1,4 +1,4 @@
-// Small vectors and affine matrices of the runtime: plain data, row-major, no alignment demands.
+// Small vectors and affine matrices of the runtime: plain data, row-major, without alignment requirements.
 #pragma once
 
 #include <cmath>
@@ -39,13 +39,13 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 inline float length(Vec3 a) {
   return std::sqrt(dot(a, a));
 }
-// A zero vector stays zero, so that callers can choose what stands in for it.
+// A zero vector stays zero, so that callers can choose a replacement.
 inline Vec3 normalised(Vec3 a) {
   const float l = length(a);
   return l > 0 ? a * (1 / l) : Vec3{};
 }
 
-// Three rows of [rotation and scale | translation]: the public 3x4 layout.
+// Three rows of [rotation and scale | translation], which is the public 3x4 layout.
 struct Mat3x4 {
   float m[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 };
@@ -56,15 +56,15 @@ constexpr Vec3 transform_point(const Mat3x4& a, Vec3 p) {
           m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
 }
 
-// Without the translation: directions, and normals under rigid or uniformly scaled matrices (then
-// renormalise).
+// Transforms without the translation. This is correct for directions, and for normals under rigid or
+// uniformly scaled matrices, which must then be renormalised.
 constexpr Vec3 transform_vector(const Mat3x4& a, Vec3 v) {
   const float* m = a.m;
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
           m[8] * v.x + m[9] * v.y + m[10] * v.z};
 }
 
-// The matrix that applies b first, then a.
+// Returns the matrix that applies b first, then a.
 constexpr Mat3x4 operator*(const Mat3x4& a, const Mat3x4& b) {
   Mat3x4 r;
   for (int i = 0; i < 3; ++i)

@@ -14,7 +14,7 @@ Device::Device(Context& host, const nook_gl_desc& desc)
   GLint value = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &value);
   max_texels = static_cast<std::uint32_t>(std::max(value, 65536));
-  if (gl.tier < 43) return;
+  if (!gl.can.compute) return;
   gl.GetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &value);
   storage_alignment = static_cast<std::uint64_t>(std::max(value, 16));
   gl.GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &value);
@@ -22,7 +22,7 @@ Device::Device(Context& host, const nook_gl_desc& desc)
 }
 
 void Device::report_host_errors() const {
-  // A context that is lost or not current may answer with errors for ever.
+  // A context that is lost or not current may return errors forever.
   for (int i = 0; i < 16; ++i) {
     const GLenum error = gl.GetError();
     if (error == GL_NO_ERROR) return;

@@ -1,4 +1,4 @@
-// What all OpenGL objects of one nook_gl share: functions, limits, the books of its memory.
+// The common part of all OpenGL objects of one nook_gl: functions, limits, and the amount of memory in use.
 #pragma once
 
 #include <nook/nook_gl.h>
@@ -11,14 +11,14 @@
 namespace nook::gl {
 
 struct Device {
-  // Reads limits: the OpenGL context must be current. Throws Failure.
+  // Reads limits, for which the OpenGL context must be current. Throws Failure.
   Device(Context& host, const nook_gl_desc& desc);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  // Moves errors that the host left to the log, so that what follows is Nook's own.
+  // Moves errors that the host left to the log, so that later errors are those of Nook.
   void report_host_errors() const;
-  // Throws Failure if OpenGL reported an error since; `what` was being done.
+  // Throws Failure if OpenGL has reported an error; `what` is the action for the message.
   void check(const char* what) const;
   // Throws Failure after the OpenGL context was lost.
   void need_alive() const;
@@ -34,7 +34,8 @@ struct Device {
   std::uint64_t buffer_bytes = 0;
   std::uint64_t ao_bytes = 0;
 
-  // Of a buffer that is bound as one piece: what the context allows, and below 128 MiB in any case.
+  // The maximum size of a buffer that is bound as one piece: the limit of the context, and below 128 MiB in
+  // any case.
   std::uint64_t max_piece_bytes = std::uint64_t{128} << 20;
   std::uint64_t storage_alignment = 256;  // bytes
   std::uint32_t max_texels = 65536;       // of a texture buffer

@@ -1,12 +1,12 @@
-// The text of every shader file, compiled into the library; made from shaders/ at build by
-// embed_shaders.cmake.
+// The text of every shader file, compiled into the library. embed_shaders.cmake makes it from shaders/ at
+// build time.
 #pragma once
 
 namespace nook::gl {
 
 struct EmbeddedShader {
   const char* path;  // below shaders/, such as "character/shadow.comp"
-  const char* text;  // includes expanded, without #version
+  const char* text;  // with expanded includes, without #version
 };
 
 const EmbeddedShader* embedded_shaders_begin();

@@ -37,14 +37,18 @@ Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier) {
     throw Failure(NOOK_ERROR_UNSUPPORTED, "the current context has OpenGL %d.%d, need 3.3 core or newer%s",
                   major, minor, major == 0 ? "; is a context current on this thread?" : "");
 
-  gl.tier = gl.version >= 43 && (max_tier == 0 || max_tier >= 43) ? 43 : 33;
-  if (gl.tier == 43) {
+  const bool has_compute = gl.version >= 43;
+  gl.can.compute = has_compute && (max_tier == 0 || max_tier >= 43);
+  gl.limited_by_host = has_compute && !gl.can.compute;
+  if (gl.can.compute) {
 #define NOOK_X(name) load_required(gl.name, get_proc, user, "gl" #name, "4.3");
     NOOK_GL_FUNCTIONS_43(NOOK_X)
 #undef NOOK_X
     load_optional(gl.BindImageTexture, get_proc, user, "glBindImageTexture");
+    gl.can.compute_images = gl.BindImageTexture != nullptr;
   }
-  // A loader may return a stub for what the context lacks, so the version decides before the pointer does.
+  // A loader may return a stub for a function that the context lacks, so the version is tested before the
+  // pointer.
   if (gl.version >= 40) {
     load_optional(gl.BindTransformFeedback, get_proc, user, "glBindTransformFeedback");
     load_optional(gl.DeleteTransformFeedbacks, get_proc, user, "glDeleteTransformFeedbacks");
@@ -52,7 +56,10 @@ Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier) {
     load_optional(gl.BlendEquationSeparatei, get_proc, user, "glBlendEquationSeparatei");
     load_optional(gl.BlendFuncSeparatei, get_proc, user, "glBlendFuncSeparatei");
   }
-  if (gl.version >= 41) {
+  gl.can.indexed_viewports = gl.version >= 41;
+  gl.can.query_buffers = gl.version >= 44;
+  gl.can.stencil_textures = gl.version >= 43;
+  if (gl.can.indexed_viewports) {
     load_optional(gl.GetFloati_v, get_proc, user, "glGetFloati_v");
     load_optional(gl.ViewportIndexedf, get_proc, user, "glViewportIndexedf");
   }

@@ -1,6 +1,6 @@
-// The OpenGL functions that Nook calls: one list for each tier, one table for each context, filled by the
-// host's loader. glad supplies the types and constants only; nothing of its loader is linked, so that no
-// symbol and no memory of it exists.
+// The OpenGL functions that Nook calls: one list for each tier, and one table for each context, which the
+// host's loader fills. glad supplies only the types and constants; its loader is not linked, so that none of
+// its symbols and none of its memory exists.
 #pragma once
 
 #include <glad/gl.h>
@@ -8,7 +8,7 @@
 
 namespace nook::gl {
 
-// Needed on every context: OpenGL 3.3 core.
+// The functions that every context needs: OpenGL 3.3 core.
 #define NOOK_GL_FUNCTIONS_33(X)          \
   X(ActiveTexture)                       \
   X(AttachShader)                        \
@@ -105,12 +105,12 @@ namespace nook::gl {
   X(VertexAttribPointer)                 \
   X(Viewport)
 
-// Needed as well where the context has OpenGL 4.3 and the tier may be 43.
+// The functions that OpenGL 4.3 needs in addition, if the tier may be 43.
 #define NOOK_GL_FUNCTIONS_43(X) \
   X(DispatchCompute)            \
   X(MemoryBarrier)
 
-// Used where present, done without where absent.
+// Functions that are used only if they exist.
 #define NOOK_GL_FUNCTIONS_OPTIONAL(X) \
   X(BindImageTexture)                 \
   X(BindTransformFeedback)            \
@@ -122,6 +122,16 @@ namespace nook::gl {
   X(ObjectLabel)                      \
   X(ViewportIndexedf)
 
+// What a context can do beyond the least that Nook runs on. load_functions decides it once, from the version,
+// the loader and the host's limit; all other code asks here and compares no version.
+struct Abilities {
+  bool compute = false;            // compute shaders and shader storage
+  bool compute_images = false;     // compute shaders that write images, too
+  bool indexed_viewports = false;  // viewport and scissor test exist once for each index
+  bool query_buffers = false;      // GL_QUERY_BUFFER
+  bool stencil_textures = false;   // GL_DEPTH_STENCIL_TEXTURE_MODE
+};
+
 struct Functions {
 #define NOOK_X(name) decltype(GladGLContext::name) name = nullptr;
   NOOK_GL_FUNCTIONS_33(NOOK_X)
@@ -129,10 +139,12 @@ struct Functions {
   NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
 #undef NOOK_X
   int version = 0;  // of the context, 10 * major + minor
-  int tier = 0;     // 33 or 43
+  Abilities can;
+  bool limited_by_host = false;  // could compute, if max_tier did not forbid it
 };
 
-// Throws Failure: UNSUPPORTED names the function that get_proc did not give, or the version that is too low.
+// Throws Failure: UNSUPPORTED names the function that get_proc did not return, or the version that is too
+// low.
 Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier);
 
 }  // namespace nook::gl

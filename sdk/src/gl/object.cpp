@@ -47,8 +47,16 @@ void* Buffer::begin_write(std::uint64_t bytes) {
   return memory;
 }
 
-void Buffer::end_write() {
-  device_->gl.UnmapBuffer(GL_ARRAY_BUFFER);
+bool Buffer::end_write() {
+  return device_->gl.UnmapBuffer(GL_ARRAY_BUFFER) == GL_TRUE;
+}
+
+void Buffer::fail_write(std::uint64_t bytes) {
+  throw Failure(
+      NOOK_ERROR_GL,
+      "glUnmapBuffer reported lost contents (%llu bytes, %d attempts); call again once the display is "
+      "back",
+      static_cast<unsigned long long>(bytes), max_write_attempts);
 }
 
 void Buffer::swap(Buffer& other) noexcept {

@@ -27,12 +27,23 @@ class Buffer {
 
   GLuint name() const { return name_; }
   std::uint64_t bytes() const { return bytes_; }
-  // Memory for new contents; what the GPU still reads of the old ones stays as it was. Nothing waits. Throws
-  // Failure.
-  void* begin_write(std::uint64_t bytes);
-  void end_write();
+  // Replaces the contents: fill(memory) writes `bytes` bytes, and what the GPU still reads of the old ones
+  // stays as it was. Nothing waits. OpenGL may lose what was written, as when the display changes; fill is
+  // then called again. Throws Failure if OpenGL gives no memory or keeps losing the contents.
+  template <class Fill>
+  void write(std::uint64_t bytes, Fill&& fill) {
+    for (int attempt = 0; attempt < max_write_attempts; ++attempt) {
+      fill(begin_write(bytes));
+      if (end_write()) return;
+    }
+    fail_write(bytes);
+  }
 
  private:
+  static constexpr int max_write_attempts = 3;
+  void* begin_write(std::uint64_t bytes);
+  bool end_write();
+  [[noreturn]] static void fail_write(std::uint64_t bytes);
   void swap(Buffer& other) noexcept;
 
   Device* device_ = nullptr;

@@ -1,4 +1,4 @@
-// Reading and setting one piece of OpenGL state, as the guard does for each.
+// Reads and sets single pieces of OpenGL state for the guard.
 #pragma once
 
 #include "sdk/src/gl/functions.h"

@@ -32,7 +32,7 @@ void query_program(const Functions& gl, SavedState& s) {
   s.program = integer(gl, GL_CURRENT_PROGRAM);
 }
 void restore_program(const Functions& gl, const SavedState& s) {
-  // A program that the host deleted while it was current went away when Nook bound its own.
+  // If the host deleted the program while it was current, OpenGL freed it when Nook bound its own.
   const bool gone = s.program != 0 && !gl.IsProgram(s.program);
   gl.UseProgram(gone ? 0 : s.program);
 }
@@ -58,8 +58,7 @@ void restore_active_texture(const Functions& gl, const SavedState& s) {
   gl.ActiveTexture(s.active_texture);
 }
 
-// The next two items are about unit 0 whatever unit is active, and leave the choice of the unit to the item
-// above.
+// The next two items are those of unit 0, whichever unit is active. The item above restores the active unit.
 void query_texture_unit_0(const Functions& gl, SavedState& s) {
   gl.ActiveTexture(GL_TEXTURE0);
   s.texture_unit_0 = integer(gl, GL_TEXTURE_BINDING_BUFFER);
@@ -141,7 +140,7 @@ void restore_transform_feedback(const Functions& gl, const SavedState& s) {
   if (has_feedback_objects(gl)) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, s.transform_feedback);
 }
 
-// With transform-feedback objects the indexed binding belongs to Nook's own object, and only the generic one
+// With transform-feedback objects, the indexed binding belongs to Nook's own object, and only the generic one
 // is shared.
 void query_feedback_buffer(const Functions& gl, SavedState& s) {
   s.feedback_buffer.generic = integer(gl, GL_TRANSFORM_FEEDBACK_BUFFER_BINDING);
@@ -158,7 +157,7 @@ void restore_feedback_buffer(const Functions& gl, const SavedState& s) {
 void query_storage_buffer(const Functions& gl, SavedState& s) {
   s.storage_buffer = integer(gl, GL_SHADER_STORAGE_BUFFER_BINDING);
 }
-// Binding the ranges changes the generic binding too, so the ranges come first.
+// Binding the ranges also changes the generic binding, so that the ranges come first.
 void restore_storage_buffer(const Functions&, const SavedState&) {}
 
 void query_storage_ranges(const Functions& gl, SavedState& s) {
@@ -199,7 +198,7 @@ StateGuard::~StateGuard() {
   if (mode_ != NOOK_GL_STATE_HOST) {
     restore_all(gl_, users_, saved_);
   } else if (users_ & tier_33) {
-    // These two would make the host's next draw vanish or tear.
+    // With these two, the host's next draw would be invisible or broken.
     gl_.Disable(GL_RASTERIZER_DISCARD);
     gl_.Disable(GL_PRIMITIVE_RESTART);
   }

@@ -1,5 +1,5 @@
-// Keeps the promise of nook_gl_state_mode round a call: saves before and puts back after, or resets to
-// defaults, or neither.
+// Implements nook_gl_state_mode around a call: saves and restores the state, resets it to defaults, or leaves
+// it.
 #pragma once
 
 #include <nook/nook_gl.h>
@@ -36,7 +36,7 @@ inline constexpr GLenum fragment_tests[] = {GL_DEPTH_TEST,
                                             GL_CLIP_DISTANCE7};
 inline constexpr std::size_t fragment_test_count = std::size(fragment_tests);
 
-// Every member begins with OpenGL's default.
+// The initial value of every member is OpenGL's default.
 struct BlendState {
   GLboolean enabled = GL_FALSE;
   GLint source_rgb = GL_ONE, destination_rgb = GL_ZERO, source_alpha = GL_ONE, destination_alpha = GL_ZERO;
@@ -79,7 +79,7 @@ struct SavedState {
   GLint pixel_unpack_buffer = 0;
   PixelStore pixel_store;
   struct {
-    bool known = false;  // there is no default
+    bool known = false;  // false: there is no default
     GLfloat box[4] = {};
   } viewport;
   BlendState blend;
@@ -92,19 +92,19 @@ struct SavedState {
   GLint query_buffer = 0;
 };
 
-// Draw buffer 0 and viewport 0 alone where OpenGL has more of them; otherwise all at once.
+// Sets draw buffer 0 and viewport 0 only, where OpenGL can set them alone.
 void set_blend(const Functions& gl, const BlendState& blend);
 void set_viewport(const Functions& gl, const GLfloat (&box)[4]);
 void set_pixel_store(const Functions& gl, const PixelStore& store);
 void set_scissor_test(const Functions& gl, bool enabled);
-// Blend, masks, tests and capabilities such that one triangle fills its viewport and nothing else happens.
+// Sets blend, masks, tests and capabilities so that one triangle fills its viewport without side effects.
 void set_plain_drawing(const Functions& gl);
 
-// Until its end the passes may leave any of the touched state changed. Transform feedback must be ended by
-// then.
+// During its lifetime the passes may leave any of the touched state changed. Transform feedback must end
+// before it does.
 class StateGuard {
  public:
-  // users: whose items of the list these are.
+  // users selects the items of the list.
   StateGuard(const Functions& gl, nook_gl_state_mode mode, unsigned users);
   ~StateGuard();
   StateGuard(const StateGuard&) = delete;
@@ -117,12 +117,12 @@ class StateGuard {
   SavedState saved_;
 };
 
-// The items that evaluating characters touches.
+// Returns the users of the items that the evaluation of characters touches.
 inline unsigned character_users(const Functions& gl) {
-  return gl.tier == 43 ? tier_43 : tier_33;
+  return gl.can.compute ? tier_43 : tier_33;
 }
 
-// One query and one restore for each item of the list; a restore of a fresh SavedState is the reset.
+// There is one query and one restore for each item of the list; the restore of a new SavedState is the reset.
 #define NOOK_X(name, users, what, note)                  \
   void query_##name(const Functions& gl, SavedState& s); \
   void restore_##name(const Functions& gl, const SavedState& s);

@@ -1,4 +1,4 @@
-// Saving and restoring what the screen-space pass draws with.
+// Saves and restores the state of the screen-space pass's draws.
 #include "sdk/src/gl/state_guard.h"
 
 #include "sdk/src/gl/state_access.h"
@@ -6,7 +6,7 @@
 namespace nook::gl {
 namespace {
 
-// With an index, only that of draw buffer 0 or viewport 0 changes.
+// Changes only the value of draw buffer 0 or viewport 0.
 void set_enabled_0(const Functions& gl, GLenum capability, bool enabled) {
   enabled ? gl.Enablei(capability, 0) : gl.Disablei(capability, 0);
 }
@@ -60,7 +60,7 @@ void set_viewport(const Functions& gl, const GLfloat (&box)[4]) {
 }
 
 void set_scissor_test(const Functions& gl, bool enabled) {
-  if (gl.version >= 41)
+  if (gl.can.indexed_viewports)
     set_enabled_0(gl, GL_SCISSOR_TEST, enabled);
   else
     set_enabled(gl, GL_SCISSOR_TEST, enabled);
@@ -140,7 +140,7 @@ void restore_color_mask(const Functions& gl, const SavedState& s) {
 }
 
 void query_polygon_mode(const Functions& gl, SavedState& s) {
-  // Some drivers answer with two values, front and back, which core profiles keep equal.
+  // Some drivers return two values, front and back, which are equal in core profiles.
   GLint modes[2] = {GL_FILL, GL_FILL};
   gl.GetIntegerv(GL_POLYGON_MODE, modes);
   s.polygon_mode = modes[0];
@@ -150,7 +150,8 @@ void restore_polygon_mode(const Functions& gl, const SavedState& s) {
 }
 
 void query_scissor_test(const Functions& gl, SavedState& s) {
-  s.scissor_test = gl.version >= 41 ? gl.IsEnabledi(GL_SCISSOR_TEST, 0) : gl.IsEnabled(GL_SCISSOR_TEST);
+  s.scissor_test =
+      gl.can.indexed_viewports ? gl.IsEnabledi(GL_SCISSOR_TEST, 0) : gl.IsEnabled(GL_SCISSOR_TEST);
 }
 void restore_scissor_test(const Functions& gl, const SavedState& s) {
   set_scissor_test(gl, s.scissor_test);
@@ -179,10 +180,10 @@ void restore_dither(const Functions& gl, const SavedState& s) {
 }
 
 void query_query_buffer(const Functions& gl, SavedState& s) {
-  if (gl.version >= 44) s.query_buffer = integer(gl, GL_QUERY_BUFFER_BINDING);
+  if (gl.can.query_buffers) s.query_buffer = integer(gl, GL_QUERY_BUFFER_BINDING);
 }
 void restore_query_buffer(const Functions& gl, const SavedState& s) {
-  if (gl.version >= 44) gl.BindBuffer(GL_QUERY_BUFFER, s.query_buffer);
+  if (gl.can.query_buffers) gl.BindBuffer(GL_QUERY_BUFFER, s.query_buffer);
 }
 
 }  // namespace nook::gl

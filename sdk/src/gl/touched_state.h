@@ -1,11 +1,13 @@
-// The OpenGL state that Nook touches, as one list: the guard, docs/gl_state.md and the poisoned-state test
-// expand it.
+// The OpenGL state that Nook touches as one list, which the guard, docs/gl_state.md and the test of poisoned
+// state expand.
 #pragma once
+
+#include "shaders/nnao/layout.h"
 
 namespace nook::gl {
 
-// Who touches an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload of
-// probes and materials, the screen-space pass where its network runs as a compute shader.
+// The users of an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload
+// of probes and materials, and the screen-space pass if its network is a compute shader.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
@@ -19,7 +21,7 @@ enum : unsigned {
   draws = tier_33 | screen,
 };
 
-// X(name, users, state as OpenGL calls it, what for and its default). An item needs a member of SavedState
+// X(name, users, the state as OpenGL names it, its purpose and default). An item needs a member of SavedState
 // and a query, a restore and a reset of that name in state_guard.cpp or state_guard_draw.cpp.
 #define NOOK_GL_TOUCHED_STATE(X)                                                                            \
   X(program, everyone, "GL_CURRENT_PROGRAM", "runs the passes; default 0")                                  \
@@ -74,8 +76,8 @@ enum : unsigned {
     "passes; default 0")
 
 inline constexpr int storage_binding_count = 8;
-inline constexpr int texture_unit_count = 4;  // of the screen-space pass
-inline constexpr int filter_unit = 2;
-inline constexpr int image_unit_index = 0;
+inline constexpr int texture_unit_count = NOOK_UNIT_COUNT;  // of the screen-space pass
+inline constexpr int filter_unit = NOOK_UNIT_FILTERS;
+inline constexpr int image_unit_index = NOOK_IMAGE_UNIT;
 
 }  // namespace nook::gl

@@ -36,7 +36,7 @@ void check_directions(const std::pmr::vector<Vec3>& directions, const Check& che
   check.range("the number of directions", directions.size(), 1, max_directions);
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Vec3 d = directions[i];
-    // 1e-3: far above rounding, far below anything that could be meant.
+    // The tolerance of 1e-3 is far above rounding and far below any intended difference.
     if (!(std::abs(length(d) - 1) <= 1e-3f) || !(d.z >= 0))
       throw Failure(check.code,
                     "direction %zu of the %s is no unit vector of the upper hemisphere (got %g %g %g)", i,
@@ -98,7 +98,7 @@ void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views
   check.range("the number of clusters", shape.clusters, 1, shape.views);
   check.range("the number of mixture clusters", shape.mixture, 1, std::min(shape.clusters, max_mixture));
   check.range("mixture clusters times view rank", std::uint64_t(shape.mixture) * shape.rank_view, 1, max_row);
-  // Decoding rounds both ranks up to multiples of 4, of a VOTF only the view rank.
+  // Decoding rounds both ranks up to multiples of 4; for a VOTF only the view rank.
   const std::uint64_t light_modes = lights ? (shape.rank_light + 3) / 4 * 4 : 1;
   const std::uint64_t view_modes = (shape.rank_view + 3) / 4 * 4;
   check.range("the expanded size", shape.clusters * light_modes * view_modes * shape.width * shape.height, 1,

@@ -1,4 +1,4 @@
-// Is a material sound? Whatever passes can be decoded without further checks.
+// The check of a material. A material that passes can be decoded without further checks.
 #pragma once
 
 #include <nook/nook.h>
@@ -7,23 +7,23 @@
 
 namespace nook::material {
 
-inline constexpr std::uint32_t max_directions = 1024;  // lights; views
-inline constexpr std::uint32_t max_texels = 1024;      // along u; along v
+inline constexpr std::uint32_t max_directions = 1024;  // of lights, and of views
+inline constexpr std::uint32_t max_texels = 1024;      // along u, and along v
 inline constexpr std::uint32_t max_mixture = 8;        // K
-inline constexpr std::uint32_t max_row = 512;          // K R_v, coefficients of one view
+inline constexpr std::uint32_t max_row = 512;          // K R_v, the coefficients of one view
 inline constexpr std::uint32_t max_map_side = 512;     // cells of a resampled view map
-// Numbers of one tensor's expanded spatial modes, C R_l R_v I_x I_y with ranks rounded up to multiples of 4:
-// 1 GiB of half floats.
+// The maximum of C R_l R_v I_x I_y, the numbers of one tensor's expanded spatial modes with ranks rounded up
+// to multiples of 4: 1 GiB of half floats.
 inline constexpr std::uint64_t max_expanded = std::uint64_t{1} << 29;
-// No core entry, and no other number, is larger than these, so that no sum of the decoder overflows. Powers
-// of two, so that no number at the limit is rounded beyond it.
+// The maximum of core entries and of all other numbers, so that no sum of the decoder overflows. Both are
+// powers of two, so that no number at the limit is rounded beyond it.
 inline constexpr float max_core = 0x1p26f;
 inline constexpr float max_number = 0x1p14f;
-// Two directions of a set are at least this far apart.
+// The minimum distance of two directions of a set.
 inline constexpr float min_distance = 1e-3f;
 
-// Throw Failure with `code` and the first fault found; the message names what it is of. shape knows no
-// number yet: enough to compute how many there must be.
+// Throw Failure with `code` and the first fault; the message names the part of the material. check_shape runs
+// before any number is read and checks the sizes that determine how many numbers there are.
 void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views, const char* name,
                  nook_result code);
 void check_material(const Material& material, nook_result code);

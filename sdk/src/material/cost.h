@@ -1,5 +1,5 @@
-// What decoding costs a pixel, counted from the tables' sizes. A filtered fetch counts as one; multiply-adds
-// are those of numbers.
+// The cost of decoding a pixel, counted from the sizes of the tables. A filtered fetch counts as one, and
+// multiply-adds are those of single numbers.
 #pragma once
 
 #include "sdk/src/material/tables.h"
@@ -11,15 +11,16 @@ struct DecodeCost {
   std::uint32_t multiply_adds = 0;
 };
 
-// A BTF's light modes, or a VOTF's value: of each term its coefficients, of each coefficient and light mode
-// the spatial mode, and the terms' clusters where there are several. No tables, no cost.
+// The cost of a BTF's light modes or a VOTF's value: the coefficients of each term, the spatial mode for each
+// coefficient and light mode, and the clusters of the terms if there are several. Without tables the cost is
+// 0.
 inline DecodeCost decode_cost(const TensorTables& t) {
   const std::uint32_t spatial = t.terms * t.view_fours * t.light_modes;
   const std::uint32_t clusters = t.clusters > 1 ? in_fours(t.terms) : 0;
   return {spatial + t.terms * t.view_fours + clusters, 4 * spatial};
 }
 
-// One light: three rows of the light basis.
+// The cost of one light: three rows of the light basis.
 inline DecodeCost light_cost(const TensorTables& btf) {
   return {3 * btf.light_modes / 4, 3 * btf.light_modes};
 }

@@ -7,16 +7,16 @@ namespace nook::material {
 namespace {
 
 // Rings of measured directions lie on common circles and lines, where Delaunay triangles are not unique. Each
-// point is moved by up to this much, the same way every time, which decides; far below the smallest distance
-// of two directions, far above rounding.
+// point is moved by up to this distance, always in the same way, which makes them unique. It is far below the
+// minimum distance of two directions and far above rounding.
 constexpr double jitter = 1e-7;
 double jittered(float value, std::uint32_t number) {
   const std::uint32_t hash = (number + 1) * 2654435761u;
   return double(value) + jitter * (double(hash >> 8) / 8388608.0 - 1);
 }
 
-// Corners of a triangle round everything, far enough that the border of the set comes out nearly convex; what
-// is left over of the border counts as outside.
+// The corners of a triangle around all points. They are so far away that the border of the set is nearly
+// convex; the remaining gaps at the border count as outside.
 constexpr double far_away = 1e3;
 
 template <class Point>
@@ -37,7 +37,8 @@ DirectionMesh::DirectionMesh(std::span<const Vec3> directions, std::pmr::memory_
   find_border();
 }
 
-// Bowyer and Watson's method: each point removes the triangles whose circle holds it, and fills the hole.
+// The method of Bowyer and Watson: each point removes the triangles whose circumcircle contains it, and fills
+// the hole.
 void DirectionMesh::triangulate(std::size_t directions) {
   const auto count = static_cast<std::uint16_t>(directions);
   points_.push_back({-far_away, -far_away});
@@ -68,7 +69,7 @@ void DirectionMesh::find_border() {
   for (const Edge& edge : cavity_)
     if (std::ranges::find(cavity_, Edge{edge[1], edge[0]}) == cavity_.end()) border_.push_back(edge);
   if (!triangles_.empty()) return;
-  // One or two directions, or a line of them.
+  // There are one or two directions, or all directions are on a line.
   const std::size_t last = points_.size() - 1;
   for (std::size_t i = 0; i < std::max<std::size_t>(last, 1); ++i)
     border_.push_back({std::uint16_t(i), std::uint16_t(std::min(i + 1, last))});
@@ -98,7 +99,7 @@ DirectionMix DirectionMesh::locate(ParabolicPoint at, std::size_t& hint) const {
   const Point p{at.x, at.y};
   std::array<double, 3> weight{};
   for (std::size_t tried = 0; tried < triangles_.size(); ++tried) {
-    // The hint first, and in its place in the order the first one.
+    // The hint comes first, and the first triangle takes the hint's place in the order.
     const std::size_t candidate =
         tried == 0 ? std::min(hint, triangles_.size() - 1) : tried - (tried <= hint);
     if (!weights_in(triangles_[candidate], p, weight)) continue;

@@ -1,5 +1,6 @@
 // Interpolation between sampled directions: the Delaunay triangulation of their points in the parabolic map.
-// The map is stereographic, so circles stay circles: these are the Delaunay triangles of the sphere too.
+// The map is stereographic, so that circles stay circles and these are the Delaunay triangles of the sphere
+// too.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 
 namespace nook::material {
 
-// The three nearest directions round a direction and their weights, non-negative, sum 1.
+// The three nearest directions around a direction and their weights, which are non-negative and sum to 1.
 struct DirectionMix {
   std::array<std::uint16_t, 3> index{};
   std::array<float, 3> weight{1, 0, 0};
@@ -20,12 +21,13 @@ struct DirectionMix {
 
 class DirectionMesh {
  public:
-  // At least one direction; at least min_distance apart.
+  // There must be at least one direction, and all must be min_distance apart.
   explicit DirectionMesh(std::span<const Vec3> directions,
                          std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-  // Linear inside the triangle that holds the point, continuous everywhere; beyond the outermost directions
-  // the nearest point between them counts. `hint` is kept between calls with points near each other.
+  // Interpolates linearly inside the triangle that contains the point, and continuously everywhere. Beyond
+  // the outermost directions the nearest point between them is used. `hint` is kept between calls with points
+  // near each other.
   DirectionMix locate(ParabolicPoint p, std::size_t& hint) const;
 
   std::size_t triangle_count() const { return triangles_.size(); }
@@ -46,7 +48,7 @@ class DirectionMesh {
   std::pmr::vector<Point> points_;
   std::pmr::vector<Triangle> triangles_;
   std::pmr::vector<Edge> border_;  // outermost edges; a chain where there are no triangles
-  std::pmr::vector<Edge> cavity_;  // of an insertion
+  std::pmr::vector<Edge> cavity_;  // the edges of the hole of an insertion
 };
 
 }  // namespace nook::material

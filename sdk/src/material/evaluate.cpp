@@ -26,7 +26,7 @@ float dot(const Four& a, const Four& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-// Two neighbouring texels along one side and the way between their centres.
+// Two neighbouring texels along one side, and the position between their centres.
 struct Between {
   std::uint32_t low, high;
   float t;
@@ -62,7 +62,8 @@ Four trilinear(const TensorTables& tables, std::uint32_t layer, const Sample& sa
   return mix(fine, bilinear(tables, layer, sample.u, sample.v, low + 1), level - float(low));
 }
 
-// The light mode of a texel seen from the view: sum over terms and view modes, light_modes of them.
+// Decodes the light modes of a texel for a view: each of the light_modes numbers is a sum over terms and view
+// modes.
 void decode(const TensorTables& tables, const Sample& sample, float* modes) {
   const std::size_t count = std::size_t(tables.side) * tables.side, cell = cell_of(sample.view, tables.side);
   std::fill_n(modes, tables.light_modes, 0.0f);

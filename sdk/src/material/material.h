@@ -1,15 +1,16 @@
-// A compressed material as plain data: a bidirectional texture function (BTF), and where it was baked a
-// view-dependent occlusion texture function (VOTF). Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation,
-// 2012; N-SVD, CTA and K-CTA in one form.
+// A compressed material as plain data: a bidirectional texture function (BTF) and optionally a view-dependent
+// occlusion texture function (VOTF). N-SVD, CTA and K-CTA have one form. The method is that of Y.-T. Tsai,
+// Z.-C. Shih: K-Clustered Tensor Approximation, 2012.
 //
-// Directions are unit vectors in tangent space, away from the surface: x along u, y along v, z >= 0 along the
-// normal. Texel (x, y) has its centre at u = (x + 0.5) / I_x, v = (y + 0.5) / I_y; the tile repeats.
+// Directions are unit vectors in tangent space that point away from the surface: x along u, y along v, z >= 0
+// along the normal. Texel (x, y) has its centre at u = (x + 0.5) / I_x, v = (y + 0.5) / I_y; the tile
+// repeats.
 //
 // With c = membership[i, k], equations (24) and (25) are
 //   A[j, i, x, y] =
 //     sum_k sum_{a, b, p, q} light[j, a] coefficients[i, k, b] Z_c[a, b, p, q] X_c[x, p] Y_c[y, q],
-// k < K, a < R_l, b < R_v, p < R_x, q < R_y. j = 3 l + channel of light l and channel red, green, blue:
-// colour is folded into the light mode. A VOTF has no light mode: R_l = 1 and light[j, a] = 1.
+// with k < K, a < R_l, b < R_v, p < R_x, q < R_y. Colour is folded into the light mode: j = 3 l + channel for
+// light l and channel red, green, blue. A VOTF has no light mode: R_l = 1 and light[j, a] = 1.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +24,7 @@
 
 namespace nook::material {
 
-// Rows of the sparse view bases U_{v,c}, only what is not zero.
+// The non-zero entries of rows of the sparse view bases U_{v,c}.
 struct ViewRows {
   explicit ViewRows(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : membership(memory), coefficients(memory) {}
@@ -32,15 +33,15 @@ struct ViewRows {
   std::pmr::vector<float> coefficients;        // rows x K x R_v: row i of U_{v,c}, c = membership[i, k]
 };
 
-// The view mode resampled over the hemisphere (the paper's 6.3.2), in the parabolic map: the row of cell
-// (column, row), number row * side + column, is that of the direction d with
+// The view mode resampled over the hemisphere (section 6.3.2 of the paper) in the parabolic map. The row of
+// cell (column, row), with the number row * side + column, is that of the direction d with
 //   d.xy / (1 + d.z) = 2 (cell + 0.5) / side - 1,
-// and of the nearest direction of the horizon where that lies outside the unit disc.
+// or of the nearest direction of the horizon if that lies outside the unit disc.
 struct ViewMap {
   explicit ViewMap(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : rows(memory) {}
 
-  std::uint32_t side = 0;  // cells; 0: not resampled
-  ViewRows rows;           // side x side of them
+  std::uint32_t side = 0;  // cells; 0 if the view mode is not resampled
+  ViewRows rows;           // side x side rows
 };
 
 struct ClusteredTensor {
@@ -48,9 +49,9 @@ struct ClusteredTensor {
       : cores(memory), x_bases(memory), y_bases(memory), rows(memory), map(memory) {}
 
   TensorShape shape;
-  std::pmr::vector<float> cores;  // C x R_l x R_v x R_x x R_y: Z_c, the last index fastest
-  // C x I_x x R_x and C x I_y x R_y: X_c and Y_c. Empty at full rank, R_x = I_x or R_y = I_y: the identity,
-  // for a square basis goes into the core.
+  std::pmr::vector<float> cores;  // C x R_l x R_v x R_x x R_y: Z_c, the last index varies fastest
+  // C x I_x x R_x and C x I_y x R_y: X_c and Y_c. At full rank, R_x = I_x or R_y = I_y, they are empty and
+  // stand for the identity, because a square basis is multiplied into the core.
   std::pmr::vector<float> x_bases;
   std::pmr::vector<float> y_bases;
   ViewRows rows;  // one for each view of the material
@@ -58,17 +59,19 @@ struct ClusteredTensor {
 };
 
 enum class VisibilityForm : std::uint32_t {
-  none = 0,      // no VOTF was baked: visible everywhere
-  binary = 1,    // 1 where the meso-structure is hit, 0 where the view passes through
-  distance = 2,  // distance to the boundary of that mask, positive where it is hit, scaled to [-1, 1]
+  none = 0,    // there is no VOTF; the surface is visible everywhere
+  binary = 1,  // 1 where the view meets the meso-structure, 0 where it passes through
+  // Distance to the boundary of that mask, positive where the view meets the structure, scaled to [-1, 1].
+  distance = 2,
 };
 
-// The visibility mapping (26): 1 from `threshold` on, weight * value between 0 and threshold, else 0.
+// The visibility mapping (26): 1 where the value is at least `threshold`, weight * value between 0 and
+// threshold, else 0.
 struct VisibilityMapping {
   float threshold = 0;
   float weight = 0;
 };
-// The paper's parameters.
+// Returns the paper's parameters.
 constexpr VisibilityMapping paper_mapping(VisibilityForm form) {
   return form == VisibilityForm::binary ? VisibilityMapping{0.5f, 1} : VisibilityMapping{0.05f, 12};
 }
@@ -77,23 +80,25 @@ struct Material {
   explicit Material(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : lights(memory), views(memory), light_basis(memory), btf(memory), votf(memory), recipe(memory) {}
 
-  std::pmr::vector<Vec3> lights;  // I_l directions to the light, no two alike
-  std::pmr::vector<Vec3> views;   // I_v directions to the viewer, no two alike, for BTF and VOTF
+  std::pmr::vector<Vec3> lights;  // I_l different directions to the light
+  std::pmr::vector<Vec3> views;   // I_v different directions to the viewer, for BTF and VOTF
 
-  // 3 I_l x R_l: the global mode-light basis of all clusters, row 3 l + channel.
+  // 3 I_l x R_l: the mode-light basis of all clusters; its row is 3 l + channel.
   std::pmr::vector<float> light_basis;
-  // Radiance towards the view, linear RGB, for a directional light whose irradiance on a plane facing it is
-  // 1; the cosine of the light is in it: a white Lambertian plane lit from above gives 1 / pi.
+  // The radiance towards the view, linear RGB, for a directional light whose irradiance on a plane that faces
+  // it is 1. It includes the cosine of the light: a white Lambertian plane under a perpendicular light gives
+  // 1 / pi.
   ClusteredTensor btf;
 
   VisibilityForm visibility = VisibilityForm::none;
-  VisibilityMapping mapping;  // not read where visibility is none
-  ClusteredTensor votf;       // empty where visibility is none
+  VisibilityMapping mapping;  // not read if visibility is none
+  ClusteredTensor votf;       // empty if visibility is none
 
-  std::pmr::string recipe;  // how it was baked, JSON; the runtime does not read it
+  std::pmr::string recipe;  // settings of the bake, JSON; the runtime does not read it
 };
 
-// Bytes of all compressed numbers, resampled view maps and directions apart: the measure of Table I.
+// Returns the bytes of all compressed numbers without resampled view maps and directions, as Table I of the
+// paper counts them.
 inline std::size_t compressed_bytes(const Material& material) {
   return light_basis_bytes(material.lights.size(), material.btf.shape) +
          compressed_bytes(material.btf.shape) +

@@ -4,12 +4,13 @@
 //   LGHT  the light basis, packed
 //   BTF_  the BTF: u16 width, height, rank_light, rank_view, rank_x, rank_y, clusters, u8 mixture; packed
 //         cores, x bases, y bases; its rows
-//   VOTF  the VOTF likewise, where there is one
-//   BMAP  the BTF's resampled view map, where there is one: u16 side; its rows
-//   VMAP  the VOTF's
+//   VOTF  the VOTF in the same form (optional)
+//   BMAP  the BTF's resampled view map (optional): u16 side; its rows
+//   VMAP  the VOTF's resampled view map (optional)
 //   RECP  recipe
-// Packed is an i8 exponent e, then each number as a half float h, worth h 2^e. Rows are memberships in u8, or
-// u16 above 256 clusters, none where there is but one cluster; then packed coefficients.
+// Packed numbers are an i8 exponent e, then each number as a half float h with the value h 2^e. Rows are
+// memberships in u8, or u16 above 256 clusters, and packed coefficients; with a single cluster there are no
+// memberships.
 #pragma once
 
 #include <cstddef>
@@ -24,15 +25,15 @@ namespace nook::material {
 
 inline constexpr ContainerKind material_kind{four_letters("MATL"), "material", 1, 1};
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) where check_material finds a fault.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_material finds a fault.
 std::vector<std::byte> write_material(const Material& material);
 
-// Safe on hostile bytes, also with a right checksum: throws Failure(NOOK_ERROR_BAD_FILE or
+// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
 // NOOK_ERROR_FILE_VERSION), and allocates in proportion to the file's size.
 Material read_material(std::span<const std::byte> bytes,
                        std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-// What the file gives back: the numbers rounded to what it stores.
+// Returns the material after a write and a read: the numbers are rounded to those that the file stores.
 Material quantise(const Material& material);
 
 }  // namespace nook::material

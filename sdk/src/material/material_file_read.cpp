@@ -35,7 +35,7 @@ void read_directions(ByteReader& in, std::uint32_t count, std::pmr::vector<Vec3>
   }
 }
 
-// Refuses a count that the section cannot hold before memory is asked for.
+// Throws if the section cannot hold count numbers, so that nothing is allocated for them.
 void read_numbers(ByteReader& in, std::size_t count, const char* what, std::pmr::vector<float>& values) {
   if (count > in.remaining() / 2)
     throw Failure(NOOK_ERROR_BAD_FILE,

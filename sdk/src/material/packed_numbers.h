@@ -1,5 +1,5 @@
-// Floats as half floats with one exponent for all, so that the largest of them lies near a half's largest
-// and the small ones keep their digits.
+// Floats as half floats with one common exponent, so that the largest of them lies near a half's maximum and
+// small ones keep their precision.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace nook::material {
 
-// All finite.
+// All values must be finite.
 void write_packed(ByteWriter& out, std::span<const float> values);
 
 constexpr std::size_t packed_bytes(std::size_t count) {

@@ -1,5 +1,5 @@
 // The hemisphere as a square: W. Heidrich, H.-P. Seidel, Realistic, Hardware-accelerated Shading and
-// Lighting, 1999. shaders/material/parabolic.glsl says the same.
+// Lighting, 1999. shaders/material/parabolic.glsl has the same functions.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@ struct ParabolicPoint {
   float x = 0, y = 0;
 };
 
-// Directions below the horizon come to lie on it.
+// Directions below the horizon are moved onto it.
 inline ParabolicPoint to_parabolic(Vec3 d) {
   const float scale = 1 / (d.z > 0 ? 1 + d.z : std::max(std::sqrt(d.x * d.x + d.y * d.y), 1e-6f));
   return {d.x * scale, d.y * scale};
 }
 
-// Points outside the disc stand for the nearest direction of the horizon.
+// Points outside the disc give the nearest direction of the horizon.
 inline Vec3 from_parabolic(ParabolicPoint p) {
   const float square = p.x * p.x + p.y * p.y;
   if (square >= 1) {
@@ -30,12 +30,12 @@ inline Vec3 from_parabolic(ParabolicPoint p) {
   return Vec3{2 * p.x, 2 * p.y, 1 - square} * (1 / (1 + square));
 }
 
-// The centre of a cell of the side x side map.
+// Returns the centre of a cell of the side x side map.
 inline ParabolicPoint cell_centre(std::uint32_t column, std::uint32_t row, std::uint32_t side) {
   return {2 * (float(column) + 0.5f) / float(side) - 1, 2 * (float(row) + 0.5f) / float(side) - 1};
 }
 
-// The cell that a direction falls into, row * side + column.
+// Returns the cell that contains a direction, row * side + column.
 inline std::size_t cell_of(Vec3 d, std::uint32_t side) {
   const ParabolicPoint p = to_parabolic(d);
   const auto index = [&](float at) {

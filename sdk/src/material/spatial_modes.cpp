@@ -15,7 +15,7 @@ std::pmr::vector<float> transposed(std::span<const float> matrix, std::size_t ro
   return out;
 }
 
-// The largest norm of a column; 1 for the identity.
+// Returns the largest norm of a column; 1 for the identity.
 double largest_norm(const std::pmr::vector<float>& rows, std::size_t columns) {
   double largest = rows.empty() ? 1 : 0;
   for (std::size_t c = 0; c < columns && !rows.empty(); ++c) {
@@ -26,14 +26,14 @@ double largest_norm(const std::pmr::vector<float>& rows, std::size_t columns) {
   return std::sqrt(largest);
 }
 
-// The share of a smaller texel's area that a texel covers, along one side.
+// Returns the share of a smaller texel's area that a texel covers along one side.
 double share(std::uint32_t texel, std::uint32_t smaller_texel, std::uint32_t size,
              std::uint32_t smaller_size) {
   const double step = double(size) / smaller_size, begin = smaller_texel * step;
   return std::max(0.0, std::min(begin + step, texel + 1.0) - std::max(begin, double(texel))) / step;
 }
 
-// out[c] += scale row[c]
+// Adds scale * row[c] to out[c].
 void add_scaled(const float* row, float scale, std::size_t count, float* out) {
   for (std::size_t c = 0; c < count; ++c) out[c] += scale * row[c];
 }
@@ -63,7 +63,7 @@ void ModeExpansion::expand(std::uint32_t a, std::uint32_t b, std::span<float> sc
                            std::span<float> image) const {
   const TensorShape& s = tensor_.shape;
   const float* const z = core(a, b);
-  // Along y first: scratch[p, y] = sum_q Z[p, q] Y[y, q].
+  // The y mode is expanded first: scratch[p, y] = sum_q Z[p, q] Y[y, q].
   std::ranges::fill(scratch, 0.0f);
   std::ranges::fill(image, 0.0f);
   for (std::size_t p = 0; p < s.rank_x; ++p)
@@ -112,7 +112,7 @@ void halve(std::span<const float> image, std::uint32_t width, std::uint32_t heig
   const std::uint32_t w = level_size(width, 1), h = level_size(height, 1);
   for (std::uint32_t y = 0; y < h; ++y)
     for (std::uint32_t x = 0; x < w; ++x) {
-      // The area reaches over at most three texels a side, which begin here.
+      // The area covers at most three texels along a side, which start here.
       const auto u0 = std::uint32_t(std::uint64_t(x) * width / w);
       const auto v0 = std::uint32_t(std::uint64_t(y) * height / h);
       const float* const corner = &image[std::size_t(v0) * width + u0];

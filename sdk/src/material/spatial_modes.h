@@ -1,7 +1,7 @@
-// The spatial modes of the core tensors, expanded: with a, b < R_l, R_v
-//   S_c[a, b](x, y) = sum_{p, q} Z_c[a, b, p, q] X_c[x, p] Y_c[y, q],
-// images that texture units filter. Decoding is linear in them, so the mean of a footprint's texels decodes
-// to the mean of what the texels decode to.
+// The expanded spatial modes of the core tensors. With a < R_l and b < R_v,
+//   S_c[a, b](x, y) = sum_{p, q} Z_c[a, b, p, q] X_c[x, p] Y_c[y, q]
+// are images that texture units filter. Decoding is linear in them, so that the mean over the texels of a
+// footprint decodes to the mean of the decoded texels.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,16 @@
 
 namespace nook::material {
 
-// Of one cluster.
+// Expands the modes of one cluster.
 class ModeExpansion {
  public:
   ModeExpansion(const ClusteredTensor& tensor, std::uint32_t cluster, std::pmr::memory_resource* memory);
 
-  // Floats that expand needs as scratch memory.
+  // Returns the number of floats that expand needs as scratch memory.
   std::size_t scratch_size() const;
-  // S_c[a, b] into image, width x height, row by row. Any number of threads at a time.
+  // Writes S_c[a, b] to image, width x height, row by row. Any number of threads may call it at once.
   void expand(std::uint32_t a, std::uint32_t b, std::span<float> scratch, std::span<float> image) const;
-  // No texel of any mode of the cluster is larger: |S| <= |X_x| |Z_ab| |Y_y|.
+  // Returns an upper bound of all texels of all modes of the cluster: |S| <= |X_x| |Z_ab| |Y_y|.
   float bound() const;
 
  private:
@@ -33,11 +33,11 @@ class ModeExpansion {
   std::pmr::vector<float> x_rows_, y_rows_;  // transposed bases, R_x x I_x and R_y x I_y; empty at full rank
 };
 
-// Mipmap levels as OpenGL counts them: half the size, rounded down, to 1 x 1.
+// Mipmap levels have half the size of the previous one, rounded down, until 1 x 1, as in OpenGL.
 std::uint32_t level_size(std::uint32_t size, std::uint32_t level);
 std::uint32_t level_count(std::uint32_t width, std::uint32_t height);
-// The next smaller level: every texel the mean over its area, fractions of texels included, so that the mean
-// of the image stays.
+// Computes the next smaller level: every texel is the mean over its area, fractions of texels included, so
+// that the mean of the image stays the same.
 void halve(std::span<const float> image, std::uint32_t width, std::uint32_t height, std::span<float> smaller);
 
 }  // namespace nook::material

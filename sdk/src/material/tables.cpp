@@ -67,17 +67,17 @@ class ClusterPacking {
   std::pmr::vector<float> work_;
 };
 
-// The exponent that brings the largest bound of a spatial mode to [2^14, 2^15), within a half's range and far
-// from its smallest numbers.
+// Returns the exponent that scales the largest bound of a spatial mode to [2^14, 2^15), which is within a
+// half's range and far from its smallest numbers.
 int spatial_exponent(const ClusteredTensor& tensor, std::pmr::memory_resource* memory) {
   float bound = 0;
   for (std::uint32_t c = 0; c < tensor.shape.clusters; ++c)
     bound = std::max(bound, ModeExpansion(tensor, c, memory).bound());
-  // Kept where the power of two and its inverse are floats.
+  // The exponent is limited to where the power of two and its inverse are floats.
   return bound > 0 ? std::clamp(14 - std::ilogb(bound), -100, 100) : 0;
 }
 
-// scale: of the coefficients.
+// scale multiplies the coefficients.
 void pack_cells(const ViewCells& cells, std::uint32_t rank, float scale, TensorTables& tables) {
   const std::size_t count = std::size_t(cells.side) * cells.side;
   tables.side = cells.side;
@@ -109,8 +109,8 @@ void make_spatial(const ClusteredTensor& tensor, std::uint32_t light_modes, int 
     ClusterPacking(tensor, c, std::ldexp(1.0f, exponent), tables, memory).run(parallel);
 }
 
-// What a light beyond the outermost sampled ones, `mix` being what lies nearest to it, sends of what these
-// send: its cosine over theirs, so that light fades to nothing at the horizon. 1 between the samples.
+// Returns the ratio of the cosine of a light beyond the outermost sampled lights to that of the nearest
+// direction between them, `mix`, so that light fades to 0 at the horizon. It is 1 between the samples.
 float low_light_share(std::span<const Vec3> lights, const DirectionMix& mix, float z) {
   ParabolicPoint nearest{};
   for (int i = 0; i < 3; ++i) {
@@ -119,7 +119,7 @@ float low_light_share(std::span<const Vec3> lights, const DirectionMix& mix, flo
     nearest.y += mix.weight[i] * p.y;
   }
   const float cosine = from_parabolic(nearest).z;
-  // Between the samples the two are the same but for rounding.
+  // Between the samples both cosines are equal up to rounding.
   return z < cosine - 1e-5f ? std::max(z, 0.0f) / cosine : 1.0f;
 }
 
@@ -170,7 +170,8 @@ MaterialTables make_tables(const Material& material, const Parallel& parallel,
   tables.visibility = material.visibility;
   tables.mapping = material.mapping;
   if (material.visibility == VisibilityForm::none) return tables;
-  // The coefficients take the power of two back, so it is used only where a half would overflow.
+  // The inverse power of two multiplies the coefficients, so that it is used only where a half would
+  // overflow.
   const int votf_exponent = std::min(spatial_exponent(votf, memory), 0);
   make_spatial(votf, 1, votf_exponent, parallel, tables.votf, memory);
   pack_cells(view_cells(votf, material.views, map_side, memory), votf.shape.rank_view,

@@ -18,7 +18,7 @@ Cell cell_at(ViewCells& cells, std::size_t number, std::uint32_t rank) {
           &cells.rows.coefficients[number * cells.terms * rank]};
 }
 
-// Adds `weight` times each term of a view to the term of the same cluster, or to the next free one.
+// Adds `weight` times each term of a view to the term of the same cluster, or to the next unused one.
 void add_terms(const ClusteredTensor& tensor, std::size_t view, float weight, Cell cell,
                std::uint32_t& used) {
   const std::uint32_t rank = tensor.shape.rank_view, mixture = tensor.shape.mixture;

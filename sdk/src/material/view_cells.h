@@ -1,8 +1,8 @@
-// The view mode as decoding reads it: for every cell of a parabolic map the clusters and coefficients of that
-// direction. A resampled map is refined where it is coarser than what decoding reads, so that a small map in
-// a file does not step from cell to cell as the view moves. Where there is none, the rows of the three
-// nearest views are mixed linearly: with the clusters of all three that comes out as a row of up to 3 K
-// terms, so that N-SVD, CTA and K-CTA are decoded alike.
+// The view mode in the form that decoding reads: the clusters and coefficients of the direction of each cell
+// of a parabolic map. A resampled map that is coarser than this is refined, so that a small map in a file
+// does not give steps from cell to cell as the view moves. Without a map, the rows of the three nearest views
+// are mixed linearly, which gives a row of up to 3 K terms with the clusters of all three. So N-SVD, CTA and
+// K-CTA are decoded in the same way.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,16 @@ struct ViewCells {
   explicit ViewCells(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : rows(memory) {}
 
   std::uint32_t side = 0;
-  std::uint32_t terms = 1;  // clusters of a cell, in the place of K
-  ViewRows rows;            // side x side; a term that is not needed has coefficients 0
+  std::uint32_t terms = 1;  // clusters of a cell, which replaces K
+  ViewRows rows;            // side x side; an unused term has coefficients 0
 };
 
-// Terms that cells need: K with a map, min(3 K, C) without: 1 of N-SVD, 3 of CTA.
+// Returns the number of terms of a cell: K with a map, and min(3 K, C) without one, which is 1 for N-SVD and
+// 3 for CTA.
 std::uint32_t cell_terms(const ClusteredTensor& tensor);
 
-// side: cells of the result, or the greatest multiple of those of the tensor's own map below that, but no
-// fewer than these.
+// The result has `side` cells along a side, or, if the tensor has a map, the largest multiple of the map's
+// side that is not above `side`, and at least the map's side.
 ViewCells view_cells(const ClusteredTensor& tensor, std::span<const Vec3> views, std::uint32_t side,
                      std::pmr::memory_resource* memory);
 

@@ -23,7 +23,7 @@ std::array<float, units> through(const Dense<inputs, units>& layer,
   return out;
 }
 
-// What both forms need to know of the pixel itself.
+// Values of the pixel itself that both forms need.
 struct Centre {
   Vec3 position, normal, viewer;
   PixelScale scale;
@@ -41,7 +41,7 @@ Centre centre_of(const View& view, Vec3 normal, const Sampling& sampling, std::u
   return centre;
 }
 
-// Where nothing is, something far beyond any radius; its square is still a float.
+// The sky is a surface far beyond any radius; the square of this depth is still a float.
 constexpr float sky_depth = 1e15f;
 
 Vec3 texel_position(const View& view, TappedTexel texel) {
@@ -49,7 +49,7 @@ Vec3 texel_position(const View& view, TappedTexel texel) {
                        texel.surface ? view.depth[view.at(texel.x, texel.y)] : sky_depth);
 }
 
-// s, c of network.h, and the distance in radii.
+// Returns the input from s and c of network.h and the distance in radii.
 HorizonTapInput tap_input(float elevation, float angle, float distance_r) {
   const float nearness = std::max(1 - 0.5f * distance_r, 0.0f);
   return {elevation, angle, nearness, elevation * nearness, angle * nearness};
@@ -57,7 +57,7 @@ HorizonTapInput tap_input(float elevation, float angle, float distance_r) {
 
 using PaperUnits = std::array<float, PaperNetwork::units>;
 
-// The first layer's units.
+// Returns the units of the first layer.
 PaperUnits paper_units(const PaperNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
                        std::uint32_t x, std::uint32_t y, TapNoise noise) {
   constexpr int units = PaperNetwork::units, inputs = PaperNetwork::tap_inputs;
@@ -82,7 +82,7 @@ PaperUnits paper_units(const PaperNetwork& network, const View& view, Vec3 norma
 
 // The mean of the directions' units, dot(n, o), and the share of the taps off the screen.
 struct HorizonUnits {
-  bool known = false;  // false where no tap lies on the screen
+  bool known = false;  // false if no tap lies on the screen
   std::array<float, HorizonNetwork::units + 2> value{};
 };
 
@@ -130,7 +130,7 @@ HorizonUnits horizon_units(const HorizonNetwork& network, const View& view, Vec3
 
 ScreenRays screen_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height) {
   ScreenRays rays;
-  // Column-major: clip.x = m[0] x + m[8] z + m[12] w; clip.w = -z or 1.
+  // The matrix is column-major: clip.x = m[0] x + m[8] z + m[12] w; clip.w = -z or 1.
   rays.orthographic = projection[11] == 0;
   const float shift_x = rays.orthographic ? -projection[12] : projection[8];
   const float shift_y = rays.orthographic ? -projection[13] : projection[9];
@@ -153,13 +153,13 @@ TappedTexel tapped_texel(const View& view, std::uint32_t x, std::uint32_t y, Tap
 HorizonTapInput horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal,
                                   Vec3 viewer, float radius) {
   const Vec3 v = texel_position(view, texel) - position;
-  // The pixel itself, where pixels are not square, is a tap on its own plane.
+  // If pixels are not square, a tap can be the pixel itself, which is a tap on its own plane.
   const float away = std::max(length(v), 1e-12f);
   return tap_input(dot(v, normal) / away, dot(v, viewer) / away, away / radius);
 }
 
 HorizonTapInput plane_tap_input(float across, float facing, float distance_r) {
-  // In the plane of a direction the tangent plane goes along t - slope o.
+  // In the plane of a direction, the tangent plane runs along t - slope o.
   const float slope = across / std::max(facing, 0.05f), stretch = std::sqrt(1 + slope * slope);
   return tap_input(0, -slope / stretch, distance_r * stretch);
 }
@@ -184,7 +184,7 @@ float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, 
   }
   const HorizonNetwork& horizon = network.horizon;
   const HorizonUnits units = horizon_units(horizon, view, normal, sampling, x, y, noise);
-  // On a screen of a pixel or two nothing is known of any occluder.
+  // A screen of one or two pixels contains no information on occluders.
   return units.known ? through(horizon.out, through(horizon.join, units.value))[0] : 1;
 }
 

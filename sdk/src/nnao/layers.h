@@ -1,5 +1,5 @@
-// The numbers of a network's small layers in the one order that files and training share: the order of
-// network.h, in each layer weights, bias, negative slopes, positive slopes.
+// The numbers of a network's small layers in the order that files and training share: the order of network.h,
+// and in each layer weights, bias, negative slopes, positive slopes.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ void visit_layer(Layer& layer, Visit&& visit) {
   visit(std::span(layer.positive_slope));
 }
 
-// visit(span) for every array of the network's form, the paper's filters left out.
+// Calls visit(span) for every array of the network's form, except for the paper's filters.
 template <class AnyNetwork, class Visit>
 void visit_layers(AnyNetwork& network, Visit&& visit) {
   if (network.form == NetworkForm::paper) {

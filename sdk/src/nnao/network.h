@@ -1,5 +1,6 @@
-// The networks of the screen-space pass, as plain data. View space is OpenGL's: x right, y up, the camera
-// looks along -z. D. Holden, J. Saito, T. Komura: Neural Network Ambient Occlusion, 2016.
+// The networks of the screen-space pass as plain data. View space is OpenGL's: x right, y up, the camera
+// looks along -z. The method is that of D. Holden, J. Saito, T. Komura: Neural Network Ambient Occlusion,
+// 2016.
 #pragma once
 
 #include <array>
@@ -9,14 +10,17 @@
 #include <string>
 #include <vector>
 
+#include "shaders/nnao/layout.h"
+
 namespace nook::nnao {
 
 enum class NetworkForm : std::uint32_t {
   paper = 0,    // filters over a grid of taps, then three small layers
-  horizon = 1,  // what is learned along each direction, then over the directions
+  horizon = 1,  // one layer along each direction, then one over the directions
 };
 
-// PReLU(x) = positive_slope max(x, 0) + negative_slope min(x, 0), one pair of slopes a unit (equation 1).
+// PReLU(x) = positive_slope max(x, 0) + negative_slope min(x, 0), with one pair of slopes for each unit
+// (equation 1).
 template <int inputs, int units>
 struct Dense {
   std::array<float, std::size_t(inputs) * units> weights{};  // weights[input * units + unit]
@@ -27,15 +31,15 @@ struct Dense {
 
 // The paper's network. Tap (column, row) of a grid_size x grid_size grid lies at the view-space offset
 //   r (2 (column + 0.5) / grid_size - 1, 2 (row + 0.5) / grid_size - 1, 0)
-// from the pixel's position p; it is projected to the screen, where the buffers give position p_t and normal
+// from the pixel's position p. It is projected to the screen, where the buffers give position p_t and normal
 // n_t. Its input is
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
-// The normalisation by mean and deviation is folded into filters and bias. Of a subset of n taps the sum over
-// taps is scaled by grid_size^2 / n. taps.h says where taps lie.
+// The normalisation by mean and deviation is folded into filters and bias. With a subset of n taps, the sum
+// over taps is scaled by grid_size^2 / n. taps.h has the positions of the taps.
 struct PaperNetwork {
-  static constexpr int grid_size = 31;
+  static constexpr int grid_size = NOOK_GRID_SIZE;
   static constexpr int tap_inputs = 4;
-  static constexpr int units = 4;
+  static constexpr int units = NOOK_PAPER_UNITS;
 
   std::pmr::vector<float> filters;  // grid_size^2 x tap_inputs x units, row by row
   std::array<float, units> bias{};
@@ -46,23 +50,24 @@ struct PaperNetwork {
   Dense<units, 1> layer_3;
 };
 
-// Nook's network: the taps lie along `directions` half-lines on the screen, `steps` on each. With v = p_t -
-// p, the direction to the viewer o = -p / |p| (orthographic: +z), the elevation s = dot(v, n) / |v|, the
-// angle c = dot(v, o) / |v| and the nearness w = max(1 - |v| / 2r, 0), a tap's hidden units are tap(input) of
+// Nook's network. The taps lie along `directions` half-lines on the screen, with `steps` taps on each. With
+// v = p_t - p, the direction to the viewer o = -p / |p| (orthographic: +z), the elevation s = dot(v, n) /
+// |v|, the angle c = dot(v, o) / |v| and the nearness w = max(1 - |v| / 2r, 0), a tap's hidden units are
+// tap(input) of
 //   input = (s, c, w, s w, c w).
-// The sky is a surface infinitely far away; off the screen the pixel's own plane is taken to go on, and the
-// share of taps for which it is, is told. Over the steps of a direction the units' maximum and their mean,
-// with the direction's own (dot(n, t), dot(n, o)), t the unit vector across o in the plane of the direction,
-// go through `direction`; the mean over directions, with dot(n, o) and the share of all taps off the screen,
-// through `join` and `out`.
+// The sky is a surface at infinity. Off the screen the pixel's own plane continues, and the share of such
+// taps is an input. The input of `direction` is the maximum and the mean of the units over the steps of a
+// direction and (dot(n, t), dot(n, o)), where t is the unit vector perpendicular to o in the plane of the
+// direction. The input of `join` and `out` is the mean over directions, dot(n, o), and the share of all taps
+// off the screen.
 struct HorizonNetwork {
   static constexpr int revision = 3;  // of what the numbers mean
-  static constexpr int tap_inputs = 5;
-  static constexpr int units = 8;
+  static constexpr int tap_inputs = NOOK_HORIZON_TAP_INPUTS;
+  static constexpr int units = NOOK_HORIZON_UNITS;
 
   Dense<tap_inputs, units> tap;
-  Dense<2 * units + 2, units> direction;
-  Dense<units + 2, units> join;
+  Dense<NOOK_HORIZON_DIRECTION_INPUTS, units> direction;
+  Dense<NOOK_HORIZON_JOIN_INPUTS, units> join;
   Dense<units, 1> out;
 };
 
@@ -72,9 +77,9 @@ struct Network {
       : paper{std::pmr::vector<float>(memory), {}, {}, {}, {}, {}, {}}, recipe(memory) {}
 
   NetworkForm form = NetworkForm::paper;
-  PaperNetwork paper;       // where form says so
-  HorizonNetwork horizon;   // where form says so
-  std::pmr::string recipe;  // how it was trained, JSON
+  PaperNetwork paper;       // used if form is paper
+  HorizonNetwork horizon;   // used if form is horizon
+  std::pmr::string recipe;  // settings of the training, JSON
 };
 
 }  // namespace nook::nnao

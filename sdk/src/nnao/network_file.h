@@ -1,7 +1,9 @@
 // Networks as .nook files. Version 1 of the kind "NNAO" has the sections
-//   HEAD u8 form, then the form's fixed sizes (u16: paper grid_size, tap_inputs, units; horizon tap_inputs,
-//   units) FILT the paper's filters, half floats (paper form only) LAYR the layers in the order of network.h,
-//   32-bit floats: weights, bias, negative slopes, positive slopes RECP recipe
+//   HEAD  u8 form, then the form's fixed sizes (u16: paper grid_size, tap_inputs, units; horizon tap_inputs,
+//         units)
+//   FILT  the paper's filters, half floats (paper form only)
+//   LAYR  the layers in the order of network.h, 32-bit floats: weights, bias, negative and positive slopes
+//   RECP  recipe
 #pragma once
 
 #include <cstddef>
@@ -16,18 +18,18 @@ namespace nook::nnao {
 
 inline constexpr ContainerKind network_kind{four_letters("NNAO"), "screen-space network", 1, 1};
 
-// No number of a network is larger than this, so that no sum of the evaluation overflows.
+// The maximum magnitude of a network's numbers, so that no sum of the evaluation overflows.
 inline constexpr float max_parameter = 1e4f;
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) where a number is not finite or too large.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if a number is not finite or too large.
 std::vector<std::byte> write_network(const Network& network);
 
-// Safe on hostile bytes, also with a right checksum: throws Failure(NOOK_ERROR_BAD_FILE or
+// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
 // NOOK_ERROR_FILE_VERSION), and allocates no more than the filters and the recipe.
 Network read_network(std::span<const std::byte> bytes,
                      std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-// The file that is compiled into the library: nnao/default_horizon.nook.
+// Returns the file that is compiled into the library: nnao/default_horizon.nook.
 std::span<const std::byte> default_network_file();
 
 }  // namespace nook::nnao

@@ -1,9 +1,8 @@
-// Where the taps of a pixel lie. Pure functions of the pixel and the radius; the shader has the same.
+// The positions of a pixel's taps: pure functions of the pixel and the radius, which the shader has as well.
 // Pixels count from the lower left corner, y up; pixel (x, y) has its centre at (x + 0.5, y + 0.5).
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -11,8 +10,9 @@
 
 namespace nook::nnao {
 
-// Two numbers in (0, 1), each taking 16 evenly spaced values over a block of 4 x 4 pixels and together the
-// Hammersley set, so that any 4 x 4 blur sees every value once. Neighbours are far apart (Bayer's order).
+// Two numbers in (0, 1). Each takes 16 evenly spaced values over a block of 4 x 4 pixels, and together they
+// form the Hammersley set, so that a 4 x 4 blur contains every value once. The values of neighbours differ
+// strongly (Bayer's order).
 struct TapNoise {
   float rotation = 0.5f, offset = 0.5f;
 };
@@ -32,7 +32,7 @@ struct TapOffset {
   float x_px = 0, y_px = 0;
 };
 
-// Pixels per view-space metre at the pixel's depth; the signs are those of the screen's axes in view space.
+// Pixels per view-space metre at the pixel's depth. The signs are those of the screen's axes in view space.
 struct PixelScale {
   float x = 1, y = 1;
 };
@@ -40,7 +40,6 @@ struct PixelScale {
 struct TapGrid {
   std::uint32_t directions = 0, steps = 0;
 };
-inline constexpr std::array<std::uint32_t, 5> horizon_tap_counts{16, 32, 64, 128, 256};
 // 16 = 4 x 4, 32 = 8 x 4, 64 = 8 x 8, 128 = 16 x 8, 256 = 16 x 16; nothing for other counts.
 constexpr TapGrid horizon_grid(std::uint32_t taps) {
   switch (taps) {
@@ -59,13 +58,13 @@ constexpr TapGrid horizon_grid(std::uint32_t taps) {
   }
 }
 
-// Angle of a direction in the view-space x-y plane, radians.
+// Returns the angle of a direction in the view-space x-y plane, in radians.
 inline float direction_angle(std::uint32_t direction, std::uint32_t directions, TapNoise noise) {
   return 6.2831853f * (float(direction) + noise.rotation) / float(directions);
 }
 
-// Distance of a step from the pixel, in pixels of the screen's y axis. Steps grow with the power 3/2 of their
-// number: occluders near by cover more of the hemisphere. No two steps share a pixel.
+// Returns the distance of a step from the pixel, in pixels of the screen's y axis. Steps grow with the power
+// 3/2 of their number, because near occluders cover more of the hemisphere. No two steps share a pixel.
 inline float step_distance_px(std::uint32_t step, std::uint32_t steps, TapNoise noise, float radius_px) {
   const float share = (float(step) + noise.offset) / float(steps);
   return std::max(float(step) + 1, radius_px * share * std::sqrt(share));
@@ -76,14 +75,15 @@ inline TapOffset horizon_tap(float cosine, float sine, float distance_px, PixelS
   return {cosine * scale.x * per_y, sine * scale.y * per_y};
 }
 
-// Tap number `tap` of a subset of `taps` of the paper's grid: every (grid_size^2 / taps)-th cell in raster
-// order.
+// Returns the cell of tap number `tap` of a subset of `taps` of the paper's grid: every
+// (grid_size^2 / taps)-th cell in raster order.
 constexpr std::uint32_t paper_tap_cell(std::uint32_t tap, std::uint32_t taps, TapNoise noise) {
   constexpr std::uint32_t cells = PaperNetwork::grid_size * PaperNetwork::grid_size;
   return std::min(std::uint32_t((float(tap) + noise.rotation) * (float(cells) / float(taps))), cells - 1);
 }
 
-// Where the tap of a cell lies; a subset's taps move within half a cell, those of the whole grid do not.
+// Returns the position of the tap of a cell. The taps of a subset move within half a cell; those of the whole
+// grid do not.
 inline TapOffset paper_tap(std::uint32_t cell, std::uint32_t taps, TapNoise noise, float radius,
                            PixelScale scale) {
   constexpr std::uint32_t size = PaperNetwork::grid_size;

@@ -6,6 +6,7 @@
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/probe/dense.h"
+#include "sdk/src/probe/harmonics.h"
 
 namespace nook::probe {
 namespace {
@@ -90,6 +91,9 @@ Fit::Fit(const Basis& basis, const FitSettings& settings, std::pmr::memory_resou
   running_.inverse_mean = row(inverse_mean);
   running_.dual = row(dual);
   sums_ = AlignedArray<double>(std::size_t(3 + n) * padded_, memory);
+  if (meets_bands(basis, settings))
+    bands_ =
+        AlignedArray<double>(3 * std::size_t(band_stride) + std::size_t(band_functions) * padded_, memory);
   scratch_ = AlignedArray<double>(2 * std::size_t(n) * n + 6 * std::size_t(n), memory);
   prepare_gram(memory);
 }
@@ -198,6 +202,28 @@ void Fit::fit_samples(const Sample* samples, std::uint32_t count) {
     }
   }
   step(samples, values.data(), count);
+  if (bands_.size() > 0) sum_bands(samples, values.data(), count);
+}
+
+// Harmonic by harmonic: the light's moment, and for forms with a Gram matrix of their samples the sum of its
+// products with every function, so that a light which lobes make exactly leaves no noise in the bands.
+void Fit::sum_bands(const Sample* samples, const float* values, std::uint32_t count) {
+  alignas(64) std::array<float, std::size_t(chunk) * band_stride> harmonics{};
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const float* const d = samples[k].direction;
+    evaluate_harmonics(2, d[0], d[1], d[2], harmonics.data() + std::size_t(k) * band_stride);
+  }
+  kernels_->sum_moments(samples, harmonics.data(), count, band_stride, bands_.data());
+  if (!has_sampled_bands(basis_, settings_)) return;
+  // Three harmonics at a time take the place of red, green and blue.
+  std::array<Sample, chunk> weighted;
+  std::copy_n(samples, count, weighted.begin());
+  for (std::uint32_t first = 0; first < band_functions; first += 3) {
+    for (std::uint32_t k = 0; k < count; ++k)
+      std::copy_n(harmonics.data() + std::size_t(k) * band_stride + first, 3, weighted[k].radiance);
+    kernels_->sum_moments(weighted.data(), values, count, padded_,
+                          bands_.data() + 3 * std::size_t(band_stride) + std::size_t(first) * padded_);
+  }
 }
 
 void Fit::step(const Sample* samples, const float* values, std::uint32_t count) {

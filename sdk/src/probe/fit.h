@@ -22,6 +22,7 @@
 #include "sdk/src/core/vec.h"
 #include "sdk/src/probe/basis.h"
 #include "sdk/src/probe/fit_kernels.h"
+#include "sdk/src/probe/light_bands.h"
 
 namespace nook::probe {
 
@@ -36,10 +37,12 @@ enum class FitMethod : std::uint8_t {
 };
 enum class Denominator : std::uint8_t { lockstep = 0, precomputed = 1 };
 enum class Step : std::uint8_t { fast = 0, plain = 1 };
+enum class Constraint : std::uint8_t { bands = 0, none = 1 };
 
 struct FitSettings {
-  FitMethod method = FitMethod::running_average;
-  Step step = Step::fast;                           // running averages, but the original form
+  FitMethod method = FitMethod::least_squares;
+  Step step = Step::fast;  // running averages, but the original form
+  Constraint constraint = Constraint::bands;
   Denominator denominator = Denominator::lockstep;  // of the plain step
   float growing_samples = 0;                        // sample k weighs 1 - exp(-k / this) more; 0: as it is
   nook_isa isa = NOOK_ISA_AUTO;
@@ -48,6 +51,20 @@ struct FitSettings {
 constexpr bool is_running(FitMethod method) {
   return method == FitMethod::running_average || method == FitMethod::running_average_original ||
          method == FitMethod::running_average_non_negative;
+}
+
+// Whether coefficients are drawn to the light's bands 0 to 2, see light_bands.h: Gaussians, but the two forms
+// that are there for comparison.
+constexpr bool meets_bands(const Basis& basis, const FitSettings& settings) {
+  return settings.constraint == Constraint::bands && basis.kind == BasisKind::gaussians &&
+         settings.method != FitMethod::naive && settings.method != FitMethod::running_average_original;
+}
+
+// Whether the functions' own bands are estimated from the samples as well.
+constexpr bool has_sampled_bands(const Basis& basis, const FitSettings& settings) {
+  return meets_bands(basis, settings) && basis.domain == Domain::sphere &&
+         (settings.method == FitMethod::least_squares ||
+          settings.method == FitMethod::non_negative_least_squares);
 }
 
 // What became of the samples.
@@ -85,7 +102,6 @@ class Fit {
   const Basis& basis() const { return basis_; }
   const FitSettings& settings() const { return settings_; }
   const SampleCounts& counts() const { return counts_; }
-  const char* instruction_set() const { return kernels_->name; }
 
  private:
   void prepare_gram(std::pmr::memory_resource* memory);
@@ -93,7 +109,11 @@ class Fit {
                        std::uint32_t count, Sample* samples);
   void fit_samples(const Sample* samples, std::uint32_t count);
   void step(const Sample* samples, const float* values, std::uint32_t count);
+  void sum_bands(const Sample* samples, const float* values, std::uint32_t count);
+  void seed_bands(const Vec3* start);
   void settle();  // changes of the running average go to double
+  LightBands light_bands() const;
+  double band_weight() const;
   void solve_moments(double* coefficients);
   void solve_samples(double* coefficients);
   void make_non_negative(double* coefficients);
@@ -112,6 +132,8 @@ class Fit {
   AlignedArray<double> factor_;   // its Cholesky factor
   AlignedArray<double> row_sum_;  // of gram_; the naive form's denominators
   AlignedArray<double> sums_;     // 3 x padded moments, or coefficients; count x padded Gram of the samples
+  AlignedArray<double>
+      bands_;  // 3 x band_stride moments of the harmonics, then 9 x padded of function and harmonic
   AlignedArray<double> scratch_;  // for solving
 };
 

@@ -21,13 +21,28 @@ void Fit::seed(Fit& short_run) {
     for (std::size_t c = 0; c < 3; ++c) sums_[c * padded_ + i] = rgb[c];
   }
   prior_weight_ = short_run.counts_.weight;
+  if (bands_.size() > 0) seed_bands(start.data());
   settle();
+}
+
+// The bands that samples of the start itself would have left.
+void Fit::seed_bands(const Vec3* start) {
+  std::array<double, band_functions * max_functions> function;
+  project_functions(basis_, function.data());
+  const double scale = prior_weight_ / domain_area(basis_.domain);
+  std::ranges::fill(bands_, 0.0);
+  for (std::size_t j = 0; j < band_functions; ++j)
+    for (std::uint32_t i = 0; i < basis_.count; ++i) {
+      const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};
+      for (std::size_t c = 0; c < 3; ++c)
+        bands_[c * band_stride + j] += scale * function[j * basis_.count + i] * rgb[c];
+    }
 }
 
 void Fit::merge(const Fit& other) {
   const auto same = [](const FitSettings& a, const FitSettings& b) {
-    return a.method == b.method && a.step == b.step && a.denominator == b.denominator &&
-           a.growing_samples == b.growing_samples;
+    return a.method == b.method && a.step == b.step && a.constraint == b.constraint &&
+           a.denominator == b.denominator && a.growing_samples == b.growing_samples;
   };
   if (!(other.basis_ == basis_) || !same(other.settings_, settings_))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -49,6 +64,7 @@ void Fit::merge(const Fit& other) {
   } else {
     for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
   }
+  for (std::size_t i = 0; i < bands_.size(); ++i) bands_[i] += other.bands_[i];
   prior_weight_ += other.prior_weight_;
   counts_.used += other.counts_.used;
   counts_.expected_weight += other.counts_.expected_weight;
@@ -61,6 +77,7 @@ void Fit::merge(const Fit& other) {
 
 void Fit::reset() {
   std::ranges::fill(sums_, 0.0);
+  std::ranges::fill(bands_, 0.0);
   for (float* row : {running_.change[0], running_.change[1], running_.change[2], running_.square})
     std::fill_n(row, padded_, 0.0f);
   settle();

@@ -31,7 +31,10 @@ void Fit::read(std::span<Vec3> coefficients) {
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t i = 0; i < n; ++i)
         b[3 * i + c] = sums_[c * padded_ + i] + double(running_.change[c][i]);
-    if (settings_.method == FitMethod::running_average_non_negative) make_non_negative(b.data());
+    if (settings_.method == FitMethod::running_average_non_negative)
+      make_non_negative(b.data());
+    else if (bands_.size() > 0)
+      meet_bands(light_bands(), factor_.data(), basis_.count, band_weight(), b.data());
   } else if (counts_.weight > 0) {
     if (settings_.method == FitMethod::naive || settings_.method == FitMethod::moments)
       solve_moments(b.data());
@@ -52,13 +55,15 @@ void Fit::solve_moments(double* b) {
     }
     if (settings_.method == FitMethod::moments) cholesky_solve(factor_.data(), n, b + c, 3);
   }
+  if (bands_.size() > 0) meet_bands(light_bands(), factor_.data(), n, band_weight(), b);
 }
 
 void Fit::solve_samples(double* b) {
   const std::uint32_t n = basis_.count;
   double* const gram = scratch_.data();
   double* const rest = gram + std::size_t(n) * n;
-  const double prior = regularisation * counts_.weight / domain_area(basis_.domain);
+  const double scale = counts_.weight / domain_area(basis_.domain);  // of the samples' sums to integrals
+  const double prior = regularisation * scale;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k <= i; ++k)
       gram[i * n + k] = gram[k * n + i] = sums_[(3 + i) * padded_ + k] + prior * gram_[i * n + k];
@@ -67,34 +72,72 @@ void Fit::solve_samples(double* b) {
       for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = sums_[c * padded_ + i];
     cholesky(gram, n, 0);
     for (std::size_t c = 0; c < 3; ++c) cholesky_solve(gram, n, b + c, 3);
+    if (bands_.size() > 0) meet_bands(light_bands(), gram, n, band_weight() * scale, b);
     return;
   }
   double* const x = rest + std::size_t(n) * n + 2 * n;
+  double* const target = x + n;
+  const LightBands bands = bands_.size() == 0 ? LightBands{} : light_bands();
+  if (bands_.size() > 0) add_bands(bands, n, band_weight() * scale, gram);
   for (std::size_t c = 0; c < 3; ++c) {
-    non_negative_solve(gram, sums_.data() + c * padded_, n, x, rest);
+    std::copy_n(sums_.data() + c * padded_, n, target);
+    if (bands_.size() > 0) add_bands(bands, n, band_weight() * scale, c, target);
+    non_negative_solve(gram, target, n, x, rest);
     for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = x[i];
   }
 }
 
-// The non-negative coefficients nearest to b in the mean square over the domain. As b tends to least squares,
-// they tend to its non-negative form, and are never farther from it than b from least squares. With the plain
-// step they are b itself: no sample has left it a negative one.
+// The non-negative coefficients nearest to b in the mean square over the domain, and to the light's bands. As
+// b tends to least squares, they tend to its non-negative form. With the plain step and no bands they are b
+// itself: no sample has left it a negative one.
 void Fit::make_non_negative(double* b) {
   const std::uint32_t n = basis_.count;
   bool negative = false;
   for (std::size_t i = 0; i < 3 * std::size_t(n); ++i) negative |= b[i] < 0;
-  if (!negative) return;
-  double* const target = scratch_.data();
+  if (!negative && bands_.size() == 0) return;
+  double* const gram = scratch_.data();
+  double* const target = gram + std::size_t(n) * n;
   double* const x = target + n;
   double* const rest = x + n;
+  const LightBands bands = bands_.size() == 0 ? LightBands{} : light_bands();
+  std::ranges::copy(gram_, gram);
+  if (bands_.size() > 0) add_bands(bands, n, band_weight(), gram);
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t i = 0; i < n; ++i) {
       target[i] = 0;
       for (std::size_t k = 0; k < n; ++k) target[i] += gram_[i * n + k] * b[3 * k + c];
     }
-    non_negative_solve(gram_.data(), target, n, x, rest);
+    if (bands_.size() > 0) add_bands(bands, n, band_weight(), c, target);
+    non_negative_solve(gram, target, n, x, rest);
     for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = x[i];
   }
+}
+
+double Fit::band_weight() const {
+  const bool non_negative = settings_.method == FitMethod::running_average_non_negative ||
+                            settings_.method == FitMethod::non_negative_least_squares;
+  return non_negative || basis_.domain == Domain::hemisphere ? soft_bands : exact_bands;
+}
+
+// As integrals: of the light under each harmonic, and of the functions under it over the same directions.
+// What lies below a hemisphere's horizon is dark, and counts.
+LightBands Fit::light_bands() const {
+  LightBands bands;
+  const std::uint32_t n = basis_.count;
+  const double weight = is_running(settings_.method)
+                            ? std::max(counts_.weight, counts_.expected_weight) + prior_weight_
+                            : counts_.weight;
+  const double scale = weight > 0 ? domain_area(basis_.domain) / weight : 0;
+  for (std::size_t j = 0; j < band_functions; ++j)
+    for (std::size_t c = 0; c < 3; ++c) bands.light[3 * j + c] = scale * bands_[c * band_stride + j];
+  if (!has_sampled_bands(basis_, settings_)) {
+    project_functions(basis_, bands.function.data());
+    return bands;
+  }
+  const double* const sums = bands_.data() + 3 * std::size_t(band_stride);
+  for (std::size_t j = 0; j < band_functions; ++j)
+    for (std::size_t i = 0; i < n; ++i) bands.function[j * n + i] = scale * sums[j * padded_ + i];
+  return bands;
 }
 
 }  // namespace nook::probe

@@ -99,11 +99,28 @@ TEST_CASE("lighting that makes no sense is refused") {
   }
   SECTION("a map that is not finite") {
     lighting.sky[2] = std::nanf("");
-    expected = "texel is negative or not finite (row 0, column 0)";
+    expected = "texel is out of range (got nan in row 0, column 0";
+  }
+  SECTION("a map so bright that sums of its light have no float") {
+    lighting.sky[1] = 1e37f;
+    expected = "texel is out of range (got 1e+37 in row 0, column 0, need 0 to 1e+15)";
+  }
+  SECTION("emission so bright") {
+    lighting.mesh.emission[2] = 1e37f;
+    expected = "desc.meshes[0].emission is out of range (got 1e+37, need 0 to 1e+15)";
   }
   SECTION("no rays") {
     lighting.desc.rays = 0;
     expected = "desc.rays is out of range";
+  }
+  // Finite numbers that Embree would end the process for.
+  SECTION("a point beyond any scene") {
+    lighting.points[1] = 1e19f;
+    expected = "desc.positions is out of range at point 0 (got 0 1e+19";
+  }
+  SECTION("an offset beyond any scene") {
+    lighting.desc.origin_offset = 1e30f;
+    expected = "desc.origin_offset is out of range (got 1e+30";
   }
   SECTION("a normal of another length") {
     lighting.normals = {0, 2, 0};
@@ -115,4 +132,12 @@ TEST_CASE("lighting that makes no sense is refused") {
   CHECK(lighting.irradiance[0] == -1);
   CHECK(nook_bake_trace_irradiance(&lighting.desc, lighting.irradiance.data(), 9) ==
         NOOK_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_CASE("the brightest light that is taken has finite irradiance") {
+  Lighting lighting;
+  std::fill(std::begin(lighting.sky), std::end(lighting.sky), 0.99e15f);
+  REQUIRE(lighting.trace() == NOOK_OK);
+  for (const float e : lighting.irradiance) CHECK(std::isfinite(e));
+  CHECK(lighting.irradiance[0] > 1e14f);
 }

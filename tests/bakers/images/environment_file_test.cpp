@@ -102,6 +102,17 @@ TEST_CASE("images that are no maps of radiance are refused") {
   broken[2] = std::numeric_limits<float>::infinity();
   CHECK(failure_of(folder.write("nan.exr", 8, 4, 3, OIIO::TypeDesc::FLOAT, broken)).find("2 of its values") !=
         std::string::npos);
+  // Beyond max_radiance sums of squares have no float; a map of negative values is none.
+  std::vector<float> bright = values;
+  bright[4] = 1e16f;
+  CHECK(failure_of(folder.write("bright.exr", 8, 4, 3, OIIO::TypeDesc::FLOAT, bright))
+            .find("1 of its values are not finite or above 1e+15") != std::string::npos);
+  bright[4] = 0.9e15f;
+  CHECK(failure_of(folder.write("fine.exr", 8, 4, 3, OIIO::TypeDesc::FLOAT, bright)).empty());
+  std::vector<float> negative = values;
+  for (float& value : negative) value = -value;
+  CHECK(failure_of(folder.write("negative.exr", 8, 4, 3, OIIO::TypeDesc::FLOAT, negative))
+            .find("negative values add up to") != std::string::npos);
   CHECK(failure_of(folder.write_text("text.hdr", "not an image")).find("cannot be read as an image") !=
         std::string::npos);
   CHECK_FALSE(failure_of(folder.write_text("empty.exr", "")).empty());

@@ -27,8 +27,8 @@ struct Expected {
 };
 
 // Counts of vertices welded by position alone, as published with the files, except ual_mannequin: 69 of its
-// 7,405 places hold vertices with different weights, which part when it moves; and the Rocketbox bodies, whose
-// hair is of cards with two sides: 4,369 and 4,345 places.
+// 7,405 places hold vertices with different weights, which part when it moves; and the Rocketbox bodies,
+// whose hair is of cards with two sides: 4,369 and 4,345 places.
 const Expected expected[] = {
     {"ual_mannequin_CC0.glb", 7474, 53, 44, 0.0f, 1.83f, "Idle_Loop"},
     {"m2m_female_CC0.glb", 7224, 66, 43, 0.0f, 1.81f, "Idle_Loop"},

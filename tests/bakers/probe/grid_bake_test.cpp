@@ -36,6 +36,7 @@ GridBakeSettings grid_of(const Basis& basis, FitMethod method, std::array<std::u
   GridBakeSettings settings;
   settings.basis = basis;
   settings.fit.method = method;
+  settings.fit.constraint = nook::probe::Constraint::none;
   settings.grid = grid_in_box(counts, low, high);
   return settings;
 }

@@ -27,6 +27,7 @@ MapBakeSettings settings_of(const Basis& basis, FitMethod method, Sampling sampl
   MapBakeSettings settings;
   settings.basis = basis;
   settings.fit.method = method;
+  settings.fit.constraint = nook::probe::Constraint::none;
   settings.sampling = sampling;
   settings.samples = 1u << 17;
   return settings;
@@ -128,6 +129,12 @@ TEST_CASE("the comparison: batch is the best of the progressive forms, and the o
   CHECK(of("non_negative_least_squares").irradiance_minimum >= 0);
   CHECK(of("running_average_non_negative").luminance_20000.irradiance_minimum >= 0);
   CHECK(of("sh_l2").irradiance_rms < of("sh_l1").irradiance_rms);
+  for (const char* form : {"running_average", "moments", "least_squares", "non_negative_least_squares"}) {
+    const MethodError& bands = of(std::string(form) + ", bands");
+    CHECK(bands.irradiance_rms < 0.8 * of(form).irradiance_rms);
+    CHECK(std::abs(bands.mean_ratio - 1) < 5e-3);  // a million samples' noise, of the running average
+  }
+  CHECK(of("least_squares, bands").irradiance_rms < 0.5 * batch.irradiance_rms);
   CHECK(of("sh_l2").method.floats() == 27);
   CHECK(of("ambient_dice").method.floats() == 36);
   CHECK(running.uniform_20000.excess_mse < running.uniform_1024.excess_mse);

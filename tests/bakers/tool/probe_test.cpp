@@ -87,6 +87,80 @@ TEST_CASE("bake probe refuses bad arguments and bad maps by name, and leaves not
   CHECK(folder.names() == std::vector<std::string>{"sky.hdr", "square.hdr", "text.hdr"});
 }
 
+namespace {
+
+// A map of one colour: mantissa 128 of `exponent`, which is radiance 2^(exponent - 129).
+std::string even_map(unsigned char mantissa, unsigned char exponent) {
+  std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16 +X 32\n";
+  for (int i = 0; i < 32 * 16; ++i)
+    for (const unsigned char byte : {mantissa, mantissa, mantissa, exponent}) file.push_back(char(byte));
+  return file;
+}
+
+bool has_no_number_for(const std::string& text) {
+  return text.find("nan") == std::string::npos && text.find("inf") == std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a black map is fitted and measured, ratios to its light are no numbers") {
+  const TestFolder folder;
+  write_text(folder.path("black.hdr"), even_map(0, 0));
+  const ToolRun run = folder.run({"bake", "probe", folder.path("black.hdr"), "-o", folder.path("b.nook"),
+                                  "--picture", folder.path("b.png"), "--report", folder.path("r.json")});
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  CHECK(has_no_number_for(run.out));
+  const Json row = rows_of(folder, "r.json").at(0);
+  CHECK(row.at("irradiance_rms") == 0);
+  for (const char* ratio : {"irradiance_relative", "excess_mse", "mean_ratio", "irradiance_minimum"})
+    CHECK(row.at(ratio).is_null());
+  const ToolRun measured =
+      folder.run({"evaluate", "probe", folder.path("black.hdr"), folder.path("b.nook"), "--seeds", "1",
+                  "--rotations", "1", "--report", folder.path("e.json")});
+  INFO(measured.out);
+  REQUIRE(measured.exit_code == 0);
+  CHECK(has_no_number_for(measured.out));
+  for (const Json& of_method : rows_of(folder, "e.json")) {
+    CHECK(of_method.at("irradiance_rms") == 0);
+    CHECK(of_method.at("mean").is_null());
+  }
+  write_text(folder.path("tube.glb"), glb_tube({}, false));
+  REQUIRE(folder
+              .run({"bake", "probe", folder.path("tube.glb"), "-o", folder.path("g.nook"), "--grid", "2x1x1",
+                    "--light", folder.path("black.hdr"), "--samples", "128", "--quiet"})
+              .exit_code == 0);
+  const ToolRun grid =
+      folder.run({"evaluate", "probe", folder.path("g.nook"), "--scene", folder.path("tube.glb"), "--light",
+                  folder.path("black.hdr"), "--points", "16", "--paths", "4"});
+  INFO(grid.out);
+  REQUIRE(grid.exit_code == 0);
+  CHECK(has_no_number_for(grid.out));
+}
+
+TEST_CASE("light that has no sums is refused at the entry, light just below it is fitted") {
+  const TestFolder folder;
+  write_text(folder.path("bright.hdr"), even_map(128, 255));  // 8.5e37
+  write_text(folder.path("most.hdr"), even_map(128, 177));    // 2.8e14
+  const std::string out = folder.path("o.nook");
+  write_text(folder.path("tube.glb"), glb_tube({}, false));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"bake", "probe", folder.path("bright.hdr"), "-o", out},
+        {"bake", "probe", folder.path("tube.glb"), "-o", out, "--grid", "2x1x1", "--light",
+         folder.path("bright.hdr")},
+        {"evaluate", "probe", folder.path("bright.hdr")}}) {
+    const ToolRun run = folder.run(words);
+    CHECK(run.exit_code == 3);
+    CHECK(run.error.find("bright.hdr") != std::string::npos);
+    CHECK(run.error.find("above 1e+15") != std::string::npos);
+  }
+  CHECK_FALSE(std::filesystem::exists(out));
+  const ToolRun run = folder.run({"bake", "probe", folder.path("most.hdr"), "-o", out});
+  INFO(run.out << run.error);
+  CHECK(run.exit_code == 0);
+  CHECK(has_no_number_for(run.out));
+}
+
 TEST_CASE("bake probe of a scene: a grid, refined until its error is small") {
   const TestFolder folder;
   write_text(folder.path("sky.hdr"), rgbe_map(32, 16));
@@ -143,6 +217,25 @@ TEST_CASE("evaluate probe measures a grid against path tracing of its scene") {
     CHECK(row.at("irradiance_worst_relative").get<double>() >
           row.at("irradiance_rms_relative").get<double>());
   }
+  // Grids measure what they were baked with: here reflected light alone, of which an open sky leaves little.
+  REQUIRE(folder
+              .run({"bake", "probe", folder.path("tube.glb"), "-o", grid, "--grid", "2x2x2", "--light",
+                    folder.path("sky.hdr"), "--box", "-1,-1,-1,1,2,1", "--error", "0.05", "--direct", "none",
+                    "--report", folder.path("b.json")})
+              .exit_code == 0);
+  CHECK(rows_of(folder, "b.json").at(0).at("direct") == "none");
+  CHECK(rows_of(folder, "b.json").at(0).at("suns").is_array());
+  REQUIRE(evaluate({"--scene", folder.path("tube.glb"), "--light", folder.path("sky.hdr")}).exit_code == 0);
+  const Json reflected = rows_of(folder, "r.json");
+  CHECK(reflected.at(2).at("direct") == "none");
+  CHECK(reflected.at(2).at("irradiance_mean").get<double>() <
+        0.3 * rows.at(2).at("irradiance_mean").get<double>());
+  CHECK(std::abs(reflected.at(2).at("irradiance_bias_relative").get<double>()) < 0.5);
+  REQUIRE(evaluate({"--scene", folder.path("tube.glb"), "--light", folder.path("sky.hdr"), "--direct", "all"})
+              .exit_code == 0);
+  CHECK(rows_of(folder, "r.json").at(2).at("irradiance_bias_relative").get<double>() < -0.5);
+  CHECK(evaluate({"--scene", folder.path("tube.glb"), "--light", folder.path("sky.hdr"), "--direct", "some"})
+            .exit_code == 2);
   CHECK(evaluate({"--scene", folder.path("tube.glb")}).exit_code == 2);
   CHECK(evaluate({"--scene", folder.path("none.glb"), "--light", folder.path("sky.hdr")}).exit_code == 3);
 }

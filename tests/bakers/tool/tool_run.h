@@ -26,10 +26,11 @@ class TestFolder {
   ToolRun run_and_signal(const std::vector<std::string>& arguments, int signal,
                          const std::string& text) const;
 
- private:
+  // In two steps: the process, and what it said when it has ended.
   int start(const std::vector<std::string>& arguments) const;
   ToolRun finish(int child) const;
 
+ private:
   std::filesystem::path folder_;
 };
 

@@ -11,8 +11,8 @@
 #include <numeric>
 #include <optional>
 
-#include "samples/crowd/animation.h"
 #include "samples/crowd/camera.h"
+#include "samples/crowd/layout.h"
 #include "tests/catch.h"
 
 namespace {
@@ -117,7 +117,7 @@ float traced_floor_ao(const Scene& scene, const std::vector<glm::vec3>& points) 
     normals.insert(normals.end(), {0, 1, 0});
   }
   nook_bake_trace_desc desc;
-  crowd::bake_check(nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  REQUIRE(nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
   desc.meshes = &mesh;
   desc.mesh_count = 1;
   desc.positions = positions.data();
@@ -125,7 +125,7 @@ float traced_floor_ao(const Scene& scene, const std::vector<glm::vec3>& points) 
   desc.point_count = std::uint32_t(points.size());
   desc.rays = 4096;
   desc.radius = kRadius_m;
-  crowd::bake_check(nook_bake_trace_ao(&desc, ao.data(), desc.point_count));
+  REQUIRE(nook_bake_trace_ao(&desc, ao.data(), desc.point_count) == NOOK_OK);
   return std::accumulate(ao.begin(), ao.end(), 0.0f) / float(ao.size());
 }
 

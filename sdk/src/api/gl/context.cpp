@@ -78,7 +78,7 @@ nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info) {
   return api::enter("nook_gl_describe", [&] {
     need(gl, "gl");
     nook_gl_info known{};
-    known.tier = gl->device.gl.tier;
+    known.tier = gl->device.gl.can.compute ? 43 : 33;
     known.version = gl->version.c_str();
     known.renderer = gl->renderer.c_str();
     known.buffer_bytes = gl->device.buffer_bytes;

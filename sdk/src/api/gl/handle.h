@@ -3,6 +3,7 @@
 
 #include <nook/nook_gl.h>
 
+#include <optional>
 #include <string>
 
 #include "sdk/src/api/handles.h"
@@ -12,14 +13,15 @@
 struct nook_gl_s : nook::RefCounted {
   nook_gl_s(nook_context_s* made_by, const nook_gl_desc& desc);
 
-  // Runs body with the OpenGL state of these users, see touched_state.h, kept as promised at creation.
+  // Runs body with the OpenGL state of these users (touched_state.h) treated in the way that was chosen at
+  // creation.
   template <class Body>
   void guarded(unsigned users, Body&& body) {
     device.need_alive();
     const nook::gl::StateGuard guard(device.gl, device.state_mode, users);
     body();
   }
-  // Of evaluating characters.
+  // Runs body with the OpenGL state that the evaluation of characters touches.
   template <class Body>
   void guarded(Body&& body) {
     guarded(nook::gl::character_users(device.gl), std::forward<Body>(body));

@@ -8,7 +8,7 @@
 
 using namespace nook;
 
-// The OpenGL half's objects outlive the handle nook_gl through this object's owner reference.
+// The OpenGL objects outlive the handle nook_gl, because this object holds a reference to its owner.
 struct nook_gl_material_s : RefCounted {
   nook_gl_material_s(nook_gl_s* made_by, const material::MaterialTables& tables, std::uint32_t max_layers) {
     made_by->device.report_host_errors();

@@ -5,13 +5,14 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/core/descriptors.h"
+#include "sdk/src/gl/nnao/frame_check.h"
 #include "sdk/src/gl/nnao/pass.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/taps.h"
 
 using namespace nook;
 
-// The OpenGL half's objects outlive the handle nook_gl through this object's owner reference.
+// The OpenGL objects outlive the handle nook_gl, because this object holds a reference to its owner.
 struct nook_nnao_s : RefCounted {
   nook_nnao_s(nook_gl_s* made_by, const nook_nnao_desc& known, const nnao::Network& network)
       : gl(made_by), desc(known), horizon_form(network.form == nnao::NetworkForm::horizon) {
@@ -19,7 +20,7 @@ struct nook_nnao_s : RefCounted {
     gl->guarded(gl::screen, [&] { pass.emplace(gl->device, known, network); });
   }
 
-  // Of the state that a frame touches.
+  // Returns the users of the OpenGL state that a frame touches.
   unsigned users() const {
     return pass->path() == NOOK_NNAO_PATH_COMPUTE ? gl::screen | gl::screen_compute : gl::screen;
   }

@@ -8,7 +8,7 @@
 
 using namespace nook;
 
-// Outlives the handle nook_gl through this object's owner reference.
+// The OpenGL objects outlive the handle nook_gl, because this object holds a reference to its owner.
 struct nook_gl_probe_s : RefCounted {
   nook_gl_probe_s(nook_gl_s* made_by, const probe::Probes& probes) : gl(made_by) {
     gl->device.report_host_errors();

@@ -1,7 +1,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/core/descriptors.h"
-#include "sdk/src/gl/character/scene_lights.h"
+#include "sdk/src/gl/character/light_texture.h"
 
 using namespace nook;
 
@@ -11,23 +11,15 @@ constexpr std::size_t first_ao_view = offsetof(nook_gl_ao_view, count) + sizeof(
 
 constexpr std::size_t first_light_view = offsetof(nook_gl_light_view, glsl) + sizeof(const char*);
 
-// Copies `count` vertices of `channels` floats each from a buffer. Waits for the GPU.
-void read_values(nook_gl_s& gl, const gl::AoPlace& place, std::uint32_t count, std::uint32_t channels,
-                 float* out, const char* what) {
-  if (count != place.count)
+// `count` is the host's. Waits for the GPU.
+void read_values(nook_gl_s& gl, const gl::VertexValues& values, std::uint32_t count, float* out) {
+  if (count != values.vertices)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "count is not the model's file_vertex_count (got %u, need %u)",
-                  count, place.count);
-  gl.guarded([&] {
-    gl.device.report_host_errors();
-    const gl::Functions& functions = gl.device.gl;
-    functions.BindBuffer(GL_ARRAY_BUFFER, place.buffer);
-    functions.GetBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(place.offset),
-                               static_cast<GLsizeiptr>(std::uint64_t{count} * channels * sizeof(float)), out);
-    gl.device.check(what);
-  });
+                  count, values.vertices);
+  gl.guarded([&] { gl.characters->read(values, out); });
 }
 
-// Runs body on both objects, whose OpenGL context lives.
+// Runs body if both handles are valid and the OpenGL context is not lost.
 template <class Body>
 nook_result with_scene(const char* function, nook_gl gl, nook_scene scene, Body&& body) noexcept {
   return api::enter(function, [&] {
@@ -57,12 +49,12 @@ nook_result nook_gl_scene_update(nook_gl gl, nook_scene scene) {
 nook_result nook_gl_scene_ao_buffer(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                     nook_gl_ao_view* view) {
   return with_scene("nook_gl_scene_ao_buffer", gl, scene, [&] {
-    const gl::AoPlace place = gl->characters->ao_place(scene->scene, instance);
+    const gl::VertexValues ao = gl->characters->place(scene->scene, instance);
     nook_gl_ao_view known{};
-    known.buffer = place.buffer;
-    known.offset = place.offset;
+    known.buffer = ao.buffer;
+    known.offset = ao.offset;
     known.stride = sizeof(float);
-    known.count = place.count;
+    known.count = ao.vertices;
     write_info(view, first_ao_view, known);
   });
 }
@@ -71,7 +63,7 @@ nook_result nook_gl_scene_read_ao(nook_gl gl, nook_scene scene, nook_instance_id
                                   uint32_t count) {
   return with_scene("nook_gl_scene_read_ao", gl, scene, [&] {
     need(out, "out");
-    read_values(*gl, gl->characters->ao_place(scene->scene, instance), count, 1, out, "reading AO");
+    read_values(*gl, gl->characters->place(scene->scene, instance), count, out);
   });
 }
 
@@ -83,7 +75,7 @@ nook_result nook_gl_scene_light(nook_gl gl, nook_scene scene, nook_instance_id i
     known.buffer = place.directional_ao.buffer;
     known.offset = place.directional_ao.offset;
     known.stride = 3 * sizeof(float);
-    known.count = place.directional_ao.count;
+    known.count = place.directional_ao.vertices;
     known.texture = place.texture;
     known.light = static_cast<std::int32_t>(place.first_texel);
     known.glsl = gl::scene_light_glsl();
@@ -95,8 +87,7 @@ nook_result nook_gl_scene_read_directional_ao(nook_gl gl, nook_scene scene, nook
                                               float* out_rgb, uint32_t count) {
   return with_scene("nook_gl_scene_read_directional_ao", gl, scene, [&] {
     need(out_rgb, "out_rgb");
-    read_values(*gl, gl->characters->light_place(scene->scene, instance).directional_ao, count, 3, out_rgb,
-                "reading directional AO");
+    read_values(*gl, gl->characters->light_place(scene->scene, instance).directional_ao, count, out_rgb);
   });
 }
 

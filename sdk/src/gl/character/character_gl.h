@@ -3,7 +3,7 @@
 
 #include <atomic>
 #include <list>
-#include <optional>
+#include <variant>
 
 #include "sdk/src/gl/character/compute_tier.h"
 #include "sdk/src/gl/character/feedback_tier.h"
@@ -18,47 +18,27 @@ struct SceneHandle {
   Scene* scene = nullptr;
 };
 
-struct AoPlace {
-  GLuint buffer = 0;
-  std::uint64_t offset = 0;  // bytes
-  std::uint32_t count = 0;   // floats
-};
-
-struct LightPlace {
-  AoPlace directional_ao;  // count: vertices, three floats each
-  GLuint texture = 0;      // of the lights
-  std::uint32_t first_texel = 0;
-};
-
-// Every call may change any of the touched state; the caller holds a StateGuard where OpenGL is called.
+// The best tier of the device, and the scenes that it was handed. What may change touched state says Tier.
 class CharacterGl {
  public:
   // Throws Failure.
   explicit CharacterGl(Device& device);
+  CharacterGl(const CharacterGl&) = delete;
+  CharacterGl& operator=(const CharacterGl&) = delete;
 
   void prepare(const SceneHandle& handle);
   void update(const SceneHandle& handle);
-  // Throws Failure unless the instance has a place.
-  AoPlace ao_place(const Scene& scene, nook_instance_id instance) const;
-  // Throws Failure unless the last update saw a light of the instance.
+  VertexValues place(const Scene& scene, nook_instance_id instance) const;
   LightPlace light_place(const Scene& scene, nook_instance_id instance) const;
+  void read(const VertexValues& values, float* out) const;
   void release(const Scene& scene);
-  // Of scenes that the host destroyed.
+  // Scenes that the host destroyed.
   void release_destroyed();
 
  private:
-  struct Entry {
-    Entry(Device& device, const SceneHandle& of) : handle(of), buffers(device, device.memory) {}
-    SceneHandle handle;
-    SceneBuffers buffers;
-  };
-  Entry& prepared(const SceneHandle& handle);
-
-  Device& device_;
-  std::optional<ComputeTier> compute_;
-  std::optional<FeedbackTier> feedback_;
-  ModelList models_;
-  std::pmr::list<Entry> scenes_;  // destroyed before the models that their chunks use
+  std::pmr::list<SceneHandle> scenes_;
+  std::variant<std::monostate, FeedbackTier, ComputeTier> storage_;
+  Tier* tier_;  // in storage_
 };
 
 }  // namespace nook::gl

@@ -1,32 +1,43 @@
-// OpenGL 4.3: spheres, shadows and vertices of a scene in compute shaders.
+// The tier of OpenGL 4.3: spheres, shadows and vertices of a scene in compute shaders.
 #pragma once
 
-#include "sdk/src/gl/character/scene_buffers.h"
+#include "sdk/src/gl/character/compute_scene.h"
+#include "sdk/src/gl/character/tier.h"
 
 namespace nook::gl {
 
-class ComputeTier {
+class ComputeTier final : public Tier {
  public:
   explicit ComputeTier(Device& device);
 
-  // Compiles what the models and lights of the scene need; nothing the second time. Throws Failure.
-  void prepare(const ModelList& models, const SceneBuffers& buffers);
-  // An update of the scene, whose buffers are prepared. Throws Failure if OpenGL gives no memory.
-  void update(SceneBuffers& buffers, Scene& scene) const;
+  void prepare(const Scene& scene) override;
+  void update(Scene& scene) override;
+  VertexValues place(const Scene& scene, nook_instance_id instance) const override;
+  LightPlace light_place(const Scene& scene, nook_instance_id instance) const override;
+  void read(const VertexValues& values, float* out) const override;
+  void release(const Scene& scene) override;
 
  private:
-  void run_spheres(const SceneBuffers& buffers) const;
-  void run_key_points(const SceneBuffers& buffers, const Scene& scene, const Chunk& chunk) const;
-  void spread_levels(const SceneBuffers& buffers, const Chunk& chunk) const;
-  void blend_vertices(const SceneBuffers& buffers, const Scene& scene, const Chunk& chunk,
-                      const Buffer& out) const;
-  void run_shadows(const SceneBuffers& buffers, const Scene& scene) const;
-  void run_spread(const SceneBuffers& buffers, const Scene& scene) const;
-  void run_vertices(const SceneBuffers& buffers, const Scene& scene) const;
+  // Compiles what the models and lights of the scene need; nothing the second time.
+  void make_programs(const ComputeScene& placed);
+  // What the scene's update decided, as the passes need it.
+  struct Update {
+    const ComputeScene& placed;
+    bool self;      // the term of the instance's own spheres counts
+    bool composed;  // NOOK_COMBINE_COMPOSED
+  };
+  void run(const Update& update) const;
+  void run_spheres(const Update& update) const;
+  void run_key_points(const Update& update, const ComputeChunk& chunk) const;
+  void spread_levels(const Update& update, const ComputeChunk& chunk) const;
+  void blend_vertices(const Update& update, const ComputeChunk& chunk, const Buffer& out) const;
+  void run_shadows(const Update& update) const;
+  void run_spread(const Update& update) const;
+  void run_vertices(const Update& update) const;
   // The same for instances with a light.
-  void run_colours(const SceneBuffers& buffers, const Scene& scene) const;
-  void run_colours_spread(const SceneBuffers& buffers) const;
-  void run_lit_vertices(const SceneBuffers& buffers, const Scene& scene) const;
+  void run_colours(const Update& update) const;
+  void run_colours_spread(const Update& update) const;
+  void run_lit_vertices(const Update& update) const;
 
   Device& device_;
   Object spheres_;
@@ -36,6 +47,8 @@ class ComputeTier {
   Object colours_[kernel_form_count];  // these: name 0 until an instance has a light
   Object colours_spread_;
   Object lit_vertices_;
+  std::pmr::list<ComputeModel> models_;
+  std::pmr::list<ComputeScene> scenes_;  // destroyed before the models that their chunks use
 };
 
 }  // namespace nook::gl

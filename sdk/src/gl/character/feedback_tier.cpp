@@ -2,8 +2,6 @@
 
 #include <cstdio>
 
-#include "sdk/src/core/failure.h"
-#include "sdk/src/gl/character/scene_lights.h"
 #include "sdk/src/gl/program.h"
 
 namespace nook::gl {
@@ -11,11 +9,6 @@ namespace {
 
 static_assert(CharacterModel::max_influences <= 8,
               "vertices.vert has attributes for two quads of influences");
-
-bool wanted(const SceneBuffers& buffers, const Chunk& chunk, std::uint32_t place) {
-  const std::uint32_t slot = chunk.slots[place];
-  return slot != Chunk::empty && !buffers.placements[slot].evaluated;
-}
 
 // Two floats a key point, of the AO.
 struct Shadows {
@@ -47,30 +40,31 @@ struct Colours {
   }
 };
 
-// Sends the shadows of the wanted places from `first` on, in their order and as many as fit; returns the end
+// Sends the shadows of the waiting places from `first` on, in their order and as many as fit; returns the end
 // of these places, or `first` if none is left.
 template <class Kind>
-std::uint32_t fill_page(const SceneBuffers& buffers, Buffer& page, const Scene& scene, const Chunk& chunk,
+std::uint32_t fill_page(const FeedbackScene& placed, Page& page, const FeedbackChunk& chunk,
                         std::uint32_t first) {
   const std::uint64_t instance_floats = std::uint64_t{chunk.model->key_points()} * Kind::floats;
-  const std::uint64_t most = page.bytes() / (instance_floats * sizeof(float));
+  const std::uint64_t max = page.buffer.bytes() / (instance_floats * sizeof(float));
   std::uint32_t end = first;
   std::uint64_t count = 0;
-  for (; end < chunk.capacity && count < most; ++end) count += wanted(buffers, chunk, end);
+  for (; end < chunk.capacity && count < max; ++end) count += placed.waits(chunk, end);
   if (count == 0) return first;
-  auto* memory = static_cast<float*>(page.begin_write(count * instance_floats * sizeof(float)));
-  for (std::uint32_t place = first; place < end; ++place) {
-    if (!wanted(buffers, chunk, place)) continue;
-    Kind::write(scene, scene.instances[chunk.slots[place]], memory);
-    memory += instance_floats;
-  }
-  page.end_write();
+  page.buffer.write(count * instance_floats * sizeof(float), [&](void* memory) {
+    auto* out = static_cast<float*>(memory);
+    for (std::uint32_t place = first; place < end; ++place) {
+      if (!placed.waits(chunk, place)) continue;
+      Kind::write(*placed.scene, placed.scene->instances[chunk.slots[place]], out);
+      out += instance_floats;
+    }
+  });
   return end;
 }
 
 }  // namespace
 
-FeedbackTier::FeedbackTier(Device& device) : device_(device) {
+FeedbackTier::FeedbackTier(Device& device) : device_(device), models_(device.memory), scenes_(device.memory) {
   const Functions& gl = device.gl;
   for (int quads = 1; quads <= 2; ++quads) {
     programs_[quads - 1] = make_program(quads, false);
@@ -107,56 +101,89 @@ FeedbackTier::Program FeedbackTier::make_program(int quads, bool lit) {
   return program;
 }
 
-void FeedbackTier::update(SceneBuffers& buffers, Scene& scene) const {
-  notice_lights(buffers, scene);
+void FeedbackTier::prepare(const Scene& scene) {
+  FeedbackScene* placed = placed_scene(scenes_, scene);
+  if (!placed) placed = &scenes_.emplace_back(device_, scene);
+  if (!placed->outdated()) return;
+  device_.report_host_errors();
+  placed->place_all(device_, models_);
+  placed->make_buffers(device_);
+  device_.check("preparing a scene");
+  placed->finish();
+}
+
+void FeedbackTier::update(Scene& scene) {
+  FeedbackScene& placed = *placed_scene(scenes_, scene);
+  placed.notice_lights();
   nook::update(scene);
   // Should an upload fail, the next update makes up for this one.
-  for (std::size_t slot = 0; slot < buffers.placements.size(); ++slot)
-    buffers.placements[slot].evaluated &= !scene.instances[slot].due;
-  upload_lights(device_, buffers, scene);
+  for (std::size_t slot = 0; slot < placed.placements.size(); ++slot)
+    placed.placements[slot].evaluated &= !scene.instances[slot].due;
+  placed.lights.upload(device_, scene);
+  draw_scene(placed);
+}
+
+VertexValues FeedbackTier::place(const Scene& scene, nook_instance_id instance) const {
+  const FeedbackScene* placed = placed_scene(scenes_, scene);
+  if (!placed) fail_without_place(instance);
+  return placed->place(instance);
+}
+
+LightPlace FeedbackTier::light_place(const Scene& scene, nook_instance_id instance) const {
+  const FeedbackScene* placed = placed_scene(scenes_, scene);
+  if (!placed) fail_without_light(instance);
+  return placed->light_place(instance);
+}
+
+void FeedbackTier::read(const VertexValues& values, float* out) const {
+  read_buffer(device_, values, out);
+}
+
+void FeedbackTier::release(const Scene& scene) {
+  scenes_.remove_if([&](const FeedbackScene& placed) { return placed.scene == &scene; });
+  drop_unused(models_);
+}
+
+void FeedbackTier::draw_scene(FeedbackScene& placed) const {
   const Functions& gl = device_.gl;
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
   if (feedback_.name()) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback_.name());
   gl.Enable(GL_RASTERIZER_DISCARD);
   gl.Disable(GL_PRIMITIVE_RESTART);
   gl.ActiveTexture(GL_TEXTURE0);
-
-  for (const Chunk& chunk : buffers.chunks) {
-    draw_chunk<Shadows>(buffers, scene, chunk,
-                        {programs_, &buffers.page, &buffers.page_texture, &chunk.ao, 1});
+  for (const FeedbackChunk& chunk : placed.chunks) {
+    draw_chunk<Shadows>(placed, chunk, {programs_, &placed.shadows, &chunk.ao, 1});
     if (chunk.directional_ao.name())
-      draw_chunk<Colours>(
-          buffers, scene, chunk,
-          {lit_programs_, &buffers.colour_page, &buffers.colour_page_texture, &chunk.directional_ao, 3});
+      draw_chunk<Colours>(placed, chunk, {lit_programs_, &placed.colours, &chunk.directional_ao, 3});
     for (const std::uint32_t slot : chunk.slots)
-      if (slot != Chunk::empty) buffers.placements[slot].evaluated = true;
+      if (slot != FeedbackChunk::empty) placed.placements[slot].evaluated = true;
   }
   gl.Disable(GL_RASTERIZER_DISCARD);
 }
 
 template <class Kind>
-void FeedbackTier::draw_chunk(const SceneBuffers& buffers, const Scene& scene, const Chunk& chunk,
+void FeedbackTier::draw_chunk(const FeedbackScene& placed, const FeedbackChunk& chunk,
                               const Target& target) const {
   const Program& program = target.programs[chunk.model->influence_quads() - 1];
-  device_.gl.BindTexture(GL_TEXTURE_BUFFER, target.page_texture->name());
+  device_.gl.BindTexture(GL_TEXTURE_BUFFER, target.page->texture.name());
   device_.gl.UseProgram(program.object.name());
   device_.gl.Uniform1i(program.key_point_count, static_cast<GLint>(chunk.model->key_points()));
-  device_.gl.Uniform1i(program.self, (scene.terms & NOOK_TERM_SELF) != 0);
+  device_.gl.Uniform1i(program.self, (placed.scene->terms & NOOK_TERM_SELF) != 0);
   device_.gl.BindVertexArray(chunk.model->vertex_array.name());
   std::uint32_t first = 0, end;
-  while ((end = fill_page<Kind>(buffers, *target.page, scene, chunk, first)) > first) {
-    draw_page(buffers, chunk, first, end, program, target);
+  while ((end = fill_page<Kind>(placed, *target.page, chunk, first)) > first) {
+    draw_page(placed, chunk, first, end, program, target);
     first = end;
   }
 }
 
 // Neighbouring places are neighbours in the page as well, and one draw serves a whole run of them.
-void FeedbackTier::draw_page(const SceneBuffers& buffers, const Chunk& chunk, std::uint32_t first,
+void FeedbackTier::draw_page(const FeedbackScene& placed, const FeedbackChunk& chunk, std::uint32_t first,
                              std::uint32_t end, const Program& program, const Target& target) const {
   std::uint32_t drawn = 0;
   while (first < end) {
     std::uint32_t run_end = first;
-    while (run_end < end && wanted(buffers, chunk, run_end)) ++run_end;
+    while (run_end < end && placed.waits(chunk, run_end)) ++run_end;
     if (run_end > first) {
       device_.gl.Uniform1i(program.first_key_point, static_cast<GLint>(drawn * chunk.model->key_points()));
       draw(chunk, first, run_end, target);
@@ -166,7 +193,7 @@ void FeedbackTier::draw_page(const SceneBuffers& buffers, const Chunk& chunk, st
   }
 }
 
-void FeedbackTier::draw(const Chunk& chunk, std::uint32_t first, std::uint32_t end,
+void FeedbackTier::draw(const FeedbackChunk& chunk, std::uint32_t first, std::uint32_t end,
                         const Target& target) const {
   const Functions& gl = device_.gl;
   const std::uint32_t vertices = chunk.model->file_vertices();

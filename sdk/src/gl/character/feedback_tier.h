@@ -1,16 +1,22 @@
-// OpenGL 3.3: shadows at key points on the CPU; vertices by transform feedback on the GPU.
+// The tier of OpenGL 3.3: shadows at key points on the CPU; vertices by transform feedback on the GPU.
 #pragma once
 
-#include "sdk/src/gl/character/scene_buffers.h"
+#include "sdk/src/gl/character/feedback_scene.h"
+#include "sdk/src/gl/character/tier.h"
 
 namespace nook::gl {
 
-class FeedbackTier {
+class FeedbackTier final : public Tier {
  public:
   // Makes a framebuffer and a transform-feedback object too. Throws Failure.
   explicit FeedbackTier(Device& device);
 
-  void update(SceneBuffers& buffers, Scene& scene) const;
+  void prepare(const Scene& scene) override;
+  void update(Scene& scene) override;
+  VertexValues place(const Scene& scene, nook_instance_id instance) const override;
+  LightPlace light_place(const Scene& scene, nook_instance_id instance) const override;
+  void read(const VertexValues& values, float* out) const override;
+  void release(const Scene& scene) override;
 
  private:
   struct Program {
@@ -20,26 +26,27 @@ class FeedbackTier {
   // Where values of vertices come from and go to.
   struct Target {
     const Program* programs;  // for one and two quads of influences
-    Buffer* page;
-    const Object* page_texture;
+    Page* page;
     const Buffer* out;
     std::uint32_t channels;
   };
   Program make_program(int quads, bool lit);
-  // All wanted places of a chunk, as many as a page holds at a time.
+  void draw_scene(FeedbackScene& placed) const;
+  // All waiting places of a chunk, as many as a page holds at a time.
   template <class Kind>
-  void draw_chunk(const SceneBuffers& buffers, const Scene& scene, const Chunk& chunk,
-                  const Target& target) const;
-  // The wanted places of [first, end), whose shadows are in the page in this order.
-  void draw_page(const SceneBuffers& buffers, const Chunk& chunk, std::uint32_t first, std::uint32_t end,
-                 const Program& program, const Target& target) const;
+  void draw_chunk(const FeedbackScene& placed, const FeedbackChunk& chunk, const Target& target) const;
+  // The waiting places of [first, end), whose shadows are in the page in this order.
+  void draw_page(const FeedbackScene& placed, const FeedbackChunk& chunk, std::uint32_t first,
+                 std::uint32_t end, const Program& program, const Target& target) const;
   // Places [first, end) of a chunk, all evaluated in this update.
-  void draw(const Chunk& chunk, std::uint32_t first, std::uint32_t end, const Target& target) const;
+  void draw(const FeedbackChunk& chunk, std::uint32_t first, std::uint32_t end, const Target& target) const;
 
   Device& device_;
   Program programs_[2], lit_programs_[2];  // for one and two quads of influences
   Object framebuffer_, renderbuffer_;
   Object feedback_;  // name 0 before OpenGL 4.0
+  std::pmr::list<FeedbackModel> models_;
+  std::pmr::list<FeedbackScene> scenes_;  // destroyed before the models that their chunks use
 };
 
 }  // namespace nook::gl

@@ -14,13 +14,13 @@ namespace {
 using material::MaterialTables;
 using material::TensorTables;
 
-constexpr std::uint32_t guaranteed_layers = 256;  // by OpenGL 3.3
+constexpr std::uint32_t guaranteed_layers = 256;  // guaranteed by OpenGL 3.3
 
 std::size_t texture_count(const TensorTables& t, std::uint32_t max_layers) {
   return t.terms == 0 ? 0 : array_count(t, max_layers) + 1 + (t.clusters > 1);
 }
 
-// The textures' sides and layers against what this OpenGL has.
+// Checks the sizes and layers of the textures against the limits of this OpenGL.
 void check_limits(const Functions& gl, const MaterialTables& tables, std::uint32_t max_layers) {
   const auto side = std::uint32_t(integer(gl, GL_MAX_TEXTURE_SIZE));
   const auto layers = std::uint32_t(integer(gl, GL_MAX_ARRAY_TEXTURE_LAYERS));

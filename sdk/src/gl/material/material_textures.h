@@ -13,7 +13,7 @@ namespace nook::gl {
 
 class MaterialTextures {
  public:
-  // Samplers that OpenGL 3.3 guarantees a fragment shader.
+  // The number of samplers that OpenGL 3.3 guarantees in a fragment shader.
   static constexpr std::size_t max_textures = 16;
 
   struct Texture {
@@ -21,8 +21,8 @@ class MaterialTextures {
     char uniform[40] = "";
   };
 
-  // max_layers of one array: 0 for what this OpenGL has. Changes the state of the user `materials` in
-  // touched_state.h; the caller holds a StateGuard. Throws Failure.
+  // max_layers is the maximum for one array, 0 for the limit of this OpenGL. Changes the state of the user
+  // `materials` in touched_state.h; the caller holds a StateGuard. Throws Failure.
   MaterialTextures(Device& device, const material::MaterialTables& tables, std::uint32_t max_layers);
 
   const std::pmr::vector<Texture>& textures() const { return textures_; }

@@ -20,7 +20,7 @@ void add(Text& out, const char* format, ...) {
   out += line;
 }
 
-// name: "btf"; prefix: "NOOK_BTF".
+// name is "btf" and prefix "NOOK_BTF", or the same of the VOTF.
 void add_tensor(Text& out, const material::TensorTables& t, const char* name, const char* prefix,
                 std::uint32_t max_layers) {
   add(out, "#define %s_TERMS %u\n#define %s_VIEW_FOURS %u\n", prefix, t.terms, prefix, t.view_fours);

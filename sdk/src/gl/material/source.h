@@ -8,7 +8,7 @@
 
 namespace nook::gl {
 
-// max_layers: of one texture array.
+// max_layers is the maximum for one texture array.
 inline std::uint32_t array_count(const material::TensorTables& tables, std::uint32_t max_layers) {
   return (tables.layers() + max_layers - 1) / max_layers;
 }

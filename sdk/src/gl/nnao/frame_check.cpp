@@ -1,3 +1,5 @@
+#include "sdk/src/gl/nnao/frame_check.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -102,7 +104,8 @@ void check_projection(const nook_nnao_frame_desc& frame) {
                   "%g, [5] %g, [11] "
                   "%g, [15] %g; need [0] and [5] other than 0, and [11] below 0 or [15] above 0)",
                   double(m[0]), double(m[5]), double(m[11]), double(m[15]));
-  // Clip x from x and z, y from y and z, depth from z alone: no roll, no shear, no oblique clip plane.
+  // Clip x depends on x and z, clip y on y and z, and depth on z alone: there is no roll, no shear and no
+  // oblique clip plane.
   for (const int i : {1, 3, 4, 7, perspective ? 12 : 8, perspective ? 13 : 9, perspective ? 15 : 11})
     if (!zero(i))
       throw Failure(

@@ -7,10 +7,10 @@
 namespace nook::gl {
 namespace {
 
-// Depth = (x + y stored) / (z + w stored), and where the far plane lies.
+// Depth = (x + y stored) / (z + w stored), and the stored value of the far plane.
 struct DepthDecode {
   float x = 0, y = 1, z = 1, w = 0;
-  float far_stored = 1e30f;  // so far away is no surface
+  float far_stored = 1e30f;  // values from here on are no surface
   float far_sign = 1;
 };
 
@@ -18,7 +18,7 @@ bool perspective(const nook_nnao_frame_desc& frame) {
   return frame.projection[11] < 0;
 }
 
-// The matrix is known up to a factor; here clip w is -z or 1.
+// The matrix is defined up to a factor; here clip w is -z or 1.
 double factor(const nook_nnao_frame_desc& frame) {
   return 1.0 / (perspective(frame) ? -double(frame.projection[11]) : double(frame.projection[15]));
 }
@@ -57,7 +57,7 @@ nnao::ScreenRays rays_of(const nook_nnao_frame_desc& frame, const Viewport& view
   return nnao::screen_rays(projection, std::uint32_t(viewport.width), std::uint32_t(viewport.height));
 }
 
-// Texel i of the half-size surface lies on pixel 2 i: its centre i + 0.5 on 2 i + 0.5.
+// Texel i of the half-size surface is pixel 2 i: its centre i + 0.5 is at 2 i + 0.5.
 nnao::ScreenRays half_rays(nnao::ScreenRays rays) {
   rays.x_offset -= 0.5f * rays.x_scale;
   rays.y_offset -= 0.5f * rays.y_scale;
@@ -76,9 +76,8 @@ Viewport viewport_of(const nook_nnao_frame_desc& frame) {
 
 FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
   FrameConstants constants;
-  float* out = constants.values.data();
-  const auto add = [&](float x, float y, float z, float w) {
-    for (const float value : {x, y, z, w}) *out++ = value;
+  const auto set = [&](int row, float x, float y, float z, float w) {
+    std::ranges::copy(std::array{x, y, z, w}, &constants.values[std::size_t(4 * row)]);
   };
   const bool half = pass.half_resolution != 0;
   const Viewport viewport = viewport_of(frame);
@@ -87,17 +86,21 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
   const DepthDecode decode = depth_decode(frame);
   const float max_radius_px = frame.max_radius_px > 0 ? frame.max_radius_px : 0.25f * float(viewport.height);
   const float* n = frame.normal_matrix;
-  add(screen.x_scale, screen.x_offset, screen.y_scale, screen.y_offset);
-  add(surface.x_scale, surface.x_offset, surface.y_scale, surface.y_offset);
-  add(decode.x, decode.y, decode.z, decode.w);
-  add(decode.far_stored, decode.far_sign, perspective(frame) ? 0 : -1e30f, perspective(frame) ? 0 : 1);
-  add(frame.radius, std::max(half ? 0.5f * max_radius_px : max_radius_px, 1.0f), frame.intensity,
-      frame.power);
-  add(pass.blur_sharpness, frame.normal_scale, frame.normal_bias, frame.normal_texture != 0);
-  add(float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height));
-  add(float(surface_length(viewport.width, half)), float(surface_length(viewport.height, half)),
-      float(frame.layer), float(frame.view));
-  for (int column = 0; column < 3; ++column) add(n[3 * column], n[3 * column + 1], n[3 * column + 2], 0);
+  set(NOOK_FRAME_SCREEN_RAYS, screen.x_scale, screen.x_offset, screen.y_scale, screen.y_offset);
+  set(NOOK_FRAME_SURFACE_RAYS, surface.x_scale, surface.x_offset, surface.y_scale, surface.y_offset);
+  set(NOOK_FRAME_DEPTH_DECODE, decode.x, decode.y, decode.z, decode.w);
+  set(NOOK_FRAME_FAR, decode.far_stored, decode.far_sign, perspective(frame) ? 0 : -1e30f,
+      perspective(frame) ? 0 : 1);
+  set(NOOK_FRAME_RADIUS, frame.radius, std::max(half ? 0.5f * max_radius_px : max_radius_px, 1.0f),
+      frame.intensity, frame.power);
+  set(NOOK_FRAME_BLUR_AND_NORMAL, pass.blur_sharpness, frame.normal_scale, frame.normal_bias,
+      frame.normal_texture != 0);
+  set(NOOK_FRAME_VIEWPORT, float(viewport.x), float(viewport.y), float(viewport.width),
+      float(viewport.height));
+  set(NOOK_FRAME_SURFACE, float(surface_length(viewport.width, half)),
+      float(surface_length(viewport.height, half)), float(frame.layer), float(frame.view));
+  for (int column = 0; column < 3; ++column)
+    set(NOOK_FRAME_NORMAL_MATRIX + column, n[3 * column], n[3 * column + 1], n[3 * column + 2], 0);
   return constants;
 }
 

@@ -1,32 +1,31 @@
-// What the shaders of the screen-space pass need to know of a frame, from the host's description of it.
+// The uniforms of the screen-space pass that depend on the frame, from the host's descriptor.
 #pragma once
 
 #include <nook/nook_nnao.h>
 
 #include <array>
 
+#include "shaders/nnao/layout.h"
+
 namespace nook::gl {
 
-// x, y, width, height in pixels of the host's textures.
+// x, y, width and height in pixels of the host's textures.
 struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
 };
 Viewport viewport_of(const nook_nnao_frame_desc& frame);
 
-// The surface: the resolution at which AO is computed.
+// The length of the surface, which is the image at the resolution at which AO is computed.
 constexpr int surface_length(int length, bool half) {
   return half ? (length + 1) / 2 : length;
 }
 
 // The uniform array nook_frame of frame.glsl.
 struct FrameConstants {
-  std::array<float, 11 * 4> values{};
+  std::array<float, NOOK_FRAME_VEC4S * 4> values{};
 };
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT), naming the field, unless every number of the frame is in range
-// for a pass of this size. Knows nothing of OpenGL.
-void check_frame(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass);
-// Of a frame that was checked.
+// The frame must have passed check_frame.
 FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass);
 
 }  // namespace nook::gl

@@ -5,7 +5,7 @@
 namespace nook::gl {
 namespace {
 
-// After a bind that OpenGL refused: takes away the error it left. An error of the host's own goes to the log.
+// Clears the error of a bind that OpenGL refused. An earlier error of the host goes to the log.
 void clear_refusal(const Device& device) {
   for (int i = 0; i < 16; ++i) {
     const GLenum error = device.gl.GetError();
@@ -71,7 +71,7 @@ void check_depth(const Functions& gl, const HostImages& images) {
   } else if (!depth_format && !(red_float && red_bits >= 32)) {
     refuse_format(gl, "depth_texture", "a depth format or GL_R32F for NOOK_NNAO_DEPTH_HARDWARE");
   }
-  if (!depth_format || gl.version < 43) return;
+  if (!depth_format || !gl.can.stencil_textures) return;
   GLint mode = GL_DEPTH_COMPONENT;
   gl.GetTexParameteriv(GL_TEXTURE_2D, GL_DEPTH_STENCIL_TEXTURE_MODE, &mode);
   if (mode != GL_DEPTH_COMPONENT)
@@ -104,7 +104,7 @@ void check_complete(const Functions& gl, const HostImages& images) {
         images.target_name, status);
 }
 
-// An input that is the target, or a part of it.
+// Throws if an input is the target or a part of it.
 void check_apart(const HostImages& images, std::uint32_t target, const char* target_field) {
   const struct {
     std::uint32_t name;
@@ -146,7 +146,7 @@ void check_framebuffer(const Device& device, const HostImages& images) {
         "frame.target_name draws into nothing (its first draw buffer is GL_NONE); call glDrawBuffer");
   if (images.target_name == 0) return;
   check_apart(images, attached_texture(gl, static_cast<GLenum>(buffer)), "attached to frame.target_name");
-  // With its depth attached, the depth texture would be read while it is drawn into, which OpenGL leaves
+  // If its depth were attached, the depth texture would be read while it is drawn into, which OpenGL leaves
   // undefined.
   check_apart(images, attached_texture(gl, GL_DEPTH_ATTACHMENT), "attached to frame.target_name");
 }

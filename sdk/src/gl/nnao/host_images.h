@@ -1,4 +1,4 @@
-// The host's textures and target of a frame, checked before anything is drawn.
+// The host's textures and target of a frame, which are checked before anything is drawn.
 #pragma once
 
 #include <nook/nook_nnao.h>
@@ -7,7 +7,7 @@
 
 namespace nook::gl {
 
-// What was asked of OpenGL once and is taken for granted while it stays the same.
+// The names, kinds and sizes of a frame. OpenGL is queried about the images only when one of them changes.
 struct HostImages {
   int width = 0, height = 0;
   nook_nnao_depth_kind depth_kind = 0;
@@ -19,9 +19,9 @@ struct HostImages {
 };
 HostImages images_of(const nook_nnao_frame_desc& frame);
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless every image exists, has the size and a format that fits,
-// and no input is the target. own_texture: the pass's. Binds 2D textures to unit 0 and the draw framebuffer;
-// leaves no OpenGL error.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless every image exists and has a suitable size and format,
+// and no input is the target. own_texture is that of the pass. Binds 2D textures to unit 0 and the draw
+// framebuffer; leaves no OpenGL error.
 void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture);
 
 }  // namespace nook::gl

@@ -1,5 +1,9 @@
 #include "sdk/src/gl/nnao/network_constants.h"
 
+#include <cassert>
+
+#include "shaders/nnao/layout.h"
+
 namespace nook::gl {
 namespace {
 
@@ -10,7 +14,7 @@ void add(Floats& out, const std::array<float, count>& values) {
   out.insert(out.end(), values.begin(), values.end());
 }
 
-// Layers of one unit end with their three numbers and a zero, so that each begins at a vec4.
+// Layers of one unit end with their three numbers and a zero, so that each layer starts at a vec4.
 template <int inputs, int units>
 void add(Floats& out, const nnao::Dense<inputs, units>& layer) {
   add(out, layer.weights);
@@ -39,6 +43,8 @@ std::pmr::vector<float> network_constants(const nnao::Network& network, std::pmr
     add(out, paper.layer_2);
     add(out, paper.layer_3);
   }
+  assert(out.size() ==
+         4 * (network.form == nnao::NetworkForm::horizon ? NOOK_HORIZON_VEC4S : NOOK_PAPER_VEC4S));
   return out;
 }
 

@@ -1,4 +1,4 @@
-// A network as the shaders read it.
+// A network in the layout of the shaders.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace nook::gl {
 
-// The uniform array nook_network of horizon.glsl or paper.glsl, in multiples of four.
+// Returns the uniform array nook_network of horizon.glsl or paper.glsl; its length is a multiple of four.
 std::pmr::vector<float> network_constants(const nnao::Network& network, std::pmr::memory_resource* memory);
 
 }  // namespace nook::gl

@@ -2,22 +2,16 @@
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/state_guard.h"
+#include "shaders/nnao/layout.h"
 
 namespace nook::gl {
 namespace {
 
-// Texture units; make_stage tells the shaders.
-enum Unit : GLuint { unit_depth = 0, unit_surface = 1, unit_ao = 2, unit_layer = 3 };
-static_assert(unit_layer < texture_unit_count);
-
-constexpr int blur_reach = 3;  // texels
-constexpr int group_side = 8;  // threads, as occlusion.comp has them
-
 constexpr GLuint groups(int texels) {
-  return static_cast<GLuint>((texels + group_side - 1) / group_side);
+  return static_cast<GLuint>((texels + NOOK_OCCLUSION_GROUP_SIZE - 1) / NOOK_OCCLUSION_GROUP_SIZE);
 }
 
-// AO times what is there; alpha stays.
+// Multiplies the target by AO; alpha stays.
 constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE, GL_FUNC_ADD, GL_FUNC_ADD};
 
 }  // namespace
@@ -77,23 +71,23 @@ void NnaoPass::run_network(const FrameConstants& constants, const RenderTexture&
     return;
   }
   set_frame(occlusion_, constants);
-  // As occlusion.comp declares it; OpenGL 4.3 guarantees images of this format.
+  // occlusion.comp declares the image in this way. OpenGL 4.3 guarantees images of this format.
   gl.BindImageTexture(image_unit_index, into.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R8);
-  // Reading and drawing that is under way, the host's too, ends before the texture is written.
+  // Pending reads and draws, also of the host, end before the texture is written.
   gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   gl.DispatchCompute(groups(into_place.width), groups(into_place.height), 1);
-  // It is read by the next stage and, where it is the own texture, drawn into by the last.
+  // The next stage reads the texture. If it is the own texture, the last stage also draws into it.
   gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
 void NnaoPass::draw_blur(const FrameConstants& constants, const RenderTexture& from,
                          const Viewport& from_place, bool vertical, const RenderTexture& into) const {
   const Functions& gl = device_.gl;
-  bind_texture(unit_ao, from.texture());
+  bind_texture(NOOK_UNIT_AO, from.texture());
   gl.UseProgram(blur_.program.name());
   gl.Uniform2i(blur_.ao_origin, from_place.x, from_place.y);
   gl.Uniform2i(blur_.blur_axis, !vertical, vertical);
-  gl.Uniform1i(blur_.blur_reach, blur_reach);
+  gl.Uniform1i(blur_.blur_reach, NOOK_BLUR_REACH);
   draw(blur_, constants, into.framebuffer(), {0, 0, from_place.width, from_place.height});
 }
 
@@ -102,12 +96,12 @@ void NnaoPass::draw_resolve(const nook_nnao_frame_desc& frame, const FrameConsta
   const Functions& gl = device_.gl;
   const bool to_texture = frame.target == NOOK_NNAO_TARGET_TEXTURE;
   GLuint framebuffer = own_.framebuffer();
-  bind_texture(unit_depth, frame.depth_texture);
-  bind_texture(unit_ao, ao.texture());
-  bind_texture(unit_layer, frame.layer != NOOK_NNAO_LAYER_NONE ? frame.layer_texture : 0);
+  bind_texture(NOOK_UNIT_DEPTH, frame.depth_texture);
+  bind_texture(NOOK_UNIT_AO, ao.texture());
+  bind_texture(NOOK_UNIT_LAYER, frame.layer != NOOK_NNAO_LAYER_NONE ? frame.layer_texture : 0);
   gl.UseProgram(resolve_.program.name());
   gl.Uniform2i(resolve_.blur_axis, 0, 1);
-  gl.Uniform1i(resolve_.blur_reach, blurs(frame) ? blur_reach : 0);
+  gl.Uniform1i(resolve_.blur_reach, blurs(frame) ? NOOK_BLUR_REACH : 0);
   if (frame.target != NOOK_NNAO_TARGET_OWN) {
     framebuffer = to_texture ? target_framebuffer_.name() : frame.target_name;
     gl.Enable(GL_FRAMEBUFFER_SRGB);
@@ -118,7 +112,7 @@ void NnaoPass::draw_resolve(const nook_nnao_frame_desc& frame, const FrameConsta
     gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, frame.target_name, 0);
   }
   draw(resolve_, constants, framebuffer, viewport_of(frame));
-  // Kept attached, a texture that the host deletes would live on.
+  // If it stayed attached, a texture that the host deletes would live on.
   if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
 }
 
@@ -134,20 +128,20 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
   gl.BindVertexArray(vertex_array_.name());
   for (GLuint unit = 0; unit < texture_unit_count; ++unit) gl.BindSampler(unit, sampler_.name());
 
-  bind_texture(unit_ao, 0);
-  bind_texture(unit_layer, 0);
-  bind_texture(unit_depth, frame.depth_texture);
-  bind_texture(unit_surface, frame.normal_texture);
+  bind_texture(NOOK_UNIT_AO, 0);
+  bind_texture(NOOK_UNIT_LAYER, 0);
+  bind_texture(NOOK_UNIT_DEPTH, frame.depth_texture);
+  bind_texture(NOOK_UNIT_SURFACE, frame.normal_texture);
   draw(normals_, constants, surface_.framebuffer(), surface);
   end_stage();
 
-  bind_texture(unit_surface, surface_.texture());
+  bind_texture(NOOK_UNIT_SURFACE, surface_.texture());
   if (filter_texture_.name()) {
     gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
     gl.BindTexture(GL_TEXTURE_BUFFER, filter_texture_.name());
   }
-  // At full resolution the result takes the own texture's place last, so AO lies in the other one before. In
-  // the own texture nothing but the viewport may change.
+  // At full resolution the last stage writes the own texture, so that AO is in the other texture before. Only
+  // the viewport may change in the own texture.
   const RenderTexture& first = half() || !blurs(frame) ? ao_[0] : own_;
   const RenderTexture& second = half() ? ao_[1] : ao_[0];
   const Viewport& place = &first == &own_ ? viewport : surface;

@@ -1,6 +1,6 @@
-// The screen-space pass on the GPU: normals, the network, the blur, and what the host asked for.
+// The screen-space pass on the GPU: normals, the network, the blur, and the output.
 //
-// The AO stage, which is the network, is a draw or a dispatch; the others are draws.
+// The network's stage, AO, is a draw or a dispatch; the other stages are draws.
 //   full resolution  host depth -> normals -> AO -> blur along x -> blur along y and resolve
 //   half resolution  host depth -> depth and normals -> AO -> blur along x -> along y -> upsample and resolve
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace nook::gl {
 
-// Of all textures of a pass.
+// Returns the memory of all textures of a pass.
 std::uint64_t texture_bytes(const nook_nnao_desc& desc);
 
 // Every call may change any of the touched state; the caller holds a StateGuard.
@@ -26,11 +26,11 @@ class NnaoPass {
   // Throws Failure.
   NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network);
 
-  // A frame that check_frame let pass. Throws Failure before anything is drawn.
+  // Draws a frame that passed check_frame. Throws Failure before anything is drawn.
   void render(const nook_nnao_frame_desc& frame);
   void recheck() { checked_.reset(); }
 
-  // Of the network's stage: FRAGMENT or COMPUTE.
+  // Returns the path of the network's stage: FRAGMENT or COMPUTE.
   nook_nnao_path path() const { return path_; }
   GLuint ao_texture() const { return own_.texture(); }
   const std::optional<StageTimer>& timer() const { return timer_; }
@@ -52,7 +52,7 @@ class NnaoPass {
   void set_frame(const Stage& stage, const FrameConstants& constants) const;
   void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
             const Viewport& viewport) const;
-  // into_place: where the surface lies in the texture.
+  // into_place is the place of the surface in the texture.
   void run_network(const FrameConstants& constants, const RenderTexture& into,
                    const Viewport& into_place) const;
   void draw_blur(const FrameConstants& constants, const RenderTexture& from, const Viewport& from_place,
@@ -64,11 +64,11 @@ class NnaoPass {
   }
 
   Device& device_;
-  nook_nnao_desc desc_;  // network and next are gone
+  nook_nnao_desc desc_;  // without network and next
   nook_nnao_path path_;
   Stage normals_, occlusion_, blur_, resolve_;
   RenderTexture surface_;  // normals, and at half resolution depth
-  RenderTexture ao_[2];    // of the surface; at full resolution the second is not used, own_ takes its part
+  RenderTexture ao_[2];    // of the surface; at full resolution own_ replaces the second
   RenderTexture own_;
   Object sampler_, vertex_array_, target_framebuffer_;
   Buffer filters_;  // of the paper's form

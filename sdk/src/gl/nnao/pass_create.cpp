@@ -7,6 +7,7 @@
 #include "sdk/src/gl/program.h"
 #include "sdk/src/gl/state_guard.h"
 #include "sdk/src/nnao/taps.h"
+#include "shaders/nnao/layout.h"
 
 namespace nook::gl {
 namespace {
@@ -17,7 +18,7 @@ struct TexturePlan {
   const char* label;
 };
 
-// surface, AO, AO at half resolution, own.
+// The textures of a pass: surface, AO, AO at half resolution, own.
 struct PassPlan {
   TexturePlan textures[4];
 };
@@ -75,8 +76,12 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
   const struct {
     const char* name;
     GLint unit;
-  } samplers[] = {{"nook_depth", 0}, {"nook_surface", 1}, {"nook_host_normal", 1},
-                  {"nook_ao", 2},    {"nook_filters", 2}, {"nook_layer", 3}};
+  } samplers[] = {{"nook_depth", NOOK_UNIT_DEPTH},
+                  {"nook_surface", NOOK_UNIT_SURFACE},
+                  {"nook_host_normal", NOOK_UNIT_HOST_NORMAL},
+                  {"nook_ao", NOOK_UNIT_AO},
+                  {"nook_filters", NOOK_UNIT_FILTERS},
+                  {"nook_layer", NOOK_UNIT_LAYER}};
   // Where a stage has no such sampler the location is -1, which OpenGL ignores.
   for (const auto& sampler : samplers)
     gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
@@ -99,7 +104,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
                    : drawn("nnao/occlusion.frag");
   blur_ = drawn("nnao/blur.frag");
   resolve_ = drawn("nnao/resolve.frag");
-  // Both forms take their taps in as many groups of as many.
+  // Both forms have the same number of groups with the same number of taps.
   device_.gl.UseProgram(occlusion_.program.name());
   device_.gl.Uniform1i(uniform_location(device_, occlusion_.program, "nook_tap_groups"),
                        static_cast<GLint>(grid.directions));

@@ -1,4 +1,4 @@
-// Whether the network's stage is a draw or a dispatch.
+// The choice between a draw and a dispatch for the network.
 #pragma once
 
 #include <nook/nook_nnao.h>
@@ -7,8 +7,8 @@
 
 namespace nook::gl {
 
-// NOOK_NNAO_PATH_FRAGMENT or NOOK_NNAO_PATH_COMPUTE for what a description asks. Throws
-// Failure(NOOK_ERROR_UNSUPPORTED) where compute is asked for and cannot be had.
+// Returns NOOK_NNAO_PATH_FRAGMENT or NOOK_NNAO_PATH_COMPUTE for the path of a descriptor. Throws
+// Failure(NOOK_ERROR_UNSUPPORTED) if the path is compute and compute is not available.
 nook_nnao_path chosen_path(const Functions& gl, nook_nnao_path asked);
 
 }  // namespace nook::gl

@@ -36,7 +36,7 @@ RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, in
   const GLint filter = format == TextureFormat::ao ? GL_LINEAR : GL_NEAREST;
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D, texture_.name());
-  // Otherwise the null pointer would be an offset into the host's buffer.
+  // With a buffer bound, the null pointer would be an offset into the host's buffer.
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);

@@ -1,4 +1,4 @@
-// Textures that the screen-space pass draws into.
+// The textures that the screen-space pass draws into.
 #pragma once
 
 #include "sdk/src/gl/object.h"
@@ -12,11 +12,12 @@ enum class TextureFormat {
 };
 std::uint64_t bytes_per_texel(TextureFormat format);
 
-// A texture without mipmaps and a framebuffer that draws into it.
+// A texture without mipmaps, and a framebuffer that draws into it.
 class RenderTexture {
  public:
   RenderTexture() = default;
-  // Binds unit 0, the draw framebuffer and the pixel unpack buffer. Contents are undefined. Throws Failure.
+  // Binds unit 0, the draw framebuffer and the pixel unpack buffer. The contents are undefined. Throws
+  // Failure.
   RenderTexture(Device& device, TextureFormat format, int width, int height, const char* label);
 
   GLuint texture() const { return texture_.name(); }

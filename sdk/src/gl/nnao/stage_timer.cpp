@@ -10,7 +10,7 @@ StageTimer::StageTimer(Device& device) : device_(device) {
 }
 
 void StageTimer::mark(int stage) {
-  // Time stamps rather than spans: the host may be timing something of its own.
+  // Time stamps are used instead of elapsed-time queries, because the host may have one of these active.
   device_.gl.QueryCounter(marks_[frames_ % kept_frames][std::size_t(stage)].name(), GL_TIMESTAMP);
 }
 
@@ -27,7 +27,7 @@ void StageTimer::end_stage() {
 std::optional<StageTimer::Milliseconds> StageTimer::newest() const {
   const Functions& gl = device_.gl;
   // Otherwise the answers would go into the host's buffer.
-  if (gl.version >= 44) gl.BindBuffer(GL_QUERY_BUFFER, 0);
+  if (gl.can.query_buffers) gl.BindBuffer(GL_QUERY_BUFFER, 0);
   const std::uint64_t oldest = frames_ > kept_frames ? frames_ - kept_frames : 0;
   for (std::uint64_t frame = frames_; frame > oldest; --frame) {
     const auto& marks = marks_[frame % kept_frames];

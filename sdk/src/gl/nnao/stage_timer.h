@@ -1,4 +1,4 @@
-// GPU time of the stages of a frame, read back frames later and never waited for.
+// The GPU time of the stages of a frame. It is read several frames later, and no call waits for it.
 #pragma once
 
 #include <array>
@@ -15,11 +15,10 @@ class StageTimer {
 
   explicit StageTimer(Device& device);
 
-  // A frame begins, goes on through its stages and ends with the last of them.
+  // Starts a frame, which passes through its stages and ends with the last of them.
   void begin_frame();
   void end_stage();
-  // Of the newest frame that is finished; nothing before the first. Binds the query
-  // buffer.
+  // Returns the times of the newest finished frame, or nothing before the first. Binds the query buffer.
   std::optional<Milliseconds> newest() const;
 
  private:
@@ -28,7 +27,7 @@ class StageTimer {
 
   Device& device_;
   std::array<std::array<Object, stage_count + 1>, kept_frames> marks_;
-  std::uint64_t frames_ = 0;  // begun
+  std::uint64_t frames_ = 0;  // number of frames that began
   int stage_ = 0;
 };
 

@@ -9,8 +9,8 @@
 
 namespace nook::gl {
 
-// Four floats a texel: counts and number of lobes; origin; 1 / spacing; axis and sharpness of each lobe; then
-// the amplitudes of each probe, x fastest, then y, z.
+// The texels, four floats each: counts and number of lobes; origin; 1 / spacing; axis and sharpness of each
+// lobe; then the amplitudes of each probe, where x varies fastest, then y, then z.
 std::uint64_t probe_texel_count(const probe::Probes& probes);
 std::pmr::vector<float> probe_texels(const probe::Probes& probes, std::pmr::memory_resource* memory);
 

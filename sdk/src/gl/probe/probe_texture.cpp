@@ -25,7 +25,7 @@ void ProbeTexture::update(const probe::Probes& probes) {
         "texels, need at most %u); split the grid or use fewer lobes",
         probes.basis.count, probes.grid.size(), static_cast<unsigned long long>(count), device_.max_texels);
   const std::pmr::vector<float> texels = probe_texels(probes, device_.memory);
-  // A store of its own, so that the old texels stay until everything has succeeded.
+  // The new texels have a buffer of their own, so that the old ones stay until everything has succeeded.
   Buffer buffer(device_, "nook: probe", texels.size() * sizeof(float), texels.data(), GL_STATIC_DRAW);
   device_.gl.ActiveTexture(GL_TEXTURE0);
   device_.gl.BindTexture(GL_TEXTURE_BUFFER, texture_.name());

@@ -8,7 +8,8 @@ namespace nook::gl {
 
 class ProbeTexture {
  public:
-  // Binds GL_ARRAY_BUFFER, and GL_TEXTURE_BUFFER of unit 0. Throw Failure, and leave what was there.
+  // Binds GL_ARRAY_BUFFER, and GL_TEXTURE_BUFFER of unit 0. Both functions throw Failure and then leave the
+  // old texels.
   ProbeTexture(Device& device, const probe::Probes& probes);
   void update(const probe::Probes& probes);
 
@@ -21,7 +22,7 @@ class ProbeTexture {
   Object texture_;
 };
 
-// What hosts put into their shaders: shaders/probe/host.glsl with all that it includes.
+// Returns the text for the host's shaders: shaders/probe/host.glsl with everything that it includes.
 const char* probe_glsl();
 
 }  // namespace nook::gl

@@ -1,0 +1,136 @@
+#include "bakers/tool/distinct_files.h"
+
+#include <sys/stat.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/tool/tool_error.h"
+#include "platform/output_file.h"
+
+namespace nook::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Two paths name one file when these are equal: of a file that is there, device and inode; of one that is yet
+// to be made, those of its folder, and its name.
+struct Identity {
+  dev_t device = 0;
+  ino_t inode = 0;
+  std::string name;
+
+  bool operator==(const Identity&) const = default;
+};
+
+struct KnownFile {
+  std::string option;
+  fs::path path;
+  Identity identity;
+  bool is_character_device;
+};
+
+std::optional<KnownFile> identify(const NamedFile& file) {
+  if (file.path.empty()) return std::nullopt;
+  struct stat there;
+  if (stat(file.path.c_str(), &there) == 0)
+    return KnownFile{file.option, file.path, {there.st_dev, there.st_ino, ""}, S_ISCHR(there.st_mode)};
+  const fs::path target = platform::followed(file.path);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (stat(folder.c_str(), &there) != 0) return std::nullopt;  // nothing can be written there
+  return KnownFile{file.option, file.path, {there.st_dev, there.st_ino, target.filename().string()}, false};
+}
+
+// A percent sign and two hexadecimal digits stand for a byte.
+std::string decode_uri(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const bool escaped = uri[i] == '%' && i + 2 < uri.size() &&
+                         std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
+                         std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
+    text += escaped ? char(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
+    if (escaped) i += 2;
+  }
+  return text;
+}
+
+// The files that a .gltf refers to. What is wrong with it the import says.
+std::vector<NamedFile> referred_files(const NamedFile& gltf) {
+  std::vector<NamedFile> files;
+  std::error_code error;
+  if (gltf.path.extension() != ".gltf" || !fs::is_regular_file(gltf.path, error)) return files;
+  std::ifstream stream(gltf.path, std::ios::binary);
+  const auto document = nlohmann::json::parse(stream, nullptr, false);
+  if (!document.is_object()) return files;
+  for (const char* kind : {"buffers", "images"}) {
+    const auto list = document.find(kind);
+    if (list == document.end() || !list->is_array()) continue;
+    for (const auto& entry : *list)
+      if (entry.is_object() && entry.contains("uri") && entry["uri"].is_string()) {
+        const std::string uri = entry["uri"];
+        if (!uri.starts_with("data:"))
+          files.push_back({"a file of " + gltf.option, gltf.path.parent_path() / decode_uri(uri)});
+      }
+  }
+  return files;
+}
+
+std::vector<NamedFile> files_in(const NamedFile& folder) {
+  std::vector<NamedFile> files;
+  std::error_code error;
+  if (!fs::is_directory(folder.path, error)) return files;
+  for (fs::directory_iterator entry(folder.path, error), end; !error && entry != end; entry.increment(error))
+    files.push_back({"a file of " + folder.option, entry->path()});
+  return files;
+}
+
+std::vector<KnownFile> identify_all(const std::vector<NamedFile>& files) {
+  std::vector<KnownFile> known;
+  for (const NamedFile& file : files)
+    if (auto one = identify(file)) known.push_back(std::move(*one));
+  return known;
+}
+
+[[noreturn]] void refuse(const KnownFile& output, const KnownFile& other) {
+  std::string text =
+      output.option + " and " + other.option + " name the same file (got " + output.path.string();
+  if (output.path != other.path) text += " and " + other.path.string();
+  throw ToolError(exit_bad_arguments, text + "); choose another place for " + output.option);
+}
+
+// A file in the folder of pictures could be replaced by one of them, whatever their names will be.
+void require_not_among_pictures(const KnownFile& file, const fs::path& images) {
+  const fs::path extension = file.path.extension();
+  if (extension != ".png" && extension != ".svg") return;
+  std::error_code error;
+  const fs::path target = platform::followed(file.path);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (fs::equivalent(folder, images, error))
+    throw ToolError(exit_bad_arguments, file.option +
+                                            " lies in the folder of --images, where a picture could replace "
+                                            "it (got " +
+                                            file.path.string() + "); choose another folder for --images");
+}
+
+}  // namespace
+
+void require_distinct_files(const CommandFiles& files) {
+  std::vector<NamedFile> read = files.inputs;
+  for (const NamedFile& input : files.inputs)
+    for (const std::vector<NamedFile>& more : {referred_files(input), files_in(input)})
+      read.insert(read.end(), more.begin(), more.end());
+  const std::vector<KnownFile> inputs = identify_all(read), outputs = identify_all(files.outputs);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (const KnownFile& input : inputs)
+      if (outputs[i].identity == input.identity && !input.is_character_device) refuse(outputs[i], input);
+    for (std::size_t j = 0; j < i; ++j)
+      if (outputs[i].identity == outputs[j].identity && !outputs[i].is_character_device)
+        refuse(outputs[i], outputs[j]);
+  }
+  if (files.images.empty()) return;
+  for (const std::vector<KnownFile>* known : {&inputs, &outputs})
+    for (const KnownFile& file : *known) require_not_among_pictures(file, files.images);
+}
+
+}  // namespace nook::tool

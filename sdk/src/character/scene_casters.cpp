@@ -1,0 +1,158 @@
+// Who darkens whom in this update: explicit links, the k nearest, free occluders and the ground, less what
+// the cut-off lets go; and which instances are due at which level of detail.
+#include <algorithm>
+#include <cmath>
+
+#include "sdk/src/character/scene.h"
+
+namespace nook {
+namespace {
+
+// The most that spheres of total sum(weight * radius^2) = strength can darken any vertex whose key points are
+// at least `gap` from their centres: a form factor is at most (radius / distance)^2, and 1 - exp(-x) <= x.
+float composed_bound(const LoadedModel& receiver, float strength, float gap) {
+  return gap > 0 ? receiver.linear.max_blend_gain() * strength / (gap * gap) : INFINITY;
+}
+
+// No term of the paper's form exceeds this at `delta` radii: solid angle of slide 18 or the fall-off of the
+// others, with full visibility.
+float term_bound(KernelForm form, float delta) {
+  switch (form) {
+    case KernelForm::paper:
+      return 0.75f / (1 + 4 * (delta - 1));
+    case KernelForm::rational:
+      return 1.5f / (1 + 2 * delta * delta);
+    case KernelForm::nook:
+      break;
+  }
+  return 1 / (delta * delta);
+}
+
+// One sphere adds at most its term to the norm of a shadow, which an AO takes max_alpha_sum times.
+float paper_bound(const LoadedModel& receiver, float radius, float gap) {
+  return gap > radius ? receiver.max_alpha_sum * term_bound(receiver.model.kernel.form, gap / radius)
+                      : INFINITY;
+}
+
+const std::pmr::vector<ProxySphere>& spheres_at(const CharacterModel& model, std::uint32_t level) {
+  const std::size_t l = std::min<std::size_t>(level, model.levels.size());
+  return l == 0 ? model.spheres : model.levels[l - 1].spheres;
+}
+
+// All spheres of a caster: by Minkowski's inequality the norm grows by at most the norm of the new terms.
+float paper_bound(const LoadedModel& receiver, std::uint32_t receiver_level, const Instance& caster,
+                  float gap) {
+  const Kernel& kernel = receiver.model.kernel;
+  float sum = 0;
+  for (const ProxySphere& sphere : spheres_at(caster.model->model, receiver_level)) {
+    const float radius = sphere.radius * caster.scale;
+    if (!(gap > radius)) return INFINITY;
+    sum += std::pow(term_bound(kernel.form, gap / radius), kernel.gamma);
+  }
+  return receiver.max_alpha_sum * std::pow(sum, 1 / kernel.gamma);
+}
+
+bool matters(const Scene& scene, const Instance& receiver, const Instance& caster) {
+  if (scene.settings.cutoff_error <= 0) return true;
+  const float gap =
+      length(caster.bound.centre - receiver.bound.centre) - caster.bound.radius - receiver.bound.radius;
+  const float bound =
+      scene.settings.combine == NOOK_COMBINE_COMPOSED
+          ? composed_bound(*receiver.model, caster.model->caster_strength * caster.scale * caster.scale, gap)
+          : paper_bound(*receiver.model, receiver.level, caster, gap);
+  return !(bound < scene.settings.cutoff_error);
+}
+
+bool matters(const Scene& scene, const Instance& receiver, const Sphere& sphere) {
+  if (scene.settings.cutoff_error <= 0) return true;
+  const float gap = length(sphere.centre - receiver.bound.centre) - receiver.bound.radius;
+  const float bound = scene.settings.combine == NOOK_COMBINE_COMPOSED
+                          ? composed_bound(*receiver.model, sphere.radius * sphere.radius, gap)
+                          : paper_bound(*receiver.model, sphere.radius, gap);
+  return !(bound < scene.settings.cutoff_error);
+}
+
+void gather_casters(const Scene& scene, std::uint32_t slot, Instance& receiver) {
+  receiver.casters.clear();
+  if (!(scene.terms & NOOK_TERM_LINKS)) return;
+  const auto offer = [&](std::uint32_t caster) {
+    if (matters(scene, receiver, scene.instances[caster]))
+      receiver.casters.push_back(caster);
+    else
+      ++receiver.culled;
+  };
+  for (const std::uint32_t caster : receiver.linked) offer(caster);
+  std::array<Neighbour, max_nearest> found;
+  const std::uint32_t count = find_nearest(scene.neighbours, slot, receiver.bound.centre, scene.nearest,
+                                           scene.nearest_max_distance, found);
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (!std::ranges::binary_search(receiver.linked, found[i].slot)) offer(found[i].slot);
+  // Sums in the order of slots do not depend on how the casters were found.
+  std::ranges::sort(receiver.casters);
+}
+
+void gather_occluders(const Scene& scene, Instance& receiver) {
+  receiver.occluders.clear();
+  if (!(scene.terms & NOOK_TERM_OCCLUDERS)) return;
+  for (std::uint32_t i = 0; i < scene.occluders.size(); ++i) {
+    if (scene.occluders[i].id == 0) continue;
+    if (matters(scene, receiver, scene.occluders[i].sphere))
+      receiver.occluders.push_back(i);
+    else
+      ++receiver.culled;
+  }
+}
+
+// Tangent to the plane at the foot of the bound's centre, on the other side of the plane than its normal.
+void place_ground(const Scene& scene, Instance& receiver) {
+  receiver.ground_sphere = {};
+  if (!receiver.has_ground || !(scene.terms & NOOK_TERM_GROUND)) return;
+  const Plane& plane = receiver.ground;
+  const float height = dot(plane.normal, receiver.bound.centre) - plane.offset;
+  const Sphere ground{receiver.bound.centre - plane.normal * (height + scene.settings.ground_radius),
+                      scene.settings.ground_radius};
+  if (matters(scene, receiver, ground))
+    receiver.ground_sphere = ground;
+  else
+    ++receiver.culled;
+}
+
+// Distant instances take turns, each at least every lod_max_interval frames, and use the coarsest level whose
+// error their distance allows.
+void choose_detail(const Scene& scene, std::uint32_t slot, bool has_result, Instance& instance) {
+  instance.level = 0;
+  instance.due = true;
+  if (!scene.has_camera) return;
+  const SceneSettings& settings = scene.settings;
+  const float distance = length(instance.bound.centre - scene.camera) / settings.lod_distance;
+  const auto& levels = instance.model->model.levels;
+  for (std::uint32_t level = 0; level < levels.size(); ++level)
+    if (levels[level].error_rms < settings.lod_error * distance) instance.level = level + 1;
+  const float most = static_cast<float>(settings.lod_max_interval);
+  const auto interval = static_cast<std::uint32_t>(std::min(std::max(distance, 1.0f), most));
+  instance.due = !has_result || (scene.frame + slot) % interval == 0;
+}
+
+}  // namespace
+
+void resolve_casters(Scene& scene, HasResult has_result) noexcept {
+  if (scene.nearest > 0) {
+    clear_tree(scene.neighbours);
+    for (std::uint32_t slot = 0; slot < scene.instances.size(); ++slot)
+      if (scene.instances[slot].id) add_to_tree(scene.neighbours, slot, scene.instances[slot].bound.centre);
+    build_tree(scene.neighbours);
+  }
+  auto resolve = [&](std::uint32_t slot) noexcept {
+    Instance& instance = scene.instances[slot];
+    if (instance.id == 0) return;
+    choose_detail(scene, slot, has_result(slot), instance);
+    if (!instance.due) return;
+    instance.culled = 0;
+    gather_casters(scene, slot, instance);
+    gather_occluders(scene, instance);
+    place_ground(scene, instance);
+  };
+  parallel_for(scene.parallel, static_cast<std::uint32_t>(scene.instances.size()), resolve);
+}
+
+}  // namespace nook

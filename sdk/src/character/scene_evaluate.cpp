@@ -1,0 +1,165 @@
+// The steps of an update on the CPU, each a few calls of the kernels in use.
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "sdk/src/character/instance_views.h"
+#include "sdk/src/character/scene.h"
+
+namespace nook {
+namespace {
+
+// Leaves what casters add in optical_depth, which then is no depth any more.
+void evaluate_composed(const Scene& scene, const Instance& instance, const PointLanes& points) {
+  const KeyPointSoa surface = surface_points(points);
+  std::fill_n(points.optical_depth, points.padded_count, 0.0f);
+  std::fill_n(points.open, points.padded_count, 1.0f);
+  for (const std::uint32_t caster : instance.casters)
+    scene.kernels->composed_depth(spheres_of(scene.instances[caster], instance.level), surface,
+                                  points.optical_depth);
+  for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
+    scene.kernels->exact_open(spheres, surface, points.open);
+  });
+  scene.kernels->composed_occlusion(points.optical_depth, points.open, points.padded_count,
+                                    points.optical_depth);
+}
+
+void join_paper_norm(const Scene& scene, const Instance& instance, const PointLanes& points) {
+  const Kernel& kernel = instance.model->model.kernel;
+  for (const std::uint32_t caster : instance.casters)
+    scene.kernels->self_norm_sum(spheres_of(scene.instances[caster], instance.level), fitted_points(points),
+                                 kernel, points.norm_sum);
+  for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
+    scene.kernels->self_norm_sum(spheres, fitted_points(points), kernel, points.norm_sum);
+  });
+  std::fill_n(points.optical_depth, points.padded_count, 0.0f);
+}
+
+std::uint64_t count_evaluations(const Scene& scene, const Instance& instance, std::uint32_t points) {
+  std::uint64_t spheres = (scene.terms & NOOK_TERM_SELF ? spheres_of(instance, instance.level).count : 0) +
+                          instance.occluders.size() + (instance.ground_sphere.radius > 0);
+  for (const std::uint32_t caster : instance.casters)
+    spheres += spheres_of(scene.instances[caster], instance.level).count;
+  return spheres * points;
+}
+
+// From the evaluated key points to all of them. Scale and offset belong to self-shadow.
+void spread_level(const CharacterLevel& level, bool with_self, const PointLanes& points) {
+  for (std::uint32_t k = 0; k < points.count; ++k) {
+    const std::uint16_t source = level.source[k];
+    points.shadow[k] = with_self ? std::max(level.scale[k] * points.norm_sum[source] + level.offset[k], 0.0f)
+                                 : points.norm_sum[source];
+    points.added[k] = points.optical_depth[source];
+  }
+}
+
+}  // namespace
+
+void transform_spheres(const Scene& scene, Instance& instance) noexcept {
+  if (instance.transformed_revision == instance.pose_revision) return;
+  const auto transform = [&](const RestSpheres& rest, const SphereLanes& s) {
+    scene.kernels->pose_spheres(rest.view(), instance.bones.data(), {}, {s.x, s.y, s.z, s.inverse_radius});
+  };
+  transform(instance.model->rest_spheres, instance.arrays.spheres);
+  for (std::size_t l = 0; l < instance.model->levels.size(); ++l)
+    transform(instance.model->levels[l].rest_spheres, instance.arrays.coarse_spheres[l]);
+  instance.transformed_revision = instance.pose_revision;
+}
+
+void transform_key_points(const Scene& scene, Instance& instance) noexcept {
+  const PointLanes& p = instance.arrays.points;
+  const KeyPointTarget fitted{p.x, p.y, p.z, p.nx, p.ny, p.nz};
+  const KeyPointTarget surface{p.surface_x,  p.surface_y,  p.surface_z,
+                               p.surface_nx, p.surface_ny, p.surface_nz};
+  const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  scene.kernels->pose_key_points(rest_points_of(instance).view(), instance.bones.data(), {}, fitted,
+                                 composed ? &surface : nullptr);
+}
+
+void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
+  const PointLanes points = evaluated_points(instance);
+  const Kernel& kernel = instance.model->model.kernel;
+  std::fill_n(points.norm_sum, points.padded_count, 0.0f);
+  if (scene.terms & NOOK_TERM_SELF)
+    scene.kernels->self_norm_sum(spheres_of(instance, instance.level), fitted_points(points), kernel,
+                                 points.norm_sum);
+  if (scene.settings.combine == NOOK_COMBINE_COMPOSED)
+    evaluate_composed(scene, instance, points);
+  else
+    join_paper_norm(scene, instance, points);
+  if (instance.level == 0) {
+    scene.kernels->norm_root(points.norm_sum, points.padded_count, kernel.gamma, points.shadow);
+    std::copy_n(points.optical_depth, points.padded_count, points.added);
+  } else {
+    scene.kernels->norm_root(points.norm_sum, points.padded_count, kernel.gamma, points.norm_sum);
+    spread_level(instance.model->model.levels[instance.level - 1], scene.terms & NOOK_TERM_SELF,
+                 instance.arrays.points);
+  }
+  instance.evaluations = count_evaluations(scene, instance, points.count);
+  instance.evaluated_frame = scene.frame;
+}
+
+void update(Scene& scene) noexcept {
+  ++scene.frame;
+  resolve_casters(scene, [&](std::uint32_t slot) { return scene.instances[slot].evaluated_frame > 0; });
+  const auto slots = static_cast<std::uint32_t>(scene.instances.size());
+  auto transform = [&](std::uint32_t slot) noexcept {
+    Instance& instance = scene.instances[slot];
+    if (instance.id == 0) return;
+    transform_spheres(scene, instance);
+    if (instance.due) transform_key_points(scene, instance);
+  };
+  parallel_for(scene.parallel, slots, transform);
+  auto evaluate = [&](std::uint32_t slot) noexcept {
+    Instance& instance = scene.instances[slot];
+    if (instance.id == 0 || !instance.due) return;
+    evaluate_shadows(scene, instance);
+    evaluate_directional(scene, instance);
+  };
+  parallel_for(scene.parallel, slots, evaluate);
+
+  scene.stats = {};
+  scene.stats.instances = scene.living;
+  for (const Instance& instance : scene.instances) {
+    if (instance.id == 0 || !instance.due) continue;
+    ++scene.stats.instances_updated;
+    scene.stats.links += static_cast<std::uint32_t>(instance.casters.size());
+    scene.stats.links_culled += instance.culled;
+    scene.stats.evaluations += instance.evaluations;
+  }
+}
+
+void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept {
+  read_ao(scene, instance, instance.arrays.points.shadow, instance.arrays.points.added, out, stride_bytes);
+}
+
+void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
+             float* out, std::size_t stride_bytes) noexcept {
+  const LoadedModel& loaded = *instance.model;
+  LinearView view = loaded.linear.view();
+  if (!(scene.terms & NOOK_TERM_SELF)) view.open_bias = loaded.open_without_bias.data();
+  if (scene.settings.combine != NOOK_COMBINE_COMPOSED) added = nullptr;
+
+  constexpr std::uint32_t chunk_blocks = 16;
+  alignas(64) std::array<float, chunk_blocks * linear_block_vertices> ao;
+  auto* const bytes = reinterpret_cast<unsigned char*>(out);
+  if (instance.evaluated_frame == 0) {
+    const float open = 1;
+    for (std::size_t i = 0; i < loaded.model.file_to_welded.size(); ++i)
+      std::memcpy(bytes + i * stride_bytes, &open, sizeof open);
+    return;
+  }
+  for (std::uint32_t block = 0; block < view.block_count; block += chunk_blocks) {
+    const std::uint32_t first_slot = block * linear_block_vertices;
+    const LinearView chunk{view.blocks + block, std::min(chunk_blocks, view.block_count - block),
+                           view.key_point,      view.alpha,
+                           view.blend,          view.open_bias + first_slot};
+    scene.kernels->linear_layer(chunk, shadow, added, ao.data());
+    const std::uint32_t end = first_slot + chunk.block_count * linear_block_vertices;
+    for (std::uint32_t slot = first_slot; slot < end; ++slot)
+      for (std::uint32_t i = loaded.slot_begin[slot]; i < loaded.slot_begin[slot + 1]; ++i)
+        std::memcpy(bytes + loaded.slot_file_vertex[i] * stride_bytes, &ao[slot - first_slot], sizeof(float));
+  }
+}
+
+}  // namespace nook

@@ -1,0 +1,114 @@
+#include "sdk/src/gl/character/compute_model.h"
+
+#include <bit>
+#include <cstring>
+
+#include "shaders/character/layout.h"
+
+namespace nook::gl {
+namespace {
+
+using Words = std::pmr::vector<std::uint32_t>;
+using Floats = std::pmr::vector<float>;
+
+void append(Floats& out, Vec3 v, float w) {
+  out.insert(out.end(), {v.x, v.y, v.z, w});
+}
+
+void append_spheres(Floats& out, const std::pmr::vector<ProxySphere>& spheres) {
+  for (const ProxySphere& sphere : spheres) {
+    append(out, sphere.centre, sphere.radius);
+    append(out, {static_cast<float>(sphere.bone), sphere.caster_weight, 0}, 0);
+  }
+}
+
+// The levels in a row, as spheres.comp reads them.
+Floats pack_spheres(const CharacterModel& model, std::pmr::memory_resource* memory) {
+  Floats out(memory);
+  append_spheres(out, model.spheres);
+  for (const CharacterLevel& level : model.levels) append_spheres(out, level.spheres);
+  return out;
+}
+
+void append_key_point(Floats& out, const KeyPoint& point) {
+  for (const Vec3 v : {point.position, point.normal, point.surface_position, point.surface_normal})
+    append(out, v, 0);
+  for (const std::uint16_t bone : point.bone) out.push_back(bone);
+  for (const float weight : point.weight) out.push_back(weight);
+}
+
+// The levels in a row, as shadows.comp reads them.
+Floats pack_key_points(const CharacterModel& model, std::pmr::memory_resource* memory) {
+  Floats out(memory);
+  for (const KeyPoint& point : model.key_points) append_key_point(out, point);
+  for (const CharacterLevel& level : model.levels)
+    for (const std::uint16_t k : level.evaluated) append_key_point(out, model.key_points[k]);
+  return out;
+}
+
+// The coarser levels in a row, as spread.comp reads them.
+Words pack_spread(const CharacterModel& model, std::pmr::memory_resource* memory) {
+  Words out(memory);
+  for (const CharacterLevel& level : model.levels)
+    for (std::size_t k = 0; k < model.key_points.size(); ++k)
+      out.insert(out.end(), {level.source[k], std::bit_cast<std::uint32_t>(level.scale[k]),
+                             std::bit_cast<std::uint32_t>(level.offset[k])});
+  return out;
+}
+
+std::array<LevelRange, CharacterModel::max_levels + 1> ranges_of(const CharacterModel& model) {
+  std::array<LevelRange, CharacterModel::max_levels + 1> ranges{};
+  ranges[0] = {0, static_cast<std::uint32_t>(model.spheres.size()), 0,
+               static_cast<std::uint32_t>(model.key_points.size())};
+  for (std::size_t l = 0; l < model.levels.size(); ++l)
+    ranges[l + 1] = {ranges[l].first_sphere + ranges[l].spheres,
+                     static_cast<std::uint32_t>(model.levels[l].spheres.size()),
+                     ranges[l].first_key_point + ranges[l].key_points,
+                     static_cast<std::uint32_t>(model.levels[l].evaluated.size())};
+  return ranges;
+}
+
+// As vertices.comp reads it.
+Words pack_linear(const ComputeModel& sizes, std::pmr::memory_resource* memory) {
+  const CharacterModel& model = sizes.model->model;
+  const std::size_t vertices = sizes.vertices(), pairs = sizes.influence_pairs();
+  Words out(sizes.file_vertices() + vertices * (1 + 5 * pairs), 0, memory);
+  std::memcpy(out.data(), model.file_to_welded.data(), sizes.file_vertices() * sizeof(std::uint32_t));
+  std::uint32_t* const per_vertex = out.data() + sizes.file_vertices();
+  for (std::size_t v = 0; v < vertices; ++v) {
+    per_vertex[v] = std::bit_cast<std::uint32_t>(model.bias[v]);
+    for (std::size_t e = 0; e < model.influences; ++e) {
+      const std::size_t entry = v * model.influences + e;
+      per_vertex[(1 + e / 2) * vertices + v] |= std::uint32_t{model.influence[entry]} << (16 * (e % 2));
+      per_vertex[(1 + pairs + e) * vertices + v] = std::bit_cast<std::uint32_t>(model.alpha[entry]);
+      per_vertex[(1 + 3 * pairs + e) * vertices + v] = std::bit_cast<std::uint32_t>(model.blend[entry]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::uint32_t ComputeModel::shadows() const {
+  std::uint32_t max = 0;
+  for (std::uint32_t l = 1; l < level_count(); ++l) max = std::max(max, levels[l].key_points);
+  return key_points() + max;
+}
+
+std::uint64_t ComputeModel::largest_share() const {
+  return std::max({std::uint64_t{file_vertices()} * 3 * sizeof(float),
+                   std::uint64_t{shadows()} * NOOK_COLOUR_VEC4S * 4 * sizeof(float),
+                   std::uint64_t{bones()} * sizeof(Mat3x4)});
+}
+
+ComputeModel::ComputeModel(Device& device, Ref<const LoadedModel> loaded)
+    : ModelData(std::move(loaded)), levels(ranges_of(model->model)) {
+  std::pmr::memory_resource* const memory = device.memory;
+  const CharacterModel& m = model->model;
+  spheres_rest = static_buffer(device, "nook: rest spheres", pack_spheres(m, memory));
+  key_points_rest = static_buffer(device, "nook: rest key points", pack_key_points(m, memory));
+  linear = static_buffer(device, "nook: linear layer", pack_linear(*this, memory));
+  if (level_count() > 1) spread = static_buffer(device, "nook: levels", pack_spread(m, memory));
+}
+
+}  // namespace nook::gl

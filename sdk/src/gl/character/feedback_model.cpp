@@ -1,0 +1,63 @@
+#include "sdk/src/gl/character/feedback_model.h"
+
+#include <cstring>
+
+#include "shaders/character/layout.h"
+
+namespace nook::gl {
+namespace {
+
+// A vertex's attributes lie together: bias, then for each four influences the key points as 16-bit numbers,
+// the alphas and the blend weights.
+constexpr std::size_t alpha_offset = 4 * sizeof(std::uint16_t);
+constexpr std::size_t blend_offset = alpha_offset + 4 * sizeof(float);
+constexpr std::size_t quad_bytes = blend_offset + 4 * sizeof(float);
+
+std::pmr::vector<std::byte> pack_attributes(const FeedbackModel& sizes, std::pmr::memory_resource* memory) {
+  const CharacterModel& model = sizes.model->model;
+  const std::size_t stride = sizeof(float) + sizes.influence_quads() * quad_bytes;
+  std::pmr::vector<std::byte> out(sizes.vertices() * stride, std::byte{0}, memory);
+  for (std::size_t v = 0; v < sizes.vertices(); ++v) {
+    std::byte* const vertex = out.data() + v * stride;
+    std::memcpy(vertex, &model.bias[v], sizeof(float));
+    for (std::size_t e = 0; e < model.influences; ++e) {
+      const std::size_t entry = v * model.influences + e;
+      std::byte* const quad = vertex + sizeof(float) + e / 4 * quad_bytes;
+      std::memcpy(quad + e % 4 * sizeof(std::uint16_t), &model.influence[entry], sizeof(std::uint16_t));
+      std::memcpy(quad + alpha_offset + e % 4 * sizeof(float), &model.alpha[entry], sizeof(float));
+      std::memcpy(quad + blend_offset + e % 4 * sizeof(float), &model.blend[entry], sizeof(float));
+    }
+  }
+  return out;
+}
+
+void point_attributes(const Device& device, std::uint32_t quads) {
+  const Functions& gl = device.gl;
+  const auto stride = static_cast<GLsizei>(sizeof(float) + quads * quad_bytes);
+  const auto at = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
+  gl.EnableVertexAttribArray(NOOK_ATTRIBUTE_BIAS);
+  gl.VertexAttribPointer(NOOK_ATTRIBUTE_BIAS, 1, GL_FLOAT, GL_FALSE, stride, at(0));
+  for (GLuint q = 0; q < quads; ++q) {
+    const std::size_t quad = sizeof(float) + q * quad_bytes;
+    const GLuint first = NOOK_ATTRIBUTE_FIRST_QUAD + NOOK_ATTRIBUTES_PER_QUAD * q;
+    for (GLuint slot = first; slot < first + NOOK_ATTRIBUTES_PER_QUAD; ++slot)
+      gl.EnableVertexAttribArray(slot);
+    gl.VertexAttribIPointer(first, 4, GL_UNSIGNED_SHORT, stride, at(quad));
+    gl.VertexAttribPointer(first + 1, 4, GL_FLOAT, GL_FALSE, stride, at(quad + alpha_offset));
+    gl.VertexAttribPointer(first + 2, 4, GL_FLOAT, GL_FALSE, stride, at(quad + blend_offset));
+  }
+}
+
+}  // namespace
+
+FeedbackModel::FeedbackModel(Device& device, Ref<const LoadedModel> loaded) : ModelData(std::move(loaded)) {
+  vertex_array = Object::make(device, Object::Kind::vertex_array);
+  device.gl.BindVertexArray(vertex_array.name());
+  attributes = static_buffer(device, "nook: linear layer", pack_attributes(*this, device.memory));
+  point_attributes(device, influence_quads());
+  indices = static_buffer(device, "nook: file order", model->model.file_to_welded);
+  device.gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
+  device.check("describing a model's vertices");
+}
+
+}  // namespace nook::gl

@@ -1,0 +1,69 @@
+#include "sdk/src/gl/character/placed_scene.h"
+
+namespace nook::gl {
+namespace {
+
+// What OpenGL guarantees for one dimension of a dispatch.
+constexpr std::uint64_t max_groups = 65535;
+
+// AO that is open until the first update.
+Buffer open_buffer(Device& device, const char* label, std::uint64_t floats) {
+  const std::uint64_t bytes = floats * sizeof(float);
+  Buffer buffer(device, label, bytes, nullptr, GL_DYNAMIC_COPY, BufferUse::ao);
+  buffer.write(bytes, [&](void* memory) { std::fill_n(static_cast<float*>(memory), floats, 1.0f); });
+  return buffer;
+}
+
+}  // namespace
+
+ChunkData::ChunkData(Device& device, ModelData& model, std::uint32_t instance_capacity)
+    : data(model),
+      capacity(instance_capacity),
+      slots(instance_capacity, empty, device.memory),
+      ao(open_buffer(device, "nook: AO", std::uint64_t{capacity} * model.file_vertices())) {
+  ++data.users;
+}
+
+void ChunkData::make_directional_ao(Device& device) {
+  directional_ao =
+      open_buffer(device, "nook: directional AO", std::uint64_t{capacity} * data.file_vertices() * 3);
+}
+
+bool ChunkData::has_light(const Scene& scene) const {
+  return std::ranges::any_of(slots, [&](std::uint32_t slot) {
+    return slot != empty && scene.instances[slot].light.lobes.size() > 0;
+  });
+}
+
+std::uint32_t max_in_chunk(const Device& device, std::uint64_t share) {
+  const std::uint64_t max = std::min(device.max_piece_bytes / share, max_groups);
+  if (max == 0)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "one instance needs %llu bytes in one buffer, this OpenGL allows %llu; use a smaller model",
+                  static_cast<unsigned long long>(share),
+                  static_cast<unsigned long long>(device.max_piece_bytes));
+  return static_cast<std::uint32_t>(max);
+}
+
+void read_buffer(const Device& device, const VertexValues& values, float* out) {
+  device.report_host_errors();
+  device.gl.BindBuffer(GL_ARRAY_BUFFER, values.buffer);
+  device.gl.GetBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(values.offset),
+                             static_cast<GLsizeiptr>(values.bytes()), out);
+  device.check(values.channels == 1 ? "reading AO" : "reading directional AO");
+}
+
+void fail_without_place(nook_instance_id instance) {
+  throw Failure(NOOK_ERROR_INVALID_HANDLE,
+                "instance %u has no AO buffer yet; call nook_gl_scene_prepare or nook_gl_scene_update",
+                instance);
+}
+
+void fail_without_light(nook_instance_id instance) {
+  throw Failure(NOOK_ERROR_INVALID_HANDLE,
+                "the last update saw no light of instance %u; call nook_scene_set_light, then "
+                "nook_gl_scene_update",
+                instance);
+}
+
+}  // namespace nook::gl

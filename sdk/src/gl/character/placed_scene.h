@@ -1,0 +1,191 @@
+// Where the instances of a scene live on the GPU: instances of one model side by side in chunks, whose
+// buffers stay below what OpenGL guarantees. The same for every tier, but for what its chunks hold.
+#pragma once
+
+#include <algorithm>
+#include <list>
+#include <memory_resource>
+#include <vector>
+
+#include "sdk/src/character/scene.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/character/light_texture.h"
+#include "sdk/src/gl/character/model_data.h"
+#include "sdk/src/gl/character/tier.h"
+
+namespace nook::gl {
+
+// What every tier's chunk has: the instances that live there, and what they leave for the host. A tier's own
+// Chunk derives from it, has a member `Model* model`, and is made from (device, model, capacity).
+struct ChunkData {
+  // Open everywhere. Throws Failure.
+  ChunkData(Device& device, ModelData& model, std::uint32_t instance_capacity);
+  ChunkData(const ChunkData&) = delete;
+  ChunkData& operator=(const ChunkData&) = delete;
+  ~ChunkData() { --data.users; }
+
+  // Throws Failure.
+  void make_directional_ao(Device& device);
+  bool has_light(const Scene& scene) const;
+
+  static constexpr std::uint32_t empty = UINT32_MAX;
+
+  ModelData& data;
+  std::uint32_t capacity;
+  std::pmr::vector<std::uint32_t> slots;  // of each place: the scene's slot that lives there, or `empty`
+  std::uint32_t living = 0;
+  std::uint32_t first_free = 0;  // no place before it is empty
+  Buffer ao;                     // capacity * file vertices
+  Buffer directional_ao;         // capacity * file vertices * 3; none before the first light
+};
+
+// The instances that fit in one chunk, whose largest share of a buffer is `share` bytes each. Throws Failure
+// if that is none.
+std::uint32_t max_in_chunk(const Device& device, std::uint64_t share);
+
+// Where an instance of the scene lives; indexed by the scene's slot.
+template <class Chunk>
+struct Placement {
+  nook_instance_id id = 0;
+  Chunk* chunk = nullptr;
+  std::uint32_t place = 0;
+  bool evaluated = false;  // the AO in the chunk is of some update
+  bool lit = false;        // the last update saw a light
+};
+
+// Waits for the GPU. Throws Failure.
+void read_buffer(const Device& device, const VertexValues& values, float* out);
+
+[[noreturn]] void fail_without_place(nook_instance_id instance);
+[[noreturn]] void fail_without_light(nook_instance_id instance);
+
+template <class ChunkType>
+class PlacedScene {
+ public:
+  using Chunk = ChunkType;
+  using Model = typename Chunk::Model;
+
+  PlacedScene(const Scene& of, std::pmr::memory_resource* memory)
+      : scene(&of), chunks(memory), placements(memory), lights(memory) {}
+
+  // The structure of the scene has changed since the places were given.
+  bool outdated() const { return !prepared_ || structure_revision_ != scene->structure_revision; }
+
+  // Gives every instance a place; instances that had one keep it. Throws Failure.
+  void place_all(Device& device, std::pmr::list<Model>& models) {
+    prepared_ = false;
+    vacate_removed();
+    placements.resize(scene->instances.size());
+    lights.resize(scene->instances.size());
+    for (std::uint32_t slot = 0; slot < scene->instances.size(); ++slot)
+      if (scene->instances[slot].id && !placements[slot].id) place_new(device, models, slot);
+    drop_unused(models);
+  }
+  // The rest of the preparation is done as well.
+  void finish() {
+    structure_revision_ = scene->structure_revision;
+    prepared_ = true;
+  }
+
+  // Before it is decided who is due: an instance that got a light since the last update is.
+  void notice_lights() noexcept {
+    for (std::size_t slot = 0; slot < placements.size(); ++slot) {
+      const bool lit = scene->instances[slot].light.count > 0;
+      if (lit && !placements[slot].lit) placements[slot].evaluated = false;
+      placements[slot].lit = lit;
+    }
+  }
+
+  VertexValues place(nook_instance_id instance) const {
+    const Placement<Chunk>* placement = find(instance);
+    if (!placement) fail_without_place(instance);
+    return values(placement->chunk->ao, *placement, 1);
+  }
+  LightPlace light_place(nook_instance_id instance) const {
+    const Placement<Chunk>* placement = find(instance);
+    // Without `lit` the texel is that of an instance that lived in the slot before.
+    const std::uint32_t texel =
+        placement && placement->lit ? lights.first_texel(slot_of(*placement)) : LightTexture::no_light;
+    if (texel == LightTexture::no_light) fail_without_light(instance);
+    return {values(placement->chunk->directional_ao, *placement, 3), lights.texture(), texel};
+  }
+
+  const Scene* scene;
+  std::pmr::list<Chunk> chunks;
+  std::pmr::vector<Placement<Chunk>> placements;
+  LightTexture lights;
+
+ private:
+  const Placement<Chunk>* find(nook_instance_id instance) const {
+    const auto slot = static_cast<std::size_t>(&instance_of(*scene, instance) - scene->instances.data());
+    return slot < placements.size() && placements[slot].id == instance ? &placements[slot] : nullptr;
+  }
+  std::size_t slot_of(const Placement<Chunk>& placement) const {
+    return static_cast<std::size_t>(&placement - placements.data());
+  }
+  static VertexValues values(const Buffer& buffer, const Placement<Chunk>& placement,
+                             std::uint32_t channels) {
+    VertexValues values{buffer.name(), 0, placement.chunk->model->file_vertices(), channels};
+    values.offset = placement.place * values.bytes();
+    return values;
+  }
+
+  void vacate_removed() {
+    for (std::size_t slot = 0; slot < placements.size(); ++slot) {
+      const bool same = slot < scene->instances.size() && scene->instances[slot].id == placements[slot].id;
+      if (placements[slot].id && !same) vacate(placements[slot]);
+    }
+  }
+  void vacate(Placement<Chunk>& placement) {
+    Chunk& chunk = *placement.chunk;
+    chunk.slots[placement.place] = Chunk::empty;
+    chunk.first_free = std::min(chunk.first_free, placement.place);
+    --chunk.living;
+    placement = {};
+    if (chunk.living == 0) chunks.remove_if([&](const Chunk& c) { return &c == &chunk; });
+  }
+
+  void place_new(Device& device, std::pmr::list<Model>& models, std::uint32_t slot) {
+    Chunk& chunk = chunk_with_room(device, models, scene->instances[slot].model);
+    while (chunk.slots[chunk.first_free] != Chunk::empty) ++chunk.first_free;
+    placements[slot] = {scene->instances[slot].id, &chunk, chunk.first_free++};
+    chunk.slots[placements[slot].place] = slot;
+    ++chunk.living;
+  }
+  // A chunk of the model with room, or a new one for all instances of the model that still wait, with room to
+  // grow by half once there are others.
+  Chunk& chunk_with_room(Device& device, std::pmr::list<Model>& models, const Ref<const LoadedModel>& model) {
+    std::uint32_t living = 0, waiting = 0;
+    for (Chunk& chunk : chunks) {
+      if (chunk.model->model.get() != model.get()) continue;
+      if (chunk.living < chunk.capacity) return chunk;
+      living += chunk.living;
+    }
+    for (std::size_t slot = 0; slot < scene->instances.size(); ++slot)
+      waiting += scene->instances[slot].id && !placements[slot].id &&
+                 scene->instances[slot].model.get() == model.get();
+    Model& shared = model_data(device, models, model);
+    const std::uint32_t wanted = std::max(waiting, living / 2);
+    return chunks.emplace_back(device, shared,
+                               std::min(wanted, max_in_chunk(device, shared.largest_share())));
+  }
+
+  std::uint64_t structure_revision_ = 0;  // of the scene that the placements show
+  bool prepared_ = false;
+};
+
+// The tier's data of a scene; none yet: NULL.
+template <class Placed>
+Placed* placed_scene(std::pmr::list<Placed>& scenes, const Scene& scene) {
+  for (Placed& known : scenes)
+    if (known.scene == &scene) return &known;
+  return nullptr;
+}
+template <class Placed>
+const Placed* placed_scene(const std::pmr::list<Placed>& scenes, const Scene& scene) {
+  for (const Placed& known : scenes)
+    if (known.scene == &scene) return &known;
+  return nullptr;
+}
+
+}  // namespace nook::gl

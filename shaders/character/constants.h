@@ -1,0 +1,42 @@
+// Constants of the formulas that sdk/src/character (kernel.h, directional.h, directional_bands.h) and these shaders compute
+// alike; those headers say what they mean. C++ and GLSL both include this file.
+#ifndef NOOK_CHARACTER_CONSTANTS_H
+#define NOOK_CHARACTER_CONSTANTS_H
+
+// Forms of a model's kernel.
+#define NOOK_KERNEL_PAPER 0
+#define NOOK_KERNEL_NOOK 1
+#define NOOK_KERNEL_RATIONAL 2
+
+#define NOOK_MIN_SPHERE_RADIUS 1e-6  // metres; the smallest that counts
+#define NOOK_KERNEL_CORE 0.6
+
+// form_factor_fast: the polynomial P(b, t).
+#define NOOK_FORM_FACTOR_0 4.60908
+#define NOOK_FORM_FACTOR_1 -5.21348
+#define NOOK_FORM_FACTOR_2 -3.22202
+#define NOOK_FORM_FACTOR_3 2.22202
+
+#define NOOK_DIRECTIONAL_COSINE 2.133
+#define NOOK_CASTER_CONCENTRATION 2.0
+#define NOOK_SELF_CONCENTRATION 1.0
+#define NOOK_SELF_STRENGTH 0.75
+#define NOOK_SMALLEST_SHARE 1e-4
+#define NOOK_LARGEST_RATIO 8.0
+#define NOOK_NO_SHARPEST 1e6
+
+// share_below: the width of the lobe's profile, and Abramowitz & Stegun 7.1.27.
+#define NOOK_BELOW_WIDTH 5.09
+#define NOOK_BELOW_1 0.278393
+#define NOOK_BELOW_2 0.230389
+#define NOOK_BELOW_3 0.000972
+#define NOOK_BELOW_4 0.078108
+
+// lobe_norm: the series of (e^(2 v) - 1) / v.
+#define NOOK_LOBE_NORM_0 2.0
+#define NOOK_LOBE_NORM_1 2.0
+#define NOOK_LOBE_NORM_2 1.3333333
+#define NOOK_LOBE_NORM_3 0.66666667
+#define NOOK_LOBE_NORM_4 0.26666667
+
+#endif

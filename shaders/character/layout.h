@@ -1,0 +1,74 @@
+// Numbers that the passes over characters and the C++ that runs them share: where buffers are bound, where uniforms lie and
+// how arrays are laid out. C++ and GLSL both include this file.
+#ifndef NOOK_CHARACTER_LAYOUT_H
+#define NOOK_CHARACTER_LAYOUT_H
+
+// Bindings of shader storage blocks. Those of passes over lights stand in for blocks that these do not use.
+#define NOOK_BINDING_RECORDS 0
+#define NOOK_BINDING_BONES 1
+#define NOOK_BINDING_CASTERS 2
+#define NOOK_BINDING_SPHERES 3
+#define NOOK_BINDING_WEIGHTS 4
+#define NOOK_BINDING_SHADOWS 5
+#define NOOK_BINDING_MODEL 6
+#define NOOK_BINDING_AO 7
+#define NOOK_BINDING_COLOURS 5
+#define NOOK_BINDING_LIGHTS 7
+#define NOOK_BINDING_VERTEX_COLOURS 3
+
+// Threads of a group. Passes over key points stage as many spheres at a time in shared memory.
+#define NOOK_GROUP_SIZE 64
+#define NOOK_VERTEX_GROUP_SIZE 128
+
+// Locations of uniforms: of spheres.comp,
+#define NOOK_LOCATION_SPHERES_COUNT 0
+// of the passes over key points (shadows.comp, colours.comp),
+#define NOOK_LOCATION_FIRST_RECORD 0
+#define NOOK_LOCATION_FIRST_SPHERE 1
+#define NOOK_LOCATION_SPHERE_COUNT 2
+#define NOOK_LOCATION_FIRST_KEY_POINT 3
+#define NOOK_LOCATION_KEY_POINT_COUNT 4
+#define NOOK_LOCATION_GAMMA 5
+#define NOOK_LOCATION_SELF 6
+#define NOOK_LOCATION_COMPOSED 7
+#define NOOK_LOCATION_SHADOW_STRIDE 8
+#define NOOK_LOCATION_SHADOW_OFFSET 9
+// of those that spread a level's key points (spread.comp, colours_spread.comp),
+#define NOOK_LOCATION_SPREAD_FIRST_RECORD 0
+#define NOOK_LOCATION_SPREAD_KEY_POINT_COUNT 1
+#define NOOK_LOCATION_SPREAD_SHADOW_STRIDE 2
+#define NOOK_LOCATION_SPREAD_SELF 3
+#define NOOK_LOCATION_SPREAD_LEVEL 4
+// and of vertices.comp.
+#define NOOK_LOCATION_FILE_VERTEX_COUNT 0
+#define NOOK_LOCATION_VERTEX_COUNT 1
+#define NOOK_LOCATION_INFLUENCE_PAIRS 2
+#define NOOK_LOCATION_VERTEX_SHADOW_STRIDE 3
+#define NOOK_LOCATION_VERTEX_SELF 4
+
+// Attributes of vertices.vert: a bias, then for each quad of influences its key points, alphas and blend weights.
+#define NOOK_ATTRIBUTE_BIAS 0
+#define NOOK_ATTRIBUTE_FIRST_QUAD 1
+#define NOOK_ATTRIBUTES_PER_QUAD 3
+
+// Elements of the arrays in storage buffers.
+#define NOOK_RECORD_UVEC4S 2      // of an instance
+#define NOOK_BONE_ROWS 3          // of a 3x4 matrix
+#define NOOK_REST_SPHERE_VEC4S 2  // centre, radius; bone, caster weight
+#define NOOK_KEY_POINT_VEC4S 6    // position, normal, surface position, surface normal, bones, weights
+#define NOOK_CASTER_UVEC4S 2      // its origin minus the receiver's, first sphere; number of spheres
+#define NOOK_SPREAD_WORDS 3       // evaluated key point, scale, offset
+#define NOOK_COLOUR_VEC4S 2       // colour that multiplies the shadow; added occlusion
+
+// Texels of an instance's light: number of lobes and the ground's normal; the darkest mean radiance and 1 with a ground; ten of
+// the light's bands; then two for each lobe: axis and sharpness, amplitude and the share that the ground leaves.
+#define NOOK_LIGHT_HEAD 0
+#define NOOK_LIGHT_DARKEST 1
+#define NOOK_LIGHT_SCALAR 2
+#define NOOK_LIGHT_VECTOR 3
+#define NOOK_LIGHT_STRAIGHT 6
+#define NOOK_LIGHT_MIXED 9
+#define NOOK_LIGHT_LOBES 12
+#define NOOK_LIGHT_LOBE_TEXELS 2
+
+#endif

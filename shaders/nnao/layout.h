@@ -1,0 +1,60 @@
+// Numbers that the stages of the screen-space pass and the C++ that runs them share: texture units, the constants of a frame,
+// the arrays that hold a network. C++ and GLSL both include this file.
+#ifndef NOOK_NNAO_LAYOUT_H
+#define NOOK_NNAO_LAYOUT_H
+
+// Texture units. A stage never reads both textures of a shared unit.
+#define NOOK_UNIT_DEPTH 0
+#define NOOK_UNIT_SURFACE 1
+#define NOOK_UNIT_HOST_NORMAL 1
+#define NOOK_UNIT_AO 2
+#define NOOK_UNIT_FILTERS 2
+#define NOOK_UNIT_LAYER 3
+#define NOOK_UNIT_COUNT 4
+// Image unit, and the threads of a group along x and y, where the network runs as a compute shader.
+#define NOOK_IMAGE_UNIT 0
+#define NOOK_OCCLUSION_GROUP_SIZE 8
+
+// vec4 of the uniform array nook_frame.
+#define NOOK_FRAME_SCREEN_RAYS 0
+#define NOOK_FRAME_SURFACE_RAYS 1
+#define NOOK_FRAME_DEPTH_DECODE 2
+#define NOOK_FRAME_FAR 3
+#define NOOK_FRAME_RADIUS 4
+#define NOOK_FRAME_BLUR_AND_NORMAL 5
+#define NOOK_FRAME_VIEWPORT 6
+#define NOOK_FRAME_SURFACE 7
+#define NOOK_FRAME_NORMAL_MATRIX 8
+#define NOOK_FRAME_VEC4S 11
+
+// Texels that the blur reaches to either side.
+#define NOOK_BLUR_REACH 3
+
+// The paper's grid of taps: so many cells along a side.
+#define NOOK_GRID_SIZE 31
+
+// A network of the horizon form: units of a layer, and inputs of each layer. Eight units are two vec4.
+#define NOOK_HORIZON_UNITS 8
+#define NOOK_HORIZON_UNIT_VEC4S 2
+#define NOOK_HORIZON_TAP_INPUTS 5
+#define NOOK_HORIZON_DIRECTION_INPUTS (2 * NOOK_HORIZON_UNITS + 2)
+#define NOOK_HORIZON_JOIN_INPUTS (NOOK_HORIZON_UNITS + 2)
+// vec4 of nook_network: a layer is a row of units for each input, then bias, negative and positive slopes.
+#define NOOK_HORIZON_LAYER_VEC4S(inputs) (((inputs) + 3) * NOOK_HORIZON_UNIT_VEC4S)
+#define NOOK_HORIZON_TAP 0
+#define NOOK_HORIZON_DIRECTION NOOK_HORIZON_LAYER_VEC4S(NOOK_HORIZON_TAP_INPUTS)
+#define NOOK_HORIZON_JOIN (NOOK_HORIZON_DIRECTION + NOOK_HORIZON_LAYER_VEC4S(NOOK_HORIZON_DIRECTION_INPUTS))
+#define NOOK_HORIZON_OUT (NOOK_HORIZON_JOIN + NOOK_HORIZON_LAYER_VEC4S(NOOK_HORIZON_JOIN_INPUTS))
+// The last layer has one unit: its weights, then bias and slopes in one vec4.
+#define NOOK_HORIZON_VEC4S (NOOK_HORIZON_OUT + NOOK_HORIZON_UNIT_VEC4S + 1)
+
+// A network of the paper's form, four units a layer: bias and slopes of the filters, two layers of four inputs, one of one unit.
+#define NOOK_PAPER_UNITS 4
+#define NOOK_PAPER_FILTERS 0
+#define NOOK_PAPER_LAYER_VEC4S (NOOK_PAPER_UNITS + 3)
+#define NOOK_PAPER_LAYER_1 3
+#define NOOK_PAPER_LAYER_2 (NOOK_PAPER_LAYER_1 + NOOK_PAPER_LAYER_VEC4S)
+#define NOOK_PAPER_LAYER_3 (NOOK_PAPER_LAYER_2 + NOOK_PAPER_LAYER_VEC4S)
+#define NOOK_PAPER_VEC4S (NOOK_PAPER_LAYER_3 + 2)
+
+#endif

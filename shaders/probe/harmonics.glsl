@@ -1,0 +1,59 @@
+#ifndef NOOK_PROBE_HARMONICS
+#define NOOK_PROBE_HARMONICS
+// Light as real spherical harmonics, orthonormal, without the Condon-Shortley phase, as nook_probe_lobes_to_harmonics and fits
+// of NOOK_PROBE_HARMONICS write them: 1, then y, z, x, then xy, yz, 3zz - 1, xz, xx - yy. Directions are unit vectors.
+
+// Bands 0 to 2, nine coefficients. NookHarmonics has the layout of 9 vec4 in std140 and std430.
+struct NookHarmonics {
+  vec3 coefficient[9];
+};
+
+// Bands 0 and 1, and the part of band 2 that is symmetric round the axis of band 1's luminance (T. Roughton, P.-P. Sloan,
+// A. Silvennoinen, M. Iwanicki, P. Shirley, ZH3: Quadratic Zonal Harmonics, 2024): 15 floats in place of 27.
+struct NookZonalHarmonics {
+  vec3 coefficient[4];
+  vec3 zonal;
+};
+
+// Sums with one factor for each band: 1 for radiance, the clamped cosine's for irradiance.
+vec3 nook_probe_linear_harmonics(vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 s, vec2 factor) {
+  return factor.x * 0.28209479 * c0 + factor.y * 0.48860251 * (s.y * c1 + s.z * c2 + s.x * c3);
+}
+
+vec3 nook_probe_harmonics_sum(NookHarmonics light, vec3 s, vec3 factor) {
+  vec3 sum = nook_probe_linear_harmonics(light.coefficient[0], light.coefficient[1], light.coefficient[2],
+                                         light.coefficient[3], s, factor.xy);
+  vec3 band2 = 1.09254843 * (s.x * s.y * light.coefficient[4] + s.y * s.z * light.coefficient[5] +
+                             s.x * s.z * light.coefficient[7]) +
+               0.31539157 * (3.0 * s.z * s.z - 1.0) * light.coefficient[6] +
+               0.54627422 * (s.x * s.x - s.y * s.y) * light.coefficient[8];
+  return sum + factor.z * band2;
+}
+
+vec3 nook_probe_zonal_harmonics_sum(NookZonalHarmonics light, vec3 s, vec3 factor) {
+  vec3 sum = nook_probe_linear_harmonics(light.coefficient[0], light.coefficient[1], light.coefficient[2],
+                                         light.coefficient[3], s, factor.xy);
+  const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
+  vec3 axis = vec3(dot(light.coefficient[3], luminance), dot(light.coefficient[1], luminance),
+                   dot(light.coefficient[2], luminance));
+  float size = length(axis);
+  float cosine = size > 0.0 ? dot(axis, s) / size : s.z;
+  return sum + factor.z * 0.31539157 * (3.0 * cosine * cosine - 1.0) * light.zonal;
+}
+
+// Radiance from a direction.
+vec3 nook_probe_harmonics_radiance(NookHarmonics light, vec3 s) {
+  return nook_probe_harmonics_sum(light, s, vec3(1.0));
+}
+vec3 nook_probe_zonal_harmonics_radiance(NookZonalHarmonics light, vec3 s) {
+  return nook_probe_zonal_harmonics_sum(light, s, vec3(1.0));
+}
+
+// Irradiance on a surface, exact for these bands; opposite a sun they ring below 0, which is cut off.
+vec3 nook_probe_harmonics_irradiance(NookHarmonics light, vec3 n) {
+  return max(nook_probe_harmonics_sum(light, n, vec3(3.14159265, 2.09439510, 0.78539816)), 0.0);
+}
+vec3 nook_probe_zonal_harmonics_irradiance(NookZonalHarmonics light, vec3 n) {
+  return max(nook_probe_zonal_harmonics_sum(light, n, vec3(3.14159265, 2.09439510, 0.78539816)), 0.0);
+}
+#endif
