@@ -202,7 +202,7 @@ void Fit::fit_samples(const Sample* samples, std::uint32_t count) {
     }
   }
   step(samples, values.data(), count);
-  if (!bands_.empty()) sum_bands(samples, values.data(), count);
+  if (bands_.size() > 0) sum_bands(samples, values.data(), count);
 }
 
 // Harmonic by harmonic: the light's moment, and for forms with a Gram matrix of their samples the sum of its

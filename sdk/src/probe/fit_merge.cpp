@@ -21,7 +21,7 @@ void Fit::seed(Fit& short_run) {
     for (std::size_t c = 0; c < 3; ++c) sums_[c * padded_ + i] = rgb[c];
   }
   prior_weight_ = short_run.counts_.weight;
-  if (!bands_.empty()) seed_bands(start.data());
+  if (bands_.size() > 0) seed_bands(start.data());
   settle();
 }
 

@@ -33,7 +33,7 @@ void Fit::read(std::span<Vec3> coefficients) {
         b[3 * i + c] = sums_[c * padded_ + i] + double(running_.change[c][i]);
     if (settings_.method == FitMethod::running_average_non_negative)
       make_non_negative(b.data());
-    else if (!bands_.empty())
+    else if (bands_.size() > 0)
       meet_bands(light_bands(), factor_.data(), basis_.count, band_weight(), b.data());
   } else if (counts_.weight > 0) {
     if (settings_.method == FitMethod::naive || settings_.method == FitMethod::moments)
@@ -55,7 +55,7 @@ void Fit::solve_moments(double* b) {
     }
     if (settings_.method == FitMethod::moments) cholesky_solve(factor_.data(), n, b + c, 3);
   }
-  if (!bands_.empty()) meet_bands(light_bands(), factor_.data(), n, band_weight(), b);
+  if (bands_.size() > 0) meet_bands(light_bands(), factor_.data(), n, band_weight(), b);
 }
 
 void Fit::solve_samples(double* b) {
@@ -72,16 +72,16 @@ void Fit::solve_samples(double* b) {
       for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = sums_[c * padded_ + i];
     cholesky(gram, n, 0);
     for (std::size_t c = 0; c < 3; ++c) cholesky_solve(gram, n, b + c, 3);
-    if (!bands_.empty()) meet_bands(light_bands(), gram, n, band_weight() * scale, b);
+    if (bands_.size() > 0) meet_bands(light_bands(), gram, n, band_weight() * scale, b);
     return;
   }
   double* const x = rest + std::size_t(n) * n + 2 * n;
   double* const target = x + n;
-  const LightBands bands = bands_.empty() ? LightBands{} : light_bands();
-  if (!bands_.empty()) add_bands(bands, n, band_weight() * scale, gram);
+  const LightBands bands = bands_.size() == 0 ? LightBands{} : light_bands();
+  if (bands_.size() > 0) add_bands(bands, n, band_weight() * scale, gram);
   for (std::size_t c = 0; c < 3; ++c) {
     std::copy_n(sums_.data() + c * padded_, n, target);
-    if (!bands_.empty()) add_bands(bands, n, band_weight() * scale, c, target);
+    if (bands_.size() > 0) add_bands(bands, n, band_weight() * scale, c, target);
     non_negative_solve(gram, target, n, x, rest);
     for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = x[i];
   }
@@ -94,20 +94,20 @@ void Fit::make_non_negative(double* b) {
   const std::uint32_t n = basis_.count;
   bool negative = false;
   for (std::size_t i = 0; i < 3 * std::size_t(n); ++i) negative |= b[i] < 0;
-  if (!negative && bands_.empty()) return;
+  if (!negative && bands_.size() == 0) return;
   double* const gram = scratch_.data();
   double* const target = gram + std::size_t(n) * n;
   double* const x = target + n;
   double* const rest = x + n;
-  const LightBands bands = bands_.empty() ? LightBands{} : light_bands();
+  const LightBands bands = bands_.size() == 0 ? LightBands{} : light_bands();
   std::ranges::copy(gram_, gram);
-  if (!bands_.empty()) add_bands(bands, n, band_weight(), gram);
+  if (bands_.size() > 0) add_bands(bands, n, band_weight(), gram);
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t i = 0; i < n; ++i) {
       target[i] = 0;
       for (std::size_t k = 0; k < n; ++k) target[i] += gram_[i * n + k] * b[3 * k + c];
     }
-    if (!bands_.empty()) add_bands(bands, n, band_weight(), c, target);
+    if (bands_.size() > 0) add_bands(bands, n, band_weight(), c, target);
     non_negative_solve(gram, target, n, x, rest);
     for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = x[i];
   }
