@@ -40,7 +40,7 @@ class LightTexture {
 // A texture that reads the buffer. Binds GL_TEXTURE_BUFFER of unit 0.
 Object texture_of(Device& device, const Buffer& buffer, GLenum format, const char* label);
 
-// What hosts put into their shaders: shaders/character/host.glsl with all that it includes.
+// Returns the text for the host's shaders: shaders/character/host.glsl with everything that it includes.
 const char* scene_light_glsl();
 
 }  // namespace nook::gl
