@@ -20,7 +20,7 @@ FULL = {"fiber": [], "roughhole": []}
 SMALL = {"weave": ["--directions", "49", "--texels", "48"],
          "small roughhole": ["--directions", "100", "--lights", "8", "--texels", "48"]}
 SWEEP = [12, 20, 28, 36, 44, 60, 76]
-# The least that `bake material` can compress of a raw material that is only to be measured against.
+# The smallest ranks of `bake material`, for a raw material that is only a reference.
 REST = ["--ranks", "4,8,8,8", "--votf-ranks", "8,8"]
 
 
