@@ -16,6 +16,7 @@
 #include "sdk/src/character/levels.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::bake {
 namespace {
@@ -48,9 +49,9 @@ void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSetti
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "pose %zu has the wrong number of bones (got %zu, need %zu)",
                     p, poses[p].size(), mesh.bones.size());
     for (const Mat3x4& m : poses[p])
-      for (float v : m.m)
-        if (!std::isfinite(v))
-          throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "pose %zu holds a matrix that is not finite", p);
+      if (!is_pose_matrix(m))
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "pose %zu holds a matrix that is not finite or beyond 1e9 m or a scale of 1e6", p);
   }
 }
 

@@ -198,6 +198,10 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
 
 }  // namespace
 
+std::size_t element_count(const tinygltf::Model& model, int accessor, const std::string& what) {
+  return checked_accessor(model, accessor, what).count;
+}
+
 Floats read_floats(const tinygltf::Model& model, int accessor_index, int components,
                    const std::string& what) {
   const tinygltf::Accessor& accessor = checked_accessor(model, accessor_index, what);

@@ -5,6 +5,7 @@
 
 #include "bakers/import/gltf.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::bake {
 namespace {
@@ -97,10 +98,12 @@ Pose bone_matrices(const ImportedCharacter& character, const std::vector<Trs>& l
     const Similarity bone =
         nearest_similarity(world[binding.node] * binding.node_from_rest, binding.origin_rest);
     pose.push_back(to_float(bone.matrix));
-    for (const float v : pose.back().m)
-      if (!std::isfinite(v))
-        throw Failure(NOOK_ERROR_BAD_FILE, "bone %zu (\"%s\") gets a matrix that is not finite", b,
-                      character.mesh.bones[b].name.c_str());
+    if (!is_pose_matrix(pose.back()))
+      throw Failure(
+          NOOK_ERROR_BAD_FILE,
+          "a clip or the default pose gives bone %zu (\"%s\") a matrix that is not finite or beyond 1e9 m "
+          "or 1e6 times its size",
+          b, character.mesh.bones[b].name.c_str());
     if (deviation) deviation->push_back(bone.deviation);
   }
   return pose;

@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include "bakers/import/accessor.h"
+#include "bakers/import/file_reader.h"
 #include "bakers/import/gltf_clips.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_mesh.h"
@@ -41,10 +40,12 @@ Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes) {
   // Without the accessor all matrices are identity: glTF 2.0, section 3.7.3.1.
   skin.inverse_bind.resize(skin.joint.size());
   if (source.inverseBindMatrices < 0) return skin;
-  const Floats matrices = read_floats(model, source.inverseBindMatrices, 16, what + " inverse bind matrices");
-  if (matrices.count < skin.joint.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu inverse bind matrices for %zu joints", what.c_str(),
-                  matrices.count, skin.joint.size());
+  const std::string matrices_name = what + " inverse bind matrices";
+  const std::size_t count = element_count(model, source.inverseBindMatrices, matrices_name);
+  if (count < skin.joint.size() || count > max_bone_count)
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu inverse bind matrices for %zu joints", what.c_str(), count,
+                  skin.joint.size());
+  const Floats matrices = read_floats(model, source.inverseBindMatrices, 16, matrices_name);
   for (std::size_t j = 0; j < skin.joint.size(); ++j) {
     std::array<double, 16> columns;
     std::copy_n(matrices.value.begin() + 16 * j, 16, columns.begin());
@@ -152,8 +153,8 @@ std::uint64_t hash_of(std::span<const std::byte> bytes, const tinygltf::Model& m
   return hash;
 }
 
-ImportedCharacter import_bytes(std::span<const std::byte> bytes, const std::string& base_dir) {
-  const tinygltf::Model model = parse_gltf(bytes, base_dir);
+ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAccess& files) {
+  const tinygltf::Model model = parse_gltf(bytes, files);
   ImportedCharacter character;
   character.source_hash = hash_of(bytes, model);
   character.nodes = read_nodes(model);
@@ -179,7 +180,7 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const std::stri
                                    "\" has no skin and hangs on no joint and was left out");
       continue;
     }
-    append_mesh(model, model.nodes[at.node].mesh, binding, at.is_skinned, file, repairs);
+    append_mesh(model, model.nodes[at.node], binding, file, repairs);
   }
   add_warnings(repairs, character.warnings);
   file.bones = std::move(skeleton.bones);
@@ -192,19 +193,13 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const std::stri
 
 }  // namespace
 
-ImportedCharacter import_gltf(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw Failure(NOOK_ERROR_BAD_FILE, "this is a folder (need a .glb or .gltf file)");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Failure(NOOK_ERROR_BAD_FILE, "the file is missing or cannot be read");
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  return import_bytes(std::as_bytes(std::span(bytes)),
-                      std::filesystem::absolute(path).parent_path().string());
+ImportedCharacter import_gltf(const std::filesystem::path& path, LinkedFiles linked) {
+  return import_bytes(read_file_bytes(path),
+                      {std::filesystem::absolute(path).parent_path().string(), linked});
 }
 
 ImportedCharacter import_gltf(std::span<const std::byte> bytes) {
-  return import_bytes(bytes, "");
+  return import_bytes(bytes, {});
 }
 
 }  // namespace nook::bake

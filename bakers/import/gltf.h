@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bakers/import/clip.h"
+#include "bakers/import/linked_files.h"
 #include "bakers/import/node_tree.h"
 #include "bakers/import/skinned_mesh.h"
 
@@ -35,7 +36,7 @@ struct ImportedCharacter {
 };
 
 // Fails with BAD_FILE; the message names the fault, and the caller adds the name of the file.
-ImportedCharacter import_gltf(const std::filesystem::path& path);
+ImportedCharacter import_gltf(const std::filesystem::path& path, LinkedFiles linked = LinkedFiles::folder);
 
 // From memory, without access to any file: buffers must be in the bytes or in data URIs.
 ImportedCharacter import_gltf(std::span<const std::byte> bytes);

@@ -29,8 +29,10 @@ Interpolation interpolation_of(const std::string& text, const std::string& what)
                 what.c_str(), text.c_str());
 }
 
+// left: of max_key_floats; what the channel takes is taken off.
 Channel read_channel(const tinygltf::Model& model, const tinygltf::Animation& animation,
-                     const tinygltf::AnimationChannel& source, ChannelPath path, const std::string& what) {
+                     const tinygltf::AnimationChannel& source, ChannelPath path, const std::string& what,
+                     std::size_t& left) {
   if (source.sampler < 0 || static_cast<std::size_t>(source.sampler) >= animation.samplers.size())
     throw Failure(NOOK_ERROR_BAD_FILE, "%s names sampler %d (animation has %zu)", what.c_str(),
                   source.sampler, animation.samplers.size());
@@ -39,6 +41,12 @@ Channel read_channel(const tinygltf::Model& model, const tinygltf::Animation& an
   channel.node = static_cast<std::uint32_t>(source.target_node);
   channel.path = path;
   channel.interpolation = interpolation_of(sampler.interpolation, what);
+  const std::size_t keys = element_count(model, sampler.input, what + " input");
+  const std::size_t values = element_count(model, sampler.output, what + " output");
+  const auto components = static_cast<std::size_t>(channel.components());
+  if (keys > left || values > (left - keys) / components)
+    throw Failure(NOOK_ERROR_BAD_FILE, "too many animation keys (need at most %zu numbers)", max_key_floats);
+  left -= keys + components * values;
   channel.time_s = read_floats(model, sampler.input, 1, what + " input").value;
   Floats output = read_floats(model, sampler.output, channel.components(), what + " output");
   const std::size_t per_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
@@ -81,7 +89,7 @@ std::vector<Clip> read_clips(const tinygltf::Model& model, const NodeTree& nodes
   names = unique_names(names, "clip");
 
   std::vector<Clip> clips;
-  std::size_t key_floats = 0;
+  std::size_t left = max_key_floats;
   std::size_t morph_channels = 0;
   for (std::size_t a = 0; a < model.animations.size(); ++a) {
     const tinygltf::Animation& animation = model.animations[a];
@@ -103,11 +111,7 @@ std::vector<Clip> read_clips(const tinygltf::Model& model, const NodeTree& nodes
         throw Failure(NOOK_ERROR_BAD_FILE,
                       "%s animates node %d, which has a matrix (need translation, rotation, scale)",
                       what.c_str(), source.target_node);
-      clip.channels.push_back(read_channel(model, animation, source, *path, what));
-      key_floats += clip.channels.back().time_s.size() + clip.channels.back().value.size();
-      if (key_floats > max_key_floats)
-        throw Failure(NOOK_ERROR_BAD_FILE, "too many animation keys (need at most %zu numbers)",
-                      max_key_floats);
+      clip.channels.push_back(read_channel(model, animation, source, *path, what, left));
     }
     if (clip.channels.empty()) {
       warnings.push_back("clip \"" + clip.name + "\" moves no node and was left out");

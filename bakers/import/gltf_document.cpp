@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "bakers/import/file_reader.h"
+#include "bakers/import/gltf_preflight.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -37,27 +39,6 @@ std::span<const std::byte> json_of_binary(std::span<const std::byte> bytes) {
   return bytes.subspan(20, json);
 }
 
-// tinygltf walks "extras" by recursion, so that deep nesting would exhaust the stack.
-void refuse_deep_nesting(std::span<const std::byte> json) {
-  constexpr int max_depth = 128;
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = static_cast<char>(json[i]);
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > max_depth)
-        throw Failure(NOOK_ERROR_BAD_FILE, "JSON nested deeper than %d levels", max_depth);
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
-  }
-}
-
 bool accept_any_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*,
                       int, void*) {
   return true;
@@ -70,31 +51,24 @@ bool keep_encoded_image(tinygltf::Image* image, const int, std::string*, std::st
   return true;
 }
 
-tinygltf::FsCallbacks no_files() {
-  tinygltf::FsCallbacks callbacks{};
-  callbacks.FileExists = [](const std::string&, void*) { return false; };
-  callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
-  callbacks.ReadWholeFile = [](std::vector<unsigned char>*, std::string* error, const std::string&, void*) {
-    if (error) *error += "external files are not read from memory\n";
-    return false;
-  };
-  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-    return false;
-  };
-  return callbacks;
-}
-
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text;
 }
 
-void refuse_compression(const tinygltf::Model& model) {
-  for (const std::string& extension : model.extensionsRequired)
-    if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
-      throw Failure(NOOK_ERROR_BAD_FILE, "file needs %s, which is not read; export it without compression",
-                    extension.c_str());
+// A C string ends there, so that names would no longer be told apart.
+void refuse_nul(const std::string& name, const char* what, std::size_t index) {
+  if (name.find('\0') != std::string::npos)
+    throw Failure(NOOK_ERROR_BAD_FILE, "the name of %s %zu (\"%s...\") holds a NUL character; rename it",
+                  what, index, name.c_str());
+}
+
+void check_names(const tinygltf::Model& model) {
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) refuse_nul(model.nodes[i].name, "node", i);
+  for (std::size_t i = 0; i < model.meshes.size(); ++i) refuse_nul(model.meshes[i].name, "mesh", i);
+  for (std::size_t i = 0; i < model.animations.size(); ++i)
+    refuse_nul(model.animations[i].name, "animation", i);
 }
 
 template <std::size_t n>
@@ -129,35 +103,42 @@ Node read_node(const tinygltf::Node& source, std::size_t index) {
 
 }  // namespace
 
-tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const std::string& base_dir, Images images) {
+tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& files, Images images) {
   if (bytes.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "empty file");
   if (bytes.size() > 0x7fffffffu)
     throw Failure(NOOK_ERROR_BAD_FILE, "file of %zu bytes (need less than 2 GiB)", bytes.size());
-  refuse_deep_nesting(is_binary(bytes) ? json_of_binary(bytes) : bytes);
+  const GltfPreflight preflight = check_before_parsing(is_binary(bytes) ? json_of_binary(bytes) : bytes);
 
+  LinkedFileReader reader(files.folder, files.linked,
+                          images == Images::keep ? nullptr : &preflight.buffer_files);
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(images == Images::keep ? keep_encoded_image : accept_any_image, nullptr);
-  if (base_dir.empty()) loader.SetFsCallbacks(no_files());
+  loader.SetFsCallbacks(reader.callbacks());
   tinygltf::Model model;
   std::string error;
   std::string warning;
   bool is_loaded = false;
   try {
     const auto size = static_cast<unsigned int>(bytes.size());
-    is_loaded = is_binary(bytes)
-                    ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                                  reinterpret_cast<const unsigned char*>(bytes.data()), size,
-                                                  base_dir)
-                    : loader.LoadASCIIFromString(&model, &error, &warning,
-                                                 reinterpret_cast<const char*>(bytes.data()), size, base_dir);
+    is_loaded =
+        is_binary(bytes)
+            ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                          reinterpret_cast<const unsigned char*>(bytes.data()), size,
+                                          files.folder)
+            : loader.LoadASCIIFromString(&model, &error, &warning,
+                                         reinterpret_cast<const char*>(bytes.data()), size, files.folder);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& fault) {
     error = fault.what();
     is_loaded = false;
   }
+  if (!is_loaded && !reader.fault().empty())
+    throw Failure(NOOK_ERROR_BAD_FILE, "the file %s", reader.fault().c_str());
   if (!is_loaded)
     throw Failure(NOOK_ERROR_BAD_FILE, "not a glTF 2.0 file, or a damaged one: %s",
                   error.empty() ? "the parser gives no reason" : one_line(error).c_str());
-  refuse_compression(model);
+  check_names(model);
   return model;
 }
 

@@ -8,16 +8,23 @@
 #include <string>
 #include <vector>
 
+#include "bakers/import/linked_files.h"
 #include "bakers/import/node_tree.h"
 
 namespace nook::bake {
 
-// Images are not decoded. keep: what URIs name is in tinygltf::Image::image, as encoded; empty where it could
-// not be read.
+// Images are not decoded. skip: those in files of their own are not opened. keep: what URIs name is in
+// tinygltf::Image::image, as encoded; empty where it could not be read.
 enum class Images { skip, keep };
 
-// base_dir empty: external files are refused. Fails with BAD_FILE.
-tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const std::string& base_dir,
+// Where the files lie that a document names.
+struct FileAccess {
+  std::string folder;  // empty: no file is opened
+  LinkedFiles linked = LinkedFiles::folder;
+};
+
+// Fails with BAD_FILE.
+tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& files,
                            Images images = Images::skip);
 
 // Fails with BAD_FILE on cycles, second parents, indices out of range and transforms that are not finite.

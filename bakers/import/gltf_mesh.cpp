@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "bakers/import/accessor.h"
+#include "bakers/import/morph_targets.h"
 #include "bakers/import/primitive_triangles.h"
 #include "bakers/import/validate.h"
 #include "sdk/src/core/failure.h"
@@ -12,32 +13,52 @@
 namespace nook::bake {
 namespace {
 
+// 64 joints a vertex, of which SkinWeights::max_bones are kept, and a GiB of memory for those of one
+// primitive.
+constexpr std::size_t max_influence_sets = 16, max_influence_elements = std::size_t{1} << 25;
+
 // The joints and weights of one primitive: JOINTS_0, JOINTS_1 and so on.
 struct Influences {
   std::vector<Integers> joint;
   std::vector<Floats> weight;
 };
 
+// Sets of joints and weights, which are numbered from 0. None is read yet.
+std::size_t count_influence_sets(const tinygltf::Primitive& primitive, const std::string& what) {
+  for (std::size_t set = 0;; ++set) {
+    const bool joints = attribute(primitive, "JOINTS_" + std::to_string(set)) >= 0;
+    const bool weights = attribute(primitive, "WEIGHTS_" + std::to_string(set)) >= 0;
+    if (!joints && !weights) return set;
+    if (!joints || !weights)
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s has only one of JOINTS_%zu and WEIGHTS_%zu (need both)",
+                    what.c_str(), set, set);
+  }
+}
+
 Influences read_influences(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                            std::size_t vertices, const std::string& what) {
-  Influences out;
-  for (int set = 0;; ++set) {
-    const std::string suffix = std::to_string(set);
-    const int joints = attribute(primitive, "JOINTS_" + suffix);
-    const int weights = attribute(primitive, "WEIGHTS_" + suffix);
-    if (joints < 0 && weights < 0) break;
-    if (joints < 0 || weights < 0)
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s has only one of JOINTS_%d and WEIGHTS_%d (need both)",
-                    what.c_str(), set, set);
-    out.joint.push_back(read_integers(model, joints, 4, what + ".JOINTS_" + suffix));
-    out.weight.push_back(read_floats(model, weights, 4, what + ".WEIGHTS_" + suffix));
-    if (out.joint.back().count != vertices || out.weight.back().count != vertices)
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu joints and %zu weights for %zu vertices (need as many)",
-                    what.c_str(), out.joint.back().count, out.weight.back().count, vertices);
-  }
-  if (out.joint.empty())
+  const std::size_t sets = count_influence_sets(primitive, what);
+  if (sets == 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "%s has a skin but no JOINTS_0 and WEIGHTS_0; export it with its weights", what.c_str());
+  if (sets > max_influence_sets || sets * vertices > max_influence_elements)
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "%s has too many joints: %zu sets for %zu vertices (need at most %zu sets, and %zu elements in "
+        "all of them)",
+        what.c_str(), sets, vertices, max_influence_sets, max_influence_elements);
+  Influences out;
+  for (std::size_t set = 0; set < sets; ++set) {
+    const std::string joints = "JOINTS_" + std::to_string(set), weights = "WEIGHTS_" + std::to_string(set);
+    const int joint_accessor = attribute(primitive, joints), weight_accessor = attribute(primitive, weights);
+    const std::size_t joint_count = element_count(model, joint_accessor, what + "." + joints);
+    const std::size_t weight_count = element_count(model, weight_accessor, what + "." + weights);
+    if (joint_count != vertices || weight_count != vertices)
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu joints and %zu weights for %zu vertices (need as many)",
+                    what.c_str(), joint_count, weight_count, vertices);
+    out.joint.push_back(read_integers(model, joint_accessor, 4, what + "." + joints));
+    out.weight.push_back(read_floats(model, weight_accessor, 4, what + "." + weights));
+  }
   return out;
 }
 
@@ -78,19 +99,29 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
   }
 }
 
+// What all primitives of a mesh share.
+struct MeshSource {
+  std::string name;
+  const MeshBinding& binding;
+  bool is_skinned;
+  std::vector<double> morph_weights;
+};
+
 void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                      const std::string& what, const std::string& mesh_name, const MeshBinding& binding,
-                      bool is_skinned, FileMesh& out, MeshRepairs& repairs) {
+                      const std::string& what, const MeshSource& source, FileMesh& out,
+                      MeshRepairs& repairs) {
+  const MeshBinding& binding = source.binding;
   if (!has_triangles(primitive)) {
     ++repairs.not_triangles;
     return;
   }
   const int position_accessor = attribute(primitive, "POSITION");
   if (position_accessor < 0) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no POSITION", what.c_str());
-  const Floats position = read_floats(model, position_accessor, 3, what + ".POSITION");
   const std::size_t first = out.position.size();
-  if (position.count > max_file_vertices - first)
+  if (element_count(model, position_accessor, what + ".POSITION") > max_file_vertices - first)
     throw Failure(NOOK_ERROR_BAD_FILE, "too many vertices (need at most %zu)", max_file_vertices);
+  Floats position = read_floats(model, position_accessor, 3, what + ".POSITION");
+  add_morph_targets(model, primitive, source.morph_weights, what, position.value);
 
   const std::size_t first_triangle = out.triangle.size();
   append_triangles(model, primitive, position.count, what, out.triangle);
@@ -104,7 +135,7 @@ void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
     out.position.push_back(
         transform(binding.rest_from_mesh,
                   Vec3{position.value[3 * v], position.value[3 * v + 1], position.value[3 * v + 2]}));
-  if (is_skinned) {
+  if (source.is_skinned) {
     append_skin_weights(read_influences(model, primitive, position.count, what), binding, position.count,
                         what, out, repairs);
   } else {
@@ -112,18 +143,20 @@ void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
     out.weights.resize(out.position.size(), make_weights({&rigid, 1}));
   }
   out.primitives.push_back(
-      {mesh_name, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(position.count)});
+      {source.name, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(position.count)});
 }
 
 }  // namespace
 
-void append_mesh(const tinygltf::Model& model, int mesh_index, const MeshBinding& binding, bool is_skinned,
+void append_mesh(const tinygltf::Model& model, const tinygltf::Node& node, const MeshBinding& binding,
                  FileMesh& out, MeshRepairs& repairs) {
-  const tinygltf::Mesh& mesh = model.meshes[mesh_index];
-  const std::string name = mesh.name.empty() ? "mesh_" + std::to_string(mesh_index) : mesh.name;
+  const tinygltf::Mesh& mesh = model.meshes[node.mesh];
+  const std::string name = mesh.name.empty() ? "mesh_" + std::to_string(node.mesh) : mesh.name;
+  const MeshSource source{name, binding, node.skin >= 0, default_morph_weights(mesh, node)};
+  if (!source.morph_weights.empty()) ++repairs.morphed;
   for (std::size_t p = 0; p < mesh.primitives.size(); ++p)
-    append_primitive(model, mesh.primitives[p], "mesh \"" + name + "\" primitive " + std::to_string(p), name,
-                     binding, is_skinned, out, repairs);
+    append_primitive(model, mesh.primitives[p], "mesh \"" + name + "\" primitive " + std::to_string(p),
+                     source, out, repairs);
 }
 
 void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings) {
@@ -139,6 +172,9 @@ void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings
   if (repairs.too_many_bones > 0)
     warnings.push_back(std::to_string(repairs.too_many_bones) + " vertices have more than " +
                        std::to_string(SkinWeights::max_bones) + " bones; the smallest weights were dropped");
+  if (repairs.morphed > 0)
+    warnings.push_back(std::to_string(repairs.morphed) +
+                       " meshes have morph targets with default weights, which are part of the rest pose");
   if (repairs.not_triangles > 0)
     warnings.push_back(std::to_string(repairs.not_triangles) +
                        " primitives of points or lines were left out");

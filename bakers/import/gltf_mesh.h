@@ -17,11 +17,12 @@ struct MeshRepairs {
   std::size_t negative_weights = 0;
   std::size_t too_many_bones = 0;
   std::size_t not_triangles = 0;  // primitives of points or lines, left out
+  std::size_t morphed = 0;        // meshes with default morph weights, which were applied
 };
 
-// Appends all triangle primitives of a mesh as one mesh node shows it. is_skinned: joints and weights are
-// read; else everything rides on binding.bone[0]. Fails with BAD_FILE.
-void append_mesh(const tinygltf::Model& model, int mesh, const MeshBinding& binding, bool is_skinned,
+// Appends all triangle primitives of a node's mesh, which is there. Where the node has a skin, joints and
+// weights are read; else everything rides on binding.bone[0]. Fails with BAD_FILE.
+void append_mesh(const tinygltf::Model& model, const tinygltf::Node& node, const MeshBinding& binding,
                  FileMesh& out, MeshRepairs& repairs);
 
 void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "bakers/import/gltf_preflight.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -67,8 +68,13 @@ std::uint32_t GltfTextures::image_of(const tinygltf::Texture& texture, const std
   const tinygltf::Image& image = model_.images[std::size_t(source)];
   const std::span<const unsigned char> bytes = bytes_of(model_, image);
   if (bytes.empty())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s: %s cannot be read; put it where the scene's file says",
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s: %s cannot be read; put it, a regular file, where the scene's file says, in its folder "
+                  "or below, or allow files outside",
                   what.c_str(), name_of(image, source).c_str());
+  if (bytes.size() > max_file_bytes - bytes_)
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s: images of more than 2 GiB in all", what.c_str());
+  bytes_ += bytes.size();
   const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
   images_.push_back({what + ": " + name_of(image, source), {first, first + bytes.size()}});
   sources_.push_back(source);

@@ -28,6 +28,7 @@ class GltfTextures {
   const tinygltf::Model& model_;
   std::vector<EncodedImage> images_;
   std::vector<int> sources_;  // of images_, in the file
+  std::size_t bytes_ = 0;     // of images_
 };
 
 }  // namespace nook::bake

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 #include "bakers/import/accessor.h"
+#include "bakers/import/file_reader.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_textures.h"
+#include "bakers/import/morph_targets.h"
 #include "bakers/import/primitive_triangles.h"
 #include "bakers/import/validate.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::bake {
 namespace {
@@ -75,10 +76,11 @@ void read_uv(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
   if (accessor < 0)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has no %s, which the texture of material %d reads", what.c_str(),
                   name.c_str(), primitive.material);
-  const Floats uv = read_floats(model, accessor, 2, what + "." + name);
-  if (uv.count != scene.position.size() - first)
+  const std::size_t count = element_count(model, accessor, what + "." + name);
+  if (count != scene.position.size() - first)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu %s (need one for each of %zu vertices)", what.c_str(),
-                  uv.count, name.c_str(), scene.position.size() - first);
+                  count, name.c_str(), scene.position.size() - first);
+  const Floats uv = read_floats(model, accessor, 2, what + "." + name);
   for (std::size_t v = 0; v < uv.count; ++v) {
     const TexturePoint point{uv.value[2 * v], uv.value[2 * v + 1]};
     if (!std::isfinite(point.u) || !std::isfinite(point.v))
@@ -88,19 +90,23 @@ void read_uv(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
 }
 
 void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                      const std::string& what, const Affine& world_from_mesh, StaticScene& scene) {
+                      const std::string& what, const Affine& world_from_mesh,
+                      const std::vector<double>& morph_weights, StaticScene& scene) {
   if (!has_triangles(primitive)) return;
   const int accessor = attribute(primitive, "POSITION");
   if (accessor < 0) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no POSITION", what.c_str());
-  const Floats position = read_floats(model, accessor, 3, what + ".POSITION");
   const auto first = std::uint32_t(scene.position.size());
-  if (position.count > max_file_vertices - first)
+  if (element_count(model, accessor, what + ".POSITION") > max_file_vertices - first)
     throw Failure(NOOK_ERROR_BAD_FILE, "too many vertices (need at most %zu)", max_file_vertices);
+  Floats position = read_floats(model, accessor, 3, what + ".POSITION");
+  add_morph_targets(model, primitive, morph_weights, what, position.value);
   for (std::size_t v = 0; v < position.count; ++v) {
     const float* p = &position.value[3 * v];
     const Vec3 world = transform(world_from_mesh, Vec3{p[0], p[1], p[2]});
-    if (!std::isfinite(world.x) || !std::isfinite(world.y) || !std::isfinite(world.z))
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s: vertex %zu is not finite", what.c_str(), v);
+    if (!is_place(world))
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%s: vertex %zu is out of range (got %g %g %g, need finite metres up to 1e6)",
+                    what.c_str(), v, double(world.x), double(world.y), double(world.z));
     scene.position.push_back(world);
   }
   const std::size_t first_triangle = scene.triangle.size();
@@ -120,10 +126,10 @@ void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
     read_uv(model, primitive, *use, first, what, scene);
 }
 
-StaticScene import_document(std::span<const std::byte> bytes, const std::string& base_dir,
+StaticScene import_document(std::span<const std::byte> bytes, const FileAccess& files,
                             SceneTextures textures) {
   const tinygltf::Model model =
-      parse_gltf(bytes, base_dir, textures == SceneTextures::read ? Images::keep : Images::skip);
+      parse_gltf(bytes, files, textures == SceneTextures::read ? Images::keep : Images::skip);
   const NodeTree nodes = read_nodes(model);
   const std::vector<bool> shown = shown_nodes(model, nodes);
   const std::vector<Affine> world = default_world_transforms(nodes);
@@ -136,9 +142,12 @@ StaticScene import_document(std::span<const std::byte> bytes, const std::string&
       throw Failure(NOOK_ERROR_BAD_FILE, "node %zu names mesh %d (file has %zu)", n, mesh,
                     model.meshes.size());
     const auto& primitives = model.meshes[std::size_t(mesh)].primitives;
+    const std::vector<double> morph_weights =
+        default_morph_weights(model.meshes[std::size_t(mesh)], model.nodes[n]);
     for (std::size_t p = 0; p < primitives.size(); ++p)
       append_primitive(model, primitives[p],
-                       "mesh " + std::to_string(mesh) + " primitive " + std::to_string(p), world[n], scene);
+                       "mesh " + std::to_string(mesh) + " primitive " + std::to_string(p), world[n],
+                       morph_weights, scene);
   }
   if (scene.triangle.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "the default scene shows no triangle; export the meshes with it");
@@ -147,16 +156,14 @@ StaticScene import_document(std::span<const std::byte> bytes, const std::string&
 
 }  // namespace
 
-StaticScene import_static_scene(const std::filesystem::path& path, SceneTextures textures) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be opened");
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const std::filesystem::path folder = path.parent_path();
-  return import_document(std::as_bytes(std::span(bytes)), folder.empty() ? "." : folder.string(), textures);
+StaticScene import_static_scene(const std::filesystem::path& path, SceneTextures textures,
+                                LinkedFiles linked) {
+  return import_document(read_file_bytes(path),
+                         {std::filesystem::absolute(path).parent_path().string(), linked}, textures);
 }
 
 StaticScene import_static_scene(std::span<const std::byte> bytes, SceneTextures textures) {
-  return import_document(bytes, "", textures);
+  return import_document(bytes, {}, textures);
 }
 
 }  // namespace nook::bake

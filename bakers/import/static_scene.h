@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "bakers/import/linked_files.h"
 #include "bakers/import/texture_use.h"
 #include "sdk/src/core/vec.h"
 
@@ -38,12 +39,13 @@ struct StaticScene {
 // skip: colour factors stand for their textures, and alpha masks are solid.
 enum class SceneTextures { skip, read };
 
-// Skins and morph targets are ignored; points and lines are left out. Of materials the base colour, the
-// emission with KHR_materials_emissive_strength, alpha masks and, with SceneTextures::read, colour textures
-// are read; blended alpha is solid. Fails with BAD_FILE, also if the scene has no triangle; the message names
-// the fault, and the caller adds the name of the file.
+// Skins are ignored, and morph targets have their default weights; points and lines are left out. Of
+// materials the base colour, the emission with KHR_materials_emissive_strength, alpha masks and, with
+// SceneTextures::read, colour textures are read; blended alpha is solid. Fails with BAD_FILE, also if the
+// scene has no triangle; the message names the fault, and the caller adds the name of the file.
 StaticScene import_static_scene(const std::filesystem::path& path,
-                                SceneTextures textures = SceneTextures::skip);
+                                SceneTextures textures = SceneTextures::skip,
+                                LinkedFiles linked = LinkedFiles::folder);
 
 // From memory, without access to any file: buffers and images must be in the bytes or in data URIs.
 StaticScene import_static_scene(std::span<const std::byte> bytes,

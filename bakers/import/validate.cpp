@@ -4,13 +4,10 @@
 
 #include "bakers/import/weld.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::bake {
 namespace {
-
-bool is_finite(Vec3 p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 // Calls fault(i) for all i and reports the first and the number of those that are true.
 template <typename Fault>
@@ -43,6 +40,14 @@ void validate_bones(const std::vector<Bone>& bones, nook_result code) {
       throw Failure(
           code, "bone %zu (\"%s\") has parent %d (need -1 or a smaller index); sort parents before children",
           i, bones[i].name.c_str(), bones[i].parent);
+    if (bones[i].name.find('\0') != std::string::npos)
+      throw Failure(code, "the name of bone %zu (\"%s...\") holds a NUL character; rename it", i,
+                    bones[i].name.c_str());
+    const float* m = bones[i].frame_rest.m;
+    if (!is_place({m[3], m[7], m[11]}))
+      throw Failure(
+          code, "bone %zu (\"%s\") has its joint out of range (got %g %g %g, need finite metres up to 1e6)",
+          i, bones[i].name.c_str(), double(m[3]), double(m[7]), double(m[11]));
     if (!is_orthonormal(bones[i].frame_rest))
       throw Failure(code,
                     "bone %zu (\"%s\") has a rest frame that is not finite, orthonormal and right-handed", i,
@@ -57,8 +62,8 @@ void validate_vertices(const std::vector<Vec3>& position, const std::vector<Skin
   if (weights.size() != position.size())
     throw Failure(code, "%zu skinning weights for %zu vertices (need as many)", weights.size(),
                   position.size());
-  refuse_any(position.size(), "vertices with a position that is not finite", code,
-             [&](std::size_t v) { return !is_finite(position[v]); });
+  refuse_any(position.size(), "vertices with a position that is not finite or beyond 1e6 m", code,
+             [&](std::size_t v) { return !is_place(position[v]); });
   refuse_any(weights.size(), "vertices with weights that are not finite or negative", code,
              [&](std::size_t v) {
                for (const float w : weights[v].weight)

@@ -1,9 +1,9 @@
 #include "bakers/job/pose_arrays.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::bake {
 
@@ -12,10 +12,13 @@ std::vector<Pose> read_poses(const float* bones_3x4, std::size_t poses, std::siz
   for (std::size_t p = 0; p < poses; ++p)
     for (std::size_t b = 0; b < bones; ++b) {
       const float* m = bones_3x4 + 12 * (p * bones + b);
-      if (!std::all_of(m, m + 12, [](float x) { return std::isfinite(x); }))
-        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "the matrix of bone %zu in pose %zu is not finite; give 12 finite floats", b, p);
       std::copy_n(m, 12, result[p][b].m);
+      if (!is_pose_matrix(result[p][b]))
+        throw Failure(
+            NOOK_ERROR_INVALID_ARGUMENT,
+            "the matrix of bone %zu in pose %zu is not finite or far too large; give 12 finite floats, "
+            "places up to 1e9 m and scales up to 1e6",
+            b, p);
     }
   return result;
 }

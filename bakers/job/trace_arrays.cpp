@@ -3,15 +3,12 @@
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::bake {
 namespace {
 
 constexpr std::uint32_t most_rays = 65536, most_threads = 1024;
-
-bool is_finite(Vec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 }  // namespace
 
@@ -25,9 +22,11 @@ void add_mesh(const nook_bake_occluder_mesh& mesh, std::uint32_t number, Triangl
   const auto base = std::uint32_t(soup.position.size());
   for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
     soup.position.push_back({mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]});
-    if (!is_finite(soup.position.back()))
+    const Vec3 p = soup.position.back();
+    if (!is_place(p))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.meshes[%u] has a position that is not finite (vertex %u)", number, v);
+                    "desc.meshes[%u] has vertex %u out of range (got %g %g %g, need finite metres up to 1e6)",
+                    number, v, double(p.x), double(p.y), double(p.z));
   }
   for (std::uint32_t i = 0; i < mesh.index_count; i += 3) {
     for (std::uint32_t c = 0; c < 3; ++c)
@@ -43,8 +42,10 @@ std::vector<Vec3> read_points(const char* name, const float* xyz, std::uint32_t 
   std::vector<Vec3> points(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     points[i] = {xyz[3 * std::size_t(i)], xyz[3 * std::size_t(i) + 1], xyz[3 * std::size_t(i) + 2]};
-    if (!is_finite(points[i]))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is not finite at point %u", name, i);
+    if (!is_place(points[i]))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "%s is out of range at point %u (got %g %g %g, need finite numbers up to 1e6)", name, i,
+                    double(points[i].x), double(points[i].y), double(points[i].z));
   }
   return points;
 }
@@ -66,10 +67,9 @@ void need_trace_settings(std::uint32_t rays, std::uint32_t threads, float origin
   if (threads > most_threads)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.threads is out of range (got %u, need at most %u)",
                   threads, most_threads);
-  if (!(origin_offset >= 0) || !std::isfinite(origin_offset))
+  if (!(origin_offset >= 0 && origin_offset <= max_metres))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.origin_offset is out of range (got %g, need metres, 0 or above)",
-                  double(origin_offset));
+                  "desc.origin_offset is out of range (got %g, need 0 to 1e6 metres)", double(origin_offset));
 }
 
 }  // namespace nook::bake

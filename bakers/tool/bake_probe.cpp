@@ -2,7 +2,6 @@
 #include "bakers/tool/probe/bake.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -12,6 +11,7 @@
 #include "bakers/tool/distinct_files.h"
 #include "bakers/tool/tool_error.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::tool {
 namespace {
@@ -33,12 +33,12 @@ void parse_box(const std::string& text, BakeProbeOptions& options) {
   bool good =
       std::sscanf(text.c_str(), "%f,%f,%f,%f,%f,%f%n", v, v + 1, v + 2, v + 3, v + 4, v + 5, &used) == 6 &&
       std::size_t(used) == text.size();
-  for (int i = 0; good && i < 3; ++i)
-    good = std::isfinite(v[i]) && std::isfinite(v[i + 3]) && v[i] <= v[i + 3];
+  good = good && is_place({v[0], v[1], v[2]}) && is_place({v[3], v[4], v[5]});
+  for (int i = 0; good && i < 3; ++i) good = v[i] <= v[i + 3];
   if (!good)
-    throw ToolError(
-        exit_bad_arguments,
-        "--box: got " + text + ", need x0,y0,z0,x1,y1,z1: the low corner, then the high one, in metres");
+    throw ToolError(exit_bad_arguments, "--box: got " + text +
+                                            ", need x0,y0,z0,x1,y1,z1: the low corner, then the high one, in "
+                                            "metres up to 1e6");
   options.has_box = true;
   options.box_low_ws = {v[0], v[1], v[2]};
   options.box_high_ws = {v[3], v[4], v[5]};

@@ -1,6 +1,6 @@
 // What a host's shader calls for the light of a scene's instances. `light` is that of nook_gl_light_view; normals are unit
 // vectors, world space; colours linear RGB.
-#include "shaders/character/layout.h"
+#include "shaders/character/light_layout.h"
 #include "shaders/probe/irradiance.glsl"
 
 // sdk/src/gl/character/scene_lights.cpp defines the layout.

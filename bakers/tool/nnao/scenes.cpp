@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "bakers/tool/tool_error.h"
+#include "sdk/src/core/place.h"
 
 namespace nook::tool {
 namespace {
@@ -32,13 +33,13 @@ GivenCamera parse_camera(const std::string& text) {
   int used = 0;
   const int count =
       std::sscanf(text.c_str(), "%f,%f,%f,%f,%f,%f,%f%n", v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, &used);
-  bool good = count == 7 && std::size_t(used) == text.size();
-  for (int i = 0; good && i < 7; ++i) good = std::isfinite(v[i]);
+  const bool is_whole = count == 7 && std::size_t(used) == text.size();
   const Vec3 eye{v[0], v[1], v[2]}, target{v[3], v[4], v[5]};
-  if (!good || !(v[6] >= 1 && v[6] <= 170) || eye == target)
+  if (!is_whole || !is_place(eye) || !is_place(target) || !(v[6] >= 1 && v[6] <= 170) || eye == target)
     refuse(
         "--camera: got " + text +
-        ", need ox,oy,oz,tx,ty,tz,fov: seven numbers, the eye apart from the target, fov 1 to 170 degrees");
+        ", need ox,oy,oz,tx,ty,tz,fov: seven numbers, the eye apart from the target, metres up to 1e6, fov 1 "
+        "to 170 degrees");
   return {eye, target, v[6] * degree};
 }
 

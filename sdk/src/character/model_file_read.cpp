@@ -3,14 +3,15 @@
 #include "sdk/src/character/model_check.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/model_file_packing.h"
+#include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {
 
 using Bits = CharacterBits;
 
-// The bounds of ranges are those of check_model, which decides; these only keep decoded numbers finite.
-constexpr float max_metres = 2e6f, max_coefficient = 1e4f;
+// The bounds of ranges are those of check_model, which decides; this one only keeps decoded numbers finite.
+constexpr float max_box_metres = 2 * max_metres;
 
 void read_head(ByteReader in, CharacterModel& model) {
   model.kernel.form = static_cast<KernelForm>(in.u8());
@@ -44,8 +45,8 @@ void read_bone_names(ByteReader in, CharacterModel& model) {
 
 void read_spheres(ByteReader& in, std::pmr::vector<ProxySphere>& spheres, int bone_bits) {
   const std::uint32_t count = in.varint();
-  const Box box = read_box(in, max_metres);
-  const Range radius = read_range(in, max_metres);
+  const Box box = read_box(in, max_box_metres);
+  const Range radius = read_range(in, max_box_metres);
   const Range weight = read_range(in, max_coefficient);
   in.check_count(count, 3 * Bits::sphere_centre + Bits::sphere_radius + Bits::caster_weight, "spheres");
   spheres.reserve(count);
@@ -62,8 +63,8 @@ void read_spheres(ByteReader& in, std::pmr::vector<ProxySphere>& spheres, int bo
 void read_key_points(ByteReader in, CharacterModel& model) {
   const int bone_bits = index_bits(model.bone_count());
   const std::uint32_t count = in.varint();
-  const Box box = read_box(in, max_metres);
-  const Box offsets = read_box(in, max_metres);
+  const Box box = read_box(in, max_box_metres);
+  const Box offsets = read_box(in, max_box_metres);
   in.check_count(count, 3 * Bits::key_position + 2 * Bits::key_normal + 3 * Bits::surface_offset,
                  "key points");
   model.key_points.reserve(count);

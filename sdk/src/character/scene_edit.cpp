@@ -4,6 +4,7 @@
 
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {
@@ -37,11 +38,9 @@ auto& find(Objects& objects, std::uint32_t id, const char* what) {
 // Throws unless the matrix is finite and its 3x3 part a rotation times a scale, to 1 %. Returns the largest
 // squared scale.
 float check_bone_matrix(const Mat3x4& matrix, std::size_t bone) {
-  // Far beyond any world, and small enough that squares stay finite.
-  constexpr float max_metres = 1e9f, max_scale = 1e6f;
   const float* m = matrix.m;
   for (int i = 0; i < 12; ++i)
-    if (!(std::abs(m[i]) <= (i % 4 == 3 ? max_metres : max_scale)))
+    if (!(std::abs(m[i]) <= (i % 4 == 3 ? max_pose_metres : max_pose_scale)))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "the matrix of bone %zu is not finite or far too large (element %d is %g)", bone, i,
                     double(m[i]));

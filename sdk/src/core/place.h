@@ -16,4 +16,15 @@ inline bool is_place(Vec3 p) {
   return std::abs(p.x) <= max_metres && std::abs(p.y) <= max_metres && std::abs(p.z) <= max_metres;
 }
 
+// Of the matrices of a pose, rest space to world: far beyond any world, and small enough that squares of what
+// they place stay finite.
+constexpr float max_pose_metres = 1e9f, max_pose_scale = 1e6f;
+
+// False for what is not finite.
+inline bool is_pose_matrix(const Mat3x4& matrix) {
+  for (int i = 0; i < 12; ++i)
+    if (!(std::abs(matrix.m[i]) <= (i % 4 == 3 ? max_pose_metres : max_pose_scale))) return false;
+  return true;
+}
+
 }  // namespace nook

@@ -113,6 +113,15 @@ TEST_CASE("lighting that makes no sense is refused") {
     lighting.desc.rays = 0;
     expected = "desc.rays is out of range";
   }
+  // Finite numbers that Embree would end the process for.
+  SECTION("a point beyond any scene") {
+    lighting.points[1] = 1e19f;
+    expected = "desc.positions is out of range at point 0 (got 0 1e+19";
+  }
+  SECTION("an offset beyond any scene") {
+    lighting.desc.origin_offset = 1e30f;
+    expected = "desc.origin_offset is out of range (got 1e+30";
+  }
   SECTION("a normal of another length") {
     lighting.normals = {0, 2, 0};
     expected = "not of unit length at point 0 (got 2)";

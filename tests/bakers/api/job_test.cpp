@@ -190,7 +190,12 @@ TEST_CASE("a bake of the host's own poses alone") {
   CHECK_FALSE(model_of(start(character, desc)).empty());
   poses[13] = std::numeric_limits<float>::infinity();
   CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("the matrix of bone 1 in pose 0 is not finite"));
+  CHECK(message_has("the matrix of bone 1 in pose 0 is not finite or far too large"));
+  // A finite pose that Embree would end the process for.
+  poses[13] = 0;
+  poses[24 * 7 + 3] = 1e20f;
+  CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("the matrix of bone 0 in pose 7 is not finite or far too large"));
 }
 
 TEST_CASE("settings that make no sense are refused before the job starts") {

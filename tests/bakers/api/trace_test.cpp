@@ -95,6 +95,19 @@ TEST_CASE("traced values do not depend on the number of threads") {
   CHECK(one != other);
 }
 
+TEST_CASE("a scene at the limit of places is traced") {
+  Square square(1, 2);
+  Scene scene;
+  for (int c = 0; c < 4; ++c) square.positions[3 * c] *= 1e6f;
+  scene.meshes = {square.mesh()};
+  scene.positions = {-1e6f, -1e6f, 1e6f};
+  scene.desc.origin_offset = 1e6f;
+  scene.desc.radius = 3e38f;
+  std::vector<float> ao;
+  REQUIRE(scene.trace(ao) == NOOK_OK);
+  CHECK(ao[0] >= 0);
+}
+
 TEST_CASE("scenes that make no sense are refused") {
   Square square(1, 2);
   Scene scene;
@@ -110,7 +123,7 @@ TEST_CASE("scenes that make no sense are refused") {
   }
   SECTION("a position that is not finite") {
     square.positions[7] = std::numeric_limits<float>::infinity();
-    expected = "not finite (vertex 2)";
+    expected = "desc.meshes[0] has vertex 2 out of range (got 1 inf 1";
   }
   SECTION("a normal of another length") {
     scene.normals = {0, 2, 0};
@@ -130,7 +143,20 @@ TEST_CASE("scenes that make no sense are refused") {
   }
   SECTION("a receiver that is not finite") {
     scene.positions[1] = std::nanf("");
-    expected = "desc.positions is not finite at point 0";
+    expected = "desc.positions is out of range at point 0 (got 0 nan 0";
+  }
+  // Finite numbers that Embree would end the process for.
+  SECTION("a vertex beyond any scene") {
+    square.positions[6] = 1e18f;
+    expected = "desc.meshes[0] has vertex 2 out of range (got 1e+18";
+  }
+  SECTION("a receiver beyond any scene") {
+    scene.positions[0] = -1e19f;
+    expected = "desc.positions is out of range at point 0 (got -1e+19";
+  }
+  SECTION("an offset beyond any scene") {
+    scene.desc.origin_offset = 1e30f;
+    expected = "desc.origin_offset is out of range (got 1e+30";
   }
   std::vector<float> ao;
   CHECK(scene.trace(ao) == NOOK_ERROR_INVALID_ARGUMENT);

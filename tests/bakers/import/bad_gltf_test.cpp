@@ -72,7 +72,17 @@ TEST_CASE("faults of the mesh") {
   SECTION("a position that is not finite") {
     tube.position[3 * 7 + 1] = NAN;
     tube.position[3 * 9] = INFINITY;
-    check_refused(tube_file(tube), "position that is not finite: 2 of 47, the first is number 7");
+    check_refused(tube_file(tube),
+                  "position that is not finite or beyond 1e6 m: 2 of 47, the first is number 7");
+  }
+  SECTION("a position that no model can hold") {
+    tube.position[3 * 8] = 1e18f;
+    check_refused(tube_file(tube), "beyond 1e6 m: 1 of 47, the first is number 8");
+  }
+  SECTION("a scale that takes the mesh further than a model can hold") {
+    GltfBuilder file = tube_file();
+    file.document["nodes"][0]["scale"] = {1e7, 1e7, 1e7};
+    check_refused(file, "bone 1 (\"tip\") has its joint out of range (got 0 1e+07 0");
   }
   SECTION("weights that are all zero") {
     for (int k = 0; k < 4; ++k) tube.weight[4 * 5 + k] = 0;
@@ -300,6 +310,10 @@ TEST_CASE("faults of clips") {
   SECTION("a key that is not finite") {
     file.add_channel(2, "translation", {0}, {0, INFINITY, 0});
     check_refused(file, "not finite");
+  }
+  SECTION("a key beyond any world") {
+    file.add_channel(2, "translation", {0}, {0, 1e20f, 0});
+    check_refused(file, "bone 1 (\"tip\") a matrix that is not finite or beyond 1e9 m");
   }
   SECTION("a node that is not there") {
     file.add_channel(55, "translation", {0}, {0, 0, 0});

@@ -113,5 +113,8 @@ TEST_CASE("static scenes that cannot be read are refused") {
   not_finite.document["meshes"] =
       Json::array({{{"primitives", Json::array({{{"attributes", {{"POSITION", position}}}}})}}});
   not_finite.document["nodes"] = Json::array({{{"mesh", 0}}});
-  CHECK(failure_of(not_finite).find("not finite") != std::string::npos);
+  CHECK(failure_of(not_finite).find("vertex 1 is out of range (got nan") != std::string::npos);
+  file = two_triangles();
+  file.document["nodes"][2]["translation"] = {0, 1e18, 0};
+  CHECK(failure_of(file).find("is out of range") != std::string::npos);
 }

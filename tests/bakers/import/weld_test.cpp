@@ -130,7 +130,8 @@ TEST_CASE("faults are named with their number and the first place") {
   SECTION("positions") {
     mesh.position[2].y = NAN;
     mesh.position[4].x = INFINITY;
-    CHECK(contains(failure_of(mesh), "position that is not finite: 2 of 6, the first is number 2"));
+    CHECK(contains(failure_of(mesh),
+                   "position that is not finite or beyond 1e6 m: 2 of 6, the first is number 2"));
   }
   SECTION("no weight at all") {
     mesh.weights[1] = {};
