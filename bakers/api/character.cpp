@@ -19,7 +19,7 @@ using namespace nook::bake;
 namespace {
 
 constexpr std::size_t first_mesh_desc = offsetof(nook_bake_mesh_desc, primitive_count) + sizeof(uint32_t);
-constexpr std::size_t first_info = offsetof(nook_bake_character_info, bounds_high) + 3 * sizeof(float);
+constexpr std::size_t first_info = offsetof(nook_bake_character_info, bounds_max) + 3 * sizeof(float);
 
 nook_bake_mesh_desc default_mesh_desc() {
   nook_bake_mesh_desc desc{};
@@ -119,8 +119,8 @@ nook_result nook_bake_character_describe(nook_bake_character character, nook_bak
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
     const float bounds[] = {low.x, low.y, low.z, high.x, high.y, high.z};
-    std::copy_n(bounds, 3, answer.bounds_low);
-    std::copy_n(bounds + 3, 3, answer.bounds_high);
+    std::copy_n(bounds, 3, answer.bounds_min);
+    std::copy_n(bounds + 3, 3, answer.bounds_max);
     write_info(info, first_info, answer);
   });
 }

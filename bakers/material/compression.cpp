@@ -150,9 +150,9 @@ void check_file_limits(const CompressionSettings& s, const RawMaterial& raw) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "%llu coefficients a view (its clusters times their view rank); the file format allows %u",
                   static_cast<unsigned long long>(row), nook::material::max_row);
-  const auto in_fours = [](std::uint64_t n) { return (n + 3) / 4 * 4; };
-  const std::uint64_t expanded =
-      (clustered ? s.cluster_count() : 1) * in_fours(s.rank_light) * in_fours(rank) * raw.width * raw.height;
+  const auto round_up_to_4 = [](std::uint64_t n) { return (n + 3) / 4 * 4; };
+  const std::uint64_t expanded = (clustered ? s.cluster_count() : 1) * round_up_to_4(s.rank_light) *
+                                 round_up_to_4(rank) * raw.width * raw.height;
   if (expanded > nook::material::max_expanded)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,

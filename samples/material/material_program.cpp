@@ -45,7 +45,7 @@ void main() {
 #if PASS == PART_VISIBLE
   if (alpha <= 0.0 || alpha >= 1.0) discard;
 #endif
-  vec4 modes[NOOK_LIGHT_FOURS];
+  vec4 modes[NOOK_LIGHT_VEC4_COUNT];
   nook_material_decode(place, dx, dy, view, modes);
   vec3 colour = nook_material_radiance(modes, to_tangent * key_direction) * vec3(4.2, 4.0, 3.7) +
                 nook_material_radiance(modes, to_tangent * fill_direction) * vec3(0.5, 0.6, 0.8);

@@ -1,5 +1,5 @@
 // Constants of the formulas that sdk/src/character (kernel.h, directional.h, directional_bands.h) and these
-// shaders compute alike; those headers say what they mean. C++ and GLSL both include this file.
+// shaders share; the headers describe them. C++ and GLSL both include this file.
 #ifndef NOOK_CHARACTER_CONSTANTS_H
 #define NOOK_CHARACTER_CONSTANTS_H
 

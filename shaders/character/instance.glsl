@@ -1,5 +1,5 @@
-// What the compute passes share: where an instance's data lies. Positions are relative to the instance's origin, so that a
-// scene far from the world's origin keeps its digits.
+// Declarations that the compute passes share: the places of an instance's data. Positions are relative to the
+// instance's origin, so that a scene far from the world's origin keeps its precision.
 #include "shaders/character/constants.h"
 #include "shaders/character/layout.h"
 

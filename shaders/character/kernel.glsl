@@ -1,5 +1,6 @@
-// What one sphere does to one key point; the same formulas, and the same names, as sdk/src/character/kernel.h.
-// delta2: squared distance of the centre in radii; xi: height of the centre above the key point's horizon in radii.
+// The effect of one sphere on one key point, with the formulas and names of sdk/src/character/kernel.h. delta2 is
+// the squared distance of the centre in radii, and xi is the height of the centre above the key point's horizon in
+// radii.
 #include "shaders/character/constants.h"
 
 float nook_visibility_paper(float xi) { return max(xi * inversesqrt(4.0 * xi * xi + 1.0) + 0.5, 0.0); }

@@ -15,38 +15,38 @@ float nook_mipmap_level(vec2 dx, vec2 dy, vec2 texels) {
 }
 
 // Computes the light modes of the point uv for the view, filtered over the pixel with the sides dx and dy.
-void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_FOURS]) {
+void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   ivec2 cell = nook_parabolic_cell(view, NOOK_BTF_SIDE);
   float level = nook_mipmap_level(dx, dy, NOOK_BTF_TEXELS);
-  for (int a = 0; a < NOOK_LIGHT_FOURS; ++a) modes[a] = vec4(0.0);
+  for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) modes[a] = vec4(0.0);
   uvec4 clusters = uvec4(0u);
   for (int k = 0; k < NOOK_BTF_TERMS; ++k) {
 #if NOOK_BTF_CLUSTERS > 1
     if (k % 4 == 0) clusters = texelFetch(nook_btf_membership, ivec3(cell, k / 4), 0);
 #endif
-    int first = int(clusters[k % 4]) * NOOK_LIGHT_FOURS * 4 * NOOK_BTF_VIEW_FOURS;
-    for (int b = 0; b < NOOK_BTF_VIEW_FOURS; ++b) {
-      vec4 coefficients = texelFetch(nook_btf_coefficients, ivec3(cell, k * NOOK_BTF_VIEW_FOURS + b), 0);
-      for (int a = 0; a < NOOK_LIGHT_FOURS; ++a) {
-        int layer = first + a * 4 * NOOK_BTF_VIEW_FOURS + b;
+    int first = int(clusters[k % 4]) * NOOK_LIGHT_VEC4_COUNT * 4 * NOOK_BTF_VIEW_VEC4_COUNT;
+    for (int b = 0; b < NOOK_BTF_VIEW_VEC4_COUNT; ++b) {
+      vec4 coefficients = texelFetch(nook_btf_coefficients, ivec3(cell, k * NOOK_BTF_VIEW_VEC4_COUNT + b), 0);
+      for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) {
+        int layer = first + a * 4 * NOOK_BTF_VIEW_VEC4_COUNT + b;
         modes[a] += vec4(dot(coefficients, nook_btf_mode(layer, uv, level)),
-                         dot(coefficients, nook_btf_mode(layer + NOOK_BTF_VIEW_FOURS, uv, level)),
-                         dot(coefficients, nook_btf_mode(layer + 2 * NOOK_BTF_VIEW_FOURS, uv, level)),
-                         dot(coefficients, nook_btf_mode(layer + 3 * NOOK_BTF_VIEW_FOURS, uv, level)));
+                         dot(coefficients, nook_btf_mode(layer + NOOK_BTF_VIEW_VEC4_COUNT, uv, level)),
+                         dot(coefficients, nook_btf_mode(layer + 2 * NOOK_BTF_VIEW_VEC4_COUNT, uv, level)),
+                         dot(coefficients, nook_btf_mode(layer + 3 * NOOK_BTF_VIEW_VEC4_COUNT, uv, level)));
       }
     }
   }
 }
 
 // Returns the radiance towards the view for an irradiance of 1 on a plane that faces the light.
-vec3 nook_material_radiance(vec4 modes[NOOK_LIGHT_FOURS], vec3 light) {
+vec3 nook_material_radiance(vec4 modes[NOOK_LIGHT_VEC4_COUNT], vec3 light) {
   vec3 radiance = vec3(0.0);
   if (light.z <= 0.0) return radiance;
   vec2 at = 0.5 * nook_parabolic(light) + 0.5;
-  for (int a = 0; a < NOOK_LIGHT_FOURS; ++a)
+  for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a)
     radiance += vec3(dot(modes[a], textureLod(nook_light_map, vec3(at, float(a)), 0.0)),
-                     dot(modes[a], textureLod(nook_light_map, vec3(at, float(a + NOOK_LIGHT_FOURS)), 0.0)),
-                     dot(modes[a], textureLod(nook_light_map, vec3(at, float(a + 2 * NOOK_LIGHT_FOURS)), 0.0)));
+                     dot(modes[a], textureLod(nook_light_map, vec3(at, float(a + NOOK_LIGHT_VEC4_COUNT)), 0.0)),
+                     dot(modes[a], textureLod(nook_light_map, vec3(at, float(a + 2 * NOOK_LIGHT_VEC4_COUNT)), 0.0)));
   return radiance;
 }
 
@@ -63,9 +63,9 @@ float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
 #if NOOK_VOTF_CLUSTERS > 1
     if (k % 4 == 0) clusters = texelFetch(nook_votf_membership, ivec3(cell, k / 4), 0);
 #endif
-    int first = int(clusters[k % 4]) * NOOK_VOTF_VIEW_FOURS;
-    for (int b = 0; b < NOOK_VOTF_VIEW_FOURS; ++b)
-      value += dot(texelFetch(nook_votf_coefficients, ivec3(cell, k * NOOK_VOTF_VIEW_FOURS + b), 0),
+    int first = int(clusters[k % 4]) * NOOK_VOTF_VIEW_VEC4_COUNT;
+    for (int b = 0; b < NOOK_VOTF_VIEW_VEC4_COUNT; ++b)
+      value += dot(texelFetch(nook_votf_coefficients, ivec3(cell, k * NOOK_VOTF_VIEW_VEC4_COUNT + b), 0),
                    nook_votf_mode(first + b, uv, level));
   }
   return value;

@@ -1,6 +1,6 @@
-// What is the same for every pixel of a frame; frame_constants.h fills it.
-// Pixels are those of the viewport, (0, 0) at its lower left corner. The surface is the viewport at the resolution that AO
-// is computed at: itself, or every second pixel of every second row.
+// The values that are equal for all pixels of a frame; frame_constants.h fills them. Pixels are those of the
+// viewport, with (0, 0) at its lower left corner. The surface is the viewport at the resolution at which AO is
+// computed: itself, or every second pixel of every second row.
 #include "shaders/nnao/layout.h"
 uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
 

@@ -1,5 +1,5 @@
-// What a GGX surface reflects, as numbers that depend on the view alone; the same as
-// sdk/src/probe/ggx_reflection.h, which says what they are.
+// The reflection of a GGX surface as numbers that depend on the view alone, as in
+// sdk/src/probe/ggx_reflection.h.
 struct NookProbeSurface {
   vec3 normal;       // unit
   vec3 view;         // unit, from the surface to the eye

@@ -40,7 +40,7 @@ NookProbeReflection nook_probe_reflection_anisotropic(NookProbeSurface surface) 
   return r;
 }
 
-// Of the surface whose widths are both their geometric mean.
+// Returns the reflection of the surface with the geometric mean of both widths.
 NookProbeReflection nook_probe_reflection_isotropic(NookProbeSurface surface) {
   surface.alpha = vec2(sqrt(surface.alpha.x * surface.alpha.y));
   NookProbeReflection r = nook_probe_reflection_anisotropic(surface);

@@ -134,8 +134,8 @@ NOOK_AT(nook_bake_character_info, bone_count, 16);
 NOOK_AT(nook_bake_character_info, clip_count, 20);
 NOOK_AT(nook_bake_character_info, primitive_count, 24);
 NOOK_AT(nook_bake_character_info, warning_count, 28);
-NOOK_AT(nook_bake_character_info, bounds_low, 32);
-NOOK_AT(nook_bake_character_info, bounds_high, 44);
+NOOK_AT(nook_bake_character_info, bounds_min, 32);
+NOOK_AT(nook_bake_character_info, bounds_max, 44);
 
 NOOK_SIZE(nook_bake_progress, 24);
 NOOK_AT(nook_bake_progress, struct_size, 0);

@@ -358,8 +358,8 @@ TEST_CASE("removing an instance costs the same in a scene of any size") {
     for (int trial = 0; trial < 3; ++trial) best = std::min(best, seconds_of_each(count));
     return best;
   };
-  // A visit of every instance costs at least 64 times as much in the larger scene. What a removal does touch
-  // is no longer in the processor's caches there, which costs a factor of 12.
+  // A visit of every instance costs at least 64 times as much in the larger scene. The memory of a removal is
+  // not in the processor's caches there, which costs a factor of 12.
   CHECK(fastest_of_each(64'000) < 32 * fastest_of_each(1000));
 }
 

@@ -32,7 +32,7 @@ const char main_text[] =
     "  vec3 place = texelFetch(places, p, 0).xyz;\n"
     "  vec3 view = texelFetch(views, p, 0).xyz, light = texelFetch(lights, p, 0).xyz;\n"
     "  vec2 dx = vec2(exp2(place.z) / texels.x, 0.0), dy = vec2(0.0, exp2(place.z) / texels.y);\n"
-    "  vec4 modes[NOOK_LIGHT_FOURS];\n"
+    "  vec4 modes[NOOK_LIGHT_VEC4_COUNT];\n"
     "  nook_material_decode(place.xy, dx, dy, view, modes);\n"
     "  int decoded = taken();\n"
     "  vec3 radiance = nook_material_radiance(modes, light);\n"

@@ -205,7 +205,7 @@ TEST_CASE("nnao: compute is taken where OpenGL has it, and refused with a reason
     if (message) {
       CHECK(nook_nnao_create(gl, &desc, &pass) == NOOK_ERROR_UNSUPPORTED);
       CHECK(pass == nullptr);
-      CHECK(message_has(std::string("nook_nnao_create: desc.path asks for compute shaders (") + message));
+      CHECK(message_has(std::string("nook_nnao_create: desc.path needs compute shaders (") + message));
     } else {
       NOOK_OK_OR_FAIL(nook_nnao_create(gl, &desc, &pass));
       CHECK(info_of(pass).path == got);

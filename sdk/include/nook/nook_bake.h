@@ -109,8 +109,8 @@ typedef struct nook_bake_character_info {
   /* The number of things that the import left out or repaired. */
   uint32_t warning_count;
   /* Minimum and maximum of the rest pose, metres. */
-  float bounds_low[3];
-  float bounds_high[3];
+  float bounds_min[3];
+  float bounds_max[3];
 } nook_bake_character_info;
 
 /* Describes a character.

@@ -18,7 +18,7 @@
  * nook_gl_material_describe after the #version line of a fragment shader, and sets the uniform of each
  * texture to a texture unit. For each draw it binds the textures, with no sampler object on their units. The
  * shader:
- *     vec4 modes[NOOK_LIGHT_FOURS];
+ *     vec4 modes[NOOK_LIGHT_VEC4_COUNT];
  *     nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
  *     colour = nook_material_radiance(modes, light) * irradiance;
  *     alpha = nook_material_visibility(nook_material_occlusion(uv, dFdx(uv), dFdy(uv), view));

@@ -143,7 +143,7 @@ Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Di
       inverse);
 }
 
-// Of one sphere.
+// The `sharpest` of a single sphere, which sets no bound.
 inline constexpr float no_sharpest = float(NOOK_NO_SHARPEST);
 
 // The spheres of one caster as one: the mean of their sights, weighted by their shares, and the sum of these

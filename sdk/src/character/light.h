@@ -1,4 +1,4 @@
-// The light of an instance, and its occlusion by channel: which part of the light the spheres take.
+// The light of an instance, and its occlusion in each channel.
 #pragma once
 
 #include <nook/nook_character.h>
@@ -22,11 +22,11 @@ struct InstanceLight {
   AlignedArray<LightLobe> lobes;       // max_light_lobes, or none before the first light
   AlignedArray<LobeBands> lobe_bands;  // the same
   std::uint32_t count = 0;             // 0: no light
-  Vec3 darkest;                        // of LightView
-  LightBands bands;                    // of the lobes as the ground leaves them
-  bool evaluated = false;              // shadow and added are of a light, not of the one before none
+  Vec3 darkest;                        // see LightView
+  LightBands bands;                    // of the lobes without the part that the ground hides
+  bool evaluated = false;              // shadow and added belong to the present light
 
-  // By channel, PointLanes::padded_count long; pointers into storage.
+  // One array of PointLanes::padded_count for each channel; the pointers are into storage.
   float* shadow[3] = {};   // PointLanes::shadow
   float* added[3] = {};    // PointLanes::added
   float* sum[3] = {};      // scratch, of the evaluated key points
@@ -37,17 +37,19 @@ struct InstanceLight {
   LightView view() const { return {lobes.data(), count, darkest}; }
 };
 
-// No lobes: the instance has no light again. Throws Failure on a bad id or lobe, and std::bad_alloc, and then
-// changes nothing; allocates at the first light of an instance only.
+// Without lobes the instance loses its light. Throws Failure on a bad id or lobe, and std::bad_alloc, and
+// then changes nothing. Allocates only at the first light of an instance.
 void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes);
 
-// After resolve_casters: what the ground leaves of each lobe, and the bands of that. Nothing without a light.
+// Runs after resolve_casters: computes the part of each lobe that the ground leaves, and its bands. Does
+// nothing without a light.
 void prepare_light(const Scene& scene, Instance& instance) noexcept;
 
-// After evaluate_shadows: the colours of its shadow and added occlusion. Nothing without a light.
+// Runs after evaluate_shadows: computes the colours of shadow and added occlusion. Does nothing without a
+// light.
 void evaluate_directional(const Scene& scene, Instance& instance) noexcept;
 
-// As read_ao, three floats a vertex; AO in all of them where the last update saw no light.
+// Writes three floats for each vertex as read_ao does; all of them are AO if the last update found no light.
 void read_directional_ao(const Scene& scene, const Instance& instance, float* out,
                          std::size_t stride_bytes) noexcept;
 

@@ -42,8 +42,8 @@ struct LoadedModel : RefCounted {
     float radius = -1;
   };
   AlignedArray<BoneBound> bone_bounds;
-  float max_alpha_sum =
-      0;  // largest sum of alpha over a vertex: the most that a unit of shadow can change an AO
+  float max_alpha_sum = 0;    // maximum over the vertices of the sum of alpha, which is the largest change of
+                              // AO by a unit of shadow
   float caster_strength = 0;  // maximum over the levels of the sum of caster_weight * radius^2, square metres
 };
 

@@ -71,34 +71,34 @@ struct Instance {
   std::uint32_t generation = 0;  // how often the slot was used before, part of the id
   Ref<const LoadedModel> model;
 
-  // What the host sets.
+  // State that the host sets.
   std::pmr::vector<Mat3x4> bones;   // rest space to world, one for each bone of the model
   std::uint64_t pose_revision = 0;  // rises with every set_pose; never 0 for a living instance
   bool has_ground = false;
   Plane ground;
   std::pmr::vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
-  // Slots of the instances that have this one in `linked`, ascending: what a removal must visit.
+  // Slots of the instances that have this one in `linked`, ascending, which a removal must visit.
   std::pmr::vector<std::uint32_t> receivers;
 
   InstanceLight light;
 
-  // What set_pose derives: a sphere round the root bone's image of the model's bounding centre that holds all
-  // key points and proxy spheres of the pose, and an upper bound of the scale of its bones.
+  // Derived by set_pose: a sphere around the root bone's image of the model's bounding centre that contains
+  // all key points and proxy spheres of the pose, and an upper bound of the scale of its bones.
   Sphere bound;
   float scale = 1;
 
-  // What resolve_casters decides for this update. Of an instance that is not due the lists are of an earlier
-  // one, may name free slots and must not be read.
+  // Decisions of resolve_casters for this update. The lists of an instance that is not due are those of an
+  // earlier update; they may name free slots and must not be read.
   std::pmr::vector<std::uint32_t> casters;    // slots, ascending, each once; capacity reserved by the edits
-  std::pmr::vector<std::uint32_t> occluders;  // slots of free occluders that matter here
-  Sphere ground_sphere;                       // radius 0: no ground, or too far to matter
+  std::pmr::vector<std::uint32_t> occluders;  // slots of free occluders that darken this instance
+  Sphere ground_sphere;                       // radius 0: no ground, or it is skipped
   std::uint32_t culled = 0;                   // casters and occluders left out by the cut-off
   std::uint32_t level = 0;                    // level of detail of the model, 0 is full
-  bool due = true;                            // evaluated in this update; the others keep what they have
+  bool due = true;                            // evaluated in this update; other instances keep their results
 
-  // What the evaluation leaves.
+  // Results of the evaluation.
   InstanceArrays arrays;
-  std::uint64_t transformed_revision = 0;  // pose_revision that the spheres in `arrays` show
+  std::uint64_t transformed_revision = 0;  // pose_revision of the spheres in `arrays`
   std::uint64_t evaluated_frame = 0;       // Scene::frame of the last evaluation; 0: never
   std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
 };
@@ -134,7 +134,7 @@ struct Scene {
   std::pmr::vector<Occluder> occluders;            // by slot
   std::pmr::vector<std::uint32_t> free_occluders;
   std::uint32_t living = 0;  // instances in use
-  // Rises when instances or occluders come or go, or an instance gets its first light.
+  // Rises when instances or occluders are added or removed, or an instance gets its first light.
   std::uint64_t structure_revision = 0;
 
   std::uint32_t nearest = 0;       // k of link_nearest; 0: off
@@ -163,15 +163,15 @@ void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere);
 void remove_occluder(Scene& scene, nook_occluder_id id);
 
 // An id is the slot + 1 in the low bits and the slot's generation in the high ones. A slot whose generations
-// are used up is never used again, so that no id ever comes back.
+// are used up is never used again, so that no id occurs twice.
 inline constexpr std::uint32_t id_slot_bits = 20;
 inline constexpr std::uint32_t id_generations = 1u << (32 - id_slot_bits);
 inline constexpr std::uint32_t max_slots = (1u << id_slot_bits) - 1;
 
 // ---- Steps of an update, in order; none allocates or throws ----
 
-// Whether whoever evaluates the scene, the CPU or a GPU, holds results of the instance in a slot. References
-// a function object that outlives it.
+// A predicate: the evaluator of the scene, the CPU or a GPU, has results of the instance in a slot. It refers
+// to a function object, which must outlive it.
 class HasResult {
  public:
   template <class Function>
@@ -186,24 +186,24 @@ class HasResult {
   bool (*ask_)(const void* of, std::uint32_t slot);
 };
 
-// Levels of detail and who is due, at once where there is no result; then casters, occluders and ground
-// sphere of each instance that is due: explicit links and the k nearest, less those below the cut-off. Needs
-// the poses only.
+// Chooses levels of detail and the instances that are due, which include those without results. Then chooses
+// casters, occluders and ground sphere of each instance that is due: explicit links and the k nearest,
+// without those below the cut-off. Needs only the poses.
 void resolve_casters(Scene& scene, HasResult has_result) noexcept;
-// World-space spheres of an instance at all levels, which it and its receivers need.
+// Computes the world-space spheres of an instance at all levels, which it and its receivers need.
 void transform_spheres(const Scene& scene, Instance& instance) noexcept;
-// World-space key points of an instance that is due, at its level.
+// Computes the world-space key points of an instance that is due, at its level.
 void transform_key_points(const Scene& scene, Instance& instance) noexcept;
-// Shadow and added occlusion at the key points of an instance that is due; then their colours if it has a
-// light (light.h).
+// Computes shadow and added occlusion at the key points of an instance that is due, and their colours if it
+// has a light (light.h).
 void evaluate_shadows(const Scene& scene, Instance& instance) noexcept;
-// All of the above for all instances, and the statistics.
+// Runs all of the above for all instances, and computes the statistics.
 void update(Scene& scene) noexcept;
 
 // Blends the key points to vertices and writes the AO of the last update in file order; `out` has the model's
 // number of file vertices, stride_bytes apart.
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept;
-// The same from other shadows and added occlusions at the key points than the instance's own.
+// The same from given shadows and added occlusions at the key points.
 void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
              float* out, std::size_t stride_bytes) noexcept;
 

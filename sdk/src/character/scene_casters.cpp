@@ -1,5 +1,5 @@
-// Who darkens whom in this update: explicit links, the k nearest, free occluders and the ground, less what
-// the cut-off lets go; and which instances are due at which level of detail.
+// Chooses the casters of each instance in an update: explicit links, the k nearest, free occluders and the
+// ground, without those below the cut-off. Chooses the instances that are due and their levels of detail.
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +8,9 @@
 namespace nook {
 namespace {
 
-// The most that spheres of total sum(weight * radius^2) = strength can darken any vertex whose key points are
-// at least `gap` from their centres: a form factor is at most (radius / distance)^2, and 1 - exp(-x) <= x.
+// Returns an upper bound of the darkening by spheres with sum(weight * radius^2) = strength of any vertex
+// whose key points are at least `gap` from their centres: a form factor is at most (radius / distance)^2, and
+// 1 - exp(-x) <= x.
 float composed_bound(const LoadedModel& receiver, float strength, float gap) {
   return gap > 0 ? receiver.linear.max_blend_gain() * strength / (gap * gap) : INFINITY;
 }

@@ -46,7 +46,7 @@ Desc read_descriptor(const Desc* desc, const char* init_function, std::size_t fi
   check_version(desc->header_version);
   if (desc->next)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.next is not NULL; this library knows no extensions, set it to NULL");
+                  "desc.next is not NULL; this library has no extensions, set it to NULL");
   const auto* bytes = reinterpret_cast<const unsigned char*>(desc);
   for (std::size_t i = sizeof(Desc); i < size; ++i)
     if (bytes[i])

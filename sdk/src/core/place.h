@@ -1,4 +1,4 @@
-// How far from the origin things may lie.
+// The maximum distance of geometry from the origin.
 #pragma once
 
 #include <cmath>

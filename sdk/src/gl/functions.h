@@ -122,8 +122,8 @@ namespace nook::gl {
   X(ObjectLabel)                      \
   X(ViewportIndexedf)
 
-// What a context can do beyond the least that Nook runs on. load_functions decides it once, from the version,
-// the loader and the host's limit; all other code asks here and compares no version.
+// Abilities of a context beyond the minimum that Nook needs. load_functions derives them once from the
+// version, the loader and the host's limit; all other code reads them and compares no version.
 struct Abilities {
   bool compute = false;            // compute shaders and shader storage
   bool compute_images = false;     // compute shaders that write images, too

@@ -15,9 +15,9 @@ struct DecodeCost {
 // coefficient and light mode, and the clusters of the terms if there are several. Without tables the cost is
 // 0.
 inline DecodeCost decode_cost(const TensorTables& t) {
-  const std::uint32_t spatial = t.terms * t.view_fours * t.light_modes;
-  const std::uint32_t clusters = t.clusters > 1 ? in_fours(t.terms) : 0;
-  return {spatial + t.terms * t.view_fours + clusters, 4 * spatial};
+  const std::uint32_t spatial = t.terms * t.view_vec4_count * t.light_modes;
+  const std::uint32_t clusters = t.clusters > 1 ? vec4_count(t.terms) : 0;
+  return {spatial + t.terms * t.view_vec4_count + clusters, 4 * spatial};
 }
 
 // The cost of one light: three rows of the light basis.

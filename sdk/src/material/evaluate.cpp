@@ -70,11 +70,11 @@ void decode(const TensorTables& tables, const Sample& sample, float* modes) {
   for (std::uint32_t k = 0; k < tables.terms; ++k) {
     const std::uint32_t cluster =
         tables.clusters > 1 ? tables.membership[(k / 4 * count + cell) * 4 + k % 4] : 0;
-    for (std::uint32_t f = 0; f < tables.view_fours; ++f) {
+    for (std::uint32_t f = 0; f < tables.view_vec4_count; ++f) {
       const Four coefficients =
-          four(&tables.coefficients[((std::size_t(k) * tables.view_fours + f) * count + cell) * 4]);
+          four(&tables.coefficients[((std::size_t(k) * tables.view_vec4_count + f) * count + cell) * 4]);
       for (std::uint32_t a = 0; a < tables.light_modes; ++a) {
-        const std::uint32_t layer = (cluster * tables.light_modes + a) * tables.view_fours + f;
+        const std::uint32_t layer = (cluster * tables.light_modes + a) * tables.view_vec4_count + f;
         modes[a] += dot(coefficients, trilinear(tables, layer, sample));
       }
     }
@@ -101,10 +101,10 @@ Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample) {
   const Between x = clamped(0.5f * p.x + 0.5f, MaterialTables::light_side);
   const Between y = clamped(0.5f * p.y + 0.5f, MaterialTables::light_side);
   float radiance[3] = {};
-  const std::uint32_t fours = tables.btf.light_modes / 4;
+  const std::uint32_t light_vec4_count = tables.btf.light_modes / 4;
   for (std::uint32_t channel = 0; channel < 3; ++channel)
-    for (std::uint32_t f = 0; f < fours; ++f)
-      radiance[channel] += dot(light_texel(tables, channel * fours + f, x, y),
+    for (std::uint32_t f = 0; f < light_vec4_count; ++f)
+      radiance[channel] += dot(light_texel(tables, channel * light_vec4_count + f, x, y),
                                {modes[4 * f], modes[4 * f + 1], modes[4 * f + 2], modes[4 * f + 3]});
   return {radiance[0], radiance[1], radiance[2]};
 }

@@ -46,7 +46,8 @@ class ClusterPacking {
     const std::span<float> work(work_.data() + place * each, each);
     std::span<float> image = work.subspan(0, texels_), other = work.subspan(texels_, texels_);
     expansion_.expand(a, b, work.subspan(2 * texels_), image);
-    const std::size_t layer = (std::size_t(cluster_) * tables_.light_modes + a) * tables_.view_fours + b / 4;
+    const std::size_t layer =
+        (std::size_t(cluster_) * tables_.light_modes + a) * tables_.view_vec4_count + b / 4;
     for (std::uint32_t level = 0;; ++level) {
       const std::uint32_t w = level_size(tables_.width, level), h = level_size(tables_.height, level);
       const std::size_t texels = std::size_t(w) * h;
@@ -82,13 +83,13 @@ void pack_cells(const ViewCells& cells, std::uint32_t rank, float scale, TensorT
   const std::size_t count = std::size_t(cells.side) * cells.side;
   tables.side = cells.side;
   tables.terms = cells.terms;
-  tables.coefficients.resize(count * 4 * cells.terms * tables.view_fours);
-  if (tables.clusters > 1) tables.membership.resize(count * 4 * in_fours(cells.terms));
+  tables.coefficients.resize(count * 4 * cells.terms * tables.view_vec4_count);
+  if (tables.clusters > 1) tables.membership.resize(count * 4 * vec4_count(cells.terms));
   for (std::size_t cell = 0; cell < count; ++cell)
     for (std::uint32_t k = 0; k < cells.terms; ++k) {
       const std::size_t term = cell * cells.terms + k;
       for (std::uint32_t b = 0; b < rank; ++b)
-        tables.coefficients[((std::size_t(k) * tables.view_fours + b / 4) * count + cell) * 4 + b % 4] =
+        tables.coefficients[((std::size_t(k) * tables.view_vec4_count + b / 4) * count + cell) * 4 + b % 4] =
             finite_half(cells.rows.coefficients[term * rank + b] * scale);
       if (tables.clusters > 1)
         tables.membership[(k / 4 * count + cell) * 4 + k % 4] = cells.rows.membership[term];
@@ -102,7 +103,7 @@ void make_spatial(const ClusteredTensor& tensor, std::uint32_t light_modes, int 
   tables.height = s.height;
   tables.levels = level_count(s.width, s.height);
   tables.light_modes = light_modes;
-  tables.view_fours = in_fours(s.rank_view);
+  tables.view_vec4_count = vec4_count(s.rank_view);
   tables.clusters = s.clusters;
   tables.spatial.resize(tables.level_offset(tables.levels));
   for (std::uint32_t c = 0; c < s.clusters; ++c)
@@ -126,9 +127,9 @@ float low_light_share(std::span<const Vec3> lights, const DirectionMix& mix, flo
 void make_light_map(const Material& material, float scale, MaterialTables& tables,
                     std::pmr::memory_resource* memory) {
   const std::uint32_t side = MaterialTables::light_side, rank = material.btf.shape.rank_light;
-  const std::size_t count = std::size_t(side) * side, fours = in_fours(rank);
+  const std::size_t count = std::size_t(side) * side, light_vec4_count = vec4_count(rank);
   const DirectionMesh mesh(material.lights, memory);
-  tables.light.resize(3 * fours * count * 4);
+  tables.light.resize(3 * light_vec4_count * count * 4);
   std::size_t hint = 0;
   for (std::uint32_t row = 0; row < side; ++row)
     for (std::uint32_t column = 0; column < side; ++column) {
@@ -140,7 +141,7 @@ void make_light_map(const Material& material, float scale, MaterialTables& table
           float sum = 0;
           for (int i = 0; i < 3; ++i)
             sum += mix.weight[i] * material.light_basis[(3 * std::size_t(mix.index[i]) + channel) * rank + a];
-          const std::size_t layer = channel * fours + a / 4;
+          const std::size_t layer = channel * light_vec4_count + a / 4;
           tables.light[((layer * side + row) * side + column) * 4 + a % 4] = sum * scale * share;
         }
     }
@@ -164,7 +165,7 @@ MaterialTables make_tables(const Material& material, const Parallel& parallel,
   MaterialTables tables(memory);
   const ClusteredTensor &btf = material.btf, &votf = material.votf;
   const int exponent = spatial_exponent(btf, memory);
-  make_spatial(btf, 4 * in_fours(btf.shape.rank_light), exponent, parallel, tables.btf, memory);
+  make_spatial(btf, 4 * vec4_count(btf.shape.rank_light), exponent, parallel, tables.btf, memory);
   pack_cells(view_cells(btf, material.views, map_side, memory), btf.shape.rank_view, 1, tables.btf);
   make_light_map(material, std::ldexp(1.0f, -exponent), tables, memory);
   tables.visibility = material.visibility;

@@ -12,7 +12,7 @@ namespace nook::material {
 
 // Returns the number of groups of four. The four numbers of a texel hold four neighbours of a mode: of the
 // view mode in spatial modes and coefficients, and of the light mode in the light map.
-constexpr std::uint32_t in_fours(std::uint32_t rank) {
+constexpr std::uint32_t vec4_count(std::uint32_t rank) {
   return (rank + 3) / 4;
 }
 
@@ -23,21 +23,22 @@ struct TensorTables {
 
   std::uint32_t width = 0, height = 0;  // of level 0
   std::uint32_t levels = 0;
-  std::uint32_t light_modes = 0;  // R_l of a BTF, rounded up to a multiple of 4; 1 for a VOTF
-  std::uint32_t view_fours = 0;   // R_v / 4, rounded up
+  std::uint32_t light_modes = 0;      // R_l of a BTF, rounded up to a multiple of 4; 1 for a VOTF
+  std::uint32_t view_vec4_count = 0;  // R_v / 4, rounded up
   std::uint32_t clusters = 0;
   std::uint32_t side = 0;   // cells of the view map
   std::uint32_t terms = 0;  // of a cell; see ViewCells
 
   // One level after another: layers x height x width x 4. Number b % 4 of layer (c light_modes + a)
-  // view_fours + b / 4 is the mode S_c[a, b] of spatial_modes.h, times a power of two for the whole tensor.
+  // view_vec4_count + b / 4 is the mode S_c[a, b] of spatial_modes.h, times a power of two for the whole
+  // tensor.
   std::pmr::vector<std::uint16_t> spatial;
-  // terms x view_fours layers of side x side x 4.
+  // terms x view_vec4_count layers of side x side x 4.
   std::pmr::vector<std::uint16_t> coefficients;
   // Layers of side x side x 4, with four terms each; empty if there is a single cluster.
   std::pmr::vector<std::uint16_t> membership;
 
-  std::uint32_t layers() const { return clusters * light_modes * view_fours; }
+  std::uint32_t layers() const { return clusters * light_modes * view_vec4_count; }
   // Returns the offset of a level in `spatial`.
   std::size_t level_offset(std::uint32_t level) const;
 };

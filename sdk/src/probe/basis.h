@@ -1,5 +1,5 @@
-// The functions that a probe is made of. One interface for all kinds: values at a direction, the integral of
-// each function, and the Gram matrix of all, over the sphere or a hemisphere. Fits know no more than that.
+// The basis functions of a probe, with one interface for all kinds: values at a direction, the integral of
+// each function, and the Gram matrix of all, over the sphere or a hemisphere. Fits use nothing else.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -22,7 +22,7 @@ inline constexpr std::uint32_t dice_vertices = 12;
 enum class BasisKind : std::uint8_t { gaussians = 0, harmonics = 1, dice = 2 };
 enum class Domain : std::uint8_t { sphere = 0, hemisphere = 1 };
 
-// Plain data; comparable, so that two fits can be asked whether they merge.
+// Plain data; it can be compared, which shows if two fits can be merged.
 struct Basis {
   BasisKind kind = BasisKind::gaussians;
   Domain domain = Domain::sphere;
@@ -49,8 +49,8 @@ Basis dice_basis(Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
 // Half as much as there are lobes on the sphere, which overlaps neighbours alike at every count: 6 for 12.
 float even_sharpness(std::uint32_t lobes, Domain domain);
 
-// Throws Failure(code): a count, axis or sharpness out of its range, or two lobes that no fit can tell apart,
-// which it names.
+// Throws Failure(code) if a count, axis or sharpness is out of range, or if no fit can separate two lobes;
+// the message names both.
 void check_basis(const Basis& basis, nook_result code);
 
 // values[i] = B_i(direction), count of them; direction unit.

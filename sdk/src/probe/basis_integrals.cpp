@@ -22,8 +22,8 @@ double cap_integral(double sharpness, double depth) {
 }
 
 // Integral of a lobe over the hemisphere whose axis is at `cosine` from the lobe's. The circle at angle a
-// round the lobe's axis is whole up to a = |90 degrees - tilt|, then cut by the horizon, then gone (or the
-// other way round for a lobe below it).
+// round the lobe's axis is complete up to a = |90 degrees - tilt|, then cut by the horizon, and then empty
+// (for a lobe below the horizon in reverse order).
 double hemisphere_integral(const Rule& rule, double sharpness, double cosine) {
   const double tilt = std::acos(std::clamp(cosine, -1.0, 1.0));
   const double first = std::abs(pi / 2 - tilt), last = pi - first;

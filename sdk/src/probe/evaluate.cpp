@@ -9,7 +9,7 @@
 namespace nook::probe {
 namespace {
 
-// What function i of the basis gives on a surface, at coefficient 1.
+// Computes the irradiance of each function of the basis on a surface, at coefficient 1.
 void irradiance_functions(const Basis& basis, IrradianceForm form, Vec3 normal, float* values) {
   switch (basis.kind) {
     case BasisKind::gaussians:

@@ -1,5 +1,5 @@
-// Least-squares fits of a basis to samples of radiance, while they arrive; nook_probe.h says what each method
-// is. One contract for all: add samples, read coefficients at any time, merge.
+// Least-squares fits of a basis to samples of radiance while they arrive. nook_probe.h describes the methods.
+// All of them add samples, give coefficients at any time, and merge.
 //
 // The running averages' fast step is recursive least squares whose Gram matrix is not summed from the samples
 // but known: the true one times the weight so far. With a the domain's area, G the Gram matrix, K = a G^-1 B
@@ -53,28 +53,28 @@ constexpr bool is_running(FitMethod method) {
          method == FitMethod::running_average_non_negative;
 }
 
-// Whether coefficients are drawn to the light's bands 0 to 2, see light_bands.h: Gaussians, but the two forms
-// that are there for comparison.
+// Returns true if coefficients are constrained to the light's bands 0 to 2 (light_bands.h): Gaussians, except
+// for the two forms that exist for comparison.
 constexpr bool meets_bands(const Basis& basis, const FitSettings& settings) {
   return settings.constraint == Constraint::bands && basis.kind == BasisKind::gaussians &&
          settings.method != FitMethod::naive && settings.method != FitMethod::running_average_original;
 }
 
-// Whether the functions' own bands are estimated from the samples as well.
+// Returns true if the functions' own bands are estimated from the samples as well.
 constexpr bool has_sampled_bands(const Basis& basis, const FitSettings& settings) {
   return meets_bands(basis, settings) && basis.domain == Domain::sphere &&
          (settings.method == FitMethod::least_squares ||
           settings.method == FitMethod::non_negative_least_squares);
 }
 
-// What became of the samples.
+// Counts of used and skipped samples.
 struct SampleCounts {
   std::uint64_t used = 0;
-  double expected_weight = 0;  // of the first ones, were each 1 before it grows
+  double expected_weight = 0;  // of the first samples, if each weight were 1 before it grows
   std::uint64_t bad_direction = 0;
   std::uint64_t bad_radiance = 0;
   std::uint64_t bad_weight = 0;
-  double weight = 0;            // of those used
+  double weight = 0;            // of the used samples
   double radiance[3]{0, 0, 0};  // their weighted sum
 
   std::uint64_t skipped() const { return bad_direction + bad_radiance + bad_weight; }
@@ -82,16 +82,16 @@ struct SampleCounts {
 
 class Fit {
  public:
-  // Throws what check_basis throws, also where functions depend on each other only together, and UNSUPPORTED
-  // for an instruction set that is not there.
+  // Throws the failures of check_basis, also if several functions are linearly dependent, and UNSUPPORTED for
+  // an instruction set that the processor lacks.
   Fit(const Basis& basis, const FitSettings& settings,
       std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-  // directions and radiance: three floats an entry; weights null: all 1. Allocates nothing. How samples are
-  // cut into calls does not matter, to the bit.
+  // directions and radiance have three floats for each entry; with weights null all weights are 1. Allocates
+  // nothing. The result has the same bits for any distribution of the samples over calls.
   void add_samples(const float* directions, const float* radiance, const float* weights, std::size_t count);
-  // The start of a running average without samples; it weighs as much as the samples of short_run. Both throw
-  // INVALID_ARGUMENT for a fit of another basis, merge also for other settings.
+  // Starts a running average without samples from short_run, which counts as much as its samples. Both
+  // functions throw INVALID_ARGUMENT for a fit of another basis, and merge also for other settings.
   void seed(Fit& short_run);
   void merge(const Fit& other);
   void reset();

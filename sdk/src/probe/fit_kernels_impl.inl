@@ -26,7 +26,7 @@ struct Colour {
   Float r, g, b;
 };
 
-// What is left of the sample's radiance after the fit.
+// The difference between the sample's radiance and the fit.
 struct Residual {
   float r, g, b;
 };

@@ -1,4 +1,5 @@
-// Where each instruction set's translation unit leaves its table. Call one only after asking the processor.
+// The table of each instruction set's translation unit. A table may only be used on a processor that has the
+// instruction set.
 #pragma once
 
 #include "sdk/src/probe/fit_kernels.h"

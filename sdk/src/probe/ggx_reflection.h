@@ -1,5 +1,5 @@
-// What a GGX surface reflects, as numbers that depend on the view alone: its directional albedo, and the mean
-// and the widths of the lobe of directions that it reflects to the eye.
+// The reflection of a GGX surface as numbers that depend on the view alone: its directional albedo, and the
+// mean and the widths of the lobe of directions that it reflects to the eye.
 //
 // Polynomials fitted to quadrature over visible normals, alpha 0.004 to 1, facing 0.02 to 1, by
 // tests/probe/ggx_fit.cpp, which prints their coefficients; shaders/probe/ggx_reflection.glsl has the same.

@@ -13,10 +13,10 @@ namespace nook::probe {
 inline constexpr std::uint32_t band_functions = 9;  // harmonics of bands 0 to 2
 inline constexpr std::uint32_t band_stride = 16;    // the same in whole vectors
 
-// How strongly coefficients are drawn to the light's bands; see meet_bands.
+// The weight of the constraint on the light's bands; see meet_bands.
 inline constexpr double exact_bands = 1e6;  // equal, to 1e-5 of the light or better
-// Where coefficients may not be negative, or lobes end at a horizon, equality has no answer or a bad one.
-// From here on irradiance gains little more, and radiance loses.
+// If coefficients may not be negative, or lobes end at a horizon, equality has no solution or a bad one. With
+// a larger weight irradiance improves little, and radiance gets worse.
 inline constexpr double soft_bands = 100;
 
 // Projections on the harmonics, in steradians times their coefficients' unit.

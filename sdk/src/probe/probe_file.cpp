@@ -112,7 +112,7 @@ void read_lobes(ByteReader in, Basis& basis) {
   in.check_end();
 }
 
-// What a file says of a basis without lobes must be what this library makes of its order.
+// The description of a basis without lobes in a file must be equal to the library's basis of that order.
 void complete(Basis& basis) {
   check_basis(basis, NOOK_ERROR_BAD_FILE);
   Basis made = basis.kind == BasisKind::dice ? dice_basis(basis.domain, basis.up)

@@ -45,8 +45,8 @@ TEST_CASE("a character from memory is what was given") {
   CHECK(info.bone_count == 2);
   CHECK(info.clip_count == 0);
   CHECK(info.primitive_count == 1);
-  CHECK(info.bounds_low[0] == 0);
-  CHECK(info.bounds_high[0] == 1);
+  CHECK(info.bounds_min[0] == 0);
+  CHECK(info.bounds_max[0] == 1);
 
   tube t;
   make_tube(&t);

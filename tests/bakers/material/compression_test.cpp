@@ -195,7 +195,7 @@ TEST_CASE("ranks, clusters and mixtures that do not fit are named") {
   CHECK(with([](auto& s) { s.map_side = 1000; }).find("1000 cells") != std::string::npos);
 }
 
-TEST_CASE("ranks by threshold keep each mode's error, in fours") {
+TEST_CASE("ranks by threshold keep each mode's error, in multiples of four") {
   const RawMaterial raw = test::small_material();
   const CompressionSettings s = ranks_by_threshold(raw, 0.01, {});
   for (const std::uint32_t rank :

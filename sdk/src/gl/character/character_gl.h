@@ -10,8 +10,8 @@
 
 namespace nook::gl {
 
-// A scene as its owner hands it in; `owner` keeps the memory of the others, `destroyed` says that the host
-// let go of it.
+// A scene and its owner. `owner` keeps the memory of the other members alive, and `destroyed` is true once
+// the host has destroyed the scene.
 struct SceneHandle {
   Ref<const RefCounted> owner;
   const std::atomic<bool>* destroyed = nullptr;

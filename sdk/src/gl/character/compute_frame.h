@@ -1,5 +1,5 @@
-// What the CPU sends for one update of the compute tier: for each chunk the records, poses and casters of its
-// instances, in one buffer that is filled from the start each time.
+// The data of one update of the compute tier: the records, poses and casters of each chunk's instances, in
+// one buffer that is filled from the start each time.
 #pragma once
 
 #include <cstdint>

@@ -68,7 +68,7 @@ std::array<LevelRange, CharacterModel::max_levels + 1> ranges_of(const Character
   return ranges;
 }
 
-// As vertices.comp reads it.
+// Packs the linear layer in the layout of vertices.comp.
 Words pack_linear(const ComputeModel& sizes, std::pmr::memory_resource* memory) {
   const CharacterModel& model = sizes.model->model;
   const std::size_t vertices = sizes.vertices(), pairs = sizes.influence_pairs();

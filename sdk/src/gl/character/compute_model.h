@@ -19,9 +19,9 @@ struct ComputeModel : ModelData {
   ComputeModel(Device& device, Ref<const LoadedModel> loaded);
 
   std::uint32_t level_count() const { return static_cast<std::uint32_t>(model->model.levels.size()) + 1; }
-  // The level, or the coarsest there is if that is finer.
-  const LevelRange& level(std::uint32_t wanted) const { return levels[std::min(wanted, level_count() - 1)]; }
-  // Of all levels together.
+  // Returns the level, or the coarsest one if the model has fewer levels.
+  const LevelRange& level(std::uint32_t index) const { return levels[std::min(index, level_count() - 1)]; }
+  // Returns the number of spheres of all levels.
   std::uint32_t spheres() const {
     return levels[level_count() - 1].first_sphere + levels[level_count() - 1].spheres;
   }

@@ -54,7 +54,7 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
   void make_light_buffers(Device& device);
 };
 
-// The pose that an instance of the scene has now.
+// Returns the present pose of an instance.
 inline ComputeChunk::Pose pose_of(const Instance& instance) {
   return {instance.id, instance.pose_revision};
 }

@@ -18,9 +18,9 @@ class ComputeTier final : public Tier {
   void release(const Scene& scene) override;
 
  private:
-  // Compiles what the models and lights of the scene need; nothing the second time.
+  // Compiles the programs that the models and lights of the scene need and that do not exist yet.
   void make_programs(const ComputeScene& placed);
-  // What the scene's update decided, as the passes need it.
+  // The decisions of the scene's update that the passes need.
   struct Update {
     const ComputeScene& placed;
     bool self;      // the term of the instance's own spheres counts

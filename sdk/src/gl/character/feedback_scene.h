@@ -32,8 +32,8 @@ struct FeedbackScene : PlacedScene<FeedbackChunk> {
     return slot != FeedbackChunk::empty && !placements[slot].evaluated;
   }
 
-  Page shadows;  // two floats a key point
-  Page colours;  // eight, by channel; none before the first light
+  Page shadows;  // two floats for each key point
+  Page colours;  // eight floats, by channel; empty before the first light
 
  private:
   void make_shadow_page(Device& device);

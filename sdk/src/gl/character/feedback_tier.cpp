@@ -10,7 +10,7 @@ namespace {
 static_assert(CharacterModel::max_influences <= 8,
               "vertices.vert has attributes for two quads of influences");
 
-// Two floats a key point, of the AO.
+// Shadow and added occlusion: two floats for each key point.
 struct Shadows {
   static constexpr std::uint32_t floats = 2;
   static void write(const Scene& scene, const Instance& instance, float* out) {
@@ -23,7 +23,7 @@ struct Shadows {
   }
 };
 
-// Eight floats a key point, by channel; the same in all of them without a light.
+// The same for each channel: eight floats for each key point. Without a light all channels are equal.
 struct Colours {
   static constexpr std::uint32_t floats = 8;
   static void write(const Scene& scene, const Instance& instance, float* out) {

@@ -21,7 +21,7 @@ std::uint32_t texels_of(const InstanceLight& light) {
   return light.count ? NOOK_LIGHT_LOBES + NOOK_LIGHT_LOBE_TEXELS * light.count : 0;
 }
 
-// As light_layout.h has it.
+// Writes a light in the layout of light_layout.h.
 void write_light(const Instance& instance, Texel* out) {
   const InstanceLight& light = instance.light;
   const LightBands& bands = light.bands;

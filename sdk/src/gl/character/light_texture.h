@@ -20,8 +20,8 @@ class LightTexture {
   bool made() const { return texture_.name() != 0; }
   // Room for the instances of the scene, so that upload allocates nothing.
   void resize(std::size_t slots) { first_texels_.resize(slots, no_light); }
-  // Sends all lights as shaders/character/light_layout.h has them. Throws Failure if OpenGL gives no memory or a
-  // texture buffer of it cannot hold them.
+  // Sends all lights as shaders/character/light_layout.h has them. Throws Failure if OpenGL gives no memory
+  // or a texture buffer of it cannot hold them.
   void upload(const Device& device, const Scene& scene);
 
   // Of the last upload: where the light of the instance in a slot lies, or no_light.
@@ -40,7 +40,7 @@ class LightTexture {
 // A texture that reads the buffer. Binds GL_TEXTURE_BUFFER of unit 0.
 Object texture_of(Device& device, const Buffer& buffer, GLenum format, const char* label);
 
-// What hosts put into their shaders: shaders/character/host.glsl with all that it includes.
+// Returns the text for the host's shaders: shaders/character/host.glsl with everything that it includes.
 const char* scene_light_glsl();
 
 }  // namespace nook::gl

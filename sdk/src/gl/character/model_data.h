@@ -1,4 +1,4 @@
-// What the tiers' copies of a character model have in common: the model and its sizes.
+// The common part of the tiers' copies of a character model: the model and its sizes.
 #pragma once
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 namespace nook::gl {
 namespace {
 
-// What OpenGL guarantees for one dimension of a dispatch.
+// The size that OpenGL guarantees for one dimension of a dispatch.
 constexpr std::uint64_t max_groups = 65535;
 
 // AO that is open until the first update.

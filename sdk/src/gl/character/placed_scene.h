@@ -15,8 +15,8 @@
 
 namespace nook::gl {
 
-// What every tier's chunk has: the instances that live there, and what they leave for the host. A tier's own
-// Chunk derives from it, has a member `Model* model`, and is made from (device, model, capacity).
+// The common part of every tier's chunk: its instances and their results for the host. A tier's own Chunk
+// derives from it, has a member `Model* model`, and is made from (device, model, capacity).
 struct ChunkData {
   // Open everywhere. Throws Failure.
   ChunkData(Device& device, ModelData& model, std::uint32_t instance_capacity);

@@ -1,6 +1,6 @@
-// How one kind of OpenGL evaluates characters. A tier owns the buffers of every scene that it evaluates and
-// of the models that these use; what it needs of the context are abilities (functions.h), so that a further
-// kind, such as OpenGL ES or WebGL 2, is one more implementation.
+// The interface of a tier, which evaluates characters on one kind of OpenGL. A tier owns the buffers of every
+// scene that it evaluates and of the models of these scenes. It depends on abilities of the context
+// (functions.h), so that another kind, such as OpenGL ES or WebGL 2, is another implementation.
 #pragma once
 
 #include "sdk/src/character/scene.h"

@@ -31,12 +31,12 @@ void check_limits(const Functions& gl, const MaterialTables& tables, std::uint32
           NOOK_ERROR_UNSUPPORTED,
           "the material needs larger textures than this OpenGL has (got %u texels, need at most %u)", largest,
           side);
-    if (t->terms * t->view_fours > layers)
+    if (t->terms * t->view_vec4_count > layers)
       throw Failure(
           NOOK_ERROR_UNSUPPORTED,
           "the material's coefficients need more layers than this OpenGL has (got %u, need at most %u); "
           "bake it with a view map or a smaller view rank",
-          t->terms * t->view_fours, layers);
+          t->terms * t->view_vec4_count, layers);
   }
   const std::size_t count =
       1 + texture_count(tables.btf, max_layers) + texture_count(tables.votf, max_layers);
@@ -80,8 +80,8 @@ void MaterialTextures::add_tensor(Device& device, const TensorTables& t, const c
     texture.object = make_texture_array(device, plan, data, texture.uniform);
     textures_.push_back(std::move(texture));
   };
-  const auto side = GLsizei(t.side), coefficient_layers = GLsizei(t.terms * t.view_fours),
-             membership_layers = GLsizei(material::in_fours(t.terms)), layers = GLsizei(t.layers());
+  const auto side = GLsizei(t.side), coefficient_layers = GLsizei(t.terms * t.view_vec4_count),
+             membership_layers = GLsizei(material::vec4_count(t.terms)), layers = GLsizei(t.layers());
   add({ArrayUse::coefficients, side, side, 0, coefficient_layers, coefficient_layers, 1},
       t.coefficients.data(), "coefficients", -1);
   if (t.clusters > 1)

@@ -23,7 +23,8 @@ void add(Text& out, const char* format, ...) {
 // name is "btf" and prefix "NOOK_BTF", or the same of the VOTF.
 void add_tensor(Text& out, const material::TensorTables& t, const char* name, const char* prefix,
                 std::uint32_t max_layers) {
-  add(out, "#define %s_TERMS %u\n#define %s_VIEW_FOURS %u\n", prefix, t.terms, prefix, t.view_fours);
+  add(out, "#define %s_TERMS %u\n#define %s_VIEW_VEC4_COUNT %u\n", prefix, t.terms, prefix,
+      t.view_vec4_count);
   add(out, "#define %s_CLUSTERS %u\n#define %s_SIDE %u\n", prefix, t.clusters, prefix, t.side);
   if (t.terms == 0) return;
   add(out, "#define %s_TEXELS vec2(%u.0, %u.0)\n", prefix, t.width, t.height);
@@ -53,7 +54,7 @@ const char* host_text() {
 std::pmr::string material_source(const material::MaterialTables& tables, std::uint32_t max_layers,
                                  std::pmr::memory_resource* memory) {
   Text out(memory);
-  add(out, "#define NOOK_LIGHT_FOURS %u\nuniform sampler2DArray nook_light_map;\n",
+  add(out, "#define NOOK_LIGHT_VEC4_COUNT %u\nuniform sampler2DArray nook_light_map;\n",
       tables.btf.light_modes / 4);
   add_tensor(out, tables.btf, "btf", "NOOK_BTF", max_layers);
   add_tensor(out, tables.votf, "votf", "NOOK_VOTF", max_layers);

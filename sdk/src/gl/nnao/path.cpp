@@ -9,16 +9,16 @@ namespace {
   const int major = gl.version / 10, minor = gl.version % 10;
   if (gl.limited_by_host)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.path asks for compute shaders (got tier 33 on OpenGL %d.%d, need tier 43); leave "
+                  "desc.path needs compute shaders (got tier 33 on OpenGL %d.%d, need tier 43); leave "
                   "nook_gl_desc.max_tier 0, or use NOOK_NNAO_PATH_AUTOMATIC",
                   major, minor);
   if (!gl.can.compute)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.path asks for compute shaders (got OpenGL %d.%d, need 4.3 or newer); use "
+                  "desc.path needs compute shaders (got OpenGL %d.%d, need 4.3 or newer); use "
                   "NOOK_NNAO_PATH_AUTOMATIC",
                   major, minor);
   throw Failure(NOOK_ERROR_UNSUPPORTED,
-                "desc.path asks for compute shaders (got no \"glBindImageTexture\" from get_proc on OpenGL "
+                "desc.path needs compute shaders (got no \"glBindImageTexture\" from get_proc on OpenGL "
                 "%d.%d, need it); pass the context's own loader, or use NOOK_NNAO_PATH_AUTOMATIC",
                 major, minor);
 }
