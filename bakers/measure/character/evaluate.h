@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bakers/import/skinned_mesh.h"
-#include "bakers/measure/visible_truth.h"
+#include "bakers/measure/truth/visible_truth.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "sdk/src/character/model.h"
 

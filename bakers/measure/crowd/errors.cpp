@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "bakers/measure/visible_truth.h"
+#include "bakers/measure/truth/visible_truth.h"
 
 namespace nook::measure::crowd {
 namespace {

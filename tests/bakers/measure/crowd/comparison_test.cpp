@@ -35,7 +35,7 @@ class TracedCrowd final : public EvaluatedCrowd {
   bool ground_ = true;
 };
 
-// Draws pictures of one colour and counts what it was asked for.
+// Draws pictures of one colour and counts the panels.
 class CountingRenderer final : public PanelRenderer {
  public:
   platform::Image draw(const Group& group, const AoPanel& panel) override {
