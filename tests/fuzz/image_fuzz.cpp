@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -22,8 +23,10 @@ namespace fs = std::filesystem;
 using namespace nook::bake;
 using nook::test::ImageKind;
 
-void require(bool sound) {
-  if (!sound) std::abort();
+void require(bool sound, const char* what) {
+  if (sound) return;
+  std::fprintf(stderr, "image_fuzz: %s\n", what);
+  std::abort();
 }
 
 // A folder of this process, gone when it ends.
@@ -55,22 +58,24 @@ void read_texture(std::span<const std::byte> bytes) {
   TextureUse use;
   use.image = 0;
   const TextureColour colour = texture.at(use, {0.3f, 0.6f});
-  require(colour.rgb.x >= 0 && colour.rgb.x <= 1 && colour.alpha >= 0 && colour.alpha <= 1);
+  require(colour.rgb.x >= 0 && colour.rgb.x <= 1 && colour.alpha >= 0 && colour.alpha <= 1,
+          "a texture's colour is outside of 0 to 1");
 }
 
 void read_map(const fs::path& file) {
   const Environment map = probe::read_environment(file);
-  require(map.width() == 2 * map.height());
+  require(map.width() == 2 * map.height(), "a map is not twice as wide as high");
   for (std::size_t i = 0; i < map.texel_count(); ++i) {
     const nook::Vec3 radiance = map.texel(i);
-    require(radiance.x >= 0 && std::isfinite(radiance.x + radiance.y + radiance.z));
+    require(radiance.x >= 0 && std::isfinite(radiance.x + radiance.y + radiance.z),
+            "a radiance is negative or not finite");
   }
 }
 
 void read_measured(const fs::path& folder) {
   const material::RawMaterial raw = material::read_ubo_folder(folder, 0);
-  require(raw.btf.size() == 3 * raw.texels());
-  for (const float value : raw.btf) require(std::isfinite(value));
+  require(raw.btf.size() == 3 * raw.texels(), "a measured image has other than three channels");
+  for (const float value : raw.btf) require(std::isfinite(value), "a measured value is not finite");
 }
 
 void read(const ImageKind& kind, std::span<const std::byte> bytes) {
