@@ -23,10 +23,15 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// A network of a second. It needs no input.
+// A network of a second, or one that is trained until it is stopped. It needs no input.
+Names training(const std::string& out, const std::string& epochs) {
+  return {"train",    "nnao", "-o",     out, "--scenes", "20",   "--views", "24",
+          "--points", "8",    "--rays", "8", "--epochs", epochs, "--batch", "16"};
+}
+
 Names small_training(const std::string& out, const Names& more = {}) {
-  Names arguments{"train", "nnao",   "-o", out,        "--scenes", "20",      "--views", "16",     "--points",
-                  "8",     "--rays", "8",  "--epochs", "2",        "--batch", "16",      "--quiet"};
+  Names arguments = training(out, "2");
+  arguments.push_back("--quiet");
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -249,26 +254,22 @@ TEST_CASE("a folder of pictures that cannot be made is known before the work") {
 
 TEST_CASE("a hang-up leaves nothing behind, but for a program that ignores it") {
   const TestFolder folder;
-  Names training = small_training(folder.path("n.nook"), {"--epochs", "100000"});
-  std::erase(training, "--quiet");
-  const ToolRun run = folder.run_and_signal(training, SIGHUP, "ray tracing");
+  const Names endless = training(folder.path("n.nook"), "100000");
+  const ToolRun run = folder.run_and_signal(endless, SIGHUP, "ray tracing");
   CHECK(run.exit_code == 1);
   CHECK(has(run.error, "stopped"));
   for (const std::string& name : folder.names()) CHECK_FALSE(has(name, ".part-"));
   // SIGHUP is ignored, as under nohup.
   std::signal(SIGHUP, SIG_IGN);
-  training = small_training(folder.path("m.nook"));
-  std::erase(training, "--quiet");
-  const ToolRun ignoring = folder.run_and_signal(training, SIGHUP, "ray tracing");
+  const ToolRun ignoring = folder.run_and_signal(training(folder.path("m.nook"), "2"), SIGHUP, "ray tracing");
   std::signal(SIGHUP, SIG_DFL);
   CHECK(ignoring.exit_code == 0);
 }
 
 TEST_CASE("the parts of dead processes are removed by the next run, those of living ones stay") {
   const TestFolder folder;
-  Names training = small_training(folder.path("n.nook"), {"--epochs", "100000"});
-  std::erase(training, "--quiet");
-  const ToolRun killed = folder.run_and_signal(training, SIGKILL, "ray tracing");
+  const Names endless = training(folder.path("n.nook"), "100000");
+  const ToolRun killed = folder.run_and_signal(endless, SIGKILL, "ray tracing");
   CHECK(killed.exit_code == 128 + SIGKILL);
   Names parts = folder.names();
   REQUIRE(parts.size() == 1);
@@ -276,7 +277,7 @@ TEST_CASE("the parts of dead processes are removed by the next run, those of liv
   write_text(folder.path("n.nook.part-999999999"), "of no process");
   write_text(folder.path("n.nook.part-of-mine"), "another name");
   write_text(folder.path("other.nook.part-999999999"), "of another target");
-  const int living = folder.start(small_training(folder.path("n.nook"), {"--epochs", "100000"}));
+  const int living = folder.start(endless);
   const std::string of_living = "n.nook.part-" + std::to_string(living);
   while (!fs::exists(folder.path(of_living))) usleep(2000);
   const ToolRun run = folder.run(small_probe(folder, folder.path("n.nook")));
