@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bakers/images/image_size.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::probe {
@@ -56,6 +57,9 @@ Environment read_environment(const std::filesystem::path& path) {
   if (!image) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be read as an image (%s)", OIIO::geterror().c_str());
   const OIIO::ImageSpec spec = image->spec();
   check_layout(spec, image->format_name());
+  std::error_code unknown;  // the size is then the largest number
+  check_image_size("the map", spec.width, spec.height, std::size_t{most_columns} * (most_columns / 2),
+                   std::filesystem::file_size(path, unknown));
   std::vector<float> rgb(3 * std::size_t(spec.width) * std::size_t(spec.height));
   if (!image->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, rgb.data()))
     throw Failure(NOOK_ERROR_BAD_FILE, "a damaged image (%s)", image->geterror().c_str());

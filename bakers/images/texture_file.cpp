@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "bakers/images/image_size.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -42,10 +43,8 @@ Texture decode_texture(const EncodedImage& image) {
     throw Failure(NOOK_ERROR_BAD_FILE, "%s cannot be decoded (%s)", image.name.c_str(),
                   OIIO::geterror().c_str());
   const OIIO::ImageSpec spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 ||
-      std::size_t(spec.width) * std::size_t(spec.height) > most_texels)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s has %d x %d texels of %d channels (need at most 2^26 texels)",
-                  image.name.c_str(), spec.width, spec.height, spec.nchannels);
+  check_image_size(image.name.c_str(), spec.width, spec.height, most_texels, image.bytes.size());
+  if (spec.nchannels < 1) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no channels", image.name.c_str());
   const std::size_t texels = std::size_t(spec.width) * std::size_t(spec.height);
   const auto channels = std::size_t(std::min(spec.nchannels, 4));
   std::vector<std::uint8_t> read(channels * texels);

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <set>
 
+#include "bakers/images/image_size.h"
 #include "bakers/images/ubo_names.h"
 #include "sdk/src/core/failure.h"
 
@@ -16,6 +17,9 @@ namespace nook::bake::material {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Of one image: 32 million texels take 0.8 GB while they are read.
+constexpr std::size_t most_image_texels = std::size_t{1} << 25;
 
 bool is_image(const fs::path& path) {
   static const std::set<std::string> endings{".png",  ".jpg", ".jpeg", ".exr", ".tif",
@@ -53,16 +57,19 @@ Pixels read_image(const fs::path& path) {
   const auto input = OIIO::ImageInput::open(path.string());
   if (!input) fail(OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) fail("it is no flat image");
-  const auto channels = std::size_t(spec.nchannels),
-             texels = std::size_t(spec.width) * std::size_t(spec.height);
+  if (spec.nchannels < 1 || spec.depth > 1) fail("it is no flat image");
+  std::error_code unknown;  // the size is then the largest number
+  check_image_size(path.c_str(), spec.width, spec.height, most_image_texels, fs::file_size(path, unknown));
+  // One channel stands for three; those above the third are not read.
+  const std::size_t channels = spec.nchannels >= 3 ? 3 : 1,
+                    texels = std::size_t(spec.width) * std::size_t(spec.height);
   const bool encoded = !spec.format.is_floating_point();
   std::vector<float> raw(channels * texels);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, raw.data())) fail(input->geterror());
+  if (!input->read_image(0, 0, 0, int(channels), OIIO::TypeDesc::FLOAT, raw.data())) fail(input->geterror());
   Pixels pixels{spec.width, spec.height, std::vector<float>(3 * texels)};
   for (std::size_t i = 0; i < texels; ++i)
     for (std::size_t c = 0; c < 3; ++c) {
-      const float value = raw[i * channels + (channels >= 3 ? c : 0)];
+      const float value = raw[i * channels + (channels == 3 ? c : 0)];
       if (!std::isfinite(value))
         throw Failure(NOOK_ERROR_BAD_FILE,
                       "%.250s: texel (%zu, %zu), counted from the upper left, is not a finite number",

@@ -221,7 +221,8 @@ void measure_ao(const Stage& stage, CrowdScene& scene, const std::vector<Bones>&
   report["sampled_instances"] = errors.characters;
   report["sampled_have_neighbour_within_1_m"] = errors.have_neighbours;
   for (const auto& [form, e] : errors.forms)
-    report["rows"].push_back({{"form", form}, {"mse", e.mse}, {"mse_area", e.mse_area}});
+    report["rows"].push_back(
+        {{"form", form}, {"mse_visible", e.mse_visible}, {"mse", e.mse}, {"mse_area", e.mse_area}});
   report["links_cut_mse_area"] = errors.links_cut_mse_area;
 }
 

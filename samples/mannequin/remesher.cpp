@@ -118,9 +118,9 @@ class Remesher {
     const Vec3 c = mesh_.position_m(mesh_.opposite(h)), d = mesh_.position_m(mesh_.opposite(mesh_.twin(h)));
     const Vec3 before = glm::cross(b - a, c - a) + glm::cross(a - b, d - b);
     const Vec3 one = glm::cross(a - d, c - d), other = glm::cross(b - c, d - c);
-    const double least = 0.6 * glm::length(before);
-    return glm::dot(one, before) > least * glm::length(one) &&
-           glm::dot(other, before) > least * glm::length(other) && glm::length(one) > 0.0 &&
+    const double min_dot = 0.6 * glm::length(before);
+    return glm::dot(one, before) > min_dot * glm::length(one) &&
+           glm::dot(other, before) > min_dot * glm::length(other) && glm::length(one) > 0.0 &&
            glm::length(other) > 0.0;
   }
 

@@ -45,8 +45,8 @@ class Marcher {
     if (is_new) {
       // A corner exactly on the skin would make triangles without area.
       const double d = sdf_.distance(position_m(c));
-      const double least = 0.02 * cell_m_;
-      entry->second = std::abs(d) < least ? (d < 0.0 ? -least : least) : d;
+      const double min_distance_m = 0.02 * cell_m_;
+      entry->second = std::abs(d) < min_distance_m ? (d < 0.0 ? -min_distance_m : min_distance_m) : d;
     }
     return entry->second;
   }

@@ -11,10 +11,10 @@
 #define NOOK_MIN_SPHERE_RADIUS 1e-6  // metres; the smallest that counts
 #define NOOK_KERNEL_CORE 0.6
 
-// form_factor_fast: the polynomial P(b, t).
+// form_factor_fast: the magnitudes of the coefficients of the polynomial P(b, t).
 #define NOOK_FORM_FACTOR_0 4.60908
-#define NOOK_FORM_FACTOR_1 -5.21348
-#define NOOK_FORM_FACTOR_2 -3.22202
+#define NOOK_FORM_FACTOR_1 5.21348
+#define NOOK_FORM_FACTOR_2 3.22202
 #define NOOK_FORM_FACTOR_3 2.22202
 
 #define NOOK_DIRECTIONAL_COSINE 2.133

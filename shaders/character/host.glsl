@@ -1,9 +1,9 @@
 // The functions of a host's shader for the light of a scene's instances. `light` is that of nook_gl_light_view;
 // normals are unit vectors in world space; colours are linear RGB.
-#include "shaders/character/layout.h"
+#include "shaders/character/light_layout.h"
 #include "shaders/probe/irradiance.glsl"
 
-// shaders/character/layout.h defines the layout.
+// shaders/character/light_layout.h defines the layout.
 uniform samplerBuffer nook_scene_lights;
 
 // Returns the irradiance of the lobes on an open surface. Fits of probes may ring slightly below 0; negative

@@ -58,7 +58,7 @@ float nook_form_factor_fast(float xi, float delta2) {
   float b = sqrt(max(1.0 - a2, 0.0));
   float t = 0.5 * clamp(xi, -1.0, 1.0) + 0.5;
   float v = t - t * t;
-  float p = b * (v * (NOOK_FORM_FACTOR_0 + NOOK_FORM_FACTOR_1 * b) + (NOOK_FORM_FACTOR_3 * b + NOOK_FORM_FACTOR_2));
+  float p = b * (v * (NOOK_FORM_FACTOR_0 - NOOK_FORM_FACTOR_1 * b) + (NOOK_FORM_FACTOR_3 * b - NOOK_FORM_FACTOR_2));
   float f = max(a2 * a * max(xi, 1.0) * (v * p + t), 0.0);
   return f + max(1.0 - f, 0.0) * max(1.0 - delta2, 0.0);
 }

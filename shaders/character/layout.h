@@ -1,5 +1,5 @@
-// Numbers that the passes over characters and the C++ that runs them share: where buffers are bound, where uniforms lie and
-// how arrays are laid out. C++ and GLSL both include this file.
+// Numbers that the passes over characters and the C++ that runs them share: where buffers are bound, where
+// uniforms lie and how arrays are laid out. C++ and GLSL both include this file.
 #ifndef NOOK_CHARACTER_LAYOUT_H
 #define NOOK_CHARACTER_LAYOUT_H
 
@@ -46,10 +46,15 @@
 #define NOOK_LOCATION_VERTEX_SHADOW_STRIDE 3
 #define NOOK_LOCATION_VERTEX_SELF 4
 
-// Attributes of vertices.vert: a bias, then for each quad of influences its key points, alphas and blend weights.
+// Attributes of vertices.vert: a bias, then for each quad of influences its key points, alphas and blend
+// weights. OpenGL 3.3 wants a literal for each location.
 #define NOOK_ATTRIBUTE_BIAS 0
-#define NOOK_ATTRIBUTE_FIRST_QUAD 1
-#define NOOK_ATTRIBUTES_PER_QUAD 3
+#define NOOK_ATTRIBUTE_KEY_POINTS_0 1
+#define NOOK_ATTRIBUTE_ALPHA_0 2
+#define NOOK_ATTRIBUTE_BLEND_0 3
+#define NOOK_ATTRIBUTE_KEY_POINTS_1 4
+#define NOOK_ATTRIBUTE_ALPHA_1 5
+#define NOOK_ATTRIBUTE_BLEND_1 6
 
 // Elements of the arrays in storage buffers.
 #define NOOK_RECORD_UVEC4S 2      // of an instance
@@ -59,16 +64,5 @@
 #define NOOK_CASTER_UVEC4S 2      // its origin minus the receiver's, first sphere; number of spheres
 #define NOOK_SPREAD_WORDS 3       // evaluated key point, scale, offset
 #define NOOK_COLOUR_VEC4S 2       // colour that multiplies the shadow; added occlusion
-
-// Texels of an instance's light: number of lobes and the ground's normal; the darkest mean radiance and 1 with a ground; ten of
-// the light's bands; then two for each lobe: axis and sharpness, amplitude and the share that the ground leaves.
-#define NOOK_LIGHT_HEAD 0
-#define NOOK_LIGHT_DARKEST 1
-#define NOOK_LIGHT_SCALAR 2
-#define NOOK_LIGHT_VECTOR 3
-#define NOOK_LIGHT_STRAIGHT 6
-#define NOOK_LIGHT_MIXED 9
-#define NOOK_LIGHT_LOBES 12
-#define NOOK_LIGHT_LOBE_TEXELS 2
 
 #endif

@@ -1,6 +1,7 @@
 // The light of an instance and what stands in it; derived in sdk/src/character/directional.h and directional_bands.h.
 #include "shaders/character/constants.h"
 #include "shaders/character/layout.h"
+#include "shaders/character/light_layout.h"
 #include "shaders/probe/lobe.glsl"
 
 layout(std430, binding = NOOK_BINDING_LIGHTS) readonly buffer NookLights {

@@ -4,13 +4,13 @@
 #include "shaders/character/linear.glsl"
 
 layout(location = NOOK_ATTRIBUTE_BIAS) in float nook_bias;
-layout(location = NOOK_ATTRIBUTE_FIRST_QUAD) in uvec4 nook_key_points_0;
-layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + 1) in vec4 nook_alpha_0;
-layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + 2) in vec4 nook_blend_0;
+layout(location = NOOK_ATTRIBUTE_KEY_POINTS_0) in uvec4 nook_key_points_0;
+layout(location = NOOK_ATTRIBUTE_ALPHA_0) in vec4 nook_alpha_0;
+layout(location = NOOK_ATTRIBUTE_BLEND_0) in vec4 nook_blend_0;
 #if NOOK_QUADS > 1
-layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + NOOK_ATTRIBUTES_PER_QUAD) in uvec4 nook_key_points_1;
-layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + NOOK_ATTRIBUTES_PER_QUAD + 1) in vec4 nook_alpha_1;
-layout(location = NOOK_ATTRIBUTE_FIRST_QUAD + NOOK_ATTRIBUTES_PER_QUAD + 2) in vec4 nook_blend_1;
+layout(location = NOOK_ATTRIBUTE_KEY_POINTS_1) in uvec4 nook_key_points_1;
+layout(location = NOOK_ATTRIBUTE_ALPHA_1) in vec4 nook_alpha_1;
+layout(location = NOOK_ATTRIBUTE_BLEND_1) in vec4 nook_blend_1;
 #endif
 
 // One texel: shadow and added occlusion; with NOOK_LIGHT two texels, by channel.

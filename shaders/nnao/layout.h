@@ -1,5 +1,5 @@
-// Numbers that the stages of the screen-space pass and the C++ that runs them share: texture units, the constants of a frame,
-// the arrays that hold a network. C++ and GLSL both include this file.
+// Numbers that the stages of the screen-space pass and the C++ that runs them share: texture units, the
+// constants of a frame, the arrays that hold a network. C++ and GLSL both include this file.
 #ifndef NOOK_NNAO_LAYOUT_H
 #define NOOK_NNAO_LAYOUT_H
 
@@ -48,7 +48,8 @@
 // The last layer has one unit: its weights, then bias and slopes in one vec4.
 #define NOOK_HORIZON_VEC4S (NOOK_HORIZON_OUT + NOOK_HORIZON_UNIT_VEC4S + 1)
 
-// A network of the paper's form, four units a layer: bias and slopes of the filters, two layers of four inputs, one of one unit.
+// A network of the paper's form, four units a layer: bias and slopes of the filters, two layers of four
+// inputs, one of one unit.
 #define NOOK_PAPER_UNITS 4
 #define NOOK_PAPER_FILTERS 0
 #define NOOK_PAPER_LAYER_VEC4S (NOOK_PAPER_UNITS + 3)

@@ -33,6 +33,19 @@ TEST_CASE("the C++ wrapper owns, moves and throws") {
   }
 }
 
+TEST_CASE("the C++ wrapper starts a running average from another") {
+  const float up[3] = {0, 0, 1}, white[3] = {1, 1, 1};
+  const nook::Context context;
+  nook_probe_fit_desc desc = nook::probe_fit_desc();
+  desc.method = NOOK_PROBE_RUNNING_AVERAGE;
+  nook::ProbeFit fit(context, desc), other(context, desc);
+  fit.add_samples(up, white, nullptr, 1);
+  other.seed(fit);
+  CHECK(other.read() == fit.read());
+  other.reset();
+  CHECK(other.read() == std::vector<float>(other.read().size(), 0.0f));
+}
+
 TEST_CASE("the C++ wrapper fits, saves and evaluates probes") {
   std::vector<float> directions, radiance;
   for (int i = 0; i < 500; ++i) {
@@ -43,9 +56,6 @@ TEST_CASE("the C++ wrapper fits, saves and evaluates probes") {
   nook::Context context;
   nook::ProbeFit fit(context), other(context);
   fit.add_samples(directions.data(), radiance.data(), nullptr, 500);
-  other.seed(fit);
-  CHECK(other.read() == fit.read());
-  other.reset();
   other.add_samples(directions.data(), radiance.data(), nullptr, 500);
   fit.merge(other);
   CHECK(fit.info().samples == 1000);

@@ -1,6 +1,7 @@
 // Mutates glTF by what it says: a value of the JSON document becomes another number, is removed, or takes the
 // place of another value; or the binary chunk changes. The headers of a .glb follow. One mutation in eight is
 // blind.
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -69,8 +70,7 @@ Json any_number(Random& random) {
                                 0.5,  1e-30, 1e18,  3e38,  1e300, 5120,       5121,        5122, 5123,
                                 5125, 5126,  33071, 65535, 65536, 16777217.0, 2147483647.0};
   const double number = random() % 4 ? numbers[random() % std::size(numbers)] : double(random() % 64);
-  return number == double(std::int64_t(number)) && std::abs(number) < 1e15 ? Json(std::int64_t(number))
-                                                                           : Json(number);
+  return std::abs(number) < 1e15 && number == std::trunc(number) ? Json(std::int64_t(number)) : Json(number);
 }
 
 void erase_one(Json& value, Random& random) {

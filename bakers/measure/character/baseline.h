@@ -22,9 +22,10 @@ class PoseRegression {
 };
 
 struct RegressionError {
-  double mse = 0;          // over all welded vertices and poses
-  double mse_visible = 0;  // over those vertex-poses whose truth is at least visible_truth, see evaluate.h
-  double mse_area = 0;     // weighted by vertex_area
+  double mse = 0;  // over all welded vertices and poses
+  double mse_visible =
+      0;                // over those vertex-poses whose truth is at least visible_truth, see visible_truth.h
+  double mse_area = 0;  // weighted by vertex_area
 };
 
 // Clamped predictions against targets of the same poses.

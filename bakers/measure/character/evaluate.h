@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "bakers/import/skinned_mesh.h"
+#include "bakers/measure/truth/visible_truth.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "sdk/src/character/model.h"
 
 namespace nook::bake {
 
-// Vertex-poses whose ray-traced AO is below this are black: inside the body or in a fist, where no camera
-// sees them and any model is right that says 0. Two rays of 128 reach it.
-inline constexpr double visible_truth = 0.01;
+using measure::visible_truth;
 
 struct ErrorColumns {
   double mse = 0;  // over all welded vertices and poses, as the paper has it

@@ -2,6 +2,8 @@
 
 #include <glm/glm.hpp>
 
+#include "bakers/measure/truth/visible_truth.h"
+
 namespace nook::measure::crowd {
 namespace {
 
@@ -26,7 +28,7 @@ std::vector<double> vertex_areas(const PosedCrowd& crowd, const std::vector<floa
 
 Errors compare(const PosedCrowd& crowd, std::span<const std::uint32_t> receivers, const VertexValues& values,
                const VertexValues& reference, std::uint32_t channels, float unit) {
-  double squares = 0, weighted_squares = 0, vertices = 0, area = 0;
+  double squares = 0, visible_squares = 0, weighted_squares = 0, vertices = 0, visible = 0, area = 0;
   for (std::size_t r = 0; r < receivers.size(); ++r) {
     const std::vector<double> areas = vertex_areas(crowd, crowd.body(receivers[r]).positions);
     for (std::size_t v = 0; v < areas.size(); ++v) {
@@ -41,9 +43,13 @@ Errors compare(const PosedCrowd& crowd, std::span<const std::uint32_t> receivers
       weighted_squares += areas[v] * square;
       vertices += 1;
       area += areas[v];
+      if (channels != 1 || double(reference[r][v]) < visible_truth) continue;
+      visible_squares += square;
+      visible += 1;
     }
   }
-  return {vertices > 0 ? squares / vertices : 0, area > 0 ? weighted_squares / area : 0};
+  return {vertices > 0 ? squares / vertices : 0, visible > 0 ? visible_squares / visible : 0,
+          area > 0 ? weighted_squares / area : 0};
 }
 
 }  // namespace nook::measure::crowd

@@ -21,7 +21,7 @@ extern "C" {
 #endif
 
 #define NOOK_VERSION_MAJOR 0
-#define NOOK_VERSION_MINOR 1
+#define NOOK_VERSION_MINOR 2
 #define NOOK_VERSION_PATCH 0
 /* The caller passes this value to every *_desc_init, so that the library knows with which header the caller
  * was compiled. */

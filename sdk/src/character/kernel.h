@@ -117,8 +117,8 @@ F form_factor_fast(F xi, F delta2) {
   const F b = sqrt_positive(max(one - a2, F(1e-30f)));
   const F t = fma(min(max(xi, F(-1.0f)), one), F(0.5f), F(0.5f));
   const F v = t - t * t;
-  const F p = fma(v, fma(b, F(float(NOOK_FORM_FACTOR_1)), F(float(NOOK_FORM_FACTOR_0))),
-                  fma(b, F(float(NOOK_FORM_FACTOR_3)), F(float(NOOK_FORM_FACTOR_2)))) *
+  const F p = fma(v, fma(b, F(-float(NOOK_FORM_FACTOR_1)), F(float(NOOK_FORM_FACTOR_0))),
+                  fma(b, F(float(NOOK_FORM_FACTOR_3)), F(-float(NOOK_FORM_FACTOR_2)))) *
               b;
   const F outside = max(a2 * a * max(xi, one) * fma(v, p, t), F(0.0f));
   return fma(max(one - outside, F(0.0f)), max(one - delta2, F(0.0f)), outside);

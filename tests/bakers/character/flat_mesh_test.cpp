@@ -29,8 +29,8 @@ TEST_CASE("a flag bakes and follows poses that it has not seen") {
   CHECK(e.model.mse < 0.25 * e.static_bake.mse);
 }
 
-TEST_CASE("the least of meshes bake") {
-  // What they hide of themselves is nothing, or next to it.
+TEST_CASE("the smallest meshes bake") {
+  // They occlude themselves by nothing or almost nothing.
   const auto bake = [](const SkinnedMesh& mesh) {
     BakeSettings settings;
     settings.spheres = 8;

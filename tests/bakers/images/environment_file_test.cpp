@@ -129,3 +129,15 @@ TEST_CASE("damaged images are refused at any length") {
       CHECK_FALSE(failure_of(folder.write_text(std::string("cut-") + name, whole.substr(0, size))).empty());
   }
 }
+
+TEST_CASE("a map whose head says more than its file holds is refused before memory is taken for it") {
+  const Folder folder;
+  const auto path = folder.write_text("head.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8192 +X 16384\n");
+  std::string message;
+  try {
+    read_environment(path);
+  } catch (const Failure& failure) {
+    message = failure.what();
+  }
+  CHECK(message.find("16384 x 8192 texels, too many for its") != std::string::npos);
+}

@@ -183,3 +183,12 @@ TEST_CASE("faults of a measured folder are named") {
     CHECK_THROWS_AS(read_ubo_folder(folder.path, 0, [](std::size_t, std::size_t) { return false; }), Failure);
   }
 }
+
+TEST_CASE("an image whose head says more than its file holds is refused before memory is taken for it") {
+  const Folder folder;
+  const fs::path image = folder.path / "00000_tl000_pl000_tv000_pv000.ppm";
+  std::ofstream(image) << "P6\n5000 5000\n255\nabc";
+  CHECK(refusal(folder.path).find("too many for its") != std::string::npos);
+  std::ofstream(image) << "P6\n40000 40000\n255\nabc";
+  CHECK(refusal(folder.path).find("40000 x 40000 texels") != std::string::npos);
+}

@@ -142,7 +142,7 @@ TEST_CASE("no side of two cards that cross is lost where they meet") {
   }
   const SkinnedMesh mesh = cards.welded();
   CHECK(std::count(mesh.position.begin(), mesh.position.end(), Vec3{}) >= 3);
-  // Of the four directions at the crossing two that are not opposite may share a vertex.
+  // At the crossing there are four directions; two that are not opposite may share a vertex.
   const std::vector<Vec3> normal = normals_of(mesh);
   for (const auto& t : mesh.triangle) {
     const Vec3 face = normalised(

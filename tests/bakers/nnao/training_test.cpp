@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "bakers/nnao/checkpoint.h"
 #include "bakers/nnao/validation.h"
@@ -61,6 +62,28 @@ TEST_CASE("a training that was stopped and resumed from its checkpoint ends in t
   CHECK_THROWS_AS(read_checkpoint(file, "another recipe", settings.form), Failure);
   CHECK_THROWS_AS(read_checkpoint(file, "recipe", NetworkForm::paper), Failure);
   CHECK_THROWS_AS(read_checkpoint(std::span(file).first(file.size() - 1), "recipe", settings.form), Failure);
+}
+
+TEST_CASE("a checkpoint of numbers that no training leaves is refused: the next step would not be finite") {
+  const std::size_t count = parameter_count(NetworkForm::horizon);
+  const auto read = [&](const auto& change) {
+    TrainingState state(count);
+    change(state);
+    return read_checkpoint(write_checkpoint(state, "recipe"), "recipe", NetworkForm::horizon);
+  };
+  CHECK_NOTHROW(read([](TrainingState& state) { state.adam.mean[3] = state.adam.square[3] = 0.5f; }));
+  CHECK_THROWS_AS(read([](TrainingState& state) { state.adam.square[3] = -1e-3f; }), Failure);
+  CHECK_THROWS_AS(read([](TrainingState& state) { state.adam.mean[3] = 1; }), Failure);
+  CHECK_THROWS_AS(read([](TrainingState& state) { state.parameter[3] = 1e30f; }), Failure);
+  CHECK_THROWS_AS(read([](TrainingState& state) { state.adam.steps = ~std::uint64_t{0}; }), Failure);
+
+  // The largest ratio that Adam's averages can have: gradients that fall off as their weights do.
+  TrainingState extreme(1);
+  float parameter = 0;
+  for (float gradient = 1e-6f; gradient < 1; gradient *= 1.11f) {
+    extreme.adam.step({&parameter, 1}, {&gradient, 1}, 1e-3f);
+    CHECK(std::abs(extreme.adam.mean[0]) <= 8 * std::sqrt(extreme.adam.square[0]));
+  }
 }
 
 TEST_CASE("a network is recovered from the AO that it gave") {

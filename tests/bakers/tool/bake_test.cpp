@@ -185,5 +185,5 @@ TEST_CASE("help names the options and exits with 0") {
        {"--preset", "--spheres", "--key-points", "--poses", "--clips", "--split", "--rays", "--kernel",
         "--gamma", "--fit", "--time-limit", "--threads", "--seed", "--report", "--quiet"})
     CHECK(has(run.out, option));
-  CHECK(folder.run({"--version"}).out == "0.1.0\n");
+  CHECK(folder.run({"--version"}).out == "0.2.0\n");
 }

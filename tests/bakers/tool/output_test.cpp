@@ -61,7 +61,7 @@ class Pipe {
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
 
-  // What has been written to it.
+  // Reads the bytes that a writer has left in the pipe.
   std::string text() const {
     std::string text(65536, '\0');
     const ssize_t size = read(descriptor_, text.data(), text.size());
@@ -255,7 +255,7 @@ TEST_CASE("a hang-up leaves nothing behind, but for a program that ignores it") 
   CHECK(run.exit_code == 1);
   CHECK(has(run.error, "stopped"));
   for (const std::string& name : folder.names()) CHECK_FALSE(has(name, ".part-"));
-  // As nohup does.
+  // SIGHUP is ignored, as under nohup.
   std::signal(SIGHUP, SIG_IGN);
   training = small_training(folder.path("m.nook"));
   std::erase(training, "--quiet");

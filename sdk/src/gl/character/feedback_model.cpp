@@ -37,14 +37,17 @@ void point_attributes(const Device& device, std::uint32_t quads) {
   const auto at = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
   gl.EnableVertexAttribArray(NOOK_ATTRIBUTE_BIAS);
   gl.VertexAttribPointer(NOOK_ATTRIBUTE_BIAS, 1, GL_FLOAT, GL_FALSE, stride, at(0));
-  for (GLuint q = 0; q < quads; ++q) {
+  constexpr struct {
+    GLuint key_points, alpha, blend;
+  } of_quads[] = {{NOOK_ATTRIBUTE_KEY_POINTS_0, NOOK_ATTRIBUTE_ALPHA_0, NOOK_ATTRIBUTE_BLEND_0},
+                  {NOOK_ATTRIBUTE_KEY_POINTS_1, NOOK_ATTRIBUTE_ALPHA_1, NOOK_ATTRIBUTE_BLEND_1}};
+  for (std::uint32_t q = 0; q < quads; ++q) {
+    const auto [key_points, alpha, blend] = of_quads[q];
     const std::size_t quad = sizeof(float) + q * quad_bytes;
-    const GLuint first = NOOK_ATTRIBUTE_FIRST_QUAD + NOOK_ATTRIBUTES_PER_QUAD * q;
-    for (GLuint slot = first; slot < first + NOOK_ATTRIBUTES_PER_QUAD; ++slot)
-      gl.EnableVertexAttribArray(slot);
-    gl.VertexAttribIPointer(first, 4, GL_UNSIGNED_SHORT, stride, at(quad));
-    gl.VertexAttribPointer(first + 1, 4, GL_FLOAT, GL_FALSE, stride, at(quad + alpha_offset));
-    gl.VertexAttribPointer(first + 2, 4, GL_FLOAT, GL_FALSE, stride, at(quad + blend_offset));
+    for (const GLuint attribute : {key_points, alpha, blend}) gl.EnableVertexAttribArray(attribute);
+    gl.VertexAttribIPointer(key_points, 4, GL_UNSIGNED_SHORT, stride, at(quad));
+    gl.VertexAttribPointer(alpha, 4, GL_FLOAT, GL_FALSE, stride, at(quad + alpha_offset));
+    gl.VertexAttribPointer(blend, 4, GL_FLOAT, GL_FALSE, stride, at(quad + blend_offset));
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/program.h"
-#include "shaders/character/layout.h"
+#include "shaders/character/light_layout.h"
 
 namespace nook::gl {
 namespace {
@@ -21,7 +21,7 @@ std::uint32_t texels_of(const InstanceLight& light) {
   return light.count ? NOOK_LIGHT_LOBES + NOOK_LIGHT_LOBE_TEXELS * light.count : 0;
 }
 
-// Writes a light in the layout of layout.h.
+// Writes a light in the layout of light_layout.h.
 void write_light(const Instance& instance, Texel* out) {
   const InstanceLight& light = instance.light;
   const LightBands& bands = light.bands;

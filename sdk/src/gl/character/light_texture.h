@@ -20,8 +20,8 @@ class LightTexture {
   bool made() const { return texture_.name() != 0; }
   // Room for the instances of the scene, so that upload allocates nothing.
   void resize(std::size_t slots) { first_texels_.resize(slots, no_light); }
-  // Sends all lights as shaders/character/layout.h has them. Throws Failure if OpenGL gives no memory or a
-  // texture buffer of it cannot hold them.
+  // Sends all lights as shaders/character/light_layout.h has them. Throws Failure if OpenGL gives no memory
+  // or a texture buffer of it cannot hold them.
   void upload(const Device& device, const Scene& scene);
 
   // Of the last upload: where the light of the instance in a slot lies, or no_light.

@@ -46,7 +46,7 @@ struct Mean {
   double value() const { return sum / double(count); }
 };
 
-// A baseline with a constant prediction.
+// A baseline with one value everywhere.
 class Constant : public PoseRegression {
  public:
   explicit Constant(std::size_t vertices) : ao_(vertices, 0.75f) {}
@@ -117,9 +117,9 @@ TEST_CASE("errors over visible vertex-poses leave out what ray tracing finds bla
     }
     CHECK(shifted.value() - e.oracle.mse_visible == Approx(1e-4).epsilon(1e-6));  // 0.01 squared
   }
-  SECTION("the column of the baselines is over the same vertex-poses") {
-    const Constant peer(mesh.vertex_count());
-    const RegressionError error = measure_regression(peer, poses, truth, vertex_areas(mesh, mesh.position));
+  SECTION("the baselines' column is over the same vertex-poses") {
+    const Constant baseline(mesh.vertex_count());
+    const RegressionError error = measure_regression(baseline, poses, truth, vertex_areas(mesh, mesh.position));
     Mean constant;
     for (const std::uint16_t value : truth.value)
       if (value >= 0.01 * 65535) constant.add(0.75 - double(value) / 65535);

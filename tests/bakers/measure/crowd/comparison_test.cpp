@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bakers/measure/crowd/errors.h"
 #include "bakers/measure/crowd/light_comparison.h"
 #include "bakers/measure/crowd/sheet.h"
 #include "tests/bakers/measure/crowd/plates.h"
@@ -34,7 +35,7 @@ class TracedCrowd final : public EvaluatedCrowd {
   bool ground_ = true;
 };
 
-// Draws pictures of one colour and counts what it was asked for.
+// Draws pictures of one colour and counts the panels.
 class CountingRenderer final : public PanelRenderer {
  public:
   platform::Image draw(const Group& group, const AoPanel& panel) override {
@@ -84,6 +85,26 @@ TEST_CASE("an evaluation that ray traces has the error of its noise, static AO h
   CHECK(errors.noise_floor_mse > 0);
   CHECK(errors.forms[4].form == "static");
   CHECK(errors.forms[4].errors.mse > 20 * errors.forms[3].errors.mse);
+}
+
+TEST_CASE("errors over visible vertices leave out what ray tracing finds black") {
+  const plates::Character character = plates::make_character();
+  const std::vector<Bones> poses{plates::pose(0, 0, 0)};
+  const PosedCrowd crowd{character.get(), poses};
+  // The first ten vertices are black in the reference and far off, the others are nearly right.
+  VertexValues reference{std::vector<float>(plates::kVertices, 0.5f)},
+      values{std::vector<float>(plates::kVertices, 0.6f)};
+  for (std::uint32_t v = 0; v < 10; ++v) {
+    reference[0][v] = v % 2 ? 0.0f : 0.009f;
+    values[0][v] = reference[0][v] + 0.4f;
+  }
+  const std::uint32_t only = 0;
+  const Errors errors = compare(crowd, {&only, 1}, values, reference);
+  // Differences of single-precision numbers near 0.5.
+  CHECK(std::abs(errors.mse_visible - 0.01) < 1e-6);
+  CHECK(std::abs(errors.mse - (10 * 0.16 + (plates::kUsed - 10) * 0.01) / plates::kUsed) < 1e-6);
+  reference[0].assign(plates::kVertices, 0.0f);
+  CHECK(compare(crowd, {&only, 1}, values, reference).mse_visible == 0);
 }
 
 TEST_CASE("the sheet has five panels, and three more with screen-space AO") {

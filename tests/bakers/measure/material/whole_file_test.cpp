@@ -33,7 +33,7 @@ std::vector<std::byte> file_of(const RawMaterial& raw, const CompressionSettings
 
 }  // namespace
 
-TEST_CASE("a view map has 64 cells along a side by default") {
+TEST_CASE("a view map has 64 cells a side by default") {
   CHECK(CompressionSettings{}.map_side == 64);
   const RawMaterial raw = test::small_material();
   CHECK(compress(raw, settings_of(Method::k_cta)).btf.map.side == 64);
