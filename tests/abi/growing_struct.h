@@ -1,5 +1,5 @@
-// What holds for every public struct that grows, whichever library fills or reads it: callers compiled with
-// the first release's header, with this one, and with a newer one.
+// Checks of every public struct that grows, for all libraries that fill or read it: with callers compiled
+// with the first release's header, with this one, and with a newer one.
 #pragma once
 
 #include <nook/nook.h>

@@ -1,4 +1,4 @@
-// What a scene computes, against numbers worked out by hand.
+// The results of a scene against numbers that were computed by hand.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

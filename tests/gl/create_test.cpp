@@ -48,7 +48,7 @@ std::vector<std::string> optional() {
 
 }  // namespace
 
-TEST_CASE("the best tier is taken unless a lower one is asked for") {
+TEST_CASE("the best tier is chosen unless max_tier is lower") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
   const int best = tiers_of(context).front();
@@ -113,7 +113,7 @@ TEST_CASE("a shader that does not compile is named, and nothing is left behind")
   }
 }
 
-TEST_CASE("the lower tier asks for nothing of the higher one") {
+TEST_CASE("the lower tier needs nothing of the higher one") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
   Trace trace(context);

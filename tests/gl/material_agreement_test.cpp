@@ -132,7 +132,7 @@ TEST_CASE("material: more layers than OpenGL 3.3 guarantees are split") {
   for (std::size_t i = 0; i < samples.size(); ++i) CHECK(difference(got[i].value, wanted[i]) <= bound);
 }
 
-TEST_CASE("material: fetches a pixel are as many as stated") {
+TEST_CASE("material: a pixel has the stated number of fetches") {
   NOOK_NEED_CONTEXT(context);
   MaterialFixture fixture(context);
   for (const Size& size : forms) {

@@ -1,4 +1,4 @@
-// What an update may not do: allocate host memory, read back, wait, or query state outside PRESERVE.
+// An update must not allocate host memory, read back, wait, or query state outside PRESERVE.
 #include "tests/gl/crowd.h"
 #include "tests/gl/test_context.h"
 #include "tests/gl/traced_loader.h"

@@ -132,8 +132,8 @@ TEST_CASE("nnao: a plane has one value, to the borders of the screen") {
                      << inside.low << " to " << inside.high << ", all " << all.low << " to " << all.high);
       // The embedded network is not exact on a plane: a few steps of 8 bits.
       CHECK(inside.low > 1 - 8 * step);
-      // Beyond the border the plane goes on, but the network is told the share that does, and where that is
-      // half or more it expects some occluder there: at most 5 %, in a corner of the screen.
+      // Beyond the border the plane continues, but the share that does is an input of the network, and where
+      // that is half or more it expects some occluder there: at most 5 %, in a corner of the screen.
       CHECK(all.low > inside.low - 6 * step);
     }
 }

@@ -188,7 +188,7 @@ TEST_CASE("nnao: no parameter of the host's textures and samplers changes") {
   nook_nnao_destroy(&pass);
 }
 
-TEST_CASE("nnao: a frame allocates nothing, reads nothing back and asks OpenGL only to preserve") {
+TEST_CASE("nnao: a frame allocates nothing, reads nothing back and queries OpenGL only with PRESERVE") {
   NOOK_NEED_CONTEXT(context);
   const nook_nnao_path best = paths_of(context).back();
   const struct {

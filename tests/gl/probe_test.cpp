@@ -406,7 +406,7 @@ TEST_CASE("what cannot be uploaded is refused and leaves nothing") {
   compare(ask(context.gl(), info_of(uploaded), queries), computed(small.get(), queries));
 }
 
-TEST_CASE("a probe outlives its nook_gl, and a lost context asks for no call") {
+TEST_CASE("a probe outlives its nook_gl, and a lost context needs no call") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
   nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);

@@ -146,7 +146,7 @@ TEST_CASE("PRESERVE copes with a program that the host deleted while it was curr
   take_debug_messages();
 }
 
-TEST_CASE("an error that the host left is logged where OpenGL is asked, and is not Nook's") {
+TEST_CASE("an error that the host left is logged where OpenGL is queried, and is not Nook's") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
   context.gl().Enable(0xdead);

@@ -100,7 +100,7 @@ TEST_CASE("a job can be cancelled at any point of its progress") {
     const nook_result result = nook_bake_job_wait(job.get());
     canceller.over = true;
     INFO("cancelled at call " << calls << ": " << nook_bake_last_message());
-    // A bake may have fewer calls than that; one that was asked to stop did.
+    // A bake may have fewer calls than that; a cancelled one stopped.
     CHECK(result == (canceller.left <= 0 ? NOOK_ERROR_CANCELLED : NOOK_OK));
     if (calls <= 40) CHECK(result == NOOK_ERROR_CANCELLED);  // one call a traced pose at least
     const void* bytes = nullptr;

@@ -179,7 +179,7 @@ TEST_CASE("a built-in structure: the same bytes on any number of threads, anothe
   CHECK(file_of(start(desc)) != one);
 }
 
-TEST_CASE("a material job goes through its stages and stops where it is told to") {
+TEST_CASE("a material job goes through its stages and stops where it is cancelled") {
   struct Watch {
     std::vector<nook_bake_stage> stages;
     nook_bake_stage stop_at = -1;

@@ -1,5 +1,5 @@
-// A whole bake on a small body: it beats a static bake, it is reproducible, it can be cancelled, and
-// quantisation is cheap.
+// A whole bake on a small body: its error is below that of a static bake, it is reproducible, it can be
+// cancelled, and quantisation adds little error.
 #include "bakers/character/bake.h"
 
 #include <tbb/global_control.h>
@@ -84,9 +84,9 @@ TEST_CASE("a learned gamma fits as well as the best fixed one") {
   }
   settings.learn_gamma = true;
   const BakeResult learned = bake_character(mesh, poses, settings);
-  INFO("gamma " << learned.model.kernel.gamma << " error " << learned.report.mse_held_out << " least "
+  INFO("gamma " << learned.model.kernel.gamma << " error " << learned.report.mse_held_out << " lowest "
                 << least);
-  // Its choice rests on fits of a twentieth of the steps, and the error is flat near its least value.
+  // Its choice depends on fits with a twentieth of the steps, and the error is flat near its minimum.
   CHECK(learned.report.mse_held_out < 1.1 * least);
 }
 

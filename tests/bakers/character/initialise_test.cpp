@@ -29,7 +29,7 @@ TEST_CASE("initial spheres lie on the axis of each bone's flesh") {
   }
 }
 
-TEST_CASE("clusters are connected and as many as asked for") {
+TEST_CASE("clusters are connected and have the given number") {
   const SkinnedMesh mesh = bending_tube();
   std::vector<Vec3> normal;
   vertex_normals(mesh.triangle, mesh.position, normal);

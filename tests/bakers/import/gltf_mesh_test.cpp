@@ -167,7 +167,7 @@ TEST_CASE("lists without indices, strips and fans make the same surface") {
     CHECK(std::abs(signed_volume(character.mesh) - signed_volume(load(tube_file()).mesh)) < 1e-6f);
     CHECK(std::abs(area(character.mesh) - tube_area()) < 1e-5f);
   }
-  SECTION("lines are left out and told") {
+  SECTION("lines are left out with a warning") {
     GltfBuilder file = tube_file();
     Json lines = file.document["meshes"][0]["primitives"][0];
     lines["mode"] = 1;
@@ -263,7 +263,7 @@ TEST_CASE("triangles without area are dropped and counted") {
                     "2 of " + std::to_string(Tube::triangles + 2) + " triangles have no area"));
 }
 
-TEST_CASE("a body of implausible size is told") {
+TEST_CASE("a body of implausible size gives a warning") {
   GltfBuilder file = tube_file();
   file.document["nodes"][0]["scale"] = {100, 100, 100};
   CHECK(has_warning(load(file).warnings, "may not be in metres"));

@@ -210,7 +210,7 @@ TEST_CASE("a mirrored node flips the winding back") {
   }
 }
 
-TEST_CASE("uniform scale stays, uneven scale is replaced by the nearest similarity and told") {
+TEST_CASE("uniform scale stays, uneven scale is replaced by the nearest similarity with a warning") {
   GltfBuilder file = tube_file();
   file.add_animation("grow");
   file.add_channel(2, "scale", {0, 1}, {1, 1, 1, 3, 3, 3});

@@ -219,7 +219,7 @@ TEST_CASE("compression can be stopped, and a material without a mask has no VOTF
   CHECK(compress(raw, s).visibility == VisibilityForm::none);
 }
 
-TEST_CASE("the visibility mapping is half a texel's, or what is asked for") {
+TEST_CASE("the visibility mapping is half a texel's, or that of the settings") {
   using nook::material::VisibilityForm;
   // Distances are cut at 1/32 of the side: 3 texels of 96, half a texel is a sixth of that.
   const auto at_96 = default_mapping(VisibilityForm::distance, 96, 64);

@@ -108,7 +108,7 @@ TEST_CASE("noise repeats across tiles and is smooth") {
   }
 }
 
-TEST_CASE("unknown names and parameters out of range are told") {
+TEST_CASE("unknown names and parameters out of range are refused") {
   const auto message = [](MesoParameters p) {
     try {
       make_meso_surface(p);

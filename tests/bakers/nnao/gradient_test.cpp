@@ -42,7 +42,7 @@ std::vector<std::uint32_t> first_points(std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("sixteen lanes say what the reference says") {
+TEST_CASE("sixteen lanes agree with the reference") {
   const Dataset data = test::small_dataset();
   TrainingState state = start_training(data, {});
   Network network;

@@ -90,7 +90,7 @@ TEST_CASE("theorem 1 and lemma 2: the first cluster and its coefficients are tho
   }
 }
 
-TEST_CASE("theorem 3: the next cluster leaves the least error of the residual") {
+TEST_CASE("theorem 3: the next cluster leaves the lowest error of the residual") {
   const Explicit e(12);
   for (Index i = 0; i < e.sub_tensors.rows(); ++i) {
     SubTensorMix mix = search_greedy(e.atoms, e.products.row(i), 1);

@@ -78,7 +78,7 @@ TEST_CASE("an N-SVD has the same bits on one thread and on three") {
   CHECK(one.objective == three.objective);
 }
 
-TEST_CASE("ranks by threshold are the least multiples that keep the error") {
+TEST_CASE("ranks by threshold are the smallest multiples that keep the error") {
   const Tensor a = planted({12, 16, 10}, {3, 5, 4});
   CHECK(ranks_for_error(a, {1e-5, 1e-5, 1e-5}, 1) == std::vector<std::size_t>{3, 5, 4});
   CHECK(ranks_for_error(a, {1e-5, 1e-5, 1e-5}, 4) == std::vector<std::size_t>{4, 8, 4});

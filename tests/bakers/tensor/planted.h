@@ -35,7 +35,7 @@ inline Tensor random_tensor(const Dimensions& dimensions, std::mt19937_64& bits)
   return a;
 }
 
-// Whether a is b, to a relative error.
+// Returns true if a is equal to b up to a relative error.
 inline bool near(double a, double b, double relative) {
   return std::abs(a - b) <= relative * std::abs(b);
 }

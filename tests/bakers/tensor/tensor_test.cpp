@@ -37,7 +37,7 @@ TEST_CASE("unfolding puts the mode behind the row's slowest and the one before i
   for (std::size_t n = 0; n < 3; ++n) CHECK(fold(unfold(counted(), n), {2, 3, 2}, n).data == counted().data);
 }
 
-TEST_CASE("sub-tensors are joined in the order asked for") {
+TEST_CASE("sub-tensors are joined in the given order") {
   const Tensor joined = sub_tensors(counted(), 1, {2, 0});
   CHECK(joined.dimensions == Dimensions{2, 2, 2});
   CHECK(joined.data == std::vector<float>{5, 6, 1, 2, 11, 12, 7, 8});

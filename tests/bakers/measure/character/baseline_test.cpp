@@ -66,7 +66,7 @@ AoTargets make_targets(const SkinnedMesh& mesh, std::span<const Pose> poses, con
   return targets;
 }
 
-// AO that is linear in the joint angles and never leaves [0, 1]: what both peers can represent exactly.
+// AO that is linear in the joint angles and never leaves [0, 1]: both baselines can represent it exactly.
 float planted_linear(std::size_t vertex, const Eigen::RowVectorXf& x) {
   float ao = 0.5f;
   for (Eigen::Index f = 0; f < x.size(); ++f)
@@ -160,7 +160,7 @@ TEST_CASE("k-means finds separated groups, the same for the same seed") {
   CHECK(k_means(points, 3, 5).centre == groups.centre);
 }
 
-TEST_CASE("both peers recover linear AO and beat the mean on unseen poses") {
+TEST_CASE("both baselines recover linear AO and have a lower error than the mean on unseen poses") {
   const SkinnedMesh mesh = chain(6, 60);
   const std::vector<Pose> poses = random_poses(mesh, 300, 0.8f, 1), unseen = random_poses(mesh, 80, 0.8f, 2);
   const AoTargets targets = make_targets(mesh, poses, planted_linear);
@@ -190,7 +190,7 @@ TEST_CASE("pose clusters hold what one linear model cannot") {
   CHECK(clusters < 0.25 * linear);
 }
 
-TEST_CASE("regularisation keeps the peers at the mean where the poses say nothing") {
+TEST_CASE("regularisation keeps the baselines at the mean where the poses have no information") {
   const SkinnedMesh mesh = chain(8, 30);
   const std::vector<Pose> poses = random_poses(mesh, 60, 0.8f, 5), unseen = random_poses(mesh, 60, 0.8f, 6);
   std::mt19937_64 bits(7);
@@ -205,7 +205,7 @@ TEST_CASE("regularisation keeps the peers at the mean where the poses say nothin
         1.15 * variance);
 }
 
-TEST_CASE("peers do not depend on the number of threads") {
+TEST_CASE("baselines do not depend on the number of threads") {
   const SkinnedMesh mesh = chain(4, 600);
   const std::vector<Pose> poses = random_poses(mesh, 120, 0.8f, 8);
   const AoTargets targets = make_targets(mesh, poses, planted_kink);
