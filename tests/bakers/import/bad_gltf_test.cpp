@@ -154,7 +154,7 @@ TEST_CASE("faults of accessors and buffer views") {
   }
   SECTION("far more elements than bytes") {
     accessor["count"] = 4000000000u;
-    check_refused(file, "POSITION");
+    check_refused(file, "too many vertices (need at most 10000000)");
   }
   SECTION("no bytes at all, and many elements") {
     accessor.erase("bufferView");
