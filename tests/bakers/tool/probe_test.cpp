@@ -2,6 +2,7 @@
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tests/bakers/tool/glb_tube.h"
 #include "tests/bakers/tool/rgbe_map.h"
@@ -22,8 +23,8 @@ TEST_CASE("bake probe of a map: file, report, picture, and what inspect says of 
   const TestFolder folder;
   write_text(folder.path("sky.hdr"), rgbe_map(32, 16));
   const ToolRun run = folder.run({"bake", "probe", folder.path("sky.hdr"), "-o", folder.path("sky.nook"),
-                                  "--lobes", "9", "--method", "least-squares", "--picture",
-                                  folder.path("sky.png"), "--report", folder.path("r.json")});
+                                  "--lobes", "9", "--constraint", "none", "--picture", folder.path("sky.png"),
+                                  "--report", folder.path("r.json")});
   INFO(run.error);
   REQUIRE(run.exit_code == 0);
   CHECK(folder.names() == std::vector<std::string>{"r.json", "sky.hdr", "sky.nook", "sky.png"});
@@ -98,7 +99,7 @@ std::string even_map(unsigned char mantissa, unsigned char exponent) {
 }
 
 bool has_no_number_for(const std::string& text) {
-  return text.find("nan") == std::string::npos && text.find("inf") == std::string::npos;
+  return !std::regex_search(text, std::regex("\\b(nan|inf)\\b"));
 }
 
 }  // namespace
@@ -286,7 +287,8 @@ TEST_CASE("evaluate probe measures every method, and baked probes") {
   const Json rows = rows_of(folder, "r.json");
   double batch = 0, baked = 0;
   for (const Json& row : rows) {
-    if (row.at("domain") == "sphere" && row.at("method") == "least_squares") batch = row.at("radiance_rms");
+    if (row.at("domain") == "sphere" && row.at("method") == "least_squares, bands")
+      batch = row.at("radiance_rms");
     if (row.at("method") == "sky.nook") baked = row.at("radiance_rms");
   }
   CHECK(batch > 0);
