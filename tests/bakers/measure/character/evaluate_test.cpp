@@ -119,7 +119,8 @@ TEST_CASE("errors over visible vertex-poses leave out what ray tracing finds bla
   }
   SECTION("the baselines' column is over the same vertex-poses") {
     const Constant baseline(mesh.vertex_count());
-    const RegressionError error = measure_regression(baseline, poses, truth, vertex_areas(mesh, mesh.position));
+    const RegressionError error =
+        measure_regression(baseline, poses, truth, vertex_areas(mesh, mesh.position));
     Mean constant;
     for (const std::uint16_t value : truth.value)
       if (value >= 0.01 * 65535) constant.add(0.75 - double(value) / 65535);
