@@ -69,8 +69,9 @@ struct MeshNode {
 };
 
 struct MeshNodes {
-  std::vector<MeshNode> all;  // in the file's node order
-  std::vector<Skin> skins;    // only those in use
+  std::vector<MeshNode> all;              // in the file's node order
+  std::vector<Skin> skins;                // only those in use
+  std::vector<std::uint32_t> file_skins;  // their indices in the file
   std::vector<std::uint32_t> rigid_nodes;
 };
 
@@ -95,6 +96,7 @@ MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes) {
     if (place_of_skin[skin] < 0) {
       place_of_skin[skin] = static_cast<std::int64_t>(out.skins.size());
       out.skins.push_back(read_skin(model, skin, nodes));
+      out.file_skins.push_back(static_cast<std::uint32_t>(skin));
     }
     out.all.push_back({i, true, static_cast<std::size_t>(place_of_skin[skin])});
   }
@@ -181,8 +183,12 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAcces
       continue;
     }
     append_mesh(model, model.nodes[at.node], binding, file, repairs);
+    character.rest_from_primitive.resize(file.primitives.size(), binding.rest_from_mesh);
   }
   add_warnings(repairs, character.warnings);
+  for (std::size_t s = 0; s < skeleton.skins.size(); ++s)
+    character.skins.push_back(
+        {mesh_nodes.file_skins[s], skeleton.skins[s].rest_from_mesh, std::move(skeleton.skins[s].bone)});
   file.bones = std::move(skeleton.bones);
   character.bindings = std::move(skeleton.bindings);
   character.mesh = weld(std::move(file), character.warnings, NOOK_ERROR_BAD_FILE);

@@ -26,11 +26,21 @@ struct BoneBinding {
   std::array<double, 3> origin_rest{};  // the joint's origin in rest space
 };
 
+// A skin as the file has it, with the way of its meshes to rest space.
+struct BoundSkin {
+  std::uint32_t file_index = 0;
+  Affine rest_from_mesh;
+  std::vector<std::uint16_t> bone;  // of each joint, in the skin's order
+};
+
 struct ImportedCharacter {
   SkinnedMesh mesh;
   std::vector<Clip> clips;
   NodeTree nodes;
   std::vector<BoneBinding> bindings;  // one for each bone of the mesh
+  std::vector<BoundSkin> skins;       // those that a shown mesh uses
+  // For each primitive of the mesh the matrix from its POSITION attribute to rest space.
+  std::vector<Affine> rest_from_primitive;
   std::vector<std::string> warnings;  // what was left out or repaired, one sentence each
   std::uint64_t source_hash = 0;      // XXH64 of the file's bytes and of the external buffers it names
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bakers/import/affine.h"
+#include "sdk/src/core/affine.h"
 
 namespace nook::bake {
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bakers/character/bind_data.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
 
@@ -78,6 +79,8 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
                                     [&](BakeStage stage, std::size_t done, std::size_t total) {
                                       return progress(stage_of(stage), done, total);
                                     });
+  baked.model.bind = bind_data_of(character);
+  baked.model.rest = rest_surface_of(character.mesh);
   baked.model.recipe = recipe_text(character, recipe);
   BakedFile file;
   file.model = write_character_model(baked.model);

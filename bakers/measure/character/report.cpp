@@ -31,7 +31,10 @@ Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, cons
   row["spheres"] = model.spheres.size();
   row["key_points"] = model.key_points.size();
   row["model_bytes"] = baked.model_bytes.size();
-  row["map_bytes"] = Container(baked.model_bytes, character_kind).section("FMAP").remaining();
+  const Container file(baked.model_bytes, character_kind);
+  row["map_bytes"] = file.section("FMAP").remaining();
+  row["bind_bytes"] = file.has("BIND") ? file.section("BIND").remaining() : 0;
+  row["rest_bytes"] = file.has("REST") ? file.section("REST").remaining() : 0;
   row["poses"] = e.poses;
   row["rays"] = e.rays;
   row["noise_floor_mse"] = e.noise_floor_mse;

@@ -108,8 +108,9 @@ typedef struct nook_scene_desc {
   uint32_t lod_max_interval;
   /* Metres, > 0, default 10,000: the radius of the sphere that stands for a ground plane. */
   float ground_radius;
-  /* Must be 0. */
-  uint32_t reserved;
+  /* 0 or 1, default 0: a bone that is sheared or scaled unevenly is projected to the nearest rotation with
+   * one scale, as the baker does, and the context logs it once for an instance. 1: such a pose fails. */
+  uint32_t strict_poses;
 } nook_scene_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does.
@@ -136,9 +137,10 @@ NOOK_API nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_
 
 /* Sets the pose of an instance. bones_3x4 holds one 3x4 matrix for each bone, row-major: 12 floats, three
  * rows of rotation | translation. A matrix maps rest space to world space, both in metres; it is rigid, or
- * has a uniform scale, which scales radii. bone_count must be the model's. The call does not allocate.
- * One at a time. Errors: INVALID_ARGUMENT (the count is wrong, or a matrix is not finite, is sheared, or
- * scales unevenly by more than 1 %; the message names the bone), INVALID_HANDLE. */
+ * has one scale for all axes, which scales radii, and may mirror. nook_pose.h says what rest space is, and
+ * takes the matrices that an engine has. bone_count must be the model's. The call does not allocate. One at a
+ * time. Errors: INVALID_ARGUMENT (the count is wrong, or a matrix is not finite; with strict_poses also a
+ * matrix that is sheared or scales unevenly by more than 1 %; the message names the bone), INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance, const float* bones_3x4,
                                          uint32_t bone_count);
 

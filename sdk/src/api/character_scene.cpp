@@ -21,9 +21,10 @@ nook_scene_desc default_scene_desc() {
   desc.lod_distance = defaults.lod_distance;
   desc.lod_max_interval = defaults.lod_max_interval;
   desc.ground_radius = defaults.ground_radius;
+  desc.strict_poses = defaults.strict_poses;
   return desc;
 }
-constexpr std::size_t first_scene_desc = offsetof(nook_scene_desc, reserved) + sizeof(std::uint32_t);
+constexpr std::size_t first_scene_desc = offsetof(nook_scene_desc, strict_poses) + sizeof(std::uint32_t);
 
 // The bounds keep squares finite. The comparison fails for NaN.
 void check_range(const char* name, float value, float low, float high, const char* need) {
@@ -49,11 +50,11 @@ SceneSettings settings_of(const nook_scene_desc& desc) {
   if (desc.lod_max_interval < 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.lod_max_interval is out of range (got 0, need 1 or more)");
-  if (desc.reserved)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is not 0 (got %u); call nook_scene_desc_init",
-                  desc.reserved);
-  return {desc.combine,          desc.isa,          desc.cutoff_error, desc.lod_error, desc.lod_distance,
-          desc.lod_max_interval, desc.ground_radius};
+  if (desc.strict_poses > 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.strict_poses is out of range (got %u, need 0 or 1)",
+                  desc.strict_poses);
+  return {desc.combine,          desc.isa,           desc.cutoff_error,     desc.lod_error, desc.lod_distance,
+          desc.lod_max_interval, desc.ground_radius, desc.strict_poses != 0};
 }
 
 // Runs body on the scene of the handle.
@@ -119,15 +120,6 @@ nook_result nook_scene_add_instance(nook_scene scene, nook_character_model model
 
 nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_id instance) {
   return with_scene("nook_scene_remove_instance", scene, [&](Scene& s) { remove_instance(s, instance); });
-}
-
-nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance, const float* bones_3x4,
-                                uint32_t bone_count) {
-  return with_scene("nook_scene_set_pose", scene, [&](Scene& s) {
-    need(bones_3x4, "bones_3x4");
-    static_assert(sizeof(Mat3x4) == 12 * sizeof(float) && alignof(Mat3x4) == alignof(float));
-    set_pose(s, instance, {reinterpret_cast<const Mat3x4*>(bones_3x4), bone_count});
-  });
 }
 
 nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver, nook_instance_id caster) {

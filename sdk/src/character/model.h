@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sdk/src/character/bind_data.h"
 #include "sdk/src/character/kernel.h"
 #include "sdk/src/core/vec.h"
 
@@ -80,6 +81,8 @@ struct CharacterModel {
         file_to_welded(memory),
         primitives(memory),
         levels(memory),
+        bind(memory),
+        rest(memory),
         recipe(memory) {}
 
   static constexpr std::uint32_t max_influences = 8;
@@ -111,6 +114,9 @@ struct CharacterModel {
   float bounding_radius = 0;  // metres, of the rest pose around bounding_centre
   Vec3 bounding_centre;
   std::uint16_t root_bone = 0;  // the bone that the ground and the bounding sphere follow
+
+  BindData bind;     // may be empty
+  RestSurface rest;  // may be empty
 
   std::pmr::string recipe;  // JSON text of the bake's settings; the runtime does not read it
 

@@ -151,6 +151,73 @@ void check_file_order(const CharacterModel& model, const Check& check) {
   check.sized("file vertices", model.file_to_welded.size(), next);
 }
 
+// The 3x3 part must be invertible, relative to its own size.
+bool is_invertible(const Mat3x4& matrix) {
+  const float* m = matrix.m;
+  const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
+  const double volume = std::abs(double(dot(cross(x, y), z)));
+  const double size = double(length(x)) + length(y) + length(z);
+  return is_pose_matrix(matrix) && volume > 1e-12 * size * size * size;
+}
+
+void check_bind_data(const CharacterModel& model, const Check& check) {
+  const BindData& bind = model.bind;
+  if (bind.empty()) return;
+  check.sized("bind matrices", bind.bones.size(), model.bone_count());
+  for (std::size_t b = 0; b < bind.bones.size(); ++b) {
+    const BoneBind& bone = bind.bones[b];
+    check.that(is_invertible(bone.node_from_rest), "bind matrix of bone", b, 0, "an invertible matrix");
+    check.that(
+        bone.first_of_joint <= b && bind.bones[bone.first_of_joint].first_of_joint == bone.first_of_joint,
+        "first bone of the joint of bone", b, bone.first_of_joint, "an earlier bone or itself");
+  }
+  const std::size_t spaces = bind.rest_from_mesh.size();
+  check.count("spaces of meshes", spaces, 0, max_indexed);
+  for (std::size_t s = 0; s < spaces; ++s)
+    check.that(is_invertible(bind.rest_from_mesh[s]), "rest_from_mesh", s, 0, "an invertible matrix");
+  check.sized("spaces of primitives", bind.primitive_space.size(), model.primitives.size());
+  for (std::size_t p = 0; p < bind.primitive_space.size(); ++p)
+    check.that(bind.primitive_space[p] < spaces, "space of primitive", p, bind.primitive_space[p],
+               "less than the number of spaces");
+  for (std::size_t s = 0; s < bind.skins.size(); ++s) {
+    const SkinBind& skin = bind.skins[s];
+    check.that(skin.space < spaces, "space of skin", s, skin.space, "less than the number of spaces");
+    check.that(std::uint64_t(skin.first_joint) + skin.joint_count <= bind.bone_of_joint.size(),
+               "joints of skin", s, skin.joint_count, "a part of the list of joints");
+  }
+  for (std::size_t j = 0; j < bind.bone_of_joint.size(); ++j)
+    check.that(bind.bone_of_joint[j] < model.bone_count(), "bone of joint", j, bind.bone_of_joint[j],
+               "less than the number of bones");
+  check.count("rest vertices", bind.vertices.size(), 0, BindData::max_vertices);
+  for (std::size_t v = 0; v < bind.vertices.size(); ++v) {
+    const RestVertex& vertex = bind.vertices[v];
+    check.that(vertex.file_vertex < model.file_to_welded.size(), "file vertex of rest vertex", v,
+               vertex.file_vertex, "less than the number of file vertices");
+    check.place("position of rest vertex", v, vertex.position);
+    check.that(vertex.bone_count >= 1 && vertex.bone_count <= RestVertex::max_bones,
+               "bone count of rest vertex", v, vertex.bone_count, "1 to 8");
+    float sum = 0;
+    for (std::uint32_t b = 0; b < vertex.bone_count; ++b) {
+      check.that(vertex.bone[b] < model.bone_count(), "bone of rest vertex", v, vertex.bone[b],
+                 "less than the number of bones");
+      check.that(within(vertex.weight[b], 0, 1), "bone weight of rest vertex", v, vertex.weight[b], "0 to 1");
+      sum += vertex.weight[b];
+    }
+    check.that(within(sum, 1 - 1e-4f, 1 + 1e-4f), "sum of bone weights of rest vertex", v, sum, "1");
+  }
+}
+
+void check_rest_surface(const CharacterModel& model, const Check& check) {
+  const RestSurface& rest = model.rest;
+  if (rest.position.empty() && rest.normal.empty()) return;
+  check.sized("rest positions", rest.position.size(), model.vertex_count());
+  check.sized("rest normals", rest.normal.size(), model.vertex_count());
+  for (std::size_t i = 0; i < rest.position.size(); ++i) {
+    check.place("rest position of vertex", i, rest.position[i]);
+    check.unit("rest normal of vertex", i, rest.normal[i]);
+  }
+}
+
 }  // namespace
 
 void check_model(const CharacterModel& model, nook_result code) {
@@ -178,6 +245,8 @@ void check_model(const CharacterModel& model, nook_result code) {
   check_key_points(model, check);
   check_linear_layer(model, check);
   check_file_order(model, check);
+  check_bind_data(model, check);
+  check_rest_surface(model, check);
   check.count("levels of detail", model.levels.size(), 0, CharacterModel::max_levels);
   for (const CharacterLevel& level : model.levels) check_level(model, level, check);
 }

@@ -11,7 +11,7 @@
 
 namespace nook {
 
-// The number of bits of each field of version 2.
+// The number of bits of each field.
 struct CharacterBits {
   static constexpr int sphere_centre = 16;  // one coordinate in the box of all centres: 30 micrometres in 2 m
   static constexpr int sphere_radius = 16;
@@ -31,6 +31,8 @@ struct CharacterBits {
   static constexpr int blend = 5;
   static constexpr int level_scale = 8;
   static constexpr int level_offset = 8;
+  static constexpr int rest_position = 16;
+  static constexpr int rest_normal = 7;  // the error is within 1 degree
 };
 
 // The number of earlier vertices that a vertex may share key points with.

@@ -217,6 +217,89 @@ void read_primitives(ByteReader in, CharacterModel& model) {
   in.check_end();
 }
 
+Mat3x4 read_matrix(ByteReader& in) {
+  Mat3x4 matrix;
+  for (float& element : matrix.m) element = in.f32();
+  return matrix;
+}
+
+void read_skin(ByteReader& in, BindData& bind, int bone_bits) {
+  SkinBind skin;
+  skin.file_index = in.varint();
+  skin.space = static_cast<std::uint16_t>(std::min(in.varint(), 0xffffu));
+  skin.first_joint = static_cast<std::uint32_t>(bind.bone_of_joint.size());
+  // A model of one bone writes no bits for a joint, so that only the bound of the count limits it.
+  skin.joint_count = in.varint();
+  if (skin.joint_count > bind.bones.size())
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "a skin has more joints than the model has bones (got %u, need at most %zu); bake the file "
+                  "again",
+                  skin.joint_count, bind.bones.size());
+  for (std::uint32_t j = 0; j < skin.joint_count; ++j)
+    bind.bone_of_joint.push_back(static_cast<std::uint16_t>(in.bits(bone_bits)));
+  in.align();
+  bind.skins.push_back(skin);
+}
+
+RestVertex read_rest_vertex(ByteReader& in) {
+  RestVertex vertex;
+  vertex.file_vertex = in.varint();
+  vertex.position.x = in.f32();
+  vertex.position.y = in.f32();
+  vertex.position.z = in.f32();
+  vertex.bone_count = in.u8();
+  if (vertex.bone_count > RestVertex::max_bones)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "a rest vertex has too many bones (got %u, need at most %u); bake the file again",
+                  vertex.bone_count, RestVertex::max_bones);
+  for (std::uint32_t b = 0; b < vertex.bone_count; ++b) {
+    vertex.bone[b] = static_cast<std::uint16_t>(in.u16());
+    vertex.weight[b] = in.f32();
+  }
+  return vertex;
+}
+
+void read_bind_data(ByteReader in, CharacterModel& model) {
+  constexpr std::size_t matrix_bits = 12 * 32;
+  BindData& bind = model.bind;
+  in.check_count(static_cast<std::uint32_t>(model.bone_count()), matrix_bits, "bones");
+  bind.bones.reserve(model.bone_count());
+  for (std::size_t b = 0; b < model.bone_count(); ++b) {
+    BoneBind& bone = bind.bones.emplace_back();
+    bone.node_from_rest = read_matrix(in);
+    bone.first_of_joint = static_cast<std::uint16_t>(in.u16());
+  }
+  const std::uint32_t spaces = in.check_count(in.varint(), matrix_bits, "spaces of meshes");
+  bind.rest_from_mesh.reserve(spaces);
+  for (std::uint32_t s = 0; s < spaces; ++s) bind.rest_from_mesh.push_back(read_matrix(in));
+  bind.primitive_space.reserve(model.primitives.size());
+  const int space_bits = index_bits(spaces);
+  for (std::size_t p = 0; p < model.primitives.size(); ++p)
+    bind.primitive_space.push_back(static_cast<std::uint16_t>(in.bits(space_bits)));
+  in.align();
+  const std::uint32_t skins = in.check_count(in.varint(), 24, "skins");
+  bind.skins.reserve(skins);
+  for (std::uint32_t s = 0; s < skins; ++s) read_skin(in, bind, index_bits(model.bone_count()));
+  const std::uint32_t vertices = in.check_count(in.varint(), 8 + 3 * 32 + 8, "rest vertices");
+  bind.vertices.reserve(vertices);
+  for (std::uint32_t v = 0; v < vertices; ++v) bind.vertices.push_back(read_rest_vertex(in));
+  in.check_end();
+}
+
+void read_rest_surface(ByteReader in, CharacterModel& model) {
+  const Box box = read_box(in, max_box_metres);
+  const std::size_t vertices = model.vertex_count();
+  in.check_count(static_cast<std::uint32_t>(vertices), 3 * Bits::rest_position + 2 * Bits::rest_normal,
+                 "vertices");
+  model.rest.position.reserve(vertices);
+  model.rest.normal.reserve(vertices);
+  for (std::size_t i = 0; i < vertices; ++i) {
+    model.rest.position.push_back(read_point(in, box, Bits::rest_position));
+    model.rest.normal.push_back(read_normal(in, Bits::rest_normal));
+  }
+  in.check_end();
+}
+
 }  // namespace
 
 CharacterModel read_character_model(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
@@ -233,6 +316,8 @@ CharacterModel read_character_model(std::span<const std::byte> bytes, std::pmr::
   read_file_order(file.section("FMAP"), model);
   read_primitives(file.section("PRIM"), model);
   if (file.has("LODS")) read_levels(file.section("LODS"), model);
+  if (file.has("BIND")) read_bind_data(file.section("BIND"), model);
+  if (file.has("REST")) read_rest_surface(file.section("REST"), model);
   ByteReader recipe = file.section("RECP");
   model.recipe = recipe.text(recipe.remaining());
   check_model(model, NOOK_ERROR_BAD_FILE);

@@ -254,6 +254,58 @@ ByteWriter write_primitives(const CharacterModel& model) {
   return out;
 }
 
+void write_matrix(ByteWriter& out, const Mat3x4& matrix) {
+  for (const float element : matrix.m) out.f32(element);
+}
+
+ByteWriter write_bind_data(const CharacterModel& model) {
+  const BindData& bind = model.bind;
+  const int bone_bits = index_bits(model.bone_count()), space_bits = index_bits(bind.rest_from_mesh.size());
+  ByteWriter out;
+  for (const BoneBind& bone : bind.bones) {
+    write_matrix(out, bone.node_from_rest);
+    out.u16(bone.first_of_joint);
+  }
+  out.varint(static_cast<std::uint32_t>(bind.rest_from_mesh.size()));
+  for (const Mat3x4& matrix : bind.rest_from_mesh) write_matrix(out, matrix);
+  for (const std::uint16_t space : bind.primitive_space) out.bits(space, space_bits);
+  out.align();
+  out.varint(static_cast<std::uint32_t>(bind.skins.size()));
+  for (const SkinBind& skin : bind.skins) {
+    out.varint(skin.file_index);
+    out.varint(skin.space);
+    out.varint(skin.joint_count);
+    for (std::uint32_t j = 0; j < skin.joint_count; ++j)
+      out.bits(bind.bone_of_joint[skin.first_joint + j], bone_bits);
+    out.align();
+  }
+  out.varint(static_cast<std::uint32_t>(bind.vertices.size()));
+  for (const RestVertex& vertex : bind.vertices) {
+    out.varint(vertex.file_vertex);
+    out.f32(vertex.position.x);
+    out.f32(vertex.position.y);
+    out.f32(vertex.position.z);
+    out.u8(vertex.bone_count);
+    for (std::uint32_t b = 0; b < vertex.bone_count; ++b) {
+      out.u16(vertex.bone[b]);
+      out.f32(vertex.weight[b]);
+    }
+  }
+  return out;
+}
+
+ByteWriter write_rest_surface(const RestSurface& rest) {
+  Box box = Box::around(rest.position.front());
+  for (const Vec3 p : rest.position) box.include(p);
+  ByteWriter out;
+  write_box(out, box);
+  for (std::size_t i = 0; i < rest.position.size(); ++i) {
+    write_point(out, box, rest.position[i], Bits::rest_position);
+    write_normal(out, rest.normal[i], Bits::rest_normal);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::byte> write_character_model(const CharacterModel& model) {
@@ -278,6 +330,8 @@ std::vector<std::byte> write_character_model(const CharacterModel& model) {
     for (const CharacterLevel& level : model.levels) write_level(levels, level, model.bone_count());
     add("LODS", levels);
   }
+  if (!model.bind.empty()) add("BIND", write_bind_data(model));
+  if (!model.rest.position.empty()) add("REST", write_rest_surface(model.rest));
   ByteWriter recipe;
   recipe.text(model.recipe);
   add("RECP", recipe);

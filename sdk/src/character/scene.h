@@ -13,6 +13,7 @@
 #include "sdk/src/character/light.h"
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/neighbours.h"
+#include "sdk/src/character/pose_source.h"
 #include "sdk/src/core/aligned_array.h"
 #include "sdk/src/core/parallel.h"
 
@@ -74,6 +75,7 @@ struct Instance {
   // State that the host sets.
   std::pmr::vector<Mat3x4> bones;   // rest space to world, one for each bone of the model
   std::uint64_t pose_revision = 0;  // rises with every set_pose; never 0 for a living instance
+  bool was_projected = false;       // a pose had an uneven matrix
   bool has_ground = false;
   Plane ground;
   std::pmr::vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
@@ -117,6 +119,7 @@ struct SceneSettings {
   float lod_distance = 10;           // metres
   std::uint32_t lod_max_interval = 1;
   float ground_radius = 10'000;  // metres
+  bool strict_poses = false;     // uneven matrices of set_pose fail instead of being projected
 };
 
 struct Scene {
@@ -144,6 +147,9 @@ struct Scene {
   Vec3 camera;
   std::uint32_t terms = NOOK_TERM_ALL;
 
+  // Room for the bones of one instance, so that a pose is converted as a whole before it is set.
+  std::pmr::vector<Mat3x4> converted;
+
   std::uint64_t frame = 0;  // updates so far
   nook_scene_stats stats{};
 };
@@ -153,7 +159,14 @@ nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model);
 void remove_instance(Scene& scene, nook_instance_id id);
 Instance& instance_of(Scene& scene, nook_instance_id id);
 const Instance& instance_of(const Scene& scene, nook_instance_id id);
-void set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones);
+// The first bone of an instance, ever, whose matrix was uneven and had to be projected.
+struct ProjectedBone {
+  bool found = false;
+  std::uint32_t bone = 0;
+};
+// Uneven matrices are projected unless settings.strict_poses is set.
+ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones);
+ProjectedBone set_pose(Scene& scene, nook_instance_id id, PoseSource source);
 void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
 void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
 void link_nearest(Scene& scene, std::uint32_t k, float max_distance);

@@ -35,33 +35,53 @@ auto& find(Objects& objects, std::uint32_t id, const char* what) {
   return objects[slot];
 }
 
-// Throws unless the matrix is finite and its 3x3 part a rotation times a scale, to 1 %. Returns the largest
-// squared scale.
-float check_bone_matrix(const Mat3x4& matrix, std::size_t bone) {
-  const float* m = matrix.m;
+// Throws unless the matrix is finite and not far too large.
+void check_size(const CharacterModel& model, const Mat3x4& matrix, std::size_t bone) {
   for (int i = 0; i < 12; ++i)
-    if (!(std::abs(m[i]) <= (i % 4 == 3 ? max_pose_metres : max_pose_scale)))
+    if (!(std::abs(matrix.m[i]) <= (i % 4 == 3 ? max_pose_metres : max_pose_scale)))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "the matrix of bone %zu is not finite or far too large (element %d is %g)", bone, i,
-                    double(m[i]));
+                    "the matrix of bone %zu (\"%s\") is not finite or far too large (element %d is %g)", bone,
+                    model.bone_names[bone].c_str(), i, double(matrix.m[i]));
+}
+
+// What a rest-to-world matrix looks like by its axes.
+struct Axes {
+  Vec3 length;       // of each axis
+  float cosine = 0;  // the largest one between two axes, relative to the longest axis
+  float longest_squared = 0;
+  bool is_even = false;  // a rotation with one scale, to 1 %
+};
+
+Axes axes_of(const Mat3x4& matrix) {
+  const float* m = matrix.m;
   const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
   const float xx = dot(x, x), yy = dot(y, y), zz = dot(z, z);
-  const float most = std::max({xx, yy, zz}), least = std::min({xx, yy, zz});
-  // 1 % of length is 2 % of its square; 1 % of shear is a cosine of 0.01. The last digit is for rounding.
-  if (most > least * 1.0205f)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the matrix of bone %zu scales unevenly (axes have lengths %g %g %g, need equal to 1 %%); "
-                  "bake scale into "
-                  "the character",
-                  bone, double(std::sqrt(xx)), double(std::sqrt(yy)), double(std::sqrt(zz)));
+  const float longest = std::max({xx, yy, zz}), shortest = std::min({xx, yy, zz});
   const float shear = std::max({std::abs(dot(x, y)), std::abs(dot(y, z)), std::abs(dot(z, x))});
-  if (shear > most * 0.0101f)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the matrix of bone %zu is sheared (cosine between axes %g, need at most 0.01); bones_3x4 "
-                  "is row-major, "
-                  "transposing may help",
-                  bone, double(shear / most));
-  return most;
+  // 1 % of length is 2 % of its square; 1 % of shear is a cosine of 0.01. The last digit is for rounding.
+  return {{std::sqrt(xx), std::sqrt(yy), std::sqrt(zz)},
+          longest > 0 ? shear / longest : 0,
+          longest,
+          longest > 0 && longest <= shortest * 1.0205f && shear <= longest * 0.0101f};
+}
+
+void fail_unless_even(const CharacterModel& model, const Mat3x4& matrix, std::size_t bone) {
+  const Axes axes = axes_of(matrix);
+  if (axes.is_even) return;
+  throw Failure(
+      NOOK_ERROR_INVALID_ARGUMENT,
+      "the matrix of bone %zu (\"%s\") is no rotation with one scale (its axes have lengths %g %g %g, "
+      "and the largest cosine between them is %g; need equal to 1 %% and at most 0.01); bones_3x4 is "
+      "row-major, transposing may help; without strict_poses the matrix is projected",
+      bone, model.bone_names[bone].c_str(), double(axes.length.x), double(axes.length.y),
+      double(axes.length.z), double(axes.cosine));
+}
+
+// The nearest matrix with one scale.
+Mat3x4 evened(const CharacterModel& model, const Mat3x4& matrix, std::size_t bone) {
+  Affine given;
+  std::copy_n(matrix.m, 12, given.m.begin());
+  return to_float(projected(given, joint_origin(model, bone)));
 }
 
 void derive_bound(Instance& instance, float largest_scale_squared) {
@@ -149,7 +169,8 @@ Scene::Scene(const SceneSettings& scene_settings, const Parallel& host_parallel,
       free_instances(memory),
       occluders(memory),
       free_occluders(memory),
-      neighbours(memory) {
+      neighbours(memory),
+      converted(memory) {
   if (!kernels)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "this processor or build lacks instruction set %d; use NOOK_ISA_AUTO", settings.isa);
@@ -169,6 +190,7 @@ nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model) {
   added.generation = fresh ? 0 : scene.instances[slot].generation;
   added.id = added.generation << id_slot_bits | (slot + 1);
   added.bones.resize(model->model.bone_count());
+  if (scene.converted.size() < added.bones.size()) scene.converted.resize(added.bones.size());
   added.arrays = make_instance_arrays(*model, scene.memory);
   added.casters.reserve(scene.nearest);
   added.occluders.reserve(scene.occluders.size());
@@ -201,17 +223,51 @@ void remove_instance(Scene& scene, nook_instance_id id) {
   ++scene.structure_revision;
 }
 
-void set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) {
+namespace {
+
+ProjectedBone take_pose(Instance& instance, std::span<const Mat3x4> bones) {
+  const CharacterModel& model = instance.model->model;
+  ProjectedBone first;
+  float longest_squared = 0;
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    const bool is_even = axes_of(bones[b]).is_even;
+    if (!is_even && !instance.was_projected) {
+      first = {true, static_cast<std::uint32_t>(b)};
+      instance.was_projected = true;
+    }
+    instance.bones[b] = is_even ? bones[b] : evened(model, bones[b], b);
+    longest_squared = std::max(longest_squared, axes_of(instance.bones[b]).longest_squared);
+  }
+  derive_bound(instance, longest_squared);
+  ++instance.pose_revision;
+  return first;
+}
+
+}  // namespace
+
+ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) {
   Instance& instance = instance_of(scene, id);
+  const CharacterModel& model = instance.model->model;
   if (bones.size() != instance.bones.size())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "bone_count is not the model's (got %zu, need %zu); see nook_character_model_describe",
                   bones.size(), instance.bones.size());
-  float largest = 0;
-  for (std::size_t b = 0; b < bones.size(); ++b) largest = std::max(largest, check_bone_matrix(bones[b], b));
-  std::ranges::copy(bones, instance.bones.begin());
-  derive_bound(instance, largest);
-  ++instance.pose_revision;
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    check_size(model, bones[b], b);
+    if (scene.settings.strict_poses) fail_unless_even(model, bones[b], b);
+  }
+  return take_pose(instance, bones);
+}
+
+ProjectedBone set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
+  Instance& instance = instance_of(scene, id);
+  const CharacterModel& model = instance.model->model;
+  source.is_strict = source.is_strict || scene.settings.strict_poses;
+  check_pose_source(model, source);
+  const std::span<Mat3x4> converted(scene.converted.data(), instance.bones.size());
+  std::ranges::copy(instance.bones, converted.begin());
+  convert_pose(model, source, converted);
+  return take_pose(instance, converted);
 }
 
 void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {

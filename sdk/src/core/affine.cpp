@@ -1,9 +1,9 @@
-#include "bakers/import/affine.h"
+#include "sdk/src/core/affine.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace nook::bake {
+namespace nook {
 
 Affine operator*(const Affine& a, const Affine& b) {
   Affine r;
@@ -169,4 +169,4 @@ Mat3x4 to_float(const Affine& a) {
   return r;
 }
 
-}  // namespace nook::bake
+}  // namespace nook

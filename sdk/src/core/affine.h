@@ -5,7 +5,7 @@
 
 #include "sdk/src/core/vec.h"
 
-namespace nook::bake {
+namespace nook {
 
 // Three rows of [linear part | translation], like Mat3x4.
 struct Affine {
@@ -45,4 +45,4 @@ Similarity nearest_similarity(const Affine& a, const std::array<double, 3>& fixe
 
 Mat3x4 to_float(const Affine& a);
 
-}  // namespace nook::bake
+}  // namespace nook

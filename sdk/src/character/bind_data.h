@@ -1,0 +1,70 @@
+// What the rigged file of a model says of its rest pose. Engines have joint matrices or skinning matrices and
+// no rest space of this library; this data converts between them (pose_source.h), lets a host compare its own
+// skinned vertices with the model's (pose_check.h), and finds the model's vertices in a host's mesh
+// (vertex_match.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "sdk/src/core/vec.h"
+
+namespace nook {
+
+struct BoneBind {
+  // Rest space to the joint's own space, so that the matrix of the bone is joint_to_world * node_from_rest.
+  Mat3x4 node_from_rest;
+  // The first bone of the same joint: a joint that skins bind differently has several bones.
+  std::uint16_t first_of_joint = 0;
+};
+
+struct SkinBind {
+  std::uint32_t file_index = 0;                    // of the skin in the file
+  std::uint16_t space = 0;                         // index into BindData::rest_from_mesh
+  std::uint32_t first_joint = 0, joint_count = 0;  // range of BindData::bone_of_joint, in the skin's order
+};
+
+// A vertex of the file with everything that skins it.
+struct RestVertex {
+  static constexpr std::uint32_t max_bones = 8;
+  std::uint32_t file_vertex = 0;
+  Vec3 position;  // rest space, metres
+  std::uint32_t bone_count = 0;
+  std::array<std::uint16_t, max_bones> bone{};
+  std::array<float, max_bones> weight{};  // above 0 up to bone_count, with sum 1
+};
+
+struct BindData {
+  explicit BindData(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : bones(memory),
+        rest_from_mesh(memory),
+        primitive_space(memory),
+        skins(memory),
+        bone_of_joint(memory),
+        vertices(memory) {}
+
+  static constexpr std::uint32_t max_vertices = 64;
+
+  std::pmr::vector<BoneBind> bones;  // one for each bone; empty: the model has no bind data
+  // The matrices from the space of a mesh's POSITION attribute to rest space that occur in the file.
+  std::pmr::vector<Mat3x4> rest_from_mesh;
+  std::pmr::vector<std::uint16_t> primitive_space;  // for each primitive its index into rest_from_mesh
+  std::pmr::vector<SkinBind> skins;                 // none: the meshes are rigid, or came as arrays
+  std::pmr::vector<std::uint16_t> bone_of_joint;    // of all skins
+  std::pmr::vector<RestVertex> vertices;            // at most max_vertices, spread over the bones
+
+  bool empty() const { return bones.empty(); }
+};
+
+// Rest positions and normals of the welded vertices; both may be empty.
+struct RestSurface {
+  explicit RestSurface(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : position(memory), normal(memory) {}
+
+  std::pmr::vector<Vec3> position;  // rest space, metres
+  std::pmr::vector<Vec3> normal;    // unit length
+};
+
+}  // namespace nook

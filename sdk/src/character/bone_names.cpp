@@ -1,0 +1,85 @@
+#include "sdk/src/character/bone_names.h"
+
+#include <algorithm>
+#include <string_view>
+#include <unordered_map>
+
+namespace nook {
+namespace {
+
+constexpr std::string_view separators = "._-:|";
+
+std::string_view text_of(const char* text) {
+  return text ? std::string_view(text) : std::string_view();
+}
+
+std::string_view without(std::string_view name, std::string_view prefix, std::string_view suffix) {
+  if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
+  if (name.ends_with(suffix)) name.remove_suffix(suffix.size());
+  return name;
+}
+
+// The number of characters that all names begin with, up to and with their last separator. A single name has
+// nothing in common with others.
+std::size_t shared_prefix(std::span<const std::string_view> names) {
+  if (names.size() < 2) return 0;
+  std::string_view shared = names[0];
+  for (const std::string_view name : names)
+    shared =
+        shared.substr(0, static_cast<std::size_t>(std::ranges::mismatch(shared, name).in1 - shared.begin()));
+  const std::size_t last = shared.find_last_of(separators);
+  return last == std::string_view::npos ? 0 : last + 1;
+}
+
+using Names = std::pmr::vector<std::string_view>;
+
+void drop_shared_prefix(Names& names, std::pmr::memory_resource* memory) {
+  Names given(memory);
+  for (const std::string_view name : names)
+    if (!name.empty()) given.push_back(name);
+  const std::size_t shared = shared_prefix(given);
+  for (std::string_view& name : names)
+    if (!name.empty()) name.remove_prefix(shared);
+}
+
+// The form in which names are compared.
+std::pmr::string key_of(std::string_view name, bool is_loose, std::pmr::memory_resource* memory) {
+  std::pmr::string key(memory);
+  for (const char c : name) {
+    if (is_loose && (c == ' ' || separators.find(c) != std::string_view::npos)) continue;
+    key += is_loose && c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return key;
+}
+
+}  // namespace
+
+std::size_t map_bones(const CharacterModel& model, const nook_bone_names& names,
+                      std::span<std::int32_t> transform_of_bone, std::pmr::memory_resource* memory) {
+  Names host(memory), own(memory);
+  for (std::uint32_t i = 0; i < names.name_count; ++i)
+    host.push_back(without(text_of(names.names[i]), text_of(names.host_prefix), text_of(names.host_suffix)));
+  for (const std::pmr::string& name : model.bone_names)
+    own.push_back(without(name, text_of(names.model_prefix), text_of(names.model_suffix)));
+  if (names.flags & NOOK_BONE_NAMES_DROP_SHARED_PREFIX) {
+    drop_shared_prefix(host, memory);
+    drop_shared_prefix(own, memory);
+  }
+  const bool is_loose = names.flags & NOOK_BONE_NAMES_LOOSE;
+  std::pmr::unordered_map<std::pmr::string, std::int32_t> index_of(memory);
+  for (std::size_t i = 0; i < host.size(); ++i)
+    if (!host[i].empty())
+      index_of.try_emplace(key_of(host[i], is_loose, memory), static_cast<std::int32_t>(i));
+  std::size_t unmatched = 0;
+  for (std::size_t b = 0; b < own.size(); ++b) {
+    const auto found = index_of.find(key_of(own[b], is_loose, memory));
+    std::int32_t index = found == index_of.end() ? -1 : found->second;
+    if (index < 0 && !model.bind.empty() && model.bind.bones[b].first_of_joint < b)
+      index = transform_of_bone[model.bind.bones[b].first_of_joint];
+    transform_of_bone[b] = index;
+    unmatched += index < 0;
+  }
+  return unmatched;
+}
+
+}  // namespace nook

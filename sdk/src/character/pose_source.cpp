@@ -1,0 +1,229 @@
+#include "sdk/src/character/pose_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
+
+namespace nook {
+namespace {
+
+constexpr std::uint32_t max_transforms = 65536;
+
+Affine to_double(const Mat3x4& matrix) {
+  Affine out;
+  std::copy_n(matrix.m, 12, out.m.begin());
+  return out;
+}
+
+const char* name_of(const CharacterModel& model, std::size_t bone) {
+  return model.bone_names[bone].c_str();
+}
+
+void need_bind(const CharacterModel& model) {
+  if (model.bind.empty())
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the model has no bind data, which only rest-to-world matrices do without; bake it again");
+}
+
+// Kavan, Collins, Zara, O'Sullivan 2008, "Geometric Skinning with Approximate Dual Quaternion Blending",
+// section 3: the translation is 2 * dual * conjugate(real).
+Affine of_dual_quaternion(const float* q) {
+  double real[4], dual[4], norm = 0;
+  for (int i = 0; i < 4; ++i) norm += double(q[i]) * q[i];
+  norm = std::sqrt(norm);
+  for (int i = 0; i < 4; ++i) {
+    real[i] = q[i] / norm;
+    dual[i] = q[4 + i] / norm;
+  }
+  Trs trs;
+  trs.rotation = {real[0], real[1], real[2], real[3]};
+  trs.translation = {2 * (-dual[3] * real[0] + dual[0] * real[3] - dual[1] * real[2] + dual[2] * real[1]),
+                     2 * (-dual[3] * real[1] + dual[0] * real[2] + dual[1] * real[3] - dual[2] * real[0]),
+                     2 * (-dual[3] * real[2] - dual[0] * real[1] + dual[1] * real[0] + dual[2] * real[3])};
+  return to_affine(trs);
+}
+
+Affine of_trs(const float* v) {
+  double norm = 0;
+  for (int i = 3; i < 7; ++i) norm += double(v[i]) * v[i];
+  norm = std::sqrt(norm);
+  Trs trs;
+  for (int i = 0; i < 3; ++i) {
+    trs.translation[i] = v[i];
+    trs.scale[i] = v[7 + i];
+  }
+  for (int i = 0; i < 4; ++i) trs.rotation[i] = v[3 + i] / norm;
+  return to_affine(trs);
+}
+
+double squared_length(const Affine& a, int column) {
+  return a.m[column] * a.m[column] + a.m[4 + column] * a.m[4 + column] + a.m[8 + column] * a.m[8 + column];
+}
+
+// The relative deviation of the 3x3 part from a rotation with one scale: the larger one of uneven squared
+// lengths and of cosines between axes.
+double unevenness(const Affine& a) {
+  const double xx = squared_length(a, 0), yy = squared_length(a, 1), zz = squared_length(a, 2);
+  const double largest = std::max({xx, yy, zz}), smallest = std::min({xx, yy, zz});
+  if (!(smallest > 0)) return 1;
+  double shear = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    shear = std::max(shear, std::abs(a.m[i] * a.m[j] + a.m[4 + i] * a.m[4 + j] + a.m[8 + i] * a.m[8 + j]));
+  }
+  return std::max(0.5 * (largest / smallest - 1), shear / largest);
+}
+
+void check_size(const CharacterModel& model, std::size_t bone, const Affine& matrix) {
+  for (int i = 0; i < 12; ++i)
+    if (!(std::abs(matrix.m[i]) <= (i % 4 == 3 ? max_pose_metres : max_pose_scale)))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "the matrix of bone %zu (\"%s\") is not finite or far too large (element %d is %g)", bone,
+                    name_of(model, bone), i, matrix.m[i]);
+}
+
+}  // namespace
+
+std::size_t floats_of_layout(nook_transform_layout layout) {
+  constexpr std::size_t floats[] = {12, 16, 16, 12, 8, 10};
+  return floats[layout];
+}
+
+void check_pose_source(const CharacterModel& model, PoseSource& source) {
+  if (source.kind < NOOK_POSE_REST_TO_WORLD || source.kind > NOOK_POSE_SKINNING)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.kind is unknown (got %d, need 0 to %d)", source.kind,
+                  NOOK_POSE_SKINNING);
+  if (source.layout < NOOK_TRANSFORM_ROWS_3X4 || source.layout > NOOK_TRANSFORM_TRS)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.layout is unknown (got %d, need 0 to %d)", source.layout,
+                  NOOK_TRANSFORM_TRS);
+  need(source.transforms, "desc.transforms");
+  const std::size_t bytes = floats_of_layout(source.layout) * sizeof(float);
+  if (source.stride == 0) source.stride = bytes;
+  if (source.stride < bytes || source.stride % sizeof(float))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.stride is out of range (got %zu bytes, need 0 or a multiple of 4 from %zu on)",
+                  source.stride, bytes);
+  if (source.transform_count < 1 || source.transform_count > max_transforms)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.transform_count is out of range (got %u, need 1 to %u)",
+                  source.transform_count, max_transforms);
+  if (!source.transform_of_bone.empty() && source.transform_of_bone.size() != model.bone_count())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.bone_count is not the model's (got %zu, need %zu)",
+                  source.transform_of_bone.size(), model.bone_count());
+  if (source.kind != NOOK_POSE_REST_TO_WORLD) need_bind(model);
+  const bool is_skinning = source.kind == NOOK_POSE_SKINNING;
+  if (is_skinning && source.skin >= model.bind.skins.size())
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the model's meshes have no skin of this number; give joint world matrices");
+  if (source.transform_of_bone.empty()) {
+    const std::size_t expected = is_skinning ? model.bind.skins[source.skin].joint_count : model.bone_count();
+    if (source.transform_count != expected)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.transform_count is not the number of %s (got %u, need %zu); give "
+                    "desc.transform_of_bone for another order",
+                    is_skinning ? "joints of the skin" : "bones of the model", source.transform_count,
+                    expected);
+  }
+  for (std::size_t b = 0; b < source.transform_of_bone.size(); ++b)
+    if (source.transform_of_bone[b] < -1 ||
+        (source.transform_of_bone[b] >= 0 &&
+         static_cast<std::uint32_t>(source.transform_of_bone[b]) >= source.transform_count))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.transform_of_bone[%zu] is out of range (got %d, need -1 to %u)", b,
+                    source.transform_of_bone[b], source.transform_count - 1);
+}
+
+Affine read_transform(const PoseSource& source, std::uint32_t index) {
+  float v[16] = {};
+  std::memcpy(v, reinterpret_cast<const unsigned char*>(source.transforms) + index * source.stride,
+              floats_of_layout(source.layout) * sizeof(float));
+  Affine out;
+  switch (source.layout) {
+    case NOOK_TRANSFORM_ROWS_3X4:
+    case NOOK_TRANSFORM_ROWS_4X4:
+      std::copy_n(v, 12, out.m.begin());
+      break;
+    case NOOK_TRANSFORM_COLUMNS_4X4:
+    case NOOK_TRANSFORM_COLUMNS_4X3: {
+      const int rows = source.layout == NOOK_TRANSFORM_COLUMNS_4X4 ? 4 : 3;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 4; ++j) out.m[4 * i + j] = v[rows * j + i];
+      break;
+    }
+    case NOOK_TRANSFORM_DUAL_QUATERNION:
+      return of_dual_quaternion(v);
+    default:
+      return of_trs(v);
+  }
+  return out;
+}
+
+Affine bone_matrix(const CharacterModel& model, const PoseSource& source, std::size_t bone,
+                   const Affine& transform) {
+  const Affine placed = source.place * transform;
+  if (source.kind == NOOK_POSE_JOINT_TO_WORLD)
+    return placed * to_double(model.bind.bones[bone].node_from_rest);
+  if (source.kind == NOOK_POSE_SKINNING)
+    return placed * inverse(to_double(model.bind.rest_from_mesh[model.bind.skins[source.skin].space]));
+  return placed;
+}
+
+std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone) {
+  if (model.bind.empty()) return {0, 0, 0};
+  const Affine frame = inverse(to_double(model.bind.bones[bone].node_from_rest));
+  return {frame.m[3], frame.m[7], frame.m[11]};
+}
+
+Affine projected(const Affine& matrix, const std::array<double, 3>& fixed) {
+  if (unevenness(matrix) <= 1e-4) return matrix;
+  if (!(determinant(matrix) < 0)) return nearest_similarity(matrix, fixed).matrix;
+  // The mirror image of the problem: x is turned round on both sides.
+  const auto mirrored = [](Affine a) {
+    for (int i = 0; i < 3; ++i) a.m[4 * i] = -a.m[4 * i];
+    return a;
+  };
+  return mirrored(nearest_similarity(mirrored(matrix), {-fixed[0], fixed[1], fixed[2]}).matrix);
+}
+
+namespace {
+
+void convert_bone(const CharacterModel& model, const PoseSource& source, std::size_t bone,
+                  std::uint32_t index, std::span<Mat3x4> bones) {
+  const Affine matrix = bone_matrix(model, source, bone, read_transform(source, index));
+  check_size(model, bone, matrix);
+  // 1 % of shear or of length.
+  if (source.is_strict && unevenness(matrix) > 0.0101)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the matrix of bone %zu (\"%s\") is sheared or scales unevenly (by %.3g %%, need 1 %%); leave "
+        "NOOK_POSE_STRICT out to have it projected",
+        bone, name_of(model, bone), 100 * unevenness(matrix));
+  bones[bone] = to_float(projected(matrix, joint_origin(model, bone)));
+}
+
+}  // namespace
+
+void fail_without_transform(const CharacterModel& model, std::size_t bone) {
+  throw Failure(
+      NOOK_ERROR_INVALID_ARGUMENT,
+      "bone %zu (\"%s\") has no transform; map it, or give NOOK_POSE_PARTIAL and pose the other skins "
+      "and rigid parts with calls of their own",
+      bone, name_of(model, bone));
+}
+
+void fail_without_joint(const CharacterModel& model, const SkinBind& skin) {
+  const auto first = model.bind.bone_of_joint.begin() + skin.first_joint;
+  std::size_t bone = 0;
+  while (std::find(first, first + skin.joint_count, bone) != first + skin.joint_count) ++bone;
+  fail_without_transform(model, bone);
+}
+
+void convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones) {
+  for_each_transform(model, source, [&](std::size_t bone, std::uint32_t index) {
+    convert_bone(model, source, bone, index, bones);
+  });
+}
+
+}  // namespace nook

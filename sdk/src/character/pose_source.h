@@ -1,0 +1,79 @@
+// From transforms as a host has them to the matrices of bones, rest space to world.
+#pragma once
+
+#include <nook/nook_pose.h>
+
+#include <cstdint>
+#include <span>
+
+#include "sdk/src/character/model.h"
+#include "sdk/src/core/affine.h"
+
+namespace nook {
+
+// A host's transforms with everything that says what they mean. Pointers are the host's.
+struct PoseSource {
+  nook_pose_kind kind = NOOK_POSE_REST_TO_WORLD;
+  nook_transform_layout layout = NOOK_TRANSFORM_ROWS_3X4;
+  const float* transforms = nullptr;
+  std::size_t stride = 0;  // bytes, never 0 after check_pose_source
+  std::uint32_t transform_count = 0;
+  std::uint32_t skin = 0;                           // position in BindData::skins
+  std::span<const std::int32_t> transform_of_bone;  // empty: the order of the bones or of the skin's joints
+  bool is_partial = false;
+  bool is_strict = false;
+  Affine place;
+};
+
+// Throws Failure unless every number and index is in range and the model has the bind data that the kind
+// needs. Sets the stride where it is 0.
+void check_pose_source(const CharacterModel& model, PoseSource& source);
+
+std::size_t floats_of_layout(nook_transform_layout layout);
+
+// The transform as the matrix that its layout says. Quaternions need not be of unit length.
+Affine read_transform(const PoseSource& source, std::uint32_t index);
+
+// Both throw Failure with INVALID_ARGUMENT.
+[[noreturn]] void fail_without_transform(const CharacterModel& model, std::size_t bone);
+[[noreturn]] void fail_without_joint(const CharacterModel& model, const SkinBind& skin);
+
+// Calls body(bone, index) for each bone with the index of its transform. Throws Failure for a bone without
+// one unless the source is partial.
+template <class Body>
+void for_each_transform(const CharacterModel& model, const PoseSource& source, Body&& body) {
+  if (!source.transform_of_bone.empty()) {
+    for (std::size_t b = 0; b < model.bone_count(); ++b) {
+      if (source.transform_of_bone[b] >= 0)
+        body(b, static_cast<std::uint32_t>(source.transform_of_bone[b]));
+      else if (!source.is_partial)
+        fail_without_transform(model, b);
+    }
+  } else if (source.kind == NOOK_POSE_SKINNING) {
+    const SkinBind& skin = model.bind.skins[source.skin];
+    // The bones of a skin are different from each other, because its joints are.
+    if (!source.is_partial && skin.joint_count < model.bone_count()) fail_without_joint(model, skin);
+    for (std::uint32_t j = 0; j < skin.joint_count; ++j)
+      body(std::size_t(model.bind.bone_of_joint[skin.first_joint + j]), j);
+  } else {
+    for (std::size_t b = 0; b < model.bone_count(); ++b) body(b, static_cast<std::uint32_t>(b));
+  }
+}
+
+// The matrix of a bone out of its transform: place * transform * what the kind puts behind it.
+Affine bone_matrix(const CharacterModel& model, const PoseSource& source, std::size_t bone,
+                   const Affine& transform);
+
+// The joint's origin in rest space, which stays in its place where shear or uneven scale is taken out.
+std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone);
+
+// The nearest rotation or mirrored rotation with one scale above 0; the image of `fixed` stays. A matrix that
+// is a similarity to 1e-4 is returned as it is.
+Affine projected(const Affine& matrix, const std::array<double, 3>& fixed);
+
+// Converts all bones. Throws Failure for a transform that is not finite or far too large, for a bone without
+// a transform unless the source is partial, and, if it is strict, for an uneven one. bones has the model's
+// bone count and may hold a part of the answer after a failure.
+void convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones);
+
+}  // namespace nook

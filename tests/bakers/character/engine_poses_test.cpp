@@ -1,0 +1,373 @@
+// Poses as an engine has them, on real characters: the AO that they give against the baker's own matrices, and
+// the check that names what is wrong with them.
+#include <nook/nook_pose.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <random>
+#include <string>
+
+#include "bakers/character/bind_data.h"
+#include "bakers/import/skinning.h"
+#include "sdk/src/character/model_file.h"
+#include "tests/bakers/character/engine.h"
+#include "tests/catch.h"
+
+using namespace nook;
+using namespace nook::bake;
+using nook::test::Engine;
+
+namespace {
+
+const char* const files[] = {"ual_mannequin_CC0.glb",           "m2m_female_CC0.glb",
+                             "rocketbox_Female_Adult_01_MIT.glb", "rocketbox_Male_Adult_04_MIT.glb",
+                             "robot_expressive_CC0.glb",        "cesium_man_CC-BY.glb",
+                             "fox_CC-BY.glb"};
+
+std::filesystem::path character_path(const char* file) {
+  const char* assets = std::getenv("NOOK_ASSETS");
+  return std::filesystem::path(assets ? assets : NOOK_ASSETS_DIR) / "characters" / file;
+}
+
+// A model that was not fitted, with spheres and key points at random vertices of the body: its AO depends on
+// every bone, which is all that poses need.
+CharacterModel model_of(const ImportedCharacter& character) {
+  const SkinnedMesh& mesh = character.mesh;
+  std::vector<Vec3> normal;
+  vertex_normals(mesh.triangle, mesh.position, normal);
+  CharacterModel model;
+  for (const Bone& bone : mesh.bones) model.bone_names.emplace_back(bone.name);
+  Vec3 low = mesh.position[0], high = low;
+  for (const Vec3 p : mesh.position) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  model.bounding_centre = 0.5f * (low + high);
+  model.bounding_radius = 0.5f * length(high - low);
+  std::mt19937 random(7);
+  const auto vertex = [&] { return random() % mesh.vertex_count(); };
+  for (int s = 0; s < 100; ++s) {
+    const std::size_t v = vertex();
+    model.spheres.push_back({mesh.position[v] - normal[v] * (0.04f * model.bounding_radius),
+                             0.05f * model.bounding_radius, mesh.weights[v].bone[0], 0.5f});
+  }
+  constexpr std::uint32_t key_points = 300;
+  for (std::uint32_t k = 0; k < key_points; ++k) {
+    const std::size_t v = vertex();
+    KeyPoint point;
+    point.position = point.surface_position = mesh.position[v];
+    point.normal = point.surface_normal = normal[v];
+    float sum = 0;
+    for (int b = 0; b < KeyPoint::max_bones; ++b) {
+      point.bone[b] = mesh.weights[v].bone[b];
+      sum += point.weight[b] = mesh.weights[v].weight[b];
+    }
+    for (float& weight : point.weight) weight /= sum;
+    model.key_points.push_back(point);
+  }
+  model.influences = 1;
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    model.influence.push_back(static_cast<std::uint16_t>(v % key_points));
+    model.alpha.push_back(0.5f);
+    model.blend.push_back(1);
+    model.bias.push_back(0);
+  }
+  model.file_to_welded.assign(mesh.file_to_welded.begin(), mesh.file_to_welded.end());
+  for (const Primitive& p : mesh.primitives) model.primitives.push_back({p.first_vertex, p.vertex_count});
+  model.bind = bind_data_of(character);
+  model.rest = rest_surface_of(mesh);
+  return model;
+}
+
+// The engine's character, the model and a scene of one instance, through the C interface.
+struct Host {
+  Engine engine;
+  nook_context context = nullptr;
+  nook_character_model model = nullptr;
+  nook_scene scene = nullptr;
+  nook_instance_id instance = 0;
+  std::uint32_t bones = 0, vertices = 0;
+
+  explicit Host(const std::filesystem::path& path) : engine(path) {
+    const auto bytes = write_character_model(model_of(engine.imported));
+    nook_context_desc desc;
+    nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION);
+    REQUIRE(nook_context_create(&desc, &context) == NOOK_OK);
+    REQUIRE(nook_character_model_load(context, bytes.data(), bytes.size(), &model) == NOOK_OK);
+    nook_scene_desc scene_desc;
+    nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION);
+    scene_desc.isa = NOOK_ISA_SCALAR;
+    scene_desc.cutoff_error = 0;
+    REQUIRE(nook_scene_create(context, &scene_desc, &scene) == NOOK_OK);
+    REQUIRE(nook_scene_add_instance(scene, model, &instance) == NOOK_OK);
+    nook_character_model_info info{};
+    info.struct_size = sizeof info;
+    REQUIRE(nook_character_model_describe(model, &info) == NOOK_OK);
+    bones = info.bone_count;
+    vertices = info.file_vertex_count;
+  }
+  ~Host() {
+    nook_scene_destroy(&scene);
+    nook_character_model_destroy(&model);
+    nook_context_destroy(&context);
+  }
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
+
+  std::vector<float> ao() {
+    std::vector<float> out(vertices);
+    REQUIRE(nook_scene_update(scene) == NOOK_OK);
+    REQUIRE(nook_scene_read_ao(scene, instance, out.data(), vertices, 0) == NOOK_OK);
+    return out;
+  }
+};
+
+std::vector<float> columns_4x4(const std::vector<Affine>& matrices) {
+  std::vector<float> out;
+  for (const Affine& m : matrices)
+    for (std::size_t column = 0; column < 4; ++column) {
+      for (std::size_t row = 0; row < 3; ++row) out.push_back(static_cast<float>(m.m[4 * row + column]));
+      out.push_back(column == 3 ? 1.0f : 0.0f);
+    }
+  return out;
+}
+
+nook_pose_desc pose_desc(nook_pose_kind kind, const std::vector<float>& columns) {
+  nook_pose_desc desc;
+  REQUIRE(nook_pose_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  desc.kind = kind;
+  desc.layout = NOOK_TRANSFORM_COLUMNS_4X4;
+  desc.transforms = columns.data();
+  desc.transform_count = static_cast<std::uint32_t>(columns.size() / 16);
+  return desc;
+}
+
+std::vector<Affine> bone_globals(const Host& host, const std::vector<Affine>& globals) {
+  std::vector<Affine> out;
+  for (const BoneBinding& binding : host.engine.imported.bindings) out.push_back(globals[binding.node]);
+  return out;
+}
+
+// Poses the instance by the skinning matrices of every skin, and by joint matrices where bones have no skin.
+void set_engine_pose(Host& host, const std::vector<Affine>& globals, const float* place) {
+  const std::vector<float> joints = columns_4x4(bone_globals(host, globals));
+  nook_pose_desc desc = pose_desc(NOOK_POSE_JOINT_TO_WORLD, joints);
+  desc.place_3x4 = place;
+  REQUIRE(nook_scene_set_pose_from(host.scene, host.instance, &desc) == NOOK_OK);
+  nook_skin_info skin{};
+  skin.struct_size = sizeof skin;
+  for (std::uint32_t s = 0; nook_character_model_skin(host.model, s, &skin) == NOOK_OK; ++s) {
+    const std::vector<float> matrices = columns_4x4(host.engine.skinning_matrices(skin.file_index, globals));
+    desc = pose_desc(NOOK_POSE_SKINNING, matrices);
+    desc.skin = skin.file_index;
+    desc.flags = NOOK_POSE_PARTIAL;
+    desc.place_3x4 = place;
+    const nook_result result = nook_scene_set_pose_from(host.scene, host.instance, &desc);
+    INFO(nook_last_message());
+    REQUIRE(result == NOOK_OK);
+  }
+}
+
+std::vector<float> rows_3x4(const Pose& pose, const Affine& place) {
+  std::vector<float> out;
+  for (const Mat3x4& bone : pose) {
+    Affine matrix;
+    std::copy_n(bone.m, 12, matrix.m.begin());
+    const Mat3x4 placed = to_float(place * matrix);
+    out.insert(out.end(), placed.m, placed.m + 12);
+  }
+  return out;
+}
+
+// Where the engine's own skinning puts the rest vertices, in its model space.
+std::vector<float> engine_vertices(const Host& host, const std::vector<Affine>& globals) {
+  std::vector<float> out;
+  nook_rest_vertex rest{};
+  rest.struct_size = sizeof rest;
+  for (std::uint32_t v = 0; nook_character_model_rest_vertex(host.model, v, &rest) == NOOK_OK; ++v)
+    for (const double coordinate : host.engine.skinned(host.engine.vertices[rest.vertex], globals))
+      out.push_back(static_cast<float>(coordinate));
+  return out;
+}
+
+nook_pose_check check_pose(const Host& host, const nook_pose_desc& desc, const std::vector<float>& vertices,
+                           const float* place = nullptr) {
+  nook_pose_check check{};
+  check.struct_size = sizeof check;
+  check.vertex_count = static_cast<std::uint32_t>(vertices.size() / 3);
+  check.positions = vertices.data();
+  check.place_3x4 = place;
+  const nook_result result = nook_character_model_check_pose(host.model, &desc, &check);
+  INFO(nook_last_message());
+  REQUIRE(result == NOOK_OK);
+  return check;
+}
+
+template <class Body>
+void for_each_character(Body&& body) {
+  for (const char* file : files) {
+    const std::filesystem::path path = character_path(file);
+    if (!std::filesystem::exists(path)) {
+      WARN("SKIPPED: " << path << " is not there; set NOOK_ASSETS to the folder that holds characters/");
+      continue;
+    }
+    INFO(file);
+    Host host(path);
+    const auto& clips = host.engine.imported.clips;
+    // Three clips, away from their first frames.
+    for (std::size_t c = 0; c < clips.size(); c += std::max<std::size_t>(1, clips.size() / 3)) {
+      INFO(clips[c].name);
+      body(host, c, 0.4f * clips[c].duration_s);
+    }
+  }
+}
+
+bool is_identity(const nook_skin_info& skin) {
+  float worst = 0;
+  for (int i = 0; i < 12; ++i)
+    worst = std::max(worst, std::abs(skin.rest_from_mesh_3x4[i] - (i % 5 == 0 ? 1.0f : 0.0f)));
+  return worst < 1e-4f;
+}
+
+constexpr float at_home[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+constexpr float far_away[12] = {0, 0, 1, 700, 0, 1, 0, 3, -1, 0, 0, -700};  // 1 km, a quarter turn
+constexpr float in_centimetres[12] = {100, 0, 0, 20, 0, 100, 0, 0, 0, 0, 100, -30};
+constexpr float mirrored[12] = {-1, 0, 0, 0.2f, 0, 1, 0, 0, 0, 0, 1, 0};
+constexpr float z_up[12] = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0};
+
+}  // namespace
+
+TEST_CASE("an engine's skinning matrices give the AO of the baker's matrices") {
+  // 1e-5 is ten steps of an AO near 1. At 1 km the translations of both sets of matrices are multiples of
+  // 6e-5 m, which is 1e-3 of the spheres' radii of 5 cm; the root mean square stays below a tenth of that.
+  constexpr float near_tolerance = 1e-5f, far_tolerance = 2e-3f, far_rms = 1e-4f;
+  for_each_character([&](Host& host, std::size_t clip, float time_s) {
+    const std::vector<Affine> globals = host.engine.globals(clip, time_s);
+    for (const float* place : {at_home, far_away, in_centimetres, mirrored, z_up}) {
+      // The fox has a length unit of its own, 80 units high, so that 1 km is near for it.
+      Affine placed;
+      std::copy_n(place, 12, placed.m.begin());
+      const std::vector<float> own = rows_3x4(sample_clip(host.engine.imported, clip, time_s), placed);
+      REQUIRE(nook_scene_set_pose(host.scene, host.instance, own.data(), host.bones) == NOOK_OK);
+      const std::vector<float> expected = host.ao();
+      CHECK(*std::ranges::min_element(expected) < 0.8f);  // the poses darken something
+      set_engine_pose(host, globals, place);
+      const std::vector<float> ao = host.ao();
+      float worst = 0;
+      double squares = 0;
+      for (std::size_t v = 0; v < ao.size(); ++v) {
+        worst = std::max(worst, std::abs(ao[v] - expected[v]));
+        squares += double(ao[v] - expected[v]) * double(ao[v] - expected[v]);
+      }
+      CHECK(worst <= (place == far_away ? far_tolerance : near_tolerance));
+      CHECK(std::sqrt(squares / double(ao.size())) <= far_rms);
+    }
+  });
+}
+
+TEST_CASE("the check of a pose passes what is right, in any unit and place") {
+  for_each_character([&](Host& host, std::size_t clip, float time_s) {
+    const std::vector<Affine> globals = host.engine.globals(clip, time_s);
+    const std::vector<float> vertices = engine_vertices(host, globals);
+    for (const float* place : {at_home, far_away, in_centimetres, mirrored, z_up}) {
+      const std::vector<float> joints = columns_4x4(bone_globals(host, globals));
+      nook_pose_desc desc = pose_desc(NOOK_POSE_JOINT_TO_WORLD, joints);
+      desc.place_3x4 = place;
+      const nook_pose_check check = check_pose(host, desc, vertices, place);
+      INFO(check.text);
+      CHECK(check.fault == NOOK_POSE_RIGHT);
+      CHECK(check.max_error < 0.002f);
+    }
+    nook_skin_info skin{};
+    skin.struct_size = sizeof skin;
+    for (std::uint32_t s = 0; nook_character_model_skin(host.model, s, &skin) == NOOK_OK; ++s) {
+      const std::vector<float> matrices = columns_4x4(host.engine.skinning_matrices(skin.file_index, globals));
+      nook_pose_desc desc = pose_desc(NOOK_POSE_SKINNING, matrices);
+      desc.skin = skin.file_index;
+      desc.flags = NOOK_POSE_PARTIAL;
+      const nook_pose_check check = check_pose(host, desc, vertices);
+      INFO(check.text);
+      CHECK(check.fault == NOOK_POSE_RIGHT);
+    }
+  });
+}
+
+TEST_CASE("the check of a pose names what is wrong") {
+  for_each_character([&](Host& host, std::size_t clip, float time_s) {
+    const std::vector<Affine> globals = host.engine.globals(clip, time_s);
+    const std::vector<float> vertices = engine_vertices(host, globals);
+    const BindData bind = bind_data_of(host.engine.imported);
+    std::vector<nook_skin_info> skins;
+    nook_skin_info skin{};
+    skin.struct_size = sizeof skin;
+    for (std::uint32_t s = 0; nook_character_model_skin(host.model, s, &skin) == NOOK_OK; ++s)
+      skins.push_back(skin);
+    for (std::size_t s = 0; s < skins.size(); ++s) {
+      std::vector<float> matrices = columns_4x4(host.engine.skinning_matrices(skins[s].file_index, globals));
+      nook_pose_desc right = pose_desc(NOOK_POSE_SKINNING, matrices);
+      right.skin = skins[s].file_index;
+      right.flags = NOOK_POSE_PARTIAL;
+
+      nook_pose_desc desc = right;
+      desc.layout = NOOK_TRANSFORM_ROWS_4X4;
+      nook_pose_check check = check_pose(host, desc, vertices);
+      INFO("transposed: " << check.text);
+      CHECK(check.fault == NOOK_POSE_TRANSPOSED);
+
+      // A host that maps the joints to bones and takes skinning matrices for rest-to-world matrices.
+      std::vector<std::int32_t> map(host.bones, -1);
+      for (std::uint32_t j = 0; j < skins[s].joint_count; ++j)
+        map[bind.bone_of_joint[bind.skins[s].first_joint + j]] = static_cast<std::int32_t>(j);
+      desc = right;
+      desc.kind = NOOK_POSE_REST_TO_WORLD;
+      desc.transform_of_bone = map.data();
+      desc.bone_count = host.bones;
+      check = check_pose(host, desc, vertices);
+      INFO("no S: " << check.text);
+      CHECK(check.fault == (is_identity(skins[s]) ? NOOK_POSE_RIGHT : NOOK_POSE_MISSING_S));
+
+      // All joints one on, and two of them exchanged.
+      std::vector<std::int32_t> shifted = map;
+      for (std::int32_t& index : shifted)
+        if (index >= 0) index = (index + 1) % static_cast<std::int32_t>(skins[s].joint_count);
+      desc.kind = NOOK_POSE_SKINNING;
+      desc.transform_of_bone = shifted.data();
+      check = check_pose(host, desc, vertices);
+      INFO("shifted: " << check.text);
+      CHECK(check.fault == NOOK_POSE_WRONG_ORDER);
+
+      for (std::size_t other = 0; other < skins.size(); ++other) {
+        if (std::equal(std::begin(skins[other].rest_from_mesh_3x4), std::end(skins[other].rest_from_mesh_3x4),
+                       skins[s].rest_from_mesh_3x4))
+          continue;
+        desc = right;
+        desc.skin = skins[other].file_index;
+        desc.transform_of_bone = map.data();
+        desc.bone_count = host.bones;
+        check = check_pose(host, desc, vertices);
+        INFO("wrong skin: " << check.text);
+        CHECK(check.fault == NOOK_POSE_WRONG_SKIN);
+        CHECK(check.fitting_skin == skins[s].file_index);
+      }
+
+      std::vector<float> larger = vertices;
+      for (float& coordinate : larger) coordinate *= 100;
+      check = check_pose(host, right, larger);
+      INFO("vertices in centimetres: " << check.text);
+      CHECK(check.fault == NOOK_POSE_WRONG_UNIT);
+      CHECK(std::abs(check.scale / 100 - 1) < 0.02f);
+
+      std::vector<float> turned = vertices;
+      for (std::size_t v = 0; v < turned.size(); v += 3) {
+        const float y = turned[v + 1];
+        turned[v + 1] = turned[v + 2];
+        turned[v + 2] = -y;
+      }
+      check = check_pose(host, right, turned);
+      INFO("z up: " << check.text);
+      CHECK(check.fault == NOOK_POSE_WRONG_PLACE);
+    }
+  });
+}
