@@ -110,10 +110,10 @@ TEST_CASE("the last field of each struct counts") {
   nook_scene scene = nullptr;
   REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
   nook_scene_desc desc = Host::scene_desc();
-  desc.reserved = 1;
+  desc.strict_poses = 2;
   CHECK(nook_scene_create(context, &desc, &scene) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(last_mentions("desc.reserved"));
-  desc.reserved = 0;
+  CHECK(last_mentions("desc.strict_poses"));
+  desc.strict_poses = 1;
   REQUIRE(nook_scene_create(context, &desc, &scene) == NOOK_OK);
   nook_instance_id id = 0;
   nook_scene_add_instance(scene, stage.model, &id);

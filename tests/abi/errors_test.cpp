@@ -53,7 +53,7 @@ TEST_CASE("models: bad parameters and bad files") {
   newer[8] = std::byte{9};
   CHECK(nook_character_model_load(stage.context, newer.data(), newer.size(), &model) ==
         NOOK_ERROR_FILE_VERSION);
-  CHECK(last_is("nook_character_model_load: ", "got 9, need 2"));
+  CHECK(last_is("nook_character_model_load: ", "got 9, need 3"));
 
   std::uint32_t first = 0, count = 0;
   CHECK(nook_character_model_primitive(stage.model, 2, &first, &count) == invalid);
@@ -133,8 +133,16 @@ TEST_CASE("scenes: bad handles and parameters of every call") {
   // The axes x and y have unit length and the cosine 0.1 between them.
   const float sheared[12] = {1, 0.1f, 0, 0, 0, 0.99498744f, 0, 0, 0, 0, 1, 0};
   std::copy_n(sheared, 12, stage.pose.begin() + 12 * 2);
-  CHECK(nook_scene_set_pose(scene, stage.first, stage.pose.data(), stage.info.bone_count) == invalid);
+  CHECK(nook_scene_set_pose(scene, stage.first, stage.pose.data(), stage.info.bone_count) == NOOK_OK);
+  nook_scene_desc strict_desc = Host::scene_desc();
+  strict_desc.strict_poses = 1;
+  nook_scene strict = nullptr;
+  nook_instance_id stiff = 0;
+  REQUIRE(nook_scene_create(stage.context, &strict_desc, &strict) == NOOK_OK);
+  REQUIRE(nook_scene_add_instance(strict, stage.model, &stiff) == NOOK_OK);
+  CHECK(nook_scene_set_pose(strict, stiff, stage.pose.data(), stage.info.bone_count) == invalid);
   CHECK(last_is("nook_scene_set_pose: ", "bones_3x4 is row-major"));
+  nook_scene_destroy(&strict);
   CHECK(nook_scene_link(scene, stage.first, stage.first) == invalid);
   CHECK(nook_scene_link(scene, stage.first, 99) == no_handle);
   CHECK(nook_scene_link(scene, 99, stage.first) == no_handle);

@@ -49,6 +49,44 @@ class CountingMemory final : public std::pmr::memory_resource {
   bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 };
 
+bool is_equal(const Mat3x4& a, const Mat3x4& b) {
+  return std::equal(a.m, a.m + 12, b.m);
+}
+
+// Bind data has floats, rest positions and normals are quantised.
+void check_bind_data_is_equal(const CharacterModel& read, const CharacterModel& model) {
+  REQUIRE(read.bind.bones.size() == model.bind.bones.size());
+  for (std::size_t b = 0; b < model.bind.bones.size(); ++b) {
+    CHECK(is_equal(read.bind.bones[b].node_from_rest, model.bind.bones[b].node_from_rest));
+    CHECK(read.bind.bones[b].first_of_joint == model.bind.bones[b].first_of_joint);
+  }
+  REQUIRE(read.bind.rest_from_mesh.size() == model.bind.rest_from_mesh.size());
+  for (std::size_t s = 0; s < model.bind.rest_from_mesh.size(); ++s)
+    CHECK(is_equal(read.bind.rest_from_mesh[s], model.bind.rest_from_mesh[s]));
+  CHECK(read.bind.primitive_space == model.bind.primitive_space);
+  CHECK(read.bind.bone_of_joint == model.bind.bone_of_joint);
+  REQUIRE(read.bind.skins.size() == model.bind.skins.size());
+  for (std::size_t s = 0; s < model.bind.skins.size(); ++s) {
+    CHECK(read.bind.skins[s].file_index == model.bind.skins[s].file_index);
+    CHECK(read.bind.skins[s].space == model.bind.skins[s].space);
+    CHECK(read.bind.skins[s].first_joint == model.bind.skins[s].first_joint);
+    CHECK(read.bind.skins[s].joint_count == model.bind.skins[s].joint_count);
+  }
+  REQUIRE(read.bind.vertices.size() == model.bind.vertices.size());
+  for (std::size_t v = 0; v < model.bind.vertices.size(); ++v) {
+    CHECK(read.bind.vertices[v].file_vertex == model.bind.vertices[v].file_vertex);
+    CHECK(read.bind.vertices[v].position == model.bind.vertices[v].position);
+    CHECK(read.bind.vertices[v].bone == model.bind.vertices[v].bone);
+    CHECK(read.bind.vertices[v].weight == model.bind.vertices[v].weight);
+  }
+  REQUIRE(read.rest.position.size() == model.rest.position.size());
+  for (std::size_t i = 0; i < model.rest.position.size(); ++i) {
+    // Half a step of 1 m / 65535 on three axes, and of an octahedron of 127 steps a side: 2 degrees.
+    CHECK(length(read.rest.position[i] - model.rest.position[i]) < 1.4e-5f);
+    CHECK(dot(read.rest.normal[i], model.rest.normal[i]) > 0.9994f);
+  }
+}
+
 void put_u32(std::vector<std::byte>& file, std::size_t at, std::uint32_t value) {
   for (int i = 0; i < 4; ++i) file[at + i] = std::byte(value >> (8 * i) & 255);
 }
@@ -67,6 +105,7 @@ TEST_CASE("a model comes back from its file within the steps of its codes") {
   REQUIRE(read.file_to_welded == model.file_to_welded);
   REQUIRE(read.primitives.size() == model.primitives.size());
   REQUIRE(read.spheres.size() == model.spheres.size());
+  check_bind_data_is_equal(read, model);
   for (std::size_t i = 0; i < read.spheres.size(); ++i) {
     // Half a step of 0.8 m / 65535, on three axes.
     CHECK(length(read.spheres[i].centre - model.spheres[i].centre) < 1.1e-5f);
@@ -122,7 +161,7 @@ TEST_CASE("quantising twice changes nothing more") {
   CHECK(write_character_model(once) == write_character_model(quantise(once)));
 }
 
-TEST_CASE("a file stays within 16 bytes for each vertex and 16 KB") {
+TEST_CASE("a file stays within 16 bytes for each vertex and 16 KB, and 8 bytes for its rest position") {
   // The largest model of the product's tables, with 6 entries a vertex on average, of which it shares 4 with
   // the vertex before; of real characters' 6.7 entries 4.3 are shared.
   CharacterModel model = test::sample_model(9, {80, 130, 500, 6000, 0, 8});
@@ -136,7 +175,8 @@ TEST_CASE("a file stays within 16 bytes for each vertex and 16 KB") {
   const std::vector<std::byte> file = write_character_model(model);
   const std::size_t file_order = (model.file_to_welded.size() + 7) / 8 + 8;
   INFO(file.size());
-  CHECK(file.size() <= 16 * model.vertex_count() + 16384 + file_order);
+  // 80 bones have 50 bytes of bind data each.
+  CHECK(file.size() <= (16 + 8) * model.vertex_count() + 16384 + 80 * 50 + file_order);
 }
 
 TEST_CASE("welded vertices may be numbered in any order") {
@@ -159,7 +199,7 @@ TEST_CASE("each fault of the container has a message of its own") {
   file = good;
   put_u32(file, 8, 7);
   CHECK(read_outcome(file).code == NOOK_ERROR_FILE_VERSION);
-  CHECK(mentions(read_outcome(file), "got 7, need 2"));
+  CHECK(mentions(read_outcome(file), "got 7, need 3"));
   file = good;
   put_u32(file, 12, four_letters("NNAO"));
   CHECK(mentions(read_outcome(file), "got \"NNAO\", need \"CHAR\""));
@@ -262,4 +302,60 @@ TEST_CASE("a model with a fault is not written, and the message names it") {
   CHECK(has(refusal([](CharacterModel& m) { m.kernel.gamma = 0.5f; }), "gamma"));
   CHECK(has(refusal([](CharacterModel& m) { m.root_bone = 5; }), "root bone"));
   CHECK(has(refusal([](CharacterModel& m) { m.influences = 9; }), "influences"));
+}
+
+TEST_CASE("a model without bind data writes a file without its sections and reads it back") {
+  CharacterModel model = test::sample_model();
+  const std::size_t with = write_character_model(model).size();
+  model.bind = BindData();
+  model.rest = RestSurface();
+  const auto bytes = write_character_model(model);
+  CHECK(bytes.size() + 1000 < with);
+  const CharacterModel read = read_character_model(bytes);
+  CHECK(read.bind.empty());
+  CHECK(read.rest.position.empty());
+}
+
+TEST_CASE("files of version 2, which have no bind data, are read") {
+  CharacterModel model = test::sample_model();
+  model.bind = BindData();
+  model.rest = RestSurface();
+  auto bytes = write_character_model(model);
+  REQUIRE(bytes[8] == std::byte{3});
+  bytes[8] = std::byte{2};
+  repair_checksum(bytes);
+  const CharacterModel read = read_character_model(bytes);
+  CHECK(read.bind.empty());
+  CHECK(read.vertex_count() == model.vertex_count());
+}
+
+TEST_CASE("bind data with faults is refused by name") {
+  const auto refusal = [](auto&& spoil) {
+    CharacterModel model = test::sample_model();
+    spoil(model);
+    try {
+      check_model(model, NOOK_ERROR_BAD_FILE);
+    } catch (const Failure& failure) {
+      return std::string(failure.what());
+    }
+    return std::string();
+  };
+  const auto names = [&](auto&& spoil, const char* part) {
+    const std::string text = refusal(spoil);
+    INFO(text);
+    CHECK(text.find(part) != std::string::npos);
+  };
+  names([](CharacterModel& m) { m.bind.bones[2].node_from_rest = Mat3x4{{0}}; }, "bind matrix of bone 2");
+  names([](CharacterModel& m) { m.bind.bones[1].node_from_rest.m[3] = NAN; }, "bind matrix of bone 1");
+  names([](CharacterModel& m) { m.bind.bones[1].first_of_joint = 4; }, "first bone of the joint of bone 1");
+  names([](CharacterModel& m) { m.bind.bones.pop_back(); }, "bind matrices");
+  names([](CharacterModel& m) { m.bind.primitive_space[1] = 2; }, "space of primitive 1");
+  names([](CharacterModel& m) { m.bind.skins[0].space = 9; }, "space of skin 0");
+  names([](CharacterModel& m) { m.bind.skins[1].joint_count = 2; }, "joints of skin 1");
+  names([](CharacterModel& m) { m.bind.bone_of_joint[0] = 5; }, "bone of joint 0");
+  names([](CharacterModel& m) { m.bind.vertices[3].weight[0] = 0.3f; }, "rest vertex 3");
+  names([](CharacterModel& m) { m.bind.vertices[3].file_vertex = 1 << 20; }, "file vertex of rest vertex 3");
+  names([](CharacterModel& m) { m.bind.vertices[0].bone_count = 0; }, "bone count of rest vertex 0");
+  names([](CharacterModel& m) { m.rest.normal[4] = {}; }, "rest normal of vertex 4");
+  names([](CharacterModel& m) { m.rest.position.pop_back(); }, "rest positions");
 }

@@ -34,6 +34,45 @@ struct SampleSize {
   std::uint32_t bones = 5, spheres = 7, key_points = 12, vertices = 40, repeats = 10, influences = 4;
 };
 
+// A turn about a random axis and a move, as rows of a matrix.
+inline Mat3x4 random_frame(Numbers& numbers, float scale = 1) {
+  const Vec3 x = numbers.direction();
+  const Vec3 z = normalised(cross(x, numbers.direction())), y = cross(z, x), t = numbers.place(0.3f);
+  return {{scale * x.x, scale * y.x, scale * z.x, t.x, scale * x.y, scale * y.y, scale * z.y, t.y,
+           scale * x.z, scale * y.z, scale * z.z, t.z}};
+}
+
+// Two spaces, of metres and of centimetres, a skin of all bones from the last on, a second skin of the first
+// bone, and rest vertices of up to three bones.
+inline void add_bind_data(CharacterModel& model, Numbers& numbers) {
+  BindData& bind = model.bind;
+  const auto bones = static_cast<std::uint32_t>(model.bone_count());
+  for (std::uint32_t b = 0; b < bones; ++b)
+    bind.bones.push_back({random_frame(numbers), static_cast<std::uint16_t>(b)});
+  bind.rest_from_mesh = {random_frame(numbers), random_frame(numbers, 0.01f)};
+  for (std::size_t p = 0; p < model.primitives.size(); ++p)
+    bind.primitive_space.push_back(static_cast<std::uint16_t>(p % 2));
+  bind.skins = {{1, 1, 0, bones}, {3, 0, bones, 1}};
+  for (std::uint32_t b = bones; b-- > 0;) bind.bone_of_joint.push_back(static_cast<std::uint16_t>(b));
+  bind.bone_of_joint.push_back(0);
+  for (std::size_t i = 0; i < model.vertex_count(); ++i) {
+    model.rest.position.push_back(numbers.place(0.5f));
+    model.rest.normal.push_back(numbers.direction());
+  }
+  for (std::uint32_t v = 0; v < 12; ++v) {
+    RestVertex vertex;
+    vertex.file_vertex = numbers.below(static_cast<std::uint32_t>(model.file_to_welded.size()));
+    vertex.position = model.rest.position[model.file_to_welded[vertex.file_vertex]];
+    vertex.bone_count = 1 + v % 3;
+    for (std::uint32_t b = 0; b < vertex.bone_count; ++b) {
+      vertex.bone[b] = static_cast<std::uint16_t>((v + b) % bones);
+      vertex.weight[b] =
+          vertex.bone_count == 1 ? 1.0f : (b == 0 ? 0.5f : 0.5f / float(vertex.bone_count - 1));
+    }
+    bind.vertices.push_back(vertex);
+  }
+}
+
 // Spheres, key points and weights at random in a box of a metre; `repeats` file vertices are second copies.
 inline CharacterModel sample_model(std::uint32_t seed = 1, SampleSize size = {}) {
   Numbers numbers(seed);
@@ -79,6 +118,7 @@ inline CharacterModel sample_model(std::uint32_t seed = 1, SampleSize size = {})
   const auto file_vertices = static_cast<std::uint32_t>(model.file_to_welded.size());
   model.primitives = {{0, file_vertices / 3}, {file_vertices / 3, file_vertices - file_vertices / 3}};
   model.bounding_radius = 0.9f;
+  add_bind_data(model, numbers);
   model.recipe = "{\"preset\": \"test\"}";
   return model;
 }

@@ -1,5 +1,6 @@
 add_executable(nook_scene_tests
   model_file_test.cpp
+  pose_source_test.cpp
   scene_test.cpp
   scene_casters_test.cpp
   scene_light_test.cpp

@@ -32,7 +32,7 @@ struct CharacterBits {
   static constexpr int level_scale = 8;
   static constexpr int level_offset = 8;
   static constexpr int rest_position = 16;
-  static constexpr int rest_normal = 7;  // the error is within 1 degree
+  static constexpr int rest_normal = 7;  // the error is within 2 degrees
 };
 
 // The number of earlier vertices that a vertex may share key points with.

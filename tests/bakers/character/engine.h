@@ -78,8 +78,8 @@ struct Engine {
     const Skin& skin = skins[static_cast<std::size_t>(vertex.skin)];
     double total = 0;
     for (const auto& [joint, weight] : vertex.weights) {
-      const auto p = transform(globals[static_cast<std::size_t>(skin.joint[joint])] * skin.inverse_bind[joint], x,
-                               y, z);
+      const auto p =
+          transform(globals[static_cast<std::size_t>(skin.joint[joint])] * skin.inverse_bind[joint], x, y, z);
       for (int i = 0; i < 3; ++i) sum[i] += weight * p[i];
       total += weight;
     }
@@ -100,8 +100,10 @@ struct Engine {
                             {}});
       for (int set = 0; at.skin >= 0 && primitive.attributes.count("JOINTS_" + std::to_string(set)); ++set) {
         const std::string suffix = std::to_string(set);
-        const auto joints = bake::read_integers(model, primitive.attributes.at("JOINTS_" + suffix), 4, "joints");
-        const auto weights = bake::read_floats(model, primitive.attributes.at("WEIGHTS_" + suffix), 4, "weights");
+        const auto joints =
+            bake::read_integers(model, primitive.attributes.at("JOINTS_" + suffix), 4, "joints");
+        const auto weights =
+            bake::read_floats(model, primitive.attributes.at("WEIGHTS_" + suffix), 4, "weights");
         for (std::size_t v = 0; v < position.count; ++v)
           for (std::size_t k = 0; k < 4; ++k)
             if (weights.value[4 * v + k] > 0)

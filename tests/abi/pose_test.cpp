@@ -1,0 +1,228 @@
+// The doors of poses and vertices: calls from C, bad arguments, refused allocations, frames without
+// allocation.
+#include <nook/nook_pose.h>
+#include <nook/nook_vertices.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "tests/abi/host.h"
+#include "tests/catch.h"
+
+using namespace nook::test;
+
+extern "C" int nook_call_every_pose_function(const void* bytes, size_t size);
+
+namespace {
+
+bool last_mentions(const char* part) {
+  return std::string(nook_last_message()).find(part) != std::string::npos;
+}
+
+nook_pose_desc pose_desc(const Stage& stage) {
+  nook_pose_desc desc;
+  nook_pose_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  desc.transforms = stage.pose.data();
+  desc.transform_count = stage.info.bone_count;
+  return desc;
+}
+
+std::vector<float> rest_positions(nook_character_model model) {
+  std::vector<float> out;
+  nook_rest_vertex vertex{};
+  vertex.struct_size = sizeof vertex;
+  for (std::uint32_t v = 0; nook_character_model_rest_vertex(model, v, &vertex) == NOOK_OK; ++v)
+    out.insert(out.end(), vertex.position, vertex.position + 3);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("every function of the headers of poses and vertices works from C") {
+  const Host host;
+  CHECK(nook_call_every_pose_function(host.bytes.data(), host.bytes.size()) == 0);
+}
+
+TEST_CASE("a pose that is refused leaves the instance as it was") {
+  Stage stage;
+  REQUIRE(nook_scene_set_pose(stage.scene, stage.first, stage.pose.data(), stage.info.bone_count) == NOOK_OK);
+  REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
+  REQUIRE(nook_scene_read_ao(stage.scene, stage.first, stage.ao.data(), stage.info.file_vertex_count, 0) ==
+          NOOK_OK);
+  const std::vector<float> before = stage.ao;
+  const auto refused = [&](auto&& spoil, nook_result result, const char* part) {
+    nook_pose_desc desc = pose_desc(stage);
+    spoil(desc);
+    CHECK(nook_scene_set_pose_from(stage.scene, stage.first, &desc) == result);
+    INFO(nook_last_message());
+    CHECK(last_mentions(part));
+  };
+  const auto invalid = [&](auto&& spoil, const char* part) {
+    refused(spoil, NOOK_ERROR_INVALID_ARGUMENT, part);
+  };
+  std::vector<float> broken = stage.pose;
+  broken[12 * 3 + 1] = NAN;
+  const float huge[12] = {1, 0, 0, 1e30f, 0, 1, 0, 0, 0, 0, 1, 0};
+  std::vector<std::int32_t> map(stage.info.bone_count, 0);
+  map.back() = 1000;
+  invalid([](nook_pose_desc& d) { d.kind = 7; }, "desc.kind");
+  invalid([](nook_pose_desc& d) { d.layout = 6; }, "desc.layout");
+  invalid([](nook_pose_desc& d) { d.flags = 4; }, "desc.flags");
+  invalid([](nook_pose_desc& d) { d.transforms = nullptr; }, "desc.transforms");
+  invalid([](nook_pose_desc& d) { d.stride = 8; }, "desc.stride");
+  invalid([](nook_pose_desc& d) { d.transform_count = 0; }, "desc.transform_count");
+  invalid([](nook_pose_desc& d) { d.bone_count = 5; }, "desc.transform_of_bone");
+  invalid([&](nook_pose_desc& d) { d.transforms = broken.data(); }, "bone 3");
+  invalid([&](nook_pose_desc& d) { d.place_3x4 = huge; }, "desc.place_3x4");
+  invalid(
+      [&](nook_pose_desc& d) {
+        d.transform_of_bone = map.data();
+        d.bone_count = static_cast<std::uint32_t>(map.size());
+      },
+      "desc.transform_of_bone");
+  invalid(
+      [](nook_pose_desc& d) {
+        d.kind = NOOK_POSE_SKINNING;
+        d.skin = 77;
+      },
+      "desc.skin");
+  nook_pose_desc desc = pose_desc(stage);
+  CHECK(nook_scene_set_pose_from(stage.scene, 4711, &desc) == NOOK_ERROR_INVALID_HANDLE);
+  desc.struct_size = 8;
+  CHECK(nook_scene_set_pose_from(stage.scene, stage.first, &desc) == NOOK_ERROR_INVALID_ARGUMENT);
+  REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
+  REQUIRE(nook_scene_read_ao(stage.scene, stage.first, stage.ao.data(), stage.info.file_vertex_count, 0) ==
+          NOOK_OK);
+  CHECK(stage.ao == before);
+}
+
+TEST_CASE("checks and matches refuse what they cannot compare") {
+  Stage stage;
+  std::vector<float> positions = rest_positions(stage.model);
+  const nook_pose_desc desc = pose_desc(stage);
+  const auto refused = [&](auto&& spoil, const char* part) {
+    nook_pose_check check{};
+    check.struct_size = sizeof check;
+    check.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
+    check.positions = positions.data();
+    spoil(check);
+    CHECK(nook_character_model_check_pose(stage.model, &desc, &check) == NOOK_ERROR_INVALID_ARGUMENT);
+    INFO(nook_last_message());
+    CHECK(last_mentions(part));
+  };
+  const std::uint32_t far_index[8] = {0, 1, 2, 3, 4, 5, 6, 900};
+  refused([](nook_pose_check& c) { c.struct_size = 16; }, "check.struct_size");
+  refused([](nook_pose_check& c) { c.vertex_count = 7; }, "check.vertex_count");
+  refused([](nook_pose_check& c) { c.positions = nullptr; }, "check.positions");
+  refused([](nook_pose_check& c) { c.stride = 4; }, "check.stride");
+  refused([](nook_pose_check& c) { c.tolerance = -1; }, "check.tolerance");
+  refused(
+      [&](nook_pose_check& c) {
+        c.vertex_count = 8;
+        c.rest_vertices = far_index;
+      },
+      "check.rest_vertices[7]");
+  positions[4] = INFINITY;
+  refused([](nook_pose_check&) {}, "position 1");
+
+  std::uint32_t found[2];
+  const float two[6] = {};
+  const auto no_match = [&](auto&& spoil, const char* part) {
+    nook_vertex_match match{};
+    match.struct_size = sizeof match;
+    match.vertex_count = 2;
+    match.positions = two;
+    match.primitive = NOOK_ALL_PRIMITIVES;
+    spoil(match);
+    CHECK(nook_character_model_match_vertices(stage.model, &match, found, nullptr) ==
+          NOOK_ERROR_INVALID_ARGUMENT);
+    INFO(nook_last_message());
+    CHECK(last_mentions(part));
+  };
+  const float not_finite[6] = {0, 0, 0, 0, NAN, 0};
+  no_match([](nook_vertex_match& m) { m.struct_size = 8; }, "match.struct_size");
+  no_match([](nook_vertex_match& m) { m.positions = nullptr; }, "match.positions");
+  no_match([](nook_vertex_match& m) { m.position_stride = 8; }, "positions");
+  no_match([&](nook_vertex_match& m) { m.normals = not_finite; }, "match.normals[1]");
+  no_match([](nook_vertex_match& m) { m.primitive = 2; }, "match.primitive");
+  no_match([](nook_vertex_match& m) { m.tolerance = 2; }, "match.tolerance");
+  no_match([](nook_vertex_match& m) { m.in_rest_space = 2; }, "match.in_rest_space");
+  const std::uint32_t none[2] = {0, NOOK_NO_VERTEX};
+  nook_character_model remapped = nullptr;
+  CHECK(nook_character_model_remap(stage.model, none, 2, &remapped) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("NOOK_NO_VERTEX"));
+  CHECK(remapped == nullptr);
+}
+
+TEST_CASE("a remapped model gives the same AO in the host's order") {
+  Stage stage;
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < 3 * stage.info.file_vertex_count; ++i)
+    order.push_back(i * 7919 % stage.info.file_vertex_count);
+  nook_character_model remapped = nullptr;
+  REQUIRE(nook_character_model_remap(stage.model, order.data(), static_cast<std::uint32_t>(order.size()),
+                                     &remapped) == NOOK_OK);
+  nook_instance_id id = 0;
+  REQUIRE(nook_scene_add_instance(stage.scene, remapped, &id) == NOOK_OK);
+  nook_character_model_destroy(&remapped);
+  REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
+  REQUIRE(nook_scene_read_ao(stage.scene, stage.first, stage.ao.data(), stage.info.file_vertex_count, 0) ==
+          NOOK_OK);
+  std::vector<float> ao(order.size());
+  REQUIRE(nook_scene_read_ao(stage.scene, id, ao.data(), static_cast<std::uint32_t>(ao.size()), 0) ==
+          NOOK_OK);
+  for (std::size_t i = 0; i < ao.size(); ++i) CHECK(ao[i] == stage.ao[order[i]]);
+}
+
+TEST_CASE("setting a pose from a host's transforms allocates nothing") {
+  Stage stage;
+  const nook_pose_desc desc = pose_desc(stage);
+  const int before = stage.host.allocations;
+  for (int frame = 0; frame < 3; ++frame)
+    REQUIRE(nook_scene_set_pose_from(stage.scene, stage.second, &desc) == NOOK_OK);
+  CHECK(stage.host.allocations == before);
+}
+
+TEST_CASE("each allocation of the doors of poses refused in turn is one clean failure") {
+  Stage stage;
+  const std::vector<float> positions = rest_positions(stage.model);
+  const nook_pose_desc desc = pose_desc(stage);
+  const auto run = [&] {
+    nook_pose_check check{};
+    check.struct_size = sizeof check;
+    check.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
+    check.positions = positions.data();
+    nook_result first = nook_character_model_check_pose(stage.model, &desc, &check);
+    std::vector<std::int32_t> map(stage.info.bone_count);
+    const char* name = "skeleton:bone_1_with_a_name_that_is_longer_than_a_small_string";
+    nook_bone_names names{};
+    names.struct_size = sizeof names;
+    names.names = &name;
+    names.name_count = 1;
+    if (first == NOOK_OK)
+      first = nook_character_model_map_bones(stage.model, &names, map.data(), stage.info.bone_count, nullptr);
+    nook_vertex_match match{};
+    match.struct_size = sizeof match;
+    match.vertex_count = 2;
+    match.positions = positions.data();
+    match.primitive = NOOK_ALL_PRIMITIVES;
+    std::uint32_t found[2] = {0, 0};
+    if (first == NOOK_OK) first = nook_character_model_match_vertices(stage.model, &match, found, nullptr);
+    const std::uint32_t order[2] = {1, 0};
+    nook_character_model remapped = nullptr;
+    if (first == NOOK_OK) first = nook_character_model_remap(stage.model, order, 2, &remapped);
+    nook_character_model_destroy(&remapped);
+    return first;
+  };
+  const int before = stage.host.allocations, blocks = stage.host.blocks;
+  REQUIRE(run() == NOOK_OK);
+  const int total = stage.host.allocations - before;
+  REQUIRE(total > 20);
+  for (int n = 0; n < total; ++n) {
+    stage.host.refuse_at = stage.host.allocations + n;
+    INFO("allocation " << n);
+    CHECK(run() == NOOK_ERROR_OUT_OF_MEMORY);
+    CHECK(stage.host.blocks == blocks);
+  }
+}
