@@ -24,6 +24,14 @@ TEST_CASE("the C++ wrapper owns, moves and throws") {
   moved.read_ao(id, ao.data(), static_cast<std::uint32_t>(ao.size()));
   CHECK(moved.stats().instances == 1);
   CHECK(model.bone_name(0) == "skeleton:bone_0");
+  std::vector<float> bones(12 * model.info().bone_count, 0.0f);
+  for (std::size_t b = 0; b < bones.size(); b += 12) bones[b] = bones[b + 5] = bones[b + 10] = 1;
+  nook_pose_desc pose = nook::pose_desc();
+  pose.transforms = bones.data();
+  pose.transform_count = model.info().bone_count;
+  moved.set_pose(id, pose);
+  CHECK(model.map_bones({"skeleton:bone_1"})[1] == 0);
+  CHECK(model.remap({3, 3, 1}).info().file_vertex_count == 3);
   try {
     moved.remove_instance(999);
     FAIL("no exception");

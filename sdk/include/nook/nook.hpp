@@ -16,7 +16,9 @@
 #include "nook_gl_probe.h"
 #include "nook_material.h"
 #include "nook_nnao.h"
+#include "nook_pose.h"
 #include "nook_probe.h"
+#include "nook_vertices.h"
 
 namespace nook {
 // The inline namespace keeps these names apart from the library's own names at link time. Callers write
@@ -67,6 +69,12 @@ inline nook_context_desc context_desc() {
 inline nook_scene_desc scene_desc() {
   nook_scene_desc desc;
   check(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+inline nook_pose_desc pose_desc() {
+  nook_pose_desc desc;
+  check(nook_pose_desc_init(&desc, sizeof desc, NOOK_VERSION));
   return desc;
 }
 
@@ -150,8 +158,33 @@ class CharacterModel : public Unique<nook_character_model, nook_character_model_
     check(nook_character_model_static_ao(get(), ao.data(), static_cast<std::uint32_t>(ao.size())));
     return ao;
   }
+  // The transform of each bone, -1 where no name matches.
+  std::vector<std::int32_t> map_bones(const std::vector<const char*>& names, std::uint32_t flags = 0) const {
+    nook_bone_names rules{};
+    rules.struct_size = sizeof rules;
+    rules.flags = flags;
+    rules.names = names.data();
+    rules.name_count = static_cast<std::uint32_t>(names.size());
+    std::vector<std::int32_t> map(info().bone_count);
+    check(nook_character_model_map_bones(get(), &rules, map.data(), static_cast<std::uint32_t>(map.size()),
+                                         nullptr));
+    return map;
+  }
+  // Fills the answers in `answer`.
+  void check_pose(const nook_pose_desc& desc, nook_pose_check& answer) const {
+    answer.struct_size = sizeof answer;
+    wrapper::check(nook_character_model_check_pose(get(), &desc, &answer));
+  }
+  // The model in the order of a host's vertices; vertices[i] is this model's vertex for the host's vertex i.
+  CharacterModel remap(const std::vector<std::uint32_t>& vertices) const {
+    nook_character_model handle = nullptr;
+    check(nook_character_model_remap(get(), vertices.data(), static_cast<std::uint32_t>(vertices.size()),
+                                     &handle));
+    return CharacterModel(handle);
+  }
 
  private:
+  explicit CharacterModel(nook_character_model handle) : Unique(handle) {}
   static nook_character_model load(const Context& context, const void* bytes, std::size_t size) {
     nook_character_model handle = nullptr;
     check(nook_character_model_load(context.get(), bytes, size, &handle));
@@ -173,6 +206,10 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
   // bones_3x4 holds 12 floats for each bone, row-major.
   void set_pose(nook_instance_id id, const float* bones_3x4, std::uint32_t bone_count) {
     check(nook_scene_set_pose(get(), id, bones_3x4, bone_count));
+  }
+  // The pose as a host has it; pose_desc() begins a description.
+  void set_pose(nook_instance_id id, const nook_pose_desc& desc) {
+    check(nook_scene_set_pose_from(get(), id, &desc));
   }
   void link(nook_instance_id receiver, nook_instance_id caster) {
     check(nook_scene_link(get(), receiver, caster));
