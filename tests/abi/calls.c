@@ -58,6 +58,7 @@ int nook_call_everything(const void* bytes, size_t size) {
   const float plane[4] = {0, 1, 0, -1}, centre[3] = {0, 2, 0};
   const nook_probe_lobe lobe = {{0, 1, 0}, 2, {1, 1, 1}, 0};
   float* colour;
+  unsigned char byte;
 
   failures = 0;
   EXPECT(nook_version() == NOOK_VERSION);
@@ -98,6 +99,9 @@ int nook_call_everything(const void* bytes, size_t size) {
   EXPECT_OK(nook_scene_set_terms(scene, NOOK_TERM_SELF | NOOK_TERM_LINKS));
   EXPECT_OK(nook_scene_update(scene));
   EXPECT_OK(nook_scene_read_ao(scene, a, ao, info.file_vertex_count, 0));
+  byte = (unsigned char)(ao[3] * 255 + 0.5f);
+  EXPECT_OK(nook_scene_read_ao_as(scene, a, NOOK_AO_UNORM8, ao, info.file_vertex_count, 0));
+  EXPECT(((unsigned char*)ao)[3] == byte);
   EXPECT_OK(nook_scene_set_light(scene, a, &lobe, 1));
   EXPECT_OK(nook_scene_update(scene));
   colour = (float*)malloc(3 * info.file_vertex_count * sizeof(float));

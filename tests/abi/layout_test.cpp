@@ -143,6 +143,16 @@ NOOK_AT(nook_gl_info, renderer, 16);
 NOOK_AT(nook_gl_info, buffer_bytes, 24);
 NOOK_AT(nook_gl_info, ao_bytes, 32);
 
+NOOK_SIZE(nook_gl_ao_target, 40);
+NOOK_AT(nook_gl_ao_target, struct_size, 0);
+NOOK_AT(nook_gl_ao_target, format, 4);
+NOOK_AT(nook_gl_ao_target, buffer, 8);
+NOOK_AT(nook_gl_ao_target, texture, 12);
+NOOK_AT(nook_gl_ao_target, offset, 16);
+NOOK_AT(nook_gl_ao_target, instance_stride, 24);
+NOOK_AT(nook_gl_ao_target, stride, 32);
+NOOK_AT(nook_gl_ao_target, reserved, 36);
+
 NOOK_SIZE(nook_gl_ao_view, 24);
 NOOK_AT(nook_gl_ao_view, struct_size, 0);
 NOOK_AT(nook_gl_ao_view, buffer, 4);

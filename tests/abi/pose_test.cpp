@@ -3,10 +3,12 @@
 #include <nook/nook_pose.h>
 #include <nook/nook_vertices.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
 
+#include "sdk/src/core/half.h"
 #include "tests/abi/host.h"
 #include "tests/catch.h"
 
@@ -225,4 +227,38 @@ TEST_CASE("each allocation of the doors of poses refused in turn is one clean fa
     CHECK(run() == NOOK_ERROR_OUT_OF_MEMORY);
     CHECK(stage.host.blocks == blocks);
   }
+}
+
+TEST_CASE("AO is read as bytes and halves, among a host's own attributes") {
+  Stage stage;
+  REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
+  const std::uint32_t count = stage.info.file_vertex_count;
+  REQUIRE(nook_scene_read_ao(stage.scene, stage.first, stage.ao.data(), count, 0) == NOOK_OK);
+  for (const nook_ao_format format : {NOOK_AO_FLOAT, NOOK_AO_HALF, NOOK_AO_UNORM8})
+    for (const std::size_t stride : {std::size_t{0}, std::size_t{24}}) {
+      const std::size_t each = sizeof(float) >> format, step = stride ? stride : each;
+      std::vector<unsigned char> out(step * count, 0xa5);
+      REQUIRE(nook_scene_read_ao_as(stage.scene, stage.first, format, out.data(), count, stride) == NOOK_OK);
+      for (std::uint32_t v = 0; v < count; ++v) {
+        const unsigned char* const place = &out[v * step];
+        float value = 0;
+        std::uint16_t half = 0;
+        std::memcpy(&value, place, std::min(each, sizeof value));
+        std::memcpy(&half, place, std::min(each, sizeof half));
+        if (format == NOOK_AO_UNORM8) value = static_cast<float>(*place) / 255;
+        if (format == NOOK_AO_HALF) value = nook::from_half(half);
+        // Half a step of a byte, and of a half below 1.
+        const float tolerance = format == NOOK_AO_UNORM8 ? 0.5f / 255 + 1e-6f
+                                : format == NOOK_AO_HALF ? 0.25f / 1024
+                                                         : 0;
+        CHECK(std::abs(value - stage.ao[v]) <= tolerance);
+        for (std::size_t i = each; i < step; ++i) CHECK(place[i] == 0xa5);
+      }
+    }
+  CHECK(nook_scene_read_ao_as(stage.scene, stage.first, 3, stage.ao.data(), count, 0) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("format"));
+  CHECK(nook_scene_read_ao_as(stage.scene, stage.first, NOOK_AO_HALF, stage.ao.data(), count, 1) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("stride"));
 }

@@ -72,6 +72,14 @@ static void upload_probe(nook_context context, nook_gl gl) {
   nook_probe_fit_destroy(&fit);
 }
 
+/* A target without a buffer and a texture is refused. */
+static void write_ao(nook_gl gl, nook_scene scene, nook_instance_id instance) {
+  nook_gl_ao_target target;
+  memset(&target, 0, sizeof target);
+  target.struct_size = sizeof target;
+  EXPECT(nook_gl_scene_write_ao(gl, scene, &instance, 1, &target) == NOOK_ERROR_INVALID_ARGUMENT);
+}
+
 int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_proc, void* user) {
   nook_context_desc context_desc;
   nook_scene_desc scene_desc;
@@ -109,6 +117,7 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   EXPECT_OK(nook_gl_describe(gl, &info));
   EXPECT((info.tier == 33 || info.tier == 43) && info.version && info.renderer);
   EXPECT(info.ao_bytes >= view.count * sizeof(float) && info.buffer_bytes > info.ao_bytes);
+  write_ao(gl, scene, instance);
   light_instance(gl, scene, instance, view.count);
   upload_probe(context, gl);
   EXPECT_OK(nook_gl_scene_release(gl, scene));

@@ -244,6 +244,23 @@ NOOK_API nook_result nook_scene_update(nook_scene scene);
 NOOK_API nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, float* out,
                                         uint32_t count, size_t stride);
 
+/* The numbers of an AO value. */
+enum {
+  /* 32-bit floats. */
+  NOOK_AO_FLOAT = 0,
+  /* 16-bit floats, rounded to the nearest. */
+  NOOK_AO_HALF = 1,
+  /* Bytes, 255 for 1, rounded to the nearest: within 1/510. */
+  NOOK_AO_UNORM8 = 2
+};
+typedef int32_t nook_ao_format;
+
+/* Writes the AO of the last nook_scene_update as nook_scene_read_ao does, as numbers of `format`. stride is
+ * in bytes (0: tightly packed), a value owns only its own bytes. Any thread, while no call changes the scene.
+ * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+NOOK_API nook_result nook_scene_read_ao_as(nook_scene scene, nook_instance_id instance, nook_ao_format format,
+                                           void* out, uint32_t count, size_t stride);
+
 typedef struct nook_scene_stats {
   /* sizeof(nook_scene_stats); the caller sets it. */
   uint32_t struct_size;

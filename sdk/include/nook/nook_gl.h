@@ -141,6 +141,37 @@ typedef struct nook_gl_ao_view {
 NOOK_API nook_result nook_gl_scene_ao_buffer(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                              nook_gl_ao_view* view);
 
+/* Where nook_gl_scene_write_ao puts AO: a buffer or a texture of the host. */
+typedef struct nook_gl_ao_target {
+  /* sizeof(nook_gl_ao_target); the caller sets it, and the other fields to 0 first. */
+  uint32_t struct_size;
+  /* The numbers in a buffer. A texture's own format decides instead. */
+  nook_ao_format format;
+  /* The OpenGL name of a buffer of the host, or 0. It must not be mapped. */
+  uint32_t buffer;
+  /* The OpenGL name of a GL_TEXTURE_2D of the host with a format that has a red channel of floats or of
+   * normalised integers, such as GL_R8, or 0. The value of vertex i goes to texel i, row by row. */
+  uint32_t texture;
+  /* Of the first value: bytes, a multiple of 4, or texels. */
+  uint64_t offset;
+  /* From the values of one instance to those of the next: bytes, a multiple of 4, or texels; so that one
+   * instanced or indirect draw reads all instances. Only with count > 1. */
+  uint64_t instance_stride;
+  /* Bytes between the starts of two values in a buffer, a multiple of 4, for AO among other attributes of a
+   * vertex; a value then owns a whole word. Needs compute shaders. 0: tightly packed; the bytes of an
+   * instance are rounded up to a multiple of 4, and the bytes of the padding are written. */
+  uint32_t stride;
+  uint32_t reserved;
+} nook_gl_ao_target;
+
+/* Copies the AO of the last nook_gl_scene_update to a buffer or texture of the host on the GPU, for count
+ * instances one after another. Vertices, texture fetches and buffer reads see the values without a barrier of
+ * the host. The call does not wait for the GPU. The first call with a format makes a program.
+ * Context thread. Errors: INVALID_ARGUMENT (also: the target is too small), INVALID_HANDLE (an id is unknown,
+ * or an instance is not prepared yet), UNSUPPORTED (a stride without compute shaders), GL. */
+NOOK_API nook_result nook_gl_scene_write_ao(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
+                                            uint32_t count, const nook_gl_ao_target* target);
+
 /* Copies the AO of the last update to host memory in the order of nook_scene_read_ao. The call WAITS FOR THE
  * GPU and is meant for tests and tools.
  * Context thread. Errors: INVALID_ARGUMENT, INVALID_HANDLE (the id is unknown, or the instance is not

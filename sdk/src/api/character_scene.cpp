@@ -196,6 +196,20 @@ nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, floa
   });
 }
 
+nook_result nook_scene_read_ao_as(nook_scene scene, nook_instance_id instance, nook_ao_format format,
+                                  void* out, uint32_t count, size_t stride) {
+  return with_scene("nook_scene_read_ao_as", scene, [&](const Scene& s) {
+    const Instance& found = instance_of(s, instance);
+    need(out, "out");
+    if (format < NOOK_AO_FLOAT || format > NOOK_AO_UNORM8)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "format is unknown (got %d, need 0 to %d)", format,
+                    NOOK_AO_UNORM8);
+    const std::size_t bytes = sizeof(float) >> format;
+    check_output(found, count, stride, bytes);
+    read_ao_as(s, found, format, out, stride ? stride : bytes);
+  });
+}
+
 nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_probe_lobe* lobes,
                                  uint32_t lobe_count) {
   return with_scene("nook_scene_set_light", scene, [&](Scene& s) {

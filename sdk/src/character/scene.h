@@ -216,7 +216,10 @@ void update(Scene& scene) noexcept;
 // Blends the key points to vertices and writes the AO of the last update in file order; `out` has the model's
 // number of file vertices, stride_bytes apart.
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept;
-// The same from given shadows and added occlusions at the key points.
+// The same as numbers of `format`.
+void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format format, void* out,
+                std::size_t stride_bytes) noexcept;
+// The AO from given shadows and added occlusions at the key points.
 void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
              float* out, std::size_t stride_bytes) noexcept;
 

@@ -5,6 +5,7 @@
 
 #include "sdk/src/character/instance_views.h"
 #include "sdk/src/character/scene.h"
+#include "sdk/src/core/half.h"
 
 namespace nook {
 namespace {
@@ -129,12 +130,12 @@ void update(Scene& scene) noexcept {
   }
 }
 
-void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept {
-  read_ao(scene, instance, instance.arrays.points.shadow, instance.arrays.points.added, out, stride_bytes);
-}
+namespace {
 
-void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
-             float* out, std::size_t stride_bytes) noexcept {
+// Calls put(place, ao) for each file vertex, place being a pointer stride_bytes further for each.
+template <class Put>
+void for_each_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
+                 void* out, std::size_t stride_bytes, Put&& put) noexcept {
   const LoadedModel& loaded = *instance.model;
   LinearView view = loaded.linear.view();
   if (!(scene.terms & NOOK_TERM_SELF)) view.open_bias = loaded.open_without_bias.data();
@@ -142,11 +143,9 @@ void read_ao(const Scene& scene, const Instance& instance, const float* shadow, 
 
   constexpr std::uint32_t chunk_blocks = 16;
   alignas(64) std::array<float, chunk_blocks * linear_block_vertices> ao;
-  auto* const bytes = reinterpret_cast<unsigned char*>(out);
+  auto* const bytes = static_cast<unsigned char*>(out);
   if (instance.evaluated_frame == 0) {
-    const float open = 1;
-    for (std::size_t i = 0; i < loaded.model.file_to_welded.size(); ++i)
-      std::memcpy(bytes + i * stride_bytes, &open, sizeof open);
+    for (std::size_t i = 0; i < loaded.model.file_to_welded.size(); ++i) put(bytes + i * stride_bytes, 1.0f);
     return;
   }
   for (std::uint32_t block = 0; block < view.block_count; block += chunk_blocks) {
@@ -158,7 +157,42 @@ void read_ao(const Scene& scene, const Instance& instance, const float* shadow, 
     const std::uint32_t end = first_slot + chunk.block_count * linear_block_vertices;
     for (std::uint32_t slot = first_slot; slot < end; ++slot)
       for (std::uint32_t i = loaded.slot_begin[slot]; i < loaded.slot_begin[slot + 1]; ++i)
-        std::memcpy(bytes + loaded.slot_file_vertex[i] * stride_bytes, &ao[slot - first_slot], sizeof(float));
+        put(bytes + loaded.slot_file_vertex[i] * stride_bytes, ao[slot - first_slot]);
+  }
+}
+
+void put_float(unsigned char* place, float ao) noexcept {
+  std::memcpy(place, &ao, sizeof ao);
+}
+
+}  // namespace
+
+void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept {
+  read_ao(scene, instance, instance.arrays.points.shadow, instance.arrays.points.added, out, stride_bytes);
+}
+
+void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
+             float* out, std::size_t stride_bytes) noexcept {
+  for_each_ao(scene, instance, shadow, added, out, stride_bytes, put_float);
+}
+
+void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format format, void* out,
+                std::size_t stride_bytes) noexcept {
+  const float* const shadow = instance.arrays.points.shadow;
+  const float* const added = instance.arrays.points.added;
+  switch (format) {
+    case NOOK_AO_HALF:
+      return for_each_ao(scene, instance, shadow, added, out, stride_bytes,
+                         [](unsigned char* place, float ao) {
+                           const std::uint16_t half = to_half(ao);
+                           std::memcpy(place, &half, sizeof half);
+                         });
+    case NOOK_AO_UNORM8:
+      return for_each_ao(
+          scene, instance, shadow, added, out, stride_bytes,
+          [](unsigned char* place, float ao) { *place = static_cast<unsigned char>(ao * 255 + 0.5f); });
+    default:
+      return for_each_ao(scene, instance, shadow, added, out, stride_bytes, put_float);
   }
 }
 

@@ -59,6 +59,7 @@ namespace nook::gl {
   X(GenTextures)                         \
   X(GenVertexArrays)                     \
   X(GetBooleani_v)                       \
+  X(GetBufferParameteri64v)              \
   X(GetBufferSubData)                    \
   X(GetError)                            \
   X(GetFloatv)                           \
@@ -93,6 +94,7 @@ namespace nook::gl {
   X(TexImage2D)                          \
   X(TexImage3D)                          \
   X(TexParameteri)                       \
+  X(TexSubImage2D)                       \
   X(TransformFeedbackVaryings)           \
   X(Uniform1f)                           \
   X(Uniform1i)                           \

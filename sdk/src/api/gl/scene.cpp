@@ -30,6 +30,43 @@ nook_result with_scene(const char* function, nook_gl gl, nook_scene scene, Body&
   });
 }
 
+void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
+  constexpr std::size_t size = offsetof(nook_gl_ao_target, reserved) + sizeof(std::uint32_t);
+  if (target.struct_size < size)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "target.struct_size is too small (got %u, need at least %zu); set it to sizeof",
+                  target.struct_size, size);
+  if (target.format < NOOK_AO_FLOAT || target.format > NOOK_AO_UNORM8)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "target.format is unknown (got %d, need 0 to %d)",
+                  target.format, NOOK_AO_UNORM8);
+  if ((target.buffer == 0) == (target.texture == 0))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "target.buffer and target.texture are %u and %u; need exactly one of them", target.buffer,
+                  target.texture);
+  // Far beyond any buffer, and sums stay in 64 bits.
+  constexpr std::uint64_t max_offset = std::uint64_t{1} << 40;
+  if (target.offset > max_offset || target.instance_stride > max_offset || count > (1u << 20))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "target.offset, target.instance_stride or count is out of range (got %llu, %llu and %u)",
+                  static_cast<unsigned long long>(target.offset),
+                  static_cast<unsigned long long>(target.instance_stride), count);
+  const bool in_buffer = target.buffer != 0;
+  if (in_buffer && (target.offset % 4 || target.instance_stride % 4 || target.stride % 4))
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "target.offset, target.instance_stride and target.stride are %llu, %llu and %u; need multiples "
+        "of 4 in a buffer",
+        static_cast<unsigned long long>(target.offset),
+        static_cast<unsigned long long>(target.instance_stride), target.stride);
+  if ((!in_buffer && target.stride) || target.reserved)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "target.stride of a texture or target.reserved is not 0 (got %u and %u)", target.stride,
+                  target.reserved);
+  if (count > 1 && target.instance_stride == 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "target.instance_stride is 0 with %u instances; give the distance between them", count);
+}
+
 gl::SceneHandle handle_of(nook_scene scene) {
   return {Ref<const RefCounted>(Ref<nook_scene_s>::share(scene)), &scene->destroyed, &scene->scene};
 }
@@ -56,6 +93,28 @@ nook_result nook_gl_scene_ao_buffer(nook_gl gl, nook_scene scene, nook_instance_
     known.stride = sizeof(float);
     known.count = ao.vertices;
     write_info(view, first_ao_view, known);
+  });
+}
+
+nook_result nook_gl_scene_write_ao(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
+                                   uint32_t count, const nook_gl_ao_target* target) {
+  return with_scene("nook_gl_scene_write_ao", gl, scene, [&] {
+    need(instances, "instances");
+    need(target, "target");
+    check_target(*target, count);
+    // Everything is looked up before anything is written.
+    for (uint32_t i = 0; i < count; ++i) gl->characters->place(scene->scene, instances[i]);
+    gl->guarded(gl::output_users(gl->device.gl), [&] {
+      for (uint32_t i = 0; i < count; ++i) {
+        const gl::VertexValues values = gl->characters->place(scene->scene, instances[i]);
+        const uint64_t offset = target->offset + i * target->instance_stride;
+        if (target->buffer)
+          gl->characters->output().write(
+              values, gl::BufferTarget{target->buffer, offset, target->stride, target->format});
+        else
+          gl->characters->output().write(values, gl::TextureTarget{target->texture, offset});
+      }
+    });
   });
 }
 

@@ -4,7 +4,7 @@
 
 namespace nook::gl {
 
-CharacterGl::CharacterGl(Device& device) : scenes_(device.memory) {
+CharacterGl::CharacterGl(Device& device) : scenes_(device.memory), output_(device) {
   if (device.gl.can.compute)
     tier_ = &storage_.emplace<ComputeTier>(device);
   else

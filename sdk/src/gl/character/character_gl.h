@@ -5,6 +5,7 @@
 #include <list>
 #include <variant>
 
+#include "sdk/src/gl/character/ao_output.h"
 #include "sdk/src/gl/character/compute_tier.h"
 #include "sdk/src/gl/character/feedback_tier.h"
 
@@ -31,6 +32,8 @@ class CharacterGl {
   VertexValues place(const Scene& scene, nook_instance_id instance) const;
   LightPlace light_place(const Scene& scene, nook_instance_id instance) const;
   void read(const VertexValues& values, float* out) const;
+  // Copies AO to the host's own buffers and textures, under a guard for output_users.
+  AoOutput& output() { return output_; }
   void release(const Scene& scene);
   // Scenes that the host destroyed.
   void release_destroyed();
@@ -39,6 +42,7 @@ class CharacterGl {
   std::pmr::list<SceneHandle> scenes_;
   std::variant<std::monostate, FeedbackTier, ComputeTier> storage_;
   Tier* tier_;  // in storage_
+  AoOutput output_;
 };
 
 }  // namespace nook::gl

@@ -1,0 +1,187 @@
+#include "sdk/src/gl/character/ao_output.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/state_guard.h"
+
+namespace nook::gl {
+namespace {
+
+constexpr std::uint32_t values_per_word(nook_ao_format format) {
+  return 1u << format;
+}
+
+const void* at_byte(std::uint64_t offset) {
+  return reinterpret_cast<const void*>(static_cast<std::uintptr_t>(offset));
+}
+
+struct PackDefines {
+  char text[48];
+  explicit PackDefines(nook_ao_format format) {
+    std::snprintf(text, sizeof text, "#define NOOK_VALUES_PER_WORD %u\n", values_per_word(format));
+  }
+};
+
+// The size of a host's buffer. Throws Failure if it has none.
+std::uint64_t size_of_buffer(const Device& device, GLuint buffer) {
+  GLint64 size = 0;
+  device.gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
+  device.gl.GetBufferParameteri64v(GL_ARRAY_BUFFER, GL_BUFFER_SIZE, &size);
+  device.check("binding the host's buffer");
+  return static_cast<std::uint64_t>(size);
+}
+
+}  // namespace
+
+std::uint64_t packed_bytes(nook_ao_format format, std::uint32_t values) {
+  const std::uint32_t each = values_per_word(format);
+  return (std::uint64_t{values} + each - 1) / each * 4;
+}
+
+unsigned output_users(const Functions& gl) {
+  return gl.can.compute ? outputs | outputs_compute : unsigned{outputs};
+}
+
+void AoOutput::write(const VertexValues& source, const BufferTarget& target) {
+  const std::uint64_t bytes = target.stride ? std::uint64_t{target.stride} * (source.vertices - 1) + 4
+                                            : packed_bytes(target.format, source.vertices);
+  const std::uint64_t size = size_of_buffer(device_, target.buffer);
+  if (target.offset > size || bytes > size - target.offset)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "target.buffer %u is too small (it has %llu bytes, the values end at %llu)", target.buffer,
+                  static_cast<unsigned long long>(size),
+                  static_cast<unsigned long long>(target.offset + bytes));
+  if (target.stride)
+    write_strided(source, target);
+  else
+    write_packed(source, target);
+  device_.check("writing AO to the host's buffer");
+}
+
+// A draw needs a complete framebuffer even if nothing is rasterised, and a surfaceless context has none.
+void AoOutput::make_draw_objects() {
+  if (vertex_array_.name()) return;
+  const Functions& gl = device_.gl;
+  framebuffer_ = Object::make(device_, Object::Kind::framebuffer);
+  renderbuffer_ = Object::make(device_, Object::Kind::renderbuffer);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
+  gl.BindRenderbuffer(GL_RENDERBUFFER, renderbuffer_.name());
+  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 1, 1);
+  gl.FramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                             renderbuffer_.name());
+  if (gl.BindTransformFeedback && gl.GenTransformFeedbacks && gl.DeleteTransformFeedbacks)
+    feedback_ = Object::make(device_, Object::Kind::transform_feedback);
+  vertex_array_ = Object::make(device_, Object::Kind::vertex_array);
+  gl.BindVertexArray(vertex_array_.name());
+  gl.EnableVertexAttribArray(0);
+}
+
+// One vertex of a draw makes one word. The last word may have fewer values; they are drawn apart, so that no
+// value beyond the source is read.
+void AoOutput::write_packed(const VertexValues& source, const BufferTarget& target) {
+  const Functions& gl = device_.gl;
+  Object& program = packing_[static_cast<std::size_t>(target.format)];
+  if (!program.name())
+    program = feedback_program(device_, "character/pack.vert", PackDefines(target.format).text, "nook_word");
+  make_draw_objects();
+  gl.UseProgram(program.name());
+  gl.BindVertexArray(vertex_array_.name());
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
+  if (feedback_.name()) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback_.name());
+  gl.Enable(GL_RASTERIZER_DISCARD);
+  gl.Disable(GL_PRIMITIVE_RESTART);
+  gl.BindBuffer(GL_ARRAY_BUFFER, source.buffer);
+  const std::uint32_t each = values_per_word(target.format), whole = source.vertices / each;
+  const auto draw = [&](std::uint32_t first_word, std::uint32_t words, std::uint32_t values) {
+    if (words == 0 || values == 0) return;
+    gl.VertexAttribPointer(0, static_cast<GLint>(values), GL_FLOAT, GL_FALSE,
+                           static_cast<GLsizei>(4 * values),
+                           at_byte(source.offset + std::uint64_t{4} * each * first_word));
+    gl.BindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, target.buffer,
+                       static_cast<GLintptr>(target.offset + std::uint64_t{4} * first_word),
+                       static_cast<GLsizeiptr>(std::uint64_t{4} * words));
+    gl.BeginTransformFeedback(GL_POINTS);
+    gl.DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(words));
+    gl.EndTransformFeedback();
+  };
+  draw(0, whole, each);
+  draw(whole, 1, source.vertices - whole * each);
+  gl.Disable(GL_RASTERIZER_DISCARD);
+  // The vertex array must not keep the host's or a chunk's buffer in use.
+  gl.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+}
+
+void AoOutput::write_strided(const VertexValues& source, const BufferTarget& target) {
+  const Functions& gl = device_.gl;
+  if (!gl.can.compute)
+    throw Failure(
+        NOOK_ERROR_UNSUPPORTED,
+        "target.stride needs compute shaders (OpenGL 4.3), which this context has not; write tightly "
+        "packed values and read them as a vertex attribute of their own");
+  Object& program = strided_[static_cast<std::size_t>(target.format)];
+  if (!program.name())
+    program = compute_program(device_, "character/pack_strided.comp", PackDefines(target.format).text);
+  // Ranges of storage buffers begin at multiples of the alignment.
+  const std::uint64_t alignment = device_.storage_alignment;
+  const std::uint64_t source_begin = source.offset / alignment * alignment;
+  const std::uint64_t target_begin = target.offset / alignment * alignment;
+  const std::uint64_t source_end = source.offset + source.bytes();
+  const std::uint64_t target_end = target.offset + std::uint64_t{target.stride} * (source.vertices - 1) + 4;
+  if (target_end - target_begin > device_.max_piece_bytes)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the values of an instance span %llu bytes (this OpenGL writes %llu)",
+                  static_cast<unsigned long long>(target_end - target_begin),
+                  static_cast<unsigned long long>(device_.max_piece_bytes));
+  gl.UseProgram(program.name());
+  gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 0, source.buffer, static_cast<GLintptr>(source_begin),
+                     static_cast<GLsizeiptr>(source_end - source_begin));
+  gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 1, target.buffer, static_cast<GLintptr>(target_begin),
+                     static_cast<GLsizeiptr>(target_end - target_begin));
+  gl.Uniform1ui(0, source.vertices);
+  gl.Uniform1ui(1, static_cast<GLuint>((source.offset - source_begin) / 4));
+  gl.Uniform1ui(2, static_cast<GLuint>((target.offset - target_begin) / 4));
+  gl.Uniform1ui(3, target.stride / 4);
+  gl.DispatchCompute((source.vertices + 63) / 64, 1, 1);
+  gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                   GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void AoOutput::write(const VertexValues& source, const TextureTarget& target) {
+  const Functions& gl = device_.gl;
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, target.texture);
+  device_.check("binding the host's texture");
+  GLint width = 0, height = 0;
+  gl.GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
+  gl.GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &height);
+  const std::uint64_t texels = std::uint64_t(width) * std::uint64_t(height);
+  if (target.first_texel > texels || source.vertices > texels - target.first_texel)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "target.texture %u is too small (it has %d x %d texels, the values end at texel %llu)",
+                  target.texture, width, height,
+                  static_cast<unsigned long long>(target.first_texel + source.vertices));
+  gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, source.buffer);
+  set_pixel_store(gl, {});
+  // The rest of the row in which the values begin, whole rows, and the beginning of the last one.
+  std::uint32_t written = 0;
+  while (written < source.vertices) {
+    const std::uint64_t texel = target.first_texel + written;
+    const auto x = static_cast<std::uint32_t>(texel % static_cast<std::uint32_t>(width));
+    const auto y = static_cast<std::uint32_t>(texel / static_cast<std::uint32_t>(width));
+    const std::uint32_t left = source.vertices - written, row = static_cast<std::uint32_t>(width) - x;
+    const bool rows = x == 0 && left >= static_cast<std::uint32_t>(width);
+    const std::uint32_t across = std::min(row, left),
+                        down = rows ? left / static_cast<std::uint32_t>(width) : 1;
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(x), static_cast<GLint>(y),
+                     static_cast<GLsizei>(across), static_cast<GLsizei>(down), GL_RED, GL_FLOAT,
+                     at_byte(source.offset + std::uint64_t{4} * written));
+    written += across * down;
+  }
+  gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  device_.check("writing AO to the host's texture");
+}
+
+}  // namespace nook::gl
