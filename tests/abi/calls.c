@@ -99,6 +99,9 @@ int nook_call_everything(const void* bytes, size_t size) {
   EXPECT_OK(nook_scene_set_terms(scene, NOOK_TERM_SELF | NOOK_TERM_LINKS));
   EXPECT_OK(nook_scene_update(scene));
   EXPECT_OK(nook_scene_read_ao(scene, a, ao, info.file_vertex_count, 0));
+  EXPECT_OK(nook_scene_set_model(scene, a, model));
+  EXPECT_OK(nook_scene_update(scene));
+  EXPECT_OK(nook_scene_read_ao(scene, a, ao, info.file_vertex_count, 0));
   byte = (unsigned char)(ao[3] * 255 + 0.5f);
   EXPECT_OK(nook_scene_read_ao_as(scene, a, NOOK_AO_UNORM8, ao, info.file_vertex_count, 0));
   EXPECT(((unsigned char*)ao)[3] == byte);

@@ -334,6 +334,37 @@ TEST_CASE("uneven matrices are projected to the nearest similarity, which an ins
   CHECK(dot(cross(Vec3{m[0], m[4], m[8]}, Vec3{m[1], m[5], m[9]}), Vec3{m[2], m[6], m[10]}) < -1);
 }
 
+TEST_CASE("a new model under a living instance gives what a new instance of it gives") {
+  Scene scene = make_scene();
+  const auto before = load(sample_model(1)), after = load(sample_model(2));
+  const nook_instance_id changed = add_instance(scene, before), fresh = add_instance(scene, after);
+  const nook_instance_id neighbour = add_instance(scene, before);
+  const SphericalGaussian sun{{0, 1, 0}, 6, {1, 2, 3}};
+  const Plane plane{{0, 1, 0}, -1};
+  const auto pose = stiff_pose(before->model, {1, 2, 3}, 0.4f, 1.2f);
+  for (const nook_instance_id id : {changed, fresh}) {
+    set_pose(scene, id, pose);
+    set_ground(scene, id, &plane);
+    set_light(scene, id, {&sun, 1});
+    link(scene, id, neighbour);
+  }
+  update(scene);
+  REQUIRE(ao_of(scene, changed) != ao_of(scene, fresh));
+  set_model(scene, changed, after);
+  CHECK(ao_of(scene, changed) == std::vector<float>(after->model.file_to_welded.size(), 1.0f));
+  update(scene);
+  CHECK(ao_of(scene, changed) == ao_of(scene, fresh));
+  std::vector<float> one(3 * after->model.file_to_welded.size()), other(one.size());
+  read_directional_ao(scene, instance_of(scene, changed), one.data(), 12);
+  read_directional_ao(scene, instance_of(scene, fresh), other.data(), 12);
+  CHECK(one == other);
+  CHECK(mentions(failure_of(NOOK_ERROR_INVALID_ARGUMENT,
+                            [&] {
+                              set_model(scene, changed, load(single_model({0, 1, 0}, 0.3f)));
+                            }),
+                 "bones"));
+}
+
 TEST_CASE("ids of removed instances are refused and never come back") {
   Scene scene = make_scene();
   const auto model = load(single_model({0, 1, 0}, 0.3f));

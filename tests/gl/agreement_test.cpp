@@ -233,3 +233,23 @@ TEST_CASE("crowds beyond one chunk of AO and one page of shadows agree too") {
     nook_character_model_destroy(&model);
   }
 }
+
+TEST_CASE("the GPU follows a new model under a living instance") {
+  NOOK_NEED_CONTEXT(context);
+  for (const int tier : tiers_of(context)) {
+    INFO("tier " << tier);
+    CountedContext host;
+    nook_character_model before = load_model(host.handle, sample_model(21));
+    nook_character_model after = load_model(host.handle, sample_model(22));
+    Crowd crowd(host.handle, {before}, {5}, {});
+    nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    NOOK_OK_OR_FAIL(nook_scene_set_model(crowd.scene, crowd.ids[2], after));
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    CHECK(difference_to_cpu(gl, crowd, after, 2) < promised_difference);
+    CHECK(difference_to_cpu(gl, crowd, before, 1) < promised_difference);
+    nook_gl_destroy(&gl);
+    nook_character_model_destroy(&before);
+    nook_character_model_destroy(&after);
+  }
+}

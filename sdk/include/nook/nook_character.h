@@ -135,6 +135,13 @@ NOOK_API nook_result nook_scene_add_instance(nook_scene scene, nook_character_mo
  * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_id instance);
 
+/* Gives an instance another model with the same number of bones: a new bake of the same character while it
+ * runs, or the model of a coarser mesh. Pose, links, ground and light stay; AO is 1 until the next update,
+ * and views of its AO on the GPU must be asked for again. The call allocates; on failure nothing has changed.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_scene_set_model(nook_scene scene, nook_instance_id instance,
+                                          nook_character_model model);
+
 /* Sets the pose of an instance. bones_3x4 holds one 3x4 matrix for each bone, row-major: 12 floats, three
  * rows of rotation | translation. A matrix maps rest space to world space, both in metres; it is rigid, or
  * has one scale for all axes, which scales radii, and may mirror. nook_pose.h says what rest space is, and

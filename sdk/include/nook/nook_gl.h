@@ -133,7 +133,8 @@ typedef struct nook_gl_ao_view {
   uint32_t count;
 } nook_gl_ao_view;
 
-/* Gives the view of an instance, which stays the same until the instance, the scene or gl is destroyed. The
+/* Gives the view of an instance, which stays the same until the instance, the scene or gl is destroyed, or
+ * nook_scene_set_model gives the instance another model. The
  * values are 1 before the first update. After an update they may be read as vertex attributes, texture
  * buffers, shader storage and by buffer reads without a barrier of the host. The call makes no OpenGL call.
  * Context thread. Errors: INVALID_ARGUMENT, INVALID_HANDLE (the id is unknown, or the instance is not

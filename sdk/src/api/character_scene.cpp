@@ -122,6 +122,13 @@ nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_id instan
   return with_scene("nook_scene_remove_instance", scene, [&](Scene& s) { remove_instance(s, instance); });
 }
 
+nook_result nook_scene_set_model(nook_scene scene, nook_instance_id instance, nook_character_model model) {
+  return with_scene("nook_scene_set_model", scene, [&](Scene& s) {
+    need(model, "model");
+    set_model(s, instance, Ref<const LoadedModel>::share(model));
+  });
+}
+
 nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver, nook_instance_id caster) {
   return with_scene("nook_scene_link", scene, [&](Scene& s) { link(s, receiver, caster); });
 }

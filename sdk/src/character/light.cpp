@@ -155,6 +155,18 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
   if (lobes.empty()) light.evaluated = false;
 }
 
+InstanceLight moved_light(const InstanceLight& light, const PointLanes& points,
+                          std::pmr::memory_resource* memory) {
+  InstanceLight moved;
+  if (light.lobes.size() == 0) return moved;
+  allocate(moved, points, memory);
+  std::ranges::copy(light.lobes, moved.lobes.begin());
+  std::ranges::copy(light.lobe_bands, moved.lobe_bands.begin());
+  moved.count = light.count;
+  moved.darkest = light.darkest;
+  return moved;
+}
+
 // In the joint norm the ground is a sphere among others, and takes its light there.
 void prepare_light(const Scene& scene, Instance& instance) noexcept {
   InstanceLight& light = instance.light;

@@ -14,6 +14,7 @@
 namespace nook {
 
 struct Instance;
+struct PointLanes;
 struct Scene;
 
 inline constexpr std::uint32_t max_light_lobes = NOOK_PROBE_MAX_FUNCTIONS;
@@ -40,6 +41,11 @@ struct InstanceLight {
 // Without lobes the instance loses its light. Throws Failure on a bad id or lobe, and std::bad_alloc, and
 // then changes nothing. Allocates only at the first light of an instance.
 void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes);
+
+// The light of an instance whose key points changed with its model: the same lobes, not evaluated yet. Throws
+// std::bad_alloc.
+InstanceLight moved_light(const InstanceLight& light, const PointLanes& points,
+                          std::pmr::memory_resource* memory);
 
 // Runs after resolve_casters: computes the part of each lobe that the ground leaves, and its bands. Does
 // nothing without a light.

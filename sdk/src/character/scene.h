@@ -159,6 +159,8 @@ nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model);
 void remove_instance(Scene& scene, nook_instance_id id);
 Instance& instance_of(Scene& scene, nook_instance_id id);
 const Instance& instance_of(const Scene& scene, nook_instance_id id);
+// Keeps the pose, links, ground and light; the bone counts must be equal.
+void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model);
 // The first bone of an instance, ever, whose matrix was uneven and had to be projected.
 struct ProjectedBone {
   bool found = false;

@@ -245,6 +245,28 @@ ProjectedBone take_pose(Instance& instance, std::span<const Mat3x4> bones) {
 
 }  // namespace
 
+void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) {
+  Instance& instance = instance_of(scene, id);
+  if (model->model.bone_count() != instance.bones.size())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the model has another number of bones than the instance's (got %zu, need %zu); remove the "
+                  "instance and add it with the new model",
+                  model->model.bone_count(), instance.bones.size());
+  InstanceArrays arrays = make_instance_arrays(*model, scene.memory);
+  InstanceLight light = moved_light(instance.light, arrays.points, scene.memory);
+  instance.arrays = std::move(arrays);
+  instance.light = std::move(light);
+  instance.model = std::move(model);
+  float longest_squared = 0;
+  for (const Mat3x4& bone : instance.bones)
+    longest_squared = std::max(longest_squared, axes_of(bone).longest_squared);
+  derive_bound(instance, longest_squared);
+  ++instance.pose_revision;
+  instance.evaluated_frame = 0;
+  instance.level = 0;
+  ++scene.structure_revision;
+}
+
 ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) {
   Instance& instance = instance_of(scene, id);
   const CharacterModel& model = instance.model->model;

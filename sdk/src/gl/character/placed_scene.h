@@ -132,7 +132,9 @@ class PlacedScene {
 
   void vacate_removed() {
     for (std::size_t slot = 0; slot < placements.size(); ++slot) {
-      const bool same = slot < scene->instances.size() && scene->instances[slot].id == placements[slot].id;
+      const bool same = slot < scene->instances.size() && scene->instances[slot].id == placements[slot].id &&
+                        (!placements[slot].id ||
+                         scene->instances[slot].model.get() == placements[slot].chunk->model->model.get());
       if (placements[slot].id && !same) vacate(placements[slot]);
     }
   }
