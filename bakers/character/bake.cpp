@@ -1,7 +1,6 @@
 #include "bakers/character/bake.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "bakers/character/blend_fit.h"
@@ -13,6 +12,7 @@
 #include "bakers/character/linear_fit.h"
 #include "bakers/character/mini_batch_fit.h"
 #include "bakers/import/skinning.h"
+#include "platform/stopwatch.h"
 #include "sdk/src/character/levels.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
@@ -20,16 +20,6 @@
 
 namespace nook::bake {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& s) {
   const auto refuse = [](const char* what, std::size_t got, const char* need) {
@@ -139,7 +129,7 @@ class Fit {
   FitState state_, best_;
   LinearFitSettings linear_;
   double best_held_ = 0;
-  Stopwatch watch_;
+  platform::Stopwatch watch_;
 };
 
 [[noreturn]] void cancelled() {
@@ -230,7 +220,7 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   TrainingSet set;
   set.poses.assign(poses.begin(), poses.end());
   set.held_out = hold_out(set.poses);
-  const Stopwatch trace_watch;
+  const platform::Stopwatch trace_watch;
   set.targets =
       trace_character_ao(mesh, set.poses, settings.rays, settings.seed, stage_progress(BakeStage::raytrace));
   report.noise_floor_held_out_mse =

@@ -26,7 +26,7 @@ std::vector<MeasuredView> trace_views(const SceneRequest& request, TruthSettings
   for (const GivenCamera& c : request.cameras)
     cameras.push_back(look_at(c.eye, c.target, 0, c.fov, truth.width, truth.height));
   for (std::uint32_t i = 0; request.cameras.empty() && i < placed; ++i) {
-    Random random(bake::mix_bits(truth.seed) + i);
+    bake::Random random(bake::mix_bits(truth.seed) + i);
     cameras.push_back(place_camera(rays, scene, random, truth.width, truth.height));
   }
   std::vector<MeasuredView> views;
