@@ -35,6 +35,10 @@ std::size_t bone_named(const ImportedCharacter& character, const std::string& na
   return 0;
 }
 
+Pose default_pose(const ImportedCharacter& character) {
+  return bone_matrices(character, default_locals(character.nodes), nullptr);
+}
+
 }  // namespace
 
 TEST_CASE("bones have names, parents before children and frames at their joints") {
