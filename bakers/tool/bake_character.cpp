@@ -198,7 +198,8 @@ void add_bake_character(CLI::App& bake) {
       {{"all", NOOK_BAKE_SPLIT_ALL}, {"half", NOOK_BAKE_SPLIT_HALF}, {"families", NOOK_BAKE_SPLIT_FAMILIES}},
       "without --clips: all motion clips (default), or half: every second one in byte order of the names, "
       "so that `evaluate` measures on the others, or families: the same with clips whose names begin with "
-      "the same word taken together, such as Jump_Start and Jump_Land. T- and A-poses are never fitted");
+      "the same word, behind a prefix that all of them share, taken together, such as Jump_Start and "
+      "Jump_Land. T- and A-poses are never fitted");
   command->add_option("--spheres", o.spheres, "proxy spheres at most")->check(CLI::Range(1, 1024));
   command->add_option("--key-points", o.key_points, "key points at most")->check(CLI::Range(1, 4096));
   command->add_option("--rays", o.rays, "rays a vertex and pose")->check(CLI::Range(1, 65536));
