@@ -239,6 +239,7 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
   Options& o = *options;
   command->add_option("scene", o.scenes.files,
                       "scenes in metres, y up, .glb or .gltf; of several, the means are told as well");
+  add_linked_files_option(*command, o.scenes.linked);
   command->add_flag("--thin", o.scenes.thin, "a built-in scene of thin things, called thin");
   std::vector<std::string> baselines{"all"};
   for (const Baseline baseline : all_baselines) baselines.push_back(baseline_name(baseline));

@@ -78,7 +78,8 @@ room(bakers/measure/material bakers/measure/material bakers/images bakers/materi
 room(bakers/measure/crowd bakers/measure/crowd bakers/measure/truth platform)
 room(bakers/job bakers/job bakers/measure ${process} ${makers})
 room(bakers/api bakers/api bakers/job ${makers})
-room(bakers/tool bakers/tool bakers/job bakers/measure bakers/images platform ${systems} sdk/src/core)
+room(bakers/tool bakers/tool bakers/api/import.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform
+     ${systems} sdk/src/core)
 
 forbid(sdk/src "tbb/|embree|Eigen|tiny_gltf|OpenImageIO|nlohmann|LBFGS|CLI/" "the runtime depends on nothing")
 foreach(folder core character nnao probe material)

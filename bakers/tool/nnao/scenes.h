@@ -13,6 +13,7 @@ namespace nook::tool {
 struct SceneWords {
   std::vector<std::filesystem::path> files;
   bool thin = false;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;  // of all files
   std::vector<std::string> cameras;  // [NAME:]ox,oy,oz,tx,ty,tz,fov; without a name, of every scene
   std::vector<std::string> radii;    // [NAME:]metres
 };

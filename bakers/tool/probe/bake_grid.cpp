@@ -69,7 +69,8 @@ void bake_probe_grid(const BakeProbeOptions& options) {
                     "--preview-every: -o is a device or a pipe, where no later version can replace "
                     "a preview (got " +
                         options.output.string() + "); give a file");
-  const bake::ProbeScene scene = read_probe_scene(options.input, options.light, !options.no_textures);
+  const bake::ProbeScene scene =
+      read_probe_scene(options.input, options.light, !options.no_textures, options.linked);
   GridBakeSettings settings;
   settings.basis = basis_of(options.probe);
   settings.fit = fit_of(options.probe);
