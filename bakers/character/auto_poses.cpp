@@ -50,7 +50,7 @@ BodyFrame body_frame(const SkinnedMesh& mesh, std::span<const Joint> joints) {
   return frame;
 }
 
-// What the limbs of one side do in one pose; angles in radians.
+// The motion of the limbs of one side in one pose; angles in radians.
 struct LimbPlan {
   Vec3 arm_direction;  // of the upper arm, body frame axes (left, up, forward), mirrored for the right side
   float arm_twist, elbow, hip_flexion, hip_abduction, hip_twist, knee, ankle, toe, curl, thumb;
@@ -162,7 +162,7 @@ Vec3 shortest_arc(Vec3 from, Vec3 to) {
   return std::atan2(s, c) / s * axis;
 }
 
-// Turns that a plan asks of a rig, in rest-space axes round each joint's origin, parents first.
+// Turns of a rig's joints by a plan, in rest-space axes round each joint's origin, parents first.
 class Rig {
  public:
   explicit Rig(const SkinnedMesh& mesh)
@@ -431,8 +431,8 @@ std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> ver
   std::vector<Pose> poses(count);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
     PoseRandom random(mix_bits(seed ^ mix_bits(i)));
-    // Of a few tries the first that keeps out of itself, or the best: limbs that touch are wanted, limbs
-    // inside are not.
+    // A few tries give the first that keeps out of itself, or the best: limbs may touch, and must not
+    // intersect.
     constexpr int tries = 12;
     constexpr float allowed = 0.25f, reaching = 0.4f;
     float best = 0;

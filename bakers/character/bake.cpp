@@ -190,8 +190,8 @@ void fit_both_layers(Fit& fit, const TrainingSet& set, const BakeSettings& setti
     fit_by_blocks(fit, set, settings, report, progress);
 }
 
-// The exponent whose short fit has the least error on held-out poses. Both layers adapt to the exponent, so
-// that the error is flat near its least value and a coarse grid does.
+// Returns the exponent whose short fit has the lowest error on held-out poses. Both layers adapt to the
+// exponent, so that the error is flat near its minimum and a coarse grid suffices.
 float learned_gamma(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings,
                     const Candidates& candidates, const FitState& initial, const BakeProgress& progress) {
   BakeSettings brief = settings;
@@ -214,7 +214,7 @@ float learned_gamma(const TrainingSet& set, const std::vector<float>& area, cons
   return best;
 }
 
-// What a fit is made from, all of it ray traced.
+// The ray-traced data of a fit.
 struct TracedPoses {
   TrainingSet set;
   TrainingSet precise;  // a share of the fitted poses with little noise

@@ -43,7 +43,7 @@ Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& gram, const Eigen::Vec
   return full;
 }
 
-// What all vertices share: the shadows of the fitted poses.
+// The shadows of the fitted poses, which all vertices share.
 struct ShadowStatistics {
   Eigen::RowVectorXf mean;  // of each key point
   RowMatrix centred;        // poses x key points, less their means
@@ -70,7 +70,7 @@ ShadowStatistics statistics_of(std::span<const float> shadows, std::size_t poses
   return s;
 }
 
-// How dark the vertices first, first + 1, ... are in the fitted poses.
+// The darkness of the vertices first, first + 1, ... in the fitted poses.
 struct DarknessBlock {
   Eigen::RowVectorXf mean;      // of each vertex
   RowMatrix centred;            // poses x vertices, less their means

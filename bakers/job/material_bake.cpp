@@ -27,7 +27,7 @@ RawMaterial obtain(MaterialTask& task, const StageReport& progress) {
   return raw;
 }
 
-// As `nook bake material` chooses where nothing is asked for.
+// Chooses the defaults of `nook bake material`.
 CompressionSettings settings_for(const MaterialTask& task, const RawMaterial& raw) {
   CompressionSettings s = task.settings;
   if (!task.ranks_given && !set_builtin_ranks(raw, s)) s = ranks_by_threshold(raw, task.rank_threshold, s);

@@ -11,8 +11,8 @@
 
 namespace nook::bake {
 
-// What counts of the environment's light that comes straight to the point that is asked about. Its light by
-// way of surfaces always counts, suns included, and so does light that surfaces emit.
+// The part of the environment's light that counts where it comes straight to the receiving point. Its light
+// by way of surfaces always counts, suns included, and so does light that surfaces emit.
 enum class DirectLight : std::uint8_t {
   none = 0,
   sky = 1,  // the environment without its suns, see suns.h

@@ -205,7 +205,7 @@ void add_bake_character(CLI::App& bake) {
       "Jump_Land. T- and A-poses are never fitted");
   command->add_option("--spheres", o.spheres, "proxy spheres at most")->check(CLI::Range(1, 1024));
   command->add_option("--key-points", o.key_points, "key points at most")->check(CLI::Range(1, 4096));
-  command->add_option("--rays", o.rays, "rays a vertex and pose")->check(CLI::Range(1, 65536));
+  command->add_option("--rays", o.rays, "rays for each vertex and pose")->check(CLI::Range(1, 65536));
   command->add_option("--auto-poses", o.auto_poses, "number of generated poses")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--samples-per-clip", o.samples_per_clip, "poses of each clip")

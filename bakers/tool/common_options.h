@@ -1,4 +1,4 @@
-// What every subcommand takes.
+// The options of every subcommand.
 #pragma once
 
 #include <cstdint>

@@ -50,7 +50,7 @@ void add_evaluate_casters(CLI::App& evaluate_command) {
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(*command, o.files);
-  command->add_option("--rays", o.study.rays, "rays a vertex")
+  command->add_option("--rays", o.study.rays, "rays for each vertex")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
   command->add_option("--bearings", o.study.bearings, "directions of the neighbour")

@@ -97,7 +97,7 @@ void add_evaluate_character(CLI::App& evaluate_command) {
       ->capture_default_str();
   command->add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
       ->check(CLI::Range(1, 10000000));
-  command->add_option("--rays", o.rays, "rays a vertex and pose")
+  command->add_option("--rays", o.rays, "rays for each vertex and pose")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
   command->add_flag(

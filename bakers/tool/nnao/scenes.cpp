@@ -17,7 +17,7 @@ constexpr float degree = 0.017453293f;  // radians
   throw ToolError(exit_bad_arguments, "evaluate nnao: " + text);
 }
 
-// What an option says of one scene, or of all.
+// The value of an option for one scene, or for all.
 struct Word {
   std::string scene, value;
 };

@@ -1,4 +1,4 @@
-// The scenes that `nook evaluate nnao` is asked for, with their cameras and radii.
+// The scenes of `nook evaluate nnao`, with their cameras and radii.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace nook::tool {
 
-// What the options say, still as text.
+// The options, still as text.
 struct SceneWords {
   std::vector<std::filesystem::path> files;
   bool thin = false;

@@ -47,7 +47,7 @@ std::string name_of(int tl, int pl, int tv, int pv, const char* ending = ".exr")
   return text;
 }
 
-// Two lights, three views; every texel tells where it belongs.
+// Two lights, three views; every texel has a value of its own.
 constexpr int light_angles[2][2] = {{0, 0}, {30, 120}}, view_angles[3][2] = {{0, 0}, {30, 60}, {60, 180}};
 void write_small_set(const fs::path& folder) {
   for (int l = 0; l < 2; ++l)

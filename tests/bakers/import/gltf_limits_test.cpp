@@ -68,7 +68,7 @@ void write_gltf(const fs::path& path, const GltfBuilder& file, const std::string
 
 }  // namespace
 
-TEST_CASE("what a small file asks for is bounded before it is read") {
+TEST_CASE("the demands of a small file are bounded before it is read") {
   GltfBuilder file = tube_file();
   Json& primitive = file.document["meshes"][0]["primitives"][0];
   const std::size_t before = platform::peak_bytes();
