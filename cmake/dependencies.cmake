@@ -8,7 +8,7 @@ if(NOOK_BAKERS)
   find_package(TBB REQUIRED)
   find_package(Eigen3 3.4 REQUIRED NO_MODULE)
   find_path(LBFGSPP_INCLUDE_DIR LBFGS.h REQUIRED)
-  # By pkg-config: the CMake package of Debian's OpenImageIO asks for tools and headers that it does not need.
+  # By pkg-config: the CMake package of Debian's OpenImageIO requires tools and headers that it does not need.
   pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
   find_package(CLI11 REQUIRED)
 endif()

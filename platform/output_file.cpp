@@ -47,7 +47,7 @@ int own_descriptor(const fs::path& path) {
   return error == std::errc() && end == name.data() + name.size() ? number : -1;
 }
 
-// Whether the name is TARGET.part-DIGITS, also with a second number after a dash.
+// Returns whether the name is TARGET.part-DIGITS, also with a second number after a dash.
 bool is_part_of(const std::string& name, const std::string& target) {
   const std::string start = target + part_mark;
   return name.size() > start.size() && name.starts_with(start) &&
@@ -96,7 +96,7 @@ int try_part(const fs::path& part, const fs::path& named) {
 fs::path followed(const fs::path& path) {
   fs::path at = path;
   for (int links = 0; links <= max_links; ++links) {
-    // What stands in /proc/self/fd looks like a link to a path; a pipe's leads nowhere.
+    // An entry of /proc/self/fd looks like a link to a path; a pipe's path does not exist.
     std::error_code error;
     if (own_descriptor(at) >= 0 || !fs::is_symlink(at, error)) return at;
     const fs::path next = fs::read_symlink(at, error);

@@ -1,6 +1,6 @@
 // OpenGL contexts and pictures for the tool, the samples and the tests. Each thread has one current context,
 // and a context is used on the thread that made it. Every function that fails throws std::runtime_error with
-// a text that says what to do.
+// a text that names the remedy.
 #pragma once
 
 #include <cstdint>

@@ -22,6 +22,6 @@ cmake -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Release \
   exit 1
 }
 ninja -C build crowd
-# What the caller gives comes last and wins. Tier 33: without a GPU, Mesa's software renderer is several times faster at it.
+# The arguments of the caller come last and override others. Tier 33: without a GPU, Mesa is several times faster at it.
 build/samples/crowd/crowd --context egl --tier 33 --characters 100 --frames 4 --out out/crowd "$@"
 echo "look at out/crowd/sheet.png first; out/crowd/report.json has the numbers"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds everything and runs all tests from a fresh checkout: the format of the sources, the plain build with GCC, then the
 # library and the bakers under the address and undefined-behaviour sanitizers with Clang, then the library's threads under
-# the thread sanitizer. NOOK_BUILD_DIR says where (default: build).
+# the thread sanitizer. NOOK_BUILD_DIR is the folder (default: build).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${NOOK_BUILD_DIR:-$root/build}

@@ -6,6 +6,7 @@
 
 #include "bakers/api/entry.h"
 #include "bakers/api/handles.h"
+#include "bakers/api/import.h"
 #include "bakers/character/auto_poses.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/skinning.h"
@@ -56,19 +57,23 @@ void write_vertices(const SkinnedMesh& mesh, const std::vector<Vec3>& position, 
 
 }  // namespace
 
-nook_result nook_bake_import_gltf(const char* path, nook_bake_character* out) {
-  return api::enter("nook_bake_import_gltf", [&] {
+nook_result api::import_character(const char* path, LinkedFiles linked, nook_bake_character* out) noexcept {
+  return enter("nook_bake_import_gltf", [&] {
     need(out, "out");
     *out = nullptr;
     need(path, "path");
     try {
-      hand_out(import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path))), out);
+      hand_out(import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)), linked), out);
     } catch (const Failure& failure) {
       // The message of the importer may already contain the name of the file.
       if (std::string_view(failure.what()).find(path) != std::string_view::npos) throw;
       throw Failure(failure.code(), "%s: %s", path, failure.what());
     }
   });
+}
+
+nook_result nook_bake_import_gltf(const char* path, nook_bake_character* out) {
+  return api::import_character(path, LinkedFiles::folder, out);
 }
 
 nook_result nook_bake_import_gltf_bytes(const void* bytes, size_t size, nook_bake_character* out) {

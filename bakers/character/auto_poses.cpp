@@ -12,31 +12,19 @@
 #include "bakers/character/pose_sets.h"
 #include "bakers/character/rotation.h"
 #include "bakers/character/self_collision.h"
+#include "bakers/raytrace/random.h"
 
 namespace nook::bake {
 namespace {
 
 constexpr float degree = std::numbers::pi_v<float> / 180;
 
-// mt19937_64's bits are the same everywhere; the standard's distributions are not.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : bits_(seed) {}
-  float uniform() { return float(bits_() >> 40) * 0x1p-24f; }
-  float between(float low, float high) { return low + (high - low) * uniform(); }
-  bool chance(float p) { return uniform() < p; }
-  float normal() {
-    const float r = std::sqrt(-2 * std::log(uniform() + 1e-12f));
-    return r * std::cos(2 * std::numbers::pi_v<float> * uniform());
-  }
-  Vec3 normal3() {
-    const float x = normal(), y = normal(), z = normal();
-    return {x, y, z};
-  }
+using PoseRandom = RandomFrom<std::mt19937_64>;
 
- private:
-  std::mt19937_64 bits_;
-};
+Vec3 normal3(PoseRandom& random) {
+  const float x = random.normal(), y = random.normal(), z = random.normal();
+  return {x, y, z};
+}
 
 // Directions of the body in rest space.
 struct BodyFrame {
@@ -62,7 +50,7 @@ BodyFrame body_frame(const SkinnedMesh& mesh, std::span<const Joint> joints) {
   return frame;
 }
 
-// What the limbs of one side do in one pose; angles in radians.
+// The motion of the limbs of one side in one pose; angles in radians.
 struct LimbPlan {
   Vec3 arm_direction;  // of the upper arm, body frame axes (left, up, forward), mirrored for the right side
   float arm_twist, elbow, hip_flexion, hip_abduction, hip_twist, knee, ankle, toe, curl, thumb;
@@ -70,10 +58,10 @@ struct LimbPlan {
   Vec3 clavicle, hand;
 };
 
-void plan_arm(LimbPlan& plan, Random& random) {
+void plan_arm(LimbPlan& plan, PoseRandom& random) {
   // Arms: hanging, reaching forwards, raised to the side or overhead. Elevation from straight down, azimuth
   // from the front.
-  const float kind = random.uniform();
+  const float kind = random.unit();
   float elevation, azimuth;
   if (kind < 0.45f) {
     elevation = std::fabs(12 + 18 * random.normal()) * degree;
@@ -93,14 +81,14 @@ void plan_arm(LimbPlan& plan, Random& random) {
   plan.arm_direction = {std::sin(elevation) * std::sin(azimuth), -std::cos(elevation),
                         std::sin(elevation) * std::cos(azimuth)};
   plan.arm_twist = 25 * degree * random.normal();
-  plan.elbow_lean = 0.5f * random.normal3();
+  plan.elbow_lean = 0.5f * normal3(random);
 }
 
-LimbPlan plan_limbs(Random& random) {
+LimbPlan plan_limbs(PoseRandom& random) {
   LimbPlan plan;
   plan_arm(plan, random);
   // Legs: standing, striding, crouching or sitting, kicked back.
-  const float stance = random.uniform();
+  const float stance = random.unit();
   if (stance < 0.35f) {
     plan.hip_flexion = 10 * degree * random.normal();
     plan.knee = std::fabs(10 * random.normal()) * degree;
@@ -121,13 +109,13 @@ LimbPlan plan_limbs(Random& random) {
   plan.ankle = 15 * degree * random.normal();
   plan.toe = random.chance(0.3f) ? random.between(0, 40) * degree : 0;
   // Fingers: open, relaxed or a fist.
-  const float grip = random.uniform();
+  const float grip = random.unit();
   plan.curl = grip < 0.25f   ? 0.08f * random.normal()
               : grip < 0.65f ? 0.35f + 0.15f * random.normal()
                              : 0.85f + 0.15f * random.normal();
-  plan.thumb = random.uniform();
-  plan.clavicle = (8 * degree) * random.normal3();
-  plan.hand = (20 * degree) * random.normal3();
+  plan.thumb = random.unit();
+  plan.clavicle = (8 * degree) * normal3(random);
+  plan.hand = (20 * degree) * normal3(random);
   return plan;
 }
 
@@ -137,7 +125,7 @@ struct BodyPlan {
   Vec3 neck;
 };
 
-BodyPlan plan_body(Random& random) {
+BodyPlan plan_body(PoseRandom& random) {
   BodyPlan plan;
   plan.limb[0] = plan_limbs(random);
   plan.limb[1] = plan_limbs(random);
@@ -145,7 +133,7 @@ BodyPlan plan_body(Random& random) {
   if (random.chance(0.4f)) {
     LimbPlan& l = plan.limb[1];
     l = plan.limb[0];
-    l.arm_direction = normalised(l.arm_direction + 0.15f * random.normal3());
+    l.arm_direction = normalised(l.arm_direction + 0.15f * normal3(random));
     l.elbow = std::fabs(l.elbow + 10 * degree * random.normal());
     l.hip_flexion += 8 * degree * random.normal();
     l.knee = std::fabs(l.knee + 8 * degree * random.normal());
@@ -155,7 +143,7 @@ BodyPlan plan_body(Random& random) {
     plan.limb[1].knee = std::fabs(plan.limb[0].knee + 10 * degree * random.normal());
   }
   const float crouch = std::max(0.0f, std::min(plan.limb[0].hip_flexion, plan.limb[1].hip_flexion));
-  plan.bend = (8 + 16 * random.normal()) * degree + 0.25f * crouch * random.uniform();
+  plan.bend = (8 + 16 * random.normal()) * degree + 0.25f * crouch * random.unit();
   plan.lean = 9 * degree * random.normal();
   plan.twist = 15 * degree * random.normal();
   plan.neck = {15 * degree * random.normal(), 22 * degree * random.normal(), 8 * degree * random.normal()};
@@ -174,7 +162,7 @@ Vec3 shortest_arc(Vec3 from, Vec3 to) {
   return std::atan2(s, c) / s * axis;
 }
 
-// Turns that a plan asks of a rig, in rest-space axes round each joint's origin, parents first.
+// Turns of a rig's joints by a plan, in rest-space axes round each joint's origin, parents first.
 class Rig {
  public:
   explicit Rig(const SkinnedMesh& mesh)
@@ -195,25 +183,25 @@ class Rig {
   // Lets a hand reach for a place on the body or for the other hand: what hands come near is what shadows of
   // hands and on hands depend on, and arms that swing freely are seldom there. Of some arms the one that
   // comes nearest is taken.
-  void reach(BodyPlan& plan, Random& random, std::span<const Vec3> vertices) const {
+  void reach(BodyPlan& plan, PoseRandom& random, std::span<const Vec3> vertices) const {
     constexpr int tries = 24;
     const int side = random.chance(0.5f) ? 1 : 0;
     if (palm_[side].bone < 0) return;
     const bool other_hand = palm_[1 - side].bone >= 0 && random.chance(0.3f);
     const std::size_t vertex =
-        std::min(std::size_t(random.uniform() * float(vertices.size())), vertices.size() - 1);
+        std::min(std::size_t(random.unit() * float(vertices.size())), vertices.size() - 1);
     const Place target =
         other_hand ? palm_[1 - side] : Place{std::int32_t(mesh_.weights[vertex].bone[0]), vertices[vertex]};
     // A hand cannot reach for its own arm.
     if (joints_[std::size_t(target.bone)].side == palm_side(side) &&
         is_arm(joints_[std::size_t(target.bone)].role))
       return;
-    const Random noise = random;  // what a pose draws must not differ between the tries
+    const PoseRandom noise = random;  // what a pose draws must not differ between the tries
     float nearest = INFINITY;
     LimbPlan best = plan.limb[side];
     for (int t = 0; t < tries; ++t) {
       if (t > 0) plan_arm(plan.limb[side], random);
-      Random own = noise;
+      PoseRandom own = noise;
       const Pose candidate = pose(plan, own);
       const float distance = length(place_in(candidate, palm_[side]) - place_in(candidate, target));
       if (distance < nearest) {
@@ -224,7 +212,7 @@ class Rig {
     plan.limb[side] = best;
   }
 
-  Pose pose(const BodyPlan& plan, Random& random) const {
+  Pose pose(const BodyPlan& plan, PoseRandom& random) const {
     std::vector<Mat3x4> local(mesh_.bones.size());
     for (std::size_t b = 0; b < local.size(); ++b) {
       const Vec3 turn = joint_turn(b, plan, random);
@@ -343,7 +331,7 @@ class Rig {
     return false;
   }
 
-  Vec3 joint_turn(std::size_t b, const BodyPlan& plan, Random& random) const {
+  Vec3 joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& random) const {
     const Joint& joint = joints_[b];
     const int s = joint.side == Side::right ? 1 : 0;
     const float mirror = joint.side == Side::right ? -1.0f : 1.0f;
@@ -352,7 +340,7 @@ class Rig {
     switch (joint.role) {
       case JointRole::spine: {
         const float share = 1 / float(spine_count_);
-        return share * (plan.bend * left + plan.lean * forward + plan.twist * up) + 0.04f * random.normal3();
+        return share * (plan.bend * left + plan.lean * forward + plan.twist * up) + 0.04f * normal3(random);
       }
       case JointRole::neck:
       case JointRole::head: {
@@ -370,8 +358,7 @@ class Rig {
         return curl * reach[std::min<int>(joint.segment, 2)] * degree * curl_axis_[b] + spread;
       }
       case JointRole::thumb:
-        return limb.thumb * std::max(0.2f, limb.curl) * 40 * degree * curl_axis_[b] +
-               0.08f * random.normal3();
+        return limb.thumb * std::max(0.2f, limb.curl) * 40 * degree * curl_axis_[b] + 0.08f * normal3(random);
       case JointRole::thigh:
         // Flexion swings the knee forwards: a turn about -left.
         return -limb.hip_flexion * left + mirror * limb.hip_abduction * forward +
@@ -379,7 +366,7 @@ class Rig {
       case JointRole::calf:
         return limb.knee * left;
       case JointRole::foot:
-        return limb.ankle * left + 0.12f * random.normal3();
+        return limb.ankle * left + 0.12f * normal3(random);
       case JointRole::toe:
         return -limb.toe * left;
       case JointRole::upper_arm:
@@ -388,8 +375,8 @@ class Rig {
       case JointRole::pelvis:
         return {};
       case JointRole::other: {
-        if (!posable_[b] || joint.side == Side::none) return posable_[b] ? 0.06f * random.normal3() : Vec3{};
-        return 0.08f * std::exp(0.5f * random.normal()) * random.normal3();
+        if (!posable_[b] || joint.side == Side::none) return posable_[b] ? 0.06f * normal3(random) : Vec3{};
+        return 0.08f * std::exp(0.5f * random.normal()) * normal3(random);
       }
     }
     return {};
@@ -443,9 +430,9 @@ std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> ver
   const SelfCollision collision(mesh, vertex_area);
   std::vector<Pose> poses(count);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
-    Random random(mix_bits(seed ^ mix_bits(i)));
-    // Of a few tries the first that keeps out of itself, or the best: limbs that touch are wanted, limbs
-    // inside are not.
+    PoseRandom random(mix_bits(seed ^ mix_bits(i)));
+    // A few tries give the first that keeps out of itself, or the best: limbs may touch, and must not
+    // intersect.
     constexpr int tries = 12;
     constexpr float allowed = 0.25f, reaching = 0.4f;
     float best = 0;

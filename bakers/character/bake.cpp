@@ -1,8 +1,8 @@
 #include "bakers/character/bake.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <functional>
 
 #include "bakers/character/blend_fit.h"
 #include "bakers/character/block_descent.h"
@@ -13,6 +13,7 @@
 #include "bakers/character/linear_fit.h"
 #include "bakers/character/mini_batch_fit.h"
 #include "bakers/import/skinning.h"
+#include "platform/stopwatch.h"
 #include "sdk/src/character/levels.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
@@ -20,16 +21,6 @@
 
 namespace nook::bake {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& s) {
   const auto refuse = [](const char* what, std::size_t got, const char* need) {
@@ -53,6 +44,13 @@ void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSetti
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                       "pose %zu holds a matrix that is not finite or beyond 1e9 m or a scale of 1e6", p);
   }
+}
+
+// Returns what reports the progress of one stage.
+Progress stage_progress(const BakeProgress& progress, BakeStage stage) {
+  return [&progress, stage](std::size_t done, std::size_t total) {
+    return !progress || progress(stage, done, total);
+  };
 }
 
 // Every 16th pose is held out and goes to the end.
@@ -139,7 +137,7 @@ class Fit {
   FitState state_, best_;
   LinearFitSettings linear_;
   double best_held_ = 0;
-  Stopwatch watch_;
+  platform::Stopwatch watch_;
 };
 
 [[noreturn]] void cancelled() {
@@ -192,8 +190,8 @@ void fit_both_layers(Fit& fit, const TrainingSet& set, const BakeSettings& setti
     fit_by_blocks(fit, set, settings, report, progress);
 }
 
-// The exponent whose short fit has the least error on held-out poses. Both layers adapt to the exponent, so
-// that the error is flat near its least value and a coarse grid does.
+// Returns the exponent whose short fit has the lowest error on held-out poses. Both layers adapt to the
+// exponent, so that the error is flat near its minimum and a coarse grid suffices.
 float learned_gamma(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings,
                     const Candidates& candidates, const FitState& initial, const BakeProgress& progress) {
   BakeSettings brief = settings;
@@ -216,66 +214,119 @@ float learned_gamma(const TrainingSet& set, const std::vector<float>& area, cons
   return best;
 }
 
+// The ray-traced data of a fit.
+struct TracedPoses {
+  TrainingSet set;
+  TrainingSet precise;  // a share of the fitted poses with little noise
+  AoTargets rest;       // of the rest pose
+};
+
+// Measures the noise of the targets and the seconds into the report.
+TracedPoses trace_poses(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& settings,
+                        const BakeProgress& progress, BakeReport& report) {
+  const platform::Stopwatch watch;
+  TracedPoses traced;
+  TrainingSet& set = traced.set;
+  set.poses.assign(poses.begin(), poses.end());
+  set.held_out = hold_out(set.poses);
+  set.targets = trace_character_ao(mesh, set.poses, settings.rays, settings.seed,
+                                   stage_progress(progress, BakeStage::raytrace));
+  report.noise_floor_held_out_mse =
+      measure_noise_floor(mesh, set.poses, set.targets, settings.rays, settings.seed);
+  traced.precise = precise_share(mesh, set, settings, [&](std::size_t, std::size_t) {
+    return !progress || progress(BakeStage::raytrace, set.poses.size(), set.poses.size());
+  });
+  report.noise_floor_mse = measure_noise_floor(mesh, traced.precise.poses, traced.precise.targets,
+                                               precise_rays, settings.seed + 1);
+  const std::vector<Pose> rest{Pose(mesh.bones.size())};
+  constexpr std::uint32_t rest_rays = 1024;
+  traced.rest = trace_character_ao(mesh, rest, rest_rays, settings.seed);
+  report.seconds_raytrace = watch.seconds();
+  report.train_poses = set.poses.size();
+  return traced;
+}
+
+// The rest surface of a mesh, by vertex.
+struct Surface {
+  std::vector<float> area;
+  std::vector<Vec3> normal;
+};
+
+Surface rest_surface(const SkinnedMesh& mesh) {
+  Surface surface;
+  surface.area = vertex_areas(mesh, mesh.position);
+  vertex_normals(mesh.triangle, mesh.position, surface.normal);
+  return surface;
+}
+
+// Where a fit begins.
+struct Start {
+  FitState state;
+  Candidates candidates;
+};
+
+// Makes clusters, key points and spheres. weight is that of each vertex.
+Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<const float> weight,
+                 const BakeSettings& settings, const std::function<void(std::size_t)>& step) {
+  const std::vector<Vec3> feature_normal =
+      settings.fit == FitMethod::paper ? centre_of_rotation_normals(mesh, surface.area, surface.normal)
+                                       : surface.normal;
+  step(1);
+  ClusterSettings clustering;
+  clustering.count = std::min(settings.key_points, mesh.vertex_count());
+  const std::vector<std::uint32_t> cluster = cluster_vertices(mesh, weight, feature_normal, clustering);
+  const std::vector<KeyPoint> key_points = key_points_of_clusters(mesh, cluster, weight, feature_normal);
+  const std::vector<InitialSphere> spheres = initial_spheres(mesh, weight, settings.spheres);
+  Start start;
+  start.candidates.count = std::min<std::size_t>(40, key_points.size());
+  NearKeyPoints near = nearest_key_points(mesh, feature_normal, key_points, start.candidates.count);
+  start.candidates.key_point = std::move(near.key_point);
+  start.candidates.nearness = std::move(near.nearness);
+  start.state = initial_state(settings.kernel, spheres, key_points);
+  step(2);
+  return start;
+}
+
+// Levels of detail are made and measured on a spread of the training poses.
+void add_levels(CharacterModel& model, std::span<const Pose> poses) {
+  constexpr std::size_t max_poses = 120, min_poses = 4;
+  std::vector<Pose> spread;
+  const std::size_t count = std::min(max_poses, poses.size());
+  for (std::size_t i = 0; i < count; ++i) spread.push_back(poses[i * poses.size() / count]);
+  if (spread.size() < min_poses) return;
+  for (CharacterLevel& level : make_levels(model, spread)) model.levels.push_back(std::move(level));
+}
+
+std::vector<float> floats_of(std::span<const std::uint16_t> targets) {
+  std::vector<float> ao;
+  for (const std::uint16_t v : targets) ao.push_back(float(v) * AoTargets::scale);
+  return ao;
+}
+
 }  // namespace
 
 BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& settings,
                           const BakeProgress& progress) {
   check(mesh, poses, settings);
   BakeReport report;
-  const auto stage_progress = [&](BakeStage stage) {
-    return [&progress, stage](std::size_t done, std::size_t total) {
-      return !progress || progress(stage, done, total);
-    };
-  };
-  TrainingSet set;
-  set.poses.assign(poses.begin(), poses.end());
-  set.held_out = hold_out(set.poses);
-  const Stopwatch trace_watch;
-  set.targets =
-      trace_character_ao(mesh, set.poses, settings.rays, settings.seed, stage_progress(BakeStage::raytrace));
-  report.noise_floor_held_out_mse =
-      measure_noise_floor(mesh, set.poses, set.targets, settings.rays, settings.seed);
-  const TrainingSet precise = precise_share(mesh, set, settings, [&](std::size_t, std::size_t) {
-    return !progress || progress(BakeStage::raytrace, set.poses.size(), set.poses.size());
-  });
-  report.noise_floor_mse =
-      measure_noise_floor(mesh, precise.poses, precise.targets, precise_rays, settings.seed + 1);
-  const std::vector<Pose> rest{Pose(mesh.bones.size())};
-  constexpr std::uint32_t rest_rays = 1024;
-  const AoTargets rest_ao = trace_character_ao(mesh, rest, rest_rays, settings.seed);
-  report.seconds_raytrace = trace_watch.seconds();
-  report.train_poses = set.poses.size();
+  TracedPoses traced = trace_poses(mesh, poses, settings, progress, report);
+  TrainingSet& set = traced.set;
+  const TrainingSet& precise = traced.precise;
 
   const auto step = [&](std::size_t done) {
     if (progress && !progress(BakeStage::initialise, done, 3))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled");
   };
   step(0);
-  const std::vector<float> area = vertex_areas(mesh, mesh.position);
-  std::vector<Vec3> normal;
-  vertex_normals(mesh.triangle, mesh.position, normal);
+  const Surface surface = rest_surface(mesh);
+  const std::vector<float>& area = surface.area;
   set.vertex_weight = vertex_weights(area);
-  const std::vector<Vec3> feature_normal =
-      settings.fit == FitMethod::paper ? centre_of_rotation_normals(mesh, area, normal) : normal;
-  step(1);
-  ClusterSettings clustering;
-  clustering.count = std::min(settings.key_points, mesh.vertex_count());
-  const std::vector<std::uint32_t> cluster =
-      cluster_vertices(mesh, set.vertex_weight, feature_normal, clustering);
-  const std::vector<KeyPoint> key_points =
-      key_points_of_clusters(mesh, cluster, set.vertex_weight, feature_normal);
-  const std::vector<InitialSphere> spheres = initial_spheres(mesh, set.vertex_weight, settings.spheres);
-  Candidates candidates;
-  candidates.count = std::min<std::size_t>(40, key_points.size());
-  NearKeyPoints near = nearest_key_points(mesh, feature_normal, key_points, candidates.count);
-  candidates.key_point = std::move(near.key_point);
-  candidates.nearness = std::move(near.nearness);
-  step(2);
-
-  FitState initial = initial_state(settings.kernel, spheres, key_points);
+  Start start = initialise(mesh, surface, set.vertex_weight, settings, step);
   if (settings.learn_gamma)
-    initial.structure.kernel.gamma = learned_gamma(set, area, settings, candidates, initial, progress);
-  Fit fit(set, area, settings, candidates, std::move(initial), report);
+    start.state.structure.kernel.gamma =
+        learned_gamma(set, area, settings, start.candidates, start.state, progress);
+
+  Fit fit(set, area, settings, start.candidates, std::move(start.state), report);
   fit.solve_linear();
   fit.measure();
   report.mse_initial = measure_fit(fit.state(), precise, 0, precise.poses.size(), area).mse;
@@ -283,23 +334,14 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   report.seconds_fit = fit.seconds();
   report.mse_train = measure_fit(fit.best(), precise, 0, precise.poses.size(), area).mse;
 
-  std::vector<float> static_ao;
-  for (std::uint16_t v : rest_ao.row(0)) static_ao.push_back(float(v) * AoTargets::scale);
-  BakeResult result{export_model(fit.best(), mesh, area, normal, static_ao), std::move(report)};
+  BakeResult result{export_model(fit.best(), mesh, area, surface.normal, floats_of(traced.rest.row(0))),
+                    std::move(report)};
   fit_blend_weights(result.model, mesh, set.poses);
   result.report.mse_held_out_file = fit.held_out_mse(state_of_model(quantise(result.model)));
   CasterFitSettings casters;
   casters.seed = settings.seed;
-  fit_caster_weights(result.model, mesh, set.poses, casters, stage_progress(BakeStage::casters));
-
-  // Levels of detail are made and measured on a spread of the training poses.
-  constexpr std::size_t level_poses = 120;
-  std::vector<Pose> spread;
-  const std::size_t count = std::min(level_poses, set.poses.size());
-  for (std::size_t i = 0; i < count; ++i) spread.push_back(set.poses[i * set.poses.size() / count]);
-  if (spread.size() >= 4)
-    for (CharacterLevel& level : make_levels(result.model, spread))
-      result.model.levels.push_back(std::move(level));
+  fit_caster_weights(result.model, mesh, set.poses, casters, stage_progress(progress, BakeStage::casters));
+  add_levels(result.model, set.poses);
   return result;
 }
 

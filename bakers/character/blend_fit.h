@@ -1,4 +1,4 @@
-// How the darkening by other casters is blended from key points to vertices.
+// Blends the darkening by other casters from key points to vertices.
 #pragma once
 
 #include <span>

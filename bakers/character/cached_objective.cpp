@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <functional>
 
 namespace nook::bake {
 namespace {
@@ -12,41 +11,18 @@ namespace {
 // bits.
 constexpr std::size_t block_poses = 32;
 
-// Runs the non-linear layer forwards over all poses in blocks; `loss` turns a block's shadows (rows x padded)
-// into its error and, in place, into the gradient by them, which then runs backwards.
-double evaluate_blocks(
-    const FitState& state, const TrainingSet& set, std::vector<double>* gradient,
-    const std::function<double(std::size_t first, std::size_t count, float* shadow)>& loss) {
-  const std::size_t poses = set.fitted(), padded = state.structure.padded_count();
-  const std::size_t blocks = (poses + block_poses - 1) / block_poses;
-  const NonLinearLayer layer(state.structure);
-  std::vector<double> error(blocks);
-  std::vector<std::vector<float>> partial(blocks);
-  tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t b) {
-    const std::size_t first = b * block_poses, count = std::min(block_poses, poses - first);
-    LayerWorkspace workspace(state.structure);
-    std::vector<float> shadow(count * padded);
-    for (std::size_t t = 0; t < count; ++t)
-      layer.forward(set.poses[first + t], state.parameters, workspace, &shadow[t * padded]);
-    error[b] = loss(first, count, shadow.data());
-    if (!gradient) return;
-    partial[b].assign(state.parameters.size(), 0.0f);
-    std::vector<float> again(padded);
-    for (std::size_t t = 0; t < count; ++t) {
-      // The workspace holds one pose; a second forward is cheaper than keeping all of them.
-      layer.forward(set.poses[first + t], state.parameters, workspace, again.data());
-      layer.backward(set.poses[first + t], state.parameters, workspace, &shadow[t * padded], 1, partial[b]);
-    }
-  });
-  double total = 0;
-  for (double e : error) total += e;
-  const double scale = 1 / (double(poses) * double(state.linear.vertex_count()));
-  if (gradient) {
-    gradient->assign(state.parameters.size(), 0.0);
-    for (const std::vector<float>& p : partial)
-      for (std::size_t i = 0; i < p.size(); ++i) (*gradient)[i] += double(p[i]) * scale;
-  }
-  return total * scale;
+// Returns the quadratic form of a block's shadows (count x padded) without its constant, and turns them, in
+// place, into its gradient by them.
+double quadratic_form(const CachedObjective& cache, std::size_t first, std::size_t count, float* shadow) {
+  const auto rows = Eigen::Index(count);
+  Eigen::Map<CachedObjective::RowMatrix> x(shadow, rows, cache.a.rows());
+  const auto b = cache.b.middleRows(Eigen::Index(first), rows);
+  const CachedObjective::RowMatrix product = x * cache.a;
+  double error = 0;
+  for (Eigen::Index t = 0; t < rows; ++t)
+    error += (product.row(t).cast<double>() - 2 * b.row(t).cast<double>()).dot(x.row(t).cast<double>());
+  x = 2 * (product - b);
+  return error;
 }
 
 }  // namespace
@@ -78,45 +54,36 @@ CachedObjective cache_linear_layer(const FitState& state, const TrainingSet& set
 
 double evaluate_cached(const FitState& state, const TrainingSet& set, const CachedObjective& cache,
                        std::vector<double>* gradient) {
-  const auto padded = Eigen::Index(state.structure.padded_count());
-  const double quadratic =
-      evaluate_blocks(state, set, gradient, [&](std::size_t first, std::size_t count, float* shadow) {
-        const auto rows = Eigen::Index(count);
-        Eigen::Map<CachedObjective::RowMatrix> x(shadow, rows, padded);
-        const auto b = cache.b.middleRows(Eigen::Index(first), rows);
-        const CachedObjective::RowMatrix product = x * cache.a;
-        double error = 0;
-        for (Eigen::Index t = 0; t < rows; ++t)
-          error += (product.row(t).cast<double>() - 2 * b.row(t).cast<double>()).dot(x.row(t).cast<double>());
-        x = 2 * (product - b);
-        return error;
-      });
-  return quadratic + cache.constant / (double(set.fitted()) * double(state.linear.vertex_count()));
-}
-
-double evaluate_direct(const FitState& state, const TrainingSet& set, std::vector<double>* gradient) {
-  const std::size_t padded = state.structure.padded_count();
-  const LinearLayerFit& linear = state.linear;
-  return evaluate_blocks(state, set, gradient, [&](std::size_t first, std::size_t count, float* shadow) {
-    double error = 0;
-    std::vector<float> slope(padded);
+  const std::size_t poses = set.fitted(), padded = state.structure.padded_count();
+  const std::size_t blocks = (poses + block_poses - 1) / block_poses;
+  const NonLinearLayer layer(state.structure);
+  std::vector<double> error(blocks);
+  std::vector<std::vector<float>> partial(blocks);
+  tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t b) {
+    const std::size_t first = b * block_poses, count = std::min(block_poses, poses - first);
+    LayerWorkspace workspace(state.structure);
+    std::vector<float> shadow(count * padded);
+    for (std::size_t t = 0; t < count; ++t)
+      layer.forward(set.poses[first + t], state.parameters, workspace, &shadow[t * padded]);
+    error[b] = quadratic_form(cache, first, count, shadow.data());
+    if (!gradient) return;
+    partial[b].assign(state.parameters.size(), 0.0f);
+    std::vector<float> again(padded);
     for (std::size_t t = 0; t < count; ++t) {
-      float* row = shadow + t * padded;
-      std::fill(slope.begin(), slope.end(), 0.0f);
-      const auto target = set.targets.row(first + t);
-      for (std::size_t i = 0; i < linear.vertex_count(); ++i) {
-        float ao = 1 - linear.bias[i];
-        for (std::size_t s = i * linear.entries; s < (i + 1) * linear.entries; ++s)
-          ao -= linear.alpha[s] * row[linear.key_point[s]];
-        const float e = ao - float(target[i]) * AoTargets::scale;
-        error += double(set.vertex_weight[i]) * double(e) * double(e);
-        for (std::size_t s = i * linear.entries; s < (i + 1) * linear.entries; ++s)
-          slope[linear.key_point[s]] -= 2 * set.vertex_weight[i] * e * linear.alpha[s];
-      }
-      std::copy(slope.begin(), slope.end(), row);
+      // The workspace holds one pose; a second forward is cheaper than keeping all of them.
+      layer.forward(set.poses[first + t], state.parameters, workspace, again.data());
+      layer.backward(set.poses[first + t], state.parameters, workspace, &shadow[t * padded], 1, partial[b]);
     }
-    return error;
   });
+  double total = 0;
+  for (double e : error) total += e;
+  const double vertices = double(state.linear.vertex_count()), scale = 1 / (double(poses) * vertices);
+  if (gradient) {
+    gradient->assign(state.parameters.size(), 0.0);
+    for (const std::vector<float>& p : partial)
+      for (std::size_t i = 0; i < p.size(); ++i) (*gradient)[i] += double(p[i]) * scale;
+  }
+  return total * scale + cache.constant / (double(poses) * vertices);
 }
 
 }  // namespace nook::bake

@@ -22,10 +22,9 @@ struct CachedObjective {
 CachedObjective cache_linear_layer(const FitState& state, const TrainingSet& set);
 
 // Error over the fitted poses, unclamped and weighted by set.vertex_weight, and its gradient by the
-// non-linear parameters (resized and overwritten; may be null). The cached form costs poses x key points^2,
-// the direct form poses x vertices x entries with a scattered gather. Both give the same value.
+// non-linear parameters (resized and overwritten; may be null). It costs poses x key points^2, where a sum
+// over vertices would cost poses x vertices x entries with a scattered gather.
 double evaluate_cached(const FitState& state, const TrainingSet& set, const CachedObjective& cache,
                        std::vector<double>* gradient);
-double evaluate_direct(const FitState& state, const TrainingSet& set, std::vector<double>* gradient);
 
 }  // namespace nook::bake

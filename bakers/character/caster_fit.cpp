@@ -7,6 +7,7 @@
 
 #include "bakers/import/skinning.h"
 #include "bakers/raytrace/ambient_occlusion.h"
+#include "bakers/raytrace/random.h"
 #include "sdk/src/character/kernel.h"
 #include "sdk/src/character/model_check.h"
 #include "sdk/src/core/failure.h"
@@ -26,14 +27,13 @@ Vec3 sphere_direction(float u, float v) {
 
 std::vector<Point> points_round(Vec3 centre, float radius, std::size_t count, std::uint64_t seed) {
   std::vector<Point> points(count);
-  std::uint64_t counter = mix_bits(seed);
-  const auto uniform = [&] { return unit_float(mix_bits(counter++)); };
+  Random random(seed);
   for (Point& p : points) {
     // Even in the logarithm of the distance: every scale counts alike.
-    const float distance = radius * 0.3f * std::pow(8 / 0.3f, uniform());
-    const float u = uniform(), v = uniform();
+    const float distance = radius * 0.3f * std::pow(8 / 0.3f, random.unit());
+    const float u = random.unit(), v = random.unit();
     p.position = centre + distance * sphere_direction(u, v);
-    const float s = uniform(), t = uniform();
+    const float s = random.unit(), t = random.unit();
     p.normal = sphere_direction(s, t);
     // Half of the normals look at the body, where occlusion is.
     if (dot(p.normal, centre - p.position) < 0) p.normal = -p.normal;

@@ -1,4 +1,4 @@
-// How much of each proxy sphere counts when the character darkens something else: weights fitted against ray
+// The weights of proxy spheres when the character darkens something else, which are fitted against ray
 // tracing.
 #pragma once
 

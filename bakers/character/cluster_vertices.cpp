@@ -110,40 +110,63 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs(const SkinnedMes
   return pairs;
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> cluster_vertices(const SkinnedMesh& mesh, std::span<const float> vertex_weight,
-                                            std::span<const Vec3> normal, const ClusterSettings& settings) {
-  const auto vertices = std::uint32_t(mesh.vertex_count());
-  const float size = body_size(mesh.position);
-  const float position_scale2 = std::pow(settings.position_scale / (0.1f * size), 2.0f);
-  const float normal_scale2 = settings.normal_scale * settings.normal_scale;
-  const float weight_scale2 = settings.weight_scale * settings.weight_scale;
-  std::vector<Cluster> clusters(vertices);
-  for (std::uint32_t i = 0; i < vertices; ++i) {
-    clusters[i].size = std::max(vertex_weight[i], 1e-6f);
-    clusters[i].position = mesh.position[i];
-    clusters[i].normal = normal[i];
-    clusters[i].weights = sparse_weights(mesh.weights[i]);
+// The graph of clusters, whose neighbours collapse into one, the cheapest pair first.
+class ClusterGraph {
+ public:
+  // Each vertex is a cluster of its own, and vertices that share an edge or are near are neighbours.
+  ClusterGraph(const SkinnedMesh& mesh, std::span<const float> vertex_weight, std::span<const Vec3> normal,
+               const ClusterSettings& settings)
+      : alive_(mesh.vertex_count()) {
+    const float size = body_size(mesh.position);
+    position_scale2_ = std::pow(settings.position_scale / (0.1f * size), 2.0f);
+    normal_scale2_ = settings.normal_scale * settings.normal_scale;
+    weight_scale2_ = settings.weight_scale * settings.weight_scale;
+    clusters_.resize(alive_);
+    parent_.resize(alive_);
+    for (std::uint32_t i = 0; i < alive_; ++i) {
+      clusters_[i].size = std::max(vertex_weight[i], 1e-6f);
+      clusters_[i].position = mesh.position[i];
+      clusters_[i].normal = normal[i];
+      clusters_[i].weights = sparse_weights(mesh.weights[i]);
+      parent_[i] = i;
+    }
+    for (const auto& t : mesh.triangle) {
+      connect(t[0], t[1]);
+      connect(t[1], t[2]);
+      connect(t[2], t[0]);
+    }
+    for (const auto& [a, b] : near_pairs(mesh, clusters_, 0.01f * size)) connect(a, b);
+    for (std::uint32_t a = 0; a < clusters_.size(); ++a)
+      for (std::uint32_t b : clusters_[a].neighbours)
+        if (a < b) offer(a, b);
   }
-  const auto connect = [&](std::uint32_t a, std::uint32_t b) {
-    clusters[a].neighbours.insert(b);
-    clusters[b].neighbours.insert(a);
-  };
-  for (const auto& t : mesh.triangle) {
-    connect(t[0], t[1]);
-    connect(t[1], t[2]);
-    connect(t[2], t[0]);
-  }
-  for (const auto& [a, b] : near_pairs(mesh, clusters, 0.01f * size)) connect(a, b);
 
-  // The growth of the summed squared distance to the means when two clusters become one (Ward 1963).
-  const auto cost = [&](const Cluster& a, const Cluster& b) {
-    const Vec3 dp = a.position - b.position, dn = a.normal - b.normal;
-    const float d2 = position_scale2 * dot(dp, dp) + normal_scale2 * dot(dn, dn) +
-                     weight_scale2 * weight_distance2(a.weights, b.weights);
-    return a.size * b.size / (a.size + b.size) * d2;
-  };
+  // Leaves more clusters than count only where they have no neighbours.
+  void collapse_to(std::size_t count) {
+    while (alive_ > count && !queue_.empty()) {
+      const Collapse top = queue_.top();
+      queue_.pop();
+      const Cluster &a = clusters_[top.a], &b = clusters_[top.b];
+      if (!a.alive || !b.alive || a.version != top.version_a || b.version != top.version_b) continue;
+      merge(top.a, top.b);
+      --alive_;
+    }
+  }
+
+  // Returns the number of each vertex's cluster; clusters are numbered by their first vertices.
+  std::vector<std::uint32_t> labels() const {
+    std::vector<std::uint32_t> label(parent_.size()), number(parent_.size(), UINT32_MAX);
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < label.size(); ++i) {
+      std::uint32_t root = i;
+      while (parent_[root] != root) root = parent_[root];
+      if (number[root] == UINT32_MAX) number[root] = count++;
+      label[i] = number[root];
+    }
+    return label;
+  }
+
+ private:
   struct Collapse {
     float cost;
     std::uint32_t a, b, version_a, version_b;
@@ -151,23 +174,28 @@ std::vector<std::uint32_t> cluster_vertices(const SkinnedMesh& mesh, std::span<c
       return cost != o.cost ? cost > o.cost : a != o.a ? a > o.a : b > o.b;  // cheapest on top, ties by index
     }
   };
-  std::priority_queue<Collapse> queue;
-  const auto offer = [&](std::uint32_t a, std::uint32_t b) {
-    if (a > b) std::swap(a, b);
-    queue.push({cost(clusters[a], clusters[b]), a, b, clusters[a].version, clusters[b].version});
-  };
-  for (std::uint32_t a = 0; a < vertices; ++a)
-    for (std::uint32_t b : clusters[a].neighbours)
-      if (a < b) offer(a, b);
 
-  std::vector<std::uint32_t> parent(vertices);
-  for (std::uint32_t i = 0; i < vertices; ++i) parent[i] = i;
-  std::size_t alive = vertices;
-  while (alive > settings.count && !queue.empty()) {
-    const Collapse top = queue.top();
-    queue.pop();
-    Cluster &a = clusters[top.a], &b = clusters[top.b];
-    if (!a.alive || !b.alive || a.version != top.version_a || b.version != top.version_b) continue;
+  void connect(std::uint32_t a, std::uint32_t b) {
+    clusters_[a].neighbours.insert(b);
+    clusters_[b].neighbours.insert(a);
+  }
+
+  // The growth of the summed squared distance to the means when two clusters become one (Ward 1963).
+  float cost(const Cluster& a, const Cluster& b) const {
+    const Vec3 dp = a.position - b.position, dn = a.normal - b.normal;
+    const float d2 = position_scale2_ * dot(dp, dp) + normal_scale2_ * dot(dn, dn) +
+                     weight_scale2_ * weight_distance2(a.weights, b.weights);
+    return a.size * b.size / (a.size + b.size) * d2;
+  }
+
+  void offer(std::uint32_t a, std::uint32_t b) {
+    if (a > b) std::swap(a, b);
+    queue_.push({cost(clusters_[a], clusters_[b]), a, b, clusters_[a].version, clusters_[b].version});
+  }
+
+  // Takes `gone` into `kept`, with its neighbours.
+  void merge(std::uint32_t kept, std::uint32_t gone) {
+    Cluster &a = clusters_[kept], &b = clusters_[gone];
     const float total = a.size + b.size, wa = a.size / total, wb = b.size / total;
     a.position = wa * a.position + wb * b.position;
     a.normal = wa * a.normal + wb * b.normal;
@@ -175,28 +203,30 @@ std::vector<std::uint32_t> cluster_vertices(const SkinnedMesh& mesh, std::span<c
     a.size = total;
     ++a.version;
     b.alive = false;
-    parent[top.b] = top.a;
+    parent_[gone] = kept;
     for (std::uint32_t n : b.neighbours) {
-      clusters[n].neighbours.erase(top.b);
-      if (n != top.a) {
-        clusters[n].neighbours.insert(top.a);
-        a.neighbours.insert(n);
-      }
+      clusters_[n].neighbours.erase(gone);
+      if (n != kept) connect(n, kept);
     }
-    a.neighbours.erase(top.b);
+    a.neighbours.erase(gone);
     b.neighbours.clear();
-    for (std::uint32_t n : a.neighbours) offer(top.a, n);
-    --alive;
+    for (std::uint32_t n : a.neighbours) offer(kept, n);
   }
-  std::vector<std::uint32_t> label(vertices), number(vertices, UINT32_MAX);
-  std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < vertices; ++i) {
-    std::uint32_t root = i;
-    while (parent[root] != root) root = parent[root];
-    if (number[root] == UINT32_MAX) number[root] = count++;
-    label[i] = number[root];
-  }
-  return label;
+
+  float position_scale2_, normal_scale2_, weight_scale2_;
+  std::size_t alive_;
+  std::vector<Cluster> clusters_;
+  std::vector<std::uint32_t> parent_;  // of a cluster that has collapsed; of any other, itself
+  std::priority_queue<Collapse> queue_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> cluster_vertices(const SkinnedMesh& mesh, std::span<const float> vertex_weight,
+                                            std::span<const Vec3> normal, const ClusterSettings& settings) {
+  ClusterGraph graph(mesh, vertex_weight, normal, settings);
+  graph.collapse_to(settings.count);
+  return graph.labels();
 }
 
 }  // namespace nook::bake

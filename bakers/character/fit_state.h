@@ -1,4 +1,4 @@
-// What a fit reads and what it changes.
+// The data that a fit reads and the state that it changes.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct LinearLayerFit {
   std::size_t entries = 0;
   std::vector<std::uint16_t> key_point;  // vertices x entries
   std::vector<float> alpha;              // the same, >= floor
-  std::vector<float> floor;              // the same, >= 0: the least weight of an entry; empty: all 0
+  std::vector<float> floor;              // the same, >= 0: the minimum weight of an entry; empty: all 0
   std::vector<float> bias;               // a value a vertex
 
   std::size_t vertex_count() const { return bias.size(); }

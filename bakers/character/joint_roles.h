@@ -1,4 +1,4 @@
-// What each bone of a rig is for, guessed from names and hierarchy, so that automatic poses can bend knees
+// The role of each bone of a rig, guessed from names and hierarchy, so that automatic poses can bend knees
 // backwards.
 #pragma once
 

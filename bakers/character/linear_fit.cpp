@@ -11,7 +11,7 @@ namespace {
 
 using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Least weights of a vertex's anchors, by nearness.
+// Minimum weights of a vertex's anchors, in proportion to their nearness.
 std::vector<double> anchor_floors(const Candidates& candidates, std::size_t vertex,
                                   const LinearFitSettings& settings, std::size_t anchors) {
   std::vector<double> floor(anchors, 1.0);
@@ -43,117 +43,199 @@ Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& gram, const Eigen::Vec
   return full;
 }
 
+// The shadows of the fitted poses, which all vertices share.
+struct ShadowStatistics {
+  Eigen::RowVectorXf mean;  // of each key point
+  RowMatrix centred;        // poses x key points, less their means
+  Eigen::MatrixXd gram;     // covariances of the key points, with the ridge
+};
+
+ShadowStatistics statistics_of(std::span<const float> shadows, std::size_t poses, std::size_t padded,
+                               double ridge) {
+  const auto rows = Eigen::Index(poses), columns = Eigen::Index(padded);
+  const Eigen::Map<const RowMatrix> all(shadows.data(), rows, columns);
+  ShadowStatistics s;
+  s.mean = all.colwise().mean();
+  s.centred = all.rowwise() - s.mean;
+  s.gram = Eigen::MatrixXd::Zero(columns, columns);
+  // Blocks of rows in floats, summed in doubles: fast, and exact enough for a well-scaled Gram matrix.
+  const Eigen::Index block = 256;
+  for (Eigen::Index first = 0; first < rows; first += block) {
+    const auto part = s.centred.middleRows(first, std::min(block, rows - first));
+    s.gram += (part.transpose() * part).cast<double>();
+  }
+  s.gram /= double(poses);
+  const double added = ridge * std::max(s.gram.diagonal().mean(), 1e-12);
+  s.gram.diagonal().array() += added;
+  return s;
+}
+
+// The darkness of the vertices first, first + 1, ... in the fitted poses.
+struct DarknessBlock {
+  Eigen::RowVectorXf mean;      // of each vertex
+  RowMatrix centred;            // poses x vertices, less their means
+  Eigen::MatrixXd correlation;  // key points x vertices
+};
+
+DarknessBlock darkness_of(const TrainingSet& set, const ShadowStatistics& shadows, std::size_t first,
+                          std::size_t count) {
+  const std::size_t poses = set.fitted();
+  DarknessBlock block;
+  block.centred.resize(Eigen::Index(poses), Eigen::Index(count));
+  for (std::size_t t = 0; t < poses; ++t) {
+    const auto target = set.targets.row(t);
+    for (std::size_t i = 0; i < count; ++i)
+      block.centred(Eigen::Index(t), Eigen::Index(i)) = 1 - float(target[first + i]) * AoTargets::scale;
+  }
+  block.mean = block.centred.colwise().mean();
+  block.centred.rowwise() -= block.mean;
+  block.correlation = (shadows.centred.transpose() * block.centred).cast<double>() / double(poses);
+  return block;
+}
+
+// Some of a vertex's key points, with the weights that explain it best.
+struct Choice {
+  std::vector<Eigen::Index> key_point;
+  Eigen::VectorXd weight;
+  double explained = 0;  // part of the variance
+
+  double weight_of(Eigen::Index k) const {
+    const auto found = std::find(key_point.begin(), key_point.end(), k);
+    return found == key_point.end() ? 0 : weight[Eigen::Index(found - key_point.begin())];
+  }
+};
+
+// Chooses key points for one vertex one by one, and solves for their weights.
+class KeyPointChoice {
+ public:
+  // allowed: the vertex's candidates, of which the first `anchors` always have an entry.
+  KeyPointChoice(const Eigen::MatrixXd& gram, std::span<const std::uint16_t> allowed, std::size_t anchors,
+                 std::size_t entries)
+      : gram_(gram), allowed_(allowed), anchors_(anchors), entries_(entries) {}
+
+  bool is_anchor(Eigen::Index k) const {
+    const auto end = allowed_.begin() + std::ptrdiff_t(anchors_);
+    return std::find(allowed_.begin(), end, k) != end;
+  }
+
+  // Ends where another key point would explain less than `minimum_gain` more.
+  Choice run(const Eigen::VectorXd& correlation, double minimum_gain) const {
+    Choice choice;
+    for (;;) {
+      const Eigen::Index best = best_addition(choice, correlation);
+      if (best < 0) return choice;
+      Choice next = with(choice, best, correlation);
+      if (next.explained - choice.explained < minimum_gain) return choice;
+      choice = std::move(next);
+    }
+  }
+
+ private:
+  // Returns the key point that would explain most of what is left, were it added alone; -1 if none would.
+  Eigen::Index best_addition(const Choice& choice, const Eigen::VectorXd& correlation) const {
+    const auto others = std::count_if(choice.key_point.begin(), choice.key_point.end(),
+                                      [&](Eigen::Index k) { return !is_anchor(k); });
+    const bool full = std::size_t(others) + anchors_ >= entries_;
+    double best_gain = 0;
+    Eigen::Index best = -1;
+    for (const Eigen::Index k : allowed_) {
+      if (std::find(choice.key_point.begin(), choice.key_point.end(), k) != choice.key_point.end()) continue;
+      if (full && !is_anchor(k)) continue;
+      double left = correlation[k];
+      for (std::size_t s = 0; s < choice.key_point.size(); ++s)
+        left -= gram_(k, choice.key_point[s]) * choice.weight[Eigen::Index(s)];
+      if (left > 0 && left * left / gram_(k, k) > best_gain) {
+        best_gain = left * left / gram_(k, k);
+        best = k;
+      }
+    }
+    return best;
+  }
+
+  // Solves with one key point more, and leaves out those whose weights become 0.
+  Choice with(const Choice& choice, Eigen::Index added, const Eigen::VectorXd& correlation) const {
+    std::vector<Eigen::Index> trial = choice.key_point;
+    trial.push_back(added);
+    const Eigen::VectorXd c = correlation(trial);
+    const Eigen::VectorXd x = solve_non_negative(gram_(trial, trial), c);
+    Choice next;
+    std::vector<double> kept;
+    for (std::size_t s = 0; s < trial.size(); ++s) {
+      if (x[Eigen::Index(s)] <= 0) continue;
+      next.key_point.push_back(trial[s]);
+      kept.push_back(x[Eigen::Index(s)]);
+    }
+    next.weight = Eigen::Map<Eigen::VectorXd>(kept.data(), Eigen::Index(kept.size()));
+    next.explained = x.dot(c);
+    return next;
+  }
+
+  const Eigen::MatrixXd& gram_;
+  std::span<const std::uint16_t> allowed_;
+  std::size_t anchors_, entries_;
+};
+
+LinearLayerFit empty_fit(std::size_t vertices, std::size_t entries) {
+  LinearLayerFit fit;
+  fit.entries = entries;
+  fit.key_point.assign(vertices * entries, 0);
+  fit.alpha.assign(vertices * entries, 0.0f);
+  fit.floor.assign(vertices * entries, 0.0f);
+  fit.bias.assign(vertices, 0.0f);
+  return fit;
+}
+
+// Solves one vertex, which is a column of the block, and writes its part of the fit.
+void fit_vertex(std::size_t vertex, Eigen::Index column, const ShadowStatistics& shadows,
+                const DarknessBlock& darkness, const Candidates& candidates,
+                const LinearFitSettings& settings, LinearLayerFit& fit) {
+  constexpr double constant_variance = 1e-8;  // the bias alone explains a vertex below it
+  const std::size_t anchors =
+      settings.anchor_floor > 0 ? std::min({settings.anchors, candidates.count, settings.entries}) : 0;
+  const std::span allowed(&candidates.key_point[vertex * candidates.count], candidates.count);
+  // The anchors' minimum weights are taken off the target; what remains is solved with weights >= 0.
+  const std::vector<double> floor = anchor_floors(candidates, vertex, settings, anchors);
+  Eigen::VectorXd correlation = darkness.correlation.col(column);
+  for (std::size_t a = 0; a < anchors; ++a) correlation -= floor[a] * shadows.gram.col(allowed[a]);
+
+  const double variance =
+      double(darkness.centred.col(column).squaredNorm()) / double(darkness.centred.rows());
+  const KeyPointChoice chooser(shadows.gram, allowed, anchors, settings.entries);
+  Choice choice;
+  if (variance > constant_variance) choice = chooser.run(correlation, settings.least_gain * variance);
+
+  double bias = double(darkness.mean[column]);
+  std::size_t entry = vertex * settings.entries;
+  const auto store = [&](Eigen::Index k, double minimum) {
+    const double weight = minimum + choice.weight_of(k);
+    fit.key_point[entry] = std::uint16_t(k);
+    fit.alpha[entry] = float(weight);
+    fit.floor[entry] = float(minimum);
+    bias -= weight * double(shadows.mean[k]);
+    ++entry;
+  };
+  for (std::size_t a = 0; a < anchors; ++a) store(allowed[a], floor[a]);
+  for (const Eigen::Index k : choice.key_point)
+    if (!chooser.is_anchor(k)) store(k, 0);
+  // An unused entry keeps a near key point at weight 0, so that mini-batches may still wake it.
+  for (std::size_t next = anchors; entry < (vertex + 1) * settings.entries; ++next, ++entry)
+    fit.key_point[entry] = allowed[std::min(next, candidates.count - 1)];
+  fit.bias[vertex] = float(bias);
+}
+
 }  // namespace
 
 LinearLayerFit fit_linear_layer(std::span<const float> shadows, std::size_t padded, const TrainingSet& set,
                                 const Candidates& candidates, const LinearFitSettings& settings) {
-  const std::size_t poses = set.fitted(), vertices = set.targets.vertex_count;
-  const auto rows = Eigen::Index(poses), columns = Eigen::Index(padded);
-  const Eigen::Map<const RowMatrix> all(shadows.data(), rows, columns);
-  const Eigen::RowVectorXf mean = all.colwise().mean();
-  const RowMatrix centred = all.rowwise() - mean;
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns, columns);
-  {
-    // Blocks of rows in floats, summed in doubles: fast, and exact enough for a well-scaled Gram matrix.
-    const Eigen::Index block = 256;
-    for (Eigen::Index first = 0; first < rows; first += block) {
-      const auto part = centred.middleRows(first, std::min(block, rows - first));
-      gram += (part.transpose() * part).cast<double>();
-    }
-    gram /= double(poses);
-  }
-  const double ridge = settings.ridge * std::max(gram.diagonal().mean(), 1e-12);
-  gram.diagonal().array() += ridge;
-
-  LinearLayerFit fit;
-  fit.entries = settings.entries;
-  fit.key_point.assign(vertices * settings.entries, 0);
-  fit.alpha.assign(vertices * settings.entries, 0.0f);
-  fit.floor.assign(vertices * settings.entries, 0.0f);
-  fit.bias.assign(vertices, 0.0f);
-  const std::size_t anchors =
-      settings.anchor_floor > 0 ? std::min({settings.anchors, candidates.count, settings.entries}) : 0;
+  const std::size_t vertices = set.targets.vertex_count;
+  const ShadowStatistics statistics = statistics_of(shadows, set.fitted(), padded, settings.ridge);
+  LinearLayerFit fit = empty_fit(vertices, settings.entries);
   constexpr std::size_t block = 64;
   tbb::parallel_for(std::size_t(0), (vertices + block - 1) / block, [&](std::size_t b) {
-    const std::size_t first = b * block, last = std::min(vertices, first + block);
-    RowMatrix darkness(rows, Eigen::Index(last - first));
-    for (std::size_t t = 0; t < poses; ++t) {
-      const auto target = set.targets.row(t);
-      for (std::size_t i = first; i < last; ++i)
-        darkness(Eigen::Index(t), Eigen::Index(i - first)) = 1 - float(target[i]) * AoTargets::scale;
-    }
-    const Eigen::RowVectorXf mean_darkness = darkness.colwise().mean();
-    darkness.rowwise() -= mean_darkness;
-    Eigen::MatrixXd correlation = (centred.transpose() * darkness).cast<double>() / double(poses);
-    for (std::size_t i = first; i < last; ++i) {
-      const auto column = Eigen::Index(i - first);
-      const double variance = double(darkness.col(column).squaredNorm()) / double(poses);
-      const std::uint16_t* allowed = &candidates.key_point[i * candidates.count];
-      std::vector<Eigen::Index> chosen;
-      Eigen::VectorXd weight;
-      double explained = 0;
-      // The anchors' least weights are taken off the target; what remains is solved with weights >= 0.
-      const std::vector<double> floor = anchor_floors(candidates, i, settings, anchors);
-      for (std::size_t a = 0; a < anchors; ++a) correlation.col(column) -= floor[a] * gram.col(allowed[a]);
-      const auto is_anchor = [&](Eigen::Index k) {
-        return std::find(allowed, allowed + anchors, k) != allowed + anchors;
-      };
-      const auto extra = [&](const std::vector<Eigen::Index>& list) {
-        return std::size_t(
-            std::count_if(list.begin(), list.end(), [&](Eigen::Index k) { return !is_anchor(k); }));
-      };
-      while (variance > 1e-8) {
-        // The key point that would explain most of what is left, were it added alone.
-        double best_gain = 0;
-        Eigen::Index best = -1;
-        for (std::size_t c = 0; c < candidates.count; ++c) {
-          const Eigen::Index k = allowed[c];
-          if (std::find(chosen.begin(), chosen.end(), k) != chosen.end()) continue;
-          if (!is_anchor(k) && extra(chosen) + anchors >= settings.entries) continue;
-          double left = correlation(k, column);
-          for (std::size_t s = 0; s < chosen.size(); ++s)
-            left -= gram(k, chosen[s]) * weight[Eigen::Index(s)];
-          if (left > 0 && left * left / gram(k, k) > best_gain) {
-            best_gain = left * left / gram(k, k);
-            best = k;
-          }
-        }
-        if (best < 0) break;
-        std::vector<Eigen::Index> trial = chosen;
-        trial.push_back(best);
-        const Eigen::VectorXd c = correlation.col(column)(trial);
-        const Eigen::VectorXd x = solve_non_negative(gram(trial, trial), c);
-        const double gain = x.dot(c);
-        if (gain - explained < settings.least_gain * variance) break;
-        chosen.clear();
-        std::vector<double> kept;
-        for (std::size_t s = 0; s < trial.size(); ++s) {
-          if (x[Eigen::Index(s)] <= 0) continue;
-          chosen.push_back(trial[s]);
-          kept.push_back(x[Eigen::Index(s)]);
-        }
-        weight = Eigen::Map<Eigen::VectorXd>(kept.data(), Eigen::Index(kept.size()));
-        explained = gain;
-      }
-      double bias = double(mean_darkness[column]);
-      std::size_t entry = i * settings.entries;
-      const auto store = [&](Eigen::Index k, double least) {
-        const auto found = std::find(chosen.begin(), chosen.end(), k);
-        const double w = least + (found == chosen.end() ? 0 : weight[Eigen::Index(found - chosen.begin())]);
-        fit.key_point[entry] = std::uint16_t(k);
-        fit.alpha[entry] = float(w);
-        fit.floor[entry] = float(least);
-        bias -= w * double(mean[k]);
-        ++entry;
-      };
-      for (std::size_t a = 0; a < anchors; ++a) store(allowed[a], floor[a]);
-      for (Eigen::Index k : chosen)
-        if (!is_anchor(k)) store(k, 0);
-      // An unused entry keeps a near key point at weight 0, so that mini-batches may still wake it.
-      for (std::size_t next = anchors; entry < (i + 1) * settings.entries; ++next, ++entry)
-        fit.key_point[entry] = allowed[std::min(next, candidates.count - 1)];
-      fit.bias[i] = float(bias);
-    }
+    const std::size_t first = b * block, count = std::min(block, vertices - first);
+    const DarknessBlock darkness = darkness_of(set, statistics, first, count);
+    for (std::size_t i = 0; i < count; ++i)
+      fit_vertex(first + i, Eigen::Index(i), statistics, darkness, candidates, settings, fit);
   });
   return fit;
 }

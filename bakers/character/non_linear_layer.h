@@ -13,7 +13,7 @@
 
 namespace nook::bake {
 
-// What stays fixed while the layer is fitted.
+// The structure of the layer, which stays fixed while it is fitted.
 struct LayerStructure {
   Kernel kernel;
   std::vector<std::uint16_t> sphere_bone;
@@ -25,8 +25,8 @@ struct LayerStructure {
   std::size_t padded_count() const { return (key_point_count() + 15) / 16 * 16; }
 
   // Parameters in one flat vector, unconstrained, so that any optimiser can walk it:
-  //   4 a sphere: centre (rest space, metres), log radius;
-  //   10 a key point: position, normal (any length), 4 roots of bone weights (weight = root^2 / sum of
+  //   4 for each sphere: centre (rest space, metres), log radius;
+  //   10 for each key point: position, normal (any length), 4 roots of bone weights (weight = root^2 / sum of
   //   root^2).
   std::size_t sphere_offset(std::size_t h) const { return 4 * h; }
   std::size_t key_point_offset(std::size_t k) const { return 4 * sphere_count() + 10 * k; }

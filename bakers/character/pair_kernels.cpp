@@ -44,8 +44,8 @@ struct NookForm {
   }
 };
 
-// Keeps powers and their slopes finite where rounding leaves nothing. A plain comparison, because fmax asks
-// for the handling of NaNs and stops the compiler from vectorising.
+// Keeps powers and their slopes finite where rounding leaves nothing. It is a plain comparison, because
+// fmax also has to handle NaNs, which stops the compiler from vectorising.
 NOOK_INLINE float at_least(float y) {
   return y > 1e-9f ? y : 1e-9f;
 }

@@ -72,12 +72,14 @@ ClipSplit split_clips(std::span<const std::size_t> clips) {
 }
 
 ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips) {
+  std::vector<std::string_view> names;
+  for (const std::size_t clip : clips) names.push_back(character.clips[clip].name);
+  const std::vector<std::string> families = clip_families(names);
   ClipSplit split;
   std::map<std::string, std::size_t> number;  // of a family; its clips need not stand together in byte order
-  for (const std::size_t clip : clips) {
-    const std::size_t family =
-        number.emplace(clip_family(character.clips[clip].name), number.size()).first->second;
-    (family % 2 == 0 ? split.fitted : split.measured).push_back(clip);
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    const std::size_t family = number.emplace(families[i], number.size()).first->second;
+    (family % 2 == 0 ? split.fitted : split.measured).push_back(clips[i]);
   }
   return split;
 }

@@ -1,4 +1,4 @@
-// How much a bake spends: the three presets.
+// The three presets of a bake, by the time that it spends.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How a model was baked, as text inside its file: enough to make the same training poses again.
+// The recipe of a model, as text inside its file: enough to make the same training poses again.
 #pragma once
 
 #include <cstdint>

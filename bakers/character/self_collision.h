@@ -1,4 +1,4 @@
-// How far a posed body runs through itself, from a few spheres a bone.
+// The depth by which a posed body runs through itself, from a few spheres for each bone.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How large an image may be, before memory is taken for it.
+// The check of an image's size before memory is taken for it.
 #pragma once
 
 #include <cstddef>

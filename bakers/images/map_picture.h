@@ -1,4 +1,4 @@
-// What a probe makes of a map, to look at.
+// Pictures of a map beside what a probe makes of it.
 #pragma once
 
 #include <span>

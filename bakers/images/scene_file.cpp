@@ -8,8 +8,8 @@
 
 namespace nook::bake {
 
-LitTriangles read_lit_triangles(const std::filesystem::path& path, bool textures) {
-  StaticScene scene = import_static_scene(path, textures ? SceneTextures::read : SceneTextures::skip);
+LitTriangles read_lit_triangles(const std::filesystem::path& path, bool textures, LinkedFiles linked) {
+  StaticScene scene = import_static_scene(path, textures ? SceneTextures::read : SceneTextures::skip, linked);
   std::vector<Texture> decoded;
   for (const EncodedImage& image : scene.image) decoded.push_back(decode_texture(image));
   return lit_triangles(std::move(scene), std::move(decoded));

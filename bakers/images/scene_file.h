@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "bakers/import/linked_files.h"
 #include "bakers/raytrace/lit_scene.h"
 #include "sdk/src/core/vec.h"
 
@@ -18,7 +19,7 @@ struct ProbeScene {
 
 // Throws Failure (BAD_FILE) that names the texture, where it is one's fault. Without textures their colour
 // factors stand for them.
-LitTriangles read_lit_triangles(const std::filesystem::path& path, bool textures);
+LitTriangles read_lit_triangles(const std::filesystem::path& path, bool textures, LinkedFiles linked);
 
 ProbeScene make_probe_scene(LitTriangles triangles, Environment light);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <set>
 
@@ -18,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of one image: 32 million texels take 0.8 GB while they are read.
 constexpr float max_half = 65504;  // the largest half float
+// Of one image: 32 million texels take 0.8 GB while all of them are read.
 constexpr std::size_t most_image_texels = std::size_t{1} << 25;
 
 bool is_image(const fs::path& path) {
@@ -46,56 +47,104 @@ float linear_from_srgb(float v) {
   return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
 }
 
-struct Pixels {
+struct Size {
   int width = 0, height = 0;
-  std::vector<float> rgb;  // linear, rows top first
+
+  bool operator==(const Size&) const = default;
 };
 
-Pixels read_image(const fs::path& path) {
-  const auto fail = [&](const std::string& why) {
-    throw Failure(NOOK_ERROR_BAD_FILE, "%.250s: cannot be read (%.150s)", path.c_str(), why.c_str());
-  };
-  const auto input = OIIO::ImageInput::open(path.string());
-  if (!input) fail(OIIO::geterror());
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.nchannels < 1 || spec.depth > 1) fail("it is no flat image");
-  std::error_code unknown;  // the size is then the largest number
-  check_image_size(path.c_str(), spec.width, spec.height, most_image_texels, fs::file_size(path, unknown));
-  // One channel stands for three; those above the third are not read.
-  const std::size_t channels = spec.nchannels >= 3 ? 3 : 1,
-                    texels = std::size_t(spec.width) * std::size_t(spec.height);
-  const bool encoded = !spec.format.is_floating_point();
-  std::vector<float> raw(channels * texels);
-  if (!input->read_image(0, 0, 0, int(channels), OIIO::TypeDesc::FLOAT, raw.data())) fail(input->geterror());
-  Pixels pixels{spec.width, spec.height, std::vector<float>(3 * texels)};
-  for (std::size_t i = 0; i < texels; ++i)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float value = raw[i * channels + (channels == 3 ? c : 0)];
-      // Raw materials hold half floats.
-      if (!(std::abs(value) <= max_half))
-        throw Failure(
-            NOOK_ERROR_BAD_FILE,
-            "%.250s: texel (%zu, %zu), counted from the upper left, is not a finite number of at most "
-            "65504 in magnitude",
-            path.c_str(), i % std::size_t(spec.width), i / std::size_t(spec.width));
-      pixels.rgb[3 * i + c] = encoded ? linear_from_srgb(value) : value;
-    }
-  return pixels;
-}
-
-// Where the middle square begins; y counts from the bottom, images begin at the top.
-struct Crop {
-  std::uint32_t left = 0, top = 0;
+// A part of an image, texels from the upper left.
+struct Region {
+  int left = 0, top = 0;
+  Size size;
 };
 
-void copy_image(const Pixels& pixels, Crop crop, std::size_t light, std::size_t view, RawMaterial& raw) {
+// One image of the set, whose head is read when it is opened.
+class UboImage {
+ public:
+  explicit UboImage(const fs::path& path) : path_(path), input_(OIIO::ImageInput::open(path.string())) {
+    if (!input_) fail(OIIO::geterror());
+    const OIIO::ImageSpec& spec = input_->spec();
+    if (spec.nchannels < 1 || spec.depth > 1) fail("it is no flat image");
+    std::error_code unknown;  // the size is then the largest number
+    check_image_size(path.c_str(), spec.width, spec.height, most_image_texels, fs::file_size(path, unknown));
+    // One channel stands for three; those above the third are not read.
+    channels_ = spec.nchannels >= 3 ? 3 : 1;
+  }
+
+  Size size() const { return {input_->spec().width, input_->spec().height}; }
+
+  // Returns the texels of a region, linear, rows top first. Only the rows or the tiles that hold it are kept
+  // in memory.
+  std::vector<float> read(const Region& region) {
+    const Region held = held_region(region);
+    std::vector<float> raw(channels_ * std::size_t(held.size.width) * std::size_t(held.size.height));
+    read_held(held, raw.data());
+    std::vector<float> rgb;
+    rgb.reserve(3 * std::size_t(region.size.width) * std::size_t(region.size.height));
+    for (int y = region.top; y < region.top + region.size.height; ++y)
+      for (int x = region.left; x < region.left + region.size.width; ++x) {
+        const std::size_t texel =
+            std::size_t(y - held.top) * std::size_t(held.size.width) + std::size_t(x - held.left);
+        for (std::size_t c = 0; c < 3; ++c)
+          rgb.push_back(linear(raw[texel * channels_ + (channels_ == 3 ? c : 0)], x, y));
+      }
+    return rgb;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw Failure(NOOK_ERROR_BAD_FILE, "%.250s: cannot be read (%.150s)", path_.c_str(), why.c_str());
+  }
+
+  // The rows or the tiles that hold a region.
+  Region held_region(const Region& region) const {
+    const OIIO::ImageSpec& spec = input_->spec();
+    if (spec.tile_width == 0) return {0, region.top, {spec.width, region.size.height}};
+    const auto from = [](int begin, int tile) { return begin / tile * tile; };
+    const auto to = [](int end, int tile, int whole) {
+      return std::min((end + tile - 1) / tile * tile, whole);
+    };
+    const int left = from(region.left, spec.tile_width), top = from(region.top, spec.tile_height);
+    const int right = to(region.left + region.size.width, spec.tile_width, spec.width);
+    const int bottom = to(region.top + region.size.height, spec.tile_height, spec.height);
+    return {left, top, {right - left, bottom - top}};
+  }
+
+  void read_held(const Region& held, float* raw) {
+    const OIIO::ImageSpec& spec = input_->spec();
+    const int left = spec.x + held.left, right = left + held.size.width;
+    const int top = spec.y + held.top, bottom = top + held.size.height;
+    const bool read =
+        spec.tile_width == 0
+            ? input_->read_scanlines(0, 0, top, bottom, spec.z, 0, int(channels_), OIIO::TypeDesc::FLOAT, raw)
+            : input_->read_tiles(0, 0, left, right, top, bottom, spec.z, spec.z + 1, 0, int(channels_),
+                                 OIIO::TypeDesc::FLOAT, raw);
+    if (!read) fail(input_->geterror());
+  }
+
+  float linear(float value, int x, int y) const {
+    // Raw materials hold half floats.
+    if (!(std::abs(value) <= max_half))
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%.250s: texel (%d, %d), counted from the upper left, is not a finite number of at most "
+                    "65504 in magnitude",
+                    path_.c_str(), x, y);
+    return input_->spec().format.is_floating_point() ? value : linear_from_srgb(value);
+  }
+
+  fs::path path_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+  std::size_t channels_ = 0;
+};
+
+// Of the raw material, y counts from the bottom; images begin at the top.
+void copy_image(const std::vector<float>& rgb, std::size_t light, std::size_t view, RawMaterial& raw) {
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t x = 0; x < raw.width; ++x) {
       float* column = &raw.btf[((3 * light + c) * raw.views.size() + view) * raw.texels() + x * raw.height];
-      for (std::size_t y = 0; y < raw.height; ++y) {
-        const std::size_t row = crop.top + raw.height - 1 - y;
-        column[y] = pixels.rgb[3 * (row * std::size_t(pixels.width) + crop.left + x) + c];
-      }
+      for (std::size_t y = 0; y < raw.height; ++y)
+        column[y] = rgb[3 * ((raw.height - 1 - y) * raw.width + x) + c];
     }
 }
 
@@ -113,14 +162,15 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
       folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
   raw.lights = grid.lights;
   raw.views = grid.views;
-  const Pixels first = read_image(paths[grid.image[0]]);
+  const Size first = UboImage(paths[grid.image[0]]).size();
   const auto width = std::uint32_t(first.width), height = std::uint32_t(first.height);
   if (texels > std::min(width, height))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "a square of %u texels from images of %u x %u; use a smaller one", texels, width, height);
   raw.width = texels ? texels : width;
   raw.height = texels ? texels : height;
-  const Crop crop{(width - raw.width) / 2, (height - raw.height) / 2};
+  const Region middle{
+      int((width - raw.width) / 2), int((height - raw.height) / 2), {int(raw.width), int(raw.height)}};
   const std::size_t values = raw.light_rows() * raw.views.size() * raw.texels();
   if (values > most_bytes / sizeof(float))
     throw Failure(NOOK_ERROR_BAD_FILE,
@@ -137,13 +187,14 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
     const std::size_t i = grid.image[cell];
     if (stopped) return;
     try {
-      const Pixels pixels = read_image(paths[i]);
-      if (pixels.width != first.width || pixels.height != first.height)
+      UboImage image(paths[i]);
+      const Size size = image.size();
+      if (size != first)
         throw Failure(NOOK_ERROR_BAD_FILE,
                       "%.200s: is of %d x %d texels, %.150s of %d x %d; all must be of one size",
-                      paths[i].c_str(), pixels.width, pixels.height, names[grid.image[0]].c_str(),
-                      first.width, first.height);
-      copy_image(pixels, crop, cell / raw.views.size(), cell % raw.views.size(), raw);
+                      paths[i].c_str(), size.width, size.height, names[grid.image[0]].c_str(), first.width,
+                      first.height);
+      copy_image(image.read(middle), cell / raw.views.size(), cell % raw.views.size(), raw);
     } catch (const Failure& e) {
       fault[i] = e.what();
       failed = true;

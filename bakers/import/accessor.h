@@ -9,8 +9,8 @@
 
 namespace nook::bake {
 
-// What an accessor says it holds: checked by callers before it is read, because an accessor without a buffer
-// view costs no bytes in the file. Fails with BAD_FILE where there is no such accessor.
+// The contents that an accessor declares. Callers check them before they read it, because an accessor without
+// a buffer view costs no bytes in the file. Fails with BAD_FILE where there is no such accessor.
 std::size_t element_count(const tinygltf::Model& model, int accessor, const std::string& what);
 
 // Components in a row as floats: normalised integers become [0, 1] or [-1, 1], plain integers keep their

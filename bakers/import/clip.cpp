@@ -137,10 +137,6 @@ Pose sample_clip(const ImportedCharacter& character, std::size_t clip, float tim
   return bone_matrices(character, locals, nullptr);
 }
 
-Pose default_pose(const ImportedCharacter& character) {
-  return bone_matrices(character, default_locals(character.nodes), nullptr);
-}
-
 Pose rest_pose(const ImportedCharacter& character) {
   return Pose(character.mesh.bones.size());
 }

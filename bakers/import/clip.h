@@ -44,9 +44,6 @@ Pose bone_matrices(const ImportedCharacter& character, const std::vector<Trs>& l
 
 Pose sample_clip(const ImportedCharacter& character, std::size_t clip, float time_s);
 
-// The nodes' default pose, which need not be the rest pose.
-Pose default_pose(const ImportedCharacter& character);
-
 // Identity matrices.
 Pose rest_pose(const ImportedCharacter& character);
 

@@ -7,7 +7,7 @@
 namespace nook::bake {
 namespace {
 
-// Whether a relative path climbs above where it starts.
+// Returns whether a relative path climbs above where it starts.
 bool climbs(const std::string& relative) {
   const std::filesystem::path normal = std::filesystem::path(relative).lexically_normal();
   return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
@@ -24,10 +24,10 @@ std::vector<std::byte> read_file_bytes(const std::filesystem::path& path) {
   std::vector<std::byte> bytes;
   constexpr std::size_t block = std::size_t{1} << 22;
   std::size_t size = 0;
-  // A pipe does not tell its size.
-  const std::uintmax_t told = std::filesystem::is_regular_file(path, error) ? file_size(path, error) : block;
+  // A pipe has no known size.
+  const std::uintmax_t known = std::filesystem::is_regular_file(path, error) ? file_size(path, error) : block;
   while (file && size <= max_file_bytes) {
-    bytes.resize(std::min<std::uintmax_t>(size == 0 ? told + 1 : size + block, max_file_bytes + 1));
+    bytes.resize(std::min<std::uintmax_t>(size == 0 ? known + 1 : size + block, max_file_bytes + 1));
     if (size == bytes.size()) break;
     file.read(reinterpret_cast<char*>(bytes.data()) + size, std::streamsize(bytes.size() - size));
     size += std::size_t(file.gcount());
@@ -54,7 +54,7 @@ tinygltf::FsCallbacks LinkedFileReader::callbacks() {
   return callbacks;
 }
 
-// tinygltf asks for every name twice, in the folder given and in the current one, where nothing is to be
+// tinygltf looks for every name twice, in the folder given and in the current one, where nothing is to be
 // read.
 bool LinkedFileReader::may_open(const std::string& path) {
   std::string prefix = folder_;

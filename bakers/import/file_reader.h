@@ -18,7 +18,7 @@ namespace nook::bake {
 // The bytes of a file that a user named, up to max_file_bytes; it may be a pipe. Fails with BAD_FILE.
 std::vector<std::byte> read_file_bytes(const std::filesystem::path& path);
 
-// What tinygltf opens files through. Regular files only, of at most max_file_bytes in all.
+// The reader that tinygltf opens files through. It opens regular files of at most max_file_bytes in all.
 class LinkedFileReader {
  public:
   // folder empty: no file is opened. only: decoded URIs; files with other names are passed over unopened;
@@ -29,7 +29,7 @@ class LinkedFileReader {
   // They point to this object.
   tinygltf::FsCallbacks callbacks();
 
-  // Why the last file that could not be read was refused; empty: none was.
+  // Returns why the last file that could not be read was refused; empty: none was.
   const std::string& fault() const { return fault_; }
 
  private:

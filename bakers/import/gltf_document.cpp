@@ -57,7 +57,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// A C string ends there, so that names would no longer be told apart.
+// A C string ends there, so that different names would be equal.
 void refuse_nul(const std::string& name, const char* what, std::size_t index) {
   if (name.find('\0') != std::string::npos)
     throw Failure(NOOK_ERROR_BAD_FILE, "the name of %s %zu (\"%s...\") holds a NUL character; rename it",

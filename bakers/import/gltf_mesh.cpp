@@ -99,7 +99,7 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
   }
 }
 
-// What all primitives of a mesh share.
+// The data that all primitives of a mesh share.
 struct MeshSource {
   std::string name;
   const MeshBinding& binding;

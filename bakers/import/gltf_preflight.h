@@ -1,4 +1,4 @@
-// What a glTF file asks for, looked at before anything is allocated for it or another file is opened.
+// The demands of a glTF file, checked before anything is allocated for it or another file is opened.
 #pragma once
 
 #include <cstddef>

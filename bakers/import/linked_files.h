@@ -3,8 +3,9 @@
 
 namespace nook::bake {
 
-// folder: files that lie in the folder of the file that names them, or below it. A file from elsewhere cannot
-// have others read then. Symbolic links are followed: who made them decides. anywhere: "../" as well.
+// folder: files that lie in the folder of the file that names them, or below it, so that a file from
+// elsewhere cannot have others read. Symbolic links are followed: who made them decides. anywhere: "../" as
+// well.
 enum class LinkedFiles { folder, anywhere };
 
 }  // namespace nook::bake

@@ -67,8 +67,8 @@ struct Sheet {
   std::uint32_t side = 0;
 };
 
-// The two sheets of a side that are furthest apart, if they are opposite; equal pairs are told apart by their
-// directions, never by their order.
+// The two sheets of a side that are furthest apart, if they are opposite; equal pairs are ordered by their
+// directions, never by their place in the list.
 struct Pair {
   Direction first{}, second{};
   double cosine = 0;
@@ -100,7 +100,7 @@ void divide(std::span<Sheet> sheets) {
           sheet.side = sides;
 }
 
-// How little a surface bends at best where it goes on over the two edges of a corner, as a cosine, less the
+// The smallest bend of a surface where it goes on over the two edges of a corner, as a cosine, less the
 // rounding of equal bends.
 struct Neighbour {
   double over_next = -1, over_previous = -1;

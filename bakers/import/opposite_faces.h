@@ -21,7 +21,7 @@ struct PlacedVertices {
 // For each vertex the side of its place that it lies on: 0 for nearly all, 1 and up where faces at one place
 // look opposite ways. Vertices at one place whose faces meet at an edge form a sheet, so that the tip of a
 // cone is one sheet however its faces split it; over an edge of more than two faces each goes on to the one
-// towards which it bends least, and no sheet folds back on itself. Two sheets are opposite where their
+// at the smallest angle, and no sheet folds back on itself. Two sheets are opposite where their
 // area-weighted normals are more than 135 degrees apart. A place with opposite sheets is divided between the
 // two that are furthest apart, each other sheet going to the nearer one, until no side holds opposite sheets.
 // The order of vertices and triangles decides nothing but which side is 0. A place where more than 256

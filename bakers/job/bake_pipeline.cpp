@@ -1,10 +1,9 @@
 #include "bakers/job/bake_pipeline.h"
 
-#include <sys/resource.h>
-
 #include <nlohmann/json.hpp>
 
 #include "bakers/character/bind_data.h"
+#include "platform/peak_memory.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
 
@@ -12,13 +11,6 @@ namespace nook::bake {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Returns the peak memory of the process since it started.
-std::size_t peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::size_t(usage.ru_maxrss) * 1024;
-}
 
 nook_bake_stage stage_of(BakeStage stage) {
   switch (stage) {
@@ -55,7 +47,7 @@ std::string report_text(const ImportedCharacter& character, const Recipe& recipe
   j["mse_train"] = report.mse_train;
   j["mse_held_out"] = report.mse_held_out;
   j["mse_held_out_file"] = report.mse_held_out_file;
-  j["peak_bytes"] = peak_bytes();
+  j["peak_bytes"] = platform::peak_bytes();
   Json names = Json::array();
   for (std::size_t clip : recipe.clips) names.push_back(character.clips[clip].name);
   j["clips"] = std::move(names);

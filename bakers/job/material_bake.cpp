@@ -1,11 +1,11 @@
 #include "bakers/job/material_bake.h"
 
-#include <chrono>
 #include <string_view>
 
 #include "bakers/material/builtin_ranks.h"
 #include "bakers/material/fill_gaps.h"
 #include "bakers/measure/material/report.h"
+#include "platform/stopwatch.h"
 #include "sdk/src/material/material_file.h"
 
 namespace nook::bake {
@@ -13,11 +13,6 @@ namespace {
 
 using namespace material;
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 RawMaterial obtain(MaterialTask& task, const StageReport& progress) {
   if (!task.meso) {
@@ -32,7 +27,7 @@ RawMaterial obtain(MaterialTask& task, const StageReport& progress) {
   return raw;
 }
 
-// As `nook bake material` chooses where nothing is asked for.
+// Chooses the defaults of `nook bake material`.
 CompressionSettings settings_for(const MaterialTask& task, const RawMaterial& raw) {
   CompressionSettings s = task.settings;
   if (!task.ranks_given && !set_builtin_ranks(raw, s)) s = ranks_by_threshold(raw, task.rank_threshold, s);
@@ -75,16 +70,15 @@ nook_bake_stage stage_of(std::string_view stage) {
 }  // namespace
 
 BakedFile bake_material(MaterialTask& task, const StageReport& progress) {
-  auto start = Clock::now();
+  platform::Stopwatch watch;
   const RawMaterial raw = obtain(task, progress);
-  const double seconds_source = seconds_since(start);
-  start = Clock::now();
+  const double seconds_source = watch.lap_seconds();
   const CompressionSettings settings = settings_for(task, raw);
   nook::material::Material material =
       compress(raw, settings, [&](const char* stage, std::size_t done, std::size_t total) {
         return progress(stage_of(stage), done, total);
       });
-  const double seconds = seconds_since(start);
+  const double seconds = watch.seconds();
   const Json recipe = {{"source", source_of(task, raw)}, {"compression", describe(settings)}};
   material.recipe = recipe.dump().c_str();
   BakedFile file;

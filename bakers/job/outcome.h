@@ -1,4 +1,4 @@
-// What an exception means to a caller of the C interface: a result and a text.
+// The result and the text that a caller of the C interface gets for an exception.
 #pragma once
 
 #include <nook/nook.h>

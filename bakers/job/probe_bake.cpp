@@ -1,7 +1,6 @@
 #include "bakers/job/probe_bake.h"
 
-#include <chrono>
-
+#include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -23,19 +22,17 @@ MapProbe bake_map_probe(const Environment& map, const probe::MapBakeSettings& se
 }
 
 double refine_grid(probe::GridBake& bake, const GridRefinement& refinement) {
-  using Clock = std::chrono::steady_clock;
   double error = 1;
-  auto previewed = Clock::now();
+  platform::Stopwatch since_preview;
   while (bake.passes() < refinement.max_passes && error > refinement.error) {
     if (!refinement.progress(bake.passes(), refinement.max_passes))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while path tracing");
     bake.pass();
     if (bake.passes() % passes_between_errors == 0) error = bake.error();
-    const std::chrono::duration<double> since_preview = Clock::now() - previewed;
-    if (refinement.preview_every_s > 0 && since_preview.count() >= refinement.preview_every_s) {
+    if (refinement.preview_every_s > 0 && since_preview.seconds() >= refinement.preview_every_s) {
       error = bake.error();
       refinement.preview(error);
-      previewed = Clock::now();
+      since_preview = {};
     }
   }
   return bake.error();

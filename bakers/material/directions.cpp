@@ -30,14 +30,4 @@ std::vector<Vec3> spiral_directions(std::uint32_t count, float max_tilt_deg) {
   return directions;
 }
 
-std::vector<Vec3> ubo_directions() {
-  constexpr int azimuths[] = {1, 6, 12, 18, 20, 24};
-  std::vector<Vec3> directions;
-  for (int ring = 0; ring < 6; ++ring)
-    for (int i = 0; i < azimuths[ring]; ++i)
-      directions.push_back(
-          direction_from_angles(15.0f * float(ring), 360.0f * float(i) / float(azimuths[ring])));
-  return directions;
-}
-
 }  // namespace nook::bake::material

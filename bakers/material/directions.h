@@ -16,10 +16,6 @@ inline constexpr float default_max_tilt_deg = 75;
 // Throws Failure(INVALID_ARGUMENT) unless count >= 4 and 0 < max_tilt_deg < 90.
 std::vector<Vec3> spiral_directions(std::uint32_t count, float max_tilt_deg = default_max_tilt_deg);
 
-// The 81 directions of the UBO 2003 measurements: tilts of 0, 15, 30, 45, 60, 75 degrees with 1, 6, 12, 18,
-// 20, 24 azimuths, tilt by tilt.
-std::vector<Vec3> ubo_directions();
-
 // From tilt (against the normal) and azimuth (from x towards y), degrees.
 Vec3 direction_from_angles(float tilt_deg, float azimuth_deg);
 

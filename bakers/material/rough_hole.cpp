@@ -4,7 +4,7 @@
 
 #include "bakers/material/isosurface.h"
 #include "bakers/material/tile_noise.h"
-#include "bakers/raytrace/hemisphere.h"
+#include "bakers/raytrace/random.h"
 
 namespace nook::bake::material {
 namespace {
@@ -15,14 +15,13 @@ struct Hole {
 
 std::vector<Hole> place_holes(const MesoParameters& p) {
   std::vector<Hole> holes;
-  std::uint64_t counter = mix_bits(p.seed);
-  const auto random = [&] { return unit_float(mix_bits(counter++)); };
+  Random random(p.seed);
   for (std::uint32_t row = 0; row < p.count; ++row)
     for (std::uint32_t column = 0; column < p.count; ++column) {
       const float jitter = 0.3f / float(p.count);
-      holes.push_back({(float(column) + 0.5f) / float(p.count) + jitter * (random() - 0.5f),
-                       (float(row) + 0.5f) / float(p.count) + jitter * (random() - 0.5f),
-                       p.radius * (0.6f + 0.7f * random())});
+      holes.push_back({(float(column) + 0.5f) / float(p.count) + jitter * (random.unit() - 0.5f),
+                       (float(row) + 0.5f) / float(p.count) + jitter * (random.unit() - 0.5f),
+                       p.radius * (0.6f + 0.7f * random.unit())});
     }
   return holes;
 }

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "bakers/material/tube.h"
-#include "bakers/raytrace/hemisphere.h"
+#include "bakers/raytrace/random.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::material {
@@ -17,8 +17,7 @@ MesoSurface make_weave(const MesoParameters& p) {
   surface.shininess = 12;
   const float pi = std::numbers::pi_v<float>;
   constexpr float plies = 3, twists_per_yarn_spacing = 2;
-  std::uint64_t counter = mix_bits(p.seed);
-  const auto random = [&] { return unit_float(mix_bits(counter++)); };
+  Random random(p.seed);
   for (std::uint32_t i = 0; i < 2 * p.count; ++i) {
     const bool warp = i < p.count;
     const std::uint32_t index = i % p.count;
@@ -26,7 +25,7 @@ MesoSurface make_weave(const MesoParameters& p) {
     const float parity = (index % 2 == 0) == warp ? 1.0f : -1.0f;
     // Over one crossing, under the next: crossings lie at (k + 1/2) / count.
     const float turns = float(p.count) / 2, lift = 0.5f * p.thickness;
-    const float phase = random(), tone = 0.85f + 0.3f * random();
+    const float phase = random.unit(), tone = 0.85f + 0.3f * random.unit();
     const float twist = plies * twists_per_yarn_spacing * float(p.count);
     const Vec3 colour = (warp ? Vec3{0.16f, 0.24f, 0.46f} : Vec3{0.74f, 0.69f, 0.58f}) * tone;
 

@@ -18,9 +18,9 @@ std::uint64_t fingerprint(std::string_view recipe) {
 // Far above any training; each of these steps takes its time.
 constexpr std::uint64_t max_steps = std::uint64_t{1} << 48;
 
-// Whether a training can have left these numbers, so that the next step is finite. Adam's decay rates make
-// the square of the mean gradient at most 53 times the mean squared gradient (by Cauchy and Schwarz); squares
-// of gradients below 1e-18 vanish.
+// Returns whether a training can have left these numbers, so that the next step is finite. Adam's decay rates
+// make the square of the mean gradient at most 53 times the mean squared gradient (by Cauchy and Schwarz);
+// squares of gradients below 1e-18 vanish.
 bool is_reachable(float parameter, float mean, float square) {
   return std::abs(parameter) <= nook::nnao::max_parameter && std::isfinite(square) && square >= 0 &&
          std::abs(mean) <= 8 * std::sqrt(square) + 1e-18f;

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "bakers/nnao/random.h"
+#include "bakers/raytrace/random.h"
 #include "bakers/raytrace/ray_scene.h"
 #include "sdk/src/core/vec.h"
 

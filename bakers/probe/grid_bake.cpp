@@ -42,9 +42,9 @@ void GridBake::pass() {
     const Vec3 origin = settings_.grid.position_ws(p);
     Samples traced;
     for (std::uint32_t s = 0; s < settings_.samples_per_pass; ++s) {
-      PathRandom random(mix_bits(settings_.seed ^ mix_bits(p)) + mix_bits(samples() + s));
-      const double choice = random.next_double();
-      const float alias = random.next(), u = random.next(), v = random.next();
+      Random random(mix_bits(settings_.seed ^ mix_bits(p)) + mix_bits(samples() + s));
+      const double choice = random.unit_double();
+      const float alias = random.unit(), u = random.unit(), v = random.unit();
       const LightSample light = light_.sample(choice, alias, u, v);
       if (!region.holds(light.direction)) continue;
       traced.add(light.direction, trace_radiance(scene_, origin, light.direction, settings_.path, random),

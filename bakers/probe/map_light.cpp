@@ -9,8 +9,8 @@
 namespace nook::bake::probe {
 namespace {
 
-// How far a function of the basis may vary within a part of a texel: the midpoint rule then errs by a 24th of
-// its square.
+// The maximum change of a function of the basis within a part of a texel: the midpoint rule then errs by a
+// 24th of its square.
 constexpr double finest_step = 0.1;
 
 std::uint32_t divisions(const Environment& map, const Basis& basis) {

@@ -43,9 +43,9 @@ void add_samples(nook::probe::Fit& fit, const Samples& samples, std::size_t firs
 
 Samples uniform_samples(const Environment& map, const Region& region, std::size_t count, std::uint64_t seed) {
   Samples samples;
-  PathRandom random(seed);
+  Random random(seed);
   for (std::size_t i = 0; i < count; ++i) {
-    const float u = random.next(), v = random.next();
+    const float u = random.unit(), v = random.unit();
     Vec3 direction = uniform_direction(u, v);
     if (!region.holds(direction)) direction = -direction;
     samples.add(direction, map.radiance(direction), 1);
@@ -56,12 +56,12 @@ Samples uniform_samples(const Environment& map, const Region& region, std::size_
 Samples luminance_samples(const Environment& map, const LightSampler& sampler, const Region& region,
                           std::size_t count, std::uint64_t seed) {
   Samples samples;
-  PathRandom random(seed);
+  Random random(seed);
   const double inside = probability(map, sampler, region);
   const auto scale = float(inside / nook::probe::domain_area(region.domain));
   while (samples.size() < count) {
-    const double choice = random.next_double();
-    const float alias = random.next(), u = random.next(), v = random.next();
+    const double choice = random.unit_double();
+    const float alias = random.unit(), u = random.unit(), v = random.unit();
     const LightSample s = sampler.sample(choice, alias, u, v);
     if (region.holds(s.direction)) samples.add(s.direction, s.radiance, scale / s.density);
   }
@@ -71,9 +71,9 @@ Samples luminance_samples(const Environment& map, const LightSampler& sampler, c
 Samples texel_samples(const Environment& map, const Region& region, std::uint64_t seed) {
   std::vector<std::uint32_t> order(map.texel_count());
   std::iota(order.begin(), order.end(), 0u);
-  PathRandom random(seed);
+  Random random(seed);
   for (std::size_t i = order.size(); i > 1; --i)
-    std::swap(order[i - 1], order[std::min(std::size_t(random.next_double() * double(i)), i - 1)]);
+    std::swap(order[i - 1], order[std::min(std::size_t(random.unit_double() * double(i)), i - 1)]);
   const double scale = double(map.texel_count()) / (4 * std::numbers::pi);
   Samples samples;
   for (std::uint32_t texel : order) {

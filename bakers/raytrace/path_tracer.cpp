@@ -40,10 +40,9 @@ Vec3 direct_radiance(const LitScene& scene, Vec3 radiance, DirectLight direct) {
 
 // Returns the light of the environment at a surface from a direction that was sampled by luminance, weighted
 // by the balance heuristic (Veach 1997) against the cosine-weighted density of the same direction.
-Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, DirectLight direct,
-                        PathRandom& random) {
-  const double choice = random.next_double();
-  const float alias = random.next(), u = random.next(), v = random.next();
+Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, DirectLight direct, Random& random) {
+  const double choice = random.unit_double();
+  const float alias = random.unit(), u = random.unit(), v = random.unit();
   const LightSample light = scene.light().sample(choice, alias, u, v);
   const float cosine = dot(light.direction, normal);
   const Vec3 radiance = direct_radiance(scene, light.radiance, direct);
@@ -53,7 +52,7 @@ Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, DirectL
 
 // Estimates the irradiance at a point by a path that leaves along `direction`, a cosine-weighted sample.
 Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 direction,
-                     const PathSettings& settings, PathRandom& random) {
+                     const PathSettings& settings, Random& random) {
   Vec3 irradiance, share{1, 1, 1};
   for (std::uint32_t bounce = 0;; ++bounce) {
     const Vec3 origin = position + settings.origin_offset * normal;
@@ -76,12 +75,12 @@ Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 dir
     if (bounce >= settings.max_bounces || is_black(share)) return irradiance;
     if (bounce >= certain_bounces) {
       const float survival = std::min(largest(share), most_likely_survival);
-      if (random.next() >= survival) return irradiance;
+      if (random.unit() >= survival) return irradiance;
       share = share * (1 / survival);
     }
     position = origin + hit.distance * direction;
     normal = hit.normal;
-    const float u = random.next(), v = random.next();
+    const float u = random.unit(), v = random.unit();
     direction = to_world(turned_frame(normal, 1, 0), cosine_direction(u, v));
   }
 }
@@ -89,7 +88,7 @@ Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 dir
 }  // namespace
 
 Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const PathSettings& settings,
-                    PathRandom& random) {
+                    Random& random) {
   const RayHit hit = scene.nearest(origin, direction);
   if (std::isinf(hit.distance))
     return direct_radiance(scene, scene.environment().radiance(direction), settings.direct);
@@ -98,7 +97,7 @@ Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const Pa
   PathSettings rest = settings;
   rest.direct = DirectLight::all;
   if (rest.max_bounces != ~0u) --rest.max_bounces;
-  const float u = random.next(), v = random.next();
+  const float u = random.unit(), v = random.unit();
   const Vec3 onward = to_world(turned_frame(hit.normal, 1, 0), cosine_direction(u, v));
   const Vec3 irradiance =
       irradiance_path(scene, origin + hit.distance * direction, hit.normal, onward, rest, random);
@@ -122,7 +121,7 @@ std::vector<Vec3> trace_irradiance(const LitScene& scene, const Receivers& recei
           const std::uint64_t key = mix_bits(settings.seed ^ mix_bits(i));
           const float angle = 2 * pi * unit_float(key);
           const Frame frame = turned_frame(receivers.normal[i], std::cos(angle), std::sin(angle));
-          PathRandom random(key);
+          Random random(key);
           Vec3 sum;
           for (std::uint32_t r = 0; r < settings.rays; ++r)
             sum += irradiance_path(scene, receivers.position[i], receivers.normal[i],

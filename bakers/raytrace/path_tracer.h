@@ -7,11 +7,12 @@
 
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/lit_scene.h"
+#include "bakers/raytrace/random.h"
 
 namespace nook::bake {
 
-// What counts of the environment's light that comes straight to the point that is asked about. Its light by
-// way of surfaces always counts, suns included, and so does light that surfaces emit.
+// The part of the environment's light that counts where it comes straight to the receiving point. Its light
+// by way of surfaces always counts, suns included, and so does light that surfaces emit.
 enum class DirectLight : std::uint8_t {
   none = 0,
   sky = 1,  // the environment without its suns, see suns.h
@@ -24,22 +25,10 @@ struct PathSettings {
   DirectLight direct = DirectLight::all;
 };
 
-// A stream of numbers in [0, 1) that depends only on its key, so that paths do not depend on the thread that
-// traces them.
-class PathRandom {
- public:
-  explicit PathRandom(std::uint64_t key) : state_(mix_bits(key)) {}
-  float next() { return unit_float(mix_bits(state_++)); }
-  double next_double() { return double(mix_bits(state_++) >> 11) * 0x1p-53; }
-
- private:
-  std::uint64_t state_;
-};
-
 // Returns one estimate of the radiance that arrives at a point from a unit direction. settings.direct selects
 // the part of the map's light that arrives without a reflection.
 Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const PathSettings& settings,
-                    PathRandom& random);
+                    Random& random);
 
 struct IrradianceSettings {
   std::uint32_t rays = 64;  // paths for each point

@@ -64,7 +64,6 @@ struct ClusteredFit {
   std::vector<double> objective;  // || A - A^ ||^2 after the start and each iteration; never rises
   bool undone = false;            // the last iteration raised the error, and the result is the one before
   std::size_t splits = 0;         // clusters that became empty and were filled by splitting another one
-  std::size_t peak_bytes = 0;     // peak memory of the process until the end of the fit
 };
 
 struct ClusteredProgress {

@@ -1,7 +1,5 @@
 #include "bakers/tensor/iteration.h"
 
-#include <sys/resource.h>
-
 #include <utility>
 
 #include "bakers/tensor/check.h"
@@ -10,13 +8,6 @@ namespace nook::bake::tensor {
 namespace {
 
 using Eigen::Index;
-
-// Returns the peak memory of the process since it started.
-std::size_t peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::size_t(usage.ru_maxrss) * 1024;
-}
 
 ClusteredFit as_result(WorkingFit&& fit, Reduction&& reduction, const TensorView& a,
                        const ClusteredSettings& settings) {
@@ -36,7 +27,6 @@ ClusteredFit as_result(WorkingFit&& fit, Reduction&& reduction, const TensorView
   }
   result.mixture.membership = std::move(fit.membership);
   for (WorkingCluster& cluster : fit.clusters) result.clusters.push_back(std::move(cluster.parts));
-  result.peak_bytes = peak_bytes();
   return result;
 }
 

@@ -12,7 +12,7 @@ using Dimensions = std::vector<std::size_t>;  // I_1 to I_N; modes are counted f
 
 std::size_t volume(const Dimensions& dimensions);
 
-// Entries that somebody else owns (a Tensor, a mapped file), row-major: the last mode's index runs fastest.
+// Entries that somebody else owns, such as a Tensor, row-major: the last mode's index runs fastest.
 struct TensorView {
   Dimensions dimensions;
   const float* data = nullptr;

@@ -1,4 +1,4 @@
-// nook bake character: a thin user of nook_bake.h.
+// nook bake character: a thin user of nook_bake.h, but for the choice of the files that a glTF file may name.
 #include <nook/nook_bake.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bakers/api/import.h"
 #include "bakers/tool/character/clip_names.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
@@ -26,6 +27,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::string input, output;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
   std::int32_t preset = NOOK_BAKE_PRESET_STANDARD, poses = NOOK_BAKE_POSES_ALL, split = NOOK_BAKE_SPLIT_ALL;
   std::int32_t kernel = NOOK_BAKE_KERNEL_NOOK, fit = NOOK_BAKE_FIT_NOOK;
   std::vector<std::string> clips;
@@ -57,7 +59,7 @@ using Job = std::unique_ptr<nook_bake_job_s, JobRelease>;
 
 Character import_character(const Options& options) {
   nook_bake_character handle = nullptr;
-  require(nook_bake_import_gltf(options.input.c_str(), &handle));
+  require(bake::api::import_character(options.input.c_str(), options.linked, &handle));
   Character character(handle);
   if (!options.common.quiet)
     for (std::uint32_t i = 0; const char* text = nook_bake_character_warning(handle, i); ++i)
@@ -179,6 +181,7 @@ void add_bake_character(CLI::App& bake) {
   };
   command->add_option("input", o.input, "character, .glb or .gltf")->required();
   command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  add_linked_files_option(*command, o.linked);
   choice("--preset", o.preset,
          {{"draft", NOOK_BAKE_PRESET_DRAFT},
           {"standard", NOOK_BAKE_PRESET_STANDARD},
@@ -198,10 +201,11 @@ void add_bake_character(CLI::App& bake) {
       {{"all", NOOK_BAKE_SPLIT_ALL}, {"half", NOOK_BAKE_SPLIT_HALF}, {"families", NOOK_BAKE_SPLIT_FAMILIES}},
       "without --clips: all motion clips (default), or half: every second one in byte order of the names, "
       "so that `evaluate` measures on the others, or families: the same with clips whose names begin with "
-      "the same word taken together, such as Jump_Start and Jump_Land. T- and A-poses are never fitted");
+      "the same word, behind a prefix that all of them share, taken together, such as Jump_Start and "
+      "Jump_Land. T- and A-poses are never fitted");
   command->add_option("--spheres", o.spheres, "proxy spheres at most")->check(CLI::Range(1, 1024));
   command->add_option("--key-points", o.key_points, "key points at most")->check(CLI::Range(1, 4096));
-  command->add_option("--rays", o.rays, "rays a vertex and pose")->check(CLI::Range(1, 65536));
+  command->add_option("--rays", o.rays, "rays for each vertex and pose")->check(CLI::Range(1, 65536));
   command->add_option("--auto-poses", o.auto_poses, "number of generated poses")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--samples-per-clip", o.samples_per_clip, "poses of each clip")

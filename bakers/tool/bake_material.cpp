@@ -1,6 +1,5 @@
 // nook bake material: ray traces a meso-structure, or reads a measured BTF, and compresses it.
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,6 +20,7 @@
 #include "bakers/tool/table.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
+#include "platform/stopwatch.h"
 #include "sdk/src/material/material_file.h"
 
 namespace nook::tool {
@@ -29,8 +29,6 @@ namespace {
 using namespace bake::material;
 using nook::material::VisibilityForm;
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-
 struct Options {
   CommonOptions common;
   CompressionOptions compression;
@@ -94,19 +92,18 @@ RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
 
 Json bake(const Options& o, platform::OutputFile& output, std::optional<platform::OutputFile>& raw_file) {
   platform::ProgressBar bar(o.common.quiet);
-  auto start = Clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  platform::Stopwatch watch;
   const RawMaterial raw = obtain(o, bar);
-  const double seconds_obtain = seconds();
+  const double seconds_obtain = watch.seconds();
   if (raw_file) raw_file->commit(write_raw_material(raw));
   CompressionSettings settings = compression_settings(o.compression, raw);
   settings.seed = o.common.seed;
   if (!o.visibility_mapping.empty())
     settings.mapping = visibility_mapping(o.visibility_mapping, settings.visibility);
 
-  start = Clock::now();
+  watch = {};
   nook::material::Material material = compress(raw, settings, stage_progress(bar, "compressing the "));
-  const double seconds_compress = seconds();
+  const double seconds_compress = watch.seconds();
   if (!o.common.quiet && settings.method == Method::k_cta && settings.map_side == 0)
     std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
                  std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);

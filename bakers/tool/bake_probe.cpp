@@ -124,6 +124,7 @@ void add_bake_probe(CLI::App& bake_command) {
           "or all; reflected light always counts, and the report names the suns that are left to the host")
       ->check(CLI::IsMember(measure::direct_names()))
       ->capture_default_str();
+  add_linked_files_option(*command, o.linked);
   command->add_flag("--no-textures", o.no_textures,
                     "of a scene: colour factors stand for textures, and alpha masks are solid");
   add_common_options(*command, o.common);

@@ -16,4 +16,10 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("--quiet", options.quiet, "say nothing but errors");
 }
 
+void add_linked_files_option(CLI::App& command, bake::LinkedFiles& linked) {
+  command.add_flag_callback(
+      "--allow-outside-files", [&linked] { linked = bake::LinkedFiles::anywhere; },
+      "of a .gltf file: also read buffers and images that it names outside of its own folder (../)");
+}
+
 }  // namespace nook::tool

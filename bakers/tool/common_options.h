@@ -1,8 +1,10 @@
-// What every subcommand takes.
+// The options of every subcommand.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+
+#include "bakers/import/linked_files.h"
 
 namespace CLI {
 class App;
@@ -18,5 +20,8 @@ struct CommonOptions {
 };
 
 void add_common_options(CLI::App& command, CommonOptions& options);
+
+// The choice of every command that reads glTF.
+void add_linked_files_option(CLI::App& command, bake::LinkedFiles& linked);
 
 }  // namespace nook::tool

@@ -1,4 +1,4 @@
-// What a command reads and what it writes are never one file.
+// The check that a command never writes a file that it reads, or one file twice.
 #pragma once
 
 #include <filesystem>

@@ -17,13 +17,13 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path character, model;
+  EvaluatedFiles files;
   bake::CasterStudy study;
   std::size_t poses = 4;
 };
 
 Json evaluate(const Options& options) {
-  const measure::BakedCharacter baked = read_evaluated_files(options.character, options.model);
+  const measure::BakedCharacter baked = read_evaluated_files(options.files);
   bake::CasterStudy study = options.study;
   study.seed = options.common.seed;
   platform::ProgressBar bar(options.common.quiet);
@@ -49,8 +49,8 @@ void add_evaluate_casters(CLI::App& evaluate_command) {
                                       "bearings and poses");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  add_evaluated_files(*command, o.character, o.model);
-  command->add_option("--rays", o.study.rays, "rays a vertex")
+  add_evaluated_files(*command, o.files);
+  command->add_option("--rays", o.study.rays, "rays for each vertex")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
   command->add_option("--bearings", o.study.bearings, "directions of the neighbour")
@@ -61,7 +61,7 @@ void add_evaluate_casters(CLI::App& evaluate_command) {
       ->capture_default_str();
   add_common_options(*command, o.common);
   command->callback([options] {
-    run_evaluation(options->common, {evaluated_files(options->character, options->model), {}, {}},
+    run_evaluation(options->common, {named_files(options->files), {}, {}},
                    [&] { return evaluate(*options); });
   });
 }

@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path character, model;
+  EvaluatedFiles files;
   PoseChoice poses;
   std::uint32_t rays = 256;
   bool peers = false;
@@ -33,15 +33,15 @@ struct Options {
 };
 
 std::optional<bake::Recipe> known_recipe(const BakedCharacter& baked, const Options& options) {
-  const auto recipe = naming_file(options.model, [&] { return recipe_of(baked); });
+  const auto recipe = naming_file(options.files.model, [&] { return recipe_of(baked); });
   if (recipe && recipe->source_hash != baked.character.source_hash && !options.common.quiet)
     std::fprintf(stderr, "%s: the character file has changed since the bake; the numbers mix old and new\n",
-                 platform::printable(options.model.string()).c_str());
+                 platform::printable(options.files.model.string()).c_str());
   return recipe;
 }
 
 Json evaluate(const Options& options) {
-  const BakedCharacter baked = read_evaluated_files(options.character, options.model);
+  const BakedCharacter baked = read_evaluated_files(options.files);
   std::vector<std::string> present;
   for (const bake::Clip& clip : baked.character.clips) present.push_back(clip.name);
   require_clips(options.poses.clips, present);
@@ -57,7 +57,7 @@ Json evaluate(const Options& options) {
   };
   CharacterReport measured_report = measure_character(
       baked, recipe ? &*recipe : nullptr, measured,
-      {options.character.stem().string(), options.rays, options.common.seed, options.peers}, stage);
+      {options.files.character.stem().string(), options.rays, options.common.seed, options.peers}, stage);
   if (!options.images.empty())
     write_pictures(options.images, baked.character.mesh, baked.model, measured.poses, options.image_count,
                    measured_report.evaluation.vertex_rms, options.rays,
@@ -82,7 +82,7 @@ void add_evaluate_character(CLI::App& evaluate_command) {
                                       "mse_oracle the best that any static bake could do");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  add_evaluated_files(*command, o.character, o.model);
+  add_evaluated_files(*command, o.files);
   command
       ->add_option_function<std::string>(
           "--poses", [&o](const std::string& name) { o.poses.training = name == "training"; },
@@ -97,7 +97,7 @@ void add_evaluate_character(CLI::App& evaluate_command) {
       ->capture_default_str();
   command->add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
       ->check(CLI::Range(1, 10000000));
-  command->add_option("--rays", o.rays, "rays a vertex and pose")
+  command->add_option("--rays", o.rays, "rays for each vertex and pose")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
   command->add_flag(
@@ -110,8 +110,7 @@ void add_evaluate_character(CLI::App& evaluate_command) {
       ->capture_default_str();
   add_common_options(*command, o.common);
   command->callback([options] {
-    run_evaluation(options->common,
-                   {evaluated_files(options->character, options->model), {}, options->images},
+    run_evaluation(options->common, {named_files(options->files), {}, options->images},
                    [&] { return evaluate(*options); });
   });
 }

@@ -26,7 +26,7 @@ struct Options {
   CommonOptions common;
   std::filesystem::path raw, material, unseen, images;
   std::vector<std::uint32_t> sweep;
-  std::vector<std::string> methods;  // baselines; empty: all, where baselines are asked for
+  std::vector<std::string> methods;  // baselines; empty: all, where baselines are requested
   bool peers = false, seeding = false;
 };
 
@@ -107,7 +107,7 @@ void add_evaluate_material(CLI::App& evaluate_command) {
       "of the whole file");
   command
       ->add_option("--methods", o.methods,
-                   "only these peers: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca")
+                   "only these baselines: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca")
       ->delimiter(',')
       ->check(CLI::IsMember(measure::material_baseline_names()))
       ->type_name("NAME,...");

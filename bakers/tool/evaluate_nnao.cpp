@@ -48,14 +48,14 @@ void parse_size(const std::string& text, TruthSettings& truth) {
   truth.height = height;
 }
 
-// What a picture shows after the scene and the truth.
+// The columns of a picture after the scene and the truth.
 struct Shown {
   const char* suffix;
   std::vector<std::pair<std::string, int>> methods;
 };
 const Shown sheets[] = {
     {"", {{"nnao", 64}, {"hbao", 64}, {"gtao_bitmask", 16}, {"ssao+", 16}}},
-    // 60 to 64 fetches a pixel each, with the blur.
+    // These take 60 to 64 fetches for each pixel, with the blur.
     {"_equal_fetches", {{"nnao", 16}, {"gtao_bitmask", 16}, {"hbao", 16}, {"ssao+", 16}}}};
 
 bool is_shown(const std::string& method, int taps) {
@@ -100,7 +100,7 @@ Networks read_networks(const Options& options) {
   return networks;
 }
 
-// In tables.
+// Returns the given network's name in tables; empty without one.
 std::string other_name(const Networks& networks) {
   if (networks.file.empty()) return "";
   return networks.other.form == nook::nnao::NetworkForm::paper ? "nnao_paper" : "nnao_file";
@@ -238,7 +238,8 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command->add_option("scene", o.scenes.files,
-                      "scenes in metres, y up, .glb or .gltf; of several, the means are told as well");
+                      "scenes in metres, y up, .glb or .gltf; of several, the means are reported as well");
+  add_linked_files_option(*command, o.scenes.linked);
   command->add_flag("--thin", o.scenes.thin, "a built-in scene of thin things, called thin");
   std::vector<std::string> baselines{"all"};
   for (const Baseline baseline : all_baselines) baselines.push_back(baseline_name(baseline));
@@ -265,7 +266,7 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
       ->add_option_function<std::string>(
           "--size", [&o](const std::string& text) { parse_size(text, o.truth); }, "pixels; 640x360")
       ->type_name("WxH");
-  command->add_option("--rays", o.truth.rays, "rays a pixel")
+  command->add_option("--rays", o.truth.rays, "rays for each pixel")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
   std::vector<std::string> methods{"nnao", "nnao_paper", "nnao_file"};

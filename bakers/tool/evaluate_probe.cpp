@@ -120,6 +120,7 @@ void add_evaluate_probe(CLI::App& evaluate_command) {
                    "of grids: what both sides hold of the map's light that comes straight: none, the sky "
                    "without suns, or all; default as the grid was baked")
       ->check(CLI::IsMember(measure::direct_names()));
+  add_linked_files_option(*command, o.grid.linked);
   command->add_flag("--no-textures", o.grid.no_textures,
                     "of grids: colour factors stand for textures, and alpha masks are solid");
   command->add_option("--lobes", o.lobes, "spherical Gaussians of the forms that are fitted here")

@@ -1,4 +1,4 @@
-// What every evaluation does: runs on the asked-for threads and hands over a report.
+// The frame of every evaluation: it runs on the requested threads and hands over a report.
 #pragma once
 
 #include <functional>

@@ -25,7 +25,7 @@ void watch_for_interrupt() {
     // Under nohup, and in the background of a script, the work goes on.
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
-  // A reader that went away makes a write fail, which is told; it does not end the process.
+  // A reader that went away makes a write fail, which is reported; it does not end the process.
   std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -1,4 +1,4 @@
-// Ctrl-C as a flag that long work asks for between its steps.
+// Ctrl-C as a flag that long work checks between its steps.
 #pragma once
 
 namespace nook::tool {

@@ -1,4 +1,4 @@
-// What ends a command: a text for the user and the exit code that design and help promise.
+// The end of a command by a failure: a text for the user and the documented exit code.
 #pragma once
 
 #include <nook/nook.h>

@@ -2,7 +2,6 @@
 #include <tbb/task_arena.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -21,6 +20,7 @@
 #include "platform/output_file.h"
 #include "platform/printable.h"
 #include "platform/progress_bar.h"
+#include "platform/stopwatch.h"
 
 namespace nook::tool {
 namespace {
@@ -38,10 +38,6 @@ struct Options {
   // Empty: the output is a device or a pipe, and no checkpoint is kept.
   std::string resume;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 TrainingState starting_state(const Options& options, const Dataset& data, const std::string& recipe) {
   if (options.resume.empty() || !std::filesystem::exists(options.resume))
@@ -62,7 +58,7 @@ Network train_with_progress(const Options& options, const Dataset& data, const s
   const std::uint32_t tenth = std::max(1u, options.training.epochs / 10);
   std::string label = "training";
   std::uint32_t labelled = 0;
-  const auto start = std::chrono::steady_clock::now();
+  const platform::Stopwatch watch;
   const auto show = [&](const TrainingProgress& now) {
     if (now.validation_mse > 0 && now.epoch / tenth != labelled) {
       labelled = now.epoch / tenth;
@@ -71,7 +67,7 @@ Network train_with_progress(const Options& options, const Dataset& data, const s
       label = text;
     }
     bar.show(label, "steps", now.steps_done, now.steps);
-    const bool in_time = options.time_limit_s == 0 || seconds_since(start) < options.time_limit_s;
+    const bool in_time = options.time_limit_s == 0 || watch.seconds() < options.time_limit_s;
     return in_time && !interrupted();
   };
   return train(data, options.training, state, show, [&](const TrainingState& s) {
@@ -85,7 +81,7 @@ void run_in_arena(Options& options) {
   std::optional<platform::OutputFile> report_file;
   if (!options.common.report.empty()) report_file.emplace(options.common.report);
   const std::string recipe = bake::network_recipe(options.data, options.training);
-  auto start = std::chrono::steady_clock::now();
+  platform::Stopwatch watch;
   const Dataset data = [&] {
     platform::ProgressBar bar(options.common.quiet);
     return make_dataset(options.data, [&](std::size_t done, std::size_t total) {
@@ -93,10 +89,9 @@ void run_in_arena(Options& options) {
       return !interrupted();
     });
   }();
-  const double seconds_data = seconds_since(start);
-  start = std::chrono::steady_clock::now();
+  const double seconds_data = watch.lap_seconds();
   Network network = train_with_progress(options, data, recipe);
-  const double seconds_training = seconds_since(start);
+  const double seconds_training = watch.seconds();
   network.recipe = recipe;
   const std::vector<std::byte> file = nook::nnao::write_network(network);
   const Json rows = measure::validation_rows(network, data);

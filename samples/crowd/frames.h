@@ -13,7 +13,7 @@
 
 namespace crowd {
 
-// What every picture is drawn with. main owns it.
+// The state that every picture is drawn with. main owns it.
 struct Stage {
   const platform::Context& context;
   const Hero& hero;

@@ -18,7 +18,7 @@ struct Placement {
   float phase = 0;  // from 0 to 1, at the time 0
 };
 
-// How far a body reaches from its root in the ground plane over a whole clip, by bearing.
+// The reach of a body from its root in the ground plane over a whole clip, by bearing.
 struct Outline {
   static constexpr int kBearings = 24;
   std::array<float, kBearings> reach_m{};

@@ -93,7 +93,7 @@ std::unique_ptr<Light> light_of_frames(const nook::Context& context, const Optio
                                                   : Light(context, o.lights.front()));
 }
 
-// Asks for the newest OpenGL first and then for 3.3, which is all that the crowd needs.
+// Tries the newest OpenGL first and then 3.3, which is all that the crowd needs.
 std::unique_ptr<platform::Context> create_context(const Options& o) {
   platform::ContextRequest request;
   request.kind = o.context;

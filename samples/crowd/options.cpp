@@ -67,7 +67,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
     for (const std::string& fault : {parse_size(size, o), parse_tier(tier, o)})
       if (!fault.empty()) throw CLI::ValidationError("--size", fault);
     o.screen_space = screen_space == "on";
-    // A window runs until it is closed, unless the user asks for a number of pictures.
+    // A window runs until it is closed, unless the user gives a number of pictures.
     if (o.context == "window" && frames->count() == 0) o.frames = 0;
     if (o.report.empty()) o.report = o.out / "report.json";
     return true;

@@ -29,7 +29,7 @@ struct DrawnInstance {
   GLint light_texel = 0;  // where Nook's view has the instance's light
 };
 
-// What the screen-space pass made of the same instances through the same camera.
+// The result of the screen-space pass for the same instances through the same camera.
 struct ScreenAo {
   GLuint texture = 0;  // 0 if there was no such pass
   GLuint depth = 0;    // single-sampled, as large as the viewport

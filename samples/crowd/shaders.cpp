@@ -149,7 +149,7 @@ void main() {
   if (use_floor_light) {
     vec2 uv = (surface_position_ws.xz - floor_first_m) / floor_extent_m;
     irradiance = texture(floor_light, uv).rgb;
-    // The picture fades out where the floor's light is no longer known.
+    // The picture fades out where the floor's light is unknown.
     edge = smoothstep(0.85, 1.0, 2.0 * length(uv - 0.5));
   }
   vec3 seen = 1.0 - exp(-exposure * surface_albedo * irradiance * 0.31830989);

@@ -14,7 +14,7 @@ extern const char* const kGroundVertex;
 extern const char* const kSurfaceFragment;
 // The first line of a fragment shader that has several texts.
 extern const char* const kVersion;
-// How a fragment reads the result of the screen-space pass.
+// The function by which a fragment reads the result of the screen-space pass.
 extern const char* const kScreenAo;
 // Follows kVersion and kScreenAo: ambient light of two hemispheres times AO, and a key light with a soft
 // shadow map. AO is that of the vertices. If use_screen_ao is set, it is multiplied by screen-space AO, and

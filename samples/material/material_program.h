@@ -1,4 +1,4 @@
-// What an engine does with a material: it puts the material's GLSL into a program and binds its textures.
+// The use of a material in an engine: it puts the material's GLSL into a program and binds its textures.
 #pragma once
 
 #include <glad/gl.h>

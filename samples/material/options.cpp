@@ -32,7 +32,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
     if (std::sscanf(size.c_str(), "%dx%d%c", &o.width_px, &o.height_px, &rest) != 2 || o.width_px < 16 ||
         o.height_px < 16 || o.width_px > 8192 || o.height_px > 8192)
       throw CLI::ValidationError("--size", "got '" + size + "', need WIDTHxHEIGHT from 16x16 to 8192x8192");
-    // A window stays open until it is closed, unless pictures are asked for.
+    // A window stays open until it is closed, unless pictures are requested.
     if (o.context == "window" && frames->count() == 0) o.frames = 0;
     if (o.context != "window" && o.frames == 0)
       throw CLI::ValidationError("--frames", "got 0, need 1 or more");

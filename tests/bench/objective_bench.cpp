@@ -10,6 +10,7 @@
 
 #include "bakers/character/cached_objective.h"
 #include "bakers/character/rotation.h"
+#include "tests/bakers/character/direct_objective.h"
 
 namespace {
 
@@ -76,7 +77,8 @@ void cached_against_direct(benchmark::State& run) {
     making = std::min(making, seconds_of([&] { cache = cache_linear_layer(problem.state, problem.set); }));
     cached =
         std::min(cached, seconds_of([&] { evaluate_cached(problem.state, problem.set, cache, &gradient); }));
-    direct = std::min(direct, seconds_of([&] { evaluate_direct(problem.state, problem.set, &gradient); }));
+    direct = std::min(
+        direct, seconds_of([&] { bake::test::evaluate_direct(problem.state, problem.set, &gradient); }));
     // Both need the shadows of all poses, and about twice that for the way back.
     layer = std::min(layer, seconds_of([&] {
                        benchmark::DoNotOptimize(shadows_of(problem.state, problem.set.poses).data());

@@ -59,7 +59,7 @@ double truth(const CharacterModel& model, const Inputs& in, std::uint32_t v, boo
   return added ? self * std::clamp(1 - dark, 0.0, 1.0) : self;
 }
 
-// In file order.
+// Returns the AO in file order.
 std::vector<float> vertex_ao(const ShadowKernels& kernels, const LinearLayer& layer, const float* shadow,
                              const float* occlusion) {
   std::vector<float> slots(layer.padded_slots()), out;

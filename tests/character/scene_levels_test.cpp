@@ -115,7 +115,7 @@ TEST_CASE("a level darkens by linked casters about as full detail does") {
   const double full = run(0), coarse = run(1);
   CHECK(full > 0.01);
   // Merged spheres keep the sum of weight * radius^2. Key points take over from others that are alike, which
-  // random ones are not quite, and random blend weights of either sign make the most of the difference.
+  // random ones are not quite, and random blend weights of either sign amplify the difference.
   CHECK(std::abs(coarse / full - 1) < 0.35);
 }
 

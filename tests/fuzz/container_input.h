@@ -1,5 +1,5 @@
-// What a fuzz target of a .nook file is given: the file, and behind it a script, bytes that choose what is
-// done with what was loaded. The size in the file's head says where it ends, so that a plain .nook file is an
+// The input of a fuzz target of a .nook file: the file, and behind it a script, bytes that choose what is
+// done with what was loaded. The file ends by the size in its head, so that a plain .nook file is an
 // input with an empty script.
 #pragma once
 
@@ -76,7 +76,7 @@ inline std::size_t file_size_of(std::span<const std::uint8_t> input) {
 }
 
 struct ContainerInput {
-  std::vector<std::byte> file;  // with the right checksum, so that what lies behind it is reached
+  std::vector<std::byte> file;  // with the right checksum, so that the reader goes on behind it
   Script script;
 };
 

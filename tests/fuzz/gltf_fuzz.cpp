@@ -1,5 +1,5 @@
-// Imports bytes as a rigged character through the C ABI and asks for everything that can be read from it, and
-// as a static scene: nothing may crash, and every number that comes out is finite, whatever the bytes. Built
+// Imports bytes as a rigged character through the C ABI and queries everything that can be read from it, and
+// as a static scene: nothing may crash, and every number in the answers is finite, whatever the bytes. Built
 // for libFuzzer with clang; elsewhere gltf_fuzz_replay.cpp drives it.
 #include <nook/nook_bake.h>
 
@@ -27,7 +27,7 @@ void require_finite(const std::vector<float>& numbers) {
   for (const float number : numbers) require(std::isfinite(number));
 }
 
-// What a small file may ask for is bounded, but not worth a fuzzer's time beyond this.
+// The demands of a small file are bounded, but not worth a fuzzer's time beyond this.
 bool is_small(const nook_bake_character_info& info) {
   return info.file_vertex_count <= 1 << 12 && info.bone_count <= 1 << 8 && info.clip_count <= 16 &&
          info.triangle_count <= 1 << 13;

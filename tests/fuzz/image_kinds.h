@@ -1,5 +1,5 @@
-// What the first byte of an input of the image target says: which reader gets the rest as a file, and of
-// which ending.
+// The meaning of the first byte of an input of the image target: it chooses the reader that gets the rest as
+// a file, and its ending.
 #pragma once
 
 #include <array>

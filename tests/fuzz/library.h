@@ -1,4 +1,4 @@
-// What every fuzz target of the C ABI needs: contexts, OpenGL handles, and what a result may be.
+// The parts of every fuzz target of the C ABI: contexts, OpenGL handles, and what a result may be.
 #pragma once
 
 #include <nook/nook_gl.h>
@@ -9,7 +9,7 @@
 
 namespace nook::test {
 
-// Whether a call succeeded. INTERNAL is a fault of the library whatever the input was.
+// Returns whether a call succeeded. INTERNAL is a fault of the library whatever the input was.
 inline bool ok(nook_result result) {
   if (result == NOOK_ERROR_INTERNAL || result > NOOK_OK) std::abort();
   return result == NOOK_OK;

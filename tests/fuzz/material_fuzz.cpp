@@ -14,7 +14,7 @@ namespace {
 
 using namespace nook::test;
 
-// What a small file may expand to is bounded, but not worth a fuzzer's time beyond this.
+// The size that a small file may expand to is bounded, but not worth a fuzzer's time beyond this.
 bool is_small(std::span<const std::byte> file) {
   const auto expanded = [](const nook::material::TensorShape& s) {
     return std::uint64_t(s.clusters) * s.rank_light * s.rank_view * s.width * s.height;

@@ -226,7 +226,7 @@ void play(Crowd& crowd, Script& script) {
   update(crowd, script);
 }
 
-// What a small file may ask for is bounded, but not worth a fuzzer's time beyond this.
+// The demands of a small file are bounded, but not worth a fuzzer's time beyond this.
 bool is_small(const nook_character_model_info& info) {
   return std::uint64_t(info.sphere_count) * info.key_point_count <= 1 << 12 &&
          info.file_vertex_count <= 1 << 12 && info.bone_count <= 1 << 8;

@@ -54,7 +54,7 @@ void save(nook_context context, nook_probe probe) {
   }
 }
 
-// What lobes from anywhere give: anything, but no crash.
+// Lobes from anywhere may give anything, but no crash.
 void use_lobes(Script& script, std::vector<nook_probe_lobe>& lobes) {
   const auto count = std::uint32_t(lobes.size());
   float light[3 * direction_count], coefficients[75], rotation[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1};

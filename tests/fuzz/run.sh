@@ -4,7 +4,7 @@
 #   tests/fuzz/run.sh [TARGET|all] [SECONDS]     default: all 600
 # Prints for each target how many inputs ran, how many edges they reached, and at which input the last new edge came. Exits
 # with 1 where an input crashed, hung or took too much memory; it is kept in the folder that is named.
-# NOOK_FUZZ_BUILD_DIR says where to build (default: build-fuzz).
+# NOOK_FUZZ_BUILD_DIR is the folder to build in (default: build-fuzz).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=${NOOK_FUZZ_BUILD_DIR:-$root/build-fuzz}

@@ -1,18 +1,18 @@
 // An OpenGL that draws nothing and accepts everything, so that what the library uploads can be fuzzed without
-// a driver. It reads every byte that it is given and hands out mappings of exactly the size asked for, so
+// a driver. It reads every byte that it is given and hands out mappings of exactly the requested size, so
 // that the address sanitizer sees an access outside of them; it aborts where a buffer is used beyond its end.
 #pragma once
 
 namespace nook::test {
 
-// What the host's textures look like to whoever asks, and which OpenGL this is.
+// The answers to queries: the host's textures, and which OpenGL this is.
 struct SilentGl {
   int version = 45;  // 10 * major + minor
   int width = 8, height = 8;
 };
 SilentGl& silent_gl();
 
-// For nook_gl_desc.get_proc.
+// Serves as nook_gl_desc.get_proc.
 void* silent_gl_proc(void* user, const char* name);
 
 }  // namespace nook::test

@@ -194,7 +194,7 @@ TEST_CASE("instances come and go without disturbing the others") {
 
 TEST_CASE("crowds beyond one chunk of AO and one page of shadows agree too") {
   NOOK_NEED_CONTEXT(context);
-  // The least that the specifications guarantee: 16 MiB of storage block, 65,536 texels.
+  // The minimum that the specifications guarantee: 16 MiB of storage block, 65,536 texels.
   Trace trace(context);
   trace.limits[GL_MAX_SHADER_STORAGE_BLOCK_SIZE] = 1 << 24;
   trace.limits[GL_MAX_TEXTURE_BUFFER_SIZE] = 65536;

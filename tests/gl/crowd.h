@@ -94,7 +94,7 @@ std::vector<float> gpu_ao(nook_gl gl, const Crowd& crowd, nook_character_model m
 float largest_difference(const std::vector<float>& a, const std::vector<float>& b);
 // Between the AO of the last nook_gl_scene_update and that of the CPU, which is evaluated here.
 float difference_to_cpu(nook_gl gl, const Crowd& crowd, nook_character_model model, std::size_t index);
-// What nook_gl.h promises for it, and what a byte of a frame buffer (1 / 255) cannot show.
+// The error that nook_gl.h promises for it, and that a byte of a frame buffer (1 / 255) cannot show.
 constexpr float promised_difference = 2e-3f;
 
 nook_gl_info info_of(nook_gl gl);

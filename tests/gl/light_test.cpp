@@ -101,7 +101,7 @@ void check_agreement(platform::Context& context, const Cast& cast, const CrowdOp
     }
     CHECK(largest < promised_light_difference);
     CHECK(ao_largest < promised_difference);
-    // Were the light left out, the picture would be the AO's; the ground alone changes least.
+    // Were the light left out, the picture would be the AO's; the ground alone has the smallest change.
     CHECK(colourful > 0.03f);
     nook_gl_destroy(&gl);
     CHECK(take_debug_messages().empty());
@@ -162,7 +162,7 @@ std::vector<float> ask(const GladGLContext& gl, const nook_gl_light_view& view,
   return answers;
 }
 
-// What hosts include for probes.
+// The source that hosts include for probes.
 std::string probe_glsl(nook_context context, nook_gl gl) {
   nook_probe_fit_desc desc;
   NOOK_OK_OR_FAIL(nook_probe_fit_desc_init(&desc, sizeof desc, NOOK_VERSION));

@@ -15,7 +15,7 @@ namespace {
 
 using Check = std::function<void(Poison&, const std::function<void()>&)>;
 
-// What an upload under odd state decodes to is what a calm one decodes to.
+// An upload under odd state decodes to the same as a calm one.
 void walk(platform::Context& context, nook_gl_state_mode mode, const Check& check) {
   MaterialFixture fixture(context, mode);
   const nook_material loaded = fixture.load(material::test::sample_material(1));

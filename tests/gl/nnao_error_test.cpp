@@ -154,7 +154,8 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
     CHECK(message_has("nook_nnao_render: "));
     CHECK(message_has(bad.message));
     REQUIRE(gl.GetError() == GL_NO_ERROR);
-    // What the driver says about the refused bind is not the host's to see as an error, only a debug message.
+    // The host sees the driver's complaint about the refused bind as a debug message only, and not as an
+    // error.
     take_debug_messages();
   }
   // Nothing was drawn so far: AO is 1 everywhere, colours are as they were.

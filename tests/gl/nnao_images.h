@@ -38,7 +38,7 @@ Surface ball(Vec3 centre, float radius);
 // A floor, a wall that ends at the sky, and balls on the floor.
 std::vector<Surface> still_life();
 
-// What the camera sees: depth in metres (infinite: sky), the normal towards the viewer.
+// The view of the camera: depth in metres (infinite: sky), the normal towards the viewer.
 struct Picture {
   std::uint32_t width = 0, height = 0;
   nnao::ScreenRays rays;
@@ -104,7 +104,7 @@ struct NnaoFixture {
 // The network's output stays well inside [0, 1], so that no difference is clamped away.
 nnao::Network mild_network(nnao::NetworkForm form, std::uint32_t seed = 1);
 
-// What a pass can run as on this context.
+// The ways in which a pass can run on this context.
 std::vector<nook_nnao_path> paths_of(const platform::Context& context);
 
 nook_nnao_desc pass_desc(int width, int height);

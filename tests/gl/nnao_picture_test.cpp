@@ -1,4 +1,4 @@
-// What is seen: planes, sky, borders, edges, blur, half resolution, normals rebuilt from depth.
+// The visible result: planes, sky, borders, edges, blur, half resolution, normals rebuilt from depth.
 #include <limits>
 
 #include "tests/gl/nnao_images.h"
@@ -51,7 +51,7 @@ float degrees_off(const std::vector<float>& shown, const Picture& picture, std::
 struct Range {
   float low = 1, high = 0;
 };
-// Of the pixels at least `margin` from every border.
+// Takes the pixels at least `margin` from every border.
 Range range_inside(const std::vector<float>& ao, int w, int h, int margin) {
   Range range;
   for (int y = margin; y < h - margin; ++y)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int width = 33, height = 21;
 
-// Everything the pass can be asked for, over images that are made once.
+// All settings of the pass, over images that are made once.
 struct Stage {
   Stage(platform::Context& made_in, nook_gl_state_mode mode) : fixture(made_in, mode) {
     const Picture picture = look(camera, still_life(), width, height);

@@ -335,7 +335,7 @@ StateValues Poison::defaults() const {
       {"polygon_mode", {GL_FILL}},
       {"dither", {GL_TRUE}}};
   StateValues values = touched();
-  // It has no default; the pass says what it leaves.
+  // It has no default; the pass documents what it leaves.
   values.erase("viewport");
   for (auto& [name, numbers] : values) {
     const auto known = other_than_0.find(name);
@@ -353,7 +353,7 @@ StateValues Poison::untouched() const {
   if (!(users_ & (item_users))) keep(#name, read.name());
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
-  // Further viewports and draw buffers are the host's, whoever asks for the first.
+  // Further viewports and draw buffers are the host's, whoever sets the first.
   if (gl_.VERSION_4_1) {
     GLfloat box[4] = {};
     gl_.GetFloati_v(GL_VIEWPORT, 1, box);

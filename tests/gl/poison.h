@@ -29,7 +29,7 @@ class Poison {
   // The users' items of the list; the other items, and the state beside the list.
   StateValues touched() const;
   StateValues untouched() const;
-  // What OpenGL starts with, for the users' items.
+  // The initial state of OpenGL, for the users' items.
   StateValues defaults() const;
   // Pretends the host never changed anything: the state of the list at its defaults.
   void reset_touched();

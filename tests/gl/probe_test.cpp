@@ -233,8 +233,8 @@ void compare(const std::vector<float>& found, const std::vector<float>& expected
       worst = std::max(worst, std::isfinite(found[i]) ? std::abs(found[i] - expected[i]) : INFINITY);
     }
     INFO("answer " << answer << " largest " << largest);
-    // What nook_gl_probe.h promises: exponentials of a GPU have an error of a few units in the last place,
-    // times exponents up to a hundred.
+    // This is the bound that nook_gl_probe.h promises: exponentials of a GPU have an error of a few units in
+    // the last place, times exponents up to a hundred.
     CHECK(worst <= 1e-4f * largest);
   }
 }
@@ -431,6 +431,6 @@ TEST_CASE("a probe outlives its nook_gl, and a lost context needs no call") {
   CHECK(nook_gl_probe_update(uploaded, probe.get()) == NOOK_ERROR_GL);
   nook_gl_probe_destroy(&uploaded);
   nook_gl_destroy(&gl);
-  // As a new context would find it.
+  // A lost context would have deleted the texture.
   context.gl().DeleteTextures(1, &info.texture);
 }

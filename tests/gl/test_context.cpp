@@ -49,7 +49,7 @@ void create(Driver& driver) {
   }
   const int wanted = 10 * request.major + request.minor;
   if (wanted == 33 && version_of(*driver.context) != 33)
-    driver.failure = "asked for OpenGL 3.3 alone and got " + driver.context->version();
+    driver.failure = "requested OpenGL 3.3 alone and got " + driver.context->version();
 }
 
 Driver& driver() {

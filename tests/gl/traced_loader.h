@@ -23,7 +23,7 @@ class Trace {
 
   std::set<std::string> hidden;    // these names are answered with NULL
   std::map<unsigned, int> limits;  // what glGetIntegerv answers for these names
-  bool shaders_fail = false;       // glGetShaderiv says so
+  bool shaders_fail = false;       // by glGetShaderiv
   bool mapping_fails = false;      // glMapBufferRange answers NULL
   // So many calls of glUnmapBuffer lose the contents and answer GL_FALSE before one keeps them.
   int unmapping_failures = 0;
@@ -32,11 +32,11 @@ class Trace {
   int calls(const std::string& name) const;  // "glMapBufferRange"
   int calls_that_begin(const std::string& prefix) const;
   bool mapped_for_reading() const;
-  std::set<std::string> asked;  // every name that the loader was asked for
+  std::set<std::string> asked;  // every name that the loader has looked up
 
   // Overwrites the buffer that is bound to GL_ARRAY_BUFFER.
   void lose_array_buffer();
-  // Of this call of glUnmapBuffer.
+  // Returns whether this call of glUnmapBuffer fails.
   bool unmapping_fails();
 
  private:

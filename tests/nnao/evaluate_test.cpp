@@ -253,7 +253,7 @@ TEST_CASE("the embedded network leaves open planes open and darkens a corner") {
       corner.normal[corner.view().at(x, y)] = normalised(wall ? Vec3{0, -1, 1} : Vec3{0, 1, 1});
     }
   for (const std::uint32_t taps : {16u, 32u, 64u, 128u, 256u}) {
-    // What a blur shows: the mean over a period of the noise along the foot. The network was trained to a
+    // A blur shows the mean over a period of the noise along the foot. The network was trained to a
     // root mean square error of 0.05.
     float ao = 0;
     for (std::uint32_t x = 48; x < 52; ++x)

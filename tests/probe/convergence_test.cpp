@@ -1,4 +1,4 @@
-// How near the running average comes to the exact least-squares fit, for smooth functions and independent
+// The distance of the running average from the exact least-squares fit, for smooth functions and independent
 // samples, over 20 seeds.
 #include "sdk/src/probe/dense.h"
 #include "tests/catch.h"

@@ -31,7 +31,7 @@ TEST_CASE("forms that solve merge exactly") {
     test::add(a, samples, 0, 1777);
     test::add(b, samples, 1777);
     a.merge(b);
-    // Sums of doubles in another order, 1e-13, come out as the same floats but for a last bit.
+    // Sums of doubles in another order, 1e-13, round to the same floats but for a last bit.
     CHECK(test::largest_difference(test::read(a), test::read(whole)) < 1e-6);
     CHECK(a.counts().used == 5000);
     CHECK(a.counts().weight == whole.counts().weight);

@@ -94,7 +94,7 @@ TEST_CASE("no samples, or samples without weight, give 0") {
     fit.add_samples(&d.x, v, &none, 1);
     CHECK(test::read(fit) == Coefficients(12));
     CHECK(fit.counts().used == 1);
-    // What comes after counts as if it were first.
+    // Later samples count as if they were the first.
     Fit other(vogel_basis(12), with(method));
     test::add(fit, test::sample(1, 300, sky));
     test::add(other, test::sample(1, 300, sky));

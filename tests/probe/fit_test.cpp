@@ -1,4 +1,4 @@
-// What each method converges to, and how one step of each is related to the others.
+// The limit of each method, and how one step of each is related to the others.
 #include "sdk/src/probe/fit.h"
 
 #include <string>
@@ -129,7 +129,7 @@ TEST_CASE("the original form is the corrected one with another step") {
       const double left = double(c[i].x - before[i].x) * mean_square - double(o[i].x - before[i].x) * mean;
       const double right = (double(values[i]) * double(values[i]) - mean_square) * double(before[i].x);
       CHECK(std::abs(left - right) < 2e-6);  // float coefficients of size 1 to 3
-      // For lobes M is nearly 2 D.
+      // M is nearly 2 D for lobes.
       CHECK(std::abs(mean / (2 * mean_square) - 1) < 2 * std::exp(-2.0 * 6));
     }
   }

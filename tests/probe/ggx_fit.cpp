@@ -51,7 +51,8 @@ void print(const char* name, const VectorXd& k, double error) {
   std::printf("\n");
 }
 
-// The coefficients of least largest error, by C. Lawson's weights: rows that are far off count ever more.
+// The coefficients with the smallest maximum error, by C. Lawson's weights: rows that are far off count ever
+// more.
 VectorXd fit_largest(const MatrixXd& rows, const VectorXd& target, double& largest) {
   VectorXd weight = VectorXd::Constant(target.size(), 1.0 / double(target.size())), best;
   largest = 1e9;
@@ -79,7 +80,7 @@ bool fit_albedo() {
         view_of(0.004 * std::pow(250, i / 24 / 25.0), 0.02 + 0.98 * std::pow(i % 24 / 23.0, 2), 128);
     const double rho = std::sqrt(view.alpha), mean_cosine = 1 - std::pow(view.fresnel / view.whole, 0.2);
     masking.row(i) = monomials(4, view.openness, view.alpha) / view.whole;
-    // What an error of the cosine does to the albedo, relatively.
+    // The relative error of the albedo for an error of the cosine.
     const double weight =
         5 * view.fresnel / (1 - mean_cosine) / (low_reflectance * view.whole + view.fresnel) + 1e-3;
     fresnel.row(i) = monomials(4, std::sqrt(view.facing), rho) * rho * weight;

@@ -114,7 +114,7 @@ TEST_CASE("under constant light a surface reflects its directional albedo") {
         s.reflectance = reflectance;
         const double truth = reflected(s, constant);
         INFO("alpha " << alpha << " facing " << facing << " reflectance " << reflectance);
-        // What 15 coefficients for masking and 15 for Fresnel leave, see ggx_fit.cpp.
+        // The error that 15 coefficients for masking and 15 for Fresnel leave, see ggx_fit.cpp.
         CHECK(relative_error(s, constant, SpecularForm::isotropic, truth) < 0.05);
         CHECK(relative_error(s, constant, SpecularForm::anisotropic, truth) < 0.05);
       }
@@ -150,7 +150,7 @@ TEST_CASE("under constant light anisotropic surfaces reflect their directional a
 
 TEST_CASE("glossy reflection of a probe against the GGX integral") {
   // From any view, 0.02 to 1. What one lobe leaves of a distribution with GGX's tails and a horizon; at 0.2
-  // the lobe of a grazing view is longest in proportion, and its product integral the least exact.
+  // the lobe of a grazing view is longest in proportion, and its product integral has the largest error.
   const struct {
     float alpha;
     double isotropic, anisotropic;

@@ -5,7 +5,7 @@
     tests/reports/compare.py BEFORE AFTER
 
 A change of structure must not change a number. This script writes one JSON report for each command into OUT_DIR;
-compare.py says where two such folders differ beyond times, memory and paths. It covers bakes of characters, probes,
+compare.py lists where two such folders differ beyond times, memory and paths. It covers bakes of characters, probes,
 grids, materials and networks, `inspect` of every file, and `evaluate` character (unseen clips, training poses, baselines),
 casters, probe (maps, grids), material (baselines, seeding, sweep, unseen views) and nnao (scenes, a trained network,
 tuning).

@@ -15,8 +15,8 @@ void require_same(const char* what, std::size_t got, std::size_t needed) {
 
 }  // namespace
 
-bake::ImportedCharacter read_character(const std::filesystem::path& path) {
-  return bake::import_gltf(path);
+bake::ImportedCharacter read_character(const std::filesystem::path& path, bake::LinkedFiles linked) {
+  return bake::import_gltf(path, linked);
 }
 
 BakedCharacter read_baked_character(bake::ImportedCharacter character, std::vector<std::byte> model_bytes) {

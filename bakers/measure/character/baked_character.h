@@ -17,7 +17,7 @@ struct BakedCharacter {
 };
 
 // Throws Failure (BAD_FILE) for a character that cannot be imported.
-bake::ImportedCharacter read_character(const std::filesystem::path& path);
+bake::ImportedCharacter read_character(const std::filesystem::path& path, bake::LinkedFiles linked);
 
 // Throws Failure (BAD_FILE, FILE_VERSION) for bytes that are no model, or the model of another character.
 BakedCharacter read_baked_character(bake::ImportedCharacter character, std::vector<std::byte> model_bytes);

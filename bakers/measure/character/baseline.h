@@ -11,7 +11,7 @@
 
 namespace nook::bake {
 
-// A fitted pose -> AO regression that can be asked for any pose.
+// A fitted pose -> AO regression that can be evaluated in any pose.
 class PoseRegression {
  public:
   virtual ~PoseRegression() = default;

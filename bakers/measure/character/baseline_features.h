@@ -1,4 +1,5 @@
-// What the peers know of a pose: the rotation of each joint against its parent, relative to rest.
+// The features of a pose that the baselines use: the rotation of each joint against its parent, relative to
+// rest.
 #pragma once
 
 #include <Eigen/Dense>

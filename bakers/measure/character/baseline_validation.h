@@ -1,4 +1,4 @@
-// Cross-validation of the peers: which poses are left out together, and which vertices vote.
+// Cross-validation of the baselines: which poses are left out together, and which vertices vote.
 #pragma once
 
 #include <Eigen/Dense>
@@ -29,8 +29,8 @@ BaselineMatrix target_columns(const AoTargets& targets, std::size_t first, std::
 // Sum of squared errors of clamped predictions.
 double clamped_squared_error(const BaselineMatrix& prediction, const BaselineMatrix& target);
 
-// Of candidates with these errors and sizes, the smallest whose error is within `slack` (relative) of the
-// least.
+// Returns, of candidates with these errors and sizes, the smallest whose error is within `slack` (relative)
+// of the minimum.
 struct SizedError {
   double error = 0;
   std::size_t bytes = 0;

@@ -60,7 +60,7 @@ class ModelDarkening {
   }
 
   // Over file vertices; those that seams repeat count again, which shifts a mean over the whole body by
-  // nothing that matters beside the 20 % asked for.
+  // nothing that matters beside a bound of 20 %.
   double mean_ao(std::uint32_t terms) {
     scene_.terms = terms;
     update(scene_);

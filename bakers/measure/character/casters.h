@@ -1,4 +1,4 @@
-// How well a character darkens its neighbour: a lone caster at several distances, by each form and by ray
+// The darkening of a neighbour by a character: a lone caster at several distances, by each form and by ray
 // tracing.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How far a model is from ray tracing on given poses, beside what a team would use instead.
+// The error of a model against ray tracing on given poses, beside what a team would use instead.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct CharacterEvaluation {
 // The prediction of a model for one pose, by the scalar reference: a value a welded vertex, clamped.
 std::vector<float> predict_ao(const CharacterModel& model, std::span<const Mat3x4> bones);
 
-// Targets are traced with rays a vertex under another seed than the fit's.
+// Targets are traced with rays for each vertex under another seed than the fit's.
 CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
                                        const Progress& progress = {});

@@ -26,7 +26,7 @@ struct CharacterReportSettings {
       false;  // also fit the linear pose model and the pose clusters, to the model's own training poses
 };
 
-// Shows a stage; its result is asked for every step, false stops with Failure (CANCELLED).
+// Shows a stage. The function that it returns is called at every step; false stops with Failure (CANCELLED).
 using StageProgress = std::function<bake::Progress(const char* stage)>;
 
 struct CharacterReport {

@@ -1,4 +1,4 @@
-// How far values at vertices are from their reference.
+// Errors of values at vertices against their reference.
 #pragma once
 
 #include "bakers/measure/crowd/posed_crowd.h"

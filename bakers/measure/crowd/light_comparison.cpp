@@ -37,7 +37,7 @@ std::vector<float> constant_irradiance(const Light& light) {
 }
 
 struct Forms {
-  VertexValues ao_only, ao_x_probe, per_lobe;  // irradiance, three floats a vertex
+  VertexValues ao_only, ao_x_probe, per_lobe;  // irradiance, three floats for each vertex
 };
 
 Forms light_characters(const Subject& subject, std::span<const std::uint32_t> characters,

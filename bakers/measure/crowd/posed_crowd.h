@@ -36,7 +36,7 @@ class PosedCrowd {
   const std::vector<std::uint32_t>& triangles() const { return triangles_; }  // three indices each
 
   Body body(std::size_t character) const;
-  // The x and z of the first bone, which is precise enough to tell which bodies are far apart.
+  // The x and z of the first bone, which is precise enough to find the bodies that are far apart.
   glm::vec2 ground_position_m(std::size_t character) const;
 
  private:

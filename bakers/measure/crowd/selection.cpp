@@ -18,7 +18,7 @@ float squared_distance(const Place& a, const Place& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-// How much stands between the focus and a camera at this bearing.
+// Returns how much stands between the focus and a camera at this bearing.
 float obstruction(std::span<const Place> places, const Place& focus, float bearing_rad) {
   const float s = std::sin(bearing_rad), c = std::cos(bearing_rad);
   float sum = 0;

@@ -1,5 +1,5 @@
-// What the measuring asks of the program that has a crowd: to evaluate its ambient occlusion with Nook, and
-// to draw pictures of it.
+// The functions of a program with a crowd that the measurements call: they evaluate its ambient occlusion
+// with Nook, and draw pictures of it.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -23,7 +23,8 @@ class EvaluatedCrowd {
   virtual std::vector<float> static_ao() const = 0;
   // The exponent of the norm that adds up the spheres' shadows.
   virtual float gamma() const = 0;
-  // Evaluates the occlusion of some characters under these lobes with all terms: three floats a vertex.
+  // Evaluates the occlusion of some characters under these lobes with all terms: three floats for each
+  // vertex.
   virtual VertexValues directional_ao(std::span<const std::uint32_t> characters,
                                       std::span<const nook_probe_lobe> lobes) = 0;
 };
@@ -46,8 +47,8 @@ struct AoPanel {
 
 // A picture of a group in a light whose irradiance is known everywhere.
 struct IrradiancePanel {
-  VertexValues irradiance;  // three floats a vertex, an array for each member
-  FloorValues floor;        // three floats a point
+  VertexValues irradiance;  // three floats for each vertex, an array for each member
+  FloorValues floor;        // three floats for each point
   float exposure = 1;
 };
 

@@ -14,8 +14,8 @@ struct TraceSettings {
   bool ground = true;  // whether the ground plane y = 0 occludes
 };
 
-// The AO of the receivers' vertices. All bodies near a receiver occlude it, and the ground does if the
-// settings say so.
+// The AO of the receivers' vertices. All bodies near a receiver occlude it, and the ground does if it is
+// in the settings.
 VertexValues traced_ao(const PosedCrowd& crowd, std::span<const std::uint32_t> receivers,
                        const TraceSettings& settings);
 

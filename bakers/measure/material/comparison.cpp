@@ -1,11 +1,10 @@
 #include "bakers/measure/material/comparison.h"
 
-#include <chrono>
-
 #include "bakers/measure/material/measures.h"
 #include "bakers/measure/material/pca.h"
 #include "bakers/measure/material/report.h"
 #include "bakers/measure/material/whole_file.h"
+#include "platform/stopwatch.h"
 #include "sdk/src/material/material_file.h"
 
 namespace nook::bake::material {
@@ -14,11 +13,6 @@ namespace {
 using nook::material::ClusteredTensor;
 using nook::material::Material;
 using nook::material::VisibilityForm;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::vector<float> plain(const std::pmr::vector<float>& values) {
   return {values.begin(), values.end()};
@@ -54,9 +48,9 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
   const std::uint32_t map_side = settings.method == Method::k_cta ? settings.map_side : 0;
   const nlohmann::ordered_json recipe = describe(settings);
   if (!material) settings.map_side = 0;
-  const auto start = Clock::now();
+  const platform::Stopwatch watch;
   Material whole = compress(raw, settings, progress);
-  const double seconds = seconds_since(start);
+  const double seconds = watch.seconds();
   whole.recipe = recipe.dump().c_str();
   whole = nook::material::quantise(whole);
   MethodRow row = measure_material(raw, whole);
@@ -86,7 +80,7 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
 }
 
 MethodRow measure_pca(const RawMaterial& raw, std::span<const std::byte> file, std::uint64_t seed) {
-  const auto start = Clock::now();
+  const platform::Stopwatch watch;
   const std::size_t beside = bytes_beside_btf(file);
   const PcaResult pca = fit_pca(raw, file.size() - beside, seed);
   MethodRow row;
@@ -95,7 +89,7 @@ MethodRow measure_pca(const RawMaterial& raw, std::span<const std::byte> file, s
   row.file_bytes = beside + pca.bytes;
   row.se_db = pca.se_db;
   row.psnr_db = pca.psnr_db;
-  row.seconds = seconds_since(start);
+  row.seconds = watch.seconds();
   return row;
 }
 

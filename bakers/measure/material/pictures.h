@@ -1,4 +1,4 @@
-// What a material looks like, and what compression did to it.
+// Pictures of a material, and of what compression did to it.
 #pragma once
 
 #include <filesystem>

@@ -1,18 +1,8 @@
 #include "bakers/measure/material/report.h"
 
-#include <sys/resource.h>
+#include "platform/peak_memory.h"
 
 namespace nook::bake::material {
-namespace {
-
-std::size_t peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::size_t(usage.ru_maxrss) * 1024;
-}
-
-}  // namespace
-
 nlohmann::ordered_json report_row(const std::string& material, const MethodRow& row) {
   nlohmann::ordered_json json = {{"material", material}, {"method", row.method}, {"k", row.mixture}};
   json["view_rank"] = row.view_rank ? nlohmann::ordered_json(*row.view_rank) : nlohmann::ordered_json();
@@ -28,7 +18,7 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   if (row.se_db_unseen) json["se_db_unseen"] = *row.se_db_unseen;
   if (row.error_texels_unseen) json["votf_error_texels_unseen"] = *row.error_texels_unseen;
   json["seconds"] = row.seconds;
-  json["peak_bytes"] = peak_bytes();
+  json["peak_bytes"] = platform::peak_bytes();
   return json;
 }
 

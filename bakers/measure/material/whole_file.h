@@ -1,4 +1,4 @@
-// What a user ships: the bytes of whole material files, view maps, directions and headers counted.
+// The bytes of whole material files, which users ship: view maps, directions and headers count.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,7 @@
 
 namespace nook::measure {
 
-// What every method is asked for.
+// The request that every method gets.
 struct AoRequest {
   float radius = 0.5f;        // metres
   float max_radius_px = 90;   // where the radius covers more pixels, it shrinks
@@ -23,7 +23,7 @@ class BaselinePass {
 
   // Returns the texture (R8) that holds the AO until the next call.
   GLuint draw(const BaselineMethod& method, const GpuView& view, const AoRequest& request, bool blurred);
-  // Of AO that lies in a texture of the same size.
+  // Blurs AO that lies in a texture of the same size.
   GLuint blur(GLuint ao, const GpuView& view, const AoRequest& request);
 
  private:

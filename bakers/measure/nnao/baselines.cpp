@@ -3,7 +3,7 @@
 namespace nook::measure {
 namespace {
 
-// What `nook evaluate nnao --tune all` prints, seed 1.
+// The output of `nook evaluate nnao --tune all`, seed 1.
 constexpr BaselineMethod methods[] = {
 #include "bakers/measure/nnao/baseline_tuning.inl"
 };

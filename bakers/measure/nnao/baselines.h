@@ -12,9 +12,9 @@ inline constexpr Baseline all_baselines[] = {Baseline::ssao, Baseline::ssao_plus
 const char* baseline_name(Baseline baseline);    // in tables
 const char* baseline_shader(Baseline baseline);  // in shaders/
 
-// What the grid search chooses.
+// The parameters that the grid search chooses.
 struct BaselineTuning {
-  float radius_scale = 1;  // the method's radius over the radius asked for
+  float radius_scale = 1;  // the method's radius over the radius of the request
   float power = 1;         // of its result
   // Bias of SSAO+ in radii and of HBAO in radians; where GTAO's falloff begins, in radii; thickness of the
   // bitmask in radii. SSAO has none.
@@ -37,7 +37,8 @@ BaselineGrid baseline_grid(Baseline baseline, int taps);
 // Every row of the comparison, with the tuning that `nook evaluate nnao --tune all` prints.
 std::span<const BaselineMethod> baseline_methods();
 
-// Texture fetches a pixel: the pixel's depth and normal, one depth a tap; the blur's are blur_fetches more.
+// Texture fetches for each pixel: its depth and normal, and one depth for each tap; the blur's are
+// blur_fetches more.
 int baseline_fetches(const BaselineMethod& method);
 // Two axes, each AO, depth and normal of 7 pixels.
 inline constexpr int blur_fetches = 2 * 3 * 7;

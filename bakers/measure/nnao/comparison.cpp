@@ -1,12 +1,12 @@
 #include "bakers/measure/nnao/comparison.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <deque>
 #include <memory>
 
 #include "bakers/measure/nnao/image_error.h"
+#include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::measure {
@@ -45,10 +45,10 @@ double change_when_slid(const std::vector<float>& ao, const std::vector<float>& 
 
 double timed_draw(const GladGLContext& gl, const std::function<void()>& draw) {
   gl.Finish();
-  const auto start = std::chrono::steady_clock::now();
+  platform::Stopwatch watch;
   draw();
   gl.Finish();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return watch.lap_ms();
 }
 
 double median(std::vector<double> values) {

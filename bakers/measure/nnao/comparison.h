@@ -44,7 +44,7 @@ struct Comparison {
   std::vector<KeptImage> images;  // blurred
 };
 
-// keep: whether a method's blurred images are wanted. Views have one size. progress counts methods; false
+// keep: whether a method's blurred images are kept. Views have one size. progress counts methods; false
 // stops, which throws Failure(CANCELLED).
 Comparison compare(platform::Context& context, std::span<const MeasuredView> views,
                    const ComparisonSettings& settings,

@@ -27,7 +27,7 @@ std::vector<MeasuredView> tuning_views(std::uint64_t seed,
     if (!progress(i, count)) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing");
     const TrainingScene scene = make_scene(seed, i);
     const bake::RayScene rays(scene.soup);
-    Random random(seed + i);
+    bake::Random random(seed + i);
     TruthSettings settings;
     settings.width = 320;
     settings.height = 180;

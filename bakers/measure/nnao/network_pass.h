@@ -39,8 +39,8 @@ class NetworkPass {
   GLuint draw(const GpuView& view, const AoRequest& request, bool blurred);
   bool horizon_form() const { return info_.horizon_form != 0; }
 
-  // Texture fetches a pixel: depth and normal into the surface buffer; that of the pixel, one depth a tap
-  // (the paper's form: a normal and four texels of its filter too); depth and AO of the resolve.
+  // Texture fetches for each pixel: depth and normal into the surface buffer; its texel there, one depth for
+  // each tap (the paper's form: a normal and four texels of its filter too); depth and AO of the resolve.
   int fetches(bool blurred) const;
 
  private:

@@ -1,4 +1,4 @@
-// What a network has learned, to look at.
+// Pictures of what a network has learned.
 #pragma once
 
 #include "bakers/measure/nnao/measured_view.h"

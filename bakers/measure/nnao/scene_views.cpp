@@ -11,7 +11,8 @@ using namespace bake::nnao;
 
 TrainingScene read_scene(const SceneRequest& request, std::uint64_t seed) {
   if (request.file.empty()) return make_thin_scene(seed);
-  bake::StaticScene scene = bake::import_static_scene(request.file);
+  bake::StaticScene scene =
+      bake::import_static_scene(request.file, bake::SceneTextures::skip, request.linked);
   return scene_to_look_at({std::move(scene.position), std::move(scene.triangle)});
 }
 
@@ -26,7 +27,7 @@ std::vector<MeasuredView> trace_views(const SceneRequest& request, TruthSettings
   for (const GivenCamera& c : request.cameras)
     cameras.push_back(look_at(c.eye, c.target, 0, c.fov, truth.width, truth.height));
   for (std::uint32_t i = 0; request.cameras.empty() && i < placed; ++i) {
-    Random random(bake::mix_bits(truth.seed) + i);
+    bake::Random random(bake::mix_bits(truth.seed) + i);
     cameras.push_back(place_camera(rays, scene, random, truth.width, truth.height));
   }
   std::vector<MeasuredView> views;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bakers/import/linked_files.h"
 #include "bakers/measure/nnao/measured_view.h"
 
 namespace nook::measure {
@@ -21,6 +22,7 @@ struct SceneRequest {
   std::filesystem::path file;  // empty: the built-in scene of thin things
   float radius = 0.5f;         // metres
   std::vector<GivenCamera> cameras;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
 };
 
 // Reads the scene and traces its views; placed: how many cameras to place where none is given. progress

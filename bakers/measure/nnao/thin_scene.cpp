@@ -51,7 +51,7 @@ void add_bentwood_chair(TriangleSoup& soup, Vec3 foot, float turn) {
 }
 
 // Blades that bend outwards, and leaves on stalks.
-void add_plant(TriangleSoup& soup, Vec3 foot, Random& random) {
+void add_plant(TriangleSoup& soup, Vec3 foot, bake::Random& random) {
   add_cylinder(soup, foot, foot + Vec3{0, 0.22f, 0}, 0.12f, 0.16f, 20);
   const Vec3 root = foot + Vec3{0, 0.22f, 0};
   for (int blade = 0; blade < 46; ++blade) {
@@ -100,7 +100,7 @@ void add_hand(TriangleSoup& soup, const Mat3x4& frame) {
 TrainingScene make_thin_scene(std::uint64_t seed) {
   TrainingScene scene;
   TriangleSoup& soup = scene.soup;
-  Random random(mix_bits(~seed));
+  bake::Random random(mix_bits(~seed));
   add_floor(soup, 5);
   add_block(soup, {-5, 0, -1.6f}, {5, 3, -1.5f});
   add_picket_fence(soup, -2.3f, -1.1f, 2.0f);

@@ -75,7 +75,7 @@ TrainingScene scene_to_look_at(TriangleSoup soup) {
     area_below.push_back(area += double(length(cross(b - a, c - a))));
   }
   std::vector<float> axis[3];
-  Random random(1);
+  bake::Random random(1);
   constexpr int points = 4000;
   for (int i = 0; i < points; ++i) {
     const double at = area * double(random.unit());

@@ -54,7 +54,7 @@ struct Search {
     return sum / count;
   }
 
-  // Whether a candidate is better than `best`, which then is the best of them.
+  // Returns whether a candidate is better than `best`, and makes it the best of them if so.
   bool improve(TunedBaseline& best, const std::vector<BaselineTuning>& candidates) {
     bool better = false;
     for (const BaselineTuning& candidate : candidates) {
@@ -97,7 +97,7 @@ bool is_near(std::span<const float> grid, float a, float b) {
   return std::abs(std::ranges::find(grid, a) - std::ranges::find(grid, b)) <= 1;
 }
 
-// What lies next to it on the grid, across as well.
+// Returns the neighbours on the grid, diagonal ones included.
 std::vector<BaselineTuning> neighbours(Baseline baseline, const BaselineTuning& tuning) {
   std::vector<float> shapes = shapes_of(baseline);
   if (shapes.empty()) shapes = {tuning.shape};

@@ -78,9 +78,9 @@ SampledError measure(const ProbeMethod& method, const ExactFit& exact, const Irr
 }
 
 // Uniform over all rotations: a unit quaternion (K. Shoemake 1992).
-Basis rotated(Basis basis, PathRandom& random) {
-  const double share = random.next_double(), turn = 2 * std::numbers::pi * random.next_double(),
-               other = 2 * std::numbers::pi * random.next_double();
+Basis rotated(Basis basis, Random& random) {
+  const double share = random.unit_double(), turn = 2 * std::numbers::pi * random.unit_double(),
+               other = 2 * std::numbers::pi * random.unit_double();
   const auto x = float(std::sqrt(1 - share) * std::sin(turn)),
              y = float(std::sqrt(1 - share) * std::cos(turn)), z = float(std::sqrt(share) * std::sin(other)),
              w = float(std::sqrt(share) * std::cos(other));
@@ -99,7 +99,7 @@ std::vector<double> rotated_errors(const ProbeMethod& method, const Samples& tex
     return {};
   std::vector<double> errors(settings.rotations);
   tbb::parallel_for(std::size_t(0), errors.size(), [&](std::size_t r) {
-    PathRandom random(mix_bits(settings.seed) + r);
+    Random random(mix_bits(settings.seed) + r);
     MapBakeSettings bake;
     bake.basis = rotated(method.basis, random);
     bake.fit = method.fit;

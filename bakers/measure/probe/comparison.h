@@ -39,7 +39,7 @@ struct SampledError {
   double distance = 0;            // mean of ExactFit::distance
   double mean_ratio = 0;          // mean of ExactFit::mean_ratio
   double mean_worst = 0;          // the mean_ratio farthest from 1
-  double irradiance_minimum = 0;  // the least of IrradianceTruth::Error::minimum
+  double irradiance_minimum = 0;  // the lowest of IrradianceTruth::Error::minimum
 };
 
 struct MethodError {
@@ -50,7 +50,7 @@ struct MethodError {
   double mean_ratio = 0, irradiance_minimum = 0;
   double irradiance_mean = 0;  // of the map, luminance
   // irradiance_rms over irradiance_mean, of the same lobes with their axes rotated; empty for other functions
-  // and where no rotation was asked for.
+  // and where no rotation was requested.
   std::vector<double> rotated;
   SampledError uniform_1024, uniform_20000, luminance_20000;
 };

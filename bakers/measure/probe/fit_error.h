@@ -1,4 +1,4 @@
-// How far a probe is from the map it stands for, in closed form: integrals over the map and the Gram matrix
+// The error of a probe against its map, in closed form: integrals over the map and the Gram matrix
 // of the basis, no samples.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace nook::bake::probe {
 
 using nook::probe::IrradianceForm;
 
-// What an exact least-squares fit of a basis to a map makes of it.
+// An exact least-squares fit of a basis to a map, and errors of other coefficients against it.
 class ExactFit {
  public:
   ExactFit(const Environment& map, const Basis& basis);
@@ -22,7 +22,7 @@ class ExactFit {
   std::vector<Vec3> coefficients() const;
   // Integral of (R - f)^2 over the region, the RGB channels added, of any coefficients.
   double square_error(std::span<const Vec3> coefficients) const;
-  // Share by which that is above the least there is.
+  // Share by which that is above the minimum.
   double excess(std::span<const Vec3> coefficients) const;
   // |R - R_LS|^2 / |R_LS|^2.
   double distance(std::span<const Vec3> coefficients) const;

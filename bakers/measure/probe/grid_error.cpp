@@ -43,8 +43,8 @@ Vec3 nearest_probe(const Grid& grid, const std::vector<bool>& inside, Vec3 point
   return nearest;
 }
 
-Vec3 uniform_direction(PathRandom& random) {
-  const float y = 1 - 2 * random.next(), angle = 2 * std::numbers::pi_v<float> * random.next();
+Vec3 uniform_direction(Random& random) {
+  const float y = 1 - 2 * random.unit(), angle = 2 * std::numbers::pi_v<float> * random.unit();
   const float radius = std::sqrt(std::max(1 - y * y, 0.0f));
   return {radius * std::cos(angle), y, radius * std::sin(angle)};
 }
@@ -73,13 +73,13 @@ Places places_on_surfaces(const LitScene& scene, const TriangleSoup& soup, const
     area.push_back(total);
   }
   Places places;
-  PathRandom random(mix_bits(seed));
+  Random random(mix_bits(seed));
   for (std::size_t draw = 0; places.normal.size() < count; ++draw) {
     if (draw >= most_draws * count || !(total > 0)) no_place("on a surface");
-    const auto at = std::upper_bound(area.begin(), area.end(), random.next_double() * total);
+    const auto at = std::upper_bound(area.begin(), area.end(), random.unit_double() * total);
     const auto& t = soup.triangle[std::min(std::size_t(at - area.begin()), area.size() - 1)];
     const Vec3 a = soup.position[t[0]], b = soup.position[t[1]], c = soup.position[t[2]];
-    const float root = std::sqrt(random.next()), share = random.next();
+    const float root = std::sqrt(random.unit()), share = random.unit();
     const Vec3 point = a * (1 - root) + b * (root * (1 - share)) + c * (root * share);
     const Vec3 normal = normalised(cross(b - a, c - a));
     if (!box.holds(point) || dot(normal, normal) == 0) continue;
@@ -99,10 +99,10 @@ Places places_in_the_open(const LitScene& scene, const Grid& grid, std::size_t c
   const Box box = box_of(grid);
   const Vec3 size = box.high - box.low;
   Places places;
-  PathRandom random(mix_bits(seed + 1));
+  Random random(mix_bits(seed + 1));
   for (std::size_t draw = 0; places.normal.size() < count; ++draw) {
     if (draw >= most_draws * count) no_place("outside solids");
-    const float x = random.next(), y = random.next(), z = random.next();
+    const float x = random.unit(), y = random.unit(), z = random.unit();
     const Vec3 point = box.low + Vec3{x * size.x, y * size.y, z * size.z};
     if (is_inside(scene, point)) continue;
     places.position_ws.push_back(point);

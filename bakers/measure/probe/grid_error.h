@@ -1,4 +1,4 @@
-// What a grid of probes says of irradiance, against path tracing.
+// The error of irradiance from a grid of probes, against path tracing.
 #pragma once
 
 #include <cstdint>

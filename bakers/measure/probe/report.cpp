@@ -68,7 +68,7 @@ double geometric_mean(const std::vector<double>& values) {
   return std::exp(sum / double(values.size()));
 }
 
-// What the grid's recipe says, which grids of other makers lack.
+// Returns the direct light that the grid's recipe names; "all" without one, as in grids of other makers.
 std::string direct_of_recipe(const nook::probe::Probes& probes) {
   const Json recipe = Json::parse(probes.recipe, nullptr, false);
   const Json direct = recipe.is_object() ? recipe.value("direct", Json()) : Json();

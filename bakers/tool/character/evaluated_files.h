@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "bakers/import/linked_files.h"
 #include "bakers/measure/character/baked_character.h"
 #include "bakers/tool/distinct_files.h"
 
@@ -13,14 +14,17 @@ class App;
 
 namespace nook::tool {
 
-void add_evaluated_files(CLI::App& command, std::filesystem::path& character, std::filesystem::path& model);
+struct EvaluatedFiles {
+  std::filesystem::path character, model;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+};
 
-// As inputs of the command.
-std::vector<NamedFile> evaluated_files(const std::filesystem::path& character,
-                                       const std::filesystem::path& model);
+void add_evaluated_files(CLI::App& command, EvaluatedFiles& files);
+
+// Returns both as inputs of the command.
+std::vector<NamedFile> named_files(const EvaluatedFiles& files);
 
 // Throws ToolError (bad input) that names the file: one that cannot be read, or a model of another character.
-measure::BakedCharacter read_evaluated_files(const std::filesystem::path& character,
-                                             const std::filesystem::path& model);
+measure::BakedCharacter read_evaluated_files(const EvaluatedFiles& files);
 
 }  // namespace nook::tool

@@ -1,4 +1,4 @@
-// What a .nook file of each kind holds, as one row: kind, format_version, bytes, sizes, and the recipe's
+// The contents of a .nook file of each kind, as one row: kind, format_version, bytes, sizes, and the recipe's
 // entries as recipe_*. Each throws BAD_FILE or FILE_VERSION for bytes that do not validate.
 #pragma once
 

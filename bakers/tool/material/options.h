@@ -1,4 +1,4 @@
-// What the commands on materials share: the options of compression.
+// The options of compression, which the commands on materials share.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The scenes that `nook evaluate nnao` is asked for, with their cameras and radii.
+// The scenes of `nook evaluate nnao`, with their cameras and radii.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,11 @@
 
 namespace nook::tool {
 
-// What the options say, still as text.
+// The options, still as text.
 struct SceneWords {
   std::vector<std::filesystem::path> files;
   bool thin = false;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;  // of all files
   std::vector<std::string> cameras;  // [NAME:]ox,oy,oz,tx,ty,tz,fov; without a name, of every scene
   std::vector<std::string> radii;    // [NAME:]metres
 };

@@ -28,6 +28,7 @@ struct BakeProbeOptions {
   double error = 0.01, preview_every_s = 0;
   std::uint32_t max_bounces = ~0u;
   bool no_textures = false;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
   std::string direct = "all";
 };
 

@@ -1,7 +1,6 @@
 // nook bake probe SCENE --grid AxBxC --light MAP: a grid of probes by path tracing, refined until its error
 // is small.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,20 +14,16 @@
 #include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
+#include "platform/stopwatch.h"
 
 namespace nook::tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
 using bake::probe::GridBake;
 using bake::probe::GridBakeSettings;
 
 constexpr std::uint32_t default_samples = 65536;
-
-double seconds_since(Clock::time_point began) {
-  return std::chrono::duration<double>(Clock::now() - began).count();
-}
 
 std::vector<std::byte> file_of(const BakeProbeOptions& options, GridBake& grid, double error) {
   probe::Probes probes = grid.probes();
@@ -74,7 +69,8 @@ void bake_probe_grid(const BakeProbeOptions& options) {
                     "--preview-every: -o is a device or a pipe, where no later version can replace "
                     "a preview (got " +
                         options.output.string() + "); give a file");
-  const bake::ProbeScene scene = read_probe_scene(options.input, options.light, !options.no_textures);
+  const bake::ProbeScene scene =
+      read_probe_scene(options.input, options.light, !options.no_textures, options.linked);
   GridBakeSettings settings;
   settings.basis = basis_of(options.probe);
   settings.fit = fit_of(options.probe);
@@ -85,7 +81,7 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   settings.path.origin_offset = scene.origin_offset;
   settings.path.direct = measure::direct_of(options.direct);
 
-  const auto began = Clock::now();
+  const platform::Stopwatch watch;
   GridBake bake(*scene.lit, settings);
   const std::uint32_t samples = options.samples > 0 ? options.samples : default_samples;
   const std::uint32_t passes = (samples + settings.samples_per_pass - 1) / settings.samples_per_pass;
@@ -105,9 +101,9 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   row["error"] = error;
   row["error_reached"] = error <= options.error;
   row["bytes"] = bytes.size();
-  row["seconds"] = seconds_since(began);
+  row["seconds"] = watch.seconds();
   row["paths_per_s"] =
-      double(bake.samples()) * double(settings.grid.size() - bake.inside_count()) / seconds_since(began);
+      double(bake.samples()) * double(settings.grid.size() - bake.inside_count()) / watch.seconds();
   output.commit(bytes);
   const Json rows = Json::array({row});
   if (report) report->commit(Json{{"rows", rows}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -1,5 +1,4 @@
 // nook bake probe MAP: one probe of an environment map.
-#include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "bakers/tool/table.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
+#include "platform/stopwatch.h"
 
 namespace nook::tool {
 namespace {
@@ -55,12 +55,12 @@ void bake_probe_of_map(const BakeProbeOptions& options) {
   const bake::Environment map = read_map(options.input);
 
   platform::ProgressBar bar(options.common.quiet);
-  const auto began = std::chrono::steady_clock::now();
+  const platform::Stopwatch watch;
   bake::MapProbe baked = bake::bake_map_probe(map, settings, [&](std::size_t done, std::size_t total) {
     bar.show("fitting", "samples", done, total);
     return !interrupted();
   });
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
+  const double seconds = watch.seconds();
   Json recipe = describe(options.probe, settings.basis);
   recipe["source"] = options.input.filename().string();
   recipe["sampling"] = options.sampling;
@@ -69,9 +69,9 @@ void bake_probe_of_map(const BakeProbeOptions& options) {
   baked.probes.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace);
   const std::vector<std::byte> bytes = probe::write_probes(baked.probes, packing_of(options.probe));
 
-  // What is measured and shown is what the file gives back, its packing included.
+  // The error and the picture are of what the file gives back, its packing included.
   const probe::Probes stored = probe::read_probes(bytes);
-  const Json rows = Json::array({row_of(options, map, stored, bytes.size(), seconds.count())});
+  const Json rows = Json::array({row_of(options, map, stored, bytes.size(), seconds)});
   if (picture) picture->commit(bake::png_bytes(bake::probe::map_picture(map, stored.basis, stored.of(0))));
   output.commit(bytes);
   if (report) report->commit(Json{{"rows", rows}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -40,7 +40,8 @@ void append_grid(const EvaluateGridOptions& options, const CommonOptions& common
 
 Json evaluate_grids(const EvaluateGridOptions& options, const CommonOptions& common,
                     const std::vector<std::filesystem::path>& grids) {
-  const bake::ProbeScene scene = read_probe_scene(options.scene, options.light, !options.no_textures);
+  const bake::ProbeScene scene =
+      read_probe_scene(options.scene, options.light, !options.no_textures, options.linked);
   Json report;
   report["rows"] = Json::array();
   platform::ProgressBar bar(common.quiet);

@@ -15,6 +15,7 @@ struct EvaluateGridOptions {
   std::uint32_t paths = 2048;   // a point
   std::uint32_t max_bounces = ~0u;
   bool no_textures = false;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
   std::string direct;  // empty: as each grid was baked
 };
 

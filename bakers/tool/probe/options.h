@@ -1,4 +1,4 @@
-// What a probe is made of, as options of a command.
+// The basis and the fit of a probe, as options of a command.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ probe::Basis basis_of(const ProbeOptions& options);
 probe::FitSettings fit_of(const ProbeOptions& options);
 probe::Packing packing_of(const ProbeOptions& options);
 
-// For recipes and reports.
+// Returns the options as JSON for recipes and reports.
 nlohmann::ordered_json describe(const ProbeOptions& options, const probe::Basis& basis);
 
 }  // namespace nook::tool

@@ -11,7 +11,7 @@ namespace nook::tool {
 // Throws ToolError (bad input) that names the file and, where it is one's fault, the texture. Without
 // textures their colour factors stand for them.
 bake::ProbeScene read_probe_scene(const std::filesystem::path& scene, const std::filesystem::path& light,
-                                  bool textures);
+                                  bool textures, bake::LinkedFiles linked);
 
 // Of a latitude-longitude map, the same.
 bake::Environment read_map(const std::filesystem::path& path);

@@ -236,7 +236,8 @@ enum {
   NOOK_BAKE_SPLIT_HALF = 1,
   /* Every second family of these clips. A family is the clips whose names start with the same word, in upper
    * or lower case. A word ends at a digit, at a sign and before a capital; the part of a name up to its last
-   * | or : does not count. A file whose clips are a single family is refused. */
+   * | or : does not count, and neither does a prefix of all names that ends at a sign or a digit. A file
+   * whose clips are a single family is refused. */
   NOOK_BAKE_SPLIT_FAMILIES = 2
 };
 typedef int32_t nook_bake_clip_split;

@@ -34,7 +34,7 @@ struct Lighting {
   }
 };
 
-// Of a square of half side 1 at height 2 above a point that faces it.
+// Returns the irradiance of a square of half side 1 at height 2 above a point that faces it.
 float form_factor() {
   const float x = 0.5f, root = std::sqrt(1 + x * x);
   return 4 / (2 * pi) * 2 * x / root * std::atan(x / root);

@@ -152,7 +152,7 @@ TEST_CASE("cancel from another thread ends a job soon") {
   CHECK(progress.stage == NOOK_BAKE_STAGE_DONE);
 }
 
-TEST_CASE("the report says what was baked") {
+TEST_CASE("the report describes the bake") {
   const Character character = tube_character();
   nook_bake_job_desc desc = small_bake();
   std::vector<float> extra(24 * 3);

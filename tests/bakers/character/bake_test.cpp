@@ -12,6 +12,7 @@
 #include "bakers/measure/character/evaluate.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/bakers/character/bending_tube.h"
+#include "tests/bakers/character/direct_objective.h"
 #include "tests/catch.h"
 
 using namespace nook;
@@ -129,7 +130,7 @@ TEST_CASE("block descent never makes the cached objective worse") {
   const double before = evaluate_cached(state, set, cache_linear_layer(state, set), nullptr);
   const double after = descend_non_linear(state, set, {10, 8});
   CHECK(after < before);
-  CHECK(std::abs(evaluate_direct(state, set, nullptr) - after) < 1e-4 * after + 1e-7);
+  CHECK(std::abs(bake::test::evaluate_direct(state, set, nullptr) - after) < 1e-4 * after + 1e-7);
 }
 
 TEST_CASE("caster weights give the traced darkening of points outside the body") {

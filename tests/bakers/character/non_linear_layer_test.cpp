@@ -7,6 +7,7 @@
 
 #include "bakers/character/cached_objective.h"
 #include "bakers/character/rotation.h"
+#include "tests/bakers/character/direct_objective.h"
 #include "tests/catch.h"
 
 using namespace nook;
@@ -129,7 +130,7 @@ TEST_CASE("the cached quadratic form is the direct sum of squares, with the same
   const CachedObjective cache = cache_linear_layer(state, set);
   std::vector<double> cached_gradient, direct_gradient;
   const double cached = evaluate_cached(state, set, cache, &cached_gradient);
-  const double direct = evaluate_direct(state, set, &direct_gradient);
+  const double direct = bake::test::evaluate_direct(state, set, &direct_gradient);
   // Floats inside both; the terms that cancel in the quadratic form are about ten times the result.
   CHECK(std::abs(cached - direct) < 1e-5 * direct);
   REQUIRE(cached_gradient.size() == direct_gradient.size());

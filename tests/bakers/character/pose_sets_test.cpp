@@ -68,6 +68,15 @@ TEST_CASE("no family straddles the split, however its clips are named") {
   CHECK(split_of({"hero:Sit Enter", "hero:Sit Exit", "hero:Walk"}) ==
         Split({"hero:Sit Enter", "hero:Sit Exit"}, {"hero:Walk"}));
   CHECK(split_of({"UALWalk", "UAL_Run", "Idle"}) == Split({"Idle"}, {"UALWalk", "UAL_Run"}));
-  // What names do not tell apart stays together.
+  // A prefix of all names does not count, with and without an armature.
+  CHECK(split_of({"Robot_Dance", "Robot_Jump_Land", "Robot_Jump_Start"}) ==
+        Split({"Robot_Dance"}, {"Robot_Jump_Land", "Robot_Jump_Start"}));
+  CHECK(split_of({"Armature|Robot_Sit", "Armature|Robot_Walk"}) ==
+        Split({"Armature|Robot_Sit"}, {"Armature|Robot_Walk"}));
+  // A prefix ends at a sign or a digit, not inside of a word.
+  CHECK(split_of({"Robot_Walk", "Robot_Wave"}) == Split({"Robot_Walk"}, {"Robot_Wave"}));
+  CHECK(split_of({"Walk_Start", "WalkLoop", "Walk2"}) == Split({"Walk2", "WalkLoop", "Walk_Start"}, {}));
+  CHECK(split_of({"Walk_Start"}) == Split({"Walk_Start"}, {}));
+  // Clips whose names have no word stay together.
   CHECK(split_of({"001", "002", "003"}) == Split({"001", "002", "003"}, {}));
 }

@@ -8,6 +8,7 @@
 #include "bakers/images/ubo_names.h"
 #include "bakers/images/ubo_reader.h"
 #include "bakers/material/directions.h"
+#include "platform/peak_memory.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 
@@ -46,7 +47,7 @@ std::string name_of(int tl, int pl, int tv, int pv, const char* ending = ".exr")
   return text;
 }
 
-// Two lights, three views; every texel tells where it belongs.
+// Two lights, three views; every texel has a value of its own.
 constexpr int light_angles[2][2] = {{0, 0}, {30, 120}}, view_angles[3][2] = {{0, 0}, {30, 60}, {60, 180}};
 void write_small_set(const fs::path& folder) {
   for (int l = 0; l < 2; ++l)
@@ -137,6 +138,57 @@ TEST_CASE("a measured folder becomes a raw material, y up, linear") {
   const RawMaterial square = read_ubo_folder(folder.path, 2);
   REQUIRE((square.width == 2 && square.height == 2));
   CHECK(square.btf[0] == Approx(0.01f * float(3 * 4 + 1)).margin(1e-3));
+}
+
+TEST_CASE("the square of tiled images is the middle of them") {
+  const Folder folder;
+  constexpr int side = 70, square = 20, tile = 16, left = (side - square) / 2;
+  std::vector<float> rgb;
+  for (int i = 0; i < side * side; ++i)
+    for (int c = 0; c < 3; ++c) rgb.push_back(float(i % side) + 0.25f * float(i / side));
+  const fs::path path = folder.path / name_of(0, 0, 0, 0, ".exr");
+  const auto out = OIIO::ImageOutput::create(path.string());
+  OIIO::ImageSpec spec(side, side, 3, OIIO::TypeDesc::FLOAT);
+  spec.tile_width = spec.tile_height = tile;
+  REQUIRE(out->open(path.string(), spec));
+  REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, rgb.data()));
+  out->close();
+  const RawMaterial raw = read_ubo_folder(folder.path, square);
+  REQUIRE((raw.width == square && raw.height == square));
+  for (int x = 0; x < square; ++x)
+    for (int y = 0; y < square; ++y) {
+      const float wanted = float(left + x) + 0.25f * float(left + square - 1 - y);
+      REQUIRE(raw.btf[std::size_t(x * square + y)] ==
+              Approx(wanted).margin(0.02));  // half floats of up to 64
+    }
+}
+
+TEST_CASE("a small square of a large image takes little memory") {
+  const Folder folder;
+  constexpr int side = 5000;
+  const fs::path path = folder.path / name_of(0, 0, 0, 0, ".png");
+  // Row by row, so that the writing takes little memory as well.
+  const auto out = OIIO::ImageOutput::create(path.string());
+  OIIO::ImageSpec spec(side, side, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("png:compressionLevel", 1);
+  REQUIRE(out->open(path.string(), spec));
+  const std::vector<std::uint8_t> row(3 * side, 255);
+  for (int y = 0; y < side; ++y) REQUIRE(out->write_scanline(y, 0, OIIO::TypeDesc::UINT8, row.data()));
+  out->close();
+  const std::size_t before = platform::peak_bytes();
+  const RawMaterial raw = read_ubo_folder(folder.path, 16);
+  CHECK(raw.btf[0] == Approx(1));
+  // All texels are 300 MB of floats.
+  CHECK(platform::peak_bytes() - before < 100'000'000);
+}
+
+TEST_CASE("a texel beside the square may be anything") {
+  const Folder folder;
+  std::vector<float> rgb(3 * 24, 0.5f);
+  rgb[0] = std::nanf("");
+  write_image(folder.path / name_of(0, 0, 0, 0), 4, 6, rgb);
+  CHECK(refusal(folder.path).find("texel (0, 0)") != std::string::npos);
+  CHECK(read_ubo_folder(folder.path, 2).btf[0] == 0.5f);
 }
 
 TEST_CASE("8-bit images are taken as sRGB") {

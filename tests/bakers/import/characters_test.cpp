@@ -54,7 +54,7 @@ float extent(const std::vector<Vec3>& positions) {
   return most;
 }
 
-// How far the axes are from a rotation times one scale.
+// Returns the distance of the axes from a rotation times one scale.
 float unevenness(const Mat3x4& a) {
   const Vec3 axis[3] = {{a.m[0], a.m[4], a.m[8]}, {a.m[1], a.m[5], a.m[9]}, {a.m[2], a.m[6], a.m[10]}};
   const float square = dot(axis[0], axis[0]);

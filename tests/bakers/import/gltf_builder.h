@@ -1,4 +1,4 @@
-// Writes small glTF files into memory, so that each test says what its file holds.
+// Writes small glTF files into memory, so that each test describes its file.
 #pragma once
 
 #include <cstddef>

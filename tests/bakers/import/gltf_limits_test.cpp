@@ -1,11 +1,11 @@
 // Files that ask for more than they hold: memory, other files, and what nobody here reads.
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "bakers/import/static_scene.h"
+#include "platform/peak_memory.h"
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/import/tube_file.h"
 #include "tests/catch.h"
@@ -38,13 +38,6 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// Returns the peak memory of this process, bytes.
-std::size_t peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::size_t(usage.ru_maxrss) * 1024;
-}
-
 // An accessor of zeros that costs no bytes in the file.
 int add_zeros(GltfBuilder& file, std::size_t count, const char* type, int component_type) {
   file.document["accessors"].push_back({{"componentType", component_type}, {"count", count}, {"type", type}});
@@ -75,10 +68,10 @@ void write_gltf(const fs::path& path, const GltfBuilder& file, const std::string
 
 }  // namespace
 
-TEST_CASE("what a small file asks for is bounded before it is read") {
+TEST_CASE("the demands of a small file are bounded before it is read") {
   GltfBuilder file = tube_file();
   Json& primitive = file.document["meshes"][0]["primitives"][0];
-  const std::size_t before = peak_bytes();
+  const std::size_t before = platform::peak_bytes();
   SECTION("sets of joints") {
     const std::size_t vertices = 4'000'000;
     primitive["attributes"]["POSITION"] = add_zeros(file, vertices, "VEC3", 5126);
@@ -129,7 +122,7 @@ TEST_CASE("what a small file asks for is bounded before it is read") {
   // Positions of 9 million vertices are 108 MB, read for the sake of their count, and the text above is
   // copied.
   // The address sanitizer keeps 256 MB of freed memory.
-  CHECK(peak_bytes() - before < 700'000'000);
+  CHECK(platform::peak_bytes() - before < 700'000'000);
 }
 
 TEST_CASE("images are not opened where they are not used") {
@@ -145,10 +138,10 @@ TEST_CASE("images are not opened where they are not used") {
     file.document["images"] = Json::array({{{"uri", "picture.png"}}});
   }
   write_gltf(folder / "tube.gltf", file, "");
-  const std::size_t before = peak_bytes();
+  const std::size_t before = platform::peak_bytes();
   CHECK(import_gltf(folder / "tube.gltf").mesh.vertex_count() == Tube::welded_vertices);
   CHECK(import_static_scene(folder / "tube.gltf").triangle.size() == Tube::triangles);
-  CHECK(peak_bytes() - before < 100'000'000);
+  CHECK(platform::peak_bytes() - before < 100'000'000);
 }
 
 TEST_CASE("only regular files in the file's own folder are read") {

@@ -35,6 +35,10 @@ std::size_t bone_named(const ImportedCharacter& character, const std::string& na
   return 0;
 }
 
+Pose default_pose(const ImportedCharacter& character) {
+  return bone_matrices(character, default_locals(character.nodes), nullptr);
+}
+
 }  // namespace
 
 TEST_CASE("bones have names, parents before children and frames at their joints") {
@@ -226,7 +230,7 @@ TEST_CASE("uniform scale stays, uneven scale is replaced by the nearest similari
     const ImportedCharacter character = load(file);
     CHECK(has_warning(character.warnings, "\"tip\" is sheared or unevenly scaled"));
     const Pose pose = sample_clip(character, 2, 1);
-    // |diag(1, 4, 1) - s I| is least at s = (1 + 4 + 1) / 3; the joint at (0, 1, 0) stays.
+    // |diag(1, 4, 1) - s I| has its minimum at s = (1 + 4 + 1) / 3; the joint at (0, 1, 0) stays.
     CHECK(distance(transform_point(pose[1], {0, 1, 0}), {0, 1, 0}) < 1e-5f);
     CHECK(distance(transform_vector(pose[1], {1, 0, 0}), {2, 0, 0}) < 1e-5f);
     CHECK(distance(transform_vector(pose[1], {0, 1, 0}), {0, 2, 0}) < 1e-5f);

@@ -110,7 +110,7 @@ TEST_CASE("rays end at each receiver's own radius") {
   settings.rays = 1024;
   const std::vector<float> ao = bake::trace_ao(bake::RayScene(soup), {position, normal, radius}, settings);
   CHECK(ao[0] == 1);
-  // What a ceiling of 100 m half width leaves open: below 1 / (100^2 + 1).
+  // The share that a ceiling of 100 m half width leaves open is below 1 / (100^2 + 1).
   CHECK(ao[1] < 0.005f);
   // Rays of length 2 reach the ceiling within 60 degrees of the normal: cos^2 60 stays open. Stratified
   // noise.

@@ -77,7 +77,8 @@ TEST_CASE("samples by luminance integrate any function of the map without bias")
     CHECK(std::abs(mean.x / exact.x - 1) < tolerance);
     CHECK(std::abs(mean.y / exact.y - 1) < tolerance);
     CHECK(std::abs(mean.z / exact.z - 1) < tolerance);
-    // Black texels are never chosen by luminance alone, so that the sphere's own area is missed then.
+    // Black texels are never chosen by luminance alone, so that the samples lack a part of the sphere's own
+    // area then.
     if (uniform > 0) CHECK(std::abs(sphere / (4 * pi) - 1) < 0.05);  // densities spread by 1e3: 1 % is usual
   }
 }

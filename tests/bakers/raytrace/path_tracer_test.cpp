@@ -76,7 +76,7 @@ TEST_CASE("white furnace: inside and outside white bodies all light comes back")
   CHECK(std::abs(inside.x / (pi * 2) - 1) < 0.03f);  // roulette's scatter: standard error 1 %
   CHECK(std::abs(inside.y / (pi * 4) - 1) < 0.05f);
   CHECK(std::abs(inside.z / pi - 1) < 1e-4f);  // nothing is random: the first wall ends it
-  PathRandom random(7);
+  Random random(7);
   double mean = 0;
   for (int i = 0; i < 4096; ++i)
     mean += double(trace_radiance(room, {0, 0, 0}, {0, 0, 1}, settings.path, random).x) / 4096;
@@ -95,7 +95,7 @@ TEST_CASE("bounces that do not count are left out") {
     settings.path.max_bounces = bounces;
     // Every wall is alike and roulette begins later: exact up to rounding.
     CHECK(std::abs(irradiance_of(room, {0.1f, 0, 0}, {0, 1, 0}, settings).x / (pi * series) - 1) < 1e-4f);
-    PathRandom random(1);
+    Random random(1);
     CHECK(std::abs(trace_radiance(room, {0, 0, 0}, {0, 1, 0}, settings.path, random).x / series - 1) < 1e-4f);
     series += std::pow(0.5f, float(bounces + 1));
   }

@@ -93,7 +93,7 @@ TEST_CASE("direct light is the map's, its sky's or none; reflected light stays")
   CHECK(reflected > 0);
   CHECK(reflected > 0.9 * both);
   // A path that begins at a point sees the same.
-  PathRandom random(1);
+  Random random(1);
   PathSettings settings;
   settings.direct = DirectLight::none;
   CHECK(trace_radiance(scene, {0, 0, 0}, {-1, 0, 0}, settings, random).x == 0);

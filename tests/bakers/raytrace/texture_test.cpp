@@ -49,7 +49,7 @@ Texture checkerboard(std::array<std::uint8_t, 4> first, std::array<std::uint8_t,
 }
 
 Vec3 mean_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, int paths) {
-  PathRandom random(3);
+  Random random(3);
   Vec3 sum;
   for (int i = 0; i < paths; ++i) sum += trace_radiance(scene, origin, direction, {}, random);
   return sum * (1 / float(paths));

@@ -56,7 +56,7 @@ struct Explicit {
   double least_error(Index i, const std::vector<std::uint32_t>& of) const {
     return least_error(i, of, VectorXd::Zero(sub_tensors.cols()));
   }
-  // What a mix stands for, by U = w (uf(Z) uf(Z)^T)^(-1/2) and the cores themselves.
+  // The tensor that a mix represents, by U = w (uf(Z) uf(Z)^T)^(-1/2) and the cores themselves.
   VectorXd mixed(const SubTensorMix& mix) const {
     VectorXd sum = VectorXd::Zero(sub_tensors.cols());
     for (std::size_t k = 0; k < mix.clusters.size(); ++k)

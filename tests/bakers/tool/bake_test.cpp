@@ -1,4 +1,6 @@
 #include <csignal>
+#include <cstring>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/bakers/tool/glb_tube.h"
@@ -20,6 +22,23 @@ Names small_bake(const std::string& in, const std::string& out, const Names& mor
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+std::uint32_t word_at(const std::string& bytes, std::size_t offset) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + offset, sizeof word);
+  return word;
+}
+
+// Writes a .glb file as a .gltf file and its buffer, which it names by `uri`.
+void write_parts(const std::string& glb, const std::string& gltf, const std::string& buffer,
+                 const std::string& uri) {
+  constexpr std::size_t head = 12, chunk_head = 8;
+  const std::size_t json = head + chunk_head, json_bytes = word_at(glb, head);
+  auto document = nlohmann::json::parse(glb.substr(json, json_bytes));
+  document["buffers"][0]["uri"] = uri;
+  write_text(gltf, document.dump());
+  write_text(buffer, glb.substr(json + json_bytes + chunk_head));
 }
 
 }  // namespace
@@ -124,6 +143,24 @@ TEST_CASE("bad arguments exit with 2, name the fault and write nothing") {
   CHECK(run.exit_code == 2);
   CHECK(has(run.error, expected));
   CHECK(folder.names() == Names{"hero.glb"});
+}
+
+TEST_CASE("files outside of the folder of a .gltf file are read where they are allowed") {
+  const TestFolder folder;
+  std::filesystem::create_directory(folder.path("scene"));
+  const std::string in = folder.path("scene/hero.gltf"), out = folder.path("hero.nook");
+  write_parts(glb_tube({"bend"}), in, folder.path("hero.bin"), "../hero.bin");
+  const ToolRun refused = folder.run(small_bake(in, out));
+  CHECK(refused.exit_code == 3);
+  CHECK(has(refused.error, "hero.bin\", outside of its own folder"));
+  const ToolRun baked = folder.run(small_bake(in, out, {"--allow-outside-files"}));
+  INFO(baked.error);
+  REQUIRE(baked.exit_code == 0);
+  CHECK(folder.run({"evaluate", "character", in, out, "--rays", "4"}).exit_code == 3);
+  const ToolRun measured =
+      folder.run({"evaluate", "character", in, out, "--rays", "4", "--allow-outside-files"});
+  INFO(measured.error);
+  CHECK(measured.exit_code == 0);
 }
 
 TEST_CASE("bad input exits with 3, names the file and writes nothing") {

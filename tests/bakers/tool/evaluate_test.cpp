@@ -96,7 +96,7 @@ TEST_CASE("by default the clips that were not fitted are measured, 20 poses each
   const double share = row.at("visible_share").get<double>();
   CHECK(share > 0);
   CHECK(share <= 1);
-  // What is left out adds to the error over all.
+  // The parts that are left out add to the error over all.
   CHECK(share * row.at("mse_visible").get<double>() <= row.at("mse").get<double>() * (1 + 1e-12));
   CHECK(row.at("model_bytes") == read_text(baked.model).size());
 }
@@ -114,7 +114,7 @@ TEST_CASE("named clips, and all of them when all were fitted") {
   CHECK(has(unknown.error, "no clip \"fly\"; the file has these:\n  jump\n  run\n  sit\n  walk"));
 }
 
-TEST_CASE("the training poses can be made again from the model's recipe, for the peers too") {
+TEST_CASE("the training poses can be made again from the model's recipe, for the baselines too") {
   const Baked baked;
   const ToolRun run = baked.evaluate({"--poses", "training", "--peers"});
   INFO(run.error);

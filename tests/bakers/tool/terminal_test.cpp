@@ -1,4 +1,4 @@
-// What the tool prints cannot steer a terminal, whatever names its files and arguments hold.
+// The output of the tool cannot steer a terminal, whatever names its files and arguments hold.
 #include <nlohmann/json.hpp>
 
 #include "tests/bakers/tool/glb_tube.h"

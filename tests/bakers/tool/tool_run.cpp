@@ -61,7 +61,7 @@ ToolRun TestFolder::run_and_signal(const std::vector<std::string>& arguments, in
 }
 
 int TestFolder::start(const std::vector<std::string>& arguments) const {
-  // What an earlier run said must not be taken for this one's.
+  // The output of an earlier run must not be taken for this one's.
   write_text(path("stdout"), "");
   write_text(path("stderr"), "");
   std::vector<std::string> words{NOOK_TOOL};

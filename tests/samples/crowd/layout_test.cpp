@@ -38,7 +38,7 @@ std::size_t count_with_neighbour(const std::vector<Placement>& crowd, float dist
 
 }  // namespace
 
-TEST_CASE("a crowd has as many members as asked, close but not inside each other") {
+TEST_CASE("a crowd has as many members as requested, close but not inside each other") {
   for (const std::uint32_t count : {1u, 2u, 7u, 100u}) {
     const std::vector<Placement> crowd = make_layout(round_bodies(0.3f, 5), count, 3);
     REQUIRE(crowd.size() == count);

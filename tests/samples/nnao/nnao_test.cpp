@@ -68,7 +68,7 @@ TEST_CASE("sample nnao: its pictures show a room that AO darkens, in the corners
   CHECK(after.at(541, 362) < before.at(541, 362) - 0.08f);
 }
 
-TEST_CASE("sample nnao: bad arguments and folders are told by exit code") {
+TEST_CASE("sample nnao: bad arguments and folders have exit codes of their own") {
   const Folder folder;
   CHECK(run(folder.path.string() + " 0") == 2);
   CHECK(run("a b c") == 2);

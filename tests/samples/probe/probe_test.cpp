@@ -84,7 +84,7 @@ TEST_CASE("spheres are red on the red light's side and blue on the blue one's, g
     CHECK(right[0] > right[2] + 40);
     CHECK(left[2] > left[0] + 40);
   }
-  // What the glossiest metal mirrors at its right edge is the red light; straight on, the dark behind the
+  // The glossiest metal mirrors the red light at its right edge and, straight on, the dark behind the
   // eye.
   const auto edge = at(-1.5f + 0.19f, 1.34f), middle = at(-1.5f, 1.34f);
   INFO("metal: edge " << edge[0] << " " << edge[2] << ", middle " << middle[0] << " " << middle[2]);

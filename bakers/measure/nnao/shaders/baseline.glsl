@@ -1,7 +1,7 @@
-// What the baselines share. Each defines baseline_ao, which is called where there is a surface.
+// The code that the baselines share. Each defines baseline_ao, which is called where there is a surface.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
-uniform float radius_scale;  // the tuned radius over the radius that was asked for
+uniform float radius_scale;  // the tuned radius over the radius of the request
 uniform float power;         // the tuned contrast
 uniform int groups;          // of taps: directions, slices, or 1
 uniform int steps;           // taps in a group; in one half of a slice

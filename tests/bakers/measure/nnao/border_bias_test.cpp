@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t width = 200, height = 160;
 
-// What is planted as AO - truth at a pixel.
+// The planted difference of AO and truth at a pixel.
 template <class Error>
 BorderBias bias_of(const Error& error, const std::vector<float>& depth) {
   const std::vector<float> truth(width * height, 0.5f);

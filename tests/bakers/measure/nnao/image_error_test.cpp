@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "bakers/nnao/random.h"
+#include "bakers/raytrace/random.h"
 #include "tests/catch.h"
 
 using namespace nook::bake::nnao;
@@ -15,7 +15,7 @@ constexpr std::uint32_t side = 32;
 const std::vector<float> flat_depth(side* side, 1.0f);
 
 std::vector<float> noise(std::uint64_t seed) {
-  Random random(seed);
+  nook::bake::Random random(seed);
   std::vector<float> values(side * side);
   for (float& value : values) value = random.unit();
   return values;

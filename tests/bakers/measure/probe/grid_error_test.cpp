@@ -107,7 +107,7 @@ TEST_CASE("places on surfaces share the area in the grid's box, and face its pro
       Failure);
 }
 
-TEST_CASE("probes are looked up off the surface where that is asked for") {
+TEST_CASE("probes are looked up off the surface by an option") {
   // A floor between a dark layer of probes and a bright one.
   TriangleSoup floor;
   floor.position = {{-9, 0, -9}, {9, 0, 9}, {9, 0, -9}};
