@@ -13,6 +13,7 @@
 
 #include "nook_character.h"
 #include "nook_gl.h"
+#include "nook_gl_material.h"
 #include "nook_gl_probe.h"
 #include "nook_material.h"
 #include "nook_nnao.h"
