@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the packages of the committed tree, as far as this machine has their tools: Debian's, checked by lintian, whose
-# library a C program then links; the vcpkg port; the Conan recipe. NOOK_PACKAGES_DIR says where (default: build-packages).
+# library a C program then links; the vcpkg port; the Conan recipe. The folder is NOOK_PACKAGES_DIR, by default
+# build-packages.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 out=${NOOK_PACKAGES_DIR:-$root/build-packages}

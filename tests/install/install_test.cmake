@@ -40,7 +40,7 @@ list(LENGTH gl_headers gl_header_count)
 if(GL AND gl_header_count LESS 4 OR NOT GL AND gl_header_count GREATER 0)
   message(FATAL_ERROR "with NOOK_GL=${GL} these headers of OpenGL are installed: ${gl_headers}")
 endif()
-# Who asks for the OpenGL half finds it, or an error.
+# A host that needs the OpenGL half finds it or fails to configure.
 execute_process(COMMAND ${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCES}/consumer -B ${WORK}/build_gl -DCOMPONENTS=gl
                         "-DCMAKE_PREFIX_PATH=${prefix}" -DCMAKE_C_COMPILER=${C_COMPILER}
                 RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
@@ -58,7 +58,7 @@ endif()
 
 find_program(PKG_CONFIG pkg-config)
 if(PKG_CONFIG)
-  # Without --static: a prefix that holds the static library alone says what it needs.
+  # This works without --static where the static library is the only one.
   pkg_config(flags "${prefix}" --cflags --libs)
   run(${C_COMPILER} -std=c99 ${SOURCES}/consumer/main.c ${flags} "-Wl,-rpath,${prefix}/lib" -o ${WORK}/by_pkg_config)
   run(${WORK}/by_pkg_config)

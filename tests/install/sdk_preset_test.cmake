@@ -1,4 +1,4 @@
-# The preset of the library alone asks for no package of the bakers, samples and tests. -DROOT= -DBUILD= -DC_COMPILER= -DCXX_COMPILER=
+# The preset sdk configures without the packages of the bakers, samples and tests. -DROOT= -DBUILD= -DC_COMPILER= -DCXX_COMPILER=
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 file(REMOVE_RECURSE ${BUILD})
