@@ -7,6 +7,12 @@ function(nook_target_options target)
   if(NOOK_WERROR)
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-Werror>)
   endif()
+  # A game in its Debug build still needs frames. GCC and Clang take the last of several -O; MSVC refuses /O2 beside the
+  # /RTC1 of Debug.
+  if(NOOK_OPTIMISE)
+    target_compile_options(${target} PRIVATE
+      $<$<AND:$<CXX_COMPILER_ID:GNU,Clang,AppleClang>,$<NOT:$<CONFIG:Release,RelWithDebInfo,MinSizeRel>>>:-O2>)
+  endif()
   if(NOOK_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                            -fno-omit-frame-pointer)

@@ -17,7 +17,8 @@ export LSAN_OPTIONS="suppressions=\"$root/tests/lsan.supp\":print_suppressions=0
 configure() {  # folder, options...
   local folder=$1
   shift
-  cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@" \
+  cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
+    -DNOOK_WERROR=ON "$@" \
     >"$folder.configure.log" 2>&1 || { cat "$folder.configure.log"; exit 1; }
 }
 mkdir -p "$(dirname "$build")"

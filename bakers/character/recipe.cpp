@@ -1,18 +1,17 @@
 #include "bakers/character/recipe.h"
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <algorithm>
 #include <array>
 #include <cinttypes>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "bakers/character/auto_poses.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/skinning.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/hash.h"
 
 namespace nook::bake {
 namespace {
@@ -42,7 +41,7 @@ std::string hex(std::uint64_t value) {
 std::string hash_of_names(const ImportedCharacter& character) {
   std::string all;
   for (std::size_t clip : clips_by_name(character)) (all += character.clips[clip].name) += '\0';
-  return hex(XXH64(all.data(), all.size(), 0));
+  return hex(hash64(std::as_bytes(std::span(all))));
 }
 
 // One hexadecimal digit for four clips, the first clip in the lowest bit of the first digit.

@@ -1,10 +1,8 @@
 #include "bakers/import/gltf.h"
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <algorithm>
 #include <cstdio>
+#include <span>
 
 #include "bakers/import/accessor.h"
 #include "bakers/import/file_reader.h"
@@ -14,6 +12,7 @@
 #include "bakers/import/skeleton.h"
 #include "bakers/import/validate.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/hash.h"
 
 namespace nook::bake {
 namespace {
@@ -148,10 +147,10 @@ void warn_of_size(const SkinnedMesh& mesh, std::vector<std::string>& warnings) {
 }
 
 std::uint64_t hash_of(std::span<const std::byte> bytes, const tinygltf::Model& model) {
-  std::uint64_t hash = XXH64(bytes.data(), bytes.size(), 0);
+  std::uint64_t hash = hash64(bytes);
   for (const tinygltf::Buffer& buffer : model.buffers)
     if (!buffer.uri.empty() && buffer.uri.compare(0, 5, "data:") != 0)
-      hash = XXH64(buffer.data.data(), buffer.data.size(), hash);
+      hash = hash64(std::as_bytes(std::span(buffer.data)), hash);
   return hash;
 }
 

@@ -1,16 +1,15 @@
 #include "bakers/import/weld.h"
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <unordered_map>
 
 #include "bakers/import/opposite_faces.h"
 #include "bakers/import/validate.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/hash.h"
 
 namespace nook::bake {
 namespace {
@@ -24,7 +23,7 @@ struct WeldKey {
 struct WeldHash {
   std::size_t operator()(const WeldKey& key) const {
     static_assert(sizeof(WeldKey) == sizeof(Vec3) + sizeof(SkinWeights), "padding would be hashed");
-    return XXH64(&key, sizeof key, 0);
+    return hash64(std::as_bytes(std::span(&key, 1)));
   }
 };
 

@@ -1,12 +1,11 @@
 #include "bakers/job/mesh_arrays.h"
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <algorithm>
+#include <span>
 
 #include "bakers/import/weld.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/hash.h"
 
 namespace nook::bake {
 namespace {
@@ -58,9 +57,9 @@ ImportedCharacter character_of_arrays(const nook_bake_mesh_desc& desc) {
   ImportedCharacter character;
   character.mesh = weld(to_file_mesh(arrays, NOOK_ERROR_INVALID_ARGUMENT), character.warnings,
                         NOOK_ERROR_INVALID_ARGUMENT);
-  std::uint64_t hash = XXH64(position.data(), position.size() * sizeof(Vec3), 0);
-  hash = XXH64(arrays.index.data(), arrays.index.size_bytes(), hash);
-  character.source_hash = XXH64(arrays.weight.data(), arrays.weight.size_bytes(), hash);
+  std::uint64_t hash = hash64(std::as_bytes(std::span(position)));
+  hash = hash64(std::as_bytes(arrays.index), hash);
+  character.source_hash = hash64(std::as_bytes(arrays.weight), hash);
   return character;
 }
 

@@ -1,18 +1,17 @@
 #include "bakers/nnao/checkpoint.h"
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <cmath>
+#include <span>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/hash.h"
 #include "sdk/src/nnao/network_file.h"
 
 namespace nook::bake::nnao {
 namespace {
 
 std::uint64_t fingerprint(std::string_view recipe) {
-  return XXH64(recipe.data(), recipe.size(), 0);
+  return hash64(std::as_bytes(std::span(recipe)));
 }
 
 // Far above any training; each of these steps takes its time.

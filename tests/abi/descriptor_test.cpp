@@ -1,5 +1,6 @@
 // Structs of older and newer headers, and the version handshake.
 #include <nook/nook_gl.h>
+#include <nook/nook_gl_material.h>
 
 #include <string>
 

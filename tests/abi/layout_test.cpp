@@ -2,8 +2,8 @@
 #include <nook/nook_bake.h>
 #include <nook/nook_character.h>
 #include <nook/nook_gl.h>
+#include <nook/nook_gl_material.h>
 #include <nook/nook_gl_probe.h>
-#include <nook/nook_material.h>
 #include <nook/nook_nnao.h>
 #include <nook/nook_pose.h>
 #include <nook/nook_probe.h>

@@ -111,6 +111,34 @@ TEST_CASE("handles may be destroyed in any order, and again") {
   nook_scene_destroy(nullptr);
 }
 
+TEST_CASE("the name of a bone is valid while its model lives") {
+  Stage stage;
+  const char* const name = nook_character_model_bone_name(stage.model, 0);
+  const std::string text = name;
+  for (int i = 0; i < 20; ++i) {
+    nook_character_model other = nullptr;
+    REQUIRE(nook_character_model_load(stage.context, stage.host.bytes.data(), stage.host.bytes.size(),
+                                      &other) == NOOK_OK);
+    REQUIRE(nook_scene_add_instance(stage.scene, other, &stage.second) == NOOK_OK);
+    nook_character_model_destroy(&other);
+  }
+  nook_scene_destroy(&stage.scene);
+  nook_context_destroy(&stage.context);
+  CHECK(nook_character_model_bone_name(stage.model, 0) == name);
+  CHECK(text == name);
+}
+
+TEST_CASE("the message of a failure is valid until the next failure of its thread") {
+  Stage stage;
+  REQUIRE(nook_scene_remove_instance(stage.scene, 12345) != NOOK_OK);
+  const char* const message = nook_last_message();
+  const std::string text = message;
+  REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
+  std::thread([] { nook_context_create(nullptr, nullptr); }).join();
+  CHECK(nook_last_message() == message);
+  CHECK(text == message);
+}
+
 TEST_CASE("threads read one scene, and run scenes of their own") {
   Stage stage;
   REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);

@@ -1,5 +1,6 @@
-// nook_material.h without OpenGL: bad parameters, refused allocations, growing structs.
-#include <nook/nook_material.h>
+// nook_material.h, and nook_gl_material.h as far as it needs no OpenGL: bad parameters, refused allocations,
+// growing structs.
+#include <nook/nook_gl_material.h>
 
 #include <cmath>
 #include <string>

@@ -1,7 +1,7 @@
 // Loads bytes as a material, evaluates it and uploads it through the C ABI: nothing may crash, radiance is
 // finite and visibility lies in [0, 1], whatever the bytes. Built for libFuzzer with clang; elsewhere
 // material_fuzz_replay.cpp drives it.
-#include <nook/nook_material.h>
+#include <nook/nook_gl_material.h>
 
 #include <cmath>
 

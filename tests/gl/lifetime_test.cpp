@@ -124,6 +124,55 @@ TEST_CASE("views are refused where there is none, and hold 1 before the first up
   nook_character_model_destroy(&model);
 }
 
+TEST_CASE("a view stays as it is while other instances come and go") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_character_model model = load_model(host.handle, sample_model(8));
+  Crowd crowd(host.handle, {model}, {5}, {});
+  nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
+  nook_gl_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_gl_describe(gl, &info));
+  const std::string version = info.version;
+  NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+  const auto view_of = [&](std::size_t i) {
+    nook_gl_ao_view view{};
+    view.struct_size = sizeof view;
+    NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[i], &view));
+    return view;
+  };
+  const nook_gl_ao_view first = view_of(0);
+  const auto check_first = [&] {
+    const nook_gl_ao_view now = view_of(0);
+    CHECK(now.buffer == first.buffer);
+    CHECK(now.offset == first.offset);
+    // The buffer that the host bound once holds the values of the last update.
+    std::vector<float> bound(first.count);
+    context.gl().BindBuffer(GL_ARRAY_BUFFER, first.buffer);
+    context.gl().GetBufferSubData(GL_ARRAY_BUFFER, GLintptr(first.offset), GLsizeiptr(4 * bound.size()),
+                                  bound.data());
+    context.gl().BindBuffer(GL_ARRAY_BUFFER, 0);
+    CHECK(bound == gpu_ao(gl, crowd, model, 0));
+  };
+  for (std::size_t i = crowd.ids.size(); i < 40; ++i) {
+    crowd.add(i);
+    if (i % 10 == 0) NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
+    if (i % 10 == 5) NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+  }
+  NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+  CHECK(view_of(39).buffer != first.buffer);
+  check_first();
+  while (crowd.ids.size() > 1) {
+    NOOK_OK_OR_FAIL(nook_scene_remove_instance(crowd.scene, crowd.ids.back()));
+    crowd.ids.pop_back();
+  }
+  NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+  check_first();
+  CHECK(info.version == version);
+  nook_gl_destroy(&gl);
+  nook_character_model_destroy(&model);
+}
+
 TEST_CASE("an empty scene is updated, and again after its last instance left") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;

@@ -291,6 +291,7 @@ TEST_CASE("lights come, move and go") {
     CHECK(second.light > first.light);
     CHECK(second.buffer == first.buffer);
     CHECK(second.offset == first.offset);
+    CHECK(second.texture == first.texture);
     light(crowd, 8, {});
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
     CHECK(ask_view(gl, crowd, 8) == NOOK_ERROR_INVALID_HANDLE);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <glad/gl.h>
-#include <nook/nook_material.h>
+#include <nook/nook_gl_material.h>
 
 #include <vector>
 

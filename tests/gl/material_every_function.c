@@ -1,6 +1,7 @@
-/* Every function of nook_material.h, called from C in the order a host would; returns the number of failed
- * expectations and prints each. The OpenGL context is current; bytes: a material with a VOTF. */
-#include <nook/nook_material.h>
+/* Every function of nook_material.h and nook_gl_material.h, called from C in the order a host would; returns
+ * the number of failed expectations and prints each. The OpenGL context is current; bytes: a material with a
+ * VOTF. */
+#include <nook/nook_gl_material.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -34,7 +34,7 @@ bool message_has(const char* part) {
 
 }  // namespace
 
-TEST_CASE("material: a C program calls every function of nook_material.h") {
+TEST_CASE("material: a C program calls every function of nook_material.h and nook_gl_material.h") {
   NOOK_NEED_CONTEXT(context);
   const std::vector<std::byte> bytes = nook_test_material_bytes();
   CHECK(nook_material_call_everything(bytes.data(), bytes.size(), platform::Context::loader, &context) == 0);

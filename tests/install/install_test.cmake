@@ -1,12 +1,7 @@
 # Installs the built tree under a path with a space, moves it, and builds and runs a C program that finds it there: by
-# find_package, and by pkg-config where there is one. -DBUILD= -DWORK= -DCONSUMER= -DC_COMPILER= -DGENERATOR=
+# find_package, and by pkg-config where there is one. -DBUILD= -DWORK= -DSOURCES= -DC_COMPILER= -DGENERATOR= -DNM= -DGL=
 cmake_minimum_required(VERSION 3.25)
-function(run)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(failed)
-    message(FATAL_ERROR "${ARGN} failed:\n${output}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
@@ -14,7 +9,7 @@ run(${CMAKE_COMMAND} --install ${BUILD}/sdk --prefix "${WORK}/first place")
 file(RENAME "${WORK}/first place" "${WORK}/second place")
 set(prefix "${WORK}/second place")
 
-run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER} -B ${WORK}/build "-DCMAKE_PREFIX_PATH=${prefix}"
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCES}/consumer -B ${WORK}/build "-DCMAKE_PREFIX_PATH=${prefix}"
     -DCMAKE_C_COMPILER=${C_COMPILER})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
@@ -23,7 +18,7 @@ run(${WORK}/build/consumer)
 file(GLOB_RECURSE texts "${prefix}/*.cmake" "${prefix}/*.pc")
 foreach(text ${texts})
   file(READ "${text}" content)
-  foreach(word "${BUILD}" "find_dependency" "XXHASH" "glad")
+  foreach(word "${BUILD}" "find_dependency" "glad")
     string(FIND "${content}" "${word}" at)
     if(NOT at EQUAL -1)
       message(FATAL_ERROR "${text} mentions ${word}")
@@ -31,16 +26,56 @@ foreach(text ${texts})
   endforeach()
 endforeach()
 
+foreach(file share/doc/nook/LICENSE share/doc/nook/NOTICE include/nook/nook.h include/nook/nook.hpp)
+  if(NOT EXISTS "${prefix}/${file}")
+    message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
+# The library of the bakers is not there, and neither is its header. OpenGL's headers are there with its half of the library.
+if(EXISTS "${prefix}/include/nook/nook_bake.h")
+  message(FATAL_ERROR "nook_bake.h is installed without its library")
+endif()
+file(GLOB gl_headers "${prefix}/include/nook/nook_gl*.h" "${prefix}/include/nook/nook_nnao.h")
+list(LENGTH gl_headers gl_header_count)
+if(GL AND gl_header_count LESS 4 OR NOT GL AND gl_header_count GREATER 0)
+  message(FATAL_ERROR "with NOOK_GL=${GL} these headers of OpenGL are installed: ${gl_headers}")
+endif()
+# A host that needs the OpenGL half finds it or fails to configure.
+execute_process(COMMAND ${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCES}/consumer -B ${WORK}/build_gl -DCOMPONENTS=gl
+                        "-DCMAKE_PREFIX_PATH=${prefix}" -DCMAKE_C_COMPILER=${C_COMPILER}
+                RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
+if(GL AND failed OR NOT GL AND NOT failed)
+  message(FATAL_ERROR "find_package(nook COMPONENTS gl) with NOOK_GL=${GL}: exit code ${failed}")
+endif()
+
+file(GLOB_RECURSE static_library "${prefix}/*/libnook.a")
+if(static_library AND NM)
+  execute_process(COMMAND ${NM} -g --defined-only "${static_library}" OUTPUT_VARIABLE symbols ERROR_QUIET)
+  if(NOT GL AND symbols MATCHES " nook_(gl|nnao)_")
+    message(FATAL_ERROR "a library without OpenGL has symbols of it")
+  endif()
+endif()
+
 find_program(PKG_CONFIG pkg-config)
 if(PKG_CONFIG)
-  file(GLOB_RECURSE pc "${prefix}/*/nook.pc")
-  get_filename_component(pc_dir "${pc}" DIRECTORY)
-  set(ENV{PKG_CONFIG_PATH} "${pc_dir}")
-  execute_process(COMMAND ${PKG_CONFIG} --static --cflags --libs nook OUTPUT_VARIABLE flags RESULT_VARIABLE failed
-                  OUTPUT_STRIP_TRAILING_WHITESPACE)
-  if(failed)
-    message(FATAL_ERROR "pkg-config does not find nook.pc in ${pc_dir}")
+  # This works without --static where the static library is the only one.
+  pkg_config(flags "${prefix}" --cflags --libs)
+  run(${C_COMPILER} -std=c99 ${SOURCES}/consumer/main.c ${flags} "-Wl,-rpath,${prefix}/lib" -o ${WORK}/by_pkg_config)
+  run(${WORK}/by_pkg_config)
+  pkg_config(gl "${prefix}" --variable=gl)
+  if(GL AND NOT gl STREQUAL "yes" OR NOT GL AND NOT gl STREQUAL "no")
+    message(FATAL_ERROR "with NOOK_GL=${GL} nook.pc says gl=${gl}")
   endif()
-  separate_arguments(flags UNIX_COMMAND "${flags}")
-  run(${C_COMPILER} -std=c99 ${CONSUMER}/main.c ${flags} "-Wl,-rpath,${prefix}/lib" -o ${WORK}/by_pkg_config)
+
+  # A plug-in that links the static library keeps Nook to itself.
+  if(static_library AND NM)
+    run(${C_COMPILER} -std=c99 -shared -fPIC ${SOURCES}/plugin/plugin.c ${flags} -o ${WORK}/plugin.so)
+    run(${NM} -D --defined-only ${WORK}/plugin.so)
+    if(NOT run_output MATCHES " plugin_start")
+      message(FATAL_ERROR "the plug-in does not export its own function:\n${run_output}")
+    endif()
+    if(run_output MATCHES "nook")
+      message(FATAL_ERROR "the plug-in exports functions of Nook:\n${run_output}")
+    endif()
+  endif()
 endif()

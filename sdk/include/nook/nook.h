@@ -28,7 +28,11 @@ extern "C" {
 #define NOOK_VERSION \
   ((uint32_t)((NOOK_VERSION_MAJOR << 22) | (NOOK_VERSION_MINOR << 12) | NOOK_VERSION_PATCH))
 
-#if defined(_WIN32) && !defined(NOOK_STATIC)
+/* Hosts of the static library define NOOK_STATIC; the CMake target and the pkg-config file do it for them.
+ * The functions then stay inside the program or plug-in that links the library. */
+#if defined(NOOK_STATIC)
+#define NOOK_API
+#elif defined(_WIN32)
 #ifdef NOOK_BUILDING
 #define NOOK_API __declspec(dllexport)
 #else

@@ -12,13 +12,18 @@
 #include <vector>
 
 #include "nook_character.h"
-#include "nook_gl.h"
-#include "nook_gl_probe.h"
 #include "nook_material.h"
-#include "nook_nnao.h"
 #include "nook_pose.h"
 #include "nook_probe.h"
 #include "nook_vertices.h"
+// A library without its OpenGL half (NOOK_GL=OFF) is installed without these headers.
+#if __has_include("nook_gl.h")
+#define NOOK_HPP_GL 1
+#include "nook_gl.h"
+#include "nook_gl_material.h"
+#include "nook_gl_probe.h"
+#include "nook_nnao.h"
+#endif
 
 namespace nook {
 // The inline namespace keeps these names apart from the library's own names at link time. Callers write
@@ -89,40 +94,6 @@ inline nook_probe_desc probe_desc() {
   nook_probe_desc desc;
   check(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
   return desc;
-}
-
-// The caller sets get_proc.
-inline nook_gl_desc gl_desc() {
-  nook_gl_desc desc;
-  check(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  return desc;
-}
-
-inline nook_gl_material_desc gl_material_desc() {
-  nook_gl_material_desc desc;
-  check(nook_gl_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  return desc;
-}
-
-// The caller sets max_width and max_height.
-inline nook_nnao_desc nnao_desc() {
-  nook_nnao_desc desc;
-  check(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  return desc;
-}
-
-// The caller sets the size, the depth texture, the projection and the radius.
-inline nook_nnao_frame_desc nnao_frame_desc() {
-  nook_nnao_frame_desc desc;
-  check(nook_nnao_frame_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  return desc;
-}
-
-// Returns the texture memory of a pass with this descriptor, in bytes.
-inline std::uint64_t nnao_memory(const nook_nnao_desc& desc) {
-  std::uint64_t bytes = 0;
-  check(nook_nnao_memory(&desc, &bytes));
-  return bytes;
 }
 
 class Context : public Unique<nook_context, nook_context_destroy> {
@@ -353,6 +324,64 @@ class ProbeFit : public Unique<nook_probe_fit, nook_probe_fit_destroy> {
   }
 };
 
+class Material : public Unique<nook_material, nook_material_destroy> {
+ public:
+  Material(const Context& context, const void* bytes, std::size_t size)
+      : Unique(load(context, bytes, size)) {}
+
+  nook_material_info info() const {
+    nook_material_info info{};
+    info.struct_size = sizeof info;
+    check(nook_material_describe(get(), &info));
+    return info;
+  }
+  void evaluate(const nook_material_sample* samples, std::uint32_t count, nook_material_value* values) const {
+    check(nook_material_evaluate(get(), samples, count, values));
+  }
+
+ private:
+  static nook_material load(const Context& context, const void* bytes, std::size_t size) {
+    nook_material handle = nullptr;
+    check(nook_material_load(context.get(), bytes, size, &handle));
+    return handle;
+  }
+};
+
+#ifdef NOOK_HPP_GL
+// The caller sets get_proc.
+inline nook_gl_desc gl_desc() {
+  nook_gl_desc desc;
+  check(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+inline nook_gl_material_desc gl_material_desc() {
+  nook_gl_material_desc desc;
+  check(nook_gl_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+// The caller sets max_width and max_height.
+inline nook_nnao_desc nnao_desc() {
+  nook_nnao_desc desc;
+  check(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+// The caller sets the size, the depth texture, the projection and the radius.
+inline nook_nnao_frame_desc nnao_frame_desc() {
+  nook_nnao_frame_desc desc;
+  check(nook_nnao_frame_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+// Returns the texture memory of a pass with this descriptor, in bytes.
+inline std::uint64_t nnao_memory(const nook_nnao_desc& desc) {
+  std::uint64_t bytes = 0;
+  check(nook_nnao_memory(&desc, &bytes));
+  return bytes;
+}
+
 // Every function and the destructor belong to the context thread, as nook_gl.h documents.
 class Gl : public Unique<nook_gl, nook_gl_destroy> {
  public:
@@ -421,29 +450,6 @@ class GlProbe : public Unique<nook_gl_probe, nook_gl_probe_destroy> {
   }
 };
 
-class Material : public Unique<nook_material, nook_material_destroy> {
- public:
-  Material(const Context& context, const void* bytes, std::size_t size)
-      : Unique(load(context, bytes, size)) {}
-
-  nook_material_info info() const {
-    nook_material_info info{};
-    info.struct_size = sizeof info;
-    check(nook_material_describe(get(), &info));
-    return info;
-  }
-  void evaluate(const nook_material_sample* samples, std::uint32_t count, nook_material_value* values) const {
-    check(nook_material_evaluate(get(), samples, count, values));
-  }
-
- private:
-  static nook_material load(const Context& context, const void* bytes, std::size_t size) {
-    nook_material handle = nullptr;
-    check(nook_material_load(context.get(), bytes, size, &handle));
-    return handle;
-  }
-};
-
 // Every function and the destructor belong to the context thread, as for Gl.
 class GlMaterial : public Unique<nook_gl_material, nook_gl_material_destroy> {
  public:
@@ -501,6 +507,8 @@ class Nnao : public Unique<nook_nnao, nook_nnao_destroy> {
     return handle;
   }
 };
+
+#endif
 
 }  // namespace wrapper
 }  // namespace nook

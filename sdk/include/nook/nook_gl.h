@@ -133,10 +133,10 @@ typedef struct nook_gl_ao_view {
   uint32_t count;
 } nook_gl_ao_view;
 
-/* Gives the view of an instance, which stays the same until the instance, the scene or gl is destroyed, or
- * nook_scene_set_model gives the instance another model. The
- * values are 1 before the first update. After an update they may be read as vertex attributes, texture
- * buffers, shader storage and by buffer reads without a barrier of the host. The call makes no OpenGL call.
+/* Gives the view of an instance, which stays the same until the instance, the scene or gl is destroyed,
+ * nook_gl_scene_release is called, or nook_scene_set_model gives the instance another model. The values are 1
+ * before the first update. After an update they may be read as vertex attributes, texture buffers, shader
+ * storage and by buffer reads without a barrier of the host. The call makes no OpenGL call.
  * Context thread. Errors: INVALID_ARGUMENT, INVALID_HANDLE (the id is unknown, or the instance is not
  * prepared yet), GL. */
 NOOK_API nook_result nook_gl_scene_ao_buffer(nook_gl gl, nook_scene scene, nook_instance_id instance,
@@ -217,7 +217,7 @@ typedef struct nook_gl_light_view {
 } nook_gl_light_view;
 
 /* Gives the view of an instance that had a light in the last nook_gl_scene_update. buffer, offset and texture
- * stay the same until the instance, the scene or gl is destroyed. The values agree with
+ * stay the same as long as the view of nook_gl_scene_ao_buffer. The values agree with
  * nook_scene_read_directional_ao within 4e-3, because each term takes two estimates of a square root. They
  * are ordered as AO is, and need no barrier of the host. The call makes no OpenGL call.
  * Context thread. Errors: INVALID_ARGUMENT, INVALID_HANDLE (the id is unknown, or the instance had no light
@@ -233,8 +233,9 @@ NOOK_API nook_result nook_gl_scene_read_directional_ao(nook_gl gl, nook_scene sc
                                                        nook_instance_id instance, float* out_rgb,
                                                        uint32_t count);
 
-/* Deletes the OpenGL objects that gl holds for a scene; the scene itself lives on. Without this call the next
- * update, or nook_gl_destroy, deletes the objects of a destroyed scene.
+/* Deletes the OpenGL objects that gl holds for a scene, which ends the views of its instances; the scene
+ * itself lives on. Without this call the next update, or nook_gl_destroy, deletes the objects of a destroyed
+ * scene.
  * Context thread. Errors: INVALID_ARGUMENT, GL. */
 NOOK_API nook_result nook_gl_scene_release(nook_gl gl, nook_scene scene);
 

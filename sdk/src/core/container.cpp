@@ -1,12 +1,10 @@
 #include "sdk/src/core/container.h"
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <algorithm>
 #include <array>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/hash.h"
 
 namespace nook {
 namespace {
@@ -16,11 +14,10 @@ constexpr std::uint32_t order_mark = 0x01020304, swapped_mark = 0x04030201;
 constexpr std::size_t checksum_at = 24, head_size = 40, entry_size = 24;
 
 std::uint64_t checksum_of(std::span<const std::byte> bytes) {
-  XXH64_state_t state;
-  XXH64_reset(&state, 0);
-  XXH64_update(&state, bytes.data(), checksum_at);
-  XXH64_update(&state, bytes.data() + checksum_at + 8, bytes.size() - checksum_at - 8);
-  return XXH64_digest(&state);
+  Hash64 hash;
+  hash.add(bytes.first(checksum_at));
+  hash.add(bytes.subspan(checksum_at + 8));
+  return hash.value();
 }
 
 // Returns the four letters as a C string, with '?' for unprintable ones, so that a hostile file cannot write

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "tests/bakers/api/handles.h"
@@ -78,6 +79,19 @@ TEST_CASE("a character from memory is what was given") {
     CHECK(std::fabs(sum - 1) < 1e-6f);
     CHECK(std::fabs(tip - t.weights[2 * v + 1]) < 1e-6f);
   }
+}
+
+TEST_CASE("names are valid while their character lives") {
+  const Character character = tube_character();
+  REQUIRE(character);
+  const char* const bone = nook_bake_character_bone_name(character.get(), 1);
+  const char* const primitive = nook_bake_character_primitive_name(character.get(), 0);
+  const std::string bone_text = bone, primitive_text = primitive;
+  for (int i = 0; i < 20; ++i) REQUIRE(tube_character());
+  CHECK(nook_bake_character_bone_name(character.get(), 1) == bone);
+  CHECK(nook_bake_character_primitive_name(character.get(), 0) == primitive);
+  CHECK(bone_text == bone);
+  CHECK(primitive_text == primitive);
 }
 
 TEST_CASE("split vertices come back in file order and agree") {

@@ -1,3 +1,5 @@
+#include <nook/nook_gl_material.h>
+
 #include <optional>
 
 #include "sdk/src/api/entry.h"
