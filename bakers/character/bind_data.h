@@ -1,4 +1,5 @@
-// What a model keeps of its source's rest pose, so that hosts can hand over their own matrices and meshes.
+// The part of its source's rest pose that a model keeps, so that hosts can hand over their own matrices and
+// meshes.
 #pragma once
 
 #include "bakers/import/gltf.h"

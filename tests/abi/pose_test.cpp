@@ -1,4 +1,4 @@
-// The doors of poses and vertices: calls from C, bad arguments, refused allocations, frames without
+// The functions of poses and vertices: calls from C, bad arguments, refused allocations, frames without
 // allocation.
 #include <nook/nook_pose.h>
 #include <nook/nook_vertices.h>
@@ -186,7 +186,7 @@ TEST_CASE("setting a pose from a host's transforms allocates nothing") {
   CHECK(stage.host.allocations == before);
 }
 
-TEST_CASE("each allocation of the doors of poses refused in turn is one clean failure") {
+TEST_CASE("each allocation of the functions of poses refused in turn is one clean failure") {
   Stage stage;
   const std::vector<float> positions = rest_positions(stage.model);
   const nook_pose_desc desc = pose_desc(stage);

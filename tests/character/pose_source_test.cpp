@@ -305,7 +305,7 @@ TEST_CASE("vertices are matched by place and normal, and a remapped model is in 
           model.file_to_welded[model.bind.vertices[v].file_vertex]);
 }
 
-TEST_CASE("the two sides of a card are told apart by their normals") {
+TEST_CASE("normals decide between the two sides of a card") {
   CharacterModel model = test::sample_model(3, {5, 7, 12, 20, 0, 4});
   for (std::size_t i = 0; i < 10; ++i) {
     model.rest.position[i + 10] = model.rest.position[i];

@@ -28,7 +28,8 @@ Row describe_character(std::span<const std::byte> bytes) {
   row["kernel"] = kernel_names[std::size_t(model.kernel.form)];
   row["gamma"] = model.kernel.gamma;
   row["bounding_radius_m"] = model.bounding_radius;
-  for (const char* name : {"HEAD", "BONE", "SPHR", "KEYP", "LINR", "STAO", "FMAP", "PRIM", "LODS", "BIND", "REST", "RECP"}) {
+  for (const char* name :
+       {"HEAD", "BONE", "SPHR", "KEYP", "LINR", "STAO", "FMAP", "PRIM", "LODS", "BIND", "REST", "RECP"}) {
     const char letters[5] = {name[0], name[1], name[2], name[3], 0};
     row[std::string("bytes_") + name] = container.has(letters) ? container.section(letters).remaining() : 0;
   }

@@ -137,17 +137,17 @@ NOOK_API nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_
 
 /* Gives an instance another model with the same number of bones: a new bake of the same character while it
  * runs, or the model of a coarser mesh. Pose, links, ground and light stay; AO is 1 until the next update,
- * and views of its AO on the GPU must be asked for again. The call allocates; on failure nothing has changed.
- * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
+ * and a host calls nook_gl_scene_ao_buffer again for its view on the GPU. The call allocates; on failure
+ * nothing has changed. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_model(nook_scene scene, nook_instance_id instance,
                                           nook_character_model model);
 
 /* Sets the pose of an instance. bones_3x4 holds one 3x4 matrix for each bone, row-major: 12 floats, three
  * rows of rotation | translation. A matrix maps rest space to world space, both in metres; it is rigid, or
- * has one scale for all axes, which scales radii, and may mirror. nook_pose.h says what rest space is, and
- * takes the matrices that an engine has. bone_count must be the model's. The call does not allocate. One at a
- * time. Errors: INVALID_ARGUMENT (the count is wrong, or a matrix is not finite; with strict_poses also a
- * matrix that is sheared or scales unevenly by more than 1 %; the message names the bone), INVALID_HANDLE. */
+ * has one scale for all axes, which scales radii, and may mirror. nook_pose.h defines rest space, and takes
+ * the matrices that an engine has. bone_count must be the model's. The call does not allocate. One at a time.
+ * Errors: INVALID_ARGUMENT (the count is wrong, or a matrix is not finite; with strict_poses also a matrix
+ * that is sheared or scales unevenly by more than 1 %; the message names the bone), INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance, const float* bones_3x4,
                                          uint32_t bone_count);
 

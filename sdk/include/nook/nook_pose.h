@@ -3,11 +3,11 @@
  *
  * nook_scene_set_pose takes one matrix for each bone from the model's rest space to the world. Rest space is
  * the bind-posed body in metres, after the node transforms of its file. With W(j) the world matrix of joint j
- * in the file's default scene and pose, B(j) its inverse bind matrix, r the joint of least depth (the first
- * such joint in the skin's list; with several skins a joint that an earlier skin bound decides), and
- * S = W(r) B(r), a vertex v of the file lies at S v in rest space. With G(j) the joint's matrix in a frame
- * and P the place of the character, the matrix of the bone is P G(j) B(j) S^-1. S is the identity in many
- * files, and wrong AO is the result where it is not and is left out. The model carries B and S, so that the
+ * in the file's default scene and pose, B(j) its inverse bind matrix, r the joint of the smallest depth (the
+ * first such joint in the skin's list; with several skins a joint that an earlier skin bound decides), and S
+ * = W(r) B(r), a vertex v of the file lies at S v in rest space. With G(j) the joint's matrix in a frame and
+ * P the place of the character, the matrix of the bone is P G(j) B(j) S^-1. S is the identity in many files,
+ * and wrong AO is the result where it is not and is left out. The model carries B and S, so that the
  * functions here do the conversion. */
 #ifndef NOOK_POSE_H
 #define NOOK_POSE_H
@@ -18,7 +18,8 @@
 extern "C" {
 #endif
 
-/* What the transforms of a pose map from; all of them map to the space that `place_3x4` maps to the world. */
+/* The space that the transforms of a pose map from; all of them map to the space that `place_3x4` maps to the
+ * world. */
 enum {
   /* From the model's rest space: the matrices of nook_scene_set_pose. One for each bone. */
   NOOK_POSE_REST_TO_WORLD = 0,
@@ -112,8 +113,8 @@ NOOK_API nook_result nook_character_model_convert_pose(nook_character_model mode
 enum {
   /* Letters of either case are equal, and the characters space . _ - : | are left out. */
   NOOK_BONE_NAMES_LOOSE = 1,
-  /* What all names of a side have in common at their beginning, up to one of the characters . _ - : |, is
-   * left out: "mixamorig:", "Armature|". */
+  /* The part that all names of a side have in common at their beginning, up to one of the characters . _ - :
+   * |, is left out: "mixamorig:", "Armature|". */
   NOOK_BONE_NAMES_DROP_SHARED_PREFIX = 2
 };
 
@@ -136,8 +137,9 @@ typedef struct nook_bone_names {
 
 /* Finds the transform of each bone by name. transform_of_bone takes an index into names, or -1 where none
  * matches, for each bone; bone_count must be the model's. Bones of one joint share its name. *unmatched,
- * which may be NULL, takes the number of -1; nook_character_model_bone_name tells which. Of several equal
- * names the first one counts. The call allocates. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+ * which may be NULL, takes the number of -1; nook_character_model_bone_name gives their names. Of several
+ * equal names the first one counts. The call allocates. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
+ */
 NOOK_API nook_result nook_character_model_map_bones(nook_character_model model, const nook_bone_names* names,
                                                     int32_t* transform_of_bone, uint32_t bone_count,
                                                     uint32_t* unmatched);
@@ -186,7 +188,7 @@ NOOK_API nook_result nook_character_model_rest_vertex(nook_character_model model
 
 /* ---- The check of a pose ---- */
 
-/* What is likely wrong with a pose. */
+/* The likely fault of a pose. */
 enum {
   NOOK_POSE_RIGHT = 0,
   /* Rows were given as columns, or columns as rows. */
@@ -241,8 +243,8 @@ typedef struct nook_pose_check {
   char text[512];
 } nook_pose_check;
 
-/* Compares the pose that desc describes with vertices that the host skinned itself, in any frame, and says
- * what is likely wrong. In the bind pose alone all bones have the same matrix, so that their order cannot be
+/* Compares the pose that desc describes with vertices that the host skinned itself, in any frame, and names
+ * the likely fault. In the bind pose alone all bones have the same matrix, so that their order cannot be
  * seen; a frame of a clip tells everything. The call allocates.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model has no bind data), OUT_OF_MEMORY. A wrong pose
  * is no error of the call: it returns OK, and check->fault tells. */

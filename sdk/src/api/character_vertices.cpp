@@ -16,9 +16,8 @@ StridedPoints points_of(const float* first, std::size_t stride, std::uint32_t co
   const StridedPoints points{first, stride ? stride : size};
   if (points.stride < size)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the stride of match.%s is too small (got %zu bytes, need 0 or at "
-                  "least %zu)",
-                  name, stride, size);
+                  "the stride of match.%s is too small (got %zu bytes, need 0, or %zu or more)", name, stride,
+                  size);
   for (std::uint32_t i = 0; first && i < count; ++i) {
     const Vec3 p = points[i];
     if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))

@@ -386,7 +386,7 @@ double spread(std::size_t count, Point&& point) {
 }
 
 // Vertices that only bones with transforms move. The unit of the tolerance is that of the host's vertices,
-// told by their spread, because the transforms may be misread. A pose changes the spread by a few tens of
+// known by their spread, because the transforms may be misread. A pose changes the spread by a few tens of
 // percent.
 void choose_vertices(Check& check, std::span<const SkinnedVertex> vertices, double tolerance) {
   std::size_t first_missing = 0;

@@ -11,7 +11,7 @@
 
 namespace nook {
 
-// A host's transforms with everything that says what they mean. Pointers are the host's.
+// A host's transforms with everything that defines their meaning. Pointers are the host's.
 struct PoseSource {
   nook_pose_kind kind = NOOK_POSE_REST_TO_WORLD;
   nook_transform_layout layout = NOOK_TRANSFORM_ROWS_3X4;

@@ -44,7 +44,7 @@ void check_size(const CharacterModel& model, const Mat3x4& matrix, std::size_t b
                     model.bone_names[bone].c_str(), i, double(matrix.m[i]));
 }
 
-// What a rest-to-world matrix looks like by its axes.
+// The shape of a rest-to-world matrix by its axes.
 struct Axes {
   Vec3 length;       // of each axis
   float cosine = 0;  // the largest one between two axes, relative to the longest axis

@@ -276,7 +276,7 @@ Difference difference_of_ao(Host& host, std::size_t clip, float time_s, const fl
   return difference(ao, expected);
 }
 
-// What the rounding of the matrices alone does to AO.
+// The change of AO by the rounding of the matrices alone.
 Difference difference_of_one_step(Host& host, std::size_t clip, float time_s) {
   std::vector<float> bones = rows_3x4(sample_clip(host.engine.imported, clip, time_s), Affine{});
   REQUIRE(nook_scene_set_pose(host.scene, host.instance, bones.data(), host.bones) == NOOK_OK);
@@ -506,7 +506,7 @@ TEST_CASE("a mesh that was shuffled, split and stored in 16 bits finds its verti
       other_ao += ao[i] != own[expected[i]];
     }
     INFO(other_vertex << " of " << ao.size());
-    // Vertices at one place with one normal and different weights cannot be told apart by place and normal.
+    // Vertices at one place with one normal and different weights are the same by place and normal.
     CHECK(other_vertex <= ao.size() / 100);
     CHECK(other_ao <= other_vertex);
   }

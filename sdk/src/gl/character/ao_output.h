@@ -26,7 +26,8 @@ struct TextureTarget {
 // The bytes of tightly packed values, whole words.
 std::uint64_t packed_bytes(nook_ao_format format, std::uint32_t values);
 
-// What is written makes programs when it is first needed. The caller holds a StateGuard for output_users.
+// Each kind of target makes its program when it is first written. The caller holds a StateGuard for
+// output_users.
 class AoOutput {
  public:
   explicit AoOutput(Device& device) : device_(device) {}
