@@ -67,9 +67,11 @@ def errors(results):
 
 
 def sizes(results):
-    return table(["character", "split", "vertices", "measured poses", "model bytes (map apart)", "bake, s: rays + fit"],
+    parts = ["map_bytes", "bind_bytes", "rest_bytes"]
+    return table(["character", "split", "vertices", "measured poses", "model bytes", "file order", "bind data",
+                  "rest positions", "bake, s: rays + fit"],
                  [[body, SPLITS[split], f"{r['vertices']:,}", str(r["poses"]),
-                   f"{r['model_bytes'] - r['map_bytes']:,} (+ {r['map_bytes']:,})",
+                   f"{r['model_bytes'] - sum(r[p] for p in parts):,}", *(f"{r[p]:,}" for p in parts),
                    f"{b['seconds_raytrace']:.0f} + {b['seconds_fit']:.0f}"] for body, split, b, r in results])
 
 
@@ -77,7 +79,7 @@ def baselines(results):
     rows = []
     for body, split, _, r in results:
         rows.append([body, SPLITS[split], "Nook", number(r["mse_visible"]), number(r["mse"]), number(r["mse_area"]),
-                     f"{r['model_bytes']:,}", ""])
+                     f"{r['model_bytes'] - r['bind_bytes'] - r['rest_bytes']:,}", ""])
         for key, name in BASELINES.items():
             rows.append(["", "", name, number(r[f"mse_{key}_visible"]), number(r[f"mse_{key}"]),
                          number(r[f"mse_area_{key}"]), f"{r[f'bytes_{key}']:,}", r[f"tuned_{key}"]])

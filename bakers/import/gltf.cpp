@@ -154,6 +154,23 @@ std::uint64_t hash_of(std::span<const std::byte> bytes, const tinygltf::Model& m
   return hash;
 }
 
+// A file in which no mesh has a skin and no clip moves a mesh is a prop: each root of the meshes is a bone.
+Skeleton skeleton_of(ImportedCharacter& character, const MeshNodes& mesh_nodes) {
+  const NodeTree& nodes = character.nodes;
+  std::vector<bool> moves = animated_nodes(character.clips, nodes.size());
+  Skeleton skeleton = build_skeleton(nodes, mesh_nodes.skins, moves, mesh_nodes.rigid_nodes);
+  if (!skeleton.bones.empty()) return skeleton;
+  for (std::uint32_t node : mesh_nodes.rigid_nodes) {
+    while (nodes.nodes[node].parent >= 0) node = static_cast<std::uint32_t>(nodes.nodes[node].parent);
+    moves[node] = true;
+  }
+  skeleton = build_skeleton(nodes, mesh_nodes.skins, moves, mesh_nodes.rigid_nodes);
+  character.warnings.push_back(
+      "no mesh has a skin and no clip moves one, so that the file is a rigid prop of " +
+      std::to_string(skeleton.bones.size()) + " bones");
+  return skeleton;
+}
+
 ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAccess& files) {
   const tinygltf::Model model = parse_gltf(bytes, files);
   ImportedCharacter character;
@@ -162,14 +179,7 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAcces
   character.clips = read_clips(model, character.nodes, character.warnings);
 
   const MeshNodes mesh_nodes = find_mesh_nodes(model, character.nodes);
-  Skeleton skeleton =
-      build_skeleton(character.nodes, mesh_nodes.skins,
-                     animated_nodes(character.clips, character.nodes.size()), mesh_nodes.rigid_nodes);
-  if (skeleton.bones.empty())
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "no skin: no mesh has one and no clip moves a mesh (%zu meshes, %zu clips); export it with "
-                  "its armature",
-                  mesh_nodes.all.size(), character.clips.size());
+  Skeleton skeleton = skeleton_of(character, mesh_nodes);
 
   FileMesh file;
   MeshRepairs repairs;

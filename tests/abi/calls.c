@@ -95,6 +95,8 @@ int nook_call_everything(const void* bytes, size_t size) {
   EXPECT_OK(nook_scene_set_ground(scene, a, plane));
   EXPECT_OK(nook_scene_add_occluder(scene, centre, 0.5f, &occluder));
   EXPECT_OK(nook_scene_set_occluder(scene, occluder, centre, 0.6f));
+  EXPECT_OK(nook_scene_limit_occluder(scene, occluder, a));
+  EXPECT_OK(nook_scene_limit_occluder(scene, occluder, 0));
   EXPECT_OK(nook_scene_set_camera(scene, centre));
   EXPECT_OK(nook_scene_set_terms(scene, NOOK_TERM_SELF | NOOK_TERM_LINKS));
   EXPECT_OK(nook_scene_update(scene));

@@ -121,11 +121,12 @@ TEST_CASE("link_nearest adds to explicit links and counts no pair twice") {
   const auto slot = [&](int i) {
     return static_cast<std::uint32_t>(&instance_of(scene, ids[i]) - scene.instances.data());
   };
-  CHECK(instance_of(scene, ids[0]).casters == std::pmr::vector<std::uint32_t>{slot(1), slot(2), slot(5)});
-  CHECK(instance_of(scene, ids[3]).casters == std::pmr::vector<std::uint32_t>{slot(2), slot(4)});
+  CHECK(instance_of(scene, ids[0]).plan.casters ==
+        std::pmr::vector<std::uint32_t>{slot(1), slot(2), slot(5)});
+  CHECK(instance_of(scene, ids[3]).plan.casters == std::pmr::vector<std::uint32_t>{slot(2), slot(4)});
   link_nearest(scene, 0, 0);
   update(scene);
-  CHECK(instance_of(scene, ids[3]).casters.empty());
+  CHECK(instance_of(scene, ids[3]).plan.casters.empty());
   CHECK_THROWS_AS(link_nearest(scene, 17, 1), Failure);
   CHECK_THROWS_AS(link_nearest(scene, 1, 0), Failure);
 }
@@ -143,14 +144,16 @@ TEST_CASE("the bound of a posed instance holds its spheres and key points") {
     set_pose(scene, id, pose);
     update(scene);
     const Instance& instance = instance_of(scene, id);
-    const float reach = instance.bound.radius * (1 + 1e-5f);
-    const SphereLanes& s = instance.arrays.spheres;
+    const float reach = instance.input.bound.radius * (1 + 1e-5f);
+    const SphereLanes& s = instance.result.arrays.spheres;
     for (std::uint32_t i = 0; i < s.count; ++i)
-      CHECK(length(Vec3{s.x[i], s.y[i], s.z[i]} - instance.bound.centre) + 1 / s.inverse_radius[i] <= reach);
-    const PointLanes& p = instance.arrays.points;
+      CHECK(length(Vec3{s.x[i], s.y[i], s.z[i]} - instance.input.bound.centre) + 1 / s.inverse_radius[i] <=
+            reach);
+    const PointLanes& p = instance.result.arrays.points;
     for (std::uint32_t i = 0; i < p.count; ++i) {
-      CHECK(length(Vec3{p.x[i], p.y[i], p.z[i]} - instance.bound.centre) <= reach);
-      CHECK(length(Vec3{p.surface_x[i], p.surface_y[i], p.surface_z[i]} - instance.bound.centre) <= reach);
+      CHECK(length(Vec3{p.x[i], p.y[i], p.z[i]} - instance.input.bound.centre) <= reach);
+      CHECK(length(Vec3{p.surface_x[i], p.surface_y[i], p.surface_z[i]} - instance.input.bound.centre) <=
+            reach);
     }
   }
 }
@@ -183,4 +186,27 @@ TEST_CASE("what the cut-off leaves out darkens by less than it says") {
     }
   CHECK(culled > 5);
   CHECK(kept > culled);
+}
+
+TEST_CASE("an occluder of one instance darkens no other") {
+  Scene scene = make_scene();
+  const auto model = load(single_model({0, 50, 0}, 0.1f));
+  const nook_instance_id bearer = add_instance(scene, model), other = add_instance(scene, model);
+  const nook_occluder_id shield = add_occluder(scene, {{0, 1, 0}, 0.5f});
+  update(scene);
+  const std::vector<float> dark = ao_of(scene, bearer);
+  CHECK(dark[0] < 0.8f);
+  CHECK(ao_of(scene, other) == dark);
+  limit_occluder(scene, shield, bearer);
+  update(scene);
+  CHECK(ao_of(scene, bearer) == dark);
+  CHECK(ao_of(scene, other)[0] > 0.99f);
+  // The id of a removed instance comes never back, so that its shield darkens none.
+  remove_instance(scene, bearer);
+  const nook_instance_id next = add_instance(scene, model);
+  update(scene);
+  CHECK(ao_of(scene, next)[0] > 0.99f);
+  limit_occluder(scene, shield, 0);
+  update(scene);
+  CHECK(ao_of(scene, next) == dark);
 }

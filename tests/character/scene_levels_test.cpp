@@ -65,10 +65,10 @@ TEST_CASE("coarser levels evaluate less, and their stated error holds on poses t
     for (const auto& pose : poses) {
       set_pose(coarse, a, pose);
       set_pose(fine, b, pose);
-      coarse.camera = instance_of(coarse, a).bound.centre + Vec3{0, 0, 1};
+      coarse.camera = instance_of(coarse, a).input.bound.centre + Vec3{0, 0, 1};
       update(coarse);
       update(fine);
-      REQUIRE(instance_of(coarse, a).level == l + 1);
+      REQUIRE(instance_of(coarse, a).plan.level == l + 1);
       const double error = rms(ao_of(coarse, a), ao_of(fine, b));
       sum += error * error;
     }
@@ -90,7 +90,7 @@ TEST_CASE("without a camera or with lod_error 0 every instance keeps full detail
     scene.has_camera = camera;
     const nook_instance_id id = place(scene, model, {1000, 0, 0});
     update(scene);
-    CHECK(instance_of(scene, id).level == 0);
+    CHECK(instance_of(scene, id).plan.level == 0);
   }
 }
 

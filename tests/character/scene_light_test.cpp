@@ -59,7 +59,7 @@ TEST_CASE("under constant light every vertex keeps its AO, in either form and at
       add_occluder(scene, {{0.2f, 1.3f, 0.4f}, 0.2f});
       set_light(scene, a, constant_light);
       update(scene);
-      CHECK((instance_of(scene, a).level > 0) == (lod_error > 0));
+      CHECK((instance_of(scene, a).plan.level > 0) == (lod_error > 0));
       CHECK(largest_difference(directional_ao_of(scene, a), ao_of(scene, a)) < simd_tolerance);
       // No light, and a light that no update has seen yet: AO itself.
       CHECK(largest_difference(directional_ao_of(scene, b), ao_of(scene, b)) == 0);

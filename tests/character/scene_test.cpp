@@ -315,7 +315,7 @@ TEST_CASE("uneven matrices are projected to the nearest similarity, which an ins
   CHECK_FALSE(set_pose(scene, id, pose).found);
   const Instance& instance = instance_of(scene, id);
   // Rounding in float of numbers up to 3.
-  for (int i = 0; i < 12; ++i) CHECK(std::abs(instance.bones[2].m[i] - even[2].m[i]) < 2e-6f);
+  for (int i = 0; i < 12; ++i) CHECK(std::abs(instance.input.bones[2].m[i] - even[2].m[i]) < 2e-6f);
 
   // One axis and two axes of zero keep a finite AO, and a mirrored matrix stays mirrored.
   for (int zeros = 1; zeros <= 3; ++zeros) {
@@ -330,7 +330,7 @@ TEST_CASE("uneven matrices are projected to the nearest similarity, which an ins
   for (Mat3x4& bone : mirrored)
     for (int row = 0; row < 3; ++row) bone.m[4 * row] *= -1.1f;
   set_pose(scene, id, mirrored);
-  const float* m = instance.bones[0].m;
+  const float* m = instance.input.bones[0].m;
   CHECK(dot(cross(Vec3{m[0], m[4], m[8]}, Vec3{m[1], m[5], m[9]}), Vec3{m[2], m[6], m[10]}) < -1);
 }
 
@@ -372,7 +372,7 @@ TEST_CASE("ids of removed instances are refused and never come back") {
   link(scene, first, second);
   update(scene);
   remove_instance(scene, second);
-  CHECK(instance_of(scene, first).linked.empty());
+  CHECK(instance_of(scene, first).input.linked.empty());
   update(scene);
   CHECK(scene.stats.links == 0);
   CHECK(mentions(failure_of(NOOK_ERROR_INVALID_HANDLE, [&] { remove_instance(scene, second); }),
@@ -416,7 +416,7 @@ TEST_CASE("links in any order of edits are those of a plain table") {
       for (std::uint32_t caster = 0; caster < count; ++caster)
         if (linked[receiver][caster]) casters.push_back(slot_of(scene, ids[caster]));
       std::ranges::sort(casters);
-      REQUIRE(instance_of(scene, ids[receiver]).linked == casters);
+      REQUIRE(instance_of(scene, ids[receiver]).input.linked == casters);
     }
   }
 }
@@ -458,7 +458,7 @@ TEST_CASE("distant instances take turns, none waits longer than the interval") {
   std::vector<int> updates(ids.size());
   for (int frame = 0; frame < 13; ++frame) {
     update(scene);
-    for (std::size_t i = 0; i < ids.size(); ++i) updates[i] += instance_of(scene, ids[i]).due;
+    for (std::size_t i = 0; i < ids.size(); ++i) updates[i] += instance_of(scene, ids[i]).plan.due;
   }
   // The first frame evaluates all; then 1, 25 m / 10 m -> every 2nd, beyond 40 m every 4th.
   CHECK(updates[0] == 13);

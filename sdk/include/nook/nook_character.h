@@ -188,6 +188,12 @@ NOOK_API nook_result nook_scene_add_occluder(nook_scene scene, const float centr
 NOOK_API nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id occluder,
                                              const float centre_ws[3], float radius);
 
+/* Limits an occluder to one instance, such as a shield to its bearer; other instances are not darkened by it.
+ * receiver 0 lifts the limit. An occluder whose instance is removed darkens none. The call does not allocate.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+NOOK_API nook_result nook_scene_limit_occluder(nook_scene scene, nook_occluder_id occluder,
+                                               nook_instance_id receiver);
+
 /* Removes an occluder.
  * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_id occluder);

@@ -164,6 +164,12 @@ nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id occluder,
                     [&](Scene& s) { set_occluder(s, occluder, sphere_of(centre_ws, radius)); });
 }
 
+nook_result nook_scene_limit_occluder(nook_scene scene, nook_occluder_id occluder,
+                                      nook_instance_id receiver) {
+  return with_scene("nook_scene_limit_occluder", scene,
+                    [&](Scene& s) { limit_occluder(s, occluder, receiver); });
+}
+
 nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_id occluder) {
   return with_scene("nook_scene_remove_occluder", scene, [&](Scene& s) { remove_occluder(s, occluder); });
 }

@@ -12,23 +12,24 @@ namespace nook {
 inline SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
   const LoadedModel& model = *instance.model;
   const std::size_t l = std::min<std::size_t>(level, model.levels.size());
-  const SphereLanes& s = l == 0 ? instance.arrays.spheres : instance.arrays.coarse_spheres[l - 1];
+  const SphereLanes& s =
+      l == 0 ? instance.result.arrays.spheres : instance.result.arrays.coarse_spheres[l - 1];
   const RestSpheres& rest = l == 0 ? model.rest_spheres : model.levels[l - 1].rest_spheres;
   return {s.x, s.y, s.z, s.inverse_radius, rest.caster_weight(), s.count};
 }
 
 inline const RestKeyPoints& rest_points_of(const Instance& instance) {
-  return instance.level == 0 ? instance.model->rest_key_points
-                             : instance.model->levels[instance.level - 1].rest_key_points;
+  return instance.plan.level == 0 ? instance.model->rest_key_points
+                                  : instance.model->levels[instance.plan.level - 1].rest_key_points;
 }
 
 // The lanes of the key points that are evaluated at the instance's level.
 inline PointLanes evaluated_points(const Instance& instance) {
-  PointLanes points = instance.arrays.points;
+  PointLanes points = instance.result.arrays.points;
   points.padded_count = rest_points_of(instance).padded_count();
-  if (instance.level > 0)
+  if (instance.plan.level > 0)
     points.count =
-        static_cast<std::uint32_t>(instance.model->model.levels[instance.level - 1].evaluated.size());
+        static_cast<std::uint32_t>(instance.model->model.levels[instance.plan.level - 1].evaluated.size());
   return points;
 }
 
@@ -42,7 +43,7 @@ inline KeyPointSoa surface_points(const PointLanes& p) {
 // The ground's sphere, if there is one that matters.
 template <class Apply>
 void for_ground(const Instance& instance, Apply&& apply) {
-  const Sphere& ground = instance.ground_sphere;
+  const Sphere& ground = instance.plan.ground_sphere;
   if (!(ground.radius > 0)) return;
   const float inverse_radius = inverse_sphere_radius(ground.radius);
   apply(SphereSoa{&ground.centre.x, &ground.centre.y, &ground.centre.z, &inverse_radius, nullptr, 1});
@@ -58,7 +59,7 @@ void for_occluders(const Scene& scene, const Instance& instance, Apply&& apply) 
     if (count > 0) apply(SphereSoa{x.data(), y.data(), z.data(), inverse_radius.data(), nullptr, count});
     count = 0;
   };
-  for (const std::uint32_t slot : instance.occluders) {
+  for (const std::uint32_t slot : instance.plan.occluders) {
     const Sphere& sphere = scene.occluders[slot].sphere;
     x[count] = sphere.centre.x;
     y[count] = sphere.centre.y;

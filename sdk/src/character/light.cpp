@@ -78,9 +78,10 @@ void fill(float* const* lanes, std::uint32_t count, float value) {
 // Weighted sums become colours of the shadow: shadow * (sum of y^gamma rho) / (sum of y^gamma), from the
 // evaluated key points to all of them.
 void colour_shadow(const Instance& instance, InstanceLight& light) {
-  const PointLanes& points = instance.arrays.points;
+  const PointLanes& points = instance.result.arrays.points;
   const float gamma = instance.model->model.kernel.gamma;
-  const CharacterLevel* level = instance.level ? &instance.model->model.levels[instance.level - 1] : nullptr;
+  const CharacterLevel* level =
+      instance.plan.level ? &instance.model->model.levels[instance.plan.level - 1] : nullptr;
   for (std::uint32_t k = 0; k < points.count; ++k) {
     const std::uint32_t source = level ? level->source[k] : k;
     // At a coarser level the roots have been taken in place.
@@ -92,8 +93,9 @@ void colour_shadow(const Instance& instance, InstanceLight& light) {
 }
 
 void spread_added(const Instance& instance, InstanceLight& light) {
-  const CharacterLevel* level = instance.level ? &instance.model->model.levels[instance.level - 1] : nullptr;
-  for (std::uint32_t k = 0; k < instance.arrays.points.count; ++k)
+  const CharacterLevel* level =
+      instance.plan.level ? &instance.model->model.levels[instance.plan.level - 1] : nullptr;
+  for (std::uint32_t k = 0; k < instance.result.arrays.points.count; ++k)
     for (int c = 0; c < 3; ++c) light.added[c][k] = light.sum[c][level ? level->source[k] : k];
 }
 
@@ -103,13 +105,13 @@ void evaluate_composed(const Scene& scene, const Instance& instance, const Point
   const LightView lobes = light.view();
   fill(light.sum, points.padded_count, 0.0f);
   fill(light.open, points.padded_count, 1.0f);
-  if (!instance.casters.empty() || !instance.occluders.empty())
+  if (!instance.plan.casters.empty() || !instance.plan.occluders.empty())
     scene.kernels->directional_hemisphere(surface, lobes, light.inverse);
-  for (const std::uint32_t caster : instance.casters)
-    scene.kernels->directional_depth(spheres_of(scene.instances[caster], instance.level), surface, lobes,
+  for (const std::uint32_t caster : instance.plan.casters)
+    scene.kernels->directional_depth(spheres_of(scene.instances[caster], instance.plan.level), surface, lobes,
                                      light.inverse, light.sum);
   for_ground(instance, [&](const SphereSoa& ground) {
-    scene.kernels->directional_ground(ground, surface, lobes, instance.ground.normal, light.open);
+    scene.kernels->directional_ground(ground, surface, lobes, instance.input.ground.normal, light.open);
   });
   for_occluders(scene, instance, [&](const SphereSoa& spheres) {
     scene.kernels->directional_open(spheres, surface, lobes, light.inverse, light.open);
@@ -126,8 +128,8 @@ void join_paper_norm(const Scene& scene, const Instance& instance, const PointLa
     scene.kernels->directional_norm_sum(spheres, fitted_points(points), instance.model->model.kernel,
                                         light.bands, light.sum);
   };
-  for (const std::uint32_t caster : instance.casters)
-    join(spheres_of(scene.instances[caster], instance.level));
+  for (const std::uint32_t caster : instance.plan.casters)
+    join(spheres_of(scene.instances[caster], instance.plan.level));
   for_free_spheres(scene, instance, join);
 }
 
@@ -141,7 +143,7 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
   for (std::size_t i = 0; i < lobes.size(); ++i) check_lobe(lobes[i], i);
   InstanceLight& light = instance.light;
   if (!lobes.empty() && light.lobes.size() == 0) {
-    allocate(light, instance.arrays.points, scene.memory);
+    allocate(light, instance.result.arrays.points, scene.memory);
     ++scene.structure_revision;
   }
   for (std::size_t i = 0; i < lobes.size(); ++i) {
@@ -149,7 +151,7 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
     light.lobe_bands[i] = bands_of(lobes[i].sharpness);
   }
   // A distant instance does not wait for its turn to show its first light.
-  if (light.count == 0 && !lobes.empty()) instance.evaluated_frame = 0;
+  if (light.count == 0 && !lobes.empty()) instance.result.evaluated_frame = 0;
   light.count = static_cast<std::uint32_t>(lobes.size());
   light.darkest = darkest_of(lobes);
   if (lobes.empty()) light.evaluated = false;
@@ -170,12 +172,13 @@ InstanceLight moved_light(const InstanceLight& light, const PointLanes& points,
 // In the joint norm the ground is a sphere among others, and takes its light there.
 void prepare_light(const Scene& scene, Instance& instance) noexcept {
   InstanceLight& light = instance.light;
-  const bool hides = instance.ground_sphere.radius > 0 && scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  const bool hides =
+      instance.plan.ground_sphere.radius > 0 && scene.settings.combine == NOOK_COMBINE_COMPOSED;
   light.bands = {};
   light.bands.darkest = light.darkest;
   for (std::uint32_t i = 0; i < light.count; ++i) {
     LightLobe& lobe = light.lobes[i];
-    lobe.above = hides ? 1 - share_below(dot(lobe.vector, instance.ground.normal), lobe.sharpness) : 1;
+    lobe.above = hides ? 1 - share_below(dot(lobe.vector, instance.input.ground.normal), lobe.sharpness) : 1;
     add(light.bands, lobe, light.lobe_bands[i]);
   }
 }
@@ -188,7 +191,7 @@ void evaluate_directional(const Scene& scene, Instance& instance) noexcept {
   const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
   fill(light.sum, points.padded_count, 0.0f);
   if (scene.terms & NOOK_TERM_SELF)
-    scene.kernels->directional_norm_sum(spheres_of(instance, instance.level), fitted_points(points),
+    scene.kernels->directional_norm_sum(spheres_of(instance, instance.plan.level), fitted_points(points),
                                         instance.model->model.kernel, light.bands, light.sum);
   if (!composed) join_paper_norm(scene, instance, points, light);
   colour_shadow(instance, light);

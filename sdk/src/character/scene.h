@@ -64,15 +64,11 @@ struct InstanceArrays {
 };
 InstanceArrays make_instance_arrays(const LoadedModel& model, std::pmr::memory_resource* memory);
 
-struct Instance {
-  explicit Instance(std::pmr::memory_resource* memory)
-      : bones(memory), linked(memory), receivers(memory), casters(memory), occluders(memory) {}
+// The host's part of an instance, and what follows from it alone.
+struct InstanceInput {
+  explicit InstanceInput(std::pmr::memory_resource* memory)
+      : bones(memory), linked(memory), receivers(memory) {}
 
-  nook_instance_id id = 0;       // 0: this slot is free, and everything below but `generation` is empty
-  std::uint32_t generation = 0;  // how often the slot was used before, part of the id
-  Ref<const LoadedModel> model;
-
-  // State that the host sets.
   std::pmr::vector<Mat3x4> bones;   // rest space to world, one for each bone of the model
   std::uint64_t pose_revision = 0;  // rises with every set_pose; never 0 for a living instance
   bool was_projected = false;       // a pose had an uneven matrix
@@ -81,34 +77,51 @@ struct Instance {
   std::pmr::vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
   // Slots of the instances that have this one in `linked`, ascending, which a removal must visit.
   std::pmr::vector<std::uint32_t> receivers;
-
-  InstanceLight light;
-
-  // Derived by set_pose: a sphere around the root bone's image of the model's bounding centre that contains
-  // all key points and proxy spheres of the pose, and an upper bound of the scale of its bones.
+  // A sphere around the root bone's image of the model's bounding centre that contains all key points and
+  // proxy spheres of the pose, and an upper bound of the scale of its bones.
   Sphere bound;
   float scale = 1;
+};
 
-  // Decisions of resolve_casters for this update. The lists of an instance that is not due are those of an
-  // earlier update; they may name free slots and must not be read.
+// The decisions of resolve_casters for an update. The lists of an instance that is not due are those of an
+// earlier update; they may name free slots and must not be read.
+struct InstancePlan {
+  explicit InstancePlan(std::pmr::memory_resource* memory) : casters(memory), occluders(memory) {}
+
   std::pmr::vector<std::uint32_t> casters;    // slots, ascending, each once; capacity reserved by the edits
   std::pmr::vector<std::uint32_t> occluders;  // slots of free occluders that darken this instance
   Sphere ground_sphere;                       // radius 0: no ground, or it is skipped
   std::uint32_t culled = 0;                   // casters and occluders left out by the cut-off
   std::uint32_t level = 0;                    // level of detail of the model, 0 is full
   bool due = true;                            // evaluated in this update; other instances keep their results
+};
 
-  // Results of the evaluation.
+// The results of an evaluation on the CPU.
+struct InstanceResult {
   InstanceArrays arrays;
-  std::uint64_t transformed_revision = 0;  // pose_revision of the spheres in `arrays`
+  std::uint64_t transformed_revision = 0;  // InstanceInput::pose_revision of the spheres in `arrays`
   std::uint64_t evaluated_frame = 0;       // Scene::frame of the last evaluation; 0: never
   std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
+};
+
+struct Instance {
+  explicit Instance(std::pmr::memory_resource* memory) : input(memory), plan(memory) {}
+
+  nook_instance_id id = 0;       // 0: this slot is free, and everything below but `generation` is empty
+  std::uint32_t generation = 0;  // how often the slot was used before, part of the id
+  Ref<const LoadedModel> model;
+
+  InstanceInput input;
+  InstancePlan plan;
+  InstanceResult result;
+  InstanceLight light;
 };
 
 struct Occluder {
   nook_occluder_id id = 0;  // 0: this slot is free
   std::uint32_t generation = 0;
   Sphere sphere;
+  nook_instance_id receiver = 0;  // the only instance that feels it; 0: every instance does
 };
 
 struct SceneSettings {
@@ -175,6 +188,8 @@ void link_nearest(Scene& scene, std::uint32_t k, float max_distance);
 void set_ground(Scene& scene, nook_instance_id id, const Plane* plane);
 nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere);
 void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere);
+// receiver 0: every instance.
+void limit_occluder(Scene& scene, nook_occluder_id id, nook_instance_id receiver);
 void remove_occluder(Scene& scene, nook_occluder_id id);
 
 // An id is the slot + 1 in the low bits and the slot's generation in the high ones. A slot whose generations

@@ -46,7 +46,7 @@ float paper_bound(const LoadedModel& receiver, std::uint32_t receiver_level, con
   const Kernel& kernel = receiver.model.kernel;
   float sum = 0;
   for (const ProxySphere& sphere : spheres_at(caster.model->model, receiver_level)) {
-    const float radius = sphere.radius * caster.scale;
+    const float radius = sphere.radius * caster.input.scale;
     if (!(gap > radius)) return INFINITY;
     sum += std::pow(term_bound(kernel.form, gap / radius), kernel.gamma);
   }
@@ -55,18 +55,19 @@ float paper_bound(const LoadedModel& receiver, std::uint32_t receiver_level, con
 
 bool matters(const Scene& scene, const Instance& receiver, const Instance& caster) {
   if (scene.settings.cutoff_error <= 0) return true;
-  const float gap =
-      length(caster.bound.centre - receiver.bound.centre) - caster.bound.radius - receiver.bound.radius;
+  const float gap = length(caster.input.bound.centre - receiver.input.bound.centre) -
+                    caster.input.bound.radius - receiver.input.bound.radius;
   const float bound =
       scene.settings.combine == NOOK_COMBINE_COMPOSED
-          ? composed_bound(*receiver.model, caster.model->caster_strength * caster.scale * caster.scale, gap)
-          : paper_bound(*receiver.model, receiver.level, caster, gap);
+          ? composed_bound(*receiver.model,
+                           caster.model->caster_strength * caster.input.scale * caster.input.scale, gap)
+          : paper_bound(*receiver.model, receiver.plan.level, caster, gap);
   return !(bound < scene.settings.cutoff_error);
 }
 
 bool matters(const Scene& scene, const Instance& receiver, const Sphere& sphere) {
   if (scene.settings.cutoff_error <= 0) return true;
-  const float gap = length(sphere.centre - receiver.bound.centre) - receiver.bound.radius;
+  const float gap = length(sphere.centre - receiver.input.bound.centre) - receiver.input.bound.radius;
   const float bound = scene.settings.combine == NOOK_COMBINE_COMPOSED
                           ? composed_bound(*receiver.model, sphere.radius * sphere.radius, gap)
                           : paper_bound(*receiver.model, sphere.radius, gap);
@@ -74,64 +75,65 @@ bool matters(const Scene& scene, const Instance& receiver, const Sphere& sphere)
 }
 
 void gather_casters(const Scene& scene, std::uint32_t slot, Instance& receiver) {
-  receiver.casters.clear();
+  receiver.plan.casters.clear();
   if (!(scene.terms & NOOK_TERM_LINKS)) return;
   const auto offer = [&](std::uint32_t caster) {
     if (matters(scene, receiver, scene.instances[caster]))
-      receiver.casters.push_back(caster);
+      receiver.plan.casters.push_back(caster);
     else
-      ++receiver.culled;
+      ++receiver.plan.culled;
   };
-  for (const std::uint32_t caster : receiver.linked) offer(caster);
+  for (const std::uint32_t caster : receiver.input.linked) offer(caster);
   std::array<Neighbour, max_nearest> found;
-  const std::uint32_t count = find_nearest(scene.neighbours, slot, receiver.bound.centre, scene.nearest,
+  const std::uint32_t count = find_nearest(scene.neighbours, slot, receiver.input.bound.centre, scene.nearest,
                                            scene.nearest_max_distance, found);
   for (std::uint32_t i = 0; i < count; ++i)
-    if (!std::ranges::binary_search(receiver.linked, found[i].slot)) offer(found[i].slot);
+    if (!std::ranges::binary_search(receiver.input.linked, found[i].slot)) offer(found[i].slot);
   // Sums in the order of slots do not depend on how the casters were found.
-  std::ranges::sort(receiver.casters);
+  std::ranges::sort(receiver.plan.casters);
 }
 
 void gather_occluders(const Scene& scene, Instance& receiver) {
-  receiver.occluders.clear();
+  receiver.plan.occluders.clear();
   if (!(scene.terms & NOOK_TERM_OCCLUDERS)) return;
   for (std::uint32_t i = 0; i < scene.occluders.size(); ++i) {
-    if (scene.occluders[i].id == 0) continue;
-    if (matters(scene, receiver, scene.occluders[i].sphere))
-      receiver.occluders.push_back(i);
+    const Occluder& occluder = scene.occluders[i];
+    if (occluder.id == 0 || (occluder.receiver && occluder.receiver != receiver.id)) continue;
+    if (matters(scene, receiver, occluder.sphere))
+      receiver.plan.occluders.push_back(i);
     else
-      ++receiver.culled;
+      ++receiver.plan.culled;
   }
 }
 
 // Tangent to the plane at the foot of the bound's centre, on the other side of the plane than its normal.
 void place_ground(const Scene& scene, Instance& receiver) {
-  receiver.ground_sphere = {};
-  if (!receiver.has_ground || !(scene.terms & NOOK_TERM_GROUND)) return;
-  const Plane& plane = receiver.ground;
-  const float height = dot(plane.normal, receiver.bound.centre) - plane.offset;
-  const Sphere ground{receiver.bound.centre - plane.normal * (height + scene.settings.ground_radius),
+  receiver.plan.ground_sphere = {};
+  if (!receiver.input.has_ground || !(scene.terms & NOOK_TERM_GROUND)) return;
+  const Plane& plane = receiver.input.ground;
+  const float height = dot(plane.normal, receiver.input.bound.centre) - plane.offset;
+  const Sphere ground{receiver.input.bound.centre - plane.normal * (height + scene.settings.ground_radius),
                       scene.settings.ground_radius};
   if (matters(scene, receiver, ground))
-    receiver.ground_sphere = ground;
+    receiver.plan.ground_sphere = ground;
   else
-    ++receiver.culled;
+    ++receiver.plan.culled;
 }
 
 // Distant instances take turns, each at least every lod_max_interval frames, and use the coarsest level whose
 // error their distance allows.
 void choose_detail(const Scene& scene, std::uint32_t slot, bool has_result, Instance& instance) {
-  instance.level = 0;
-  instance.due = true;
+  instance.plan.level = 0;
+  instance.plan.due = true;
   if (!scene.has_camera) return;
   const SceneSettings& settings = scene.settings;
-  const float distance = length(instance.bound.centre - scene.camera) / settings.lod_distance;
+  const float distance = length(instance.input.bound.centre - scene.camera) / settings.lod_distance;
   const auto& levels = instance.model->model.levels;
   for (std::uint32_t level = 0; level < levels.size(); ++level)
-    if (levels[level].error_rms < settings.lod_error * distance) instance.level = level + 1;
+    if (levels[level].error_rms < settings.lod_error * distance) instance.plan.level = level + 1;
   const float most = static_cast<float>(settings.lod_max_interval);
   const auto interval = static_cast<std::uint32_t>(std::min(std::max(distance, 1.0f), most));
-  instance.due = !has_result || (scene.frame + slot) % interval == 0;
+  instance.plan.due = !has_result || (scene.frame + slot) % interval == 0;
 }
 
 }  // namespace
@@ -140,15 +142,16 @@ void resolve_casters(Scene& scene, HasResult has_result) noexcept {
   if (scene.nearest > 0) {
     clear_tree(scene.neighbours);
     for (std::uint32_t slot = 0; slot < scene.instances.size(); ++slot)
-      if (scene.instances[slot].id) add_to_tree(scene.neighbours, slot, scene.instances[slot].bound.centre);
+      if (scene.instances[slot].id)
+        add_to_tree(scene.neighbours, slot, scene.instances[slot].input.bound.centre);
     build_tree(scene.neighbours);
   }
   auto resolve = [&](std::uint32_t slot) noexcept {
     Instance& instance = scene.instances[slot];
     if (instance.id == 0) return;
     choose_detail(scene, slot, has_result(slot), instance);
-    if (!instance.due) return;
-    instance.culled = 0;
+    if (!instance.plan.due) return;
+    instance.plan.culled = 0;
     gather_casters(scene, slot, instance);
     gather_occluders(scene, instance);
     place_ground(scene, instance);

@@ -88,17 +88,18 @@ void derive_bound(Instance& instance, float largest_scale_squared) {
   const LoadedModel& loaded = *instance.model;
   // The admitted unevenness and shear can lengthen a vector by less than 2 % more than the longest axis.
   const float stretch = std::sqrt(largest_scale_squared) * 1.02f;
-  instance.bound.centre =
-      transform_point(instance.bones[loaded.model.root_bone], loaded.model.bounding_centre);
-  instance.bound.radius = 0;
+  instance.input.bound.centre =
+      transform_point(instance.input.bones[loaded.model.root_bone], loaded.model.bounding_centre);
+  instance.input.bound.radius = 0;
   for (std::size_t b = 0; b < loaded.bone_bounds.size(); ++b) {
     const LoadedModel::BoneBound& bound = loaded.bone_bounds[b];
     if (bound.radius < 0) continue;
-    const float reach = length(transform_point(instance.bones[b], bound.centre) - instance.bound.centre) +
-                        stretch * bound.radius;
-    instance.bound.radius = std::max(instance.bound.radius, reach);
+    const float reach =
+        length(transform_point(instance.input.bones[b], bound.centre) - instance.input.bound.centre) +
+        stretch * bound.radius;
+    instance.input.bound.radius = std::max(instance.input.bound.radius, reach);
   }
-  instance.scale = stretch;
+  instance.input.scale = stretch;
 }
 
 std::uint32_t slot_of(const Scene& scene, const Instance& instance) {
@@ -189,13 +190,13 @@ nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model) {
   Instance added(scene.memory);
   added.generation = fresh ? 0 : scene.instances[slot].generation;
   added.id = added.generation << id_slot_bits | (slot + 1);
-  added.bones.resize(model->model.bone_count());
-  if (scene.converted.size() < added.bones.size()) scene.converted.resize(added.bones.size());
-  added.arrays = make_instance_arrays(*model, scene.memory);
-  added.casters.reserve(scene.nearest);
-  added.occluders.reserve(scene.occluders.size());
+  added.input.bones.resize(model->model.bone_count());
+  if (scene.converted.size() < added.input.bones.size()) scene.converted.resize(added.input.bones.size());
+  added.result.arrays = make_instance_arrays(*model, scene.memory);
+  added.plan.casters.reserve(scene.nearest);
+  added.plan.occluders.reserve(scene.occluders.size());
   added.model = std::move(model);
-  added.pose_revision = 1;
+  added.input.pose_revision = 1;
   derive_bound(added, 1);
   const std::size_t slots = scene.instances.size() + (fresh ? 1 : 0);
   if (scene.nearest) reserve_tree(scene.neighbours, std::bit_ceil(slots));
@@ -214,8 +215,10 @@ void remove_instance(Scene& scene, nook_instance_id id) {
   Instance& removed = instance_of(scene, id);
   const std::uint32_t slot = slot_of(scene, removed);
   const std::uint32_t generation = removed.generation + 1;
-  for (const std::uint32_t receiver : removed.receivers) erase_slot(scene.instances[receiver].linked, slot);
-  for (const std::uint32_t caster : removed.linked) erase_slot(scene.instances[caster].receivers, slot);
+  for (const std::uint32_t receiver : removed.input.receivers)
+    erase_slot(scene.instances[receiver].input.linked, slot);
+  for (const std::uint32_t caster : removed.input.linked)
+    erase_slot(scene.instances[caster].input.receivers, slot);
   removed = Instance(scene.memory);
   removed.generation = generation;
   if (generation < id_generations) scene.free_instances.push_back(slot);
@@ -231,15 +234,15 @@ ProjectedBone take_pose(Instance& instance, std::span<const Mat3x4> bones) {
   float longest_squared = 0;
   for (std::size_t b = 0; b < bones.size(); ++b) {
     const bool is_even = axes_of(bones[b]).is_even;
-    if (!is_even && !instance.was_projected) {
+    if (!is_even && !instance.input.was_projected) {
       first = {true, static_cast<std::uint32_t>(b)};
-      instance.was_projected = true;
+      instance.input.was_projected = true;
     }
-    instance.bones[b] = is_even ? bones[b] : evened(model, bones[b], b);
-    longest_squared = std::max(longest_squared, axes_of(instance.bones[b]).longest_squared);
+    instance.input.bones[b] = is_even ? bones[b] : evened(model, bones[b], b);
+    longest_squared = std::max(longest_squared, axes_of(instance.input.bones[b]).longest_squared);
   }
   derive_bound(instance, longest_squared);
-  ++instance.pose_revision;
+  ++instance.input.pose_revision;
   return first;
 }
 
@@ -247,33 +250,33 @@ ProjectedBone take_pose(Instance& instance, std::span<const Mat3x4> bones) {
 
 void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) {
   Instance& instance = instance_of(scene, id);
-  if (model->model.bone_count() != instance.bones.size())
+  if (model->model.bone_count() != instance.input.bones.size())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the model has another number of bones than the instance's (got %zu, need %zu); remove the "
                   "instance and add it with the new model",
-                  model->model.bone_count(), instance.bones.size());
+                  model->model.bone_count(), instance.input.bones.size());
   InstanceArrays arrays = make_instance_arrays(*model, scene.memory);
   InstanceLight light = moved_light(instance.light, arrays.points, scene.memory);
-  instance.arrays = std::move(arrays);
+  instance.result.arrays = std::move(arrays);
   instance.light = std::move(light);
   instance.model = std::move(model);
   float longest_squared = 0;
-  for (const Mat3x4& bone : instance.bones)
+  for (const Mat3x4& bone : instance.input.bones)
     longest_squared = std::max(longest_squared, axes_of(bone).longest_squared);
   derive_bound(instance, longest_squared);
-  ++instance.pose_revision;
-  instance.evaluated_frame = 0;
-  instance.level = 0;
+  ++instance.input.pose_revision;
+  instance.result.evaluated_frame = 0;
+  instance.plan.level = 0;
   ++scene.structure_revision;
 }
 
 ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) {
   Instance& instance = instance_of(scene, id);
   const CharacterModel& model = instance.model->model;
-  if (bones.size() != instance.bones.size())
+  if (bones.size() != instance.input.bones.size())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "bone_count is not the model's (got %zu, need %zu); see nook_character_model_describe",
-                  bones.size(), instance.bones.size());
+                  bones.size(), instance.input.bones.size());
   for (std::size_t b = 0; b < bones.size(); ++b) {
     check_size(model, bones[b], b);
     if (scene.settings.strict_poses) fail_unless_even(model, bones[b], b);
@@ -286,8 +289,8 @@ ProjectedBone set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
   const CharacterModel& model = instance.model->model;
   source.is_strict = source.is_strict || scene.settings.strict_poses;
   check_pose_source(model, source);
-  const std::span<Mat3x4> converted(scene.converted.data(), instance.bones.size());
-  std::ranges::copy(instance.bones, converted.begin());
+  const std::span<Mat3x4> converted(scene.converted.data(), instance.input.bones.size());
+  std::ranges::copy(instance.input.bones, converted.begin());
   convert_pose(model, source, converted);
   return take_pose(instance, converted);
 }
@@ -299,22 +302,22 @@ void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "receiver and caster are the same instance %u; its own shadow is always there", receiver);
   const std::uint32_t slot = slot_of(scene, casting);
-  if (std::ranges::binary_search(instance.linked, slot)) return;
-  make_room_for_one(instance.linked);
-  make_room_for_one(casting.receivers);
-  instance.casters.reserve(instance.linked.capacity() + scene.nearest);
-  insert_slot(instance.linked, slot);
-  insert_slot(casting.receivers, slot_of(scene, instance));
+  if (std::ranges::binary_search(instance.input.linked, slot)) return;
+  make_room_for_one(instance.input.linked);
+  make_room_for_one(casting.input.receivers);
+  instance.plan.casters.reserve(instance.input.linked.capacity() + scene.nearest);
+  insert_slot(instance.input.linked, slot);
+  insert_slot(casting.input.receivers, slot_of(scene, instance));
 }
 
 void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
   Instance& instance = instance_of(scene, receiver);
   Instance& casting = instance_of(scene, caster);
-  if (!erase_slot(instance.linked, slot_of(scene, casting)))
+  if (!erase_slot(instance.input.linked, slot_of(scene, casting)))
     throw Failure(NOOK_ERROR_INVALID_HANDLE,
                   "instance %u is not linked to caster %u; links of link_nearest are not unlinked", receiver,
                   caster);
-  erase_slot(casting.receivers, slot_of(scene, instance));
+  erase_slot(casting.input.receivers, slot_of(scene, instance));
 }
 
 void link_nearest(Scene& scene, std::uint32_t k, float max_distance) {
@@ -323,7 +326,7 @@ void link_nearest(Scene& scene, std::uint32_t k, float max_distance) {
   if (k > 0 && !(max_distance > 0 && std::isfinite(max_distance)))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "max_distance is out of range (got %g, need finite metres above 0)", double(max_distance));
-  for (Instance& instance : scene.instances) instance.casters.reserve(instance.linked.size() + k);
+  for (Instance& instance : scene.instances) instance.plan.casters.reserve(instance.input.linked.size() + k);
   if (k > 0) reserve_tree(scene.neighbours, std::bit_ceil(scene.instances.size()));
   scene.nearest = k;
   scene.nearest_max_distance = max_distance;
@@ -339,8 +342,8 @@ void set_ground(Scene& scene, nook_instance_id id, const Plane* plane) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the offset of the plane is out of range (got %g, need finite metres)",
                   double(plane->offset));
-  instance.has_ground = plane != nullptr;
-  if (plane) instance.ground = *plane;
+  instance.input.has_ground = plane != nullptr;
+  if (plane) instance.input.ground = *plane;
 }
 
 namespace {
@@ -363,7 +366,7 @@ nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere) {
   const std::uint32_t slot = next_slot(scene.occluders, scene.free_occluders, "occluders");
   const bool fresh = slot == scene.occluders.size();
   for (Instance& instance : scene.instances)
-    if (instance.id) instance.occluders.reserve(std::bit_ceil(slot + 1));
+    if (instance.id) instance.plan.occluders.reserve(std::bit_ceil(slot + 1));
   if (fresh)
     scene.occluders.emplace_back();
   else
@@ -371,6 +374,7 @@ nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere) {
   Occluder& occluder = scene.occluders[slot];
   occluder.id = occluder.generation << id_slot_bits | (slot + 1);
   occluder.sphere = sphere;
+  occluder.receiver = 0;
   ++scene.structure_revision;
   return occluder.id;
 }
@@ -378,6 +382,12 @@ nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere) {
 void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere) {
   check_occluder(sphere);
   find(scene.occluders, id, "occluder").sphere = sphere;
+}
+
+void limit_occluder(Scene& scene, nook_occluder_id id, nook_instance_id receiver) {
+  Occluder& occluder = find(scene.occluders, id, "occluder");
+  if (receiver) instance_of(scene, receiver);
+  occluder.receiver = receiver;
 }
 
 void remove_occluder(Scene& scene, nook_occluder_id id) {

@@ -15,8 +15,8 @@ void evaluate_composed(const Scene& scene, const Instance& instance, const Point
   const KeyPointSoa surface = surface_points(points);
   std::fill_n(points.optical_depth, points.padded_count, 0.0f);
   std::fill_n(points.open, points.padded_count, 1.0f);
-  for (const std::uint32_t caster : instance.casters)
-    scene.kernels->composed_depth(spheres_of(scene.instances[caster], instance.level), surface,
+  for (const std::uint32_t caster : instance.plan.casters)
+    scene.kernels->composed_depth(spheres_of(scene.instances[caster], instance.plan.level), surface,
                                   points.optical_depth);
   for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
     scene.kernels->exact_open(spheres, surface, points.open);
@@ -27,9 +27,9 @@ void evaluate_composed(const Scene& scene, const Instance& instance, const Point
 
 void join_paper_norm(const Scene& scene, const Instance& instance, const PointLanes& points) {
   const Kernel& kernel = instance.model->model.kernel;
-  for (const std::uint32_t caster : instance.casters)
-    scene.kernels->self_norm_sum(spheres_of(scene.instances[caster], instance.level), fitted_points(points),
-                                 kernel, points.norm_sum);
+  for (const std::uint32_t caster : instance.plan.casters)
+    scene.kernels->self_norm_sum(spheres_of(scene.instances[caster], instance.plan.level),
+                                 fitted_points(points), kernel, points.norm_sum);
   for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
     scene.kernels->self_norm_sum(spheres, fitted_points(points), kernel, points.norm_sum);
   });
@@ -37,10 +37,11 @@ void join_paper_norm(const Scene& scene, const Instance& instance, const PointLa
 }
 
 std::uint64_t count_evaluations(const Scene& scene, const Instance& instance, std::uint32_t points) {
-  std::uint64_t spheres = (scene.terms & NOOK_TERM_SELF ? spheres_of(instance, instance.level).count : 0) +
-                          instance.occluders.size() + (instance.ground_sphere.radius > 0);
-  for (const std::uint32_t caster : instance.casters)
-    spheres += spheres_of(scene.instances[caster], instance.level).count;
+  std::uint64_t spheres =
+      (scene.terms & NOOK_TERM_SELF ? spheres_of(instance, instance.plan.level).count : 0) +
+      instance.plan.occluders.size() + (instance.plan.ground_sphere.radius > 0);
+  for (const std::uint32_t caster : instance.plan.casters)
+    spheres += spheres_of(scene.instances[caster], instance.plan.level).count;
   return spheres * points;
 }
 
@@ -57,23 +58,24 @@ void spread_level(const CharacterLevel& level, bool with_self, const PointLanes&
 }  // namespace
 
 void transform_spheres(const Scene& scene, Instance& instance) noexcept {
-  if (instance.transformed_revision == instance.pose_revision) return;
+  if (instance.result.transformed_revision == instance.input.pose_revision) return;
   const auto transform = [&](const RestSpheres& rest, const SphereLanes& s) {
-    scene.kernels->pose_spheres(rest.view(), instance.bones.data(), {}, {s.x, s.y, s.z, s.inverse_radius});
+    scene.kernels->pose_spheres(rest.view(), instance.input.bones.data(), {},
+                                {s.x, s.y, s.z, s.inverse_radius});
   };
-  transform(instance.model->rest_spheres, instance.arrays.spheres);
+  transform(instance.model->rest_spheres, instance.result.arrays.spheres);
   for (std::size_t l = 0; l < instance.model->levels.size(); ++l)
-    transform(instance.model->levels[l].rest_spheres, instance.arrays.coarse_spheres[l]);
-  instance.transformed_revision = instance.pose_revision;
+    transform(instance.model->levels[l].rest_spheres, instance.result.arrays.coarse_spheres[l]);
+  instance.result.transformed_revision = instance.input.pose_revision;
 }
 
 void transform_key_points(const Scene& scene, Instance& instance) noexcept {
-  const PointLanes& p = instance.arrays.points;
+  const PointLanes& p = instance.result.arrays.points;
   const KeyPointTarget fitted{p.x, p.y, p.z, p.nx, p.ny, p.nz};
   const KeyPointTarget surface{p.surface_x,  p.surface_y,  p.surface_z,
                                p.surface_nx, p.surface_ny, p.surface_nz};
   const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
-  scene.kernels->pose_key_points(rest_points_of(instance).view(), instance.bones.data(), {}, fitted,
+  scene.kernels->pose_key_points(rest_points_of(instance).view(), instance.input.bones.data(), {}, fitted,
                                  composed ? &surface : nullptr);
 }
 
@@ -82,38 +84,39 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
   const Kernel& kernel = instance.model->model.kernel;
   std::fill_n(points.norm_sum, points.padded_count, 0.0f);
   if (scene.terms & NOOK_TERM_SELF)
-    scene.kernels->self_norm_sum(spheres_of(instance, instance.level), fitted_points(points), kernel,
+    scene.kernels->self_norm_sum(spheres_of(instance, instance.plan.level), fitted_points(points), kernel,
                                  points.norm_sum);
   if (scene.settings.combine == NOOK_COMBINE_COMPOSED)
     evaluate_composed(scene, instance, points);
   else
     join_paper_norm(scene, instance, points);
-  if (instance.level == 0) {
+  if (instance.plan.level == 0) {
     scene.kernels->norm_root(points.norm_sum, points.padded_count, kernel.gamma, points.shadow);
     std::copy_n(points.optical_depth, points.padded_count, points.added);
   } else {
     scene.kernels->norm_root(points.norm_sum, points.padded_count, kernel.gamma, points.norm_sum);
-    spread_level(instance.model->model.levels[instance.level - 1], scene.terms & NOOK_TERM_SELF,
-                 instance.arrays.points);
+    spread_level(instance.model->model.levels[instance.plan.level - 1], scene.terms & NOOK_TERM_SELF,
+                 instance.result.arrays.points);
   }
-  instance.evaluations = count_evaluations(scene, instance, points.count);
-  instance.evaluated_frame = scene.frame;
+  instance.result.evaluations = count_evaluations(scene, instance, points.count);
+  instance.result.evaluated_frame = scene.frame;
 }
 
 void update(Scene& scene) noexcept {
   ++scene.frame;
-  resolve_casters(scene, [&](std::uint32_t slot) { return scene.instances[slot].evaluated_frame > 0; });
+  resolve_casters(scene,
+                  [&](std::uint32_t slot) { return scene.instances[slot].result.evaluated_frame > 0; });
   const auto slots = static_cast<std::uint32_t>(scene.instances.size());
   auto transform = [&](std::uint32_t slot) noexcept {
     Instance& instance = scene.instances[slot];
     if (instance.id == 0) return;
     transform_spheres(scene, instance);
-    if (instance.due) transform_key_points(scene, instance);
+    if (instance.plan.due) transform_key_points(scene, instance);
   };
   parallel_for(scene.parallel, slots, transform);
   auto evaluate = [&](std::uint32_t slot) noexcept {
     Instance& instance = scene.instances[slot];
-    if (instance.id == 0 || !instance.due) return;
+    if (instance.id == 0 || !instance.plan.due) return;
     evaluate_shadows(scene, instance);
     evaluate_directional(scene, instance);
   };
@@ -122,11 +125,11 @@ void update(Scene& scene) noexcept {
   scene.stats = {};
   scene.stats.instances = scene.living;
   for (const Instance& instance : scene.instances) {
-    if (instance.id == 0 || !instance.due) continue;
+    if (instance.id == 0 || !instance.plan.due) continue;
     ++scene.stats.instances_updated;
-    scene.stats.links += static_cast<std::uint32_t>(instance.casters.size());
-    scene.stats.links_culled += instance.culled;
-    scene.stats.evaluations += instance.evaluations;
+    scene.stats.links += static_cast<std::uint32_t>(instance.plan.casters.size());
+    scene.stats.links_culled += instance.plan.culled;
+    scene.stats.evaluations += instance.result.evaluations;
   }
 }
 
@@ -144,7 +147,7 @@ void for_each_ao(const Scene& scene, const Instance& instance, const float* shad
   constexpr std::uint32_t chunk_blocks = 16;
   alignas(64) std::array<float, chunk_blocks * linear_block_vertices> ao;
   auto* const bytes = static_cast<unsigned char*>(out);
-  if (instance.evaluated_frame == 0) {
+  if (instance.result.evaluated_frame == 0) {
     for (std::size_t i = 0; i < loaded.model.file_to_welded.size(); ++i) put(bytes + i * stride_bytes, 1.0f);
     return;
   }
@@ -168,7 +171,8 @@ void put_float(unsigned char* place, float ao) noexcept {
 }  // namespace
 
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept {
-  read_ao(scene, instance, instance.arrays.points.shadow, instance.arrays.points.added, out, stride_bytes);
+  read_ao(scene, instance, instance.result.arrays.points.shadow, instance.result.arrays.points.added, out,
+          stride_bytes);
 }
 
 void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
@@ -178,8 +182,8 @@ void read_ao(const Scene& scene, const Instance& instance, const float* shadow, 
 
 void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format format, void* out,
                 std::size_t stride_bytes) noexcept {
-  const float* const shadow = instance.arrays.points.shadow;
-  const float* const added = instance.arrays.points.added;
+  const float* const shadow = instance.result.arrays.points.shadow;
+  const float* const added = instance.result.arrays.points.added;
   switch (format) {
     case NOOK_AO_HALF:
       return for_each_ao(scene, instance, shadow, added, out, stride_bytes,

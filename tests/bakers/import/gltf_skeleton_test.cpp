@@ -164,6 +164,25 @@ TEST_CASE("a mesh without a skin rides on the joint above it") {
   CHECK(character.mesh.weights[corner].weight[0] == 1);
 }
 
+TEST_CASE("a file without skins and clips is a rigid prop with a bone for each root") {
+  GltfBuilder file = tube_file();
+  file.document["nodes"][3].erase("skin");
+  file.document.erase("animations");
+  const int mesh = add_tetrahedron(file);
+  file.document["scenes"][0]["nodes"].push_back(file.document["nodes"].size());
+  file.document["nodes"].push_back({{"name", "lid"}, {"mesh", mesh}, {"translation", {0, 3, 0}}});
+  const ImportedCharacter prop = load(file);
+  CHECK(has_warning(prop.warnings, "rigid prop of 2 bones"));
+  REQUIRE(prop.mesh.bones.size() == 2);
+  CHECK(prop.mesh.primitives.size() == 2);
+  const std::uint32_t corner = prop.mesh.file_to_welded[Tube::file_vertices];
+  CHECK(prop.mesh.weights[corner].bone[0] == bone_named(prop, "lid"));
+  CHECK(distance(prop.mesh.position[corner], {0, 3, 0}) < 1e-6f);
+  // The default scene is the rest pose.
+  for (const Mat3x4& bone : bone_matrices(prop, default_locals(prop.nodes), nullptr))
+    CHECK(is_identity(bone, 1e-6f));
+}
+
 TEST_CASE("a mesh on an animated node gets a bone, one that nothing moves is left out") {
   GltfBuilder file = tube_file();
   const int mesh = add_tetrahedron(file);

@@ -180,9 +180,6 @@ TEST_CASE("bad input exits with 3, names the file and writes nothing") {
   SECTION("truncated") {
     write_text(in, good.substr(0, good.size() - 400));
   }
-  SECTION("no skin") {
-    write_text(in, glb_tube({}, false));
-  }
   const ToolRun run = folder.run(small_bake(in, out));
   INFO(run.error);
   CHECK(run.exit_code == 3);

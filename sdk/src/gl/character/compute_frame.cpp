@@ -19,11 +19,12 @@ Word4 floats(Vec3 v, std::uint32_t w) {
 
 // Positions are sent relative to this point of the instance.
 Vec3 origin(const Instance& instance) {
-  return instance.bound.centre;
+  return instance.input.bound.centre;
 }
 
 std::uint32_t exact_count(const Instance& instance) {
-  return static_cast<std::uint32_t>(instance.occluders.size()) + (instance.ground_sphere.radius > 0);
+  return static_cast<std::uint32_t>(instance.plan.occluders.size()) +
+         (instance.plan.ground_sphere.radius > 0);
 }
 
 // Calls visit(slot) for the instances that are evaluated, level by level, then for those that only moved.
@@ -31,11 +32,12 @@ template <class Visit>
 void for_selected(const Scene& scene, const ComputeChunk& chunk, Visit&& visit) {
   for (std::uint32_t level = 0; level < chunk.model->level_count(); ++level)
     for (const std::uint32_t slot : chunk.slots)
-      if (slot != ComputeChunk::empty && scene.instances[slot].due && scene.instances[slot].level == level)
+      if (slot != ComputeChunk::empty && scene.instances[slot].plan.due &&
+          scene.instances[slot].plan.level == level)
         visit(slot);
   for (std::uint32_t place = 0; place < chunk.capacity; ++place) {
     const std::uint32_t slot = chunk.slots[place];
-    if (slot == ComputeChunk::empty || scene.instances[slot].due) continue;
+    if (slot == ComputeChunk::empty || scene.instances[slot].plan.due) continue;
     if (chunk.transformed[place] != pose_of(scene.instances[slot])) visit(slot);
   }
 }
@@ -55,11 +57,11 @@ std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
     for_selected(scene, chunk, [&](std::uint32_t slot) {
       const Instance& instance = scene.instances[slot];
       ++frame.selected;
-      if (!instance.due) return;
+      if (!instance.plan.due) return;
       ++frame.due;
       frame.lit += instance.light.count > 0;
-      ++frame.due_at_level[instance.level];
-      caster_words += NOOK_CASTER_UVEC4S * instance.casters.size() + exact_count(instance);
+      ++frame.due_at_level[instance.plan.level];
+      caster_words += NOOK_CASTER_UVEC4S * instance.plan.casters.size() + exact_count(instance);
     });
     frame.records = aligned(device, end);
     frame.bones = aligned(device, frame.records + frame.selected * sizeof(InstanceRecord));
@@ -79,7 +81,7 @@ std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
 
 void write_pose(const Instance& instance, Mat3x4* out) {
   const Vec3 from = origin(instance);
-  for (const Mat3x4& bone : instance.bones) {
+  for (const Mat3x4& bone : instance.input.bones) {
     Mat3x4 relative = bone;
     relative.m[3] -= from.x;
     relative.m[7] -= from.y;
@@ -104,18 +106,19 @@ void write_casters(const ComputeScene& placed, const Instance& instance, Word4* 
                    InstanceRecord& record) {
   const Scene& scene = *placed.scene;
   record.first_caster = next;
-  record.caster_count = static_cast<std::uint32_t>(instance.casters.size());
-  for (const std::uint32_t slot : instance.casters) {
+  record.caster_count = static_cast<std::uint32_t>(instance.plan.casters.size());
+  for (const std::uint32_t slot : instance.plan.casters) {
     const Instance& caster = scene.instances[slot];
-    const LevelRange& level = placed.placements[slot].chunk->model->level(instance.level);
+    const LevelRange& level = placed.placements[slot].chunk->model->level(instance.plan.level);
     casters[next++] =
         floats(origin(caster) - origin(instance), first_sphere(placed, slot) + level.first_sphere);
     casters[next++] = {level.spheres, 0, 0, 0};
   }
   record.first_exact = next;
   record.exact_count = exact_count(instance);
-  if (instance.ground_sphere.radius > 0) casters[next++] = exact_sphere(instance, instance.ground_sphere);
-  for (const std::uint32_t slot : instance.occluders)
+  if (instance.plan.ground_sphere.radius > 0)
+    casters[next++] = exact_sphere(instance, instance.plan.ground_sphere);
+  for (const std::uint32_t slot : instance.plan.occluders)
     casters[next++] = exact_sphere(instance, scene.occluders[slot].sphere);
 }
 
@@ -133,7 +136,7 @@ void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, std::byt
     record.place = placed.placements[slot].place;
     // no_light wraps to 0.
     record.light = placed.lights.first_texel(slot) + 1;
-    if (instance.due) write_casters(placed, instance, casters, next_caster, record);
+    if (instance.plan.due) write_casters(placed, instance, casters, next_caster, record);
     write_pose(instance, bones + record.first_bone);
     // Mapped memory is written once and in order, never read.
     std::memcpy(records + written++, &record, sizeof record);

@@ -56,7 +56,7 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
 
 // Returns the present pose of an instance.
 inline ComputeChunk::Pose pose_of(const Instance& instance) {
-  return {instance.id, instance.pose_revision};
+  return {instance.id, instance.input.pose_revision};
 }
 
 }  // namespace nook::gl

@@ -36,19 +36,19 @@ void decide(ComputeScene& placed, Scene& scene) {
   ++scene.frame;
   resolve_casters(scene, [&](std::uint32_t slot) { return placed.placements[slot].evaluated; });
   for (std::size_t slot = 0; slot < placed.placements.size(); ++slot)
-    if (scene.instances[slot].due) placed.placements[slot].evaluated = false;
+    if (scene.instances[slot].plan.due) placed.placements[slot].evaluated = false;
   for (Instance& instance : scene.instances)
-    if (instance.light.count > 0 && instance.due) prepare_light(scene, instance);
+    if (instance.light.count > 0 && instance.plan.due) prepare_light(scene, instance);
 }
 
 std::uint64_t count_evaluations(const ComputeScene& placed, const Scene& scene, std::uint32_t slot) {
   const Instance& instance = scene.instances[slot];
   const auto level_of = [&](std::uint32_t of) -> const LevelRange& {
-    return placed.placements[of].chunk->model->level(instance.level);
+    return placed.placements[of].chunk->model->level(instance.plan.level);
   };
   std::uint64_t spheres = (scene.terms & NOOK_TERM_SELF ? level_of(slot).spheres : 0) +
-                          instance.occluders.size() + (instance.ground_sphere.radius > 0);
-  for (const std::uint32_t caster : instance.casters) spheres += level_of(caster).spheres;
+                          instance.plan.occluders.size() + (instance.plan.ground_sphere.radius > 0);
+  for (const std::uint32_t caster : instance.plan.casters) spheres += level_of(caster).spheres;
   return spheres * level_of(slot).key_points;
 }
 
@@ -57,10 +57,10 @@ void count_update(const ComputeScene& placed, Scene& scene) {
   scene.stats.instances = scene.living;
   for (std::uint32_t slot = 0; slot < scene.instances.size(); ++slot) {
     const Instance& instance = scene.instances[slot];
-    if (instance.id == 0 || !instance.due) continue;
+    if (instance.id == 0 || !instance.plan.due) continue;
     ++scene.stats.instances_updated;
-    scene.stats.links += static_cast<std::uint32_t>(instance.casters.size());
-    scene.stats.links_culled += instance.culled;
+    scene.stats.links += static_cast<std::uint32_t>(instance.plan.casters.size());
+    scene.stats.links_culled += instance.plan.culled;
     scene.stats.evaluations += count_evaluations(placed, scene, slot);
   }
 }
@@ -70,7 +70,7 @@ void remember_update(ComputeScene& placed, const Scene& scene) {
     const Instance& instance = scene.instances[slot];
     Placement<ComputeChunk>& placement = placed.placements[slot];
     if (instance.id == 0) continue;
-    placement.evaluated |= instance.due;
+    placement.evaluated |= instance.plan.due;
     placement.chunk->transformed[placement.place] = pose_of(instance);
   }
 }

@@ -14,7 +14,7 @@ static_assert(CharacterModel::max_influences <= 8,
 struct Shadows {
   static constexpr std::uint32_t floats = 2;
   static void write(const Scene& scene, const Instance& instance, float* out) {
-    const PointLanes& points = instance.arrays.points;
+    const PointLanes& points = instance.result.arrays.points;
     const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
     for (std::uint32_t k = 0; k < points.count; ++k) {
       *out++ = points.shadow[k];
@@ -27,7 +27,7 @@ struct Shadows {
 struct Colours {
   static constexpr std::uint32_t floats = 8;
   static void write(const Scene& scene, const Instance& instance, float* out) {
-    const PointLanes& points = instance.arrays.points;
+    const PointLanes& points = instance.result.arrays.points;
     const InstanceLight& light = instance.light;
     const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
     for (std::uint32_t k = 0; k < points.count; ++k, out += floats) {
@@ -118,7 +118,7 @@ void FeedbackTier::update(Scene& scene) {
   nook::update(scene);
   // Should an upload fail, the next update makes up for this one.
   for (std::size_t slot = 0; slot < placed.placements.size(); ++slot)
-    placed.placements[slot].evaluated &= !scene.instances[slot].due;
+    placed.placements[slot].evaluated &= !scene.instances[slot].plan.due;
   placed.lights.upload(device_, scene);
   draw_scene(placed);
 }

@@ -25,9 +25,9 @@ std::uint32_t texels_of(const InstanceLight& light) {
 void write_light(const Instance& instance, Texel* out) {
   const InstanceLight& light = instance.light;
   const LightBands& bands = light.bands;
-  out[NOOK_LIGHT_HEAD] = {float(light.count), instance.ground.normal.x, instance.ground.normal.y,
-                          instance.ground.normal.z};
-  out[NOOK_LIGHT_DARKEST] = texel(light.darkest, instance.ground_sphere.radius > 0 ? 1.0f : 0.0f);
+  out[NOOK_LIGHT_HEAD] = {float(light.count), instance.input.ground.normal.x, instance.input.ground.normal.y,
+                          instance.input.ground.normal.z};
+  out[NOOK_LIGHT_DARKEST] = texel(light.darkest, instance.plan.ground_sphere.radius > 0 ? 1.0f : 0.0f);
   out[NOOK_LIGHT_SCALAR] = texel(bands.scalar, 0);
   const auto write = [&](std::uint32_t first, std::span<const Vec3> values) {
     for (const Vec3 v : values) out[first++] = texel(v, 0);
