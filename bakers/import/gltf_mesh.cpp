@@ -154,6 +154,8 @@ void append_mesh(const tinygltf::Model& model, const tinygltf::Node& node, const
   const std::string name = mesh.name.empty() ? "mesh_" + std::to_string(node.mesh) : mesh.name;
   const MeshSource source{name, binding, node.skin >= 0, default_morph_weights(mesh, node)};
   if (!source.morph_weights.empty()) ++repairs.morphed;
+  if (std::ranges::any_of(mesh.primitives, [](const tinygltf::Primitive& p) { return !p.targets.empty(); }))
+    ++repairs.with_targets;
   for (std::size_t p = 0; p < mesh.primitives.size(); ++p)
     append_primitive(model, mesh.primitives[p], "mesh \"" + name + "\" primitive " + std::to_string(p),
                      source, out, repairs);
@@ -172,6 +174,9 @@ void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings
   if (repairs.too_many_bones > 0)
     warnings.push_back(std::to_string(repairs.too_many_bones) + " vertices have more than " +
                        std::to_string(SkinWeights::max_bones) + " bones; the smallest weights were dropped");
+  if (repairs.with_targets > 0)
+    warnings.push_back(std::to_string(repairs.with_targets) +
+                       " meshes have morph targets; AO follows the bones, and not changes of morph weights");
   if (repairs.morphed > 0)
     warnings.push_back(std::to_string(repairs.morphed) +
                        " meshes have morph targets with default weights, which are part of the rest pose");

@@ -18,6 +18,7 @@ struct MeshRepairs {
   std::size_t too_many_bones = 0;
   std::size_t not_triangles = 0;  // primitives of points or lines, left out
   std::size_t morphed = 0;        // meshes with default morph weights, which were applied
+  std::size_t with_targets = 0;   // meshes with morph targets
 };
 
 // Appends all triangle primitives of a node's mesh, which is there. Where the node has a skin, joints and

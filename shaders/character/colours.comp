@@ -1,5 +1,6 @@
 // Directional occlusion at the key points of instances with a light: the colour of their shadow, and the
 // added occlusion of each channel.
+#include "shaders/core/constants.h"
 #include "shaders/character/key_points.glsl"
 #include "shaders/character/light.glsl"
 
@@ -12,7 +13,7 @@ void nook_gather_sphere(inout NookBands bands, vec4 sphere, NookPoint point) {
   float y = nook_shadow_term(dot(o, point.normal), dot(o, o));
   NookSight sight = nook_sight(point.normal, o);
   float k = nook_concentration(sight, max(y, NOOK_SMALLEST_SHARE), NOOK_SELF_CONCENTRATION);
-  nook_gather(bands, point.normal * NOOK_DIRECTIONAL_COSINE + sight.towards * k, nook_raised(y, nook_gamma));
+  nook_gather(bands, point.normal * NOOK_COSINE_LOBE_SHARPNESS + sight.towards * k, nook_raised(y, nook_gamma));
 }
 
 NookBands nook_no_bands() { return NookBands(0.0, vec3(0.0), vec3(0.0), vec3(0.0)); }

@@ -1,4 +1,5 @@
 // The light of an instance and what stands in it; derived in sdk/src/character/directional.h and directional_bands.h.
+#include "shaders/core/constants.h"
 #include "shaders/character/constants.h"
 #include "shaders/character/layout.h"
 #include "shaders/character/light_layout.h"
@@ -29,7 +30,7 @@ vec3 nook_mean_radiance(uint light, vec3 b) {
 }
 
 vec3 nook_inverse_hemisphere(uint light, vec3 n) {
-  return 1.0 / max(nook_mean_radiance(light, n * NOOK_DIRECTIONAL_COSINE), nook_light[light + uint(NOOK_LIGHT_DARKEST)].xyz);
+  return 1.0 / max(nook_mean_radiance(light, n * NOOK_COSINE_LOBE_SHARPNESS), nook_light[light + uint(NOOK_LIGHT_DARKEST)].xyz);
 }
 
 // The direction to the part of a caster above the horizon, a unit vector, and its cosine to the normal.
@@ -52,7 +53,7 @@ float nook_concentration(NookSight sight, float f, float concentration) {
 
 vec3 nook_light_ratio(uint light, vec3 inverse, vec3 n, NookSight sight, float share, float sharpest) {
   float k = min(nook_concentration(sight, max(share, NOOK_SMALLEST_SHARE), NOOK_CASTER_CONCENTRATION), sharpest);
-  vec3 behind = nook_mean_radiance(light, n * NOOK_DIRECTIONAL_COSINE + sight.towards * k);
+  vec3 behind = nook_mean_radiance(light, n * NOOK_COSINE_LOBE_SHARPNESS + sight.towards * k);
   return clamp(behind * inverse, 0.0, NOOK_LARGEST_RATIO);
 }
 
@@ -65,7 +66,7 @@ float nook_share_below(float height, float m) {
 }
 
 vec3 nook_ground_ratio(uint light, vec3 n) {
-  float h = NOOK_DIRECTIONAL_COSINE;
+  float h = NOOK_COSINE_LOBE_SHARPNESS;
   vec3 b = n * h, up = nook_light[light].yzw, all = vec3(0.0), below = vec3(0.0);
   int count = int(nook_light[light].x);
   for (int i = 0; i < count; ++i) {
@@ -108,7 +109,7 @@ vec3 nook_light_of(uint light, NookBands bands) {
 // Sums the terms, each times the light that it takes.
 vec3 nook_coloured_sum(uint light, NookBands gathered, vec3 n) {
   NookBands open = NookBands(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
-  nook_gather(open, n * NOOK_DIRECTIONAL_COSINE, 1.0);
+  nook_gather(open, n * NOOK_COSINE_LOBE_SHARPNESS, 1.0);
   vec3 ratio = nook_light_of(light, gathered) / max(nook_light_of(light, open), nook_light[light + uint(NOOK_LIGHT_DARKEST)].xyz);
   vec3 bounded = clamp(ratio, 0.0, NOOK_LARGEST_RATIO * gathered.scalar);
   return NOOK_SELF_STRENGTH * bounded + (1.0 - NOOK_SELF_STRENGTH) * gathered.scalar;

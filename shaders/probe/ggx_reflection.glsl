@@ -1,5 +1,7 @@
 // The reflection of a GGX surface as numbers that depend on the view alone, as in
 // sdk/src/probe/ggx_reflection.h.
+#include "shaders/probe/constants.h"
+
 struct NookProbeSurface {
   vec3 normal;       // unit
   vec3 view;         // unit, from the surface to the eye
@@ -39,20 +41,20 @@ NookProbeSurfaceView nook_probe_view_of(NookProbeSurface surface) {
 
 // Polynomials of two variables: sums of k u^i v^j over i + j <= degree, j fastest.
 float nook_probe_albedo_polynomial(float u, float v) {
-  return 0.944055 + v * (-0.13538 + v * (-0.571832 + v * (0.749777 + v * -0.360353))) +
-         u * (-0.0303299 + v * (0.485681 + v * (-2.26075 + v * 0.96185)) +
-              u * (-0.134767 + v * (0.886719 + v * 0.706674) + u * (-0.411119 + v * -1.14826 + u * 0.620676)));
+  return NOOK_GGX_ALBEDO_0 + v * (NOOK_GGX_ALBEDO_1 + v * (NOOK_GGX_ALBEDO_2 + v * (NOOK_GGX_ALBEDO_3 + v * NOOK_GGX_ALBEDO_4))) +
+         u * (NOOK_GGX_ALBEDO_5 + v * (NOOK_GGX_ALBEDO_6 + v * (NOOK_GGX_ALBEDO_7 + v * NOOK_GGX_ALBEDO_8)) +
+              u * (NOOK_GGX_ALBEDO_9 + v * (NOOK_GGX_ALBEDO_10 + v * NOOK_GGX_ALBEDO_11) + u * (NOOK_GGX_ALBEDO_12 + v * NOOK_GGX_ALBEDO_13 + u * NOOK_GGX_ALBEDO_14)));
 }
 float nook_probe_fresnel_polynomial(float u, float v) {
-  return 0.108191 + v * (2.83018 + v * (-4.61656 + v * (2.03889 + v * 0.108505))) +
-         u * (-1.35554 + v * (0.268952 + v * (6.32566 + v * -4.83581)) +
-              u * (0.906918 + v * (-7.91908 + v * 4.70353) + u * (2.07866 + v * 0.151807 + u * -1.00017)));
+  return NOOK_GGX_FRESNEL_0 + v * (NOOK_GGX_FRESNEL_1 + v * (NOOK_GGX_FRESNEL_2 + v * (NOOK_GGX_FRESNEL_3 + v * NOOK_GGX_FRESNEL_4))) +
+         u * (NOOK_GGX_FRESNEL_5 + v * (NOOK_GGX_FRESNEL_6 + v * (NOOK_GGX_FRESNEL_7 + v * NOOK_GGX_FRESNEL_8)) +
+              u * (NOOK_GGX_FRESNEL_9 + v * (NOOK_GGX_FRESNEL_10 + v * NOOK_GGX_FRESNEL_11) + u * (NOOK_GGX_FRESNEL_12 + v * NOOK_GGX_FRESNEL_13 + u * NOOK_GGX_FRESNEL_14)));
 }
 float nook_probe_tilt_polynomial(float u, float v) {
-  return 0.110059 + v * (-0.14709 + v * 1.09911) + u * (0.00187069 + v * -0.124211 + u * -0.105623);
+  return NOOK_GGX_TILT_0 + v * (NOOK_GGX_TILT_1 + v * NOOK_GGX_TILT_2) + u * (NOOK_GGX_TILT_3 + v * NOOK_GGX_TILT_4 + u * NOOK_GGX_TILT_5);
 }
 float nook_probe_width_polynomial(float u, float v) {
-  return 4.75539 + v * (-8.25312 + v * 3.73913) + u * (-0.619576 + v * 0.570814 + u * 0.0648816);
+  return NOOK_GGX_WIDTH_0 + v * (NOOK_GGX_WIDTH_1 + v * NOOK_GGX_WIDTH_2) + u * (NOOK_GGX_WIDTH_3 + v * NOOK_GGX_WIDTH_4 + u * NOOK_GGX_WIDTH_5);
 }
 
 // Share of uniform light that leaves towards the eye.
@@ -76,7 +78,7 @@ vec3 nook_probe_mean_micro_normal(NookProbeSurfaceView v, NookProbeSurface surfa
 // Squared widths of the lobe over those of slopes, in the plane of incidence and across it.
 vec2 nook_probe_lobe_widths(NookProbeSurfaceView v) {
   vec2 rho = sqrt(sqrt(v.alpha2));
-  float wider = 2.23813 + rho.y * -2.03077 + v.facing * -0.103893;
+  float wider = NOOK_GGX_WIDER_0 + rho.y * NOOK_GGX_WIDER_1 + v.facing * NOOK_GGX_WIDER_2;
   return vec2(nook_probe_width_polynomial(v.facing, rho.x),
               nook_probe_width_polynomial(v.facing, rho.y) + (1.0 - v.facing) * wider);
 }

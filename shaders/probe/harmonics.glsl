@@ -3,6 +3,8 @@
 // Light as real spherical harmonics, orthonormal, without the Condon-Shortley phase, as nook_probe_lobes_to_harmonics and fits
 // of NOOK_PROBE_HARMONICS write them: 1, then y, z, x, then xy, yz, 3zz - 1, xz, xx - yy. Directions are unit vectors.
 
+#include "shaders/probe/constants.h"
+
 // Bands 0 to 2, nine coefficients. NookHarmonics has the layout of 9 vec4 in std140 and std430.
 struct NookHarmonics {
   vec3 coefficient[9];
@@ -17,28 +19,28 @@ struct NookZonalHarmonics {
 
 // Sums with one factor for each band: 1 for radiance, the clamped cosine's for irradiance.
 vec3 nook_probe_linear_harmonics(vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 s, vec2 factor) {
-  return factor.x * 0.28209479 * c0 + factor.y * 0.48860251 * (s.y * c1 + s.z * c2 + s.x * c3);
+  return factor.x * NOOK_HARMONICS_0 * c0 + factor.y * NOOK_HARMONICS_1 * (s.y * c1 + s.z * c2 + s.x * c3);
 }
 
 vec3 nook_probe_harmonics_sum(NookHarmonics light, vec3 s, vec3 factor) {
   vec3 sum = nook_probe_linear_harmonics(light.coefficient[0], light.coefficient[1], light.coefficient[2],
                                          light.coefficient[3], s, factor.xy);
-  vec3 band2 = 1.09254843 * (s.x * s.y * light.coefficient[4] + s.y * s.z * light.coefficient[5] +
+  vec3 band2 = NOOK_HARMONICS_2_MIXED * (s.x * s.y * light.coefficient[4] + s.y * s.z * light.coefficient[5] +
                              s.x * s.z * light.coefficient[7]) +
-               0.31539157 * (3.0 * s.z * s.z - 1.0) * light.coefficient[6] +
-               0.54627422 * (s.x * s.x - s.y * s.y) * light.coefficient[8];
+               NOOK_HARMONICS_2_ZONAL * (3.0 * s.z * s.z - 1.0) * light.coefficient[6] +
+               NOOK_HARMONICS_2_SQUARES * (s.x * s.x - s.y * s.y) * light.coefficient[8];
   return sum + factor.z * band2;
 }
 
 vec3 nook_probe_zonal_harmonics_sum(NookZonalHarmonics light, vec3 s, vec3 factor) {
   vec3 sum = nook_probe_linear_harmonics(light.coefficient[0], light.coefficient[1], light.coefficient[2],
                                          light.coefficient[3], s, factor.xy);
-  const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
+  const vec3 luminance = vec3(NOOK_LUMINANCE_RED, NOOK_LUMINANCE_GREEN, NOOK_LUMINANCE_BLUE);
   vec3 axis = vec3(dot(light.coefficient[3], luminance), dot(light.coefficient[1], luminance),
                    dot(light.coefficient[2], luminance));
   float size = length(axis);
   float cosine = size > 0.0 ? dot(axis, s) / size : s.z;
-  return sum + factor.z * 0.31539157 * (3.0 * cosine * cosine - 1.0) * light.zonal;
+  return sum + factor.z * NOOK_HARMONICS_2_ZONAL * (3.0 * cosine * cosine - 1.0) * light.zonal;
 }
 
 // Radiance from a direction.

@@ -1,11 +1,14 @@
 #ifndef NOOK_PROBE_IRRADIANCE
 #define NOOK_PROBE_IRRADIANCE
 // Irradiance of a lobe on a surface with unit normal n; the same as sdk/src/core/spherical_gaussian.h.
+#include "shaders/core/constants.h"
 #include "shaders/probe/lobe.glsl"
 
 // The clamped cosine as a lobe: cheaper, and not 0 behind sharp lights.
 vec3 nook_probe_lobe_irradiance_inner_product(NookLobe lobe, vec3 n) {
-  return lobe.amplitude * (1.17 * nook_probe_lobe_product_integral(lobe.sharpness, 2.133, nook_probe_apart(lobe.axis, n)));
+  return lobe.amplitude * (NOOK_COSINE_LOBE_AMPLITUDE *
+                           nook_probe_lobe_product_integral(lobe.sharpness, NOOK_COSINE_LOBE_SHARPNESS,
+                                                            nook_probe_apart(lobe.axis, n)));
 }
 
 // Of a lobe of integral 1, by zonal harmonics of the clamped cosine to band 4; cosine is dot(axis, n).
@@ -29,12 +32,13 @@ float nook_probe_unit_irradiance_bands(float sharpness, float cosine) {
 
 // S. Hill's fit, and the bands below its range.
 float nook_probe_unit_irradiance_fitted(float sharpness, float cosine) {
-  if (sharpness < 3.0) return nook_probe_unit_irradiance_bands(sharpness, cosine);
+  if (sharpness < NOOK_FITTED_IRRADIANCE_MIN_SHARPNESS) return nook_probe_unit_irradiance_bands(sharpness, cosine);
   float e1 = exp(-sharpness), e2 = e1 * e1, inverse = 1.0 / sharpness;
   float rest = inverse - 2.0 * e2;
   float bias = (e1 - e2) * inverse - e2;
   float x = sqrt(rest);
-  float x0 = 0.36 * cosine, x1 = x / (4.0 * 0.36), s = x0 + x1;
+  const float slope = NOOK_FITTED_IRRADIANCE_SLOPE;
+  float x0 = slope * cosine, x1 = x / (4.0 * slope), s = x0 + x1;
   float y = abs(x0) <= x1 ? s * s / x : clamp(cosine, 0.0, 1.0);
   return max((1.0 - rest) * y + bias, 0.0);
 }
@@ -47,7 +51,7 @@ vec3 nook_probe_lobe_irradiance_fitted(NookLobe lobe, vec3 n) {
 // The better of both.
 vec3 nook_probe_lobe_irradiance(NookLobe lobe, vec3 n) {
   float cosine = dot(lobe.axis, n);
-  float unit = lobe.sharpness <= 16.0 ? nook_probe_unit_irradiance_bands(lobe.sharpness, cosine)
+  float unit = lobe.sharpness <= NOOK_BANDS_MAX_SHARPNESS ? nook_probe_unit_irradiance_bands(lobe.sharpness, cosine)
                                       : nook_probe_unit_irradiance_fitted(lobe.sharpness, cosine);
   return lobe.amplitude * (nook_probe_lobe_integral(lobe.sharpness) * unit);
 }

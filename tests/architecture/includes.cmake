@@ -44,16 +44,17 @@ endfunction()
 
 # A system's room and its shaders share numbers: headers of constants lie beside the shaders.
 set(systems sdk/src/character sdk/src/nnao sdk/src/probe sdk/src/material)
-room(sdk/src/core sdk/src/core)
+room(sdk/src/core sdk/src/core shaders/core)
+room(shaders/core shaders/core)
 foreach(system character nnao probe material)
-  room(sdk/src/${system} sdk/src/${system} shaders/${system} sdk/src/core)
+  room(sdk/src/${system} sdk/src/${system} shaders/${system} shaders/core sdk/src/core)
 endforeach()
 room(sdk/src/gl sdk/src/gl shaders ${systems} sdk/src/core)
 room(sdk/src/api sdk/src/api sdk/src/gl ${systems} sdk/src/core)
 foreach(system nnao probe material)
-  room(shaders/${system} shaders/${system})
+  room(shaders/${system} shaders/${system} shaders/core)
 endforeach()
-room(shaders/character shaders/character shaders/probe)
+room(shaders/character shaders/character shaders/probe shaders/core)
 
 room(platform platform)
 

@@ -3,6 +3,8 @@
 // Nothing may crash, and AO lies in [0, 1], whatever the bytes. Built for libFuzzer with clang; elsewhere
 // model_fuzz_replay.cpp drives it.
 #include <nook/nook_character.h>
+#include <nook/nook_pose.h>
+#include <nook/nook_vertices.h>
 
 #include <cmath>
 
@@ -65,6 +67,87 @@ void set_pose(Crowd& crowd, Script& script) {
   for (std::uint32_t b = 0; b < crowd.info.bone_count; ++b) pose.insert(pose.end(), matrix, matrix + 12);
   if (form >= 224) fill(script, &pose[12 * script.below(crowd.info.bone_count)], 12);
   ok(nook_scene_set_pose(crowd.scene, id, pose.data(), crowd.info.bone_count - (form == 223)));
+}
+
+// A pose in any kind, layout and order, of numbers that may be anything.
+nook_pose_desc any_pose(const Crowd& crowd, Script& script, std::vector<float>& floats,
+                        std::vector<std::int32_t>& map) {
+  nook_pose_desc desc;
+  ok(nook_pose_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.kind = nook_pose_kind(script.below(4));
+  desc.layout = nook_transform_layout(script.below(7));
+  desc.flags = script.below(5);
+  desc.skin = script.below(4);
+  desc.transform_count = crowd.info.bone_count;
+  floats.assign(16 * std::size_t(crowd.info.bone_count), 0.0f);
+  for (std::size_t i = 0; i < floats.size(); i += 5) floats[i] = 1;
+  for (std::uint32_t i = script.below(4); i > 0; --i)
+    floats[script.below(std::uint32_t(floats.size()))] = script.number();
+  desc.transforms = floats.data();
+  if (script.below(2)) {
+    map.assign(crowd.info.bone_count, -1);
+    for (std::int32_t& index : map) index = std::int32_t(script.below(crowd.info.bone_count + 1)) - 1;
+    desc.transform_of_bone = map.data();
+    desc.bone_count = crowd.info.bone_count;
+  }
+  return desc;
+}
+
+void set_pose_from(Crowd& crowd, Script& script) {
+  std::vector<float> floats;
+  std::vector<std::int32_t> map;
+  const nook_instance_id id = crowd.instance(script);
+  const nook_pose_desc desc = any_pose(crowd, script, floats, map);
+  ok(nook_scene_set_pose_from(crowd.scene, id, &desc));
+  nook_pose_check check{};
+  check.struct_size = sizeof check;
+  std::vector<float> positions;
+  nook_rest_vertex vertex{};
+  vertex.struct_size = sizeof vertex;
+  while (ok(nook_character_model_rest_vertex(crowd.model, check.vertex_count, &vertex))) {
+    positions.insert(positions.end(), vertex.mesh_position, vertex.mesh_position + 3);
+    ++check.vertex_count;
+  }
+  check.positions = positions.data();
+  if (ok(nook_character_model_check_pose(crowd.model, &desc, &check))) require(check.text[0] != 0);
+}
+
+void set_model(Crowd& crowd, Script& script) {
+  ok(nook_scene_set_model(crowd.scene, crowd.instance(script), crowd.model));
+}
+
+void limit_occluder(Crowd& crowd, Script& script) {
+  const nook_occluder_id id = crowd.occluder(script);
+  ok(nook_scene_limit_occluder(crowd.scene, id, crowd.instance(script)));
+}
+
+// Everything that a model's bind data answers.
+void use_bind_data(const Crowd& crowd) {
+  std::vector<std::uint32_t> order;
+  nook_rest_vertex vertex{};
+  vertex.struct_size = sizeof vertex;
+  for (std::uint32_t v = 0; ok(nook_character_model_rest_vertex(crowd.model, v, &vertex)); ++v) {
+    require(vertex.vertex < crowd.info.file_vertex_count && vertex.bone < crowd.info.bone_count);
+    order.push_back(vertex.vertex);
+    nook_vertex_match match{};
+    match.struct_size = sizeof match;
+    match.vertex_count = 1;
+    match.positions = vertex.mesh_position;
+    match.primitive = NOOK_ALL_PRIMITIVES;
+    std::uint32_t found = 0;
+    if (ok(nook_character_model_match_vertices(crowd.model, &match, &found, nullptr)))
+      require(found == NOOK_NO_VERTEX || found < crowd.info.file_vertex_count);
+  }
+  nook_skin_info skin{};
+  skin.struct_size = sizeof skin;
+  for (std::uint32_t s = 0; ok(nook_character_model_skin(crowd.model, s, &skin)); ++s) {
+  }
+  nook_character_model remapped = nullptr;
+  if (!order.empty()) {
+    require(
+        ok(nook_character_model_remap(crowd.model, order.data(), std::uint32_t(order.size()), &remapped)));
+    nook_character_model_destroy(&remapped);
+  }
 }
 
 void link(Crowd& crowd, Script& script) {
@@ -175,10 +258,10 @@ void release_from_gl(Crowd& crowd, Script& script) {
 }
 
 using Command = void (*)(Crowd&, Script&);
-constexpr Command commands[] = {add_instance, update,       set_pose,        link,
-                                set_light,    set_ground,   add_occluder,    set_camera,
-                                link_nearest, update_on_gl, remove_instance, unlink,
-                                set_occluder, set_terms,    remove_occluder, release_from_gl};
+constexpr Command commands[] = {add_instance,    update,        set_pose,     link,          set_light,
+                                set_ground,      add_occluder,  set_camera,   link_nearest,  update_on_gl,
+                                remove_instance, unlink,        set_occluder, set_terms,     remove_occluder,
+                                release_from_gl, set_pose_from, set_model,    limit_occluder};
 
 nook_scene_desc plain_scene() {
   nook_scene_desc desc;
@@ -246,6 +329,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(ok(nook_character_model_describe(crowd.model, &crowd.info)));
   if (is_small(crowd.info)) {
     ask_about(crowd);
+    use_bind_data(crowd);
     crowd.scene = make_scene(context, input.script);
     play(crowd, input.script);
     for (const int tier : {33, 43}) ok(nook_gl_scene_release(gl_of_tier(tier), crowd.scene));

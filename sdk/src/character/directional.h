@@ -17,6 +17,7 @@
 #include "sdk/src/core/simd_scalar.h"
 #include "sdk/src/core/vec.h"
 #include "shaders/character/constants.h"
+#include "shaders/core/constants.h"
 
 namespace nook {
 
@@ -41,9 +42,8 @@ struct Colour {
   F r, g, b;
 };
 
-// The sharpness of the lobe that approximates the clamped cosine, cosine_lobe_sharpness of
-// core/spherical_gaussian.h.
-inline constexpr float directional_cosine = float(NOOK_DIRECTIONAL_COSINE);
+// The sharpness of the lobe that approximates the clamped cosine, as in core/spherical_gaussian.h.
+inline constexpr float directional_cosine = float(NOOK_COSINE_LOBE_SHARPNESS);
 // k = caster_concentration sqrt(height) (1 - f^2) / f: a far sphere is a lobe of its solid angle, one that
 // fills the hemisphere is the hemisphere.
 inline constexpr float caster_concentration = float(NOOK_CASTER_CONCENTRATION);

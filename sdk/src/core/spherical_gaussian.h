@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "sdk/src/core/vec.h"
+#include "shaders/core/constants.h"
 
 namespace nook {
 
@@ -160,10 +161,10 @@ inline float gaussian_unit_irradiance_bands(float sharpness, float cosine) {
 
 // S. Hill's fit is within 1.6e-2 of the irradiance of a perpendicular light from sharpness 3 on. Below, where
 // the fit is not defined, the bands are used.
-inline constexpr float hill_min_sharpness = 3;
+inline constexpr float hill_min_sharpness = float(NOOK_FITTED_IRRADIANCE_MIN_SHARPNESS);
 inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
   if (sharpness < hill_min_sharpness) return gaussian_unit_irradiance_bands(sharpness, cosine);
-  constexpr float c0 = 0.36f, c1 = 1 / (4 * c0);
+  constexpr float c0 = float(NOOK_FITTED_IRRADIANCE_SLOPE), c1 = 1 / (4 * c0);
   const float e1 = std::exp(-sharpness), e2 = e1 * e1, inverse = 1 / sharpness;
   const float rest = inverse - 2 * e2;  // 1 - scale, above 0 however sharp the lobe
   const float bias = (e1 - e2) * inverse - e2;
@@ -174,7 +175,7 @@ inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
 }
 
 // The best form uses the bands up to this sharpness and the fit above.
-inline constexpr float bands_max_sharpness = 16;
+inline constexpr float bands_max_sharpness = float(NOOK_BANDS_MAX_SHARPNESS);
 inline float gaussian_unit_irradiance_best(float sharpness, float cosine) {
   return sharpness <= bands_max_sharpness ? gaussian_unit_irradiance_bands(sharpness, cosine)
                                           : gaussian_unit_irradiance_fitted(sharpness, cosine);
@@ -182,8 +183,8 @@ inline float gaussian_unit_irradiance_best(float sharpness, float cosine) {
 
 // The clamped cosine max(dot(n, s), 0) as a lobe about n, with B. Karis' values, which The Order: 1886 used.
 // The inner product with it is the cheapest form, and is never 0 behind a light.
-inline constexpr float cosine_lobe_sharpness = 2.133f;
-inline constexpr float cosine_lobe_amplitude = 1.17f;
+inline constexpr float cosine_lobe_sharpness = float(NOOK_COSINE_LOBE_SHARPNESS);
+inline constexpr float cosine_lobe_amplitude = float(NOOK_COSINE_LOBE_AMPLITUDE);
 inline float gaussian_irradiance_inner_product(Vec3 axis, float sharpness, Vec3 n) {
   return cosine_lobe_amplitude *
          gaussian_product_integral(sharpness, cosine_lobe_sharpness, one_minus_cosine(axis, n));

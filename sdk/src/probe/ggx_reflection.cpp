@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sdk/src/probe/axes.h"
+#include "shaders/probe/constants.h"
 
 namespace nook::probe {
 namespace {
@@ -22,18 +23,26 @@ float polynomial(const float (&k)[(degree + 1) * (degree + 2) / 2], float u, flo
 }
 
 // A polynomial of openness and alpha.
-constexpr float albedo_k[15] = {0.944055f,   -0.13538f, -0.571832f, 0.749777f, -0.360353f,
-                                -0.0303299f, 0.485681f, -2.26075f,  0.96185f,  -0.134767f,
-                                0.886719f,   0.706674f, -0.411119f, -1.14826f, 0.620676f};
+constexpr float albedo_k[15] = {
+    float(NOOK_GGX_ALBEDO_0),  float(NOOK_GGX_ALBEDO_1),  float(NOOK_GGX_ALBEDO_2),
+    float(NOOK_GGX_ALBEDO_3),  float(NOOK_GGX_ALBEDO_4),  float(NOOK_GGX_ALBEDO_5),
+    float(NOOK_GGX_ALBEDO_6),  float(NOOK_GGX_ALBEDO_7),  float(NOOK_GGX_ALBEDO_8),
+    float(NOOK_GGX_ALBEDO_9),  float(NOOK_GGX_ALBEDO_10), float(NOOK_GGX_ALBEDO_11),
+    float(NOOK_GGX_ALBEDO_12), float(NOOK_GGX_ALBEDO_13), float(NOOK_GGX_ALBEDO_14)};
 // A polynomial of the square roots of facing and of alpha.
-constexpr float fresnel_k[15] = {0.108191f, 2.83018f,  -4.61656f, 2.03889f,  0.108505f,
-                                 -1.35554f, 0.268952f, 6.32566f,  -4.83581f, 0.906918f,
-                                 -7.91908f, 4.70353f,  2.07866f,  0.151807f, -1.00017f};
+constexpr float fresnel_k[15] = {
+    float(NOOK_GGX_FRESNEL_0),  float(NOOK_GGX_FRESNEL_1),  float(NOOK_GGX_FRESNEL_2),
+    float(NOOK_GGX_FRESNEL_3),  float(NOOK_GGX_FRESNEL_4),  float(NOOK_GGX_FRESNEL_5),
+    float(NOOK_GGX_FRESNEL_6),  float(NOOK_GGX_FRESNEL_7),  float(NOOK_GGX_FRESNEL_8),
+    float(NOOK_GGX_FRESNEL_9),  float(NOOK_GGX_FRESNEL_10), float(NOOK_GGX_FRESNEL_11),
+    float(NOOK_GGX_FRESNEL_12), float(NOOK_GGX_FRESNEL_13), float(NOOK_GGX_FRESNEL_14)};
 // A polynomial of openness and the square root of alpha.
-constexpr float tilt_k[6] = {0.110059f, -0.14709f, 1.09911f, 0.00187069f, -0.124211f, -0.105623f};
+constexpr float tilt_k[6] = {float(NOOK_GGX_TILT_0), float(NOOK_GGX_TILT_1), float(NOOK_GGX_TILT_2),
+                             float(NOOK_GGX_TILT_3), float(NOOK_GGX_TILT_4), float(NOOK_GGX_TILT_5)};
 // Polynomials of facing and the square root of alpha.
-constexpr float width_k[6] = {4.75539f, -8.25312f, 3.73913f, -0.619576f, 0.570814f, 0.0648816f};
-constexpr float wider_k[3] = {2.23813f, -2.03077f, -0.103893f};
+constexpr float width_k[6] = {float(NOOK_GGX_WIDTH_0), float(NOOK_GGX_WIDTH_1), float(NOOK_GGX_WIDTH_2),
+                              float(NOOK_GGX_WIDTH_3), float(NOOK_GGX_WIDTH_4), float(NOOK_GGX_WIDTH_5)};
+constexpr float wider_k[3] = {float(NOOK_GGX_WIDER_0), float(NOOK_GGX_WIDER_1), float(NOOK_GGX_WIDER_2)};
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 #include <concepts>
 #include <cstdint>
 
+#include "shaders/probe/constants.h"
+
 namespace nook::probe {
 
 constexpr std::uint32_t harmonic_count(std::uint32_t order) {
@@ -14,18 +16,18 @@ constexpr std::uint32_t harmonic_count(std::uint32_t order) {
 // values: (order + 1)^2; (x, y, z) unit.
 template <std::floating_point T>
 constexpr void evaluate_harmonics(std::uint32_t order, T x, T y, T z, T* values) {
-  values[0] = T(0.28209479177387814);
+  values[0] = T(NOOK_HARMONICS_0);
   if (order < 1) return;
-  values[1] = T(0.4886025119029199) * y;
-  values[2] = T(0.4886025119029199) * z;
-  values[3] = T(0.4886025119029199) * x;
+  values[1] = T(NOOK_HARMONICS_1) * y;
+  values[2] = T(NOOK_HARMONICS_1) * z;
+  values[3] = T(NOOK_HARMONICS_1) * x;
   if (order < 2) return;
   const T xx = x * x, yy = y * y, zz = z * z;
-  values[4] = T(1.0925484305920792) * x * y;
-  values[5] = T(1.0925484305920792) * y * z;
-  values[6] = T(0.31539156525252005) * (3 * zz - 1);
-  values[7] = T(1.0925484305920792) * x * z;
-  values[8] = T(0.5462742152960396) * (xx - yy);
+  values[4] = T(NOOK_HARMONICS_2_MIXED) * x * y;
+  values[5] = T(NOOK_HARMONICS_2_MIXED) * y * z;
+  values[6] = T(NOOK_HARMONICS_2_ZONAL) * (3 * zz - 1);
+  values[7] = T(NOOK_HARMONICS_2_MIXED) * x * z;
+  values[8] = T(NOOK_HARMONICS_2_SQUARES) * (xx - yy);
   if (order < 3) return;
   values[9] = T(0.5900435899266435) * y * (3 * xx - yy);
   values[10] = T(2.890611442640554) * x * y * z;

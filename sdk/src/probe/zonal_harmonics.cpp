@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sdk/src/probe/harmonics.h"
+#include "shaders/probe/constants.h"
 
 namespace nook::probe {
 namespace {
@@ -11,7 +12,8 @@ namespace {
 constexpr float pi = 3.14159265f;
 
 float luminance(Vec3 rgb) {
-  return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
+  return float(NOOK_LUMINANCE_RED) * rgb.x + float(NOOK_LUMINANCE_GREEN) * rgb.y +
+         float(NOOK_LUMINANCE_BLUE) * rgb.z;
 }
 
 // Where the light comes from: the direction of band 1's luminance, whose harmonics are y, z, x. +z where
@@ -29,7 +31,7 @@ Vec3 sum(std::span<const Vec3> c, Vec3 direction, const float factor[3]) {
   Vec3 value = c[0] * (factor[0] * linear[0]);
   for (std::size_t i = 1; i < 4; ++i) value += c[i] * (factor[1] * linear[i]);
   const float cosine = dot(axis_of(c), direction);
-  return value + c[4] * (factor[2] * 0.31539157f * (3 * cosine * cosine - 1));
+  return value + c[4] * (factor[2] * float(NOOK_HARMONICS_2_ZONAL) * (3 * cosine * cosine - 1));
 }
 
 }  // namespace
