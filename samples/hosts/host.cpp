@@ -50,12 +50,14 @@ bool parse_options(const char* name, int argc, char** argv, Options& o, int& exi
       ->required()
       ->check(CLI::ExistingFile);
   app.add_option("--clip", o.clip, "name of a clip; without it, the first one of the file");
-  app.add_option("--path", o.path, "where vertices are evaluated; none leaves Nook out")
-      ->check(CLI::IsMember({"gpu", "cpu", "none"}));
+  app.add_option("--path", o.path,
+                 "where Nook evaluates vertices; none leaves Nook out; vtk: VTK's own pass, in nook_host_vtk")
+      ->check(CLI::IsMember({"gpu", "cpu", "none", "vtk"}));
   app.add_option("--show", o.show, "lit, plain (nothing reads the AO) or ao")
       ->check(CLI::IsMember({"lit", "plain", "ao"}));
   app.add_option("--state", o.state, "the contract on OpenGL's state")
       ->check(CLI::IsMember({"preserve", "defaults", "host"}));
+  app.add_flag("--orthographic", o.orthographic, "parallel projection, in nook_host_vtk");
   app.add_option("--size", size, "pixels of the picture, WIDTHxHEIGHT");
   app.add_option("--out", o.out, "the picture, a .png")->required();
   try {

@@ -232,6 +232,7 @@ void draw(const hosts::Options& o) {
   Ogre::Camera* const camera = manager->createCamera("camera");
   Ogre::SceneNode* const eye = manager->getRootSceneNode()->createChildSceneNode();
   eye->attachObject(camera);
+  eye->setFixedYawAxis(true);
   eye->setPosition(vector_of(scene.eye_ws));
   eye->lookAt(vector_of(scene.target_ws), Ogre::Node::TS_WORLD);
   camera->setFOVy(Ogre::Radian(scene.vertical_fov_rad));
