@@ -51,8 +51,9 @@ bool parse_options(const char* name, int argc, char** argv, Options& o, int& exi
       ->check(CLI::ExistingFile);
   app.add_option("--clip", o.clip, "name of a clip; without it, the first one of the file");
   app.add_option("--path", o.path,
-                 "where Nook evaluates vertices; none leaves Nook out; vtk: VTK's own pass, in nook_host_vtk")
-      ->check(CLI::IsMember({"gpu", "cpu", "none", "vtk"}));
+                 "where Nook evaluates vertices; none leaves Nook out; vtk, traced: VTK's own pass and rays, "
+                 "in nook_host_vtk")
+      ->check(CLI::IsMember({"gpu", "cpu", "none", "vtk", "traced"}));
   app.add_option("--show", o.show, "lit, plain (nothing reads the AO) or ao")
       ->check(CLI::IsMember({"lit", "plain", "ao"}));
   app.add_option("--state", o.state, "the contract on OpenGL's state")

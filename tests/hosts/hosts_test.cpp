@@ -131,9 +131,35 @@ TEST_CASE("hosts: the AO of both paths agrees, between the hosts as well") {
   CHECK(between_hosts < 0.005);
 }
 
+TEST_CASE("hosts: VTK's picture changes in ambient light alone, and translucent props stay as they are") {
+  // Without ambient light nothing is left to darken; a translucent ball is part of the picture.
+  const Drawn without = draw("vtk", "--show plain --path none");
+  require_no_errors(without);
+  for (const std::string state : {"preserve", "defaults"}) {
+    INFO(state);
+    const Drawn with = draw("vtk", "--show plain --state " + state);
+    require_no_errors(with);
+    CHECK(with.picture.rgb == without.picture.rgb);
+  }
+  for (const std::string projection : {"", " --orthographic"}) {
+    INFO(projection);
+    const Drawn open = draw("vtk", "--show ao --path none" + projection),
+                dark = draw("vtk", "--show ao" + projection);
+    require_no_errors(dark);
+    std::size_t darker = 0, brighter = 0;
+    for (std::size_t i = 0; i < open.picture.rgb.size(); ++i) {
+      darker += dark.picture.rgb[i] < open.picture.rgb[i] - 0.1f;
+      brighter += dark.picture.rgb[i] > open.picture.rgb[i];
+    }
+    CHECK(brighter == 0);
+    CHECK(darker > open.picture.rgb.size() / 100);
+    CHECK(darker < open.picture.rgb.size() / 5);
+  }
+}
+
 // NOOK_BLESS=1 writes the stored pictures anew.
 TEST_CASE("hosts: the pictures are the stored ones") {
-  for (const std::string host : {"ogre", "osg"}) {
+  for (const std::string host : {"ogre", "osg", "vtk"}) {
     INFO(host);
     const Picture small = shrunk(draw(host, "--show lit").picture, 8);
     const std::string path = std::string(HOSTS_STORED) + "/" + host + ".png";

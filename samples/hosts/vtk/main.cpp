@@ -1,9 +1,10 @@
 // VTK draws a body, a floor and a translucent ball, with Nook's pass or with VTK's own.
 //
-//   nook_host_vtk CHARACTER.glb MODEL.nook --out PICTURE.png [--path none|gpu|vtk] [--orthographic]
+//   nook_host_vtk CHARACTER.glb MODEL.nook --out PICTURE.png [--path none|gpu|vtk|traced] [--orthographic]
 //
-// nook_vtk.cpp is all that a VTK program needs. The model is not read: this host has the AO of the screen
-// only.
+// With --path traced and --show ao the picture has ray-traced AO at the vertices. nook_vtk.cpp is all that a
+// VTK program needs. The model is not read: this host has the AO of the screen only.
+#include <nook/nook_bake.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
@@ -21,6 +22,8 @@
 #include <vtkSphereSource.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <cmath>
+
 #include "samples/hosts/host.h"
 #include "samples/hosts/vtk/nook_vtk.h"
 
@@ -32,10 +35,11 @@ struct Surface {
   std::vector<glm::vec3> positions, normals;
   std::vector<std::uint32_t> triangles;
   glm::vec3 colour;
+  std::vector<float> ao;  // of the vertices, if it was traced
 };
 
 Surface posed_body(const hosts::Scene& scene) {
-  Surface body{scene.file.skinned(scene.pose), {}, scene.file.triangles, glm::vec3(0.75f, 0.72f, 0.68f)};
+  Surface body{scene.file.skinned(scene.pose), {}, scene.file.triangles, glm::vec3(0.75f, 0.72f, 0.68f), {}};
   for (const viewer::Vertex& vertex : scene.file.vertices) {
     glm::mat4 skin(0);
     for (int k = 0; k < 4; ++k) skin += vertex.weights[k] * scene.pose.matrices[vertex.matrices[k]];
@@ -44,14 +48,44 @@ Surface posed_body(const hosts::Scene& scene) {
   return body;
 }
 
+// A square of small cells, so that values at its vertices show contacts.
 Surface floor_of(const hosts::Scene& scene) {
-  Surface floor{{}, {}, {0, 1, 2, 2, 1, 3}, glm::vec3(0.6f)};
-  for (const float z : {0.6f, -0.6f})
-    for (const float x : {-0.6f, 0.6f}) {
-      floor.positions.push_back(scene.size_m * glm::vec3(x, 0, z));
+  constexpr std::uint32_t cells = 160;
+  Surface floor;
+  floor.colour = glm::vec3(0.6f);
+  for (std::uint32_t z = 0; z <= cells; ++z)
+    for (std::uint32_t x = 0; x <= cells; ++x) {
+      floor.positions.push_back(1.2f * scene.size_m *
+                                glm::vec3(float(x) / cells - 0.5f, 0, 0.5f - float(z) / cells));
       floor.normals.emplace_back(0, 1, 0);
+      const std::uint32_t a = z * (cells + 1) + x, b = a + cells + 1;
+      if (x < cells && z < cells)
+        floor.triangles.insert(floor.triangles.end(), {a, a + 1, b, b, a + 1, b + 1});
     }
   return floor;
+}
+
+// What the passes estimate: rays from every vertex, up to the same radius.
+void trace_ao(std::vector<Surface>& surfaces, float radius_m) {
+  std::vector<nook_bake_occluder_mesh> meshes;
+  for (const Surface& s : surfaces)
+    meshes.push_back({&s.positions[0].x, s.triangles.data(), std::uint32_t(s.positions.size()),
+                      std::uint32_t(s.triangles.size())});
+  for (Surface& s : surfaces) {
+    nook_bake_trace_desc desc;
+    if (nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK)
+      throw std::runtime_error(nook_bake_last_message());
+    desc.meshes = meshes.data();
+    desc.mesh_count = std::uint32_t(meshes.size());
+    desc.positions = &s.positions[0].x;
+    desc.normals = &s.normals[0].x;
+    desc.point_count = std::uint32_t(s.positions.size());
+    desc.rays = 1024;
+    desc.radius = radius_m;
+    s.ao.resize(s.positions.size());
+    if (nook_bake_trace_ao(&desc, s.ao.data(), desc.point_count) != NOOK_OK)
+      throw std::runtime_error(nook_bake_last_message());
+  }
 }
 
 vtkNew<vtkActor> actor_of(const Surface& surface, const hosts::Options& o) {
@@ -69,6 +103,15 @@ vtkNew<vtkActor> actor_of(const Surface& surface, const hosts::Options& o) {
   data->SetPoints(points);
   data->SetPolys(cells);
   data->GetPointData()->SetNormals(normals);
+  if (!surface.ao.empty()) {
+    vtkNew<vtkUnsignedCharArray> greys;
+    greys->SetNumberOfComponents(3);
+    for (const float ao : surface.ao) {
+      const double grey = std::round(255.0 * double(ao));
+      greys->InsertNextTuple3(grey, grey, grey);
+    }
+    data->GetPointData()->SetScalars(greys);
+  }
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
   vtkNew<vtkActor> actor;
@@ -77,7 +120,7 @@ vtkNew<vtkActor> actor_of(const Surface& surface, const hosts::Options& o) {
   const bool shows_ao = o.show == "ao";
   const glm::vec3 colour = shows_ao ? glm::vec3(1) : surface.colour;
   look->SetColor(double(colour.r), double(colour.g), double(colour.b));
-  look->SetAmbient(shows_ao ? 1 : 0.6);
+  look->SetAmbient(shows_ao ? 1 : o.show == "plain" ? 0 : 0.6);  // plain has nothing that AO darkens
   look->SetDiffuse(shows_ao ? 0 : 0.4);
   return actor;
 }
@@ -102,8 +145,9 @@ void draw(const hosts::Options& o) {
   const hosts::Scene scene(o);
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(0.66, 0.70, 0.76);
-  renderer->AddActor(actor_of(posed_body(scene), o));
-  renderer->AddActor(actor_of(floor_of(scene), o));
+  std::vector<Surface> surfaces{posed_body(scene), floor_of(scene)};
+  if (o.path == "traced") trace_ao(surfaces, float(kRadiusShare) * scene.size_m);
+  for (const Surface& surface : surfaces) renderer->AddActor(actor_of(surface, o));
   if (o.show != "ao") renderer->AddActor(glass_ball(scene));
   vtkCamera* const camera = renderer->GetActiveCamera();
   camera->SetPosition(double(scene.eye_ws.x), double(scene.eye_ws.y), double(scene.eye_ws.z));
@@ -129,7 +173,7 @@ void draw(const hosts::Options& o) {
     own->BlurOn();
     own->SetDelegatePass(steps);
     renderer->SetPass(own);
-  } else if (o.path != "none") {
+  } else if (o.path == "gpu") {
     nook_gl_desc gl = nook::gl_desc();
     gl.get_proc = hosts::gl_proc;
     gl.state_mode = o.state_mode();

@@ -1,5 +1,7 @@
 #include "samples/hosts/vtk/nook_vtk.h"
 
+#include <vtk_glew.h>
+
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
@@ -97,12 +99,12 @@ bool vtkNookAoPass::PostReplaceShaderValues(std::string&, std::string&, std::str
   vtkShaderProgram::Substitute(fragment, "vec4(ambientColor + diffuse",
                                "vec4(nook_ambient() * ambientColor + nook_direct() * diffuse");
   vtkShaderProgram::Substitute(
-      fragment, "//VTK::Light::Dec",
+      fragment, "void main()",
       "uniform sampler2D nook_ao;\nuniform ivec2 nook_origin;\nuniform float nook_share;\n"
       "float nook_ambient() { return texelFetch(nook_ao, ivec2(gl_FragCoord.xy) - "
       "nook_origin, 0).r; }\n"
       "float nook_direct() { return mix(1.0, nook_ambient(), nook_share); }\n"
-      "//VTK::Light::Dec");
+      "void main()");
   return true;
 }
 
