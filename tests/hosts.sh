@@ -1,6 +1,6 @@
 #!/bin/sh
 # Nook in OGRE, OpenSceneGraph and VTK: installs what samples/hosts/packages.txt lists, builds the hosts and runs their tests.
-# NOOK_BUILD_DIR says where (default: build-hosts).
+# The build folder is NOOK_BUILD_DIR (default: build-hosts).
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${NOOK_BUILD_DIR:-$root/build-hosts}

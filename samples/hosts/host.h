@@ -1,4 +1,4 @@
-// What the host programs share: arguments, the character in one pose with a camera, the count of OpenGL's
+// The host programs share this: arguments, the character in one pose with a camera, the count of OpenGL's
 // errors, and the picture.
 #pragma once
 

@@ -65,7 +65,7 @@ Surface floor_of(const hosts::Scene& scene) {
   return floor;
 }
 
-// What the passes estimate: rays from every vertex, up to the same radius.
+// The reference of the passes: rays from every vertex, up to the same radius.
 void trace_ao(std::vector<Surface>& surfaces, float radius_m) {
   std::vector<nook_bake_occluder_mesh> meshes;
   for (const Surface& s : surfaces)
