@@ -22,8 +22,7 @@ NookOgre::NookOgre(const Ogre::Entity& entity, Ogre::HardwareVertexBufferSharedP
   std::vector<const char*> names;
   for (const Ogre::Bone* bone : entity.getSkeleton()->getBones()) names.push_back(bone->getName().c_str());
   bone_map_ = model_.map_bones(names);
-  const float ground[4] = {0, 1, 0, 0};
-  scene_.set_ground(character_, ground);
+  scene_.set_ground(character_, Ogre::Vector4(0, 1, 0, 0).ptr());
   copy_ = reinterpret_cast<decltype(copy_)>(gl.get_proc(gl.get_proc_user, "glCopyBufferSubData"));
   bind_ = reinterpret_cast<decltype(bind_)>(gl.get_proc(gl.get_proc_user, "glBindBuffer"));
 }
