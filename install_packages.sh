@@ -1,7 +1,8 @@
 #!/bin/sh
-# Installs what packages.txt lists and this machine lacks, with apt-get, as root or through sudo.
+# Installs what packages.txt lists and this machine lacks, with apt-get, as root or through sudo. NOOK_PACKAGES names another
+# list.
 set -eu
-list="$(dirname "$0")/packages.txt"
+list="${NOOK_PACKAGES:-$(dirname "$0")/packages.txt}"
 if ! command -v dpkg-query > /dev/null; then
   echo "install_packages.sh: this is no Debian; install the equivalents of $list by hand" >&2
   exit 0

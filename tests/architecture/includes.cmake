@@ -101,6 +101,8 @@ foreach(sample nnao probe)
 endforeach()
 room(samples/mannequin samples/mannequin platform)
 room(samples/material samples/material platform)
+room(samples/gltf_viewer samples/gltf_viewer platform)
+room(samples/hosts samples/hosts samples/gltf_viewer platform)
 room(samples/crowd samples/crowd samples/mannequin bakers/measure/crowd platform)
 
 # Sources are listed in their own room.

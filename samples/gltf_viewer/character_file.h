@@ -1,0 +1,79 @@
+// A rigged glTF file as a viewer needs it: one mesh, skins, nodes and clips. Vertices are in the order of the
+// file, the primitives one after another in the order of the nodes, which is the order of Nook's AO.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+namespace viewer {
+
+struct Node {
+  std::string name;
+  int parent = -1;
+  bool has_matrix = false;  // such a node has `matrix` and cannot move
+  glm::mat4 matrix{1};
+  glm::vec3 translation{0};
+  glm::quat rotation{1, 0, 0, 0};
+  glm::vec3 scale{1};
+};
+
+struct Skin {
+  std::vector<int> joints;  // nodes
+  std::vector<glm::mat4> inverse_bind;
+  std::uint32_t first_matrix = 0;  // in Pose::matrices
+  bool has_mesh = false;           // false: no part of the character uses it
+};
+
+struct Vertex {
+  glm::vec3 position, normal, albedo;
+  std::uint16_t matrices[4];  // of Pose::matrices
+  glm::vec4 weights;          // their sum is 1
+};
+
+struct Channel {
+  enum Path { kTranslation, kRotation, kScale };
+  int node = 0;
+  Path path = kTranslation;
+  bool has_steps = false;
+  std::vector<float> times_s;
+  std::vector<glm::vec4> values;
+};
+
+struct Clip {
+  std::string name;
+  float duration_s = 0;
+  std::vector<Channel> channels;
+};
+
+// The matrices of a frame: those of each skin, global(joint) * inverse bind, and after them the global matrix
+// of each node, with which parts without a skin are drawn.
+struct Pose {
+  std::vector<glm::mat4> matrices;
+};
+
+struct CharacterFile {
+  std::vector<Node> nodes;
+  std::vector<int> parents_first;  // an order of the nodes
+  std::vector<Skin> skins;         // in the order of the file
+  std::uint32_t first_node_matrix = 0;
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> triangles;
+  std::vector<Clip> clips;
+
+  // Reads a .glb or .gltf of triangle lists. Throws std::runtime_error, whose text names the file.
+  explicit CharacterFile(const std::filesystem::path& path);
+
+  // Throws std::runtime_error that lists the clips. An empty name is the first clip; without clips the result
+  // is null.
+  const Clip* find_clip(const std::string& name) const;
+  // Without a clip the pose is the file's own.
+  Pose pose(const Clip* clip, float time_s) const;
+  // Where the vertices are in a pose.
+  std::vector<glm::vec3> skinned(const Pose& pose) const;
+};
+
+}  // namespace viewer

@@ -1,0 +1,60 @@
+// A render pass of VTK with Nook's screen-space AO. It stands where vtkSSAOPass stands, around the pass of
+// the opaque props:
+//
+//   vtkNew<vtkRenderStepsPass> steps;
+//   vtkNew<vtkNookAoPass> ao;
+//   ao->SetDelegatePass(steps->GetOpaquePass());
+//   steps->SetOpaquePass(ao);
+//   renderer->SetPass(steps);
+//
+// Only ambient light is darkened, which a property has if its ambient coefficient is above 0; DirectShare
+// darkens the rest too. Translucent props, volumes and overlays are drawn after the pass and stay as they
+// are.
+#pragma once
+
+#include <vtkImageProcessingPass.h>
+
+#include <nook/nook.hpp>
+#include <optional>
+
+class vtkOpenGLFramebufferObject;
+class vtkTextureObject;
+
+class vtkNookAoPass : public vtkImageProcessingPass {
+ public:
+  static vtkNookAoPass* New();
+  vtkTypeMacro(vtkNookAoPass, vtkImageProcessingPass);
+
+  // In the unit of the data; 0 (default): RadiusShare of the diagonal of what is visible (default 0.1).
+  vtkSetMacro(Radius, double);
+  vtkSetMacro(RadiusShare, double);
+  // From 0 (default) to 1: how much of the AO darkens diffuse light of lamps.
+  vtkSetMacro(DirectShare, double);
+  // Required. gl names the loader and the state contract.
+  void SetGl(const nook_gl_desc& gl) { gl_desc_ = gl; }
+
+  void Render(const vtkRenderState* state) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+  bool PostReplaceShaderValues(std::string& vertex, std::string& geometry, std::string& fragment,
+                               vtkAbstractMapper* mapper, vtkProp* prop) override;
+  bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
+                           vtkOpenGLVertexArrayObject* array) override;
+
+ protected:
+  vtkNookAoPass();
+  ~vtkNookAoPass() override;
+
+ private:
+  void Prepare(vtkRenderer* renderer);
+  void DrawDepth(const vtkRenderState* state);
+  void DrawAo(vtkRenderer* renderer);
+
+  double Radius = 0, RadiusShare = 0.1, DirectShare = 0;
+  int size_[2] = {}, origin_[2] = {};
+  vtkTextureObject *colour_, *depth_, *ao_;
+  vtkOpenGLFramebufferObject* framebuffer_;
+  nook_gl_desc gl_desc_ = nook::gl_desc();
+  nook::Context context_;
+  std::optional<nook::Gl> gl_;
+  std::optional<nook::Nnao> nnao_;
+};
