@@ -23,8 +23,6 @@ NookOgre::NookOgre(const Ogre::Entity& entity, Ogre::HardwareVertexBufferSharedP
   for (const Ogre::Bone* bone : entity.getSkeleton()->getBones()) names.push_back(bone->getName().c_str());
   bone_map_ = model_.map_bones(names);
   scene_.set_ground(character_, Ogre::Vector4(0, 1, 0, 0).ptr());
-  copy_ = reinterpret_cast<decltype(copy_)>(gl.get_proc(gl.get_proc_user, "glCopyBufferSubData"));
-  bind_ = reinterpret_cast<decltype(bind_)>(gl.get_proc(gl.get_proc_user, "glBindBuffer"));
 }
 
 void NookOgre::listen(const Ogre::TexturePtr& depth, const Ogre::TexturePtr& result,
@@ -57,15 +55,13 @@ void NookOgre::set_pose() {
   scene_.set_pose(character_, desc);
 }
 
-// OGRE draws from buffers of its own only, so that the AO is copied from Nook's buffer to OGRE's.
+// OGRE draws from buffers of its own only, so that the AO is written to one.
 void NookOgre::update_on_gpu() {
-  constexpr unsigned kCopyRead = 0x8F36, kCopyWrite = 0x8F37;  // GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER
   set_pose();
   gl_.update(scene_);
-  const nook_gl_ao_view view = gl_.ao_buffer(scene_, character_);
-  bind_(kCopyRead, view.buffer);
-  bind_(kCopyWrite, static_cast<Ogre::GL3PlusHardwareVertexBuffer&>(*ao_).getGLBufferId());
-  copy_(kCopyRead, kCopyWrite, std::ptrdiff_t(view.offset), 0, std::ptrdiff_t(4 * view.count));
+  nook_gl_ao_target target{};
+  target.buffer = static_cast<Ogre::GL3PlusHardwareVertexBuffer&>(*ao_).getGLBufferId();
+  gl_.write_ao(scene_, {character_}, target);
 }
 
 void NookOgre::update_on_cpu() {

@@ -33,8 +33,6 @@ class NookOgre : public Ogre::RenderTargetListener {
   nook::Gl gl_;
   nook_instance_id character_;
   std::vector<std::int32_t> bone_map_;
-  void (*copy_)(unsigned, unsigned, std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t);
-  void (*bind_)(unsigned, unsigned);
   std::unique_ptr<nook::Nnao> screen_;
   nook_nnao_frame_desc frame_ = nook::nnao_frame_desc();
   const Ogre::Camera* camera_ = nullptr;

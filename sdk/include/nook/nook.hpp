@@ -110,6 +110,7 @@ class Context : public Unique<nook_context, nook_context_destroy> {
 
 class CharacterModel : public Unique<nook_character_model, nook_character_model_destroy> {
  public:
+  CharacterModel() = default;
   CharacterModel(const Context& context, const void* bytes, std::size_t size)
       : Unique(load(context, bytes, size)) {}
 
@@ -140,6 +141,16 @@ class CharacterModel : public Unique<nook_character_model, nook_character_model_
     check(nook_character_model_map_bones(get(), &rules, map.data(), static_cast<std::uint32_t>(map.size()),
                                          nullptr));
     return map;
+  }
+  // Returns false past the last rest vertex.
+  bool rest_vertex(std::uint32_t index, nook_rest_vertex& vertex) const {
+    vertex.struct_size = sizeof vertex;
+    return nook_character_model_rest_vertex(get(), index, &vertex) == NOOK_OK;
+  }
+  // Returns false past the last skin.
+  bool skin(std::uint32_t index, nook_skin_info& skin) const {
+    skin.struct_size = sizeof skin;
+    return nook_character_model_skin(get(), index, &skin) == NOOK_OK;
   }
   // Fills the answers in `answer`.
   void check_pose(const nook_pose_desc& desc, nook_pose_check& answer) const {
@@ -174,6 +185,10 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
     return id;
   }
   void remove_instance(nook_instance_id id) { check(nook_scene_remove_instance(get(), id)); }
+  // The bone counts of both models are equal.
+  void set_model(nook_instance_id id, const CharacterModel& model) {
+    check(nook_scene_set_model(get(), id, model.get()));
+  }
   // bones_3x4 holds 12 floats for each bone, row-major.
   void set_pose(nook_instance_id id, const float* bones_3x4, std::uint32_t bone_count) {
     check(nook_scene_set_pose(get(), id, bones_3x4, bone_count));
@@ -203,6 +218,10 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
     check(nook_scene_set_occluder(get(), id, centre_ws, radius));
   }
   void remove_occluder(nook_occluder_id id) { check(nook_scene_remove_occluder(get(), id)); }
+  // receiver 0: every instance.
+  void limit_occluder(nook_occluder_id id, nook_instance_id receiver) {
+    check(nook_scene_limit_occluder(get(), id, receiver));
+  }
   void set_camera(const float position_ws[3]) { check(nook_scene_set_camera(get(), position_ws)); }
   void set_terms(std::uint32_t terms) { check(nook_scene_set_terms(get(), terms)); }
   void update() { check(nook_scene_update(get())); }
@@ -385,6 +404,7 @@ inline std::uint64_t nnao_memory(const nook_nnao_desc& desc) {
 // Every function and the destructor belong to the context thread, as nook_gl.h documents.
 class Gl : public Unique<nook_gl, nook_gl_destroy> {
  public:
+  Gl() = default;
   Gl(const Context& context, const nook_gl_desc& desc) : Unique(create(context, desc)) {}
 
   void context_lost() { check(nook_gl_context_lost(get())); }
@@ -402,6 +422,13 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
     view.struct_size = sizeof view;
     check(nook_gl_scene_ao_buffer(get(), scene.get(), id, &view));
     return view;
+  }
+  // Copies AO to a buffer or texture of the host on the GPU; struct_size of the target is set here.
+  void write_ao(const Scene& scene, const std::vector<nook_instance_id>& ids,
+                nook_gl_ao_target target) const {
+    target.struct_size = sizeof target;
+    check(nook_gl_scene_write_ao(get(), scene.get(), ids.data(), static_cast<std::uint32_t>(ids.size()),
+                                 &target));
   }
   // Waits for the GPU.
   void read_ao(const Scene& scene, nook_instance_id id, float* out, std::uint32_t count) const {
@@ -483,6 +510,7 @@ class GlMaterial : public Unique<nook_gl_material, nook_gl_material_destroy> {
 // Every function and the destructor belong to the context thread, as nook_nnao.h documents.
 class Nnao : public Unique<nook_nnao, nook_nnao_destroy> {
  public:
+  Nnao() = default;
   Nnao(const Gl& gl, const nook_nnao_desc& desc) : Unique(create(gl, desc)) {}
 
   void render(const nook_nnao_frame_desc& frame) { check(nook_nnao_render(get(), &frame)); }
