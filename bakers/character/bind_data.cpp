@@ -9,12 +9,6 @@
 namespace nook::bake {
 namespace {
 
-Affine to_double(const Mat3x4& matrix) {
-  Affine out;
-  std::copy_n(matrix.m, 12, out.m.begin());
-  return out;
-}
-
 void add_bones(const ImportedCharacter& character, BindData& out) {
   for (std::size_t b = 0; b < character.mesh.bones.size(); ++b) {
     BoneBind bone;

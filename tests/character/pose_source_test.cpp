@@ -19,12 +19,6 @@ using nook::test::Numbers;
 
 namespace {
 
-Affine wide(const Mat3x4& matrix) {
-  Affine out;
-  std::copy_n(matrix.m, 12, out.m.begin());
-  return out;
-}
-
 float largest_difference(const Mat3x4& a, const Affine& b) {
   float largest = 0;
   for (int i = 0; i < 12; ++i) largest = std::max(largest, std::abs(a.m[i] - static_cast<float>(b.m[i])));
@@ -140,14 +134,14 @@ TEST_CASE("joint matrices, skinning matrices and a place compose as the header s
   source.transforms = given[0].m;
   SECTION("joint matrices") {
     for (std::uint32_t b = 0; b < count; ++b)
-      given[b] = to_float(truth[b] * inverse(wide(bind.bones[b].node_from_rest)));
+      given[b] = to_float(truth[b] * inverse(to_double(bind.bones[b].node_from_rest)));
     source.kind = NOOK_POSE_JOINT_TO_WORLD;
   }
   SECTION("skinning matrices of a skin in centimetres, in the skin's order") {
     const SkinBind& skin = bind.skins[0];
     for (std::uint32_t j = 0; j < count; ++j)
-      given[j] =
-          to_float(truth[bind.bone_of_joint[skin.first_joint + j]] * wide(bind.rest_from_mesh[skin.space]));
+      given[j] = to_float(truth[bind.bone_of_joint[skin.first_joint + j]] *
+                          to_double(bind.rest_from_mesh[skin.space]));
     source.kind = NOOK_POSE_SKINNING;
   }
   SECTION("rest-to-world matrices in another order") {

@@ -9,6 +9,7 @@
 #include "sdk/src/api/handles.h"
 #include "sdk/src/character/bone_names.h"
 #include "sdk/src/character/pose_check.h"
+#include "sdk/src/character/vertex_match.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/core/place.h"
 
@@ -26,14 +27,12 @@ nook_pose_desc default_pose_desc() {
 }
 
 Affine read_place(const float* matrix_3x4, const char* name) {
-  Affine place;
-  if (!matrix_3x4) return place;
+  if (!matrix_3x4) return {};
   Mat3x4 given;
   std::copy_n(matrix_3x4, 12, given.m);
   if (!is_pose_matrix(given))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is not finite or far too large", name);
-  std::copy_n(given.m, 12, place.m.begin());
-  return place;
+  return to_double(given);
 }
 
 // The position of a skin of the file among those of the model.
@@ -233,12 +232,8 @@ nook_result nook_character_model_rest_vertex(nook_character_model model, uint32_
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "index is out of range (got %u, need less than %zu)", index,
                     m.bind.vertices.size());
     const RestVertex& rest = m.bind.vertices[index];
-    const auto after =
-        std::ranges::upper_bound(m.primitives, rest.file_vertex, {}, &PrimitiveRange::first_vertex);
-    const auto primitive = static_cast<std::size_t>(after - m.primitives.begin()) - 1;
-    Affine rest_from_mesh;
-    std::copy_n(m.bind.rest_from_mesh[m.bind.primitive_space[primitive]].m, 12, rest_from_mesh.m.begin());
-    const Vec3 in_mesh = transform(inverse(rest_from_mesh), rest.position);
+    const Mat3x4& rest_from_mesh = m.bind.rest_from_mesh[space_of(m, rest.file_vertex)];
+    const Vec3 in_mesh = transform(inverse(to_double(rest_from_mesh)), rest.position);
     nook_rest_vertex answer{};
     answer.vertex = rest.file_vertex;
     answer.position[0] = rest.position.x;

@@ -12,12 +12,6 @@ namespace {
 
 constexpr std::uint32_t max_transforms = 65536;
 
-Affine to_double(const Mat3x4& matrix) {
-  Affine out;
-  std::copy_n(matrix.m, 12, out.m.begin());
-  return out;
-}
-
 const char* name_of(const CharacterModel& model, std::size_t bone) {
   return model.bone_names[bone].c_str();
 }
@@ -77,15 +71,15 @@ double unevenness(const Affine& a) {
   return std::max(0.5 * (largest / smallest - 1), shear / largest);
 }
 
-void check_size(const CharacterModel& model, std::size_t bone, const Affine& matrix) {
+}  // namespace
+
+void check_size(const CharacterModel& model, std::size_t bone, const Mat3x4& matrix) {
   for (int i = 0; i < 12; ++i)
     if (!(std::abs(matrix.m[i]) <= (i % 4 == 3 ? max_pose_metres : max_pose_scale)))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "the matrix of bone %zu (\"%s\") is not finite or far too large (element %d is %g)", bone,
-                    name_of(model, bone), i, matrix.m[i]);
+                    name_of(model, bone), i, double(matrix.m[i]));
 }
-
-}  // namespace
 
 std::size_t floats_of_layout(nook_transform_layout layout) {
   constexpr std::size_t floats[] = {12, 16, 16, 12, 8, 10};
@@ -192,7 +186,7 @@ namespace {
 void convert_bone(const CharacterModel& model, const PoseSource& source, std::size_t bone,
                   std::uint32_t index, std::span<Mat3x4> bones) {
   const Affine matrix = bone_matrix(model, source, bone, read_transform(source, index));
-  check_size(model, bone, matrix);
+  check_size(model, bone, to_float(matrix));
   // 1 % of shear or of length.
   if (source.is_strict && unevenness(matrix) > 0.0101)
     throw Failure(

@@ -29,6 +29,9 @@ struct PoseSource {
 // needs. Sets the stride where it is 0.
 void check_pose_source(const CharacterModel& model, PoseSource& source);
 
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for a matrix that is not finite or far too large.
+void check_size(const CharacterModel& model, std::size_t bone, const Mat3x4& matrix);
+
 std::size_t floats_of_layout(nook_transform_layout layout);
 
 // The transform as the matrix that its layout says. Quaternions need not be of unit length.

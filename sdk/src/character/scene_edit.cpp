@@ -35,15 +35,6 @@ auto& find(Objects& objects, std::uint32_t id, const char* what) {
   return objects[slot];
 }
 
-// Throws unless the matrix is finite and not far too large.
-void check_size(const CharacterModel& model, const Mat3x4& matrix, std::size_t bone) {
-  for (int i = 0; i < 12; ++i)
-    if (!(std::abs(matrix.m[i]) <= (i % 4 == 3 ? max_pose_metres : max_pose_scale)))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "the matrix of bone %zu (\"%s\") is not finite or far too large (element %d is %g)", bone,
-                    model.bone_names[bone].c_str(), i, double(matrix.m[i]));
-}
-
 // The shape of a rest-to-world matrix by its axes.
 struct Axes {
   Vec3 length;       // of each axis
@@ -79,9 +70,7 @@ void fail_unless_even(const CharacterModel& model, const Mat3x4& matrix, std::si
 
 // The nearest matrix with one scale.
 Mat3x4 evened(const CharacterModel& model, const Mat3x4& matrix, std::size_t bone) {
-  Affine given;
-  std::copy_n(matrix.m, 12, given.m.begin());
-  return to_float(projected(given, joint_origin(model, bone)));
+  return to_float(projected(to_double(matrix), joint_origin(model, bone)));
 }
 
 void derive_bound(Instance& instance, float largest_scale_squared) {
@@ -278,7 +267,7 @@ ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4
                   "bone_count is not the model's (got %zu, need %zu); see nook_character_model_describe",
                   bones.size(), instance.input.bones.size());
   for (std::size_t b = 0; b < bones.size(); ++b) {
-    check_size(model, bones[b], b);
+    check_size(model, b, bones[b]);
     if (scene.settings.strict_poses) fail_unless_even(model, bones[b], b);
   }
   return take_pose(instance, bones);

@@ -16,12 +16,6 @@ struct Candidate {
   std::uint32_t file_vertex = 0;
 };
 
-Affine to_double(const Mat3x4& matrix) {
-  Affine out;
-  std::copy_n(matrix.m, 12, out.m.begin());
-  return out;
-}
-
 // Normals go to the space of a mesh by the transpose of the matrix that brings its positions to rest space.
 Vec3 normal_in_mesh(const Mat3x4& rest_from_mesh, Vec3 n) {
   const float* m = rest_from_mesh.m;
@@ -107,12 +101,6 @@ class Finder {
   float distance_ = 0;
 };
 
-std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex) {
-  const auto after =
-      std::ranges::upper_bound(model.primitives, file_vertex, {}, &PrimitiveRange::first_vertex);
-  return model.bind.primitive_space[static_cast<std::size_t>(after - model.primitives.begin()) - 1];
-}
-
 // Primitives of the remapped model, with their spaces: runs of vertices of the same space.
 void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
                     CharacterModel& out) {
@@ -129,6 +117,12 @@ void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> 
 }
 
 }  // namespace
+
+std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex) {
+  const auto after =
+      std::ranges::upper_bound(model.primitives, file_vertex, {}, &PrimitiveRange::first_vertex);
+  return model.bind.primitive_space[static_cast<std::size_t>(after - model.primitives.begin()) - 1];
+}
 
 Vec3 StridedPoints::operator[](std::size_t index) const {
   Vec3 out;

@@ -27,6 +27,10 @@ struct HostVertices {
   float tolerance = 1e-4f;      // share of the diagonal of the model's box
 };
 
+// The space of the mesh that a vertex of the file belongs to, an index into BindData::rest_from_mesh. The
+// model has bind data.
+std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex);
+
 inline constexpr std::uint32_t no_vertex = UINT32_MAX;
 
 // Writes the file vertex of each host vertex, or no_vertex, and returns the number of no_vertex. The model

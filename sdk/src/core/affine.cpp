@@ -169,4 +169,10 @@ Mat3x4 to_float(const Affine& a) {
   return r;
 }
 
+Affine to_double(const Mat3x4& a) {
+  Affine r;
+  std::copy_n(a.m, 12, r.m.begin());
+  return r;
+}
+
 }  // namespace nook

@@ -44,5 +44,6 @@ struct Similarity {
 Similarity nearest_similarity(const Affine& a, const std::array<double, 3>& fixed);
 
 Mat3x4 to_float(const Affine& a);
+Affine to_double(const Mat3x4& a);
 
 }  // namespace nook
