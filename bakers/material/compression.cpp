@@ -82,7 +82,7 @@ tensor::ClusteredFit fit_clusters(const FitTask& task) {
                                  : tensor::fit_k_cta(task.values, settings, progress);
 }
 
-void append(std::pmr::vector<float>& to, const Matrix& matrix) {
+void append(Vector<float>& to, const Matrix& matrix) {
   to.insert(to.end(), matrix.data(), matrix.data() + matrix.size());
 }
 

@@ -11,7 +11,7 @@ typedef float Lanes __attribute__((vector_size(4 * lane_count)));
 // std::vector is not used, because its allocator may not support the alignment of the widest instructions.
 using LaneArray = AlignedArray<Lanes>;
 inline LaneArray lane_array(std::size_t count) {
-  return {count, std::pmr::new_delete_resource()};
+  return {count, default_memory()};
 }
 
 // The numbers of a Dense layer in the order of layers.h.

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <memory_resource>
 #include <vector>
 
 #include "bakers/raytrace/path_tracer.h"
+#include "sdk/src/core/containers.h"
 #include "sdk/src/probe/fit.h"
 #include "sdk/src/probe/probe.h"
 
@@ -54,7 +54,7 @@ class GridBake {
   const LitScene& scene_;
   GridBakeSettings settings_;
   LightSampler light_;
-  std::pmr::vector<double> gram_;
+  Vector<double> gram_;
   std::vector<ProbeFits> fits_;
   std::vector<bool> inside_;
   std::uint32_t passes_ = 0;

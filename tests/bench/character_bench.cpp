@@ -94,7 +94,7 @@ class Character {
   const CharacterModel& model() const { return model_; }
 
  private:
-  static AlignedArray<float> array(std::size_t count) { return {count, std::pmr::get_default_resource()}; }
+  static AlignedArray<float> array(std::size_t count) { return {count, nook::default_memory()}; }
   std::size_t sphere_stride() const { return padded_count(rest_spheres_.view().count); }
   std::uint32_t points_count() const { return rest_points_.padded_count(); }
   SphereSoa spheres() const {
@@ -154,10 +154,10 @@ void added_casters(benchmark::State& state, const ShadowKernels* kernels) {
 void one_character(benchmark::State& state, const ShadowKernels* kernels, SkinFunction skin) {
   Character character(*kernels);
   const SampleSkin vertices = sample_skin(character.model());
-  AlignedArray<SkinningMatrix> bones(character.model().bone_count(), std::pmr::get_default_resource());
+  AlignedArray<SkinningMatrix> bones(character.model().bone_count(), nook::default_memory());
   const std::vector<Mat3x4> pose = sample_pose(bones.size(), 5);
   for (std::size_t b = 0; b < bones.size(); ++b) bones[b] = skinning_matrix(pose[b]);
-  AlignedArray<float> posed(6 * vertices.view.count + 16, std::pmr::get_default_resource());
+  AlignedArray<float> posed(6 * vertices.view.count + 16, nook::default_memory());
 
   Stopwatch whole, skinning, posing, shadows, blending, blending_added;
   for (auto _ : state) {

@@ -70,8 +70,7 @@ CharacterModel sample_model() {
   Draw draw(1);
   CharacterModel model;
   model.kernel = {};  // as shipped
-  for (std::size_t b = 0; b < bones; ++b)
-    model.bone_names.push_back(std::pmr::string("bone_" + std::to_string(b)));
+  for (std::size_t b = 0; b < bones; ++b) model.bone_names.push_back(String("bone_" + std::to_string(b)));
   for (std::size_t i = 0; i < spheres; ++i)
     model.spheres.push_back({draw.place(), draw.between(0.02f, 0.12f),
                              static_cast<std::uint16_t>(draw.below(bones)), draw.between(0.2f, 1)});
@@ -105,7 +104,7 @@ std::vector<Mat3x4> sample_pose(std::size_t bone_count, unsigned seed) {
 }
 
 SampleSkin sample_skin(const CharacterModel& model) {
-  std::pmr::memory_resource* memory = std::pmr::get_default_resource();
+  Memory* memory = default_memory();
   Draw draw(2);
   const std::size_t count = model.file_to_welded.size();
   SampleSkin skin{{6 * count, memory}, {4 * count, memory}, {4 * count, memory}, {}};

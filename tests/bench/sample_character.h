@@ -2,11 +2,11 @@
 // spheres, 500 key points, 7,400 welded and 8,700 file vertices, all of their seven entries in use.
 #pragma once
 
-#include <memory_resource>
 #include <vector>
 
 #include "sdk/src/character/model.h"
 #include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/memory.h"
 #include "tests/bench/skinning.h"
 
 namespace nook::bench {

@@ -151,10 +151,10 @@ void one_character_through_the_abi(benchmark::State& state) {
   crowd.self_only();
   const CharacterModel model = sample_model();
   const SampleSkin vertices = sample_skin(model);
-  AlignedArray<SkinningMatrix> bones(model.bone_count(), std::pmr::get_default_resource());
+  AlignedArray<SkinningMatrix> bones(model.bone_count(), nook::default_memory());
   const std::vector<Mat3x4> pose = sample_pose(bones.size(), 5);
   for (std::size_t b = 0; b < bones.size(); ++b) bones[b] = skinning_matrix(pose[b]);
-  AlignedArray<float> posed(6 * vertices.view.count + 16, std::pmr::get_default_resource());
+  AlignedArray<float> posed(6 * vertices.view.count + 16, nook::default_memory());
 
   double ao = 1e9, skinning = 1e9;
   for (auto _ : state) {

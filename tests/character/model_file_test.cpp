@@ -34,19 +34,18 @@ bool mentions(const Outcome& outcome, const char* part) {
 }
 
 // Counts the bytes that a reader allocates.
-class CountingMemory final : public std::pmr::memory_resource {
+class CountingMemory final : public nook::Memory {
  public:
   std::size_t total = 0;
 
  private:
   void* do_allocate(std::size_t size, std::size_t alignment) override {
     total += size;
-    return std::pmr::new_delete_resource()->allocate(size, alignment);
+    return nook::default_memory()->allocate(size, alignment);
   }
   void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
-    std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+    nook::default_memory()->deallocate(memory, size, alignment);
   }
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 };
 
 bool is_equal(const Mat3x4& a, const Mat3x4& b) {

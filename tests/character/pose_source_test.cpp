@@ -243,7 +243,7 @@ TEST_CASE("bones are found by name, by prefixes and suffixes, and loosely") {
   const auto unmatched = [&](std::vector<const char*> host, nook_bone_names rules = {}) {
     rules.names = host.data();
     rules.name_count = static_cast<std::uint32_t>(host.size());
-    return map_bones(model, rules, map, std::pmr::new_delete_resource());
+    return map_bones(model, rules, map, nook::default_memory());
   };
   using Map = std::vector<std::int32_t>;
   CHECK(unmatched({"skeleton:bone_3", nullptr, "skeleton:bone_0", "skeleton:bone_1", "skeleton:bone_2"}) ==
@@ -282,12 +282,12 @@ TEST_CASE("vertices are matched by place and normal, and a remapped model is in 
   host.position = {&host_position[0].x, sizeof(Vec3)};
   host.in_rest_space = true;
   std::vector<std::uint32_t> found(host.count);
-  CHECK(match_vertices(model, host, found, std::pmr::new_delete_resource()) == 1);
+  CHECK(match_vertices(model, host, found, nook::default_memory()) == 1);
   for (std::uint32_t i = 0; i < 400; ++i) CHECK(found[i] == 199 - i / 2);
   CHECK(found[400] == no_vertex);
 
   found.pop_back();
-  const CharacterModel mapped = remapped(model, found, std::pmr::new_delete_resource());
+  const CharacterModel mapped = remapped(model, found, nook::default_memory());
   check_model(mapped, NOOK_ERROR_INTERNAL);
   CHECK(mapped.file_to_welded.size() == 400);
   for (std::uint32_t i = 0; i < 400; ++i) CHECK(mapped.file_to_welded[i] == 199 - i / 2);
@@ -314,6 +314,6 @@ TEST_CASE("normals decide between the two sides of a card") {
   host.normal = {&normal[0].x, sizeof(Vec3)};
   host.in_rest_space = true;
   std::vector<std::uint32_t> found(host.count);
-  CHECK(match_vertices(model, host, found, std::pmr::new_delete_resource()) == 0);
+  CHECK(match_vertices(model, host, found, nook::default_memory()) == 0);
   for (std::uint32_t i = 0; i < 20; ++i) CHECK(found[i] == i);
 }

@@ -36,7 +36,7 @@ void build(NeighbourTree& tree, const std::vector<Vec3>& points) {
 }
 
 void compare(const std::vector<Vec3>& points, std::uint32_t k, float limit) {
-  NeighbourTree tree(std::pmr::new_delete_resource());
+  NeighbourTree tree(nook::default_memory());
   build(tree, points);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     std::array<Neighbour, max_nearest> found;
@@ -86,7 +86,7 @@ TEST_CASE("the nearest of points in one place cost about what those of spread po
     mixed.push_back(i % 5 ? p * 1e-3f : spread.back());
   }
   const auto seconds = [&](const std::vector<Vec3>& points) {
-    NeighbourTree tree(std::pmr::new_delete_resource());
+    NeighbourTree tree(nook::default_memory());
     double best = 1e9;
     for (int trial = 0; trial < 3; ++trial) {
       const auto start = std::chrono::steady_clock::now();
@@ -121,9 +121,8 @@ TEST_CASE("link_nearest adds to explicit links and counts no pair twice") {
   const auto slot = [&](int i) {
     return static_cast<std::uint32_t>(&instance_of(scene, ids[i]) - scene.instances.data());
   };
-  CHECK(instance_of(scene, ids[0]).plan.casters ==
-        std::pmr::vector<std::uint32_t>{slot(1), slot(2), slot(5)});
-  CHECK(instance_of(scene, ids[3]).plan.casters == std::pmr::vector<std::uint32_t>{slot(2), slot(4)});
+  CHECK(instance_of(scene, ids[0]).plan.casters == nook::Vector<std::uint32_t>{slot(1), slot(2), slot(5)});
+  CHECK(instance_of(scene, ids[3]).plan.casters == nook::Vector<std::uint32_t>{slot(2), slot(4)});
   link_nearest(scene, 0, 0);
   update(scene);
   CHECK(instance_of(scene, ids[3]).plan.casters.empty());

@@ -10,12 +10,12 @@
 namespace nook::test {
 
 inline Ref<const LoadedModel> load(CharacterModel model) {
-  std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
+  Memory* memory = default_memory();
   return Owned<LoadedModel>::make(memory, Ref<const RefCounted>(), std::move(model), memory);
 }
 
 inline Scene make_scene(const SceneSettings& settings = {}, const Parallel& parallel = {}) {
-  return Scene(settings, parallel, std::pmr::new_delete_resource());
+  return Scene(settings, parallel, default_memory());
 }
 
 // Every bone alike: turned about the y axis by `turn` radians, scaled, then moved.

@@ -34,7 +34,7 @@ std::string failure_of(nook_result code, Body&& body) {
   return "no failure";
 }
 
-using Slots = std::pmr::vector<std::uint32_t>;
+using Slots = nook::Vector<std::uint32_t>;
 
 std::uint32_t slot_of(const Scene& scene, nook_instance_id id) {
   return static_cast<std::uint32_t>(&instance_of(scene, id) - scene.instances.data());

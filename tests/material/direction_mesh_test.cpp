@@ -11,8 +11,8 @@ using namespace nook::material;
 namespace {
 
 // The 81 directions of the Bonn database: rings that lie on common circles and lines.
-std::pmr::vector<Vec3> rings() {
-  std::pmr::vector<Vec3> directions{{0, 0, 1}};
+nook::Vector<Vec3> rings() {
+  nook::Vector<Vec3> directions{{0, 0, 1}};
   const int counts[] = {6, 12, 18, 20, 24};
   for (int ring = 0; ring < 5; ++ring)
     for (int i = 0; i < counts[ring]; ++i) {
@@ -23,7 +23,7 @@ std::pmr::vector<Vec3> rings() {
   return directions;
 }
 
-ParabolicPoint mixed(const std::pmr::vector<Vec3>& directions, const DirectionMix& mix) {
+ParabolicPoint mixed(const nook::Vector<Vec3>& directions, const DirectionMix& mix) {
   ParabolicPoint p;
   for (int i = 0; i < 3; ++i) {
     const ParabolicPoint corner = to_parabolic(directions[mix.index[i]]);
@@ -37,7 +37,7 @@ float distance(ParabolicPoint a, ParabolicPoint b) {
 }
 
 // The plane through three directions cuts the sphere in their circle; others within lie beyond it.
-bool circle_is_empty(const std::pmr::vector<Vec3>& directions, const DirectionMix& mix) {
+bool circle_is_empty(const nook::Vector<Vec3>& directions, const DirectionMix& mix) {
   const Vec3 a = directions[mix.index[0]], b = directions[mix.index[1]], c = directions[mix.index[2]];
   Vec3 axis = normalised(cross(b - a, c - a));
   if (dot(axis, a + b + c) < 0) axis = -axis;
@@ -123,13 +123,13 @@ TEST_CASE("interpolation is continuous across triangles and beyond the border") 
 
 TEST_CASE("one, two and three directions in a line are enough") {
   std::size_t hint = 0;
-  const std::pmr::vector<Vec3> one{{0, 0, 1}};
+  const nook::Vector<Vec3> one{{0, 0, 1}};
   const DirectionMix alone = DirectionMesh(one).locate({0.5f, 0.5f}, hint);
   CHECK(alone.index[0] == 0);
   CHECK(alone.weight[0] + alone.weight[1] == 1);
-  const std::pmr::vector<Vec3> line{{0, 0, 1}, {0.6f, 0, 0.8f}, {1, 0, 0}};
+  const nook::Vector<Vec3> line{{0, 0, 1}, {0.6f, 0, 0.8f}, {1, 0, 0}};
   for (std::size_t count : {2u, 3u}) {
-    const std::pmr::vector<Vec3> some(line.begin(), line.begin() + std::ptrdiff_t(count));
+    const nook::Vector<Vec3> some(line.begin(), line.begin() + std::ptrdiff_t(count));
     const DirectionMesh mesh(some);
     for (const float x : {-0.5f, 0.0f, 0.1f, 0.2f, 1.0f / 3}) {
       const DirectionMix mix = mesh.locate({x, 0.3f}, hint);

@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t side = 16;  // of view maps that the tables make
 
 MaterialTables tables_of(const Material& material, const Parallel& parallel = {}) {
-  return make_tables(material, parallel, std::pmr::get_default_resource(), side);
+  return make_tables(material, parallel, nook::default_memory(), side);
 }
 
 // A host's jobs: every index on a thread of its own.
@@ -160,7 +160,7 @@ TEST_CASE("without a view map the clusters of the three nearest views are mixed,
   CHECK(cell_terms(cta.btf) == 3);
   CHECK(cell_terms(n_svd.btf) == 1);
   CHECK(cell_terms(test::sample_material(4, {.clusters = 2, .mixture = 1}).btf) == 2);
-  const ViewCells cells = view_cells(cta.btf, cta.views, 32, std::pmr::get_default_resource());
+  const ViewCells cells = view_cells(cta.btf, cta.views, 32, nook::default_memory());
   std::size_t mixed = 0;
   for (std::size_t cell = 0; cell < 32 * 32; ++cell) {
     const std::uint16_t* const clusters = &cells.rows.membership[3 * cell];

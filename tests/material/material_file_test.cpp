@@ -33,24 +33,23 @@ Outcome read_outcome(std::span<const std::byte> bytes) {
 }
 
 // Counts the bytes that a reader allocates.
-class CountingMemory final : public std::pmr::memory_resource {
+class CountingMemory final : public nook::Memory {
  public:
   std::size_t total = 0;
 
  private:
   void* do_allocate(std::size_t size, std::size_t alignment) override {
     total += size;
-    return std::pmr::new_delete_resource()->allocate(size, alignment);
+    return nook::default_memory()->allocate(size, alignment);
   }
   void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
-    std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+    nook::default_memory()->deallocate(memory, size, alignment);
   }
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 };
 
 // A half float has 11 digits: half a step of the number itself, or of the smallest number that keeps all its
 // digits, 2^-28 of the largest.
-void check_near(const std::pmr::vector<float>& got, const std::pmr::vector<float>& want) {
+void check_near(const nook::Vector<float>& got, const nook::Vector<float>& want) {
   REQUIRE(got.size() == want.size());
   float largest = 0;
   for (const float value : want) largest = std::max(largest, std::abs(value));

@@ -23,8 +23,8 @@ class Numbers {
 };
 
 // Evenly spread over the hemisphere (a Fibonacci spiral), the first near the normal.
-inline std::pmr::vector<Vec3> hemisphere(std::uint32_t count) {
-  std::pmr::vector<Vec3> directions;
+inline Vector<Vec3> hemisphere(std::uint32_t count) {
+  Vector<Vec3> directions;
   for (std::uint32_t i = 0; i < count; ++i) {
     const float z = 1 - (float(i) + 0.5f) / float(count), r = std::sqrt(1 - z * z),
                 phi = 2.3999632f * float(i);
@@ -41,7 +41,7 @@ struct SampleSize {
   VisibilityForm visibility = VisibilityForm::distance;
 };
 
-inline void fill(std::pmr::vector<float>& values, std::size_t count, float size, Numbers& numbers) {
+inline void fill(Vector<float>& values, std::size_t count, float size, Numbers& numbers) {
   values.resize(count);
   for (float& value : values) value = numbers.between(-size, size);
 }

@@ -89,7 +89,7 @@ std::vector<float> signed_distance(const std::vector<float>& mask, int size) {
 struct ViewImage {
   std::vector<float> radiance, mask;
 };
-ViewImage look(Vec3 view, const std::pmr::vector<Vec3>& lights, std::uint32_t size, float radius) {
+ViewImage look(Vec3 view, const Vector<Vec3>& lights, std::uint32_t size, float radius) {
   const std::size_t texels = std::size_t(size) * size;
   ViewImage image{std::vector<float>(3 * lights.size() * texels), std::vector<float>(texels)};
   for (std::size_t t = 0; t < texels; ++t) {

@@ -17,7 +17,7 @@ TEST_CASE("expanded modes are the core times both bases, and below their bound")
     const Material material = test::sample_material(5, size);
     const ClusteredTensor& t = material.btf;
     for (std::uint32_t c = 0; c < t.shape.clusters; ++c) {
-      const ModeExpansion expansion(t, c, std::pmr::get_default_resource());
+      const ModeExpansion expansion(t, c, nook::default_memory());
       std::vector<float> scratch(expansion.scratch_size()),
           image(std::size_t(t.shape.width) * t.shape.height);
       for (std::uint32_t a = 0; a < t.shape.rank_light; ++a)

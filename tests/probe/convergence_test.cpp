@@ -31,7 +31,7 @@ struct Truth {
   double residual = 0;  // of the function minus the fit
 };
 
-Truth exact_fit(const Basis& basis, const std::pmr::vector<double>& gram, Vec3 (*f)(Vec3)) {
+Truth exact_fit(const Basis& basis, const nook::Vector<double>& gram, Vec3 (*f)(Vec3)) {
   const std::uint32_t n = basis.count;
   std::vector<double> factor(gram.begin(), gram.end()), moments(3 * n);
   const auto moment = [&](std::uint32_t i, int c) {
@@ -67,7 +67,7 @@ struct Distances {
   double early = 0, late = 0;
 };
 
-Distances distances(const Basis& basis, const std::pmr::vector<double>& gram, const Truth& truth,
+Distances distances(const Basis& basis, const nook::Vector<double>& gram, const Truth& truth,
                     FitMethod method, Vec3 (*f)(Vec3)) {
   constexpr int seeds = 20;
   Distances mean;

@@ -127,7 +127,7 @@ test::Samples sun_by_luminance(std::uint32_t seed, std::size_t count) {
 }
 
 TEST_CASE("a sun sampled by luminance leaves every running average near its exact fit") {
-  const std::pmr::vector<double> gram = basis_gram(vogel_basis(12));
+  const nook::Vector<double> gram = basis_gram(vogel_basis(12));
   for (const auto& [running, exact] :
        {std::pair(FitMethod::running_average, FitMethod::least_squares),
         std::pair(FitMethod::running_average_non_negative, FitMethod::non_negative_least_squares)})

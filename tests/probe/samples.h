@@ -67,15 +67,14 @@ inline Coefficients read(probe::Fit& fit) {
 }
 
 // Integral over the domain of the squared difference of two fits, all channels: (a - b)^T G (a - b).
-inline double squared_distance(const std::pmr::vector<double>& gram, std::span<const Vec3> a,
-                               std::span<const Vec3> b) {
+inline double squared_distance(const Vector<double>& gram, std::span<const Vec3> a, std::span<const Vec3> b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t k = 0; k < a.size(); ++k)
       sum += gram[i * a.size() + k] * double(dot(a[i] - b[i], a[k] - b[k]));
   return sum;
 }
-inline double squared_norm(const std::pmr::vector<double>& gram, std::span<const Vec3> a) {
+inline double squared_norm(const Vector<double>& gram, std::span<const Vec3> a) {
   return squared_distance(gram, a, Coefficients(a.size()));
 }
 

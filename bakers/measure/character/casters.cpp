@@ -36,7 +36,7 @@ double weighted_mean(std::span<const float> value, std::span<const float> weight
 class ModelDarkening {
  public:
   ModelDarkening(const CharacterModel& model, nook_combine combine, std::span<const float> area)
-      : memory_(std::pmr::get_default_resource()), scene_(settings(combine), Parallel{}, memory_) {
+      : memory_(default_memory()), scene_(settings(combine), Parallel{}, memory_) {
     const Ref<const LoadedModel> loaded =
         Owned<LoadedModel>::make(memory_, Ref<const RefCounted>(), CharacterModel(model), memory_);
     receiver_ = add_instance(scene_, loaded);
@@ -69,7 +69,7 @@ class ModelDarkening {
     return weighted_mean(ao, file_area_);
   }
 
-  std::pmr::memory_resource* memory_;
+  Memory* memory_;
   Scene scene_;
   std::vector<float> file_area_;
   nook_instance_id receiver_ = 0, caster_ = 0;

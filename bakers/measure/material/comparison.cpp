@@ -14,7 +14,7 @@ using nook::material::ClusteredTensor;
 using nook::material::Material;
 using nook::material::VisibilityForm;
 
-std::vector<float> plain(const std::pmr::vector<float>& values) {
+std::vector<float> plain(const Vector<float>& values) {
   return {values.begin(), values.end()};
 }
 

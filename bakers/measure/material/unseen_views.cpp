@@ -16,8 +16,8 @@ using nook::material::Material;
 using nook::material::VisibilityForm;
 
 void replace_views(ClusteredTensor& tensor, const Material& material, const std::vector<Vec3>& views) {
-  const nook::material::ViewCells cells = nook::material::view_cells(
-      tensor, material.views, nook::material::default_map_side, std::pmr::get_default_resource());
+  const nook::material::ViewCells cells =
+      nook::material::view_cells(tensor, material.views, nook::material::default_map_side, default_memory());
   const std::size_t terms = cells.terms, rank = tensor.shape.rank_view;
   nook::material::ViewRows rows;
   for (const Vec3 view : views) {
@@ -36,7 +36,7 @@ void replace_views(ClusteredTensor& tensor, const Material& material, const std:
 }
 
 // Directions come from files as floats, written by the same spiral.
-bool same_directions(const std::vector<Vec3>& a, const std::pmr::vector<Vec3>& b) {
+bool same_directions(const std::vector<Vec3>& a, const Vector<Vec3>& b) {
   return std::ranges::equal(a, b, [](Vec3 p, Vec3 q) { return length(p - q) < 1e-5f; });
 }
 

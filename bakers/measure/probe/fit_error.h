@@ -2,11 +2,11 @@
 // of the basis, no samples.
 #pragma once
 
-#include <memory_resource>
 #include <span>
 #include <vector>
 
 #include "bakers/probe/map_light.h"
+#include "sdk/src/core/containers.h"
 #include "sdk/src/probe/evaluate.h"
 
 namespace nook::bake::probe {
@@ -36,7 +36,7 @@ class ExactFit {
 
   Basis basis_;
   MapIntegrals map_;
-  std::pmr::vector<double> gram_, integral_;
+  Vector<double> gram_, integral_;
   std::vector<Channels> best_;
   double least_ = 0;  // square error of best_
   double size_ = 0;   // |R_LS|^2

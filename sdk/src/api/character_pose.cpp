@@ -94,8 +94,8 @@ void log_projection(nook_scene scene, nook_instance_id instance, const Projected
 }
 
 // The rest vertices and places of a check, as its caller gave them.
-std::pmr::vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, const nook_pose_check& check,
-                                                 std::pmr::memory_resource* memory) {
+nook::Vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, const nook_pose_check& check,
+                                             nook::Memory* memory) {
   constexpr std::uint32_t min_vertices = 8;
   need(check.positions, "check.positions");
   const std::size_t known = model.bind.vertices.size();
@@ -108,7 +108,7 @@ std::pmr::vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, co
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "check.stride is too small (got %zu bytes, need 0 or at least 12)", stride);
   const Affine place = read_place(check.place_3x4, "check.place_3x4");
-  std::pmr::vector<SkinnedVertex> out(memory);
+  nook::Vector<SkinnedVertex> out(memory);
   for (std::uint32_t v = 0; v < check.vertex_count; ++v) {
     const std::uint32_t rest = check.rest_vertices ? check.rest_vertices[v] : v;
     if (rest >= known)
@@ -263,7 +263,7 @@ nook_result nook_character_model_check_pose(nook_character_model model, const no
                     double(check->tolerance));
     PoseSource source = source_of(model->model, desc);
     check_pose_source(model->model, source);
-    std::pmr::memory_resource* const memory = model->context->memory();
+    nook::Memory* const memory = model->context->memory();
     const auto vertices = skinned_vertices(model->model, *check, memory);
     const double tolerance = check->tolerance > 0 ? check->tolerance : default_tolerance;
     const PoseFinding finding = find_pose_fault(model->model, source, vertices, tolerance, memory);

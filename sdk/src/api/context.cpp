@@ -77,8 +77,7 @@ nook_result nook_context_create(const nook_context_desc* desc, nook_context* out
           "desc.allocator has only one function (got %s, need both or none); set allocate and release",
           settings.allocator.allocate ? "allocate" : "release");
     HostMemory memory(settings.allocator);
-    void* place = static_cast<std::pmr::memory_resource&>(memory).allocate(sizeof(nook_context_s),
-                                                                           alignof(nook_context_s));
+    void* place = static_cast<Memory&>(memory).allocate(sizeof(nook_context_s), alignof(nook_context_s));
     *out = new (place) nook_context_s(settings);
     (*out)->log(NOOK_LOG_INFO, "nook %d.%d.%d, instruction set %s", NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR,
                 NOOK_VERSION_PATCH, best_shadow_kernels().name);

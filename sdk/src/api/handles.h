@@ -17,7 +17,7 @@ struct nook_context_s final : nook::Context {
   void destroy() noexcept override {
     nook::HostMemory memory(allocator());
     this->~nook_context_s();
-    static_cast<std::pmr::memory_resource&>(memory).deallocate(this, sizeof *this, alignof(nook_context_s));
+    static_cast<nook::Memory&>(memory).deallocate(this, sizeof *this, alignof(nook_context_s));
   }
 };
 

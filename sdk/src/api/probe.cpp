@@ -40,7 +40,7 @@ void write_vec3(float* out, Vec3 v) {
   out[2] = v.z;
 }
 
-Probes probes_of(const nook_probe_desc& desc, std::pmr::memory_resource* memory) {
+Probes probes_of(const nook_probe_desc& desc, nook::Memory* memory) {
   need(desc.functions, "desc.functions");
   need(desc.coefficients, "desc.coefficients");
   if (desc.reserved != 0)

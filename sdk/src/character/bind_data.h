@@ -6,9 +6,9 @@
 
 #include <array>
 #include <cstdint>
-#include <memory_resource>
 #include <vector>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook {
@@ -37,7 +37,7 @@ struct RestVertex {
 };
 
 struct BindData {
-  explicit BindData(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+  explicit BindData(Memory* memory = default_memory())
       : bones(memory),
         rest_from_mesh(memory),
         primitive_space(memory),
@@ -47,24 +47,23 @@ struct BindData {
 
   static constexpr std::uint32_t max_vertices = 64;
 
-  std::pmr::vector<BoneBind> bones;  // one for each bone; empty: the model has no bind data
+  Vector<BoneBind> bones;  // one for each bone; empty: the model has no bind data
   // The matrices from the space of a mesh's POSITION attribute to rest space that occur in the file.
-  std::pmr::vector<Mat3x4> rest_from_mesh;
-  std::pmr::vector<std::uint16_t> primitive_space;  // for each primitive its index into rest_from_mesh
-  std::pmr::vector<SkinBind> skins;                 // none: the meshes are rigid, or came as arrays
-  std::pmr::vector<std::uint16_t> bone_of_joint;    // of all skins
-  std::pmr::vector<RestVertex> vertices;            // at most max_vertices, spread over the bones
+  Vector<Mat3x4> rest_from_mesh;
+  Vector<std::uint16_t> primitive_space;  // for each primitive its index into rest_from_mesh
+  Vector<SkinBind> skins;                 // none: the meshes are rigid, or came as arrays
+  Vector<std::uint16_t> bone_of_joint;    // of all skins
+  Vector<RestVertex> vertices;            // at most max_vertices, spread over the bones
 
   bool empty() const { return bones.empty(); }
 };
 
 // Rest positions and normals of the welded vertices; both may be empty.
 struct RestSurface {
-  explicit RestSurface(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : position(memory), normal(memory) {}
+  explicit RestSurface(Memory* memory = default_memory()) : position(memory), normal(memory) {}
 
-  std::pmr::vector<Vec3> position;  // rest space, metres
-  std::pmr::vector<Vec3> normal;    // unit length
+  Vector<Vec3> position;  // rest space, metres
+  Vector<Vec3> normal;    // unit length
 };
 
 }  // namespace nook

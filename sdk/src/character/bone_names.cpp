@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string_view>
-#include <unordered_map>
 
 namespace nook {
 namespace {
@@ -31,9 +30,9 @@ std::size_t shared_prefix(std::span<const std::string_view> names) {
   return last == std::string_view::npos ? 0 : last + 1;
 }
 
-using Names = std::pmr::vector<std::string_view>;
+using Names = Vector<std::string_view>;
 
-void drop_shared_prefix(Names& names, std::pmr::memory_resource* memory) {
+void drop_shared_prefix(Names& names, Memory* memory) {
   Names given(memory);
   for (const std::string_view name : names)
     if (!name.empty()) given.push_back(name);
@@ -43,8 +42,8 @@ void drop_shared_prefix(Names& names, std::pmr::memory_resource* memory) {
 }
 
 // The form in which names are compared.
-std::pmr::string key_of(std::string_view name, bool is_loose, std::pmr::memory_resource* memory) {
-  std::pmr::string key(memory);
+String key_of(std::string_view name, bool is_loose, Memory* memory) {
+  String key(memory);
   for (const char c : name) {
     if (is_loose && (c == ' ' || separators.find(c) != std::string_view::npos)) continue;
     key += is_loose && c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -52,28 +51,40 @@ std::pmr::string key_of(std::string_view name, bool is_loose, std::pmr::memory_r
   return key;
 }
 
+struct KeyedIndex {
+  String key;
+  std::int32_t index;
+};
+
 }  // namespace
 
 std::size_t map_bones(const CharacterModel& model, const nook_bone_names& names,
-                      std::span<std::int32_t> transform_of_bone, std::pmr::memory_resource* memory) {
+                      std::span<std::int32_t> transform_of_bone, Memory* memory) {
   Names host(memory), own(memory);
   for (std::uint32_t i = 0; i < names.name_count; ++i)
     host.push_back(without(text_of(names.names[i]), text_of(names.host_prefix), text_of(names.host_suffix)));
-  for (const std::pmr::string& name : model.bone_names)
+  for (const String& name : model.bone_names)
     own.push_back(without(name, text_of(names.model_prefix), text_of(names.model_suffix)));
   if (names.flags & NOOK_BONE_NAMES_DROP_SHARED_PREFIX) {
     drop_shared_prefix(host, memory);
     drop_shared_prefix(own, memory);
   }
   const bool is_loose = names.flags & NOOK_BONE_NAMES_LOOSE;
-  std::pmr::unordered_map<std::pmr::string, std::int32_t> index_of(memory);
+  Vector<KeyedIndex> index_of(memory);
   for (std::size_t i = 0; i < host.size(); ++i)
     if (!host[i].empty())
-      index_of.try_emplace(key_of(host[i], is_loose, memory), static_cast<std::int32_t>(i));
+      index_of.push_back({key_of(host[i], is_loose, memory), static_cast<std::int32_t>(i)});
+  // Of equal keys the host's first one counts.
+  std::sort(index_of.begin(), index_of.end(), [](const KeyedIndex& a, const KeyedIndex& b) {
+    return a.key != b.key ? a.key < b.key : a.index < b.index;
+  });
   std::size_t unmatched = 0;
   for (std::size_t b = 0; b < own.size(); ++b) {
-    const auto found = index_of.find(key_of(own[b], is_loose, memory));
-    std::int32_t index = found == index_of.end() ? -1 : found->second;
+    const String key = key_of(own[b], is_loose, memory);
+    const auto found =
+        std::lower_bound(index_of.begin(), index_of.end(), key,
+                         [](const KeyedIndex& entry, const String& wanted) { return entry.key < wanted; });
+    std::int32_t index = found == index_of.end() || found->key != key ? -1 : found->index;
     if (index < 0 && !model.bind.empty() && model.bind.bones[b].first_of_joint < b)
       index = transform_of_bone[model.bind.bones[b].first_of_joint];
     transform_of_bone[b] = index;

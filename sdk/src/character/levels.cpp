@@ -18,7 +18,7 @@ struct Shadows {
 };
 
 // Returns the shadows that the given spheres cast on all key points of the model.
-Shadows evaluate(const CharacterModel& model, const std::pmr::vector<ProxySphere>& spheres,
+Shadows evaluate(const CharacterModel& model, const Vector<ProxySphere>& spheres,
                  std::span<const std::vector<Mat3x4>> poses) {
   CharacterModel part;
   part.bone_names = model.bone_names;
@@ -63,8 +63,8 @@ ProxySphere merge(const ProxySphere& a, const ProxySphere& b) {
 
 // Merges the pairs with the smallest cost until `target` spheres remain: near pairs before distant ones and
 // small spheres before large ones, never across bones.
-std::pmr::vector<ProxySphere> merge_spheres(const CharacterModel& model, std::size_t target) {
-  std::pmr::vector<ProxySphere> spheres(model.spheres.begin(), model.spheres.end());
+Vector<ProxySphere> merge_spheres(const CharacterModel& model, std::size_t target) {
+  Vector<ProxySphere> spheres(model.spheres.begin(), model.spheres.end());
   while (spheres.size() > target) {
     float least = INFINITY;
     std::size_t first = 0, second = 0;

@@ -2,11 +2,11 @@
 // other poses.
 #pragma once
 
-#include <memory_resource>
 #include <span>
 #include <vector>
 
 #include "sdk/src/character/model.h"
+#include "sdk/src/core/memory.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook {

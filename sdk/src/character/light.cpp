@@ -39,7 +39,7 @@ Vec3 darkest_of(std::span<const SphericalGaussian> lobes) {
   return {std::max(mean.x, tiny), std::max(mean.y, tiny), std::max(mean.z, tiny)};
 }
 
-void allocate(InstanceLight& light, const PointLanes& points, std::pmr::memory_resource* memory) {
+void allocate(InstanceLight& light, const PointLanes& points, Memory* memory) {
   AlignedArray<LightLobe> lobes(max_light_lobes, memory);
   AlignedArray<LobeBands> lobe_bands(max_light_lobes, memory);
   light.storage = AlignedArray<float>(std::size_t{15} * points.padded_count, memory);
@@ -157,8 +157,7 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
   if (lobes.empty()) light.evaluated = false;
 }
 
-InstanceLight moved_light(const InstanceLight& light, const PointLanes& points,
-                          std::pmr::memory_resource* memory) {
+InstanceLight moved_light(const InstanceLight& light, const PointLanes& points, Memory* memory) {
   InstanceLight moved;
   if (light.lobes.size() == 0) return moved;
   allocate(moved, points, memory);

@@ -44,8 +44,7 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
 
 // The light of an instance whose key points changed with its model: the same lobes, not evaluated yet. Throws
 // std::bad_alloc.
-InstanceLight moved_light(const InstanceLight& light, const PointLanes& points,
-                          std::pmr::memory_resource* memory);
+InstanceLight moved_light(const InstanceLight& light, const PointLanes& points, Memory* memory);
 
 // Runs after resolve_casters: computes the part of each lobe that the ground leaves, and its bands. Does
 // nothing without a light.

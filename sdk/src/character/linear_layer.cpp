@@ -30,11 +30,10 @@ std::uint32_t block_count_of(std::size_t vertices) {
 // The columns of all blocks, one block after another: the key points that the vertices of a block use, each
 // once and in ascending order.
 struct Columns {
-  std::pmr::vector<std::uint16_t> key_point;
-  std::pmr::vector<std::uint32_t> first;  // for each block, and the end
+  Vector<std::uint16_t> key_point;
+  Vector<std::uint32_t> first;  // for each block, and the end
 
-  Columns(const CharacterModel& model, const std::pmr::vector<std::uint32_t>& order,
-          std::pmr::memory_resource* memory)
+  Columns(const CharacterModel& model, const Vector<std::uint32_t>& order, Memory* memory)
       : key_point(memory), first(memory) {
     first.push_back(0);
     for (std::size_t begin = 0; begin < order.size(); begin += linear_block_vertices) {
@@ -59,12 +58,12 @@ struct Columns {
 
 }  // namespace
 
-LinearLayer::LinearLayer(const CharacterModel& model, std::pmr::memory_resource* memory)
+LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
     : blocks_(block_count_of(model.vertex_count()), memory),
       open_bias_(blocks_.size() * linear_block_vertices, memory),
       file_to_slot_(model.file_to_welded.size(), memory) {
   check_influences(model);
-  const std::pmr::vector<std::uint32_t> order = linear_layer_order(model, linear_block_vertices, memory);
+  const Vector<std::uint32_t> order = linear_layer_order(model, linear_block_vertices, memory);
   const Columns columns(model, order, memory);
 
   for (std::size_t b = 0; b < blocks_.size(); ++b)

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory_resource>
 
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/shadow_kernels.h"
 #include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/memory.h"
 
 namespace nook {
 
@@ -15,8 +15,7 @@ class LinearLayer {
  public:
   // Entries with alpha 0 are left out. Throws Failure if an influence is not a key point of the model, or if
   // the length of an array does not match the model's counts.
-  explicit LinearLayer(const CharacterModel& model,
-                       std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+  explicit LinearLayer(const CharacterModel& model, Memory* memory = default_memory());
 
   const LinearView& view() const { return view_; }
   // Returns the maximum over vertices of the sum of absolute blend weights, which is the largest gain of an

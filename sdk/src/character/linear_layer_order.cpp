@@ -12,8 +12,8 @@ namespace {
 using Place = std::array<float, 6>;
 constexpr float normal_scale_metres = 0.05f;
 
-std::pmr::vector<Place> vertex_places(const CharacterModel& model, std::pmr::memory_resource* memory) {
-  std::pmr::vector<Place> places(model.vertex_count(), Place{}, memory);
+Vector<Place> vertex_places(const CharacterModel& model, Memory* memory) {
+  Vector<Place> places(model.vertex_count(), Place{}, memory);
   for (std::size_t v = 0; v < places.size(); ++v) {
     Vec3 position, normal;
     float alpha_sum = 0;
@@ -34,7 +34,7 @@ std::pmr::vector<Place> vertex_places(const CharacterModel& model, std::pmr::mem
   return places;
 }
 
-std::size_t longest_side(std::span<const std::uint32_t> vertices, const std::pmr::vector<Place>& places) {
+std::size_t longest_side(std::span<const std::uint32_t> vertices, const Vector<Place>& places) {
   Place low = places[vertices[0]], high = low;
   for (const std::uint32_t v : vertices)
     for (std::size_t a = 0; a < low.size(); ++a) {
@@ -49,8 +49,7 @@ std::size_t longest_side(std::span<const std::uint32_t> vertices, const std::pmr
 
 // Both halves are whole blocks, except for the last block. The recursion depth is the logarithm of the number
 // of blocks.
-void halve(std::span<std::uint32_t> vertices, std::size_t block_vertices,
-           const std::pmr::vector<Place>& places) {
+void halve(std::span<std::uint32_t> vertices, std::size_t block_vertices, const Vector<Place>& places) {
   if (vertices.size() <= block_vertices) return;
   const std::size_t blocks = (vertices.size() + block_vertices - 1) / block_vertices;
   const std::size_t middle = blocks / 2 * block_vertices;
@@ -65,10 +64,10 @@ void halve(std::span<std::uint32_t> vertices, std::size_t block_vertices,
 
 }  // namespace
 
-std::pmr::vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
-                                                   std::pmr::memory_resource* memory) {
-  const std::pmr::vector<Place> places = vertex_places(model, memory);
-  std::pmr::vector<std::uint32_t> order(model.vertex_count(), 0, memory);
+Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
+                                         Memory* memory) {
+  const Vector<Place> places = vertex_places(model, memory);
+  Vector<std::uint32_t> order(model.vertex_count(), 0, memory);
   for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = v;
   halve(order, block_vertices, places);
   return order;

@@ -3,17 +3,17 @@
 #pragma once
 
 #include <cstdint>
-#include <memory_resource>
 #include <vector>
 
 #include "sdk/src/character/model.h"
+#include "sdk/src/core/containers.h"
 
 namespace nook {
 
 // Returns all vertices in the order of their slots, by halving the longest side of their bounding box until
 // each part is one block. The place of a vertex is the weighted mean of its key points, in position and
 // direction. The model's influences must be valid.
-std::pmr::vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
-                                                   std::pmr::memory_resource* memory);
+Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
+                                         Memory* memory);
 
 }  // namespace nook

@@ -11,10 +11,9 @@ void grow(LoadedModel::BoneBound& bound, Vec3 place, float radius) {
 
 // The bound is centred on the mean of the points that the bone moves; a slightly larger radius than that of
 // the smallest sphere is sufficient.
-AlignedArray<LoadedModel::BoneBound> make_bone_bounds(const CharacterModel& model,
-                                                      std::pmr::memory_resource* memory) {
+AlignedArray<LoadedModel::BoneBound> make_bone_bounds(const CharacterModel& model, Memory* memory) {
   AlignedArray<LoadedModel::BoneBound> bounds(model.bone_count(), memory);
-  std::pmr::vector<std::uint32_t> count(model.bone_count(), 0u, memory);
+  Vector<std::uint32_t> count(model.bone_count(), 0u, memory);
   const auto visit = [&](auto&& body) {
     for (const ProxySphere& sphere : model.spheres) body(sphere.bone, sphere.centre, sphere.radius);
     for (const CharacterLevel& level : model.levels)
@@ -38,8 +37,8 @@ AlignedArray<LoadedModel::BoneBound> make_bone_bounds(const CharacterModel& mode
   return bounds;
 }
 
-std::pmr::vector<LoadedLevel> load_levels(const CharacterModel& model, std::pmr::memory_resource* memory) {
-  std::pmr::vector<LoadedLevel> loaded(memory);
+Vector<LoadedLevel> load_levels(const CharacterModel& model, Memory* memory) {
+  Vector<LoadedLevel> loaded(memory);
   loaded.reserve(model.levels.size());
   for (const CharacterLevel& level : model.levels) {
     CharacterModel subset(memory);
@@ -53,7 +52,7 @@ std::pmr::vector<LoadedLevel> load_levels(const CharacterModel& model, std::pmr:
 }
 
 // Maps slots of the linear layer to file vertices, as one list of lists.
-void invert_file_order(LoadedModel& loaded, std::pmr::memory_resource* memory) {
+void invert_file_order(LoadedModel& loaded, Memory* memory) {
   const AlignedArray<std::uint32_t>& slot_of = loaded.linear.file_to_slot();
   const std::size_t slots = loaded.linear.padded_slots(), file_vertices = loaded.model.file_to_welded.size();
   loaded.slot_begin = AlignedArray<std::uint32_t>(slots + 1, memory);
@@ -67,7 +66,7 @@ void invert_file_order(LoadedModel& loaded, std::pmr::memory_resource* memory) {
 
 }  // namespace
 
-LoadedModel::LoadedModel(CharacterModel loaded, std::pmr::memory_resource* memory)
+LoadedModel::LoadedModel(CharacterModel loaded, Memory* memory)
     : model(std::move(loaded)),
       rest_spheres(model, memory),
       rest_key_points(model, memory),
@@ -82,7 +81,7 @@ LoadedModel::LoadedModel(CharacterModel loaded, std::pmr::memory_resource* memor
     for (std::uint32_t e = 0; e < model.influences; ++e) sum += model.alpha[i * model.influences + e];
     max_alpha_sum = std::max(max_alpha_sum, sum);
   }
-  const auto strength = [](const std::pmr::vector<ProxySphere>& spheres) {
+  const auto strength = [](const Vector<ProxySphere>& spheres) {
     float sum = 0;
     for (const ProxySphere& sphere : spheres) sum += sphere.caster_weight * sphere.radius * sphere.radius;
     return sum;

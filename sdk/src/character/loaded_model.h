@@ -10,7 +10,7 @@ namespace nook {
 
 // Spheres and evaluated key points of one level of detail in the layout of the pose kernels.
 struct LoadedLevel {
-  LoadedLevel(const CharacterModel& subset, std::pmr::memory_resource* memory)
+  LoadedLevel(const CharacterModel& subset, Memory* memory)
       : rest_spheres(subset, memory), rest_key_points(subset, memory) {}
 
   RestSpheres rest_spheres;
@@ -19,13 +19,13 @@ struct LoadedLevel {
 
 struct LoadedModel : RefCounted {
   // The model must have passed check_model.
-  LoadedModel(CharacterModel loaded, std::pmr::memory_resource* memory);
+  LoadedModel(CharacterModel loaded, Memory* memory);
 
   const CharacterModel model;
   const RestSpheres rest_spheres;
   const RestKeyPoints rest_key_points;
   const LinearLayer linear;
-  const std::pmr::vector<LoadedLevel> levels;  // those of model.levels; full detail is not among them
+  const Vector<LoadedLevel> levels;  // those of model.levels; full detail is not among them
 
   // The file vertices that take the AO of slot s of the linear layer are
   // slot_file_vertex[slot_begin[s]...slot_begin[s + 1]].

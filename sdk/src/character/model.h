@@ -3,13 +3,13 @@
 
 #include <array>
 #include <cstdint>
-#include <memory_resource>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sdk/src/character/bind_data.h"
 #include "sdk/src/character/kernel.h"
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook {
@@ -43,7 +43,7 @@ struct PrimitiveRange {
 // A coarser version of the non-linear layer for distant instances: fewer spheres act on fewer key points, and
 // the shadow of every key point is derived from an evaluated one. The linear layer is the same.
 struct CharacterLevel {
-  using allocator_type = std::pmr::polymorphic_allocator<>;
+  using allocator_type = Allocator<std::byte>;
   explicit CharacterLevel(const allocator_type& memory = {})
       : spheres(memory), evaluated(memory), source(memory), scale(memory), offset(memory) {}
   CharacterLevel(const CharacterLevel&) = default;
@@ -57,19 +57,19 @@ struct CharacterLevel {
   CharacterLevel& operator=(const CharacterLevel&) = default;
   CharacterLevel& operator=(CharacterLevel&&) = default;
 
-  std::pmr::vector<ProxySphere> spheres;
-  std::pmr::vector<std::uint16_t> evaluated;  // key points, ascending
+  Vector<ProxySphere> spheres;
+  Vector<std::uint16_t> evaluated;  // key points, ascending
   // For each key point k, shadow[k] = max(0, scale[k] * shadow[evaluated[source[k]]] + offset[k]). The
   // occlusion by other casters is taken over unchanged.
-  std::pmr::vector<std::uint16_t> source;
-  std::pmr::vector<float> scale;
-  std::pmr::vector<float> offset;
+  Vector<std::uint16_t> source;
+  Vector<float> scale;
+  Vector<float> offset;
   // Error of the AO of the instance alone against full detail, over vertices and held-out poses.
   float error_rms = 0;
 };
 
 struct CharacterModel {
-  explicit CharacterModel(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+  explicit CharacterModel(Memory* memory = default_memory())
       : bone_names(memory),
         spheres(memory),
         key_points(memory),
@@ -88,28 +88,28 @@ struct CharacterModel {
   static constexpr std::uint32_t max_influences = 8;
 
   Kernel kernel;
-  std::pmr::vector<std::pmr::string> bone_names;  // one for each bone
-  std::pmr::vector<ProxySphere> spheres;
-  std::pmr::vector<KeyPoint> key_points;
+  Vector<String> bone_names;  // one for each bone
+  Vector<ProxySphere> spheres;
+  Vector<KeyPoint> key_points;
 
   // Linear layer: the AO of welded vertex i is 1 - (sum_s alpha[i * influences + s] * shadow[influence[...]]
   // + bias[i]).
-  std::uint32_t influences = 0;  // entries per vertex, 1 to max_influences; unused ones have alpha 0
-  std::pmr::vector<std::uint16_t> influence;  // key-point indices
-  std::pmr::vector<float> alpha;              // >= 0; at least one entry of each vertex is > 0
-  std::pmr::vector<float> bias;
+  std::uint32_t influences = 0;     // entries per vertex, 1 to max_influences; unused ones have alpha 0
+  Vector<std::uint16_t> influence;  // key-point indices
+  Vector<float> alpha;              // >= 0; at least one entry of each vertex is > 0
+  Vector<float> bias;
   // The occlusion by other casters is blended from the same key points: AO is also multiplied by 1 - sum_s
   // blend[i * influences + s] * occlusion[influence[...]]. The weights of a vertex sum to 1; some may be
   // negative, and they are 0 where alpha is 0.
-  std::pmr::vector<float> blend;
+  Vector<float> blend;
   // AO of the rest pose for each welded vertex, as in a static bake; may be empty.
-  std::pmr::vector<float> static_ao;
+  Vector<float> static_ao;
 
-  std::pmr::vector<std::uint32_t> file_to_welded;  // the welded vertex of each vertex in file order
-  std::pmr::vector<PrimitiveRange> primitives;
+  Vector<std::uint32_t> file_to_welded;  // the welded vertex of each vertex in file order
+  Vector<PrimitiveRange> primitives;
 
   static constexpr std::size_t max_levels = 4;
-  std::pmr::vector<CharacterLevel> levels;  // from fine to coarse, without full detail; may be empty
+  Vector<CharacterLevel> levels;  // from fine to coarse, without full detail; may be empty
 
   float bounding_radius = 0;  // metres, of the rest pose around bounding_centre
   Vec3 bounding_centre;
@@ -118,7 +118,7 @@ struct CharacterModel {
   BindData bind;     // may be empty
   RestSurface rest;  // may be empty
 
-  std::pmr::string recipe;  // JSON text of the bake's settings; the runtime does not read it
+  String recipe;  // JSON text of the bake's settings; the runtime does not read it
 
   std::size_t vertex_count() const { return bias.size(); }
   std::size_t bone_count() const { return bone_names.size(); }

@@ -52,8 +52,7 @@ struct Check {
   }
 };
 
-void check_spheres(const CharacterModel& model, const std::pmr::vector<ProxySphere>& spheres,
-                   const Check& check) {
+void check_spheres(const CharacterModel& model, const Vector<ProxySphere>& spheres, const Check& check) {
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const ProxySphere& sphere = spheres[i];
     check.place("centre of sphere", i, sphere.centre);
@@ -239,7 +238,7 @@ void check_model(const CharacterModel& model, nook_result code) {
   check.that(model.root_bone < model.bone_count(), "root bone", 0, model.root_bone,
              "less than the number of bones");
   for (std::size_t b = 0; b < model.bone_count(); ++b)
-    if (model.bone_names[b].find('\0') != std::pmr::string::npos)
+    if (model.bone_names[b].find('\0') != String::npos)
       throw Failure(code, "the name of bone %zu holds a NUL character; bake the model again", b);
   check_spheres(model, model.spheres, check);
   check_key_points(model, check);

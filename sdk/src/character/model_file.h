@@ -8,12 +8,12 @@
 #pragma once
 
 #include <cstddef>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
 #include "sdk/src/character/model.h"
 #include "sdk/src/core/container.h"
+#include "sdk/src/core/memory.h"
 
 namespace nook {
 
@@ -24,8 +24,7 @@ std::vector<std::byte> write_character_model(const CharacterModel& model);
 
 // Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
 // NOOK_ERROR_FILE_VERSION), and allocates no more than a small multiple of the file's size.
-CharacterModel read_character_model(std::span<const std::byte> bytes,
-                                    std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+CharacterModel read_character_model(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
 // Returns the model after a write and a read, so that the bakers can measure the error of quantisation.
 CharacterModel quantise(const CharacterModel& model);

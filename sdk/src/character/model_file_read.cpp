@@ -35,7 +35,7 @@ void read_bone_names(ByteReader in, CharacterModel& model) {
       throw Failure(NOOK_ERROR_BAD_FILE,
                     "the name of bone %u repeats too much (got %u bytes); bake the file again", i, shared);
     const std::string_view tail = in.text(rest);
-    std::pmr::string& name = model.bone_names.emplace_back();
+    String& name = model.bone_names.emplace_back();
     name.reserve(shared + rest);
     if (i > 0) name.append(model.bone_names[i - 1], 0, shared);
     name.append(tail);
@@ -43,7 +43,7 @@ void read_bone_names(ByteReader in, CharacterModel& model) {
   in.check_end();
 }
 
-void read_spheres(ByteReader& in, std::pmr::vector<ProxySphere>& spheres, int bone_bits) {
+void read_spheres(ByteReader& in, Vector<ProxySphere>& spheres, int bone_bits) {
   const std::uint32_t count = in.varint();
   const Box box = read_box(in, max_box_metres);
   const Range radius = read_range(in, max_box_metres);
@@ -302,7 +302,7 @@ void read_rest_surface(ByteReader in, CharacterModel& model) {
 
 }  // namespace
 
-CharacterModel read_character_model(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
+CharacterModel read_character_model(std::span<const std::byte> bytes, Memory* memory) {
   const Container file(bytes, character_kind);
   CharacterModel model(memory);
   read_head(file.section("HEAD"), model);

@@ -30,7 +30,7 @@ ByteWriter write_bone_names(const CharacterModel& model) {
   ByteWriter out;
   out.varint(static_cast<std::uint32_t>(model.bone_count()));
   std::string_view before;
-  for (const std::pmr::string& text : model.bone_names) {
+  for (const String& text : model.bone_names) {
     const std::string_view name = text;
     const auto shared = std::ranges::mismatch(before.substr(0, max_shared_name), name).in2 - name.begin();
     out.varint(static_cast<std::uint32_t>(shared));
@@ -41,7 +41,7 @@ ByteWriter write_bone_names(const CharacterModel& model) {
   return out;
 }
 
-void write_spheres(ByteWriter& out, const std::pmr::vector<ProxySphere>& spheres, std::size_t bones) {
+void write_spheres(ByteWriter& out, const Vector<ProxySphere>& spheres, std::size_t bones) {
   const ProxySphere& first = spheres.front();
   Box box = Box::around(first.centre);
   Range radius{first.radius, first.radius}, weight{0, 0};

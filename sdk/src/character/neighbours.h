@@ -4,16 +4,16 @@
 #pragma once
 
 #include <cstdint>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook {
 
 struct NeighbourTree {
-  explicit NeighbourTree(std::pmr::memory_resource* memory) : entries(memory), nodes(memory) {}
+  explicit NeighbourTree(Memory* memory) : entries(memory), nodes(memory) {}
 
   struct Entry {
     Vec3 place;
@@ -26,8 +26,8 @@ struct NeighbourTree {
     std::uint32_t min_slot = 0;
   };
 
-  std::pmr::vector<Entry> entries;
-  std::pmr::vector<Node> nodes;
+  Vector<Entry> entries;
+  Vector<Node> nodes;
 };
 
 inline constexpr std::uint32_t max_nearest = 16;

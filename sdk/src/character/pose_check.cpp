@@ -53,13 +53,13 @@ struct Check {
   const CharacterModel& model;
   const PoseSource& given;
   double tolerance_ws = 0;
-  std::pmr::vector<const RestVertex*> vertex;  // those whose bones all have transforms
-  std::pmr::vector<V3> host;                   // where the host has them
-  std::pmr::vector<std::uint8_t> has_matrix;   // for each bone
-  std::pmr::vector<Affine> matrix;             // for each bone, of the latest reading
-  std::pmr::vector<V3> posed;                  // by the latest reading
+  Vector<const RestVertex*> vertex;  // those whose bones all have transforms
+  Vector<V3> host;                   // where the host has them
+  Vector<std::uint8_t> has_matrix;   // for each bone
+  Vector<Affine> matrix;             // for each bone, of the latest reading
+  Vector<V3> posed;                  // by the latest reading
 
-  Check(const CharacterModel& of, const PoseSource& source, std::pmr::memory_resource* memory)
+  Check(const CharacterModel& of, const PoseSource& source, Memory* memory)
       : model(of),
         given(source),
         vertex(memory),
@@ -192,7 +192,7 @@ nook_transform_layout transposed(nook_transform_layout layout) {
 }
 
 // The readings of another kind or skin, the likeliest first.
-void add_kinds(const Check& check, std::pmr::vector<Reading>& out) {
+void add_kinds(const Check& check, Vector<Reading>& out) {
   const PoseSource& given = check.given;
   for (std::uint32_t skin = 0; skin < check.model.bind.skins.size(); ++skin) {
     Reading reading{given};
@@ -213,8 +213,8 @@ void add_kinds(const Check& check, std::pmr::vector<Reading>& out) {
   }
 }
 
-std::pmr::vector<Reading> other_readings(const Check& check, std::pmr::memory_resource* memory) {
-  std::pmr::vector<Reading> out(memory);
+Vector<Reading> other_readings(const Check& check, Memory* memory) {
+  Vector<Reading> out(memory);
   add_kinds(check, out);
   Reading other{check.given};
   other.source.layout = transposed(check.given.layout);
@@ -422,8 +422,7 @@ void choose_vertices(Check& check, std::span<const SkinnedVertex> vertices, doub
 }  // namespace
 
 PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& source,
-                            std::span<const SkinnedVertex> vertices, double tolerance,
-                            std::pmr::memory_resource* memory) {
+                            std::span<const SkinnedVertex> vertices, double tolerance, Memory* memory) {
   Check check(model, source, memory);
   choose_vertices(check, vertices, tolerance);
   const Reading as_given{source};
@@ -439,7 +438,7 @@ PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& sourc
         finding.max_error);
     return finding;
   }
-  const std::pmr::vector<Reading> readings = other_readings(check, memory);
+  const Vector<Reading> readings = other_readings(check, memory);
   for (const Reading& reading : readings)
     if (pose(check, reading) && compare(check).max <= check.tolerance_ws) {
       describe(check, reading, finding);

@@ -3,10 +3,10 @@
 
 #include <nook/nook_pose.h>
 
-#include <memory_resource>
 #include <span>
 
 #include "sdk/src/character/pose_source.h"
+#include "sdk/src/core/memory.h"
 
 namespace nook {
 
@@ -30,7 +30,6 @@ struct PoseFinding {
 // hangs on bones with transforms alone, or as for_each_transform does. The source must have passed
 // check_pose_source.
 PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& source,
-                            std::span<const SkinnedVertex> vertices, double tolerance,
-                            std::pmr::memory_resource* memory);
+                            std::span<const SkinnedVertex> vertices, double tolerance, Memory* memory);
 
 }  // namespace nook

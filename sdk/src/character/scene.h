@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "sdk/src/character/neighbours.h"
 #include "sdk/src/character/pose_source.h"
 #include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/parallel.h"
 
 namespace nook {
@@ -62,21 +62,20 @@ struct InstanceArrays {
   PointLanes points;
   AlignedArray<float> storage;
 };
-InstanceArrays make_instance_arrays(const LoadedModel& model, std::pmr::memory_resource* memory);
+InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory);
 
 // The host's part of an instance, and what follows from it alone.
 struct InstanceInput {
-  explicit InstanceInput(std::pmr::memory_resource* memory)
-      : bones(memory), linked(memory), receivers(memory) {}
+  explicit InstanceInput(Memory* memory) : bones(memory), linked(memory), receivers(memory) {}
 
-  std::pmr::vector<Mat3x4> bones;   // rest space to world, one for each bone of the model
+  Vector<Mat3x4> bones;             // rest space to world, one for each bone of the model
   std::uint64_t pose_revision = 0;  // rises with every set_pose; never 0 for a living instance
   bool was_projected = false;       // a pose had an uneven matrix
   bool has_ground = false;
   Plane ground;
-  std::pmr::vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
+  Vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
   // Slots of the instances that have this one in `linked`, ascending, which a removal must visit.
-  std::pmr::vector<std::uint32_t> receivers;
+  Vector<std::uint32_t> receivers;
   // A sphere around the root bone's image of the model's bounding centre that contains all key points and
   // proxy spheres of the pose, and an upper bound of the scale of its bones.
   Sphere bound;
@@ -86,14 +85,14 @@ struct InstanceInput {
 // The decisions of resolve_casters for an update. The lists of an instance that is not due are those of an
 // earlier update; they may name free slots and must not be read.
 struct InstancePlan {
-  explicit InstancePlan(std::pmr::memory_resource* memory) : casters(memory), occluders(memory) {}
+  explicit InstancePlan(Memory* memory) : casters(memory), occluders(memory) {}
 
-  std::pmr::vector<std::uint32_t> casters;    // slots, ascending, each once; capacity reserved by the edits
-  std::pmr::vector<std::uint32_t> occluders;  // slots of free occluders that darken this instance
-  Sphere ground_sphere;                       // radius 0: no ground, or it is skipped
-  std::uint32_t culled = 0;                   // casters and occluders left out by the cut-off
-  std::uint32_t level = 0;                    // level of detail of the model, 0 is full
-  bool due = true;                            // evaluated in this update; other instances keep their results
+  Vector<std::uint32_t> casters;    // slots, ascending, each once; capacity reserved by the edits
+  Vector<std::uint32_t> occluders;  // slots of free occluders that darken this instance
+  Sphere ground_sphere;             // radius 0: no ground, or it is skipped
+  std::uint32_t culled = 0;         // casters and occluders left out by the cut-off
+  std::uint32_t level = 0;          // level of detail of the model, 0 is full
+  bool due = true;                  // evaluated in this update; other instances keep their results
 };
 
 // The results of an evaluation on the CPU.
@@ -105,7 +104,7 @@ struct InstanceResult {
 };
 
 struct Instance {
-  explicit Instance(std::pmr::memory_resource* memory) : input(memory), plan(memory) {}
+  explicit Instance(Memory* memory) : input(memory), plan(memory) {}
 
   nook_instance_id id = 0;       // 0: this slot is free, and everything below but `generation` is empty
   std::uint32_t generation = 0;  // how often the slot was used before, part of the id
@@ -137,18 +136,17 @@ struct SceneSettings {
 
 struct Scene {
   // Throws Failure if the processor lacks settings.isa.
-  Scene(const SceneSettings& scene_settings, const Parallel& host_parallel,
-        std::pmr::memory_resource* scene_memory);
+  Scene(const SceneSettings& scene_settings, const Parallel& host_parallel, Memory* scene_memory);
 
   SceneSettings settings;
   const ShadowKernels* kernels;  // of settings.isa
   Parallel parallel;
-  std::pmr::memory_resource* memory;
+  Memory* memory;
 
-  std::pmr::vector<Instance> instances;            // by slot
-  std::pmr::vector<std::uint32_t> free_instances;  // slots
-  std::pmr::vector<Occluder> occluders;            // by slot
-  std::pmr::vector<std::uint32_t> free_occluders;
+  Vector<Instance> instances;            // by slot
+  Vector<std::uint32_t> free_instances;  // slots
+  Vector<Occluder> occluders;            // by slot
+  Vector<std::uint32_t> free_occluders;
   std::uint32_t living = 0;  // instances in use
   // Rises when instances or occluders are added or removed, or an instance gets its first light.
   std::uint64_t structure_revision = 0;
@@ -161,7 +159,7 @@ struct Scene {
   std::uint32_t terms = NOOK_TERM_ALL;
 
   // Room for the bones of one instance, so that a pose is converted as a whole before it is set.
-  std::pmr::vector<Mat3x4> converted;
+  Vector<Mat3x4> converted;
 
   std::uint64_t frame = 0;  // updates so far
   nook_scene_stats stats{};

@@ -35,7 +35,7 @@ float paper_bound(const LoadedModel& receiver, float radius, float gap) {
                       : INFINITY;
 }
 
-const std::pmr::vector<ProxySphere>& spheres_at(const CharacterModel& model, std::uint32_t level) {
+const Vector<ProxySphere>& spheres_at(const CharacterModel& model, std::uint32_t level) {
   const std::size_t l = std::min<std::size_t>(level, model.levels.size());
   return l == 0 ? model.spheres : model.levels[l - 1].spheres;
 }

@@ -15,8 +15,7 @@ constexpr std::uint32_t slot_in(std::uint32_t id) {
 
 // The slot that the next object takes, a freed one or one past the end; makes room for it to be freed again.
 template <class Object>
-std::uint32_t next_slot(const std::pmr::vector<Object>& objects, std::pmr::vector<std::uint32_t>& free_slots,
-                        const char* what) {
+std::uint32_t next_slot(const Vector<Object>& objects, Vector<std::uint32_t>& free_slots, const char* what) {
   if (!free_slots.empty()) return free_slots.back();
   if (objects.size() >= max_slots)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -95,7 +94,7 @@ std::uint32_t slot_of(const Scene& scene, const Instance& instance) {
   return static_cast<std::uint32_t>(&instance - scene.instances.data());
 }
 
-using Slots = std::pmr::vector<std::uint32_t>;
+using Slots = Vector<std::uint32_t>;
 
 void make_room_for_one(Slots& slots) {
   if (slots.size() == slots.capacity()) slots.reserve(std::bit_ceil(slots.size() + 1));
@@ -114,7 +113,7 @@ bool erase_slot(Slots& slots, std::uint32_t slot) {
 
 }  // namespace
 
-InstanceArrays make_instance_arrays(const LoadedModel& model, std::pmr::memory_resource* memory) {
+InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory) {
   InstanceArrays arrays;
   PointLanes& points = arrays.points;
   points.count = static_cast<std::uint32_t>(model.model.key_points.size());
@@ -147,8 +146,7 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, std::pmr::memory_r
   return arrays;
 }
 
-Scene::Scene(const SceneSettings& scene_settings, const Parallel& host_parallel,
-             std::pmr::memory_resource* scene_memory)
+Scene::Scene(const SceneSettings& scene_settings, const Parallel& host_parallel, Memory* scene_memory)
     : settings(scene_settings),
       kernels(settings.isa == NOOK_ISA_AUTO
                   ? &best_shadow_kernels()

@@ -27,7 +27,7 @@ void write_six(float* first, std::uint32_t stride, std::uint32_t index, Vec3 pos
 
 }  // namespace
 
-RestSpheres::RestSpheres(const CharacterModel& model, std::pmr::memory_resource* memory)
+RestSpheres::RestSpheres(const CharacterModel& model, Memory* memory)
     : numbers_(5 * padded_count(model.spheres.size()), memory),
       bone_(padded_count(model.spheres.size()), memory) {
   const std::size_t stride = padded_count(model.spheres.size());
@@ -49,7 +49,7 @@ RestSpheres::RestSpheres(const CharacterModel& model, std::pmr::memory_resource*
   caster_weight_ = numbers + 4 * stride;
 }
 
-RestKeyPoints::RestKeyPoints(const CharacterModel& model, std::pmr::memory_resource* memory)
+RestKeyPoints::RestKeyPoints(const CharacterModel& model, Memory* memory)
     : numbers_(12 * padded_key_points(static_cast<std::uint32_t>(model.key_points.size())), memory),
       bone_(4 * padded_key_points(static_cast<std::uint32_t>(model.key_points.size())), memory),
       weight_(4 * padded_key_points(static_cast<std::uint32_t>(model.key_points.size())), memory) {

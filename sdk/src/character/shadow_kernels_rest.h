@@ -2,19 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <memory_resource>
 
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/shadow_kernels.h"
 #include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/memory.h"
 
 namespace nook {
 
 class RestSpheres {
  public:
   // Throws Failure if the bone of a sphere is not one of the model's.
-  explicit RestSpheres(const CharacterModel& model,
-                       std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+  explicit RestSpheres(const CharacterModel& model, Memory* memory = default_memory());
 
   const RestSphereView& view() const { return view_; }
   // Returns SphereSoa::caster_weight, which does not depend on the pose.
@@ -31,8 +30,7 @@ class RestSpheres {
 class RestKeyPoints {
  public:
   // Throws Failure if a bone of a key point is not one of the model's.
-  explicit RestKeyPoints(const CharacterModel& model,
-                         std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+  explicit RestKeyPoints(const CharacterModel& model, Memory* memory = default_memory());
 
   const RestKeyPointView& view() const { return view_; }
   std::uint32_t padded_count() const { return view_.padded_count; }

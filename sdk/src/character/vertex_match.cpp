@@ -23,7 +23,7 @@ Vec3 normal_in_mesh(const Mat3x4& rest_from_mesh, Vec3 n) {
                      m[2] * n.x + m[6] * n.y + m[10] * n.z});
 }
 
-using Candidates = std::pmr::vector<Candidate>;
+using Candidates = Vector<Candidate>;
 
 void add_primitive(const CharacterModel& model, std::size_t primitive, bool in_rest_space, Candidates& out) {
   const PrimitiveRange& range = model.primitives[primitive];
@@ -131,7 +131,7 @@ Vec3 StridedPoints::operator[](std::size_t index) const {
 }
 
 std::uint32_t match_vertices(const CharacterModel& model, const HostVertices& host,
-                             std::span<std::uint32_t> file_vertices, std::pmr::memory_resource* memory) {
+                             std::span<std::uint32_t> file_vertices, Memory* memory) {
   Candidates candidates(memory);
   for (std::size_t p = 0; p < model.primitives.size(); ++p)
     if (host.primitive < 0 || static_cast<std::size_t>(host.primitive) == p)
@@ -152,7 +152,7 @@ std::uint32_t match_vertices(const CharacterModel& model, const HostVertices& ho
 }
 
 CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
-                        std::pmr::memory_resource* memory) {
+                        Memory* memory) {
   CharacterModel out(memory);
   out = model;
   out.file_to_welded.clear();
@@ -160,7 +160,7 @@ CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32
   for (const std::uint32_t vertex : file_vertices) out.file_to_welded.push_back(model.file_to_welded[vertex]);
   set_primitives(model, file_vertices, out);
   // A rest vertex becomes the first vertex of the host that has its welded vertex, or goes.
-  std::pmr::vector<std::uint32_t> first_host(model.vertex_count(), no_vertex, memory);
+  Vector<std::uint32_t> first_host(model.vertex_count(), no_vertex, memory);
   for (std::size_t i = out.file_to_welded.size(); i-- > 0;)
     first_host[out.file_to_welded[i]] = static_cast<std::uint32_t>(i);
   out.bind.vertices.clear();

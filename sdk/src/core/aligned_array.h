@@ -3,9 +3,10 @@
 
 #include <cstddef>
 #include <cstring>
-#include <memory_resource>
 #include <type_traits>
 #include <utility>
+
+#include "sdk/src/core/memory.h"
 
 namespace nook {
 
@@ -18,7 +19,7 @@ class AlignedArray {
 
   AlignedArray() = default;
   // Sets all bytes to zero.
-  AlignedArray(std::size_t count, std::pmr::memory_resource* memory) : memory_(memory), size_(count) {
+  AlignedArray(std::size_t count, Memory* memory) : memory_(memory), size_(count) {
     if (count == 0) return;
     data_ = static_cast<T*>(memory->allocate(count * sizeof(T), alignment));
     std::memset(static_cast<void*>(data_), 0, count * sizeof(T));
@@ -50,7 +51,7 @@ class AlignedArray {
     std::swap(size_, other.size_);
   }
 
-  std::pmr::memory_resource* memory_ = nullptr;
+  Memory* memory_ = nullptr;
   T* data_ = nullptr;
   std::size_t size_ = 0;
 };

@@ -18,7 +18,7 @@ class Context : public RefCounted {
         log_user_(desc.log_user),
         parallel_{desc.parallel_for, desc.parallel_for_user} {}
 
-  std::pmr::memory_resource* memory() noexcept { return &memory_; }
+  Memory* memory() noexcept { return &memory_; }
   const Parallel& parallel() const noexcept { return parallel_; }
   // Logs a printf-style text, which is cut at 512 characters. Does nothing if the host set no log.
   void log(nook_log_severity severity, const char* format, ...) const noexcept

@@ -1,14 +1,35 @@
-// The host's allocator as a memory resource, which every container of the library uses.
+// Where every byte of the library comes from: an interface, the host's allocator behind it, and the global
+// operator new. std::pmr says the same, but some standard libraries lack it: libc++ before version 16, and so
+// Emscripten 3.1 and macOS before 14.
 #pragma once
 
 #include <nook/nook.h>
 
-#include <memory_resource>
+#include <cstddef>
 #include <new>
 
 namespace nook {
 
-class HostMemory final : public std::pmr::memory_resource {
+class Memory {
+ public:
+  // Throws std::bad_alloc. alignment is a power of two.
+  void* allocate(std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) {
+    return do_allocate(bytes, alignment);
+  }
+  // bytes and alignment are those of the allocation.
+  void deallocate(void* memory, std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) {
+    do_deallocate(memory, bytes, alignment);
+  }
+
+ protected:
+  ~Memory() = default;
+
+ private:
+  virtual void* do_allocate(std::size_t bytes, std::size_t alignment) = 0;
+  virtual void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) = 0;
+};
+
+class HostMemory final : public Memory {
  public:
   // If both functions are null, memory comes from the global operator new.
   explicit HostMemory(const nook_allocator& allocator) noexcept : allocator_(allocator) {}
@@ -16,21 +37,26 @@ class HostMemory final : public std::pmr::memory_resource {
   const nook_allocator& allocator() const noexcept { return allocator_; }
 
  private:
-  void* do_allocate(std::size_t size, std::size_t alignment) override {
-    void* memory = allocator_.allocate ? allocator_.allocate(allocator_.user, size, alignment)
-                                       : ::operator new(size, std::align_val_t(alignment), std::nothrow);
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    void* memory = allocator_.allocate ? allocator_.allocate(allocator_.user, bytes, alignment)
+                                       : ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
     if (!memory) throw std::bad_alloc();
     return memory;
   }
-  void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
+  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
     if (allocator_.release)
-      allocator_.release(allocator_.user, memory, size, alignment);
+      allocator_.release(allocator_.user, memory, bytes, alignment);
     else
       ::operator delete(memory, std::align_val_t(alignment));
   }
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 
   nook_allocator allocator_;
 };
+
+// The global operator new, for code without a host, such as bakers and tests.
+inline Memory* default_memory() noexcept {
+  static HostMemory memory{nook_allocator{}};
+  return &memory;
+}
 
 }  // namespace nook

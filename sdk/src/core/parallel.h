@@ -3,6 +3,7 @@
 
 #include <nook/nook.h>
 
+#include <cstdint>
 #include <type_traits>
 
 namespace nook {

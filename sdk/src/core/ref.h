@@ -3,8 +3,9 @@
 #pragma once
 
 #include <atomic>
-#include <memory_resource>
 #include <utility>
+
+#include "sdk/src/core/memory.h"
 
 namespace nook {
 
@@ -71,8 +72,7 @@ template <class T>
 class Owned final : public T {
  public:
   template <class... Arguments>
-  static Ref<T> make(std::pmr::memory_resource* memory, Ref<const RefCounted> owner,
-                     Arguments&&... arguments) {
+  static Ref<T> make(Memory* memory, Ref<const RefCounted> owner, Arguments&&... arguments) {
     void* place = memory->allocate(sizeof(Owned), alignof(Owned));
     try {
       return Ref<T>::adopt(new (place)
@@ -85,17 +85,17 @@ class Owned final : public T {
 
  private:
   template <class... Arguments>
-  Owned(std::pmr::memory_resource* memory, Ref<const RefCounted> owner, Arguments&&... arguments)
+  Owned(Memory* memory, Ref<const RefCounted> owner, Arguments&&... arguments)
       : T(std::forward<Arguments>(arguments)...), memory_(memory), owner_(std::move(owner)) {}
 
   void destroy() noexcept override {
     const Ref<const RefCounted> owner = std::move(owner_);
-    std::pmr::memory_resource* memory = memory_;
+    Memory* memory = memory_;
     this->~Owned();
     memory->deallocate(this, sizeof(Owned), alignof(Owned));
   }
 
-  std::pmr::memory_resource* memory_;
+  Memory* memory_;
   Ref<const RefCounted> owner_;
 };
 

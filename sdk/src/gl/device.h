@@ -27,7 +27,7 @@ struct Device {
   }
 
   const Context& context;
-  std::pmr::memory_resource* const memory;
+  Memory* const memory;
   const Functions gl;
   const nook_gl_state_mode state_mode;
   bool lost = false;  // no OpenGL call may be made any more

@@ -24,7 +24,7 @@ struct Check {
       throw Failure(code, "the array of %s of the %s has the wrong length (got %zu, need %zu)", what, name,
                     got, need);
   }
-  void numbers(const char* what, const std::pmr::vector<float>& values, float limit) const {
+  void numbers(const char* what, const Vector<float>& values, float limit) const {
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!(std::abs(values[i]) <= limit))
         throw Failure(code, "number %zu of the %s of the %s is out of range (got %g, need at most %g)", i,
@@ -32,7 +32,7 @@ struct Check {
   }
 };
 
-void check_directions(const std::pmr::vector<Vec3>& directions, const Check& check) {
+void check_directions(const Vector<Vec3>& directions, const Check& check) {
   check.range("the number of directions", directions.size(), 1, max_directions);
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Vec3 d = directions[i];

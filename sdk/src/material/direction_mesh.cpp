@@ -26,7 +26,7 @@ double cross(const Point& a, const Point& b, const Point& c) {
 
 }  // namespace
 
-DirectionMesh::DirectionMesh(std::span<const Vec3> directions, std::pmr::memory_resource* memory)
+DirectionMesh::DirectionMesh(std::span<const Vec3> directions, Memory* memory)
     : points_(memory), triangles_(memory), border_(memory), cavity_(memory) {
   points_.reserve(directions.size() + 3);
   for (std::uint32_t i = 0; i < directions.size(); ++i) {

@@ -5,10 +5,10 @@
 
 #include <array>
 #include <cstdint>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/material/parabolic.h"
 
 namespace nook::material {
@@ -22,8 +22,7 @@ struct DirectionMix {
 class DirectionMesh {
  public:
   // There must be at least one direction, and all must be min_distance apart.
-  explicit DirectionMesh(std::span<const Vec3> directions,
-                         std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+  explicit DirectionMesh(std::span<const Vec3> directions, Memory* memory = default_memory());
 
   // Interpolates linearly inside the triangle that contains the point, and continuously everywhere. Beyond
   // the outermost directions the nearest point between them is used. `hint` is kept between calls with points
@@ -45,10 +44,10 @@ class DirectionMesh {
   bool circle_holds(const Triangle& t, const Point& p) const;
   bool weights_in(const Triangle& t, const Point& p, std::array<double, 3>& weight) const;
 
-  std::pmr::vector<Point> points_;
-  std::pmr::vector<Triangle> triangles_;
-  std::pmr::vector<Edge> border_;  // outermost edges; a chain where there are no triangles
-  std::pmr::vector<Edge> cavity_;  // the edges of the hole of an insertion
+  Vector<Point> points_;
+  Vector<Triangle> triangles_;
+  Vector<Edge> border_;  // outermost edges; a chain where there are no triangles
+  Vector<Edge> cavity_;  // the edges of the hole of an insertion
 };
 
 }  // namespace nook::material

@@ -15,10 +15,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory_resource>
 #include <string>
 #include <vector>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/material/shape.h"
 
@@ -26,11 +26,10 @@ namespace nook::material {
 
 // The non-zero entries of rows of the sparse view bases U_{v,c}.
 struct ViewRows {
-  explicit ViewRows(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : membership(memory), coefficients(memory) {}
+  explicit ViewRows(Memory* memory = default_memory()) : membership(memory), coefficients(memory) {}
 
-  std::pmr::vector<std::uint16_t> membership;  // rows x K: clusters, all different within a row
-  std::pmr::vector<float> coefficients;        // rows x K x R_v: row i of U_{v,c}, c = membership[i, k]
+  Vector<std::uint16_t> membership;  // rows x K: clusters, all different within a row
+  Vector<float> coefficients;        // rows x K x R_v: row i of U_{v,c}, c = membership[i, k]
 };
 
 // The view mode resampled over the hemisphere (section 6.3.2 of the paper) in the parabolic map. The row of
@@ -38,22 +37,22 @@ struct ViewRows {
 //   d.xy / (1 + d.z) = 2 (cell + 0.5) / side - 1,
 // or of the nearest direction of the horizon if that lies outside the unit disc.
 struct ViewMap {
-  explicit ViewMap(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : rows(memory) {}
+  explicit ViewMap(Memory* memory = default_memory()) : rows(memory) {}
 
   std::uint32_t side = 0;  // cells; 0 if the view mode is not resampled
   ViewRows rows;           // side x side rows
 };
 
 struct ClusteredTensor {
-  explicit ClusteredTensor(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+  explicit ClusteredTensor(Memory* memory = default_memory())
       : cores(memory), x_bases(memory), y_bases(memory), rows(memory), map(memory) {}
 
   TensorShape shape;
-  std::pmr::vector<float> cores;  // C x R_l x R_v x R_x x R_y: Z_c, the last index varies fastest
+  Vector<float> cores;  // C x R_l x R_v x R_x x R_y: Z_c, the last index varies fastest
   // C x I_x x R_x and C x I_y x R_y: X_c and Y_c. At full rank, R_x = I_x or R_y = I_y, they are empty and
   // stand for the identity, because a square basis is multiplied into the core.
-  std::pmr::vector<float> x_bases;
-  std::pmr::vector<float> y_bases;
+  Vector<float> x_bases;
+  Vector<float> y_bases;
   ViewRows rows;  // one for each view of the material
   ViewMap map;
 };
@@ -77,14 +76,14 @@ constexpr VisibilityMapping paper_mapping(VisibilityForm form) {
 }
 
 struct Material {
-  explicit Material(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+  explicit Material(Memory* memory = default_memory())
       : lights(memory), views(memory), light_basis(memory), btf(memory), votf(memory), recipe(memory) {}
 
-  std::pmr::vector<Vec3> lights;  // I_l different directions to the light
-  std::pmr::vector<Vec3> views;   // I_v different directions to the viewer, for BTF and VOTF
+  Vector<Vec3> lights;  // I_l different directions to the light
+  Vector<Vec3> views;   // I_v different directions to the viewer, for BTF and VOTF
 
   // 3 I_l x R_l: the mode-light basis of all clusters; its row is 3 l + channel.
-  std::pmr::vector<float> light_basis;
+  Vector<float> light_basis;
   // The radiance towards the view, linear RGB, for a directional light whose irradiance on a plane that faces
   // it is 1. It includes the cosine of the light: a white Lambertian plane under a perpendicular light gives
   // 1 / pi.
@@ -94,7 +93,7 @@ struct Material {
   VisibilityMapping mapping;  // not read if visibility is none
   ClusteredTensor votf;       // empty if visibility is none
 
-  std::pmr::string recipe;  // settings of the bake, JSON; the runtime does not read it
+  String recipe;  // settings of the bake, JSON; the runtime does not read it
 };
 
 // Returns the bytes of all compressed numbers without resampled view maps and directions, as Table I of the

@@ -14,11 +14,11 @@
 #pragma once
 
 #include <cstddef>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
 #include "sdk/src/core/container.h"
+#include "sdk/src/core/memory.h"
 #include "sdk/src/material/material.h"
 
 namespace nook::material {
@@ -30,8 +30,7 @@ std::vector<std::byte> write_material(const Material& material);
 
 // Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
 // NOOK_ERROR_FILE_VERSION), and allocates in proportion to the file's size.
-Material read_material(std::span<const std::byte> bytes,
-                       std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+Material read_material(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
 // Returns the material after a write and a read: the numbers are rounded to those that the file stores.
 Material quantise(const Material& material);

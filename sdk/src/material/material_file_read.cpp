@@ -25,7 +25,7 @@ Head read_head(ByteReader in, Material& material) {
   return head;
 }
 
-void read_directions(ByteReader& in, std::uint32_t count, std::pmr::vector<Vec3>& directions) {
+void read_directions(ByteReader& in, std::uint32_t count, Vector<Vec3>& directions) {
   in.check_count(count, 96, "directions");
   directions.resize(count);
   for (Vec3& d : directions) {
@@ -36,7 +36,7 @@ void read_directions(ByteReader& in, std::uint32_t count, std::pmr::vector<Vec3>
 }
 
 // Throws if the section cannot hold count numbers, so that nothing is allocated for them.
-void read_numbers(ByteReader& in, std::size_t count, const char* what, std::pmr::vector<float>& values) {
+void read_numbers(ByteReader& in, std::size_t count, const char* what, Vector<float>& values) {
   if (count > in.remaining() / 2)
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "section %s is too short for its %s (got %zu bytes for %zu); bake the file again",
@@ -81,7 +81,7 @@ void read_map(ByteReader in, ClusteredTensor& tensor) {
 
 }  // namespace
 
-Material read_material(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
+Material read_material(std::span<const std::byte> bytes, Memory* memory) {
   const Container file(bytes, material_kind);
   Material material(memory);
   const Head head = read_head(file.section("HEAD"), material);

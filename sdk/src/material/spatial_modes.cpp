@@ -6,9 +6,9 @@
 namespace nook::material {
 namespace {
 
-std::pmr::vector<float> transposed(std::span<const float> matrix, std::size_t rows, std::size_t columns,
-                                   std::pmr::memory_resource* memory) {
-  std::pmr::vector<float> out(matrix.size(), memory);
+Vector<float> transposed(std::span<const float> matrix, std::size_t rows, std::size_t columns,
+                         Memory* memory) {
+  Vector<float> out(matrix.size(), memory);
   if (matrix.empty()) return out;
   for (std::size_t r = 0; r < rows; ++r)
     for (std::size_t c = 0; c < columns; ++c) out[c * rows + r] = matrix[r * columns + c];
@@ -16,7 +16,7 @@ std::pmr::vector<float> transposed(std::span<const float> matrix, std::size_t ro
 }
 
 // Returns the largest norm of a column; 1 for the identity.
-double largest_norm(const std::pmr::vector<float>& rows, std::size_t columns) {
+double largest_norm(const Vector<float>& rows, std::size_t columns) {
   double largest = rows.empty() ? 1 : 0;
   for (std::size_t c = 0; c < columns && !rows.empty(); ++c) {
     double square = 0;
@@ -40,8 +40,7 @@ void add_scaled(const float* row, float scale, std::size_t count, float* out) {
 
 }  // namespace
 
-ModeExpansion::ModeExpansion(const ClusteredTensor& tensor, std::uint32_t cluster,
-                             std::pmr::memory_resource* memory)
+ModeExpansion::ModeExpansion(const ClusteredTensor& tensor, std::uint32_t cluster, Memory* memory)
     : tensor_(tensor), cluster_(cluster), x_rows_(memory), y_rows_(memory) {
   const TensorShape& s = tensor.shape;
   const std::size_t x = x_basis_size(s), y = y_basis_size(s);

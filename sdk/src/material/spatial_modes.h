@@ -5,10 +5,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/material/material.h"
 
 namespace nook::material {
@@ -16,7 +16,7 @@ namespace nook::material {
 // Expands the modes of one cluster.
 class ModeExpansion {
  public:
-  ModeExpansion(const ClusteredTensor& tensor, std::uint32_t cluster, std::pmr::memory_resource* memory);
+  ModeExpansion(const ClusteredTensor& tensor, std::uint32_t cluster, Memory* memory);
 
   // Returns the number of floats that expand needs as scratch memory.
   std::size_t scratch_size() const;
@@ -30,7 +30,7 @@ class ModeExpansion {
 
   const ClusteredTensor& tensor_;
   std::uint32_t cluster_;
-  std::pmr::vector<float> x_rows_, y_rows_;  // transposed bases, R_x x I_x and R_y x I_y; empty at full rank
+  Vector<float> x_rows_, y_rows_;  // transposed bases, R_x x I_x and R_y x I_y; empty at full rank
 };
 
 // Mipmap levels have half the size of the previous one, rounded down, until 1 x 1, as in OpenGL.

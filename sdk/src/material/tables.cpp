@@ -21,7 +21,7 @@ class ClusterPacking {
   static constexpr std::uint32_t batch = 16;
 
   ClusterPacking(const ClusteredTensor& tensor, std::uint32_t cluster, float scale, TensorTables& tables,
-                 std::pmr::memory_resource* memory)
+                 Memory* memory)
       : tensor_(tensor),
         cluster_(cluster),
         scale_(scale),
@@ -65,12 +65,12 @@ class ClusterPacking {
   TensorTables& tables_;
   ModeExpansion expansion_;
   std::size_t texels_;
-  std::pmr::vector<float> work_;
+  Vector<float> work_;
 };
 
 // Returns the exponent that scales the largest bound of a spatial mode to [2^14, 2^15), which is within a
 // half's range and far from its smallest numbers.
-int spatial_exponent(const ClusteredTensor& tensor, std::pmr::memory_resource* memory) {
+int spatial_exponent(const ClusteredTensor& tensor, Memory* memory) {
   float bound = 0;
   for (std::uint32_t c = 0; c < tensor.shape.clusters; ++c)
     bound = std::max(bound, ModeExpansion(tensor, c, memory).bound());
@@ -97,7 +97,7 @@ void pack_cells(const ViewCells& cells, std::uint32_t rank, float scale, TensorT
 }
 
 void make_spatial(const ClusteredTensor& tensor, std::uint32_t light_modes, int exponent,
-                  const Parallel& parallel, TensorTables& tables, std::pmr::memory_resource* memory) {
+                  const Parallel& parallel, TensorTables& tables, Memory* memory) {
   const TensorShape& s = tensor.shape;
   tables.width = s.width;
   tables.height = s.height;
@@ -124,8 +124,7 @@ float low_light_share(std::span<const Vec3> lights, const DirectionMix& mix, flo
   return z < cosine - 1e-5f ? std::max(z, 0.0f) / cosine : 1.0f;
 }
 
-void make_light_map(const Material& material, float scale, MaterialTables& tables,
-                    std::pmr::memory_resource* memory) {
+void make_light_map(const Material& material, float scale, MaterialTables& tables, Memory* memory) {
   const std::uint32_t side = MaterialTables::light_side, rank = material.btf.shape.rank_light;
   const std::size_t count = std::size_t(side) * side, light_vec4_count = vec4_count(rank);
   const DirectionMesh mesh(material.lights, memory);
@@ -160,8 +159,8 @@ std::size_t TensorTables::level_offset(std::uint32_t level) const {
   return offset;
 }
 
-MaterialTables make_tables(const Material& material, const Parallel& parallel,
-                           std::pmr::memory_resource* memory, std::uint32_t map_side) {
+MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
+                           std::uint32_t map_side) {
   MaterialTables tables(memory);
   const ClusteredTensor &btf = material.btf, &votf = material.votf;
   const int exponent = spatial_exponent(btf, memory);

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <memory_resource>
 #include <vector>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/parallel.h"
 #include "sdk/src/material/material.h"
 
@@ -18,7 +18,7 @@ constexpr std::uint32_t vec4_count(std::uint32_t rank) {
 
 // All numbers are half floats, except for the membership.
 struct TensorTables {
-  explicit TensorTables(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+  explicit TensorTables(Memory* memory = default_memory())
       : spatial(memory), coefficients(memory), membership(memory) {}
 
   std::uint32_t width = 0, height = 0;  // of level 0
@@ -32,11 +32,11 @@ struct TensorTables {
   // One level after another: layers x height x width x 4. Number b % 4 of layer (c light_modes + a)
   // view_vec4_count + b / 4 is the mode S_c[a, b] of spatial_modes.h, times a power of two for the whole
   // tensor.
-  std::pmr::vector<std::uint16_t> spatial;
+  Vector<std::uint16_t> spatial;
   // terms x view_vec4_count layers of side x side x 4.
-  std::pmr::vector<std::uint16_t> coefficients;
+  Vector<std::uint16_t> coefficients;
   // Layers of side x side x 4, with four terms each; empty if there is a single cluster.
-  std::pmr::vector<std::uint16_t> membership;
+  Vector<std::uint16_t> membership;
 
   std::uint32_t layers() const { return clusters * light_modes * view_vec4_count; }
   // Returns the offset of a level in `spatial`.
@@ -44,8 +44,7 @@ struct TensorTables {
 };
 
 struct MaterialTables {
-  explicit MaterialTables(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : btf(memory), votf(memory), light(memory) {}
+  explicit MaterialTables(Memory* memory = default_memory()) : btf(memory), votf(memory), light(memory) {}
 
   TensorTables btf;
   TensorTables votf;  // empty if visibility is none
@@ -57,15 +56,15 @@ struct MaterialTables {
   // lights theirs is scaled by the ratio of cosines, down to 0 at the horizon. The table has layers x side x
   // side x 4 floats, with layer channel light_modes / 4 + a / 4. It is divided by the power of two of the
   // BTF's spatial modes.
-  std::pmr::vector<float> light;
+  Vector<float> light;
 };
 
 inline constexpr std::uint32_t default_map_side = 256;
 
 // Makes the tables of a material that passed check_material. map_side is the side of the view maps in cells;
 // see view_cells.h.
-MaterialTables make_tables(const Material& material, const Parallel& parallel,
-                           std::pmr::memory_resource* memory, std::uint32_t map_side = default_map_side);
+MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
+                           std::uint32_t map_side = default_map_side);
 
 // Returns the bytes of all tables.
 std::uint64_t table_bytes(const MaterialTables& tables);

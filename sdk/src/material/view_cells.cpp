@@ -32,8 +32,7 @@ void add_terms(const ClusteredTensor& tensor, std::size_t view, float weight, Ce
   }
 }
 
-void mix_three(const ClusteredTensor& tensor, std::span<const Vec3> views, ViewCells& cells,
-               std::pmr::memory_resource* memory) {
+void mix_three(const ClusteredTensor& tensor, std::span<const Vec3> views, ViewCells& cells, Memory* memory) {
   const DirectionMesh mesh(views, memory);
   std::size_t hint = 0;
   for (std::uint32_t row = 0; row < cells.side; ++row)
@@ -125,7 +124,7 @@ std::uint32_t cell_terms(const ClusteredTensor& tensor) {
 }
 
 ViewCells view_cells(const ClusteredTensor& tensor, std::span<const Vec3> views, std::uint32_t side,
-                     std::pmr::memory_resource* memory) {
+                     Memory* memory) {
   ViewCells cells(memory);
   cells.terms = cell_terms(tensor);
   const std::uint32_t own = tensor.map.side, factor = own == 0 ? 0 : side / own;

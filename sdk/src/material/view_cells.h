@@ -6,16 +6,16 @@
 #pragma once
 
 #include <cstdint>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
+#include "sdk/src/core/memory.h"
 #include "sdk/src/material/material.h"
 
 namespace nook::material {
 
 struct ViewCells {
-  explicit ViewCells(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : rows(memory) {}
+  explicit ViewCells(Memory* memory = default_memory()) : rows(memory) {}
 
   std::uint32_t side = 0;
   std::uint32_t terms = 1;  // clusters of a cell, which replaces K
@@ -29,6 +29,6 @@ std::uint32_t cell_terms(const ClusteredTensor& tensor);
 // The result has `side` cells along a side, or, if the tensor has a map, the largest multiple of the map's
 // side that is not above `side`, and at least the map's side.
 ViewCells view_cells(const ClusteredTensor& tensor, std::span<const Vec3> views, std::uint32_t side,
-                     std::pmr::memory_resource* memory);
+                     Memory* memory);
 
 }  // namespace nook::material

@@ -6,10 +6,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory_resource>
 #include <string>
 #include <vector>
 
+#include "sdk/src/core/containers.h"
 #include "shaders/nnao/layout.h"
 
 namespace nook::nnao {
@@ -41,7 +41,7 @@ struct PaperNetwork {
   static constexpr int tap_inputs = 4;
   static constexpr int units = NOOK_PAPER_UNITS;
 
-  std::pmr::vector<float> filters;  // grid_size^2 x tap_inputs x units, row by row
+  Vector<float> filters;  // grid_size^2 x tap_inputs x units, row by row
   std::array<float, units> bias{};
   std::array<float, units> negative_slope{};
   std::array<float, units> positive_slope{};
@@ -73,13 +73,13 @@ struct HorizonNetwork {
 
 // AO is the network's output clamped to [0, 1]; 1 is open.
 struct Network {
-  explicit Network(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : paper{std::pmr::vector<float>(memory), {}, {}, {}, {}, {}, {}}, recipe(memory) {}
+  explicit Network(Memory* memory = default_memory())
+      : paper{Vector<float>(memory), {}, {}, {}, {}, {}, {}}, recipe(memory) {}
 
   NetworkForm form = NetworkForm::paper;
-  PaperNetwork paper;       // used if form is paper
-  HorizonNetwork horizon;   // used if form is horizon
-  std::pmr::string recipe;  // settings of the training, JSON
+  PaperNetwork paper;      // used if form is paper
+  HorizonNetwork horizon;  // used if form is horizon
+  String recipe;           // settings of the training, JSON
 };
 
 }  // namespace nook::nnao

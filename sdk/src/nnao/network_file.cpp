@@ -39,7 +39,7 @@ NetworkForm read_head(ByteReader in) {
   return NetworkForm(form);
 }
 
-void read_filters(ByteReader in, std::pmr::vector<float>& filters) {
+void read_filters(ByteReader in, Vector<float>& filters) {
   in.check_count(filter_count, 16, "filters");
   filters.resize(filter_count);
   for (float& weight : filters)
@@ -72,7 +72,7 @@ std::vector<std::byte> write_network(const Network& network) {
   return write_container(network_kind, sections);
 }
 
-Network read_network(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
+Network read_network(std::span<const std::byte> bytes, Memory* memory) {
   const Container file(bytes, network_kind);
   Network network(memory);
   network.form = read_head(file.section("HEAD"));

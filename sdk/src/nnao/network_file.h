@@ -7,11 +7,11 @@
 #pragma once
 
 #include <cstddef>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
 #include "sdk/src/core/container.h"
+#include "sdk/src/core/memory.h"
 #include "sdk/src/nnao/network.h"
 
 namespace nook::nnao {
@@ -26,8 +26,7 @@ std::vector<std::byte> write_network(const Network& network);
 
 // Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
 // NOOK_ERROR_FILE_VERSION), and allocates no more than the filters and the recipe.
-Network read_network(std::span<const std::byte> bytes,
-                     std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+Network read_network(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
 // Returns the file that is compiled into the library: nnao/default_horizon.nook.
 std::span<const std::byte> default_network_file();

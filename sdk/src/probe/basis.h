@@ -6,10 +6,10 @@
 
 #include <array>
 #include <cstdint>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook::probe {
@@ -60,9 +60,7 @@ void evaluate_basis(const Basis& basis, const double direction[3], double* value
 double domain_area(Domain domain);
 
 // integral[i] of B_i, and gram[i * count + k] of B_i B_k, over the domain.
-std::pmr::vector<double> basis_integrals(
-    const Basis& basis, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
-std::pmr::vector<double> basis_gram(const Basis& basis,
-                                    std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+Vector<double> basis_integrals(const Basis& basis, Memory* memory = default_memory());
+Vector<double> basis_gram(const Basis& basis, Memory* memory = default_memory());
 
 }  // namespace nook::probe

@@ -79,9 +79,9 @@ void over_domain(const Rule& rule, const Basis& basis, Visit&& visit) {
 
 }  // namespace
 
-std::pmr::vector<double> basis_integrals(const Basis& basis, std::pmr::memory_resource* memory) {
+Vector<double> basis_integrals(const Basis& basis, Memory* memory) {
   const Rule rule;
-  std::pmr::vector<double> integrals(basis.count, memory);
+  Vector<double> integrals(basis.count, memory);
   if (basis.kind == BasisKind::gaussians) {
     for (std::uint32_t i = 0; i < basis.count; ++i) {
       const double sharpness = basis.sharpness[i];
@@ -97,10 +97,10 @@ std::pmr::vector<double> basis_integrals(const Basis& basis, std::pmr::memory_re
   return integrals;
 }
 
-std::pmr::vector<double> basis_gram(const Basis& basis, std::pmr::memory_resource* memory) {
+Vector<double> basis_gram(const Basis& basis, Memory* memory) {
   const Rule rule;
   const std::size_t n = basis.count;
-  std::pmr::vector<double> gram(n * n, memory);
+  Vector<double> gram(n * n, memory);
   if (basis.kind == BasisKind::gaussians) {
     for (std::uint32_t i = 0; i < n; ++i)
       for (std::uint32_t k = 0; k <= i; ++k)

@@ -64,7 +64,7 @@ enum Row : std::uint32_t {
 
 }  // namespace
 
-Fit::Fit(const Basis& basis, const FitSettings& settings, std::pmr::memory_resource* memory)
+Fit::Fit(const Basis& basis, const FitSettings& settings, Memory* memory)
     : basis_(basis), settings_(settings), kernels_(&choose_kernels(settings.isa)) {
   check_basis(basis, NOOK_ERROR_INVALID_ARGUMENT);
   check_settings(basis, settings);
@@ -98,11 +98,11 @@ Fit::Fit(const Basis& basis, const FitSettings& settings, std::pmr::memory_resou
   prepare_gram(memory);
 }
 
-void Fit::prepare_gram(std::pmr::memory_resource* memory) {
+void Fit::prepare_gram(Memory* memory) {
   const std::uint32_t n = basis_.count;
   const double area = domain_area(basis_.domain);
-  const std::pmr::vector<double> gram = basis_gram(basis_, memory);
-  const std::pmr::vector<double> integrals = basis_integrals(basis_, memory);
+  const Vector<double> gram = basis_gram(basis_, memory);
+  const Vector<double> integrals = basis_integrals(basis_, memory);
   gram_ = AlignedArray<double>(gram.size(), memory);
   factor_ = AlignedArray<double>(gram.size(), memory);
   row_sum_ = AlignedArray<double>(n, memory);

@@ -15,10 +15,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory_resource>
 #include <span>
 
 #include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/memory.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/probe/basis.h"
 #include "sdk/src/probe/fit_kernels.h"
@@ -84,8 +84,7 @@ class Fit {
  public:
   // Throws the failures of check_basis, also if several functions are linearly dependent, and UNSUPPORTED for
   // an instruction set that the processor lacks.
-  Fit(const Basis& basis, const FitSettings& settings,
-      std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+  Fit(const Basis& basis, const FitSettings& settings, Memory* memory = default_memory());
 
   // directions and radiance have three floats for each entry; with weights null all weights are 1. Allocates
   // nothing. The result has the same bits for any distribution of the samples over calls.
@@ -104,7 +103,7 @@ class Fit {
   const SampleCounts& counts() const { return counts_; }
 
  private:
-  void prepare_gram(std::pmr::memory_resource* memory);
+  void prepare_gram(Memory* memory);
   std::uint32_t filter(const float* directions, const float* radiance, const float* weights,
                        std::uint32_t count, Sample* samples);
   void fit_samples(const Sample* samples, std::uint32_t count);

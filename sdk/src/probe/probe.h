@@ -4,11 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory_resource>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/probe/basis.h"
@@ -35,13 +35,12 @@ struct Grid {
 };
 
 struct Probes {
-  explicit Probes(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : coefficients(memory), recipe(memory) {}
+  explicit Probes(Memory* memory = default_memory()) : coefficients(memory), recipe(memory) {}
 
   Basis basis;
   Grid grid;
-  std::pmr::vector<Vec3> coefficients;  // probe by probe (x fastest, then y, z), basis.count of RGB each
-  std::pmr::string recipe;              // how they were baked, JSON; may be empty
+  Vector<Vec3> coefficients;  // probe by probe (x fastest, then y, z), basis.count of RGB each
+  String recipe;              // how they were baked, JSON; may be empty
 
   std::span<const Vec3> of(std::size_t index) const {
     return std::span(coefficients).subspan(index * basis.count, basis.count);

@@ -161,7 +161,7 @@ Packing packing_of(std::span<const std::byte> bytes) {
   return read_head(Container(bytes, probe_kind).section("HEAD")).packing;
 }
 
-Probes read_probes(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
+Probes read_probes(std::span<const std::byte> bytes, Memory* memory) {
   const Container file(bytes, probe_kind);
   const Head head = read_head(file.section("HEAD"));
   Probes probes(memory);

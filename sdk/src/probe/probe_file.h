@@ -7,11 +7,11 @@
 #pragma once
 
 #include <cstddef>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
 #include "sdk/src/core/container.h"
+#include "sdk/src/core/memory.h"
 #include "sdk/src/probe/packing.h"
 #include "sdk/src/probe/probe.h"
 
@@ -25,8 +25,7 @@ std::vector<std::byte> write_probes(const Probes& probes, Packing packing);
 
 // Safe on hostile bytes, also with a right checksum: throws Failure(NOOK_ERROR_BAD_FILE or
 // NOOK_ERROR_FILE_VERSION), and allocates no more than the coefficients and the recipe.
-Probes read_probes(std::span<const std::byte> bytes,
-                   std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+Probes read_probes(std::span<const std::byte> bytes, Memory* memory = default_memory());
 Packing packing_of(std::span<const std::byte> bytes);
 
 }  // namespace nook::probe

@@ -36,7 +36,7 @@ Vec3 posed_normal(const KeyPoint& point, const Pose& pose) {
 
 // Mean square of the difference between what a plane below takes from a vertex, (1 - cos) / 2, and what is
 // blended for it.
-double plane_error(const Tube& tube, const std::pmr::vector<float>& weight, const Pose& pose) {
+double plane_error(const Tube& tube, const nook::Vector<float>& weight, const Pose& pose) {
   const CharacterModel& model = tube.model;
   std::vector<Vec3> position, normal;
   skin_positions(tube.mesh, pose, position);
@@ -72,7 +72,7 @@ TEST_CASE("blend weights sum to one exactly and belong to entries in use") {
 TEST_CASE("a plane's darkening is blended better than by the shares of alpha") {
   const Tube tube;
   const CharacterModel& model = tube.model;
-  std::pmr::vector<float> share(model.alpha);
+  nook::Vector<float> share(model.alpha);
   for (std::size_t i = 0; i < model.vertex_count(); ++i) {
     float sum = 0;
     for (std::size_t e = i * model.influences; e < (i + 1) * model.influences; ++e) sum += model.alpha[e];

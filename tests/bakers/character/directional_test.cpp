@@ -80,7 +80,7 @@ TEST_CASE("occlusion of each lobe is nearer to path tracing than AO times the li
   bake.rays = 32;
   bake.steps = 300;
   const std::vector<Pose> poses = tube_poses(mesh, 60);
-  std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
+  nook::Memory* memory = nook::default_memory();
   const Ref<const LoadedModel> model = Owned<LoadedModel>::make(
       memory, Ref<const RefCounted>(), bake_character(mesh, poses, bake).model, memory);
 

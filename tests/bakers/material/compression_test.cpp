@@ -131,8 +131,7 @@ TEST_CASE("a view that turns changes what K-CTA decodes about as smoothly as wha
     s.mixture = 3;
     s.map_side = map_side;
     s.visibility = VisibilityForm::none;
-    const auto tables =
-        nook::material::make_tables(compress(raw, s), {}, std::pmr::get_default_resource(), 256);
+    const auto tables = nook::material::make_tables(compress(raw, s), {}, nook::default_memory(), 256);
     double largest = 0;
     for (const float aside : {0.1f, -0.3f}) {
       std::vector<float> before;

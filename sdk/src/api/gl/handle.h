@@ -28,7 +28,7 @@ struct nook_gl_s : nook::RefCounted {
   }
 
   nook::gl::Device device;
-  std::pmr::string version;
-  std::pmr::string renderer;
+  nook::String version;
+  nook::String renderer;
   std::optional<nook::gl::CharacterGl> characters;
 };

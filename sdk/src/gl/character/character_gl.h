@@ -39,7 +39,7 @@ class CharacterGl {
   void release_destroyed();
 
  private:
-  std::pmr::list<SceneHandle> scenes_;
+  List<SceneHandle> scenes_;
   std::variant<std::monostate, FeedbackTier, ComputeTier> storage_;
   Tier* tier_;  // in storage_
   AoOutput output_;

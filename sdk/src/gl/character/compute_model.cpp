@@ -8,14 +8,14 @@
 namespace nook::gl {
 namespace {
 
-using Words = std::pmr::vector<std::uint32_t>;
-using Floats = std::pmr::vector<float>;
+using Words = Vector<std::uint32_t>;
+using Floats = Vector<float>;
 
 void append(Floats& out, Vec3 v, float w) {
   out.insert(out.end(), {v.x, v.y, v.z, w});
 }
 
-void append_spheres(Floats& out, const std::pmr::vector<ProxySphere>& spheres) {
+void append_spheres(Floats& out, const Vector<ProxySphere>& spheres) {
   for (const ProxySphere& sphere : spheres) {
     append(out, sphere.centre, sphere.radius);
     append(out, {static_cast<float>(sphere.bone), sphere.caster_weight, 0}, 0);
@@ -23,7 +23,7 @@ void append_spheres(Floats& out, const std::pmr::vector<ProxySphere>& spheres) {
 }
 
 // The levels in a row, as spheres.comp reads them.
-Floats pack_spheres(const CharacterModel& model, std::pmr::memory_resource* memory) {
+Floats pack_spheres(const CharacterModel& model, Memory* memory) {
   Floats out(memory);
   append_spheres(out, model.spheres);
   for (const CharacterLevel& level : model.levels) append_spheres(out, level.spheres);
@@ -38,7 +38,7 @@ void append_key_point(Floats& out, const KeyPoint& point) {
 }
 
 // The levels in a row, as shadows.comp reads them.
-Floats pack_key_points(const CharacterModel& model, std::pmr::memory_resource* memory) {
+Floats pack_key_points(const CharacterModel& model, Memory* memory) {
   Floats out(memory);
   for (const KeyPoint& point : model.key_points) append_key_point(out, point);
   for (const CharacterLevel& level : model.levels)
@@ -47,7 +47,7 @@ Floats pack_key_points(const CharacterModel& model, std::pmr::memory_resource* m
 }
 
 // The coarser levels in a row, as spread.comp reads them.
-Words pack_spread(const CharacterModel& model, std::pmr::memory_resource* memory) {
+Words pack_spread(const CharacterModel& model, Memory* memory) {
   Words out(memory);
   for (const CharacterLevel& level : model.levels)
     for (std::size_t k = 0; k < model.key_points.size(); ++k)
@@ -69,7 +69,7 @@ std::array<LevelRange, CharacterModel::max_levels + 1> ranges_of(const Character
 }
 
 // Packs the linear layer in the layout of vertices.comp.
-Words pack_linear(const ComputeModel& sizes, std::pmr::memory_resource* memory) {
+Words pack_linear(const ComputeModel& sizes, Memory* memory) {
   const CharacterModel& model = sizes.model->model;
   const std::size_t vertices = sizes.vertices(), pairs = sizes.influence_pairs();
   Words out(sizes.file_vertices() + vertices * (1 + 5 * pairs), 0, memory);
@@ -103,7 +103,7 @@ std::uint64_t ComputeModel::largest_share() const {
 
 ComputeModel::ComputeModel(Device& device, Ref<const LoadedModel> loaded)
     : ModelData(std::move(loaded)), levels(ranges_of(model->model)) {
-  std::pmr::memory_resource* const memory = device.memory;
+  Memory* const memory = device.memory;
   const CharacterModel& m = model->model;
   spheres_rest = static_buffer(device, "nook: rest spheres", pack_spheres(m, memory));
   key_points_rest = static_buffer(device, "nook: rest key points", pack_key_points(m, memory));

@@ -25,7 +25,7 @@ struct ComputeChunk : ChunkData {
     std::uint64_t revision = 0;
     bool operator==(const Pose&) const = default;
   };
-  std::pmr::vector<Pose> transformed;
+  Vector<Pose> transformed;
 
   // Of the update in progress; offsets in bytes into ComputeScene::stream.
   struct Frame {

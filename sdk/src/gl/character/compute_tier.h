@@ -47,8 +47,8 @@ class ComputeTier final : public Tier {
   Object colours_[kernel_form_count];  // these: name 0 until an instance has a light
   Object colours_spread_;
   Object lit_vertices_;
-  std::pmr::list<ComputeModel> models_;
-  std::pmr::list<ComputeScene> scenes_;  // destroyed before the models that their chunks use
+  List<ComputeModel> models_;
+  List<ComputeScene> scenes_;  // destroyed before the models that their chunks use
 };
 
 }  // namespace nook::gl

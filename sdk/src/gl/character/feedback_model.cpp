@@ -13,10 +13,10 @@ constexpr std::size_t alpha_offset = 4 * sizeof(std::uint16_t);
 constexpr std::size_t blend_offset = alpha_offset + 4 * sizeof(float);
 constexpr std::size_t quad_bytes = blend_offset + 4 * sizeof(float);
 
-std::pmr::vector<std::byte> pack_attributes(const FeedbackModel& sizes, std::pmr::memory_resource* memory) {
+Vector<std::byte> pack_attributes(const FeedbackModel& sizes, Memory* memory) {
   const CharacterModel& model = sizes.model->model;
   const std::size_t stride = sizeof(float) + sizes.influence_quads() * quad_bytes;
-  std::pmr::vector<std::byte> out(sizes.vertices() * stride, std::byte{0}, memory);
+  Vector<std::byte> out(sizes.vertices() * stride, std::byte{0}, memory);
   for (std::size_t v = 0; v < sizes.vertices(); ++v) {
     std::byte* const vertex = out.data() + v * stride;
     std::memcpy(vertex, &model.bias[v], sizeof(float));

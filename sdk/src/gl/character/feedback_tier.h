@@ -45,8 +45,8 @@ class FeedbackTier final : public Tier {
   Program programs_[2], lit_programs_[2];  // for one and two quads of influences
   Object framebuffer_, renderbuffer_;
   Object feedback_;  // name 0 before OpenGL 4.0
-  std::pmr::list<FeedbackModel> models_;
-  std::pmr::list<FeedbackScene> scenes_;  // destroyed before the models that their chunks use
+  List<FeedbackModel> models_;
+  List<FeedbackScene> scenes_;  // destroyed before the models that their chunks use
 };
 
 }  // namespace nook::gl

@@ -1,17 +1,17 @@
 // The lights of a scene's instances in one texture buffer, for passes over lights and for the host's shaders.
 #pragma once
 
-#include <memory_resource>
 #include <vector>
 
 #include "sdk/src/character/scene.h"
+#include "sdk/src/core/containers.h"
 #include "sdk/src/gl/object.h"
 
 namespace nook::gl {
 
 class LightTexture {
  public:
-  explicit LightTexture(std::pmr::memory_resource* memory) : first_texels_(memory) {}
+  explicit LightTexture(Memory* memory) : first_texels_(memory) {}
 
   static constexpr std::uint32_t no_light = UINT32_MAX;
 
@@ -34,7 +34,7 @@ class LightTexture {
  private:
   Buffer buffer_;
   Object texture_;
-  std::pmr::vector<std::uint32_t> first_texels_;  // by slot
+  Vector<std::uint32_t> first_texels_;  // by slot
 };
 
 // A texture that reads the buffer. Binds GL_TEXTURE_BUFFER of unit 0.

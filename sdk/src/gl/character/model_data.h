@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <list>
-#include <memory_resource>
 #include <vector>
 
 #include "sdk/src/character/loaded_model.h"
+#include "sdk/src/core/containers.h"
 #include "sdk/src/gl/object.h"
 
 namespace nook::gl {
@@ -29,13 +29,13 @@ struct ModelData {
 // A buffer that holds `data` for good. Throws Failure: UNSUPPORTED if this OpenGL binds no piece so large.
 Buffer static_buffer(Device& device, const char* label, const void* data, std::uint64_t bytes);
 template <class T>
-Buffer static_buffer(Device& device, const char* label, const std::pmr::vector<T>& data) {
+Buffer static_buffer(Device& device, const char* label, const Vector<T>& data) {
   return static_buffer(device, label, data.data(), data.size() * sizeof(T));
 }
 
 // The tier's copy of a model, made at its first use. Throws Failure.
 template <class Model>
-Model& model_data(Device& device, std::pmr::list<Model>& models, const Ref<const LoadedModel>& loaded) {
+Model& model_data(Device& device, List<Model>& models, const Ref<const LoadedModel>& loaded) {
   for (Model& known : models)
     if (known.model.get() == loaded.get()) return known;
   return models.emplace_back(device, loaded);
@@ -43,7 +43,7 @@ Model& model_data(Device& device, std::pmr::list<Model>& models, const Ref<const
 
 // Models that no chunk uses any more.
 template <class Model>
-void drop_unused(std::pmr::list<Model>& models) {
+void drop_unused(List<Model>& models) {
   models.remove_if([](const Model& model) { return model.users == 0; });
 }
 

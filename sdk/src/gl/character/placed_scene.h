@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <list>
-#include <memory_resource>
 #include <vector>
 
 #include "sdk/src/character/scene.h"
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/character/light_texture.h"
 #include "sdk/src/gl/character/model_data.h"
@@ -32,7 +32,7 @@ struct ChunkData {
 
   ModelData& data;
   std::uint32_t capacity;
-  std::pmr::vector<std::uint32_t> slots;  // of each place: the scene's slot that lives there, or `empty`
+  Vector<std::uint32_t> slots;  // of each place: the scene's slot that lives there, or `empty`
   std::uint32_t living = 0;
   std::uint32_t first_free = 0;  // no place before it is empty
   Buffer ao;                     // capacity * file vertices
@@ -65,14 +65,14 @@ class PlacedScene {
   using Chunk = ChunkType;
   using Model = typename Chunk::Model;
 
-  PlacedScene(const Scene& of, std::pmr::memory_resource* memory)
+  PlacedScene(const Scene& of, Memory* memory)
       : scene(&of), chunks(memory), placements(memory), lights(memory) {}
 
   // The structure of the scene has changed since the places were given.
   bool outdated() const { return !prepared_ || structure_revision_ != scene->structure_revision; }
 
   // Gives every instance a place; instances that had one keep it. Throws Failure.
-  void place_all(Device& device, std::pmr::list<Model>& models) {
+  void place_all(Device& device, List<Model>& models) {
     prepared_ = false;
     vacate_removed();
     placements.resize(scene->instances.size());
@@ -111,8 +111,8 @@ class PlacedScene {
   }
 
   const Scene* scene;
-  std::pmr::list<Chunk> chunks;
-  std::pmr::vector<Placement<Chunk>> placements;
+  List<Chunk> chunks;
+  Vector<Placement<Chunk>> placements;
   LightTexture lights;
 
  private:
@@ -147,7 +147,7 @@ class PlacedScene {
     if (chunk.living == 0) chunks.remove_if([&](const Chunk& c) { return &c == &chunk; });
   }
 
-  void place_new(Device& device, std::pmr::list<Model>& models, std::uint32_t slot) {
+  void place_new(Device& device, List<Model>& models, std::uint32_t slot) {
     Chunk& chunk = chunk_with_room(device, models, scene->instances[slot].model);
     while (chunk.slots[chunk.first_free] != Chunk::empty) ++chunk.first_free;
     placements[slot] = {scene->instances[slot].id, &chunk, chunk.first_free++};
@@ -156,7 +156,7 @@ class PlacedScene {
   }
   // A chunk of the model with room, or a new one for all instances of the model that still wait, with room to
   // grow by half once there are others.
-  Chunk& chunk_with_room(Device& device, std::pmr::list<Model>& models, const Ref<const LoadedModel>& model) {
+  Chunk& chunk_with_room(Device& device, List<Model>& models, const Ref<const LoadedModel>& model) {
     std::uint32_t living = 0, waiting = 0;
     for (Chunk& chunk : chunks) {
       if (chunk.model->model.get() != model.get()) continue;
@@ -178,13 +178,13 @@ class PlacedScene {
 
 // The tier's data of a scene; none yet: NULL.
 template <class Placed>
-Placed* placed_scene(std::pmr::list<Placed>& scenes, const Scene& scene) {
+Placed* placed_scene(List<Placed>& scenes, const Scene& scene) {
   for (Placed& known : scenes)
     if (known.scene == &scene) return &known;
   return nullptr;
 }
 template <class Placed>
-const Placed* placed_scene(const std::pmr::list<Placed>& scenes, const Scene& scene) {
+const Placed* placed_scene(const List<Placed>& scenes, const Scene& scene) {
   for (const Placed& known : scenes)
     if (known.scene == &scene) return &known;
   return nullptr;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory_resource>
 #include <string>
 #include <vector>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/gl/object.h"
 #include "sdk/src/material/tables.h"
 
@@ -25,16 +25,16 @@ class MaterialTextures {
   // `materials` in touched_state.h; the caller holds a StateGuard. Throws Failure.
   MaterialTextures(Device& device, const material::MaterialTables& tables, std::uint32_t max_layers);
 
-  const std::pmr::vector<Texture>& textures() const { return textures_; }
-  const std::pmr::string& source() const { return source_; }
+  const Vector<Texture>& textures() const { return textures_; }
+  const String& source() const { return source_; }
   std::uint64_t bytes() const { return bytes_; }
 
  private:
   void add_tensor(Device& device, const material::TensorTables& tables, const char* name,
                   std::uint32_t max_layers);
 
-  std::pmr::vector<Texture> textures_;
-  std::pmr::string source_;
+  Vector<Texture> textures_;
+  String source_;
   std::uint64_t bytes_ = 0;
 };
 

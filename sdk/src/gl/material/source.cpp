@@ -8,7 +8,7 @@
 namespace nook::gl {
 namespace {
 
-using Text = std::pmr::string;
+using Text = String;
 
 void add(Text& out, const char* format, ...) __attribute__((format(printf, 2, 3)));
 void add(Text& out, const char* format, ...) {
@@ -51,8 +51,7 @@ const char* host_text() {
 
 }  // namespace
 
-std::pmr::string material_source(const material::MaterialTables& tables, std::uint32_t max_layers,
-                                 std::pmr::memory_resource* memory) {
+String material_source(const material::MaterialTables& tables, std::uint32_t max_layers, Memory* memory) {
   Text out(memory);
   add(out, "#define NOOK_LIGHT_VEC4_COUNT %u\nuniform sampler2DArray nook_light_map;\n",
       tables.btf.light_modes / 4);

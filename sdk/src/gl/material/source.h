@@ -1,9 +1,9 @@
 // The GLSL of a material: constants and samplers for its sizes, then shaders/material/host.glsl.
 #pragma once
 
-#include <memory_resource>
 #include <string>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/material/tables.h"
 
 namespace nook::gl {
@@ -13,7 +13,6 @@ inline std::uint32_t array_count(const material::TensorTables& tables, std::uint
   return (tables.layers() + max_layers - 1) / max_layers;
 }
 
-std::pmr::string material_source(const material::MaterialTables& tables, std::uint32_t max_layers,
-                                 std::pmr::memory_resource* memory);
+String material_source(const material::MaterialTables& tables, std::uint32_t max_layers, Memory* memory);
 
 }  // namespace nook::gl

@@ -7,7 +7,7 @@
 namespace nook::gl {
 namespace {
 
-using Floats = std::pmr::vector<float>;
+using Floats = Vector<float>;
 
 template <std::size_t count>
 void add(Floats& out, const std::array<float, count>& values) {
@@ -26,7 +26,7 @@ void add(Floats& out, const nnao::Dense<inputs, units>& layer) {
 
 }  // namespace
 
-std::pmr::vector<float> network_constants(const nnao::Network& network, std::pmr::memory_resource* memory) {
+Vector<float> network_constants(const nnao::Network& network, Memory* memory) {
   Floats out(memory);
   if (network.form == nnao::NetworkForm::horizon) {
     const nnao::HorizonNetwork& horizon = network.horizon;

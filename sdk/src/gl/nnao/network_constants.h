@@ -8,6 +8,6 @@
 namespace nook::gl {
 
 // Returns the uniform array nook_network of horizon.glsl or paper.glsl; its length is a multiple of four.
-std::pmr::vector<float> network_constants(const nnao::Network& network, std::pmr::memory_resource* memory);
+Vector<float> network_constants(const nnao::Network& network, Memory* memory);
 
 }  // namespace nook::gl

@@ -108,7 +108,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   device_.gl.UseProgram(occlusion_.program.name());
   device_.gl.Uniform1i(uniform_location(device_, occlusion_.program, "nook_tap_groups"),
                        static_cast<GLint>(grid.directions));
-  const std::pmr::vector<float> constants = network_constants(network, device_.memory);
+  const Vector<float> constants = network_constants(network, device_.memory);
   device_.gl.Uniform4fv(uniform_location(device_, occlusion_.program, "nook_network"),
                         static_cast<GLsizei>(constants.size() / 4), constants.data());
 }

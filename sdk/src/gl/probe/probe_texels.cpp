@@ -6,8 +6,8 @@ std::uint64_t probe_texel_count(const probe::Probes& probes) {
   return 3 + std::uint64_t(probes.basis.count) * (1 + probes.grid.size());
 }
 
-std::pmr::vector<float> probe_texels(const probe::Probes& probes, std::pmr::memory_resource* memory) {
-  std::pmr::vector<float> texels(memory);
+Vector<float> probe_texels(const probe::Probes& probes, Memory* memory) {
+  Vector<float> texels(memory);
   texels.reserve(4 * probe_texel_count(probes));
   const auto add = [&](Vec3 v, float w) { texels.insert(texels.end(), {v.x, v.y, v.z, w}); };
   const probe::Basis& basis = probes.basis;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <memory_resource>
 #include <vector>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/probe/probe.h"
 
 namespace nook::gl {
@@ -12,6 +12,6 @@ namespace nook::gl {
 // The texels, four floats each: counts and number of lobes; origin; 1 / spacing; axis and sharpness of each
 // lobe; then the amplitudes of each probe, where x varies fastest, then y, then z.
 std::uint64_t probe_texel_count(const probe::Probes& probes);
-std::pmr::vector<float> probe_texels(const probe::Probes& probes, std::pmr::memory_resource* memory);
+Vector<float> probe_texels(const probe::Probes& probes, Memory* memory);
 
 }  // namespace nook::gl

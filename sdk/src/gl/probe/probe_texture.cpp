@@ -24,7 +24,7 @@ void ProbeTexture::update(const probe::Probes& probes) {
         "the grid is too large for a texture buffer of this OpenGL (%u lobes at %zu places are %llu "
         "texels, need at most %u); split the grid or use fewer lobes",
         probes.basis.count, probes.grid.size(), static_cast<unsigned long long>(count), device_.max_texels);
-  const std::pmr::vector<float> texels = probe_texels(probes, device_.memory);
+  const Vector<float> texels = probe_texels(probes, device_.memory);
   // The new texels have a buffer of their own, so that the old ones stay until everything has succeeded.
   Buffer buffer(device_, "nook: probe", texels.size() * sizeof(float), texels.data(), GL_STATIC_DRAW);
   device_.gl.ActiveTexture(GL_TEXTURE0);

@@ -1,0 +1,62 @@
+// The standard containers over Memory. A container of containers gives its elements the memory that it has itself.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <list>
+#include <memory>
+#include <new>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "sdk/src/core/memory.h"
+
+namespace nook {
+
+// An allocator stays with its container: it goes along only where a container is made from an rvalue. A copy takes
+// default_memory(), so that it can outlive the memory of the original.
+template <class T>
+class Allocator {
+ public:
+  using value_type = T;
+
+  Allocator() noexcept : memory_(default_memory()) {}
+  // Implicit, so that a container is made from a pointer.
+  Allocator(Memory* memory) noexcept : memory_(memory) {}
+  template <class U>
+  Allocator(const Allocator<U>& other) noexcept : memory_(other.memory()) {}
+
+  T* allocate(std::size_t count) {
+    if (count > std::numeric_limits<std::size_t>::max() / sizeof(T)) throw std::bad_array_new_length();
+    return static_cast<T*>(memory_->allocate(count * sizeof(T), alignof(T)));
+  }
+  void deallocate(T* first, std::size_t count) noexcept {
+    memory_->deallocate(first, count * sizeof(T), alignof(T));
+  }
+  // Elements that take an allocator as their last argument get this one; all others are made without it.
+  template <class U, class... Arguments>
+    requires std::uses_allocator_v<U, Allocator<U>>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)..., Allocator<U>(memory_));
+  }
+  Allocator select_on_container_copy_construction() const noexcept { return {}; }
+
+  Memory* memory() const noexcept { return memory_; }
+  template <class U>
+  bool operator==(const Allocator<U>& other) const noexcept {
+    return memory_ == other.memory();
+  }
+
+ private:
+  Memory* memory_;
+};
+
+template <class T>
+using Vector = std::vector<T, Allocator<T>>;
+template <class T>
+using List = std::list<T, Allocator<T>>;
+using String = std::basic_string<char, std::char_traits<char>, Allocator<char>>;
+
+}  // namespace nook
