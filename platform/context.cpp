@@ -1,10 +1,18 @@
 #include <glad/gl.h>
 
+#include <cstring>
 #include <stdexcept>
 
 #include "platform/kinds.h"
 
 namespace platform {
+namespace {
+
+const GLubyte* GLAD_API_PTR version_for_glad(GLenum) {
+  return reinterpret_cast<const GLubyte*>("4.6");
+}
+
+}  // namespace
 
 Context::Context(int width, int height, bool has_framebuffer)
     : width_(width), height_(height), has_framebuffer_(has_framebuffer) {}
@@ -22,11 +30,16 @@ void* Context::loader(void* user, const char* name) {
 
 void Context::load_functions() {
   gl_ = std::make_unique<GladGLContext>();
+  // glad stops at the functions of the version that GL_VERSION says, and OpenGL ES counts otherwise: its
+  // functions have the names and the meanings of OpenGL's, so that all that the driver has are loaded.
   const GLADuserptrloadfunc load = [](void* user, const char* name) {
+    if (std::strcmp(name, "glGetString") == 0 && static_cast<Context*>(user)->is_es())
+      return reinterpret_cast<GLADapiproc>(&version_for_glad);
     return reinterpret_cast<GLADapiproc>(loader(user, name));
   };
   if (!gladLoadGLContextUserPtr(gl_.get(), load, this))
     throw std::runtime_error("create_context: the OpenGL functions could not be loaded; check the driver");
+  gl_->GetString = reinterpret_cast<decltype(gl_->GetString)>(proc("glGetString"));
 }
 
 unsigned Context::framebuffer() {
@@ -69,6 +82,9 @@ const char* context_kinds() {
 }
 
 std::unique_ptr<Context> create_context(const ContextRequest& request) {
+  if (request.es && request.kind != "egl")
+    throw std::runtime_error("create_context: OpenGL ES contexts are of the kind egl alone (got " +
+                             request.kind + ")");
   if (request.kind == "egl") return create_egl_context(request);
   if (request.kind == "window") return create_window_context(request);
 #ifdef PLATFORM_HAS_OSMESA

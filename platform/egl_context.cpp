@@ -38,12 +38,16 @@ std::vector<EGLDisplay> displays() {
   return found;
 }
 
+EGLenum api_of(bool es) {
+  return es ? EGL_OPENGL_ES_API : EGL_OPENGL_API;
+}
+
 // The display is never terminated, because other code of the process may share it, and because Mesa's LLVM
 // leaks when it is terminated.
 class EglContext final : public Context {
  public:
   EglContext(const ContextRequest& request, EGLDisplay display, EGLContext context)
-      : Context(request.width, request.height, false), display_(display), context_(context) {
+      : Context(request.width, request.height, false), display_(display), context_(context), es_(request.es) {
     make_current();
     load_functions();
   }
@@ -52,45 +56,48 @@ class EglContext final : public Context {
     eglDestroyContext(display_, context_);
   }
   void make_current() override {
-    if (!eglBindAPI(EGL_OPENGL_API) || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+    if (!eglBindAPI(api_of(es_)) || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
       throw std::runtime_error(
           "Context::make_current: eglMakeCurrent failed; EGL_KHR_surfaceless_context is needed");
   }
   void clear_current() override { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+  bool is_es() const override { return es_; }
   void* proc(const char* name) const override { return reinterpret_cast<void*>(eglGetProcAddress(name)); }
 
  private:
   EGLDisplay display_;
   EGLContext context_;
+  bool es_;
 };
 
 // Some drivers refuse the debug attribute with any value.
 EGLContext create(EGLDisplay display, const ContextRequest& request, bool debug) {
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                               request.major,
-                               EGL_CONTEXT_MINOR_VERSION,
-                               request.minor,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               debug ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE,
-                               EGL_TRUE,
-                               EGL_NONE};
-  return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+  std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION, request.major, EGL_CONTEXT_MINOR_VERSION,
+                                    request.minor};
+  // OpenGL ES has no profiles.
+  if (!request.es)
+    attributes.insert(attributes.end(),
+                      {EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT});
+  if (debug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+  attributes.push_back(EGL_NONE);
+  return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
 }
 
 }  // namespace
 
 std::unique_ptr<Context> create_egl_context(const ContextRequest& request) {
   for (const EGLDisplay display : displays()) {
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API))
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr) ||
+        !eglBindAPI(api_of(request.es)))
       continue;
     EGLContext context = request.debug ? create(display, request, true) : EGL_NO_CONTEXT;
     if (context == EGL_NO_CONTEXT) context = create(display, request, false);
     if (context != EGL_NO_CONTEXT) return std::make_unique<EglContext>(request, display, context);
   }
-  throw std::runtime_error("create_context: no EGL display gives an OpenGL " + std::to_string(request.major) +
-                           "." + std::to_string(request.minor) +
-                           " core context; install libegl1 and libgl1-mesa-dri");
+  throw std::runtime_error(std::string("create_context: no EGL display gives an OpenGL ") +
+                           (request.es ? "ES " : "") + std::to_string(request.major) + "." +
+                           std::to_string(request.minor) + (request.es ? "" : " core") +
+                           " context; install libegl1 and libgl1-mesa-dri");
 }
 
 }  // namespace platform

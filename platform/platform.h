@@ -20,6 +20,7 @@ struct ContextRequest {
   int height = 720;
   int major = 4;  // the version of the core profile; Mesa's software renderer has 4.5 at most
   int minor = 5;
+  bool es = false;     // true: OpenGL ES of that version, from "egl" alone
   bool debug = false;  // true: a debug context if the driver supports one
   std::string title = "Nook";
 };
@@ -35,6 +36,8 @@ class Context {
   // Shows the drawn picture and reads the events of a window. Does nothing without a window.
   virtual void present() {}
   virtual bool should_close() const { return false; }
+  // OpenGL ES in place of OpenGL.
+  virtual bool is_es() const { return false; }
   // Null unless the kind is "window".
   virtual GLFWwindow* window() const { return nullptr; }
   // The size of the drawable in pixels. The user may resize a window.

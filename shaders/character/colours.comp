@@ -4,8 +4,8 @@
 #include "shaders/character/key_points.glsl"
 #include "shaders/character/light.glsl"
 
-layout(std430, binding = NOOK_BINDING_COLOURS) writeonly buffer NookColours {
-  vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow; added occlusion
+layout(std430, binding = NOOK_BINDING_KEY_POINTS) writeonly buffer NookColours {
+  vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow, and the shadow; added occlusion
 };
 
 void nook_gather_sphere(inout NookBands bands, vec4 sphere, NookPoint point) {
@@ -57,7 +57,7 @@ void main() {
   NookRecord record = nook_read_record(nook_first_record + gl_WorkGroupID.y);
   // All threads of a group belong to one instance.
   if (record.light == 0u) return;
-  uint light = record.light - 1u;
+  uint light = record.light;
   uint key_point = min(gl_GlobalInvocationID.x, nook_key_point_count - 1u);
   NookPoint fitted, surface;
   nook_pose(nook_first_key_point + key_point, record.first_bone, fitted, surface);
@@ -72,8 +72,8 @@ void main() {
   vec3 inverse = nook_inverse_hemisphere(light, surface.normal);
   for (uint c = 0u; c < record.caster_count; ++c) {
     uint at = record.first_caster + uint(NOOK_CASTER_UVEC4S) * c;
-    uvec4 caster = nook_caster[at];
-    uint spheres = nook_caster[at + 1u].x;
+    uvec4 caster = nook_stream[at];
+    uint spheres = nook_stream[at + 1u].x;
     vec3 offset = uintBitsToFloat(caster.xyz);
     if (nook_composed != 0) {
       NookPoint point = NookPoint(surface.position - offset, surface.normal);
@@ -84,10 +84,10 @@ void main() {
       coloured += nook_coloured_sum(light, others, fitted.normal);
     }
   }
-  uint grounds = uint(nook_light[light + uint(NOOK_LIGHT_DARKEST)].w);  // 1 or 0: the first of the exact spheres is the ground
+  uint grounds = uint(nook_light(light, NOOK_LIGHT_DARKEST).w);  // 1 or 0: the first of the exact spheres is the ground
   NookBands ground = nook_no_bands(), free = nook_no_bands();
   for (uint i = 0u; i < record.exact_count; ++i) {
-    vec4 sphere = uintBitsToFloat(nook_caster[record.first_exact + i]);
+    vec4 sphere = nook_streamed(record.first_exact + i);
     vec3 o = (sphere.xyz - surface.position) * sphere.w;
     float share = min(nook_form_factor_exact(dot(o, surface.normal), dot(o, o)), 1.0);
     if (nook_composed == 0) {
@@ -108,7 +108,7 @@ void main() {
   }
   if (gl_GlobalInvocationID.x < nook_key_point_count) {
     uint place = uint(NOOK_COLOUR_VEC4S) * (record.place * nook_shadow_stride + nook_shadow_offset + key_point);
-    nook_colour[place] = vec4(norm > 0.0 ? coloured / norm : vec3(1.0), 0.0);
+    nook_colour[place] = vec4(norm > 0.0 ? coloured / norm : vec3(1.0), nook_norm_root(norm, nook_gamma));
     nook_colour[place + 1u] = vec4(1.0 - open * exp(-depth), 0.0);
   }
 }

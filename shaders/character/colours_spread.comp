@@ -4,7 +4,7 @@
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
-layout(std430, binding = NOOK_BINDING_COLOURS) buffer NookColours {
+layout(std430, binding = NOOK_BINDING_KEY_POINTS) buffer NookColours {
   vec4 nook_colour[];  // two for each of all key points, then for the evaluated ones
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookSpread {
@@ -14,6 +14,7 @@ layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookSpread {
 layout(location = NOOK_LOCATION_SPREAD_FIRST_RECORD) uniform uint nook_first_record;
 layout(location = NOOK_LOCATION_SPREAD_KEY_POINT_COUNT) uniform uint nook_key_point_count;
 layout(location = NOOK_LOCATION_SPREAD_SHADOW_STRIDE) uniform uint nook_shadow_stride;
+layout(location = NOOK_LOCATION_SPREAD_SELF) uniform int nook_self;
 layout(location = NOOK_LOCATION_SPREAD_LEVEL) uniform uint nook_level;
 
 void main() {
@@ -22,8 +23,13 @@ void main() {
   NookRecord record = nook_read_record(nook_first_record + gl_WorkGroupID.y);
   if (record.light == 0u) return;
   uint first = record.place * nook_shadow_stride;
-  uint source = first + nook_key_point_count + nook_spread[uint(NOOK_SPREAD_WORDS) * (nook_level * nook_key_point_count + k)];
+  uint rule = uint(NOOK_SPREAD_WORDS) * (nook_level * nook_key_point_count + k);
+  uint source = first + nook_key_point_count + nook_spread[rule];
   uint to = uint(NOOK_COLOUR_VEC4S) * (first + k), from = uint(NOOK_COLOUR_VEC4S) * source;
-  nook_colour[to] = nook_colour[from];
+  vec4 shadow = nook_colour[from];
+  // Scale and offset apply to self-shadow only, as in spread.comp.
+  if (nook_self != 0)
+    shadow.w = max(uintBitsToFloat(nook_spread[rule + 1u]) * shadow.w + uintBitsToFloat(nook_spread[rule + 2u]), 0.0);
+  nook_colour[to] = shadow;
   nook_colour[to + 1u] = nook_colour[from + 1u];
 }

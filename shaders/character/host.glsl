@@ -1,20 +1,21 @@
 // The functions of a host's shader for the light of a scene's instances. `light` is that of nook_gl_light_view;
 // normals are unit vectors in world space; colours are linear RGB.
 #include "shaders/character/light_layout.h"
+#include "shaders/core/texels.glsl"
 #include "shaders/probe/irradiance.glsl"
 
 // shaders/character/light_layout.h defines the layout.
-uniform samplerBuffer nook_scene_lights;
+uniform NOOK_TEXELS nook_scene_lights;
 
 // Returns the irradiance of the lobes on an open surface. Fits of probes may ring slightly below 0; negative
 // values are clamped.
 vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
-  int count = int(texelFetch(nook_scene_lights, light + NOOK_LIGHT_HEAD).x);
+  int count = int(nook_texel(nook_scene_lights, light + NOOK_LIGHT_HEAD).x);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < count; ++i) {
     int lobe = light + NOOK_LIGHT_LOBES + NOOK_LIGHT_LOBE_TEXELS * i;
-    vec4 shape = texelFetch(nook_scene_lights, lobe);
-    vec3 amplitude = texelFetch(nook_scene_lights, lobe + 1).xyz;
+    vec4 shape = nook_texel(nook_scene_lights, lobe);
+    vec3 amplitude = nook_texel(nook_scene_lights, lobe + 1).xyz;
     sum += nook_probe_lobe_irradiance(NookLobe(shape.xyz, shape.w, amplitude, 0.0), normal_ws);
   }
   return max(sum, 0.0);

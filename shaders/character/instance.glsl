@@ -3,24 +3,25 @@
 #include "shaders/character/constants.h"
 #include "shaders/character/layout.h"
 
-layout(std430, binding = NOOK_BINDING_RECORDS) readonly buffer NookRecords {
-  uvec4 nook_record[];  // two for each instance, see NookRecord
-};
-layout(std430, binding = NOOK_BINDING_BONES) readonly buffer NookBones {
-  vec4 nook_bone[];  // three rows of each 3x4 matrix
+// What the CPU sends for an update of the chunk: records, bones, casters and lights, floats as bits. A number of an
+// element in a record is its place in the stream.
+layout(std430, binding = NOOK_BINDING_STREAM) readonly buffer NookStream {
+  uvec4 nook_stream[];
 };
 
 struct NookRecord {
-  uint first_bone;
-  uint first_sphere;
-  uint place;  // of the instance in its chunk
-  uint light;  // 1 + its first texel in the lights; 0: none
-  uint first_caster, caster_count;  // in nook_caster
-  uint first_exact, exact_count;    // in nook_caster
+  uint first_bone;    // three rows of each 3x4 matrix
+  uint first_sphere;  // in the scene's spheres
+  uint place;         // of the instance in its chunk
+  uint light;         // as light_layout.h has it; 0: none
+  uint first_caster, caster_count;
+  uint first_exact, exact_count;
 };
 
 NookRecord nook_read_record(uint instance) {
   uint first = uint(NOOK_RECORD_UVEC4S) * instance;
-  uvec4 a = nook_record[first], b = nook_record[first + 1u];
+  uvec4 a = nook_stream[first], b = nook_stream[first + 1u];
   return NookRecord(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
+
+vec4 nook_streamed(uint place) { return uintBitsToFloat(nook_stream[place]); }

@@ -6,16 +6,10 @@
 const uint nook_tile_size = uint(NOOK_GROUP_SIZE);
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
-layout(std430, binding = NOOK_BINDING_CASTERS) readonly buffer NookCasters {
-  // Two for each caster: its origin minus the receiver's, first sphere; number of spheres. Or one for each exact
-  // sphere: centre, 1 / radius. Floats as bits.
-  uvec4 nook_caster[];
-};
+// The stream has two elements for each caster: its origin minus the receiver's, first sphere; number of spheres. Of each
+// exact sphere it has one: centre, 1 / radius.
 layout(std430, binding = NOOK_BINDING_SPHERES) readonly buffer NookSpheres {
-  vec4 nook_sphere[];
-};
-layout(std430, binding = NOOK_BINDING_WEIGHTS) readonly buffer NookWeights {
-  float nook_caster_weight[];
+  vec4 nook_sphere[];  // two for each: centre, 1 / radius; caster weight
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookKeyPoints {
   vec4 nook_rest_key_point[];  // six for each: position, normal, surface position, surface normal, bones, weights
@@ -50,8 +44,9 @@ void nook_stage(uint first, uint count) {
   barrier();
   uint i = gl_LocalInvocationID.x;
   if (i < count) {
-    nook_tile[i] = nook_sphere[first + i];
-    nook_tile_weight[i] = nook_caster_weight[first + i];
+    uint place = uint(NOOK_SPHERE_VEC4S) * (first + i);
+    nook_tile[i] = nook_sphere[place];
+    nook_tile_weight[i] = nook_sphere[place + 1u].x;
   }
   barrier();
 }
@@ -63,10 +58,10 @@ void nook_pose(uint key_point, uint first_bone, out NookPoint fitted, out NookPo
   vec4 bones = nook_rest_key_point[k + 4u], weights = nook_rest_key_point[k + 5u];
   vec4 x = vec4(0.0), y = vec4(0.0), z = vec4(0.0);
   for (int b = 0; b < 4; ++b) {
-    uint row = uint(NOOK_BONE_ROWS) * (first_bone + uint(bones[b]));
-    x += weights[b] * nook_bone[row];
-    y += weights[b] * nook_bone[row + 1u];
-    z += weights[b] * nook_bone[row + 2u];
+    uint row = first_bone + uint(NOOK_BONE_ROWS) * uint(bones[b]);
+    x += weights[b] * nook_streamed(row);
+    y += weights[b] * nook_streamed(row + 1u);
+    z += weights[b] * nook_streamed(row + 2u);
   }
   for (uint i = 0u; i < 2u; ++i) {
     vec4 p = vec4(nook_rest_key_point[k + 2u * i].xyz, 1.0);

@@ -3,18 +3,15 @@
 #ifndef NOOK_CHARACTER_LAYOUT_H
 #define NOOK_CHARACTER_LAYOUT_H
 
-// Bindings of shader storage blocks. Those of passes over lights stand in for blocks that these do not use.
-#define NOOK_BINDING_RECORDS 0
-#define NOOK_BINDING_BONES 1
-#define NOOK_BINDING_CASTERS 2
-#define NOOK_BINDING_SPHERES 3
-#define NOOK_BINDING_WEIGHTS 4
-#define NOOK_BINDING_SHADOWS 5
-#define NOOK_BINDING_MODEL 6
-#define NOOK_BINDING_AO 7
-#define NOOK_BINDING_COLOURS 5
-#define NOOK_BINDING_LIGHTS 7
-#define NOOK_BINDING_VERTEX_COLOURS 3
+// Bindings of shader storage blocks. No pass has more than four, which is what every OpenGL ES 3.1 allows.
+#define NOOK_BINDING_STREAM 0
+#define NOOK_BINDING_MODEL 1
+#define NOOK_BINDING_SPHERES 2
+// Of shadows or colours at key points: where they are written, and where vertices.comp reads them.
+#define NOOK_BINDING_KEY_POINTS 3
+#define NOOK_BINDING_VERTEX_INPUT 2
+#define NOOK_BINDING_AO 3
+#define NOOK_BINDING_COUNT 4
 
 // Threads of a group. Passes over key points stage as many spheres at a time in shared memory.
 #define NOOK_GROUP_SIZE 64
@@ -56,13 +53,19 @@
 #define NOOK_ATTRIBUTE_ALPHA_1 5
 #define NOOK_ATTRIBUTE_BLEND_1 6
 
+// What vertices.comp writes.
+#define NOOK_OUTPUT_AO 0
+#define NOOK_OUTPUT_COLOUR 1
+#define NOOK_OUTPUT_GREY 2
+
 // Elements of the arrays in storage buffers.
 #define NOOK_RECORD_UVEC4S 2      // of an instance
+#define NOOK_SPHERE_VEC4S 2       // centre, 1 / radius; caster weight
 #define NOOK_BONE_ROWS 3          // of a 3x4 matrix
 #define NOOK_REST_SPHERE_VEC4S 2  // centre, radius; bone, caster weight
 #define NOOK_KEY_POINT_VEC4S 6    // position, normal, surface position, surface normal, bones, weights
 #define NOOK_CASTER_UVEC4S 2      // its origin minus the receiver's, first sphere; number of spheres
 #define NOOK_SPREAD_WORDS 3       // evaluated key point, scale, offset
-#define NOOK_COLOUR_VEC4S 2       // colour that multiplies the shadow; added occlusion
+#define NOOK_COLOUR_VEC4S 2       // colour that multiplies the shadow, and the shadow; added occlusion
 
 #endif

@@ -1,13 +1,13 @@
 // The light of an instance and what stands in it; derived in sdk/src/character/directional.h and directional_bands.h.
 #include "shaders/core/constants.h"
-#include "shaders/character/constants.h"
-#include "shaders/character/layout.h"
+#include "shaders/character/instance.glsl"
 #include "shaders/character/light_layout.h"
 #include "shaders/probe/lobe.glsl"
 
-layout(std430, binding = NOOK_BINDING_LIGHTS) readonly buffer NookLights {
-  vec4 nook_light[];
-};
+// Texel i of a light, which stands in the stream; light_layout.h says which is which.
+vec4 nook_light(uint light, int i) { return nook_streamed(light + uint(i)); }
+// The first of the two texels of a lobe.
+int nook_lobe_texel(int lobe) { return NOOK_LIGHT_LOBES + NOOK_LIGHT_LOBE_TEXELS * lobe; }
 
 float nook_lobe_norm(float v) {
   float q = (((NOOK_LOBE_NORM_4 * v + NOOK_LOBE_NORM_3) * v + NOOK_LOBE_NORM_2) * v + NOOK_LOBE_NORM_1) * v + NOOK_LOBE_NORM_0;
@@ -18,11 +18,11 @@ float nook_lobe_norm(float v) {
 // ground hides.
 vec3 nook_mean_radiance(uint light, vec3 b) {
   float length_b = length(b);
-  int count = int(nook_light[light].x);
+  int count = int(nook_light(light, NOOK_LIGHT_HEAD).x);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < count; ++i) {
-    uint lobe = light + uint(NOOK_LIGHT_LOBES) + uint(NOOK_LIGHT_LOBE_TEXELS) * uint(i);
-    vec4 shape = nook_light[lobe], amplitude = nook_light[lobe + 1u];
+    int lobe = nook_lobe_texel(i);
+    vec4 shape = nook_light(light, lobe), amplitude = nook_light(light, lobe + 1);
     float m = length(b + shape.xyz * shape.w);
     sum += exp(min(m - (length_b + shape.w), 0.0)) * nook_lobe_norm(m) * amplitude.w * amplitude.xyz;
   }
@@ -30,7 +30,7 @@ vec3 nook_mean_radiance(uint light, vec3 b) {
 }
 
 vec3 nook_inverse_hemisphere(uint light, vec3 n) {
-  return 1.0 / max(nook_mean_radiance(light, n * NOOK_COSINE_LOBE_SHARPNESS), nook_light[light + uint(NOOK_LIGHT_DARKEST)].xyz);
+  return 1.0 / max(nook_mean_radiance(light, n * NOOK_COSINE_LOBE_SHARPNESS), nook_light(light, NOOK_LIGHT_DARKEST).xyz);
 }
 
 // The direction to the part of a caster above the horizon, a unit vector, and its cosine to the normal.
@@ -67,18 +67,18 @@ float nook_share_below(float height, float m) {
 
 vec3 nook_ground_ratio(uint light, vec3 n) {
   float h = NOOK_COSINE_LOBE_SHARPNESS;
-  vec3 b = n * h, up = nook_light[light].yzw, all = vec3(0.0), below = vec3(0.0);
-  int count = int(nook_light[light].x);
+  vec3 b = n * h, up = nook_light(light, NOOK_LIGHT_HEAD).yzw, all = vec3(0.0), below = vec3(0.0);
+  int count = int(nook_light(light, NOOK_LIGHT_HEAD).x);
   for (int i = 0; i < count; ++i) {
-    uint lobe = light + uint(NOOK_LIGHT_LOBES) + uint(NOOK_LIGHT_LOBE_TEXELS) * uint(i);
-    vec4 shape = nook_light[lobe];
-    vec3 amplitude = nook_light[lobe + 1u].xyz, v = b + shape.xyz * shape.w;
+    int lobe = nook_lobe_texel(i);
+    vec4 shape = nook_light(light, lobe);
+    vec3 amplitude = nook_light(light, lobe + 1).xyz, v = b + shape.xyz * shape.w;
     float m = length(v);
     vec3 seen = exp(min(m - (h + shape.w), 0.0)) * nook_lobe_norm(m) * amplitude;
     all += seen;
     below += seen * nook_share_below(dot(v, up), m);
   }
-  vec3 inverse = 1.0 / (max(all, nook_lobe_norm(h) * nook_light[light + uint(NOOK_LIGHT_DARKEST)].xyz) * nook_share_below(dot(b, up), h));
+  vec3 inverse = 1.0 / (max(all, nook_lobe_norm(h) * nook_light(light, NOOK_LIGHT_DARKEST).xyz) * nook_share_below(dot(b, up), h));
   return clamp(below * inverse, 0.0, NOOK_LARGEST_RATIO);
 }
 
@@ -99,10 +99,10 @@ void nook_gather(inout NookBands bands, vec3 b, float weight) {
 }
 
 vec3 nook_light_of(uint light, NookBands bands) {
-  vec3 sum = bands.scalar * nook_light[light + uint(NOOK_LIGHT_SCALAR)].xyz;
-  for (uint i = 0u; i < 3u; ++i)
-    sum += bands.vector[i] * nook_light[light + uint(NOOK_LIGHT_VECTOR) + i].xyz + bands.straight[i] * nook_light[light + uint(NOOK_LIGHT_STRAIGHT) + i].xyz +
-           bands.mixed[i] * nook_light[light + uint(NOOK_LIGHT_MIXED) + i].xyz;
+  vec3 sum = bands.scalar * nook_light(light, NOOK_LIGHT_SCALAR).xyz;
+  for (int i = 0; i < 3; ++i)
+    sum += bands.vector[i] * nook_light(light, NOOK_LIGHT_VECTOR + i).xyz + bands.straight[i] * nook_light(light, NOOK_LIGHT_STRAIGHT + i).xyz +
+           bands.mixed[i] * nook_light(light, NOOK_LIGHT_MIXED + i).xyz;
   return sum;
 }
 
@@ -110,7 +110,7 @@ vec3 nook_light_of(uint light, NookBands bands) {
 vec3 nook_coloured_sum(uint light, NookBands gathered, vec3 n) {
   NookBands open = NookBands(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
   nook_gather(open, n * NOOK_COSINE_LOBE_SHARPNESS, 1.0);
-  vec3 ratio = nook_light_of(light, gathered) / max(nook_light_of(light, open), nook_light[light + uint(NOOK_LIGHT_DARKEST)].xyz);
+  vec3 ratio = nook_light_of(light, gathered) / max(nook_light_of(light, open), nook_light(light, NOOK_LIGHT_DARKEST).xyz);
   vec3 bounded = clamp(ratio, 0.0, NOOK_LARGEST_RATIO * gathered.scalar);
   return NOOK_SELF_STRENGTH * bounded + (1.0 - NOOK_SELF_STRENGTH) * gathered.scalar;
 }

@@ -1,7 +1,7 @@
 // The non-linear layer: shadow and added occlusion at the key points of an instance.
 #include "shaders/character/key_points.glsl"
 
-layout(std430, binding = NOOK_BINDING_SHADOWS) writeonly buffer NookShadows {
+layout(std430, binding = NOOK_BINDING_KEY_POINTS) writeonly buffer NookShadows {
   vec2 nook_shadow[];  // shadow, added occlusion
 };
 
@@ -44,8 +44,8 @@ void main() {
   if (nook_self != 0) norm = nook_norm_sum(record.first_sphere + nook_first_sphere, nook_sphere_count, fitted);
   for (uint c = 0u; c < record.caster_count; ++c) {
     uint at = record.first_caster + uint(NOOK_CASTER_UVEC4S) * c;
-    uvec4 caster = nook_caster[at];
-    uint spheres = nook_caster[at + 1u].x;
+    uvec4 caster = nook_stream[at];
+    uint spheres = nook_stream[at + 1u].x;
     vec3 offset = uintBitsToFloat(caster.xyz);
     if (nook_composed != 0)
       depth += nook_depth(caster.w, spheres, NookPoint(surface.position - offset, surface.normal));
@@ -53,7 +53,7 @@ void main() {
       norm += nook_norm_sum(caster.w, spheres, NookPoint(fitted.position - offset, fitted.normal));
   }
   for (uint i = 0u; i < record.exact_count; ++i) {
-    vec4 sphere = uintBitsToFloat(nook_caster[record.first_exact + i]);
+    vec4 sphere = nook_streamed(record.first_exact + i);
     if (nook_composed != 0) {
       vec2 seen = nook_see(sphere, surface);
       open *= 1.0 - min(nook_form_factor_exact(seen.x, seen.y), 1.0);

@@ -5,10 +5,7 @@
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
 layout(std430, binding = NOOK_BINDING_SPHERES) writeonly buffer NookSpheres {
-  vec4 nook_sphere[];  // centre, 1 / radius
-};
-layout(std430, binding = NOOK_BINDING_WEIGHTS) writeonly buffer NookWeights {
-  float nook_caster_weight[];
+  vec4 nook_sphere[];  // two for each: centre, 1 / radius; caster weight
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookRestSpheres {
   vec4 nook_rest_sphere[];  // two for each: centre, radius; bone, caster weight
@@ -23,12 +20,13 @@ void main() {
   uint first = uint(NOOK_REST_SPHERE_VEC4S) * s;
   vec4 rest = nook_rest_sphere[first];
   vec2 rider = nook_rest_sphere[first + 1u].xy;
-  uint row = uint(NOOK_BONE_ROWS) * (record.first_bone + uint(rider.x));
+  uint row = record.first_bone + uint(NOOK_BONE_ROWS) * uint(rider.x);
   vec4 p = vec4(rest.xyz, 1.0);
-  vec4 x = nook_bone[row];
-  vec3 centre = vec3(dot(x, p), dot(nook_bone[row + 1u], p), dot(nook_bone[row + 2u], p));
+  vec4 x = nook_streamed(row);
+  vec3 centre = vec3(dot(x, p), dot(nook_streamed(row + 1u), p), dot(nook_streamed(row + 2u), p));
   // Under rigid or uniformly scaled matrices, the length of every row of the linear part is the scale.
   float radius = rest.w * length(x.xyz);
-  nook_sphere[record.first_sphere + s] = vec4(centre, 1.0 / max(radius, NOOK_MIN_SPHERE_RADIUS));
-  nook_caster_weight[record.first_sphere + s] = rider.y;
+  uint place = uint(NOOK_SPHERE_VEC4S) * (record.first_sphere + s);
+  nook_sphere[place] = vec4(centre, 1.0 / max(radius, NOOK_MIN_SPHERE_RADIUS));
+  nook_sphere[place + 1u] = vec4(rider.y, 0.0, 0.0, 0.0);
 }

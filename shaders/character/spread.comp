@@ -4,7 +4,7 @@
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
-layout(std430, binding = NOOK_BINDING_SHADOWS) buffer NookShadows {
+layout(std430, binding = NOOK_BINDING_KEY_POINTS) buffer NookShadows {
   vec2 nook_shadow[];  // all key points, then the evaluated ones
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookSpread {

@@ -1,13 +1,19 @@
 // The linear layer: AO of every vertex in file order from a few key points. There is one thread for each
-// vertex; y is the instance. With NOOK_LIGHT the result is directional occlusion, three floats for each
-// vertex, which are all AO for an instance without light.
+// vertex; y is the instance. NOOK_OUTPUT is one of
+//   NOOK_OUTPUT_AO      AO, one float for each vertex;
+//   NOOK_OUTPUT_COLOUR  directional occlusion of instances with a light, three floats;
+//   NOOK_OUTPUT_GREY    AO in all three channels, for the instances without light that live among those with one.
 #include "shaders/character/instance.glsl"
 #include "shaders/character/linear.glsl"
 
 layout(local_size_x = NOOK_VERTEX_GROUP_SIZE) in;
 
-layout(std430, binding = NOOK_BINDING_SHADOWS) readonly buffer NookShadows {
-  vec2 nook_shadow[];
+layout(std430, binding = NOOK_BINDING_VERTEX_INPUT) readonly buffer NookKeyPoints {
+#if NOOK_OUTPUT == NOOK_OUTPUT_COLOUR
+  vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow, and the shadow; added occlusion
+#else
+  vec2 nook_shadow[];  // shadow, added occlusion
+#endif
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookLinear {
   // Welded vertex of each file vertex, then for each welded vertex: bias, two key points in a word for each pair of
@@ -17,11 +23,6 @@ layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookLinear {
 layout(std430, binding = NOOK_BINDING_AO) writeonly buffer NookAo {
   float nook_ao[];
 };
-#if NOOK_LIGHT
-layout(std430, binding = NOOK_BINDING_VERTEX_COLOURS) readonly buffer NookColours {
-  vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow; added occlusion
-};
-#endif
 
 layout(location = NOOK_LOCATION_FILE_VERTEX_COUNT) uniform uint nook_file_vertex_count;
 layout(location = NOOK_LOCATION_VERTEX_COUNT) uniform uint nook_vertex_count;
@@ -29,42 +30,55 @@ layout(location = NOOK_LOCATION_INFLUENCE_PAIRS) uniform uint nook_influence_pai
 layout(location = NOOK_LOCATION_VERTEX_SHADOW_STRIDE) uniform uint nook_shadow_stride;
 layout(location = NOOK_LOCATION_VERTEX_SELF) uniform int nook_self;
 
+#if NOOK_OUTPUT == NOOK_OUTPUT_COLOUR
+#define NOOK_SUM vec3
+#else
+#define NOOK_SUM float
+#endif
+
+// Adds a key point; weights are alpha and blend weight.
+void nook_add(inout NOOK_SUM shadow, inout NOOK_SUM added, uint key_point, vec2 weights) {
+#if NOOK_OUTPUT == NOOK_OUTPUT_COLOUR
+  vec4 coloured = nook_colour[uint(NOOK_COLOUR_VEC4S) * key_point];
+  shadow += weights.x * coloured.w * coloured.xyz;
+  added += weights.y * nook_colour[uint(NOOK_COLOUR_VEC4S) * key_point + 1u].xyz;
+#else
+  vec2 point = nook_shadow[key_point];
+  shadow += weights.x * point.x;
+  added += weights.y * point.y;
+#endif
+}
+
 void main() {
   uint file_vertex = gl_GlobalInvocationID.x;
   if (file_vertex >= nook_file_vertex_count) return;
   NookRecord record = nook_read_record(gl_WorkGroupID.y);
+#if NOOK_OUTPUT == NOOK_OUTPUT_COLOUR
+  if (record.light == 0u) return;
+#elif NOOK_OUTPUT == NOOK_OUTPUT_GREY
+  if (record.light != 0u) return;
+#endif
   uint first_key_point = record.place * nook_shadow_stride;
   uint word = nook_file_vertex_count + nook_linear[file_vertex];
   float bias = nook_self != 0 ? uintBitsToFloat(nook_linear[word]) : 0.0;
-#if NOOK_LIGHT
-  bool lit = record.light != 0u;
-  vec3 shadow = vec3(0.0), added = vec3(0.0);
-#else
-  vec2 sum = vec2(0.0);
-#endif
+  NOOK_SUM shadow = NOOK_SUM(0.0), added = NOOK_SUM(0.0);
   for (uint i = 0u; i < nook_influence_pairs; ++i) {
     uint pair = nook_linear[word + (1u + i) * nook_vertex_count];
     uint alpha = word + (1u + nook_influence_pairs + 2u * i) * nook_vertex_count;
     uint blend = alpha + 2u * nook_influence_pairs * nook_vertex_count;
-    vec2 first = vec2(uintBitsToFloat(nook_linear[alpha]), uintBitsToFloat(nook_linear[blend]));
-    vec2 second = vec2(uintBitsToFloat(nook_linear[alpha + nook_vertex_count]),
-                       uintBitsToFloat(nook_linear[blend + nook_vertex_count]));
-#if NOOK_LIGHT
-    uint k[2] = uint[2](first_key_point + (pair & 0xffffu), first_key_point + (pair >> 16));
-    vec2 weight[2] = vec2[2](first, second);
-    for (int j = 0; j < 2; ++j) {
-      vec2 grey = nook_shadow[k[j]];
-      shadow += weight[j].x * grey.x * (lit ? nook_colour[uint(NOOK_COLOUR_VEC4S) * k[j]].xyz : vec3(1.0));
-      added += weight[j].y * (lit ? nook_colour[uint(NOOK_COLOUR_VEC4S) * k[j] + 1u].xyz : vec3(grey.y));
-    }
+    nook_add(shadow, added, first_key_point + (pair & 0xffffu),
+             vec2(uintBitsToFloat(nook_linear[alpha]), uintBitsToFloat(nook_linear[blend])));
+    nook_add(shadow, added, first_key_point + (pair >> 16),
+             vec2(uintBitsToFloat(nook_linear[alpha + nook_vertex_count]),
+                  uintBitsToFloat(nook_linear[blend + nook_vertex_count])));
   }
-  uint vertex = 3u * (record.place * nook_file_vertex_count + file_vertex);
-  for (uint c = 0u; c < 3u; ++c) nook_ao[vertex + c] = nook_combine(shadow[c], added[c], bias);
+  uint vertex = record.place * nook_file_vertex_count + file_vertex;
+#if NOOK_OUTPUT == NOOK_OUTPUT_AO
+  nook_ao[vertex] = nook_combine(shadow, added, bias);
+#elif NOOK_OUTPUT == NOOK_OUTPUT_GREY
+  float ao = nook_combine(shadow, added, bias);
+  for (uint c = 0u; c < 3u; ++c) nook_ao[3u * vertex + c] = ao;
 #else
-    sum += first * nook_shadow[first_key_point + (pair & 0xffffu)] +
-           second * nook_shadow[first_key_point + (pair >> 16)];
-  }
-  nook_ao[record.place * nook_file_vertex_count + file_vertex] =
-      nook_combine(sum.x, sum.y, bias);
+  for (uint c = 0u; c < 3u; ++c) nook_ao[3u * vertex + c] = nook_combine(shadow[c], added[c], bias);
 #endif
 }

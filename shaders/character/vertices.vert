@@ -2,6 +2,7 @@
 // point a file vertex; its index picks the welded vertex whose attributes it reads.
 #include "shaders/character/layout.h"
 #include "shaders/character/linear.glsl"
+#include "shaders/core/texels.glsl"
 
 layout(location = NOOK_ATTRIBUTE_BIAS) in float nook_bias;
 layout(location = NOOK_ATTRIBUTE_KEY_POINTS_0) in uvec4 nook_key_points_0;
@@ -14,7 +15,7 @@ layout(location = NOOK_ATTRIBUTE_BLEND_1) in vec4 nook_blend_1;
 #endif
 
 // One texel: shadow and added occlusion; with NOOK_LIGHT two texels, by channel.
-uniform samplerBuffer nook_shadows;
+uniform NOOK_TEXELS nook_shadows;
 uniform int nook_first_key_point;    // of the draw's first instance, in the page
 uniform int nook_key_point_count;
 uniform int nook_self;
@@ -27,8 +28,8 @@ struct NookSum {
 };
 
 void nook_add(inout NookSum sum, int key_point, float alpha, float blend) {
-  sum.shadow += alpha * texelFetch(nook_shadows, NOOK_COLOUR_VEC4S * key_point).xyz;
-  sum.added += blend * texelFetch(nook_shadows, NOOK_COLOUR_VEC4S * key_point + 1).xyz;
+  sum.shadow += alpha * nook_texel(nook_shadows, NOOK_COLOUR_VEC4S * key_point).xyz;
+  sum.added += blend * nook_texel(nook_shadows, NOOK_COLOUR_VEC4S * key_point + 1).xyz;
 }
 #else
 out float nook_ao;
@@ -38,7 +39,7 @@ struct NookSum {
 };
 
 void nook_add(inout NookSum sum, int key_point, float alpha, float blend) {
-  vec2 point = texelFetch(nook_shadows, key_point).xy;
+  vec2 point = nook_texel(nook_shadows, key_point).xy;
   sum.shadow += alpha * point.x;
   sum.added += blend * point.y;
 }

@@ -2,7 +2,7 @@
 #include "shaders/nnao/normal.glsl"
 #include "shaders/nnao/octahedral.glsl"
 
-#if NOOK_HALF
+#if NOOK_HALF || defined(GL_ES)
 out uvec2 nook_out;
 #else
 out vec2 nook_out;
@@ -21,6 +21,8 @@ void main() {
 #if NOOK_HALF
   uvec2 bits = uvec2(normal * 65535.0 + 0.5);
   nook_out = uvec2(floatBitsToUint(depth), bits.x | bits.y << 16);
+#elif defined(GL_ES)
+  nook_out = uvec2(normal * 65535.0 + 0.5);  // OpenGL ES draws into no normalised 16-bit format
 #else
   nook_out = normal;
 #endif

@@ -3,7 +3,11 @@
 #include "shaders/nnao/occlusion.glsl"
 
 layout(local_size_x = NOOK_OCCLUSION_GROUP_SIZE, local_size_y = NOOK_OCCLUSION_GROUP_SIZE) in;
+#ifdef GL_ES
+layout(rgba8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;  // OpenGL ES 3.1 writes no r8
+#else
 layout(r8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;
+#endif
 
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);

@@ -1,6 +1,7 @@
 // The paper's network, which network.h defines. A tap's input is
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
-uniform samplerBuffer nook_filters;  // for each cell of the grid four texels, one an input, of four units
+#include "shaders/core/texels.glsl"
+uniform NOOK_TEXELS nook_filters;  // for each cell of the grid four texels, one an input, of four units
 uniform vec4 nook_network[NOOK_PAPER_VEC4S];  // the other layers, in the order of network.h
 // Of NOOK_STEPS taps each. Not a constant: compilers would unroll them all, into more code than caches hold.
 uniform int nook_tap_groups;
@@ -18,8 +19,8 @@ vec4 nook_tap_sum(ivec2 texel, int cell, int taps, vec2 noise, vec3 position, ve
   float weight = 1.0 - length(v) / radius;
   if (!(weight > 0.0)) return vec4(0.0);
   vec4 x = vec4(nook_surface_normal(at) - normal, v.z / radius) * weight;
-  return texelFetch(nook_filters, 4 * cell) * x.x + texelFetch(nook_filters, 4 * cell + 1) * x.y +
-         texelFetch(nook_filters, 4 * cell + 2) * x.z + texelFetch(nook_filters, 4 * cell + 3) * x.w;
+  return nook_texel(nook_filters, 4 * cell) * x.x + nook_texel(nook_filters, 4 * cell + 1) * x.y +
+         nook_texel(nook_filters, 4 * cell + 2) * x.z + nook_texel(nook_filters, 4 * cell + 3) * x.w;
 }
 
 vec4 nook_paper_sum(ivec2 texel, vec3 position, vec3 normal, vec2 scale, float radius) {

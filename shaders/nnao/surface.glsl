@@ -3,6 +3,8 @@
 
 #if NOOK_HALF
 uniform usampler2D nook_surface;  // depth as a float's bits, normal as 2 x 16 bits
+#elif defined(GL_ES)
+uniform usampler2D nook_surface;  // normal as 16-bit numbers
 #else
 uniform sampler2D nook_surface;  // normal
 #endif
@@ -22,6 +24,8 @@ vec3 nook_surface_normal(ivec2 texel) {
 #if NOOK_HALF
   uint bits = texelFetch(nook_surface, texel, 0).g;
   return nook_from_octahedral(vec2(bits & 0xffffu, bits >> 16) / 65535.0);
+#elif defined(GL_ES)
+  return nook_from_octahedral(vec2(texelFetch(nook_surface, texel, 0).rg) / 65535.0);
 #else
   return nook_from_octahedral(texelFetch(nook_surface, texel, 0).rg);
 #endif

@@ -1,9 +1,10 @@
-// A probe, or a grid of probes, in a texture buffer of RGBA32F as sdk/src/gl/probe/probe_texels.cpp lays it
+// A probe, or a grid of probes, in a table of RGBA32F texels as sdk/src/gl/probe/probe_texels.cpp lays it
 // out: counts and number of lobes; origin; 1 / spacing; axis and sharpness of each lobe; then the amplitudes
 // of each probe, x fastest, then y, z.
+#include "shaders/core/texels.glsl"
 #include "shaders/probe/lobe.glsl"
 
-uniform samplerBuffer nook_probe_texels;
+uniform NOOK_TEXELS nook_probe_texels;
 
 // The eight probes round a point, and their weights: trilinear, clamped at the grid's ends.
 struct NookProbePlace {
@@ -14,10 +15,10 @@ struct NookProbePlace {
 
 NookProbePlace nook_probe_place(vec3 position_ws) {
   NookProbePlace place;
-  vec4 head = texelFetch(nook_probe_texels, 0);
+  vec4 head = nook_texel(nook_probe_texels, 0);
   ivec3 counts = ivec3(head.xyz);
   place.lobe_count = int(head.w);
-  vec3 origin = texelFetch(nook_probe_texels, 1).xyz, inverse_spacing = texelFetch(nook_probe_texels, 2).xyz;
+  vec3 origin = nook_texel(nook_probe_texels, 1).xyz, inverse_spacing = nook_texel(nook_probe_texels, 2).xyz;
   vec3 at = clamp((position_ws - origin) * inverse_spacing, vec3(0.0), vec3(counts - 1));
   ivec3 low = min(ivec3(at), max(counts - 2, 0));
   vec3 share = at - vec3(low);
@@ -34,10 +35,10 @@ NookProbePlace nook_probe_place(vec3 position_ws) {
 
 // Lobe i of the light at a place.
 NookLobe nook_probe_lobe_at(NookProbePlace place, int i) {
-  vec4 shape = texelFetch(nook_probe_texels, 3 + i);
+  vec4 shape = nook_texel(nook_probe_texels, 3 + i);
   vec3 amplitude = vec3(0.0);
   for (int corner = 0; corner < 8; ++corner)
     if (place.weight[corner] > 0.0)
-      amplitude += place.weight[corner] * texelFetch(nook_probe_texels, place.first[corner] + i).xyz;
+      amplitude += place.weight[corner] * nook_texel(nook_probe_texels, place.first[corner] + i).xyz;
   return NookLobe(shape.xyz, shape.w, amplitude, 0.0);
 }

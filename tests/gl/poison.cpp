@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "sdk/src/gl/state_guard.h"
+#include "tests/gl/test_context.h"
 
 namespace nook::test {
 
@@ -149,7 +150,7 @@ GLuint make_program(const GladGLContext& gl) {
 }  // namespace
 
 unsigned users_of_tier(int tier) {
-  return tier == 43 ? gl::tier_43 : gl::tier_33;
+  return computes(tier) ? gl::tier_43 : gl::tier_33;
 }
 
 Poison::Poison(platform::Context& context, unsigned users)
@@ -331,7 +332,7 @@ StateValues Poison::defaults() const {
       {"blend", {GL_FALSE, GL_ONE, GL_ZERO, GL_ONE, GL_ZERO, GL_FUNC_ADD, GL_FUNC_ADD}},
       {"color_mask", {GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE}},
       {"image_unit", {0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R8}},
-      {"pixel_store", {0, 0, 0, 0, 0, 0, 0, 4}},
+      {"pixel_store", {4, 0, 0, 0, 0, 0, 0, 0}},
       {"polygon_mode", {GL_FILL}},
       {"dither", {GL_TRUE}}};
   StateValues values = touched();

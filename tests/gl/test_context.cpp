@@ -1,5 +1,7 @@
 #include "tests/gl/test_context.h"
 
+#include <nook/nook_gl.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -32,6 +34,8 @@ void create(Driver& driver) {
   request.width = request.height = 64;
   request.debug = true;
   const char* version = variable("NOOK_TEST_VERSION", "4.5");
+  request.es = std::strncmp(version, "es", 2) == 0;
+  if (request.es) version += 2;
   request.major = version[0] - '0';
   request.minor = version[2] - '0';
   try {
@@ -48,8 +52,10 @@ void create(Driver& driver) {
     gl.DebugMessageCallback(keep_message, &driver.messages);
   }
   const int wanted = 10 * request.major + request.minor;
-  if (wanted == 33 && version_of(*driver.context) != 33)
-    driver.failure = "requested OpenGL 3.3 alone and got " + driver.context->version();
+  const bool exact = wanted == 33 || request.es;
+  if (exact && version_of(*driver.context) != wanted)
+    driver.failure = std::string("requested that version alone, ") + variable("NOOK_TEST_VERSION", "") +
+                     ", and got " + driver.context->version();
 }
 
 Driver& driver() {
@@ -81,7 +87,21 @@ int version_of(const platform::Context& context) {
 }
 
 std::vector<int> tiers_of(const platform::Context& context) {
-  return version_of(context) >= 43 ? std::vector<int>{43, 33} : std::vector<int>{33};
+  const int version = version_of(context);
+  if (context.is_es())
+    return version >= 31 ? std::vector<int>{NOOK_GL_TIER_ES31, NOOK_GL_TIER_ES30}
+                         : std::vector<int>{NOOK_GL_TIER_ES30};
+  return version >= 43 ? std::vector<int>{NOOK_GL_TIER_43, NOOK_GL_TIER_33}
+                       : std::vector<int>{NOOK_GL_TIER_33};
+}
+
+bool computes(int tier) {
+  return tier == NOOK_GL_TIER_43 || tier == NOOK_GL_TIER_ES31;
+}
+
+std::string glsl_header(const platform::Context& context) {
+  return context.is_es() ? "#version 300 es\nprecision highp float;\nprecision highp int;\n"
+                         : "#version 330 core\n";
 }
 
 std::vector<std::string> take_debug_messages() {

@@ -1,6 +1,8 @@
 // The OpenGL context of the tests: one for the process, its kind and version from the environment.
 //   NOOK_TEST_CONTEXT  egl (default), osmesa or window
-//   NOOK_TEST_VERSION  the highest version to ask for, 3.3 or 4.5 (default)
+//   NOOK_TEST_VERSION  the highest version to ask for, 3.3 or 4.5 (default); es3.0, es3.1 or es3.2 with the
+//   kind egl,
+//                      and exactly that (Mesa: MESA_GLES_VERSION_OVERRIDE)
 //   NOOK_REQUIRE_GL=1  a context that cannot be had is a failure
 #pragma once
 
@@ -21,6 +23,10 @@ platform::Context* test_context();
 int version_of(const platform::Context& context);
 // The tiers that this context has, best first.
 std::vector<int> tiers_of(const platform::Context& context);
+// The tier has compute shaders.
+bool computes(int tier);
+// The lines that begin a shader of the tests in the language of the context: version and precisions.
+std::string glsl_header(const platform::Context& context);
 
 // Errors and warnings that the driver reported through KHR_debug since the last call, in a debug context.
 std::vector<std::string> take_debug_messages();

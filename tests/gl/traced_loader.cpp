@@ -12,14 +12,14 @@ namespace {
 
 enum Id {
 #define NOOK_X(name) id_##name,
-  NOOK_GL_FUNCTIONS_33(NOOK_X) NOOK_GL_FUNCTIONS_43(NOOK_X) NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
+  NOOK_GL_FUNCTIONS_ALL(NOOK_X)
 #undef NOOK_X
       id_count
 };
 
 constexpr const char* names[] = {
 #define NOOK_X(name) "gl" #name,
-    NOOK_GL_FUNCTIONS_33(NOOK_X) NOOK_GL_FUNCTIONS_43(NOOK_X) NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
+    NOOK_GL_FUNCTIONS_ALL(NOOK_X)
 #undef NOOK_X
 };
 
@@ -102,9 +102,7 @@ void* Trace::loader(void* user, const char* name) {
     T::real = reinterpret_cast<decltype(gl::Functions::function)>(real); \
     return reinterpret_cast<void*>(&T::call);                            \
   }
-  NOOK_GL_FUNCTIONS_33(NOOK_X)
-  NOOK_GL_FUNCTIONS_43(NOOK_X)
-  NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
+  NOOK_GL_FUNCTIONS_ALL(NOOK_X)
 #undef NOOK_X
   return real;
 }

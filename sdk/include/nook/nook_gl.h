@@ -1,11 +1,14 @@
 /* The OpenGL functions: characters evaluated on the GPU, with their ambient occlusion in buffers that the
  * host's shaders read.
  *
- * Nook needs OpenGL 3.3 core or newer and includes no OpenGL header. There are two tiers:
- *   43  On OpenGL 4.3, spheres, shadows and vertices are evaluated in compute shaders.
- *   33  On OpenGL 3.3, shadows at key points are evaluated on the CPU, through the context's parallel_for,
- *       and vertices by transform feedback. On software renderers such as Mesa's llvmpipe this tier is faster
- *       than 43; max_tier selects it.
+ * Nook needs OpenGL 3.3 core, OpenGL ES 3.0 or WebGL 2, or newer, and includes no OpenGL header. There are
+ * two ways: tiers 43, ES31  On OpenGL 4.3 and OpenGL ES 3.1, spheres, shadows and vertices are evaluated in
+ * compute shaders. tiers 33, ES30  On OpenGL 3.3, OpenGL ES 3.0 and WebGL 2, shadows at key points are
+ * evaluated on the CPU, through the context's parallel_for, and vertices by transform feedback. On software
+ * renderers such as Mesa's llvmpipe this way is faster; max_tier selects it. "Texture buffer" below means a
+ * GL_TEXTURE_BUFFER on OpenGL, and a GL_TEXTURE_2D on OpenGL ES and WebGL, where Nook's GLSL text declares
+ * its sampler accordingly. WebGL has no glGetTexLevelParameteriv and stalls at reads: NOOK_GL_STATE_DEFAULTS
+ * is the mode for it.
  *
  * An engine creates one nook_gl for each OpenGL context that shares nothing with another. Once a frame, after
  * it has set the poses, it calls nook_gl_scene_update. For each character it binds the view of
@@ -35,6 +38,21 @@ typedef struct nook_gl_s* nook_gl;
  * inside nook_gl_create. */
 typedef void* (*nook_gl_proc_fn)(void* user, const char* name);
 
+/* The tiers, as max_tier and nook_gl_info have them. The other tier of the same kind counts as its like: 33
+ * and ES30 forbid compute shaders, 43 and ES31 allow them. */
+enum {
+  NOOK_GL_TIER_BEST = 0,
+  /* OpenGL 3.3 core: transform feedback, texture buffers. */
+  NOOK_GL_TIER_33 = 33,
+  /* OpenGL 4.3 core: compute shaders with shader storage. */
+  NOOK_GL_TIER_43 = 43,
+  /* OpenGL ES 3.0 and WebGL 2: transform feedback, 2D textures in place of texture buffers. */
+  NOOK_GL_TIER_ES30 = 300,
+  /* OpenGL ES 3.1 and 3.2: compute shaders with at most four storage blocks, as every such context has. */
+  NOOK_GL_TIER_ES31 = 310
+};
+typedef int32_t nook_gl_tier;
+
 /* The treatment of the OpenGL state that Nook touches; docs/gl_state.md lists all of it. */
 enum {
   /* Each call queries the state and restores it. A query may stall a threaded driver. */
@@ -57,8 +75,8 @@ typedef struct nook_gl_desc {
   nook_gl_proc_fn get_proc;
   /* The first argument of get_proc. */
   void* get_proc_user;
-  /* The highest tier to use: 33, 43, or 0 (default) for the best tier of the OpenGL context. */
-  int32_t max_tier;
+  /* The highest tier to use; default NOOK_GL_TIER_BEST, the best one of the OpenGL context. */
+  nook_gl_tier max_tier;
   /* Default NOOK_GL_STATE_PRESERVE. */
   nook_gl_state_mode state_mode;
 } nook_gl_desc;
@@ -88,8 +106,7 @@ NOOK_API nook_result nook_gl_context_lost(nook_gl gl);
 typedef struct nook_gl_info {
   /* sizeof(nook_gl_info); the caller sets it. */
   uint32_t struct_size;
-  /* 33 or 43. */
-  int32_t tier;
+  nook_gl_tier tier;
   /* GL_VERSION and GL_RENDERER of the OpenGL context; both are valid while gl lives. */
   const char* version;
   const char* renderer;
@@ -146,7 +163,8 @@ NOOK_API nook_result nook_gl_scene_ao_buffer(nook_gl gl, nook_scene scene, nook_
 typedef struct nook_gl_ao_target {
   /* sizeof(nook_gl_ao_target); the caller sets it, and the other fields to 0 first. */
   uint32_t struct_size;
-  /* The numbers in a buffer. A texture's own format decides instead. */
+  /* The numbers in a buffer. A texture's own format decides instead; but on OpenGL ES, where uploads do not
+   * convert, this must be the texture's: FLOAT32 for GL_R32F, FLOAT16 for GL_R16F, UNORM8 for GL_R8. */
   nook_ao_format format;
   /* The OpenGL name of a buffer of the host, or 0. It must not be mapped. */
   uint32_t buffer;
@@ -162,7 +180,9 @@ typedef struct nook_gl_ao_target {
    * vertex; a value then owns a whole word. Needs compute shaders. 0: tightly packed; the bytes of an
    * instance are rounded up to a multiple of 4, and the bytes of the padding are written. */
   uint32_t stride;
-  uint32_t reserved;
+  /* The width of the texture in texels. Needed on OpenGL ES 3.0 and WebGL 2, which cannot be asked for it;
+   * elsewhere 0 asks. */
+  uint32_t texture_width;
 } nook_gl_ao_target;
 
 /* Copies the AO of the last nook_gl_scene_update to a buffer or texture of the host on the GPU, for count

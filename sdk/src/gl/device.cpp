@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sdk/src/core/failure.h"
+#include "shaders/core/texel_layout.h"
 
 namespace nook::gl {
 
@@ -12,8 +13,13 @@ Device::Device(Context& host, const nook_gl_desc& desc)
       gl(load_functions(desc.get_proc, desc.get_proc_user, desc.max_tier)),
       state_mode(desc.state_mode) {
   GLint value = 0;
-  gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &value);
-  max_texels = static_cast<std::uint32_t>(std::max(value, 65536));
+  if (gl.can.texture_buffers) {
+    gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &value);
+    max_texels = static_cast<std::uint32_t>(std::max(value, 65536));
+  } else {
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &value);
+    max_texels = static_cast<std::uint32_t>(std::clamp(value, NOOK_TEXEL_ROW, 1 << 14)) * NOOK_TEXEL_ROW;
+  }
   if (!gl.can.compute) return;
   gl.GetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &value);
   storage_alignment = static_cast<std::uint64_t>(std::max(value, 16));

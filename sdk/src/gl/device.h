@@ -38,7 +38,7 @@ struct Device {
   // any case.
   std::uint64_t max_piece_bytes = std::uint64_t{128} << 20;
   std::uint64_t storage_alignment = 256;  // bytes
-  std::uint32_t max_texels = 65536;       // of a texture buffer
+  std::uint32_t max_texels = 65536;       // of a table of texels
 };
 
 }  // namespace nook::gl

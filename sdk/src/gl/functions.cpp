@@ -1,69 +1,198 @@
 #include "sdk/src/gl/functions.h"
 
+#include <cstring>
+
 #include "sdk/src/core/failure.h"
 
 namespace nook::gl {
 namespace {
 
-template <class F>
-void load_optional(F& function, nook_gl_proc_fn get_proc, void* user, const char* name) {
-  function = reinterpret_cast<F>(get_proc(user, name));
+// The constants of EXT_disjoint_timer_query and of its functions are those of OpenGL 3.3.
+constexpr const char* es_timer_extension = "GL_EXT_disjoint_timer_query";
+constexpr GLenum num_extensions = 0x821D;
+
+class Loader {
+ public:
+  Loader(nook_gl_proc_fn get_proc, void* user) : get_proc_(get_proc), user_(user) {}
+
+  template <class F>
+  void optional(F& function, const char* name) const {
+    function = reinterpret_cast<F>(get_proc_(user_, name));
+  }
+  // `version` names what has the function, such as "OpenGL 3.3".
+  template <class F>
+  void required(F& function, const char* name, const char* version) const {
+    optional(function, name);
+    if (!function)
+      throw Failure(
+          NOOK_ERROR_UNSUPPORTED,
+          "required function \"%s\" of %s not provided by get_proc; make the context current and pass "
+          "its own loader",
+          name, version);
+  }
+
+ private:
+  nook_gl_proc_fn get_proc_;
+  void* user_;
+};
+
+// OpenGL ES says its name in GL_VERSION, and a WebGL context in a browser's build as well; no other query
+// tells them apart from OpenGL.
+Profile profile_of(const Functions& gl) {
+  const auto* version = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
+  if (!version || !std::strstr(version, "OpenGL ES")) return Profile::desktop;
+  return std::strstr(version, "WebGL") ? Profile::webgl : Profile::es;
 }
 
-template <class F>
-void load_required(F& function, nook_gl_proc_fn get_proc, void* user, const char* name, const char* version) {
-  load_optional(function, get_proc, user, name);
-  if (!function)
-    throw Failure(
-        NOOK_ERROR_UNSUPPORTED,
-        "required function \"%s\" of OpenGL %s not provided by get_proc; make the context current and pass "
-        "its own loader",
-        name, version);
+void check_version(const Functions& gl) {
+  const int major = gl.version / 10, minor = gl.version % 10;
+  if (gl.profile != Profile::desktop) {
+    if (gl.version < 30)
+      throw Failure(NOOK_ERROR_UNSUPPORTED, "the current context has %s %d.%d, need %s 3.0 or newer",
+                    api_name(gl), major, minor, api_name(gl));
+    return;
+  }
+  if (gl.version < 33)
+    throw Failure(NOOK_ERROR_UNSUPPORTED, "the current context has OpenGL %d.%d, need 3.3 core or newer%s",
+                  major, minor, gl.version == 0 ? "; is a context current on this thread?" : "");
 }
 
-}  // namespace
-
-Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier) {
-  Functions gl;
-#define NOOK_X(name) load_required(gl.name, get_proc, user, "gl" #name, "3.3");
-  NOOK_GL_FUNCTIONS_33(NOOK_X)
-#undef NOOK_X
-
+// GL_MAJOR_VERSION came with OpenGL 3.0 and OpenGL ES 3.0; older contexts leave the numbers at 0.
+void read_version(Functions& gl) {
   GLint major = 0, minor = 0;
   gl.GetIntegerv(GL_MAJOR_VERSION, &major);
   gl.GetIntegerv(GL_MINOR_VERSION, &minor);
   gl.version = 10 * major + minor;
-  if (gl.version < 33)
-    throw Failure(NOOK_ERROR_UNSUPPORTED, "the current context has OpenGL %d.%d, need 3.3 core or newer%s",
-                  major, minor, major == 0 ? "; is a context current on this thread?" : "");
+  gl.profile = profile_of(gl);
+  if (gl.profile == Profile::es && gl.version == 0) gl.version = 20;
+}
 
-  const bool has_compute = gl.version >= 43;
-  gl.can.compute = has_compute && (max_tier == 0 || max_tier >= 43);
-  gl.limited_by_host = has_compute && !gl.can.compute;
-  if (gl.can.compute) {
-#define NOOK_X(name) load_required(gl.name, get_proc, user, "gl" #name, "4.3");
-    NOOK_GL_FUNCTIONS_43(NOOK_X)
-#undef NOOK_X
-    load_optional(gl.BindImageTexture, get_proc, user, "glBindImageTexture");
-    gl.can.compute_images = gl.BindImageTexture != nullptr;
+bool has_extension(const Functions& gl, const Loader& loader, const char* name) {
+  PFNGLGETSTRINGIPROC get_string = nullptr;
+  loader.optional(get_string, "glGetStringi");
+  if (!get_string) return false;
+  GLint count = 0;
+  gl.GetIntegerv(num_extensions, &count);
+  for (GLint i = 0; i < count; ++i) {
+    const auto* extension = reinterpret_cast<const char*>(get_string(GL_EXTENSIONS, static_cast<GLuint>(i)));
+    if (extension && std::strcmp(extension, name) == 0) return true;
   }
-  // A loader may return a stub for a function that the context lacks, so the version is tested before the
-  // pointer.
+  return false;
+}
+
+void load_common(Functions& gl, const Loader& loader) {
+  const char* const version = gl.profile == Profile::desktop ? "OpenGL 3.3" : "OpenGL ES 3.0";
+#define NOOK_X(name) loader.required(gl.name, "gl" #name, version);
+  NOOK_GL_FUNCTIONS_COMMON(NOOK_X)
+  if (gl.profile != Profile::webgl) {
+    NOOK_GL_FUNCTIONS_MAPS(NOOK_X)
+  }
+  if (gl.profile == Profile::desktop) {
+    NOOK_GL_FUNCTIONS_33(NOOK_X)
+  } else {
+    NOOK_GL_FUNCTIONS_ES30(NOOK_X)
+  }
+#undef NOOK_X
+}
+
+void load_compute(Functions& gl, const Loader& loader, int max_tier) {
+  const bool desktop = gl.profile == Profile::desktop;
+  const bool has_compute = desktop ? gl.version >= 43 : gl.profile == Profile::es && gl.version >= 31;
+  const bool allowed = max_tier != NOOK_GL_TIER_33 && max_tier != NOOK_GL_TIER_ES30;
+  gl.can.compute = has_compute && allowed;
+  gl.limited_by_host = has_compute && !allowed;
+  if (!gl.can.compute) return;
+  const char* const version = desktop ? "OpenGL 4.3" : "OpenGL ES 3.1";
+#define NOOK_X(name) loader.required(gl.name, "gl" #name, version);
+  NOOK_GL_FUNCTIONS_COMPUTE(NOOK_X)
+#undef NOOK_X
+  loader.optional(gl.BindImageTexture, "glBindImageTexture");
+  gl.can.compute_images = gl.BindImageTexture != nullptr;
+  gl.can.r8_images = desktop;
+}
+
+// A loader may return a stub for a function that the context lacks, so the version is tested before the
+// pointer.
+void load_desktop_options(Functions& gl, const Loader& loader) {
+  gl.can.texture_buffers = gl.can.maps = gl.can.buffer_reads = true;
+  gl.can.indexed_feedback = gl.can.norm16_targets = gl.can.desktop_raster = true;
+  gl.can.texture_sizes = gl.can.timestamps = gl.can.indexed_draw_buffers = true;
   if (gl.version >= 40) {
-    load_optional(gl.BindTransformFeedback, get_proc, user, "glBindTransformFeedback");
-    load_optional(gl.DeleteTransformFeedbacks, get_proc, user, "glDeleteTransformFeedbacks");
-    load_optional(gl.GenTransformFeedbacks, get_proc, user, "glGenTransformFeedbacks");
-    load_optional(gl.BlendEquationSeparatei, get_proc, user, "glBlendEquationSeparatei");
-    load_optional(gl.BlendFuncSeparatei, get_proc, user, "glBlendFuncSeparatei");
+    loader.optional(gl.BindTransformFeedback, "glBindTransformFeedback");
+    loader.optional(gl.DeleteTransformFeedbacks, "glDeleteTransformFeedbacks");
+    loader.optional(gl.GenTransformFeedbacks, "glGenTransformFeedbacks");
+    loader.optional(gl.BlendEquationSeparatei, "glBlendEquationSeparatei");
+    loader.optional(gl.BlendFuncSeparatei, "glBlendFuncSeparatei");
   }
   gl.can.indexed_viewports = gl.version >= 41;
   gl.can.query_buffers = gl.version >= 44;
   gl.can.stencil_textures = gl.version >= 43;
   if (gl.can.indexed_viewports) {
-    load_optional(gl.GetFloati_v, get_proc, user, "glGetFloati_v");
-    load_optional(gl.ViewportIndexedf, get_proc, user, "glViewportIndexedf");
+    loader.optional(gl.GetFloati_v, "glGetFloati_v");
+    loader.optional(gl.ViewportIndexedf, "glViewportIndexedf");
   }
-  if (gl.version >= 43) load_optional(gl.ObjectLabel, get_proc, user, "glObjectLabel");
+  if (gl.version >= 43) loader.optional(gl.ObjectLabel, "glObjectLabel");
+}
+
+void load_es_options(Functions& gl, const Loader& loader) {
+  loader.optional(gl.BindTransformFeedback, "glBindTransformFeedback");
+  loader.optional(gl.DeleteTransformFeedbacks, "glDeleteTransformFeedbacks");
+  loader.optional(gl.GenTransformFeedbacks, "glGenTransformFeedbacks");
+  if (gl.profile == Profile::webgl) {
+    loader.optional(gl.GetBufferSubData, "glGetBufferSubData");
+    gl.can.buffer_reads = gl.GetBufferSubData != nullptr;
+    return;
+  }
+  gl.can.maps = true;
+  if (gl.version >= 31) {
+    loader.optional(gl.GetTexLevelParameteriv, "glGetTexLevelParameteriv");
+    gl.can.texture_sizes = gl.GetTexLevelParameteriv != nullptr;
+    gl.can.stencil_textures = true;
+  }
+  if (gl.version >= 32) {
+    loader.optional(gl.ColorMaski, "glColorMaski");
+    loader.optional(gl.Disablei, "glDisablei");
+    loader.optional(gl.Enablei, "glEnablei");
+    loader.optional(gl.IsEnabledi, "glIsEnabledi");
+    loader.optional(gl.GetBooleani_v, "glGetBooleani_v");
+    loader.optional(gl.BlendEquationSeparatei, "glBlendEquationSeparatei");
+    loader.optional(gl.BlendFuncSeparatei, "glBlendFuncSeparatei");
+    loader.optional(gl.ObjectLabel, "glObjectLabel");
+    gl.can.indexed_draw_buffers =
+        gl.ColorMaski && gl.Disablei && gl.Enablei && gl.IsEnabledi && gl.GetBooleani_v;
+  }
+  if (has_extension(gl, loader, es_timer_extension)) {
+    loader.optional(gl.QueryCounter, "glQueryCounterEXT");
+    loader.optional(gl.GetQueryObjectiv, "glGetQueryObjectivEXT");
+    loader.optional(gl.GetQueryObjectui64v, "glGetQueryObjectui64vEXT");
+    gl.can.timestamps = gl.QueryCounter && gl.GetQueryObjectiv && gl.GetQueryObjectui64v;
+  }
+}
+
+}  // namespace
+
+int tier_of(const Functions& gl) {
+  if (gl.profile == Profile::desktop) return gl.can.compute ? NOOK_GL_TIER_43 : NOOK_GL_TIER_33;
+  return gl.can.compute ? NOOK_GL_TIER_ES31 : NOOK_GL_TIER_ES30;
+}
+
+const char* api_name(const Functions& gl) {
+  return gl.profile == Profile::desktop ? "OpenGL" : "OpenGL ES";
+}
+
+Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier) {
+  const Loader loader(get_proc, user);
+  Functions gl;
+  loader.required(gl.GetString, "glGetString", "OpenGL 3.3");
+  loader.required(gl.GetIntegerv, "glGetIntegerv", "OpenGL 3.3");
+  read_version(gl);
+  check_version(gl);
+  load_common(gl, loader);
+  load_compute(gl, loader, max_tier);
+  if (gl.profile == Profile::desktop)
+    load_desktop_options(gl, loader);
+  else
+    load_es_options(gl, loader);
   return gl;
 }
 

@@ -8,8 +8,8 @@
 
 namespace nook::gl {
 
-// The functions that every context needs: OpenGL 3.3 core.
-#define NOOK_GL_FUNCTIONS_33(X)          \
+// The functions that every context needs, OpenGL 3.3 core or OpenGL ES 3.0.
+#define NOOK_GL_FUNCTIONS_COMMON(X)      \
   X(ActiveTexture)                       \
   X(AttachShader)                        \
   X(BeginTransformFeedback)              \
@@ -27,7 +27,7 @@ namespace nook::gl {
   X(BufferSubData)                       \
   X(CheckFramebufferStatus)              \
   X(ClearBufferfv)                       \
-  X(ColorMaski)                          \
+  X(ColorMask)                           \
   X(CompileShader)                       \
   X(CreateProgram)                       \
   X(CreateShader)                        \
@@ -42,12 +42,11 @@ namespace nook::gl {
   X(DeleteVertexArrays)                  \
   X(DetachShader)                        \
   X(Disable)                             \
-  X(Disablei)                            \
   X(DrawArrays)                          \
+  X(DrawArraysInstanced)                 \
   X(DrawElementsInstanced)               \
   X(Enable)                              \
   X(EnableVertexAttribArray)             \
-  X(Enablei)                             \
   X(EndTransformFeedback)                \
   X(FramebufferRenderbuffer)             \
   X(FramebufferTexture2D)                \
@@ -58,9 +57,8 @@ namespace nook::gl {
   X(GenSamplers)                         \
   X(GenTextures)                         \
   X(GenVertexArrays)                     \
-  X(GetBooleani_v)                       \
+  X(GetBooleanv)                         \
   X(GetBufferParameteri64v)              \
-  X(GetBufferSubData)                    \
   X(GetError)                            \
   X(GetFloatv)                           \
   X(GetFramebufferAttachmentParameteriv) \
@@ -69,28 +67,20 @@ namespace nook::gl {
   X(GetIntegerv)                         \
   X(GetProgramInfoLog)                   \
   X(GetProgramiv)                        \
-  X(GetQueryObjectiv)                    \
-  X(GetQueryObjectui64v)                 \
   X(GetShaderInfoLog)                    \
   X(GetShaderiv)                         \
   X(GetString)                           \
-  X(GetTexLevelParameteriv)              \
   X(GetTexParameteriv)                   \
   X(GetUniformLocation)                  \
   X(IsEnabled)                           \
-  X(IsEnabledi)                          \
   X(IsFramebuffer)                       \
   X(IsProgram)                           \
   X(IsTexture)                           \
   X(LinkProgram)                         \
-  X(MapBufferRange)                      \
   X(PixelStorei)                         \
-  X(PolygonMode)                         \
-  X(QueryCounter)                        \
   X(RenderbufferStorage)                 \
   X(SamplerParameteri)                   \
   X(ShaderSource)                        \
-  X(TexBuffer)                           \
   X(TexImage2D)                          \
   X(TexImage3D)                          \
   X(TexParameteri)                       \
@@ -101,16 +91,38 @@ namespace nook::gl {
   X(Uniform1ui)                          \
   X(Uniform2i)                           \
   X(Uniform4fv)                          \
-  X(UnmapBuffer)                         \
   X(UseProgram)                          \
   X(VertexAttribIPointer)                \
   X(VertexAttribPointer)                 \
   X(Viewport)
 
-// The functions that OpenGL 4.3 needs in addition, if the tier may be 43.
-#define NOOK_GL_FUNCTIONS_43(X) \
-  X(DispatchCompute)            \
+// The functions that OpenGL 3.3 has besides. OpenGL ES 3.2 has some of them, which are used there.
+#define NOOK_GL_FUNCTIONS_33(X) \
+  X(ColorMaski)                 \
+  X(Disablei)                   \
+  X(Enablei)                    \
+  X(GetBooleani_v)              \
+  X(GetBufferSubData)           \
+  X(GetQueryObjectiv)           \
+  X(GetQueryObjectui64v)        \
+  X(GetTexLevelParameteriv)     \
+  X(IsEnabledi)                 \
+  X(PolygonMode)                \
+  X(QueryCounter)               \
+  X(TexBuffer)
+
+// The functions that OpenGL ES 3.0 has besides.
+#define NOOK_GL_FUNCTIONS_ES30(X) X(TexStorage2D)
+
+// The functions that a tier with compute shaders needs in addition: OpenGL 4.3, OpenGL ES 3.1.
+#define NOOK_GL_FUNCTIONS_COMPUTE(X) \
+  X(DispatchCompute)                 \
   X(MemoryBarrier)
+
+// The functions of mapped buffers, which WebGL alone lacks.
+#define NOOK_GL_FUNCTIONS_MAPS(X) \
+  X(MapBufferRange)               \
+  X(UnmapBuffer)
 
 // Functions that are used only if they exist.
 #define NOOK_GL_FUNCTIONS_OPTIONAL(X) \
@@ -124,26 +136,52 @@ namespace nook::gl {
   X(ObjectLabel)                      \
   X(ViewportIndexedf)
 
+#define NOOK_GL_FUNCTIONS_ALL(X) \
+  NOOK_GL_FUNCTIONS_COMMON(X)    \
+  NOOK_GL_FUNCTIONS_33(X)        \
+  NOOK_GL_FUNCTIONS_ES30(X)      \
+  NOOK_GL_FUNCTIONS_MAPS(X)      \
+  NOOK_GL_FUNCTIONS_COMPUTE(X)   \
+  NOOK_GL_FUNCTIONS_OPTIONAL(X)
+
+// The three dialects of OpenGL. They differ in what a context promises, and in the version line of shaders.
+enum class Profile { desktop, es, webgl };
+
 // Abilities of a context beyond the minimum that Nook needs. load_functions derives them once from the
-// version, the loader and the host's limit; all other code reads them and compares no version.
+// profile, the version, the loader and the host's limit; all other code reads them and compares no version.
 struct Abilities {
-  bool compute = false;            // compute shaders and shader storage
-  bool compute_images = false;     // compute shaders that write images, too
-  bool indexed_viewports = false;  // viewport and scissor test exist once for each index
-  bool query_buffers = false;      // GL_QUERY_BUFFER
-  bool stencil_textures = false;   // GL_DEPTH_STENCIL_TEXTURE_MODE
+  bool compute = false;           // compute shaders and shader storage
+  bool compute_images = false;    // compute shaders that write images, too
+  bool texture_buffers = false;   // otherwise tables of texels are 2D textures
+  bool maps = false;              // buffers can be mapped; otherwise writes are copies
+  bool buffer_reads = false;      // glGetBufferSubData; otherwise reads map
+  bool indexed_feedback = false;  // draws with indices during transform feedback, which ES forbids before 3.2
+  bool norm16_targets = false;    // GL_RG16 can be drawn into
+  bool r8_images = false;         // compute shaders write GL_R8
+  bool texture_sizes = false;     // glGetTexLevelParameteriv
+  bool timestamps = false;        // glQueryCounter
+  bool indexed_draw_buffers = false;  // blending and colour mask exist once for each draw buffer
+  bool indexed_viewports = false;     // viewport and scissor test exist once for each index
+  bool desktop_raster =
+      false;  // polygon mode, primitive restart by index, sRGB switch, logic op, clip distances
+  bool query_buffers = false;     // GL_QUERY_BUFFER
+  bool stencil_textures = false;  // GL_DEPTH_STENCIL_TEXTURE_MODE
 };
 
 struct Functions {
 #define NOOK_X(name) decltype(GladGLContext::name) name = nullptr;
-  NOOK_GL_FUNCTIONS_33(NOOK_X)
-  NOOK_GL_FUNCTIONS_43(NOOK_X)
-  NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
+  NOOK_GL_FUNCTIONS_ALL(NOOK_X)
 #undef NOOK_X
+  Profile profile = Profile::desktop;
   int version = 0;  // of the context, 10 * major + minor
   Abilities can;
   bool limited_by_host = false;  // could compute, if max_tier did not forbid it
 };
+
+// The values of nook_gl_info.tier.
+int tier_of(const Functions& gl);
+// "OpenGL" or "OpenGL ES" of the context, for messages.
+const char* api_name(const Functions& gl);
 
 // Throws Failure: UNSUPPORTED names the function that get_proc did not return, or the version that is too
 // low.

@@ -1,5 +1,7 @@
 #include "sdk/src/gl/object.h"
 
+#include <cstring>
+
 #include "sdk/src/core/failure.h"
 
 namespace nook::gl {
@@ -38,6 +40,11 @@ void* Buffer::begin_write(std::uint64_t bytes) {
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(kept), nullptr, gl_usage_);
   device_->buffer_bytes += kept - bytes_;
   bytes_ = kept;
+  if (!gl.can.maps) {
+    if (!staging_) staging_.emplace(device_->memory);
+    staging_->resize(bytes);
+    return staging_->data();
+  }
   void* memory = gl.MapBufferRange(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(bytes),
                                    GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
   if (!memory)
@@ -48,7 +55,10 @@ void* Buffer::begin_write(std::uint64_t bytes) {
 }
 
 bool Buffer::end_write() {
-  return device_->gl.UnmapBuffer(GL_ARRAY_BUFFER) == GL_TRUE;
+  const Functions& gl = device_->gl;
+  if (gl.can.maps) return gl.UnmapBuffer(GL_ARRAY_BUFFER) == GL_TRUE;
+  gl.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(staging_->size()), staging_->data());
+  return true;
 }
 
 void Buffer::fail_write(std::uint64_t bytes) {
@@ -65,6 +75,27 @@ void Buffer::swap(Buffer& other) noexcept {
   std::swap(gl_usage_, other.gl_usage_);
   std::swap(use_, other.use_);
   std::swap(bytes_, other.bytes_);
+  std::swap(staging_, other.staging_);
+}
+
+void read_buffer_bytes(const Device& device, GLuint buffer, std::uint64_t offset, std::uint64_t bytes,
+                       void* out) {
+  const Functions& gl = device.gl;
+  const auto start = static_cast<GLintptr>(offset);
+  const auto size = static_cast<GLsizeiptr>(bytes);
+  gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
+  if (gl.can.buffer_reads) {
+    gl.GetBufferSubData(GL_ARRAY_BUFFER, start, size, out);
+    return;
+  }
+  const void* memory =
+      gl.can.maps ? gl.MapBufferRange(GL_ARRAY_BUFFER, start, size, GL_MAP_READ_BIT) : nullptr;
+  if (!memory)
+    throw Failure(NOOK_ERROR_GL,
+                  "a buffer cannot be read (%llu bytes); is the context of nook_gl_create current?",
+                  static_cast<unsigned long long>(bytes));
+  std::memcpy(out, memory, bytes);
+  gl.UnmapBuffer(GL_ARRAY_BUFFER);
 }
 
 Object Object::make(Device& device, Kind kind) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/gl/device.h"
 
 namespace nook::gl {
@@ -51,7 +53,13 @@ class Buffer {
   GLenum gl_usage_ = GL_STATIC_DRAW;
   BufferUse use_ = BufferUse::working;
   std::uint64_t bytes_ = 0;
+  std::optional<Vector<std::byte>> staging_;  // of writes where buffers cannot be mapped
 };
+
+// Copies bytes of a buffer to `out`, waiting for the GPU. Binds GL_ARRAY_BUFFER. Throws Failure if the buffer
+// cannot be mapped where OpenGL has no other way.
+void read_buffer_bytes(const Device& device, GLuint buffer, std::uint64_t offset, std::uint64_t bytes,
+                       void* out);
 
 // Any other kind of object; one owner type, since they differ only in the call that deletes them.
 class Object {

@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <initializer_list>
+#include <iterator>
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/embedded_shaders.h"
@@ -26,11 +27,29 @@ struct InfoLog {
                 log.text);
 }
 
-Object compile(Device& device, GLenum stage, const char* path, const char* version, const char* defines) {
+const char* version_line(const Functions& gl, GLenum stage) {
+  const bool compute = stage == GL_COMPUTE_SHADER;
+  if (gl.profile == Profile::desktop) return compute ? "#version 430 core\n" : "#version 330 core\n";
+  return compute ? "#version 310 es\n" : "#version 300 es\n";
+}
+
+// Every number is computed in full precision, as desktop OpenGL does: sums over taps and spheres, and depths,
+// need it.
+const char* precision_lines(const Functions& gl, GLenum stage) {
+  if (gl.profile == Profile::desktop) return "";
+  if (stage == GL_COMPUTE_SHADER)
+    return "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+           "precision highp usampler2D;\nprecision highp image2D;\n";
+  return "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+         "precision highp usampler2D;\n";
+}
+
+Object compile(Device& device, GLenum stage, const char* path, const char* defines) {
   const Functions& gl = device.gl;
   Object shader(device, Object::Kind::shader, gl.CreateShader(stage));
-  const char* parts[] = {version, defines, "#line 1\n", embedded_text(path)};
-  gl.ShaderSource(shader.name(), 4, parts, nullptr);
+  const char* parts[] = {version_line(gl, stage), precision_lines(gl, stage), defines, "#line 1\n",
+                         embedded_text(path)};
+  gl.ShaderSource(shader.name(), GLsizei(std::size(parts)), parts, nullptr);
   gl.CompileShader(shader.name());
   GLint compiled = GL_FALSE;
   gl.GetShaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
@@ -63,19 +82,21 @@ Object link(Device& device, std::initializer_list<GLuint> shaders, const char* p
 }  // namespace
 
 Object compute_program(Device& device, const char* path, const char* defines) {
-  const Object shader = compile(device, GL_COMPUTE_SHADER, path, "#version 430 core\n", defines);
+  const Object shader = compile(device, GL_COMPUTE_SHADER, path, defines);
   return link(device, {shader.name()}, path, nullptr);
 }
 
 Object feedback_program(Device& device, const char* path, const char* defines, const char* varying) {
-  const Object shader = compile(device, GL_VERTEX_SHADER, path, "#version 330 core\n", defines);
-  return link(device, {shader.name()}, path, varying);
+  const Object vertex = compile(device, GL_VERTEX_SHADER, path, defines);
+  if (device.gl.profile == Profile::desktop) return link(device, {vertex.name()}, path, varying);
+  // OpenGL ES links no program without a fragment shader.
+  const Object fragment = compile(device, GL_FRAGMENT_SHADER, "core/nothing.frag", "");
+  return link(device, {vertex.name(), fragment.name()}, path, varying);
 }
 
 Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines) {
-  const char* const version = "#version 330 core\n";
-  const Object vertex = compile(device, GL_VERTEX_SHADER, vertex_path, version, "");
-  const Object fragment = compile(device, GL_FRAGMENT_SHADER, fragment_path, version, defines);
+  const Object vertex = compile(device, GL_VERTEX_SHADER, vertex_path, "");
+  const Object fragment = compile(device, GL_FRAGMENT_SHADER, fragment_path, defines);
   return link(device, {vertex.name(), fragment.name()}, fragment_path, nullptr);
 }
 

@@ -61,12 +61,12 @@ void restore_active_texture(const Functions& gl, const SavedState& s) {
 // The next two items are those of unit 0, whichever unit is active. The item above restores the active unit.
 void query_texture_unit_0(const Functions& gl, SavedState& s) {
   gl.ActiveTexture(GL_TEXTURE0);
-  s.texture_unit_0 = integer(gl, GL_TEXTURE_BINDING_BUFFER);
+  s.texture_unit_0 = integer(gl, gl.can.texture_buffers ? GL_TEXTURE_BINDING_BUFFER : GL_TEXTURE_BINDING_2D);
   gl.ActiveTexture(s.active_texture);
 }
 void restore_texture_unit_0(const Functions& gl, const SavedState& s) {
   gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_BUFFER, s.texture_unit_0);
+  gl.BindTexture(gl.can.texture_buffers ? GL_TEXTURE_BUFFER : GL_TEXTURE_2D, s.texture_unit_0);
   gl.ActiveTexture(s.active_texture);
 }
 
@@ -90,15 +90,25 @@ void query_image_unit(const Functions& gl, SavedState& s) {
 }
 void restore_image_unit(const Functions& gl, const SavedState& s) {
   const auto [texture, level, layered, layer, access, format] = s.image_unit;
-  gl.BindImageTexture(image_unit_index, texture, level, layered != GL_FALSE, layer, access, format);
+  const GLenum first_format = gl.profile == Profile::desktop ? GL_R8 : GL_R32UI;
+  gl.BindImageTexture(image_unit_index, texture, level, layered != GL_FALSE, layer, access,
+                      format ? static_cast<GLenum>(format) : first_format);
 }
 
+namespace {
+
+std::size_t pixel_store_count(const Functions& gl) {
+  return std::size(pixel_store_names) - (gl.profile == Profile::desktop ? 0 : 2);
+}
+
+}  // namespace
+
 void set_pixel_store(const Functions& gl, const PixelStore& store) {
-  for (std::size_t i = 0; i < std::size(pixel_store_names); ++i)
+  for (std::size_t i = 0; i < pixel_store_count(gl); ++i)
     gl.PixelStorei(pixel_store_names[i], store.values[i]);
 }
 void query_pixel_store(const Functions& gl, SavedState& s) {
-  for (std::size_t i = 0; i < std::size(pixel_store_names); ++i)
+  for (std::size_t i = 0; i < pixel_store_count(gl); ++i)
     s.pixel_store.values[i] = integer(gl, pixel_store_names[i]);
 }
 void restore_pixel_store(const Functions& gl, const SavedState& s) {
@@ -126,11 +136,14 @@ void restore_rasterizer_discard(const Functions& gl, const SavedState& s) {
   set_enabled(gl, GL_RASTERIZER_DISCARD, s.rasterizer_discard);
 }
 
+void set_primitive_restart(const Functions& gl, bool enabled) {
+  if (gl.can.desktop_raster) set_enabled(gl, GL_PRIMITIVE_RESTART, enabled);
+}
 void query_primitive_restart(const Functions& gl, SavedState& s) {
-  s.primitive_restart = gl.IsEnabled(GL_PRIMITIVE_RESTART);
+  if (gl.can.desktop_raster) s.primitive_restart = gl.IsEnabled(GL_PRIMITIVE_RESTART);
 }
 void restore_primitive_restart(const Functions& gl, const SavedState& s) {
-  set_enabled(gl, GL_PRIMITIVE_RESTART, s.primitive_restart);
+  set_primitive_restart(gl, s.primitive_restart);
 }
 
 void query_transform_feedback(const Functions& gl, SavedState& s) {
@@ -200,7 +213,7 @@ StateGuard::~StateGuard() {
   } else if (users_ & tier_33) {
     // With these two, the host's next draw would be invisible or broken.
     gl_.Disable(GL_RASTERIZER_DISCARD);
-    gl_.Disable(GL_PRIMITIVE_RESTART);
+    set_primitive_restart(gl_, false);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <iterator>
+#include <span>
 
 #include "sdk/src/gl/functions.h"
 #include "sdk/src/gl/touched_state.h"
@@ -18,23 +19,16 @@ struct BufferRange {
   GLint64 size = 0;    // bytes; 0: the whole buffer
 };
 
-// The capabilities of the item fragment_tests.
-inline constexpr GLenum fragment_tests[] = {GL_DEPTH_TEST,
-                                            GL_STENCIL_TEST,
-                                            GL_CULL_FACE,
-                                            GL_COLOR_LOGIC_OP,
-                                            GL_SAMPLE_COVERAGE,
-                                            GL_SAMPLE_MASK,
-                                            GL_SAMPLE_ALPHA_TO_COVERAGE,
-                                            GL_CLIP_DISTANCE0,
-                                            GL_CLIP_DISTANCE1,
-                                            GL_CLIP_DISTANCE2,
-                                            GL_CLIP_DISTANCE3,
-                                            GL_CLIP_DISTANCE4,
-                                            GL_CLIP_DISTANCE5,
-                                            GL_CLIP_DISTANCE6,
-                                            GL_CLIP_DISTANCE7};
+// The capabilities of the item fragment_tests. OpenGL ES has the first ones, and GL_SAMPLE_MASK from 3.1 on.
+inline constexpr GLenum fragment_tests[] = {
+    GL_DEPTH_TEST,     GL_STENCIL_TEST,   GL_CULL_FACE,      GL_SAMPLE_COVERAGE, GL_SAMPLE_ALPHA_TO_COVERAGE,
+    GL_SAMPLE_MASK,    GL_COLOR_LOGIC_OP, GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1,  GL_CLIP_DISTANCE2,
+    GL_CLIP_DISTANCE3, GL_CLIP_DISTANCE4, GL_CLIP_DISTANCE5, GL_CLIP_DISTANCE6,  GL_CLIP_DISTANCE7};
 inline constexpr std::size_t fragment_test_count = std::size(fragment_tests);
+inline std::span<const GLenum> fragment_tests_of(const Functions& gl) {
+  const std::size_t es = gl.profile == Profile::es && gl.version >= 31 ? 6 : 5;
+  return std::span(fragment_tests).first(gl.profile == Profile::desktop ? fragment_test_count : es);
+}
 
 // The initial value of every member is OpenGL's default.
 struct BlendState {
@@ -43,15 +37,17 @@ struct BlendState {
   GLint equation_rgb = GL_FUNC_ADD, equation_alpha = GL_FUNC_ADD;
 };
 
+// The last two are not of OpenGL ES.
 inline constexpr GLenum pixel_store_names[] = {
-    GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST,   GL_UNPACK_ROW_LENGTH,  GL_UNPACK_IMAGE_HEIGHT,
-    GL_UNPACK_SKIP_ROWS,  GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_ALIGNMENT};
+    GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH,  GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_ROWS,
+    GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_SWAP_BYTES,   GL_UNPACK_LSB_FIRST};
 struct PixelStore {
-  GLint values[std::size(pixel_store_names)] = {0, 0, 0, 0, 0, 0, 0, 4};
+  GLint values[std::size(pixel_store_names)] = {4};
 };
 
 struct ImageUnit {
-  GLint texture = 0, level = 0, layered = GL_FALSE, layer = 0, access = GL_READ_ONLY, format = GL_R8;
+  // format 0: the default of the profile, GL_R8 or GL_R32UI.
+  GLint texture = 0, level = 0, layered = GL_FALSE, layer = 0, access = GL_READ_ONLY, format = 0;
 };
 
 struct SavedState {
@@ -97,6 +93,8 @@ void set_blend(const Functions& gl, const BlendState& blend);
 void set_viewport(const Functions& gl, const GLfloat (&box)[4]);
 void set_pixel_store(const Functions& gl, const PixelStore& store);
 void set_scissor_test(const Functions& gl, bool enabled);
+// Nothing on OpenGL ES, whose restart index is that of the index type alone.
+void set_primitive_restart(const Functions& gl, bool enabled);
 // Sets blend, masks, tests and capabilities so that one triangle fills its viewport without side effects.
 void set_plain_drawing(const Functions& gl);
 
@@ -119,7 +117,12 @@ class StateGuard {
 
 // Returns the users of the items that the evaluation of characters touches.
 inline unsigned character_users(const Functions& gl) {
-  return gl.can.compute ? tier_43 : tier_33;
+  return unsigned{gl.can.compute ? tier_43 : tier_33} |
+         (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
+}
+// Of the upload of probes.
+inline unsigned probe_users(const Functions& gl) {
+  return probes | (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
 }
 
 // There is one query and one restore for each item of the list; the restore of a new SavedState is the reset.

@@ -6,9 +6,19 @@
 namespace nook::gl {
 namespace {
 
-// Changes only the value of draw buffer 0 or viewport 0.
+// Changes only the value of draw buffer 0 or viewport 0, where OpenGL has one for each.
 void set_enabled_0(const Functions& gl, GLenum capability, bool enabled) {
-  enabled ? gl.Enablei(capability, 0) : gl.Disablei(capability, 0);
+  if (!gl.can.indexed_draw_buffers)
+    set_enabled(gl, capability, enabled);
+  else
+    enabled ? gl.Enablei(capability, 0) : gl.Disablei(capability, 0);
+}
+
+void set_color_mask(const Functions& gl, const GLboolean (&mask)[4]) {
+  if (gl.can.indexed_draw_buffers)
+    gl.ColorMaski(0, mask[0], mask[1], mask[2], mask[3]);
+  else
+    gl.ColorMask(mask[0], mask[1], mask[2], mask[3]);
 }
 
 bool has_indexed_blend(const Functions& gl) {
@@ -68,12 +78,13 @@ void set_scissor_test(const Functions& gl, bool enabled) {
 
 void set_plain_drawing(const Functions& gl) {
   set_enabled_0(gl, GL_BLEND, false);
-  gl.ColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  set_color_mask(gl, {GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE});
   set_scissor_test(gl, false);
-  for (const GLenum test : fragment_tests) gl.Disable(test);
-  for (const GLenum other : {GL_FRAMEBUFFER_SRGB, GL_DITHER, GL_RASTERIZER_DISCARD, GL_PRIMITIVE_RESTART})
-    gl.Disable(other);
+  for (const GLenum test : fragment_tests_of(gl)) gl.Disable(test);
+  for (const GLenum other : {GL_DITHER, GL_RASTERIZER_DISCARD}) gl.Disable(other);
+  if (!gl.can.desktop_raster) return;
+  gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  for (const GLenum other : {GL_FRAMEBUFFER_SRGB, GL_PRIMITIVE_RESTART}) gl.Disable(other);
 }
 
 void query_texture_2d(const Functions& gl, SavedState& s) {
@@ -91,11 +102,13 @@ void restore_samplers(const Functions& gl, const SavedState& s) {
 }
 
 void query_filter_texture(const Functions& gl, SavedState& s) {
+  if (!gl.can.texture_buffers) return;  // it is one of the 2D textures
   gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
   s.filter_texture = integer(gl, GL_TEXTURE_BINDING_BUFFER);
   gl.ActiveTexture(s.active_texture);
 }
 void restore_filter_texture(const Functions& gl, const SavedState& s) {
+  if (!gl.can.texture_buffers) return;
   gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
   gl.BindTexture(GL_TEXTURE_BUFFER, s.filter_texture);
   gl.ActiveTexture(s.active_texture);
@@ -120,7 +133,7 @@ void restore_viewport(const Functions& gl, const SavedState& s) {
 }
 
 void query_blend(const Functions& gl, SavedState& s) {
-  s.blend.enabled = gl.IsEnabledi(GL_BLEND, 0);
+  s.blend.enabled = gl.can.indexed_draw_buffers ? gl.IsEnabledi(GL_BLEND, 0) : gl.IsEnabled(GL_BLEND);
   s.blend.source_rgb = blend_integer(gl, GL_BLEND_SRC_RGB);
   s.blend.destination_rgb = blend_integer(gl, GL_BLEND_DST_RGB);
   s.blend.source_alpha = blend_integer(gl, GL_BLEND_SRC_ALPHA);
@@ -133,20 +146,24 @@ void restore_blend(const Functions& gl, const SavedState& s) {
 }
 
 void query_color_mask(const Functions& gl, SavedState& s) {
-  gl.GetBooleani_v(GL_COLOR_WRITEMASK, 0, s.color_mask);
+  if (gl.can.indexed_draw_buffers)
+    gl.GetBooleani_v(GL_COLOR_WRITEMASK, 0, s.color_mask);
+  else
+    gl.GetBooleanv(GL_COLOR_WRITEMASK, s.color_mask);
 }
 void restore_color_mask(const Functions& gl, const SavedState& s) {
-  gl.ColorMaski(0, s.color_mask[0], s.color_mask[1], s.color_mask[2], s.color_mask[3]);
+  set_color_mask(gl, s.color_mask);
 }
 
 void query_polygon_mode(const Functions& gl, SavedState& s) {
+  if (!gl.can.desktop_raster) return;
   // Some drivers return two values, front and back, which are equal in core profiles.
   GLint modes[2] = {GL_FILL, GL_FILL};
   gl.GetIntegerv(GL_POLYGON_MODE, modes);
   s.polygon_mode = modes[0];
 }
 void restore_polygon_mode(const Functions& gl, const SavedState& s) {
-  gl.PolygonMode(GL_FRONT_AND_BACK, s.polygon_mode);
+  if (gl.can.desktop_raster) gl.PolygonMode(GL_FRONT_AND_BACK, s.polygon_mode);
 }
 
 void query_scissor_test(const Functions& gl, SavedState& s) {
@@ -158,18 +175,19 @@ void restore_scissor_test(const Functions& gl, const SavedState& s) {
 }
 
 void query_framebuffer_srgb(const Functions& gl, SavedState& s) {
-  s.framebuffer_srgb = gl.IsEnabled(GL_FRAMEBUFFER_SRGB);
+  if (gl.can.desktop_raster) s.framebuffer_srgb = gl.IsEnabled(GL_FRAMEBUFFER_SRGB);
 }
 void restore_framebuffer_srgb(const Functions& gl, const SavedState& s) {
-  set_enabled(gl, GL_FRAMEBUFFER_SRGB, s.framebuffer_srgb);
+  if (gl.can.desktop_raster) set_enabled(gl, GL_FRAMEBUFFER_SRGB, s.framebuffer_srgb);
 }
 
 void query_fragment_tests(const Functions& gl, SavedState& s) {
-  for (std::size_t i = 0; i < fragment_test_count; ++i) s.fragment_tests[i] = gl.IsEnabled(fragment_tests[i]);
+  const std::span<const GLenum> tests = fragment_tests_of(gl);
+  for (std::size_t i = 0; i < tests.size(); ++i) s.fragment_tests[i] = gl.IsEnabled(tests[i]);
 }
 void restore_fragment_tests(const Functions& gl, const SavedState& s) {
-  for (std::size_t i = 0; i < fragment_test_count; ++i)
-    set_enabled(gl, fragment_tests[i], s.fragment_tests[i]);
+  const std::span<const GLenum> tests = fragment_tests_of(gl);
+  for (std::size_t i = 0; i < tests.size(); ++i) set_enabled(gl, tests[i], s.fragment_tests[i]);
 }
 
 void query_dither(const Functions& gl, SavedState& s) {

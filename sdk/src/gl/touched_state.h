@@ -2,13 +2,15 @@
 // state expand.
 #pragma once
 
+#include "shaders/character/layout.h"
 #include "shaders/nnao/layout.h"
 
 namespace nook::gl {
 
 // The users of an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload
 // of probes and materials, the screen-space pass if its network is a compute shader, and the writing of AO to
-// buffers and textures of the host.
+// buffers and textures of the host. OpenGL ES has tables of texels in 2D textures, whose upload is another
+// user.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
@@ -19,6 +21,7 @@ enum : unsigned {
   screen_compute = 64,
   outputs = 128,
   outputs_compute = 256,
+  texel_uploads = 512,
   characters = tier_33 | tier_43,
   everyone = characters | screen,
   draws = tier_33 | screen,
@@ -34,22 +37,25 @@ enum : unsigned {
     "inputs of the vertex pass, or none; default 0")                                                         \
   X(active_texture, everyone | probes | materials | outputs, "GL_ACTIVE_TEXTURE",                            \
     "selects units; default GL_TEXTURE0")                                                                    \
-  X(texture_unit_0, characters | probes, "GL_TEXTURE_BINDING_BUFFER of unit 0",                              \
+  X(texture_unit_0, characters | probes,                                                                     \
+    "GL_TEXTURE_BINDING_BUFFER of unit 0; on OpenGL ES GL_TEXTURE_BINDING_2D",                               \
     "shadows at key points, texels of probes and lights; default 0")                                         \
   X(texture_2d, screen | outputs, "GL_TEXTURE_BINDING_2D of units 0 to 3",                                   \
     "inputs of the stages; default 0")                                                                       \
   X(samplers, screen, "GL_SAMPLER_BINDING of units 0 to 3",                                                  \
     "so that no parameter of a texture counts; default 0")                                                   \
-  X(filter_texture, screen, "GL_TEXTURE_BINDING_BUFFER of unit 2",                                           \
+  X(filter_texture, screen, "GL_TEXTURE_BINDING_BUFFER of unit 2, not on OpenGL ES",                         \
     "filters of the paper's network; default 0")                                                             \
   X(image_unit, screen_compute, "GL_IMAGE_BINDING_NAME, LEVEL, LAYERED, LAYER, ACCESS, FORMAT of unit 0",    \
-    "what a compute shader writes; default 0, GL_READ_ONLY, GL_R8")                                          \
+    "what a compute shader writes; default 0, GL_READ_ONLY, GL_R8 (OpenGL ES: GL_R32UI)")                    \
   X(texture_2d_array, materials, "GL_TEXTURE_BINDING_2D_ARRAY of unit 0", "uploads; default 0")              \
-  X(pixel_unpack_buffer, screen | materials | outputs, "GL_PIXEL_UNPACK_BUFFER_BINDING",                     \
-    "in nook_nnao_create, nook_gl_material_create and nook_gl_scene_write_ao only; default 0")               \
-  X(pixel_store, materials | outputs,                                                                        \
+  X(pixel_unpack_buffer, screen | materials | outputs | texel_uploads, "GL_PIXEL_UNPACK_BUFFER_BINDING",     \
+    "in nook_nnao_create, nook_gl_material_create and nook_gl_scene_write_ao only; on OpenGL ES in updates " \
+    "and probes "                                                                                            \
+    "too; default 0")                                                                                        \
+  X(pixel_store, materials | outputs | texel_uploads,                                                        \
     "GL_UNPACK_SWAP_BYTES, LSB_FIRST, ROW_LENGTH, IMAGE_HEIGHT, SKIP_ROWS, SKIP_PIXELS, SKIP_IMAGES, "       \
-    "ALIGNMENT",                                                                                             \
+    "ALIGNMENT; the first two not on OpenGL ES",                                                             \
     "uploads without gaps; default 0, alignment 4")                                                          \
   X(draw_framebuffer, draws | outputs, "GL_DRAW_FRAMEBUFFER_BINDING",                                        \
     "a draw needs a complete framebuffer; default 0")                                                        \
@@ -62,18 +68,21 @@ enum : unsigned {
     "on",                                                                                                    \
     "multiplies into a target; default disabled, GL_ONE, GL_ZERO, GL_FUNC_ADD")                              \
   X(color_mask, screen, "GL_COLOR_WRITEMASK of draw buffer 0", "all four; default all GL_TRUE")              \
-  X(polygon_mode, screen, "GL_POLYGON_MODE", "one triangle is filled; default GL_FILL")                      \
+  X(polygon_mode, screen, "GL_POLYGON_MODE, not on OpenGL ES", "one triangle is filled; default GL_FILL")    \
   X(scissor_test, screen, "GL_SCISSOR_TEST, of index 0 from OpenGL 4.1 on", "off; default disabled")         \
-  X(framebuffer_srgb, screen, "GL_FRAMEBUFFER_SRGB", "on for the host's targets; default disabled")          \
+  X(framebuffer_srgb, screen, "GL_FRAMEBUFFER_SRGB, not on OpenGL ES",                                       \
+    "on for the host's targets; default disabled")                                                           \
   X(fragment_tests, screen,                                                                                  \
     "GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_COLOR_LOGIC_OP, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, "  \
-    "GL_SAMPLE_ALPHA_TO_COVERAGE, GL_CLIP_DISTANCE0 to GL_CLIP_DISTANCE7",                                   \
+    "GL_SAMPLE_ALPHA_TO_COVERAGE, GL_CLIP_DISTANCE0 to GL_CLIP_DISTANCE7; on OpenGL ES those that it has",   \
     "off; default disabled")                                                                                 \
   X(dither, screen, "GL_DITHER", "off; default enabled")                                                     \
   X(rasterizer_discard, draws | outputs, "GL_RASTERIZER_DISCARD",                                            \
     "on in tier 33, where nothing is drawn, off in the screen-space pass; default disabled")                 \
-  X(primitive_restart, draws | outputs, "GL_PRIMITIVE_RESTART", "every index is a vertex; default disabled") \
-  X(transform_feedback, tier_33 | outputs, "GL_TRANSFORM_FEEDBACK_BINDING", "from OpenGL 4.0 on; default 0") \
+  X(primitive_restart, draws | outputs, "GL_PRIMITIVE_RESTART, not on OpenGL ES",                            \
+    "every index is a vertex; default disabled")                                                             \
+  X(transform_feedback, tier_33 | outputs, "GL_TRANSFORM_FEEDBACK_BINDING",                                  \
+    "from OpenGL 4.0 and OpenGL ES 3.0 on; default 0")                                                       \
   X(feedback_buffer, tier_33 | outputs, "GL_TRANSFORM_FEEDBACK_BUFFER_BINDING and its range, index 0",       \
     "AO; default 0")                                                                                         \
   X(query_buffer, screen_timers, "GL_QUERY_BUFFER_BINDING",                                                  \
@@ -81,9 +90,9 @@ enum : unsigned {
   X(storage_buffer, tier_43 | outputs_compute, "GL_SHADER_STORAGE_BUFFER_BINDING",                           \
     "binding a range sets it; default 0")                                                                    \
   X(storage_ranges, tier_43 | outputs_compute,                                                               \
-    "GL_SHADER_STORAGE_BUFFER_BINDING and its range, index 0 to 7", "passes; default 0")
+    "GL_SHADER_STORAGE_BUFFER_BINDING and its range, index 0 to 3", "passes; default 0")
 
-inline constexpr int storage_binding_count = 8;
+inline constexpr int storage_binding_count = NOOK_BINDING_COUNT;
 inline constexpr int texture_unit_count = NOOK_UNIT_COUNT;  // of the screen-space pass
 inline constexpr int filter_unit = NOOK_UNIT_FILTERS;
 inline constexpr int image_unit_index = NOOK_IMAGE_UNIT;

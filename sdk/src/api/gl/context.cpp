@@ -18,9 +18,17 @@ constexpr std::size_t first_gl_info = offsetof(nook_gl_info, ao_bytes) + sizeof(
 
 void check(const nook_gl_desc& desc) {
   need(reinterpret_cast<const void*>(desc.get_proc), "desc.get_proc");
-  if (desc.max_tier != 0 && desc.max_tier != 33 && desc.max_tier != 43)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.max_tier is unknown (got %d, need 0, 33 or 43)",
-                  desc.max_tier);
+  switch (desc.max_tier) {
+    case NOOK_GL_TIER_BEST:
+    case NOOK_GL_TIER_33:
+    case NOOK_GL_TIER_43:
+    case NOOK_GL_TIER_ES30:
+    case NOOK_GL_TIER_ES31:
+      break;
+    default:
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.max_tier is unknown (got %d, need 0, 33, 43, 300 or 310)", desc.max_tier);
+  }
   if (desc.state_mode < NOOK_GL_STATE_PRESERVE || desc.state_mode > NOOK_GL_STATE_HOST)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.state_mode is unknown (got %d, need 0 to %d)",
                   desc.state_mode, NOOK_GL_STATE_HOST);
@@ -78,7 +86,7 @@ nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info) {
   return api::enter("nook_gl_describe", [&] {
     need(gl, "gl");
     nook_gl_info known{};
-    known.tier = gl->device.gl.can.compute ? 43 : 33;
+    known.tier = gl::tier_of(gl->device.gl);
     known.version = gl->version.c_str();
     known.renderer = gl->renderer.c_str();
     known.buffer_bytes = gl->device.buffer_bytes;

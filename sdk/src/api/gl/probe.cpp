@@ -12,7 +12,7 @@ using namespace nook;
 struct nook_gl_probe_s : RefCounted {
   nook_gl_probe_s(nook_gl_s* made_by, const probe::Probes& probes) : gl(made_by) {
     gl->device.report_host_errors();
-    gl->guarded(gl::probes, [&] { texture.emplace(gl->device, probes); });
+    gl->guarded(gl::probe_users(gl->device.gl), [&] { texture.emplace(gl->device, probes); });
   }
 
   nook_gl_s* gl;
@@ -44,7 +44,7 @@ nook_result nook_gl_probe_update(nook_gl_probe gl_probe, nook_probe probe) {
     nook_gl_s& gl = *gl_probe->gl;
     gl.device.need_alive();
     gl.device.report_host_errors();
-    gl.guarded(gl::probes, [&] { gl_probe->texture->update(probe->probes); });
+    gl.guarded(gl::probe_users(gl.device.gl), [&] { gl_probe->texture->update(probe->probes); });
   });
 }
 

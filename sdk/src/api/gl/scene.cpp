@@ -31,7 +31,7 @@ nook_result with_scene(const char* function, nook_gl gl, nook_scene scene, Body&
 }
 
 void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
-  constexpr std::size_t size = offsetof(nook_gl_ao_target, reserved) + sizeof(std::uint32_t);
+  constexpr std::size_t size = offsetof(nook_gl_ao_target, texture_width) + sizeof(std::uint32_t);
   if (target.struct_size < size)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "target.struct_size is too small (got %u, need at least %zu); set it to sizeof",
@@ -58,10 +58,10 @@ void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
         "of 4 in a buffer",
         static_cast<unsigned long long>(target.offset),
         static_cast<unsigned long long>(target.instance_stride), target.stride);
-  if ((!in_buffer && target.stride) || target.reserved)
+  if (in_buffer ? target.texture_width != 0 : target.stride != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "target.stride of a texture or target.reserved is not 0 (got %u and %u)", target.stride,
-                  target.reserved);
+                  "target.stride of a texture or target.texture_width of a buffer is not 0 (got %u and %u)",
+                  target.stride, target.texture_width);
   if (count > 1 && target.instance_stride == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "target.instance_stride is 0 with %u instances; give the distance between them", count);
@@ -112,7 +112,8 @@ nook_result nook_gl_scene_write_ao(nook_gl gl, nook_scene scene, const nook_inst
           gl->characters->output().write(
               values, gl::BufferTarget{target->buffer, offset, target->stride, target->format});
         else
-          gl->characters->output().write(values, gl::TextureTarget{target->texture, offset});
+          gl->characters->output().write(
+              values, gl::TextureTarget{target->texture, offset, target->texture_width, target->format});
       }
     });
   });

@@ -92,7 +92,7 @@ void AoOutput::write_packed(const VertexValues& source, const BufferTarget& targ
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
   if (feedback_.name()) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback_.name());
   gl.Enable(GL_RASTERIZER_DISCARD);
-  gl.Disable(GL_PRIMITIVE_RESTART);
+  set_primitive_restart(gl, false);
   gl.BindBuffer(GL_ARRAY_BUFFER, source.buffer);
   const std::uint32_t each = values_per_word(target.format), whole = source.vertices / each;
   const auto draw = [&](std::uint32_t first_word, std::uint32_t words, std::uint32_t values) {
@@ -117,10 +117,10 @@ void AoOutput::write_packed(const VertexValues& source, const BufferTarget& targ
 void AoOutput::write_strided(const VertexValues& source, const BufferTarget& target) {
   const Functions& gl = device_.gl;
   if (!gl.can.compute)
-    throw Failure(
-        NOOK_ERROR_UNSUPPORTED,
-        "target.stride needs compute shaders (OpenGL 4.3), which this context has not; write tightly "
-        "packed values and read them as a vertex attribute of their own");
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "target.stride needs compute shaders (OpenGL 4.3 or OpenGL ES 3.1), which this context has "
+                  "not; write "
+                  "tightly packed values and read them as a vertex attribute of their own");
   Object& program = strided_[static_cast<std::size_t>(target.format)];
   if (!program.name())
     program = compute_program(device_, "character/pack_strided.comp", PackDefines(target.format).text);
@@ -149,35 +149,87 @@ void AoOutput::write_strided(const VertexValues& source, const BufferTarget& tar
                    GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void AoOutput::write(const VertexValues& source, const TextureTarget& target) {
-  const Functions& gl = device_.gl;
-  gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_2D, target.texture);
-  device_.check("binding the host's texture");
+namespace {
+
+// The width of a texture, whose size is checked where OpenGL can be asked for it. Throws Failure.
+std::uint32_t checked_width(const Device& device, const VertexValues& source, const TextureTarget& target) {
+  const Functions& gl = device.gl;
+  if (!gl.can.texture_sizes) {
+    if (target.width == 0)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "target.texture_width is 0 (%s %d.%d cannot be asked for it, need the texture's width)",
+                    api_name(gl), gl.version / 10, gl.version % 10);
+    return target.width;
+  }
   GLint width = 0, height = 0;
   gl.GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
   gl.GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &height);
+  if (target.width != 0 && target.width != static_cast<std::uint32_t>(width))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "target.texture_width is not that of texture %u (got %u, need %d or 0)", target.texture,
+                  target.width, width);
   const std::uint64_t texels = std::uint64_t(width) * std::uint64_t(height);
   if (target.first_texel > texels || source.vertices > texels - target.first_texel)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "target.texture %u is too small (it has %d x %d texels, the values end at texel %llu)",
                   target.texture, width, height,
                   static_cast<unsigned long long>(target.first_texel + source.vertices));
+  return static_cast<std::uint32_t>(width);
+}
+
+struct UploadType {
+  GLenum type;
+  std::uint32_t bytes;
+};
+
+constexpr UploadType type_of(nook_ao_format format) {
+  switch (format) {
+    case NOOK_AO_HALF:
+      return {GL_HALF_FLOAT, 2};
+    case NOOK_AO_UNORM8:
+      return {GL_UNSIGNED_BYTE, 1};
+    default:
+      return {GL_FLOAT, 4};
+  }
+}
+
+}  // namespace
+
+void AoOutput::write(const VertexValues& source, const TextureTarget& target) {
+  if (device_.gl.profile == Profile::desktop || target.format == NOOK_AO_FLOAT) {
+    write_rows(source, {target.texture, target.first_texel, target.width, NOOK_AO_FLOAT});
+    return;
+  }
+  // Uploads of OpenGL ES convert nothing: the values take the texture's form before.
+  const std::uint64_t bytes = packed_bytes(target.format, source.vertices);
+  if (packed_.bytes() < bytes) packed_ = Buffer(device_, "nook: packed AO", bytes, nullptr, GL_DYNAMIC_COPY);
+  write_packed(source, {packed_.name(), 0, 0, target.format});
+  write_rows({packed_.name(), 0, source.vertices, 1}, target);
+}
+
+void AoOutput::write_rows(const VertexValues& source, const TextureTarget& target) {
+  const Functions& gl = device_.gl;
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, target.texture);
+  device_.check("binding the host's texture");
+  const std::uint32_t width = checked_width(device_, source, target);
+  const UploadType upload = type_of(target.format);
+  gl.BindBuffer(GL_ARRAY_BUFFER, 0);
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, source.buffer);
-  set_pixel_store(gl, {});
+  PixelStore tight;
+  tight.values[0] = 1;
+  set_pixel_store(gl, tight);
   // The rest of the row in which the values begin, whole rows, and the beginning of the last one.
   std::uint32_t written = 0;
   while (written < source.vertices) {
     const std::uint64_t texel = target.first_texel + written;
-    const auto x = static_cast<std::uint32_t>(texel % static_cast<std::uint32_t>(width));
-    const auto y = static_cast<std::uint32_t>(texel / static_cast<std::uint32_t>(width));
-    const std::uint32_t left = source.vertices - written, row = static_cast<std::uint32_t>(width) - x;
-    const bool rows = x == 0 && left >= static_cast<std::uint32_t>(width);
-    const std::uint32_t across = std::min(row, left),
-                        down = rows ? left / static_cast<std::uint32_t>(width) : 1;
+    const auto x = static_cast<std::uint32_t>(texel % width), y = static_cast<std::uint32_t>(texel / width);
+    const std::uint32_t left = source.vertices - written, row = width - x;
+    const bool rows = x == 0 && left >= width;
+    const std::uint32_t across = std::min(row, left), down = rows ? left / width : 1;
     gl.TexSubImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(x), static_cast<GLint>(y),
-                     static_cast<GLsizei>(across), static_cast<GLsizei>(down), GL_RED, GL_FLOAT,
-                     at_byte(source.offset + std::uint64_t{4} * written));
+                     static_cast<GLsizei>(across), static_cast<GLsizei>(down), GL_RED, upload.type,
+                     at_byte(source.offset + std::uint64_t{upload.bytes} * written));
     written += across * down;
   }
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);

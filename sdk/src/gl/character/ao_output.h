@@ -20,7 +20,9 @@ struct BufferTarget {
 
 struct TextureTarget {
   GLuint texture = 0;
-  std::uint64_t first_texel = 0;  // row by row
+  std::uint64_t first_texel = 0;          // row by row
+  std::uint32_t width = 0;                // texels; 0: asked of OpenGL
+  nook_ao_format format = NOOK_AO_FLOAT;  // of the texture; counts on OpenGL ES alone
 };
 
 // The bytes of tightly packed values, whole words.
@@ -41,6 +43,7 @@ class AoOutput {
   void write_packed(const VertexValues& source, const BufferTarget& target);
   void write_strided(const VertexValues& source, const BufferTarget& target);
   void make_draw_objects();
+  void write_rows(const VertexValues& source, const TextureTarget& target);
 
   static constexpr int format_count = 3;
 
@@ -48,6 +51,7 @@ class AoOutput {
   std::array<Object, format_count> packing_;  // programs, by format
   std::array<Object, format_count> strided_;
   Object vertex_array_, framebuffer_, renderbuffer_, feedback_;
+  Buffer packed_;  // of a texture on OpenGL ES
 };
 
 // The users of touched state that a write has.

@@ -4,12 +4,13 @@
 #include <cstring>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/gl/character/light_texels.h"
 
 namespace nook::gl {
 namespace {
 
 struct Word4 {
-  std::uint32_t x = 0, y = 0, z = 0, w = 0;
+  std::uint32_t x, y, z, w;
 };
 
 Word4 floats(Vec3 v, std::uint32_t w) {
@@ -46,6 +47,26 @@ std::uint64_t aligned(const Device& device, std::uint64_t offset) {
   return (offset + device.storage_alignment - 1) / device.storage_alignment * device.storage_alignment;
 }
 
+// Places the arrays of a chunk's piece one after another. Throws Failure if OpenGL binds no piece so large.
+void lay_out_piece(const Device& device, ComputeChunk& chunk, std::uint64_t casters, std::uint64_t lights) {
+  ComputeChunk::Frame& frame = chunk.frame;
+  const std::uint64_t bones = std::uint64_t{frame.selected} * NOOK_RECORD_UVEC4S;
+  const std::uint64_t first_caster =
+      bones + std::uint64_t{frame.selected} * chunk.model->bones() * NOOK_BONE_ROWS;
+  const std::uint64_t first_light = first_caster + casters;
+  frame.bytes = (first_light + lights) * sizeof(Word4);
+  if (frame.bytes > device.max_piece_bytes)
+    throw Failure(
+        NOOK_ERROR_UNSUPPORTED,
+        "the poses, links and lights of a chunk need %llu bytes, this OpenGL allows %llu; link fewer "
+        "instances",
+        static_cast<unsigned long long>(frame.bytes),
+        static_cast<unsigned long long>(device.max_piece_bytes));
+  frame.bones = static_cast<std::uint32_t>(bones);
+  frame.casters = static_cast<std::uint32_t>(first_caster);
+  frame.lights = static_cast<std::uint32_t>(first_light);
+}
+
 // The bytes that the whole frame takes.
 std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
   const Scene& scene = *placed.scene;
@@ -53,7 +74,7 @@ std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
   for (ComputeChunk& chunk : placed.chunks) {
     ComputeChunk::Frame& frame = chunk.frame;
     frame = {};
-    std::uint64_t caster_words = 0;
+    std::uint64_t casters = 0, lights = 0;
     for_selected(scene, chunk, [&](std::uint32_t slot) {
       const Instance& instance = scene.instances[slot];
       ++frame.selected;
@@ -61,20 +82,13 @@ std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
       ++frame.due;
       frame.lit += instance.light.count > 0;
       ++frame.due_at_level[instance.plan.level];
-      caster_words += NOOK_CASTER_UVEC4S * instance.plan.casters.size() + exact_count(instance);
+      casters += NOOK_CASTER_UVEC4S * instance.plan.casters.size() + exact_count(instance);
+      lights += light_texels(instance.light);
     });
-    frame.records = aligned(device, end);
-    frame.bones = aligned(device, frame.records + frame.selected * sizeof(InstanceRecord));
-    frame.casters =
-        aligned(device, frame.bones + std::uint64_t{frame.selected} * chunk.model->bones() * sizeof(Mat3x4));
-    // A bound range may not be empty.
-    frame.caster_bytes = (caster_words + 1) * sizeof(Word4);
-    if (frame.caster_bytes > device.max_piece_bytes)
-      throw Failure(NOOK_ERROR_UNSUPPORTED,
-                    "the links of a chunk need %llu bytes, this OpenGL allows %llu; link fewer instances",
-                    static_cast<unsigned long long>(frame.caster_bytes),
-                    static_cast<unsigned long long>(device.max_piece_bytes));
-    end = frame.selected ? frame.casters + frame.caster_bytes : end;
+    if (frame.selected == 0) continue;
+    lay_out_piece(device, chunk, casters, lights);
+    frame.offset = aligned(device, end);
+    end = frame.offset + frame.bytes;
   }
   return end;
 }
@@ -102,7 +116,7 @@ std::uint32_t first_sphere(const ComputeScene& placed, std::uint32_t slot) {
 
 // Casters are seen at the receiver's level. Appends the casters of an instance from `next` on and describes
 // them in the record.
-void write_casters(const ComputeScene& placed, const Instance& instance, Word4* casters, std::uint32_t& next,
+void write_casters(const ComputeScene& placed, const Instance& instance, Word4* piece, std::uint32_t& next,
                    InstanceRecord& record) {
   const Scene& scene = *placed.scene;
   record.first_caster = next;
@@ -110,36 +124,39 @@ void write_casters(const ComputeScene& placed, const Instance& instance, Word4* 
   for (const std::uint32_t slot : instance.plan.casters) {
     const Instance& caster = scene.instances[slot];
     const LevelRange& level = placed.placements[slot].chunk->model->level(instance.plan.level);
-    casters[next++] =
+    piece[next++] =
         floats(origin(caster) - origin(instance), first_sphere(placed, slot) + level.first_sphere);
-    casters[next++] = {level.spheres, 0, 0, 0};
+    piece[next++] = {level.spheres, 0, 0, 0};
   }
   record.first_exact = next;
   record.exact_count = exact_count(instance);
   if (instance.plan.ground_sphere.radius > 0)
-    casters[next++] = exact_sphere(instance, instance.plan.ground_sphere);
+    piece[next++] = exact_sphere(instance, instance.plan.ground_sphere);
   for (const std::uint32_t slot : instance.plan.occluders)
-    casters[next++] = exact_sphere(instance, scene.occluders[slot].sphere);
+    piece[next++] = exact_sphere(instance, scene.occluders[slot].sphere);
 }
 
-void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, std::byte* memory) {
+void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, Word4* piece) {
   const Scene& scene = *placed.scene;
-  auto* const records = reinterpret_cast<InstanceRecord*>(memory + chunk.frame.records);
-  auto* const bones = reinterpret_cast<Mat3x4*>(memory + chunk.frame.bones);
-  auto* const casters = reinterpret_cast<Word4*>(memory + chunk.frame.casters);
-  std::uint32_t written = 0, next_caster = 0;
+  const ComputeChunk::Frame& frame = chunk.frame;
+  std::uint32_t written = 0, next_caster = frame.casters, next_light = frame.lights;
   for_selected(scene, chunk, [&](std::uint32_t slot) {
     const Instance& instance = scene.instances[slot];
     InstanceRecord record{};
-    record.first_bone = written * chunk.model->bones();
+    record.first_bone = frame.bones + written * chunk.model->bones() * NOOK_BONE_ROWS;
     record.first_sphere = first_sphere(placed, slot);
     record.place = placed.placements[slot].place;
-    // no_light wraps to 0.
-    record.light = placed.lights.first_texel(slot) + 1;
-    if (instance.plan.due) write_casters(placed, instance, casters, next_caster, record);
-    write_pose(instance, bones + record.first_bone);
-    // Mapped memory is written once and in order, never read.
-    std::memcpy(records + written++, &record, sizeof record);
+    if (instance.plan.due) {
+      write_casters(placed, instance, piece, next_caster, record);
+      if (instance.light.count > 0) {
+        record.light = next_light;
+        write_light(instance, reinterpret_cast<LightTexel*>(piece + next_light));
+        next_light += light_texels(instance.light);
+      }
+    }
+    write_pose(instance, reinterpret_cast<Mat3x4*>(piece + record.first_bone));
+    // Mapped memory is written once, never read.
+    std::memcpy(static_cast<void*>(piece + NOOK_RECORD_UVEC4S * written++), &record, sizeof record);
   });
 }
 
@@ -150,7 +167,9 @@ bool upload_frame(const Device& device, ComputeScene& placed) {
   if (bytes == 0) return false;
   placed.stream.write(bytes, [&](void* memory) {
     for (const ComputeChunk& chunk : placed.chunks)
-      if (chunk.frame.selected) write_chunk(placed, chunk, static_cast<std::byte*>(memory));
+      if (chunk.frame.selected)
+        write_chunk(placed, chunk,
+                    reinterpret_cast<Word4*>(static_cast<std::byte*>(memory) + chunk.frame.offset));
   });
   return true;
 }

@@ -98,7 +98,7 @@ std::uint32_t ComputeModel::shadows() const {
 std::uint64_t ComputeModel::largest_share() const {
   return std::max({std::uint64_t{file_vertices()} * 3 * sizeof(float),
                    std::uint64_t{shadows()} * NOOK_COLOUR_VEC4S * 4 * sizeof(float),
-                   std::uint64_t{bones()} * sizeof(Mat3x4)});
+                   std::uint64_t{bones()} * sizeof(Mat3x4) + NOOK_RECORD_UVEC4S * 4 * sizeof(std::uint32_t)});
 }
 
 ComputeModel::ComputeModel(Device& device, Ref<const LoadedModel> loaded)

@@ -27,7 +27,7 @@ void ComputeScene::make_sphere_buffers(Device& device) {
     chunk.first_sphere = static_cast<std::uint32_t>(count);
     count += std::uint64_t{chunk.capacity} * chunk.model->spheres();
   }
-  constexpr std::uint64_t bytes_each = 4 * sizeof(float);
+  constexpr std::uint64_t bytes_each = NOOK_SPHERE_VEC4S * 4 * sizeof(float);
   if (count * bytes_each > device.max_piece_bytes)
     throw Failure(
         NOOK_ERROR_UNSUPPORTED,
@@ -35,10 +35,7 @@ void ComputeScene::make_sphere_buffers(Device& device) {
         static_cast<unsigned long long>(count),
         static_cast<unsigned long long>(device.max_piece_bytes / bytes_each));
   const bool grown = count * bytes_each > spheres.bytes();
-  if (grown) {
-    spheres = Buffer(device, "nook: spheres", count * bytes_each, nullptr, GL_DYNAMIC_COPY);
-    caster_weights = Buffer(device, "nook: caster weights", count * sizeof(float), nullptr, GL_DYNAMIC_COPY);
-  }
+  if (grown) spheres = Buffer(device, "nook: spheres", count * bytes_each, nullptr, GL_DYNAMIC_COPY);
   if (grown || moved)
     for (ComputeChunk& chunk : chunks) std::ranges::fill(chunk.transformed, ComputeChunk::Pose{});
 }

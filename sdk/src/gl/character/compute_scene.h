@@ -16,7 +16,7 @@ struct ComputeChunk : ChunkData {
 
   ComputeModel* model;
   Buffer shadows;                  // capacity * ComputeModel::shadows, two floats each
-  Buffer colours;                  // eight floats for each of `shadows`; none before the first light
+  Buffer colours;                  // two vec4 for each of `shadows`; none before the first light
   std::uint32_t first_sphere = 0;  // of place 0, in ComputeScene::spheres
 
   // The pose whose spheres the GPU has, by place.
@@ -27,15 +27,16 @@ struct ComputeChunk : ChunkData {
   };
   Vector<Pose> transformed;
 
-  // Of the update in progress; offsets in bytes into ComputeScene::stream.
+  // Of the update in progress.
   struct Frame {
     // Instances that are evaluated come first, level by level; of the others only the spheres are needed.
     std::array<std::uint32_t, CharacterModel::max_levels + 1> due_at_level{};
     std::uint32_t due = 0;
-    std::uint32_t lit = 0;       // of these, those with a light
-    std::uint32_t selected = 0;  // all of them
-    std::uint64_t records = 0, bones = 0, casters = 0;
-    std::uint64_t caster_bytes = 0;
+    std::uint32_t lit = 0;                // of these, those with a light
+    std::uint32_t selected = 0;           // all of them
+    std::uint64_t offset = 0, bytes = 0;  // of the chunk's piece of ComputeScene::stream
+    // Elements of 16 bytes from the start of the piece, which begins with the records.
+    std::uint32_t bones = 0, casters = 0, lights = 0;
   } frame;
 };
 
@@ -45,9 +46,8 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
   // Makes all buffers for the places that were given. Throws Failure.
   void make_buffers(Device& device);
 
-  Buffer stream;          // poses and casters of one update
-  Buffer spheres;         // of every place of every chunk
-  Buffer caster_weights;  // the same
+  Buffer stream;   // what one update sends, a piece for each chunk
+  Buffer spheres;  // of every place of every chunk
 
  private:
   void make_sphere_buffers(Device& device);

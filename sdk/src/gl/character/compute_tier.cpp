@@ -23,12 +23,14 @@ void bind_piece(const Functions& gl, GLuint binding, const Buffer& buffer, std::
                      static_cast<GLsizeiptr>(bytes));
 }
 
-void bind_poses(const Functions& gl, const ComputeScene& placed, const ComputeChunk& chunk) {
-  const ComputeChunk::Frame& frame = chunk.frame;
-  bind_piece(gl, NOOK_BINDING_RECORDS, placed.stream, frame.records, frame.selected * sizeof(InstanceRecord));
-  bind_piece(gl, NOOK_BINDING_BONES, placed.stream, frame.bones,
-             std::uint64_t{frame.selected} * chunk.model->bones() * sizeof(Mat3x4));
+void bind_stream(const Functions& gl, const ComputeScene& placed, const ComputeChunk& chunk) {
+  bind_piece(gl, NOOK_BINDING_STREAM, placed.stream, chunk.frame.offset, chunk.frame.bytes);
 }
+
+struct OutputDefine {
+  char text[32];
+  explicit OutputDefine(int output) { std::snprintf(text, sizeof text, "#define NOOK_OUTPUT %d\n", output); }
+};
 
 // Decides who is due. Should the update fail from here on, the next one makes up for it.
 void decide(ComputeScene& placed, Scene& scene) {
@@ -80,14 +82,16 @@ void remember_update(ComputeScene& placed, const Scene& scene) {
 ComputeTier::ComputeTier(Device& device)
     : device_(device),
       spheres_(compute_program(device, "character/spheres.comp", "")),
-      vertices_(compute_program(device, "character/vertices.comp", "#define NOOK_LIGHT 0\n")),
+      vertices_(compute_program(device, "character/vertices.comp", OutputDefine(NOOK_OUTPUT_AO).text)),
       models_(device.memory),
       scenes_(device.memory) {}
 
 void ComputeTier::make_programs(const ComputeScene& placed) {
   const bool lit = placed.lights.made();
   if (lit && lit_vertices_.name() == 0) {
-    lit_vertices_ = compute_program(device_, "character/vertices.comp", "#define NOOK_LIGHT 1\n");
+    lit_vertices_ =
+        compute_program(device_, "character/vertices.comp", OutputDefine(NOOK_OUTPUT_COLOUR).text);
+    grey_vertices_ = compute_program(device_, "character/vertices.comp", OutputDefine(NOOK_OUTPUT_GREY).text);
     colours_spread_ = compute_program(device_, "character/colours_spread.comp", "");
   }
   for (const ComputeModel& model : models_) {
@@ -171,10 +175,9 @@ void ComputeTier::run_spheres(const Update& update) const {
   const Functions& gl = device_.gl;
   gl.UseProgram(spheres_.name());
   bind_whole(gl, NOOK_BINDING_SPHERES, update.placed.spheres);
-  bind_whole(gl, NOOK_BINDING_WEIGHTS, update.placed.caster_weights);
   for (const ComputeChunk& chunk : update.placed.chunks) {
     if (chunk.frame.selected == 0) continue;
-    bind_poses(gl, update.placed, chunk);
+    bind_stream(gl, update.placed, chunk);
     bind_whole(gl, NOOK_BINDING_MODEL, chunk.model->spheres_rest);
     gl.Uniform1ui(NOOK_LOCATION_SPHERES_COUNT, chunk.model->spheres());
     gl.DispatchCompute(groups(chunk.model->spheres(), NOOK_GROUP_SIZE), chunk.frame.selected, 1);
@@ -185,8 +188,8 @@ void ComputeTier::run_spheres(const Update& update) const {
 void ComputeTier::run_key_points(const Update& update, const ComputeChunk& chunk) const {
   const Functions& gl = device_.gl;
   const ComputeModel& model = *chunk.model;
-  bind_poses(gl, update.placed, chunk);
-  bind_piece(gl, NOOK_BINDING_CASTERS, update.placed.stream, chunk.frame.casters, chunk.frame.caster_bytes);
+  bind_stream(gl, update.placed, chunk);
+  bind_whole(gl, NOOK_BINDING_SPHERES, update.placed.spheres);
   bind_whole(gl, NOOK_BINDING_MODEL, model.key_points_rest);
   gl.Uniform1f(NOOK_LOCATION_GAMMA, model.model->model.kernel.gamma);
   gl.Uniform1i(NOOK_LOCATION_SELF, update.self);
@@ -213,7 +216,7 @@ void ComputeTier::run_shadows(const Update& update) const {
   for (const ComputeChunk& chunk : update.placed.chunks) {
     if (chunk.frame.due == 0) continue;
     gl.UseProgram(shadows_[static_cast<int>(chunk.model->model->model.kernel.form)].name());
-    bind_whole(gl, NOOK_BINDING_SHADOWS, chunk.shadows);
+    bind_whole(gl, NOOK_BINDING_KEY_POINTS, chunk.shadows);
     run_key_points(update, chunk);
   }
 }
@@ -223,8 +226,7 @@ void ComputeTier::run_colours(const Update& update) const {
   for (const ComputeChunk& chunk : update.placed.chunks) {
     if (chunk.frame.lit == 0) continue;
     gl.UseProgram(colours_[static_cast<int>(chunk.model->model->model.kernel.form)].name());
-    bind_whole(gl, NOOK_BINDING_COLOURS, chunk.colours);
-    bind_whole(gl, NOOK_BINDING_LIGHTS, update.placed.lights.buffer());
+    bind_whole(gl, NOOK_BINDING_KEY_POINTS, chunk.colours);
     run_key_points(update, chunk);
   }
 }
@@ -232,10 +234,11 @@ void ComputeTier::run_colours(const Update& update) const {
 void ComputeTier::spread_levels(const Update& update, const ComputeChunk& chunk) const {
   const Functions& gl = device_.gl;
   const ComputeModel& model = *chunk.model;
-  bind_poses(gl, update.placed, chunk);
+  bind_stream(gl, update.placed, chunk);
   bind_whole(gl, NOOK_BINDING_MODEL, model.spread);
   gl.Uniform1ui(NOOK_LOCATION_SPREAD_KEY_POINT_COUNT, model.key_points());
   gl.Uniform1ui(NOOK_LOCATION_SPREAD_SHADOW_STRIDE, model.shadows());
+  gl.Uniform1i(NOOK_LOCATION_SPREAD_SELF, update.self);
   std::uint32_t first = chunk.frame.due_at_level[0];
   for (std::uint32_t l = 1; l < model.level_count(); ++l) {
     const std::uint32_t count = chunk.frame.due_at_level[l];
@@ -252,8 +255,7 @@ void ComputeTier::run_spread(const Update& update) const {
   gl.UseProgram(spread_.name());
   for (const ComputeChunk& chunk : update.placed.chunks) {
     if (chunk.frame.due == chunk.frame.due_at_level[0]) continue;
-    bind_whole(gl, NOOK_BINDING_SHADOWS, chunk.shadows);
-    gl.Uniform1i(NOOK_LOCATION_SPREAD_SELF, update.self);
+    bind_whole(gl, NOOK_BINDING_KEY_POINTS, chunk.shadows);
     spread_levels(update, chunk);
   }
 }
@@ -263,16 +265,17 @@ void ComputeTier::run_colours_spread(const Update& update) const {
   if (colours_spread_.name()) gl.UseProgram(colours_spread_.name());
   for (const ComputeChunk& chunk : update.placed.chunks) {
     if (chunk.frame.lit == 0 || chunk.frame.due == chunk.frame.due_at_level[0]) continue;
-    bind_whole(gl, NOOK_BINDING_COLOURS, chunk.colours);
+    bind_whole(gl, NOOK_BINDING_KEY_POINTS, chunk.colours);
     spread_levels(update, chunk);
   }
 }
 
-void ComputeTier::blend_vertices(const Update& update, const ComputeChunk& chunk, const Buffer& out) const {
+void ComputeTier::blend_vertices(const Update& update, const ComputeChunk& chunk, const Buffer& key_points,
+                                 const Buffer& out) const {
   const Functions& gl = device_.gl;
   const ComputeModel& model = *chunk.model;
-  bind_poses(gl, update.placed, chunk);
-  bind_whole(gl, NOOK_BINDING_SHADOWS, chunk.shadows);
+  bind_stream(gl, update.placed, chunk);
+  bind_whole(gl, NOOK_BINDING_VERTEX_INPUT, key_points);
   bind_whole(gl, NOOK_BINDING_MODEL, model.linear);
   bind_whole(gl, NOOK_BINDING_AO, out);
   gl.Uniform1ui(NOOK_LOCATION_FILE_VERTEX_COUNT, model.file_vertices());
@@ -286,17 +289,19 @@ void ComputeTier::blend_vertices(const Update& update, const ComputeChunk& chunk
 void ComputeTier::run_vertices(const Update& update) const {
   device_.gl.UseProgram(vertices_.name());
   for (const ComputeChunk& chunk : update.placed.chunks)
-    if (chunk.frame.due) blend_vertices(update, chunk, chunk.ao);
+    if (chunk.frame.due) blend_vertices(update, chunk, chunk.shadows, chunk.ao);
 }
 
 // For all instances of a chunk where one has a light: the others get AO in all channels.
 void ComputeTier::run_lit_vertices(const Update& update) const {
   const Functions& gl = device_.gl;
-  if (lit_vertices_.name()) gl.UseProgram(lit_vertices_.name());
   for (const ComputeChunk& chunk : update.placed.chunks) {
     if (chunk.frame.lit == 0) continue;
-    bind_whole(gl, NOOK_BINDING_VERTEX_COLOURS, chunk.colours);
-    blend_vertices(update, chunk, chunk.directional_ao);
+    gl.UseProgram(lit_vertices_.name());
+    blend_vertices(update, chunk, chunk.colours, chunk.directional_ao);
+    if (chunk.frame.lit == chunk.frame.due) continue;
+    gl.UseProgram(grey_vertices_.name());
+    blend_vertices(update, chunk, chunk.shadows, chunk.directional_ao);
   }
 }
 

@@ -30,7 +30,8 @@ class ComputeTier final : public Tier {
   void run_spheres(const Update& update) const;
   void run_key_points(const Update& update, const ComputeChunk& chunk) const;
   void spread_levels(const Update& update, const ComputeChunk& chunk) const;
-  void blend_vertices(const Update& update, const ComputeChunk& chunk, const Buffer& out) const;
+  void blend_vertices(const Update& update, const ComputeChunk& chunk, const Buffer& key_points,
+                      const Buffer& out) const;
   void run_shadows(const Update& update) const;
   void run_spread(const Update& update) const;
   void run_vertices(const Update& update) const;
@@ -46,7 +47,7 @@ class ComputeTier final : public Tier {
   Object vertices_;
   Object colours_[kernel_form_count];  // these: name 0 until an instance has a light
   Object colours_spread_;
-  Object lit_vertices_;
+  Object lit_vertices_, grey_vertices_;
   List<ComputeModel> models_;
   List<ComputeScene> scenes_;  // destroyed before the models that their chunks use
 };

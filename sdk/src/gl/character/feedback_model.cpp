@@ -13,12 +13,15 @@ constexpr std::size_t alpha_offset = 4 * sizeof(std::uint16_t);
 constexpr std::size_t blend_offset = alpha_offset + 4 * sizeof(float);
 constexpr std::size_t quad_bytes = blend_offset + 4 * sizeof(float);
 
-Vector<std::byte> pack_attributes(const FeedbackModel& sizes, Memory* memory) {
+// Of each welded vertex, or of each file vertex where draws cannot have indices.
+Vector<std::byte> pack_attributes(const FeedbackModel& sizes, bool welded, Memory* memory) {
   const CharacterModel& model = sizes.model->model;
   const std::size_t stride = sizeof(float) + sizes.influence_quads() * quad_bytes;
-  Vector<std::byte> out(sizes.vertices() * stride, std::byte{0}, memory);
-  for (std::size_t v = 0; v < sizes.vertices(); ++v) {
-    std::byte* const vertex = out.data() + v * stride;
+  const std::size_t count = welded ? sizes.vertices() : sizes.file_vertices();
+  Vector<std::byte> out(count * stride, std::byte{0}, memory);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t v = welded ? i : model.file_to_welded[i];
+    std::byte* const vertex = out.data() + i * stride;
     std::memcpy(vertex, &model.bias[v], sizeof(float));
     for (std::size_t e = 0; e < model.influences; ++e) {
       const std::size_t entry = v * model.influences + e;
@@ -56,10 +59,13 @@ void point_attributes(const Device& device, std::uint32_t quads) {
 FeedbackModel::FeedbackModel(Device& device, Ref<const LoadedModel> loaded) : ModelData(std::move(loaded)) {
   vertex_array = Object::make(device, Object::Kind::vertex_array);
   device.gl.BindVertexArray(vertex_array.name());
-  attributes = static_buffer(device, "nook: linear layer", pack_attributes(*this, device.memory));
+  const bool indexed = device.gl.can.indexed_feedback;
+  attributes = static_buffer(device, "nook: linear layer", pack_attributes(*this, indexed, device.memory));
   point_attributes(device, influence_quads());
-  indices = static_buffer(device, "nook: file order", model->model.file_to_welded);
-  device.gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
+  if (indexed) {
+    indices = static_buffer(device, "nook: file order", model->model.file_to_welded);
+    device.gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
+  }
   device.check("describing a model's vertices");
 }
 

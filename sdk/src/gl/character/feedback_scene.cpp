@@ -19,10 +19,7 @@ void FeedbackScene::make_shadow_page(Device& device) {
   // so that the 65,536 texels of every OpenGL hold at least one instance.
   constexpr std::uint64_t enough = 1 << 20;
   texels = std::max(largest, std::min({texels, std::uint64_t{device.max_texels}, enough}));
-  constexpr std::uint64_t bytes_each = 2 * sizeof(float);
-  if (texels * bytes_each <= shadows.buffer.bytes()) return;
-  shadows.buffer = Buffer(device, "nook: shadows", texels * bytes_each, nullptr, GL_STREAM_DRAW);
-  shadows.texture = texture_of(device, shadows.buffer, GL_RG32F, "nook: shadows");
+  shadows.reserve(device, GL_RG32F, texels, "nook: shadows");
 }
 
 void FeedbackScene::make_light_buffers(Device& device) {
@@ -50,10 +47,7 @@ void FeedbackScene::make_colour_page(Device& device) {
                   device.max_texels / NOOK_COLOUR_VEC4S);
   constexpr std::uint64_t enough = 1 << 19;
   texels = std::max(largest, std::min({texels, std::uint64_t{device.max_texels}, enough}));
-  constexpr std::uint64_t bytes_each = 4 * sizeof(float);
-  if (texels * bytes_each <= colours.buffer.bytes()) return;
-  colours.buffer = Buffer(device, "nook: colours of shadows", texels * bytes_each, nullptr, GL_STREAM_DRAW);
-  colours.texture = texture_of(device, colours.buffer, GL_RGBA32F, "nook: colours of shadows");
+  colours.reserve(device, GL_RGBA32F, texels, "nook: colours of shadows");
 }
 
 }  // namespace nook::gl

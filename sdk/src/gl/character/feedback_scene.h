@@ -4,6 +4,7 @@
 
 #include "sdk/src/gl/character/feedback_model.h"
 #include "sdk/src/gl/character/placed_scene.h"
+#include "sdk/src/gl/texel_table.h"
 
 namespace nook::gl {
 
@@ -15,14 +16,9 @@ struct FeedbackChunk : ChunkData {
   FeedbackModel* model;
 };
 
-// A texture buffer that is filled several times in an update: as many whole instances as fit.
-struct Page {
-  Buffer buffer;
-  Object texture;
-};
-
 struct FeedbackScene : PlacedScene<FeedbackChunk> {
-  FeedbackScene(Device& device, const Scene& of) : PlacedScene(of, device.memory) {}
+  FeedbackScene(Device& device, const Scene& of)
+      : PlacedScene(of, device.memory), shadows(device.memory), colours(device.memory) {}
 
   // Makes all buffers for the places that were given. Throws Failure.
   void make_buffers(Device& device);
@@ -32,8 +28,9 @@ struct FeedbackScene : PlacedScene<FeedbackChunk> {
     return slot != FeedbackChunk::empty && !placements[slot].evaluated;
   }
 
-  Page shadows;  // two floats for each key point
-  Page colours;  // eight floats, by channel; empty before the first light
+  // Pages, which are filled several times in an update, each with as many whole instances as fit.
+  TexelTable shadows;  // one texel for each key point
+  TexelTable colours;  // two, by channel; none before the first light
 
  private:
   void make_shadow_page(Device& device);

@@ -3,6 +3,8 @@
 #include <cstdio>
 
 #include "sdk/src/gl/program.h"
+#include "sdk/src/gl/state_guard.h"
+#include "shaders/character/layout.h"
 
 namespace nook::gl {
 namespace {
@@ -12,7 +14,7 @@ static_assert(CharacterModel::max_influences <= 8,
 
 // Shadow and added occlusion: two floats for each key point.
 struct Shadows {
-  static constexpr std::uint32_t floats = 2;
+  static constexpr std::uint32_t floats = 2, texels = 1;
   static void write(const Scene& scene, const Instance& instance, float* out) {
     const PointLanes& points = instance.result.arrays.points;
     const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
@@ -25,7 +27,7 @@ struct Shadows {
 
 // The same for each channel: eight floats for each key point. Without a light all channels are equal.
 struct Colours {
-  static constexpr std::uint32_t floats = 8;
+  static constexpr std::uint32_t floats = 8, texels = NOOK_COLOUR_VEC4S;
   static void write(const Scene& scene, const Instance& instance, float* out) {
     const PointLanes& points = instance.result.arrays.points;
     const InstanceLight& light = instance.light;
@@ -43,15 +45,16 @@ struct Colours {
 // Sends the shadows of the waiting places from `first` on, in their order and as many as fit; returns the end
 // of these places, or `first` if none is left.
 template <class Kind>
-std::uint32_t fill_page(const FeedbackScene& placed, Page& page, const FeedbackChunk& chunk,
-                        std::uint32_t first) {
+std::uint32_t fill_page(Device& device, const FeedbackScene& placed, TexelTable& page,
+                        const FeedbackChunk& chunk, std::uint32_t first) {
   const std::uint64_t instance_floats = std::uint64_t{chunk.model->key_points()} * Kind::floats;
-  const std::uint64_t max = page.buffer.bytes() / (instance_floats * sizeof(float));
+  const std::uint64_t instance_texels = std::uint64_t{chunk.model->key_points()} * Kind::texels;
+  const std::uint64_t max = page.capacity() / instance_texels;
   std::uint32_t end = first;
   std::uint64_t count = 0;
   for (; end < chunk.capacity && count < max; ++end) count += placed.waits(chunk, end);
   if (count == 0) return first;
-  page.buffer.write(count * instance_floats * sizeof(float), [&](void* memory) {
+  page.write(device, count * instance_texels, [&](void* memory) {
     auto* out = static_cast<float*>(memory);
     for (std::uint32_t place = first; place < end; ++place) {
       if (!placed.waits(chunk, place)) continue;
@@ -149,7 +152,9 @@ void FeedbackTier::draw_scene(FeedbackScene& placed) const {
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
   if (feedback_.name()) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback_.name());
   gl.Enable(GL_RASTERIZER_DISCARD);
-  gl.Disable(GL_PRIMITIVE_RESTART);
+  // WebGL lets no buffer be written while it is bound to another point.
+  gl.BindBuffer(GL_ARRAY_BUFFER, 0);
+  set_primitive_restart(gl, false);
   gl.ActiveTexture(GL_TEXTURE0);
   for (const FeedbackChunk& chunk : placed.chunks) {
     draw_chunk<Shadows>(placed, chunk, {programs_, &placed.shadows, &chunk.ao, 1});
@@ -165,13 +170,13 @@ template <class Kind>
 void FeedbackTier::draw_chunk(const FeedbackScene& placed, const FeedbackChunk& chunk,
                               const Target& target) const {
   const Program& program = target.programs[chunk.model->influence_quads() - 1];
-  device_.gl.BindTexture(GL_TEXTURE_BUFFER, target.page->texture.name());
+  target.page->bind(device_);
   device_.gl.UseProgram(program.object.name());
   device_.gl.Uniform1i(program.key_point_count, static_cast<GLint>(chunk.model->key_points()));
   device_.gl.Uniform1i(program.self, (placed.scene->terms & NOOK_TERM_SELF) != 0);
   device_.gl.BindVertexArray(chunk.model->vertex_array.name());
   std::uint32_t first = 0, end;
-  while ((end = fill_page<Kind>(placed, *target.page, chunk, first)) > first) {
+  while ((end = fill_page<Kind>(device_, placed, *target.page, chunk, first)) > first) {
     draw_page(placed, chunk, first, end, program, target);
     first = end;
   }
@@ -202,8 +207,11 @@ void FeedbackTier::draw(const FeedbackChunk& chunk, std::uint32_t first, std::ui
                      static_cast<GLintptr>(first * instance_bytes),
                      static_cast<GLsizeiptr>((end - first) * instance_bytes));
   gl.BeginTransformFeedback(GL_POINTS);
-  gl.DrawElementsInstanced(GL_POINTS, static_cast<GLsizei>(vertices), GL_UNSIGNED_INT, nullptr,
-                           static_cast<GLsizei>(end - first));
+  if (gl.can.indexed_feedback)
+    gl.DrawElementsInstanced(GL_POINTS, static_cast<GLsizei>(vertices), GL_UNSIGNED_INT, nullptr,
+                             static_cast<GLsizei>(end - first));
+  else
+    gl.DrawArraysInstanced(GL_POINTS, 0, static_cast<GLsizei>(vertices), static_cast<GLsizei>(end - first));
   gl.EndTransformFeedback();
 }
 

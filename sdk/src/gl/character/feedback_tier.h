@@ -26,7 +26,7 @@ class FeedbackTier final : public Tier {
   // Where values of vertices come from and go to.
   struct Target {
     const Program* programs;  // for one and two quads of influences
-    Page* page;
+    TexelTable* page;
     const Buffer* out;
     std::uint32_t channels;
   };

@@ -47,9 +47,7 @@ std::uint32_t max_in_chunk(const Device& device, std::uint64_t share) {
 
 void read_buffer(const Device& device, const VertexValues& values, float* out) {
   device.report_host_errors();
-  device.gl.BindBuffer(GL_ARRAY_BUFFER, values.buffer);
-  device.gl.GetBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(values.offset),
-                             static_cast<GLsizeiptr>(values.bytes()), out);
+  read_buffer_bytes(device, values.buffer, values.offset, values.bytes(), out);
   device.check(values.channels == 1 ? "reading AO" : "reading directional AO");
 }
 

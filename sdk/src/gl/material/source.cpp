@@ -28,11 +28,11 @@ void add_tensor(Text& out, const material::TensorTables& t, const char* name, co
   add(out, "#define %s_CLUSTERS %u\n#define %s_SIDE %u\n", prefix, t.clusters, prefix, t.side);
   if (t.terms == 0) return;
   add(out, "#define %s_TEXELS vec2(%u.0, %u.0)\n", prefix, t.width, t.height);
-  add(out, "uniform sampler2DArray nook_%s_coefficients;\n", name);
-  if (t.clusters > 1) add(out, "uniform usampler2DArray nook_%s_membership;\n", name);
+  add(out, "uniform highp sampler2DArray nook_%s_coefficients;\n", name);
+  if (t.clusters > 1) add(out, "uniform highp usampler2DArray nook_%s_membership;\n", name);
   const std::uint32_t arrays = array_count(t, max_layers);
   for (std::uint32_t i = 0; i < arrays; ++i)
-    add(out, "uniform sampler2DArray nook_%s_spatial_%u;\n", name, i);
+    add(out, "uniform highp sampler2DArray nook_%s_spatial_%u;\n", name, i);
   add(out, "vec4 nook_%s_mode(int layer, vec2 uv, float level) {\n", name);
   for (std::uint32_t i = 0; i < arrays; ++i) {
     const std::uint32_t first = i * max_layers;
@@ -53,13 +53,15 @@ const char* host_text() {
 
 String material_source(const material::MaterialTables& tables, std::uint32_t max_layers, Memory* memory) {
   Text out(memory);
-  add(out, "#define NOOK_LIGHT_VEC4_COUNT %u\nuniform sampler2DArray nook_light_map;\n",
+  add(out, "#define NOOK_LIGHT_VEC4_COUNT %u\nuniform highp sampler2DArray nook_light_map;\n",
       tables.btf.light_modes / 4);
   add_tensor(out, tables.btf, "btf", "NOOK_BTF", max_layers);
   add_tensor(out, tables.votf, "votf", "NOOK_VOTF", max_layers);
   if (tables.votf.terms != 0)
-    add(out, "uniform vec2 nook_visibility_mapping = vec2(%.9g, %.9g);\n", double(tables.mapping.threshold),
-        double(tables.mapping.weight));
+    // OpenGL ES gives uniforms no first value.
+    add(out,
+        "#ifdef GL_ES\nconst\n#else\nuniform\n#endif\nvec2 nook_visibility_mapping = vec2(%#.9g, %#.9g);\n",
+        double(tables.mapping.threshold), double(tables.mapping.weight));
   out += host_text();
   return out;
 }

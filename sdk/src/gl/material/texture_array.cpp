@@ -15,7 +15,8 @@ struct Layout {
   GLint min_filter, mag_filter, wrap;
 };
 
-Layout layout_of(ArrayUse use) {
+// OpenGL ES filters no textures of 32-bit floats.
+Layout layout_of(const Functions& gl, ArrayUse use) {
   switch (use) {
     case ArrayUse::spatial:
       return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT};
@@ -24,7 +25,13 @@ Layout layout_of(ArrayUse use) {
     case ArrayUse::membership:
       return {GL_RGBA16UI, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, 8, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
     default:
-      return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE};
+      return {gl.profile == Profile::desktop ? GL_RGBA32F : GL_RGBA16F,
+              GL_RGBA,
+              GL_FLOAT,
+              16,
+              GL_LINEAR,
+              GL_LINEAR,
+              GL_CLAMP_TO_EDGE};
   }
 }
 
@@ -32,7 +39,7 @@ Layout layout_of(ArrayUse use) {
 
 Object make_texture_array(Device& device, const ArrayPlan& plan, const void* data, const char* label) {
   const Functions& gl = device.gl;
-  const Layout layout = layout_of(plan.use);
+  const Layout layout = layout_of(gl, plan.use);
   Object texture = Object::make(device, Object::Kind::texture);
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture.name());

@@ -45,6 +45,7 @@ void bind_checked(const Device& device, const HostImages& images, std::uint32_t 
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.%s begins at another level (its GL_TEXTURE_BASE_LEVEL is %d, need 0)", field,
                   base_level);
+  if (!gl.can.texture_sizes) return;
   const GLint width = level_value(gl, GL_TEXTURE_WIDTH), height = level_value(gl, GL_TEXTURE_HEIGHT);
   if (width != images.width || height != images.height)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -62,6 +63,7 @@ bool is_float_or_normalised(GLint type) {
 }
 
 void check_depth(const Functions& gl, const HostImages& images) {
+  if (!gl.can.texture_sizes) return;
   const bool depth_format = level_value(gl, GL_TEXTURE_DEPTH_SIZE) > 0;
   const GLint red_bits = level_value(gl, GL_TEXTURE_RED_SIZE);
   const bool red_float = red_bits > 0 && level_value(gl, GL_TEXTURE_RED_TYPE) == GL_FLOAT;
@@ -82,12 +84,14 @@ void check_depth(const Functions& gl, const HostImages& images) {
 }
 
 void check_normal(const Functions& gl) {
+  if (!gl.can.texture_sizes) return;
   for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE})
     if (!is_float_or_normalised(level_value(gl, channel)))
       refuse_format(gl, "normal_texture", "red, green and blue in floats or normalised integers");
 }
 
 void check_layer(const Functions& gl, nook_nnao_layer layer) {
+  if (!gl.can.texture_sizes) return;
   if (!is_float_or_normalised(level_value(gl, GL_TEXTURE_RED_TYPE)))
     refuse_format(gl, "layer_texture", "red in floats or normalised integers");
   if (layer == NOOK_NNAO_LAYER_REPLACE && !is_float_or_normalised(level_value(gl, GL_TEXTURE_GREEN_TYPE)))
@@ -158,7 +162,7 @@ void check_target_texture(const Device& device, const HostImages& images, std::u
                   own_texture);
   check_apart(images, images.target_name, "frame.target_name");
   bind_checked(device, images, images.target_name, "target_name");
-  if (!is_float_or_normalised(level_value(device.gl, GL_TEXTURE_RED_TYPE)))
+  if (device.gl.can.texture_sizes && !is_float_or_normalised(level_value(device.gl, GL_TEXTURE_RED_TYPE)))
     refuse_format(device.gl, "target_name", "a colour format in floats or normalised integers");
 }
 

@@ -71,8 +71,9 @@ void NnaoPass::run_network(const FrameConstants& constants, const RenderTexture&
     return;
   }
   set_frame(occlusion_, constants);
-  // occlusion.comp declares the image in this way. OpenGL 4.3 guarantees images of this format.
-  gl.BindImageTexture(image_unit_index, into.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R8);
+  // occlusion.comp declares the image in this way. OpenGL 4.3 has images of GL_R8, OpenGL ES 3.1 of GL_RGBA8.
+  gl.BindImageTexture(image_unit_index, into.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                      gl.can.r8_images ? GL_R8 : GL_RGBA8);
   // Pending reads and draws, also of the host, end before the texture is written.
   gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   gl.DispatchCompute(groups(into_place.width), groups(into_place.height), 1);
@@ -104,7 +105,7 @@ void NnaoPass::draw_resolve(const nook_nnao_frame_desc& frame, const FrameConsta
   gl.Uniform1i(resolve_.blur_reach, blurs(frame) ? NOOK_BLUR_REACH : 0);
   if (frame.target != NOOK_NNAO_TARGET_OWN) {
     framebuffer = to_texture ? target_framebuffer_.name() : frame.target_name;
-    gl.Enable(GL_FRAMEBUFFER_SRGB);
+    if (gl.can.desktop_raster) gl.Enable(GL_FRAMEBUFFER_SRGB);  // OpenGL ES has no switch: it is on
     if (frame.blend == NOOK_NNAO_MULTIPLY) set_blend(gl, multiplying);
   }
   if (to_texture) {
@@ -136,10 +137,7 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
   end_stage();
 
   bind_texture(NOOK_UNIT_SURFACE, surface_.texture());
-  if (filter_texture_.name()) {
-    gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
-    gl.BindTexture(GL_TEXTURE_BUFFER, filter_texture_.name());
-  }
+  if (filters_.made()) filters_.bind(device_);
   // At full resolution the last stage writes the own texture, so that AO is in the other texture before. Only
   // the viewport may change in the own texture.
   const RenderTexture& first = half() || !blurs(frame) ? ao_[0] : own_;

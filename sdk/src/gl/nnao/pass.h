@@ -13,6 +13,7 @@
 #include "sdk/src/gl/nnao/host_images.h"
 #include "sdk/src/gl/nnao/render_texture.h"
 #include "sdk/src/gl/nnao/stage_timer.h"
+#include "sdk/src/gl/texel_table.h"
 #include "sdk/src/nnao/network.h"
 
 namespace nook::gl {
@@ -71,8 +72,7 @@ class NnaoPass {
   RenderTexture ao_[2];    // of the surface; at full resolution own_ replaces the second
   RenderTexture own_;
   Object sampler_, vertex_array_, target_framebuffer_;
-  Buffer filters_;  // of the paper's form
-  Object filter_texture_;
+  TexelTable filters_;  // of the paper's form
   std::optional<StageTimer> timer_;
   std::optional<HostImages> checked_;
 };

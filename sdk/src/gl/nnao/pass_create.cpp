@@ -23,26 +23,40 @@ struct PassPlan {
   TexturePlan textures[4];
 };
 
-PassPlan plan_of(const nook_nnao_desc& desc) {
+// The formats in which a context draws normals and AO.
+struct PassFormats {
+  TextureFormat normal = TextureFormat::normal, ao = TextureFormat::ao;
+};
+
+PassFormats formats_of(const Functions& gl, nook_nnao_path path) {
+  const bool image = path == NOOK_NNAO_PATH_COMPUTE && !gl.can.r8_images;
+  return {gl.can.norm16_targets ? TextureFormat::normal : TextureFormat::normal_bits,
+          image ? TextureFormat::ao_image : TextureFormat::ao};
+}
+
+PassPlan plan_of(const nook_nnao_desc& desc, const PassFormats& formats) {
   const bool half = desc.half_resolution != 0;
   const int width = surface_length(desc.max_width, half), height = surface_length(desc.max_height, half);
-  return {{{half ? TextureFormat::surface : TextureFormat::normal, width, height, "nook: surface"},
-           {TextureFormat::ao, width, height, "nook: AO of the surface"},
-           {TextureFormat::ao, half ? width : 0, half ? height : 0, "nook: blurred AO of the surface"},
-           {TextureFormat::ao, desc.max_width, desc.max_height, "nook: screen-space AO"}}};
+  return {{{half ? TextureFormat::surface : formats.normal, width, height, "nook: surface"},
+           {formats.ao, width, height, "nook: AO of the surface"},
+           {formats.ao, half ? width : 0, half ? height : 0, "nook: blurred AO of the surface"},
+           {formats.ao, desc.max_width, desc.max_height, "nook: screen-space AO"}}};
 }
 
 }  // namespace
 
 std::uint64_t texture_bytes(const nook_nnao_desc& desc) {
   std::uint64_t bytes = 0;
-  for (const TexturePlan& texture : plan_of(desc).textures)
+  for (const TexturePlan& texture : plan_of(desc, {}).textures)
     bytes += std::uint64_t(texture.width) * std::uint64_t(texture.height) * bytes_per_texel(texture.format);
   return bytes;
 }
 
 NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network)
-    : device_(device), desc_(desc), path_(chosen_path(device.gl, desc.path)) {
+    : device_(device),
+      desc_(desc),
+      path_(chosen_path(device.gl, desc.path)),
+      filters_(device.memory, filter_unit) {
   desc_.network = desc_.next = nullptr;
   GLint largest = 0;
   device.gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -60,6 +74,11 @@ NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Netwo
     device.gl.SamplerParameteri(sampler_.name(), filter, GL_NEAREST);
   vertex_array_ = Object::make(device, Object::Kind::vertex_array);
   target_framebuffer_ = Object::make(device, Object::Kind::framebuffer);
+  if (desc.timers && !device.gl.can.timestamps)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "desc.timers needs time stamps, which this %s has not (need OpenGL 3.3 or "
+                  "GL_EXT_disjoint_timer_query); leave desc.timers 0",
+                  api_name(device.gl));
   if (desc.timers) timer_.emplace(device);
   device.check("making the screen-space pass");
 }
@@ -114,7 +133,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
 }
 
 void NnaoPass::make_textures() {
-  const PassPlan plan = plan_of(desc_);
+  const PassPlan plan = plan_of(desc_, formats_of(device_.gl, path_));
   RenderTexture* const textures[] = {&surface_, &ao_[0], &ao_[1], &own_};
   for (std::size_t i = 0; i < std::size(textures); ++i) {
     const TexturePlan& texture = plan.textures[i];
@@ -129,11 +148,7 @@ void NnaoPass::make_textures() {
 
 void NnaoPass::upload_filters(const nnao::Network& network) {
   const auto& filters = network.paper.filters;
-  filters_ = Buffer(device_, "nook: filters", filters.size() * sizeof(float), filters.data(), GL_STATIC_DRAW);
-  filter_texture_ = Object::make(device_, Object::Kind::texture);
-  device_.gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
-  device_.gl.BindTexture(GL_TEXTURE_BUFFER, filter_texture_.name());
-  device_.gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, filters_.name());
+  filters_.replace(device_, GL_RGBA32F, filters.size() / 4, filters.data(), "nook: filters");
 }
 
 }  // namespace nook::gl

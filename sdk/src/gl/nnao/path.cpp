@@ -9,18 +9,19 @@ namespace {
   const int major = gl.version / 10, minor = gl.version % 10;
   if (gl.limited_by_host)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.path needs compute shaders (got tier 33 on OpenGL %d.%d, need tier 43); leave "
+                  "desc.path needs compute shaders (got tier %d on %s %d.%d, need tier %d); leave "
                   "nook_gl_desc.max_tier 0, or use NOOK_NNAO_PATH_AUTOMATIC",
-                  major, minor);
+                  tier_of(gl), api_name(gl), major, minor,
+                  gl.profile == Profile::desktop ? NOOK_GL_TIER_43 : NOOK_GL_TIER_ES31);
   if (!gl.can.compute)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.path needs compute shaders (got OpenGL %d.%d, need 4.3 or newer); use "
+                  "desc.path needs compute shaders (got %s %d.%d, need %s or newer); use "
                   "NOOK_NNAO_PATH_AUTOMATIC",
-                  major, minor);
+                  api_name(gl), major, minor, gl.profile == Profile::desktop ? "4.3" : "3.1");
   throw Failure(NOOK_ERROR_UNSUPPORTED,
-                "desc.path needs compute shaders (got no \"glBindImageTexture\" from get_proc on OpenGL "
+                "desc.path needs compute shaders (got no \"glBindImageTexture\" from get_proc on %s "
                 "%d.%d, need it); pass the context's own loader, or use NOOK_NNAO_PATH_AUTOMATIC",
-                major, minor);
+                api_name(gl), major, minor);
 }
 
 }  // namespace
@@ -28,7 +29,9 @@ namespace {
 nook_nnao_path chosen_path(const Functions& gl, nook_nnao_path asked) {
   const bool can_compute = gl.can.compute_images;
   if (asked == NOOK_NNAO_PATH_COMPUTE && !can_compute) refuse_compute(gl);
-  return can_compute && asked != NOOK_NNAO_PATH_FRAGMENT ? NOOK_NNAO_PATH_COMPUTE : NOOK_NNAO_PATH_FRAGMENT;
+  if (asked != NOOK_NNAO_PATH_AUTOMATIC) return asked;
+  // Where AO needs four bytes in place of one to be written by a compute shader, the draw is the better way.
+  return can_compute && gl.can.r8_images ? NOOK_NNAO_PATH_COMPUTE : NOOK_NNAO_PATH_FRAGMENT;
 }
 
 }  // namespace nook::gl

@@ -15,8 +15,12 @@ constexpr Layout layout_of(TextureFormat format) {
   switch (format) {
     case TextureFormat::normal:
       return {GL_RG16, GL_RG, GL_UNSIGNED_SHORT, 4};
+    case TextureFormat::normal_bits:
+      return {GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, 4};
     case TextureFormat::surface:
       return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
+    case TextureFormat::ao_image:
+      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
     default:
       return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
   }
@@ -33,7 +37,8 @@ RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, in
       framebuffer_(Object::make(device, Object::Kind::framebuffer)) {
   const Functions& gl = device.gl;
   const Layout layout = layout_of(format);
-  const GLint filter = format == TextureFormat::ao ? GL_LINEAR : GL_NEAREST;
+  const bool is_ao = format == TextureFormat::ao || format == TextureFormat::ao_image;
+  const GLint filter = is_ao ? GL_LINEAR : GL_NEAREST;
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D, texture_.name());
   // With a buffer bound, the null pointer would be an offset into the host's buffer.
@@ -43,8 +48,12 @@ RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, in
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, layout.internal_format, width, height, 0, layout.format, layout.type,
-                nullptr);
+  // OpenGL ES binds immutable textures alone as images.
+  if (gl.TexStorage2D)
+    gl.TexStorage2D(GL_TEXTURE_2D, 1, static_cast<GLenum>(layout.internal_format), width, height);
+  else
+    gl.TexImage2D(GL_TEXTURE_2D, 0, layout.internal_format, width, height, 0, layout.format, layout.type,
+                  nullptr);
   device.check("allocating a texture");
   device.label(GL_TEXTURE, texture_.name(), label);
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());

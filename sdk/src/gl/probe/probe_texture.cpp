@@ -8,8 +8,8 @@
 
 namespace nook::gl {
 
-ProbeTexture::ProbeTexture(Device& device, const probe::Probes& probes) : device_(device) {
-  texture_ = Object::make(device, Object::Kind::texture);
+ProbeTexture::ProbeTexture(Device& device, const probe::Probes& probes)
+    : device_(device), table_(device.memory) {
   update(probes);
 }
 
@@ -25,14 +25,7 @@ void ProbeTexture::update(const probe::Probes& probes) {
         "texels, need at most %u); split the grid or use fewer lobes",
         probes.basis.count, probes.grid.size(), static_cast<unsigned long long>(count), device_.max_texels);
   const Vector<float> texels = probe_texels(probes, device_.memory);
-  // The new texels have a buffer of their own, so that the old ones stay until everything has succeeded.
-  Buffer buffer(device_, "nook: probe", texels.size() * sizeof(float), texels.data(), GL_STATIC_DRAW);
-  device_.gl.ActiveTexture(GL_TEXTURE0);
-  device_.gl.BindTexture(GL_TEXTURE_BUFFER, texture_.name());
-  device_.gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer.name());
-  device_.check("uploading a probe");
-  device_.label(GL_TEXTURE, texture_.name(), "nook: probe");
-  buffer_ = std::move(buffer);
+  table_.replace(device_, GL_RGBA32F, count, texels.data(), "nook: probe");
 }
 
 const char* probe_glsl() {

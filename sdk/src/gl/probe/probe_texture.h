@@ -1,25 +1,24 @@
-// A probe or a grid in a texture buffer.
+// A probe or a grid in a table of texels.
 #pragma once
 
-#include "sdk/src/gl/object.h"
+#include "sdk/src/gl/texel_table.h"
 #include "sdk/src/probe/probe.h"
 
 namespace nook::gl {
 
 class ProbeTexture {
  public:
-  // Binds GL_ARRAY_BUFFER, and GL_TEXTURE_BUFFER of unit 0. Both functions throw Failure and then leave the
-  // old texels.
+  // Binds GL_ARRAY_BUFFER, and the table's target of unit 0. Both functions throw Failure; a texture buffer
+  // keeps its old texels then.
   ProbeTexture(Device& device, const probe::Probes& probes);
   void update(const probe::Probes& probes);
 
-  GLuint name() const { return texture_.name(); }
-  std::uint64_t bytes() const { return buffer_.bytes(); }
+  GLuint name() const { return table_.texture(); }
+  std::uint64_t bytes() const { return table_.bytes(); }
 
  private:
   Device& device_;
-  Buffer buffer_;
-  Object texture_;
+  TexelTable table_;
 };
 
 // Returns the text for the host's shaders: shaders/probe/host.glsl with everything that it includes.

@@ -1,0 +1,69 @@
+// A long row of texels of floats that shaders fetch by number: a texture buffer on OpenGL, and on OpenGL ES
+// and WebGL a 2D texture whose rows follow one another. shaders/core/texels.glsl has the same two forms.
+#pragma once
+
+#include <cstdint>
+
+#include "sdk/src/core/containers.h"
+#include "sdk/src/gl/object.h"
+
+namespace nook::gl {
+
+class TexelTable {
+ public:
+  // A table without room, which no shader may fetch from. Its functions bind it to a texture unit and leave
+  // that unit active.
+  explicit TexelTable(Memory* memory, GLuint unit = 0) : unit_(unit), staging_(memory) {}
+  TexelTable(TexelTable&&) noexcept = default;
+  TexelTable& operator=(TexelTable&&) noexcept = default;
+
+  // Makes room for at least `texels` texels; what was written before is lost where it grows. format is
+  // GL_RG32F or GL_RGBA32F, the same at every call. label must outlive the table. Throws
+  // Failure.
+  void reserve(Device& device, GLenum format, std::uint64_t texels, const char* label);
+  bool made() const { return texture_.name() != 0; }
+  std::uint64_t capacity() const { return capacity_; }
+  std::uint64_t bytes() const { return capacity_ * bytes_of_texel(); }
+  GLuint texture() const { return texture_.name(); }
+
+  // Replaces the first `texels` texels: fill(memory) writes them, two or four floats each. More than the
+  // capacity makes room. Nothing waits for the GPU. Throws Failure.
+  template <class Fill>
+  void write(Device& device, std::uint64_t texels, Fill&& fill) {
+    if (texels > capacity_) reserve(device, format_, texels + texels / 2, label_);
+    if (device.gl.can.texture_buffers) {
+      buffer_.write(texels * bytes_of_texel(), fill);
+    } else {
+      fill(static_cast<void*>(staging_.data()));
+      upload(device, texels);
+    }
+  }
+
+  // Replaces the table by exactly these texels, for good. If it fails, a texture buffer keeps what it had.
+  // Throws Failure.
+  void replace(Device& device, GLenum format, std::uint64_t texels, const float* data, const char* label);
+
+  void bind(const Device& device) const {
+    device.gl.ActiveTexture(GL_TEXTURE0 + unit_);
+    device.gl.BindTexture(target(device), texture_.name());
+  }
+  static GLenum target(const Device& device) {
+    return device.gl.can.texture_buffers ? GL_TEXTURE_BUFFER : GL_TEXTURE_2D;
+  }
+
+ private:
+  std::uint64_t bytes_of_texel() const { return (format_ == GL_RG32F ? 2 : 4) * sizeof(float); }
+  void make_texture_buffer(Device& device, std::uint64_t texels, const float* data, GLenum usage);
+  void make_texture_2d(Device& device, std::uint64_t texels);
+  void upload(const Device& device, std::uint64_t texels) const;
+
+  GLuint unit_ = 0;
+  GLenum format_ = 0;
+  const char* label_ = "";
+  std::uint64_t capacity_ = 0;  // texels
+  Buffer buffer_;               // of a texture buffer
+  Vector<std::byte> staging_;   // of a 2D texture
+  Object texture_;
+};
+
+}  // namespace nook::gl
