@@ -88,7 +88,7 @@ bool pose(Check& check, const Reading& reading) {
                                      : check.model.bone_count();
     if (source.transform_count != expected) return false;
   }
-  std::ranges::fill(check.has_matrix, std::uint8_t{0});
+  std::fill(check.has_matrix.begin(), check.has_matrix.end(), std::uint8_t{0});
   PoseSource partial = source;
   partial.is_partial = true;
   for_each_transform(check.model, partial, [&](std::size_t bone, std::uint32_t index) {

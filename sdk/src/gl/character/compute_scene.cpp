@@ -40,7 +40,8 @@ void ComputeScene::make_sphere_buffers(Device& device) {
     caster_weights = Buffer(device, "nook: caster weights", count * sizeof(float), nullptr, GL_DYNAMIC_COPY);
   }
   if (grown || moved)
-    for (ComputeChunk& chunk : chunks) std::ranges::fill(chunk.transformed, ComputeChunk::Pose{});
+    for (ComputeChunk& chunk : chunks)
+      std::fill(chunk.transformed.begin(), chunk.transformed.end(), ComputeChunk::Pose{});
 }
 
 void ComputeScene::make_light_buffers(Device& device) {
