@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "sdk/src/core/compiler.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/place.h"
 
@@ -163,7 +164,7 @@ double scale_of_similarity(const Affine& map) {
   return difference <= 0.02 * scale * scale ? scale : 0;
 }
 
-void say(PoseFinding& finding, const char* format, ...) __attribute__((format(printf, 2, 3)));
+void say(PoseFinding& finding, const char* format, ...) NOOK_PRINTF(2, 3);
 void say(PoseFinding& finding, const char* format, ...) {
   va_list arguments;
   va_start(arguments, format);
