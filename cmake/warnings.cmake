@@ -7,6 +7,10 @@ function(nook_target_options target)
   if(NOOK_WERROR)
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-Werror>)
   endif()
+  # Emscripten leaves exceptions out without this option; the library throws, and catches at its C functions.
+  if(EMSCRIPTEN)
+    target_compile_options(${target} PRIVATE -fexceptions)
+  endif()
   # A game in its Debug build still needs frames. GCC and Clang take the last of several -O; MSVC refuses /O2 beside the
   # /RTC1 of Debug.
   if(NOOK_OPTIMISE)

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bakers/character/mini_batch_fit.h"
-#include "sdk/src/core/clones.h"
+#include "sdk/src/core/compiler.h"
 
 namespace nook::bake {
 

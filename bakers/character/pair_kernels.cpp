@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sdk/src/core/clones.h"
+#include "sdk/src/core/compiler.h"
 
 namespace nook::bake {
 namespace {

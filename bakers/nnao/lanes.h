@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sdk/src/core/aligned_array.h"
-#include "sdk/src/core/clones.h"
+#include "sdk/src/core/compiler.h"
 
 namespace nook::bake::nnao {
 

@@ -79,6 +79,7 @@ nook_result nook_character_model_static_ao(nook_character_model model, float* ou
                     m.file_to_welded.size());
     if (m.static_ao.empty())
       throw Failure(NOOK_ERROR_UNSUPPORTED, "the model was baked without static AO; bake it with it");
-    std::ranges::transform(m.file_to_welded, out, [&](std::uint32_t welded) { return m.static_ao[welded]; });
+    std::transform(m.file_to_welded.begin(), m.file_to_welded.end(), out,
+                   [&](std::uint32_t welded) { return m.static_ao[welded]; });
   });
 }

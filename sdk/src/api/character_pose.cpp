@@ -37,7 +37,8 @@ Affine read_place(const float* matrix_3x4, const char* name) {
 
 // The position of a skin of the file among those of the model.
 std::uint32_t find_skin(const CharacterModel& model, std::uint32_t file_index) {
-  const auto found = std::ranges::find(model.bind.skins, file_index, &SkinBind::file_index);
+  const auto found = std::find_if(model.bind.skins.begin(), model.bind.skins.end(),
+                                  [&](const SkinBind& skin) { return skin.file_index == file_index; });
   if (found == model.bind.skins.end())
     throw Failure(
         model.bind.empty() ? NOOK_ERROR_UNSUPPORTED : NOOK_ERROR_INVALID_ARGUMENT,

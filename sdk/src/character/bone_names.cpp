@@ -23,9 +23,10 @@ std::string_view without(std::string_view name, std::string_view prefix, std::st
 std::size_t shared_prefix(std::span<const std::string_view> names) {
   if (names.size() < 2) return 0;
   std::string_view shared = names[0];
-  for (const std::string_view name : names)
-    shared =
-        shared.substr(0, static_cast<std::size_t>(std::ranges::mismatch(shared, name).in1 - shared.begin()));
+  for (const std::string_view name : names) {
+    const auto differs = std::mismatch(shared.begin(), shared.end(), name.begin(), name.end()).first;
+    shared = shared.substr(0, static_cast<std::size_t>(differs - shared.begin()));
+  }
   const std::size_t last = shared.find_last_of(separators);
   return last == std::string_view::npos ? 0 : last + 1;
 }
@@ -74,7 +75,7 @@ std::size_t map_bones(const CharacterModel& model, const nook_bone_names& names,
   for (std::size_t i = 0; i < host.size(); ++i)
     if (!host[i].empty())
       index_of.push_back({key_of(host[i], is_loose, memory), static_cast<std::int32_t>(i)});
-  // Of equal keys the host's first one counts.
+  // Where keys are equal, the host's first one counts.
   std::sort(index_of.begin(), index_of.end(), [](const KeyedIndex& a, const KeyedIndex& b) {
     return a.key != b.key ? a.key < b.key : a.index < b.index;
   });

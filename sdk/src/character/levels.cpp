@@ -36,7 +36,7 @@ Shadows evaluate(const CharacterModel& model, const Vector<ProxySphere>& spheres
   for (const std::vector<Mat3x4>& pose : poses) {
     kernels.pose_spheres(rest_spheres.view(), pose.data(), {}, sphere_target);
     kernels.pose_key_points(rest_points.view(), pose.data(), {}, point_target, nullptr);
-    std::ranges::fill(sum, 0.0f);
+    std::fill(sum.begin(), sum.end(), 0.0f);
     kernels.self_norm_sum(
         {&s[0], &s[count], &s[2 * count], &s[3 * count], rest_spheres.caster_weight(), count},
         {&p[0], &p[padded], &p[2 * padded], &p[3 * padded], &p[4 * padded], &p[5 * padded], padded},
@@ -244,7 +244,7 @@ std::vector<CharacterLevel> make_levels(const CharacterModel& model,
       const auto cheaper = [&](std::uint16_t a, std::uint16_t b) {
         return cost[k * points + a] < cost[k * points + b];
       };
-      const auto source = std::ranges::min_element(evaluated, cheaper) - evaluated.begin();
+      const auto source = std::min_element(evaluated.begin(), evaluated.end(), cheaper) - evaluated.begin();
       const Line line = regression.fit(k, evaluated[static_cast<std::size_t>(source)]);
       level.source.push_back(static_cast<std::uint16_t>(source));
       level.scale.push_back(line.scale);

@@ -161,8 +161,8 @@ InstanceLight moved_light(const InstanceLight& light, const PointLanes& points, 
   InstanceLight moved;
   if (light.lobes.size() == 0) return moved;
   allocate(moved, points, memory);
-  std::ranges::copy(light.lobes, moved.lobes.begin());
-  std::ranges::copy(light.lobe_bands, moved.lobe_bands.begin());
+  std::copy(light.lobes.begin(), light.lobes.end(), moved.lobes.begin());
+  std::copy(light.lobe_bands.begin(), light.lobe_bands.end(), moved.lobe_bands.begin());
   moved.count = light.count;
   moved.darkest = light.darkest;
   return moved;

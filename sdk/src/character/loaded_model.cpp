@@ -74,7 +74,7 @@ LoadedModel::LoadedModel(CharacterModel loaded, Memory* memory)
       levels(load_levels(model, memory)),
       open_without_bias(linear.padded_slots(), memory),
       bone_bounds(make_bone_bounds(model, memory)) {
-  std::ranges::fill(open_without_bias, 1.0f);
+  std::fill(open_without_bias.begin(), open_without_bias.end(), 1.0f);
   invert_file_order(*this, memory);
   for (std::size_t i = 0; i < model.vertex_count(); ++i) {
     float sum = 0;

@@ -61,11 +61,11 @@ std::array<std::uint32_t, KeyPoint::max_bones> weight_codes(
   // The sum of the weights is 1 up to rounding, so that at most n steps remain; a step too many comes off the
   // largest weight.
   for (; left > 0; --left) {
-    const auto most = std::ranges::max_element(remainder) - remainder.begin();
+    const auto most = std::max_element(remainder.begin(), remainder.end()) - remainder.begin();
     ++code[most];
     remainder[most] -= 1;
   }
-  for (; left < 0; ++left) --*std::ranges::max_element(code);
+  for (; left < 0; ++left) --*std::max_element(code.begin(), code.end());
   return code;
 }
 

@@ -32,7 +32,9 @@ ByteWriter write_bone_names(const CharacterModel& model) {
   std::string_view before;
   for (const String& text : model.bone_names) {
     const std::string_view name = text;
-    const auto shared = std::ranges::mismatch(before.substr(0, max_shared_name), name).in2 - name.begin();
+    const std::string_view front = before.substr(0, max_shared_name);
+    const auto shared =
+        std::mismatch(front.begin(), front.end(), name.begin(), name.end()).second - name.begin();
     out.varint(static_cast<std::uint32_t>(shared));
     out.varint(static_cast<std::uint32_t>(name.size() - shared));
     out.text(name.substr(shared));
@@ -81,7 +83,7 @@ ByteWriter write_key_points(const CharacterModel& model) {
     write_normal(out, point.surface_normal, Bits::surface_normal);
 
     const auto codes = weight_codes(point.weight);
-    std::uint32_t used = 4 - static_cast<std::uint32_t>(std::ranges::count(codes, 0u));
+    std::uint32_t used = 4 - static_cast<std::uint32_t>(std::count(codes.begin(), codes.end(), 0u));
     out.bits(used - 1, Bits::bone_count);
     for (int b = 0; b < KeyPoint::max_bones; ++b) {
       if (codes[b] == 0) continue;
@@ -165,7 +167,7 @@ void write_key_points_of(ByteWriter& out, CodedEntries& own, std::span<const Cod
 }
 
 ByteWriter write_linear_layer(const CharacterModel& model) {
-  const float max_alpha = *std::ranges::max_element(model.alpha);
+  const float max_alpha = *std::max_element(model.alpha.begin(), model.alpha.end());
   Range bias{model.bias.front(), model.bias.front()};
   for (const float b : model.bias) bias.include(b);
   ByteWriter out;
@@ -225,10 +227,11 @@ ByteWriter write_static_ao(const CharacterModel& model) {
 // new vertex, and a bit 1 is followed by the index of an earlier one. Mode 1 writes the index.
 ByteWriter write_file_order(const CharacterModel& model) {
   std::uint32_t next = 0;
-  const bool in_order = std::ranges::all_of(model.file_to_welded, [&](std::uint32_t welded) {
-    if (welded == next) ++next;
-    return welded < next;
-  });
+  const bool in_order =
+      std::all_of(model.file_to_welded.begin(), model.file_to_welded.end(), [&](std::uint32_t welded) {
+        if (welded == next) ++next;
+        return welded < next;
+      });
   ByteWriter out;
   out.varint(static_cast<std::uint32_t>(model.file_to_welded.size()));
   out.u8(in_order ? 0 : 1);

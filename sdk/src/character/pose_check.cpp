@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "sdk/src/core/compiler.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/place.h"
 
@@ -88,7 +89,7 @@ bool pose(Check& check, const Reading& reading) {
                                      : check.model.bone_count();
     if (source.transform_count != expected) return false;
   }
-  std::ranges::fill(check.has_matrix, std::uint8_t{0});
+  std::fill(check.has_matrix.begin(), check.has_matrix.end(), std::uint8_t{0});
   PoseSource partial = source;
   partial.is_partial = true;
   for_each_transform(check.model, partial, [&](std::size_t bone, std::uint32_t index) {
@@ -163,7 +164,7 @@ double scale_of_similarity(const Affine& map) {
   return difference <= 0.02 * scale * scale ? scale : 0;
 }
 
-void say(PoseFinding& finding, const char* format, ...) __attribute__((format(printf, 2, 3)));
+void say(PoseFinding& finding, const char* format, ...) NOOK_PRINTF(2, 3);
 void say(PoseFinding& finding, const char* format, ...) {
   va_list arguments;
   va_start(arguments, format);

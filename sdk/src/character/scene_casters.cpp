@@ -88,9 +88,10 @@ void gather_casters(const Scene& scene, std::uint32_t slot, Instance& receiver) 
   const std::uint32_t count = find_nearest(scene.neighbours, slot, receiver.input.bound.centre, scene.nearest,
                                            scene.nearest_max_distance, found);
   for (std::uint32_t i = 0; i < count; ++i)
-    if (!std::ranges::binary_search(receiver.input.linked, found[i].slot)) offer(found[i].slot);
+    if (!std::binary_search(receiver.input.linked.begin(), receiver.input.linked.end(), found[i].slot))
+      offer(found[i].slot);
   // Sums in the order of slots do not depend on how the casters were found.
-  std::ranges::sort(receiver.plan.casters);
+  std::sort(receiver.plan.casters.begin(), receiver.plan.casters.end());
 }
 
 void gather_occluders(const Scene& scene, Instance& receiver) {

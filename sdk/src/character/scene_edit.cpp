@@ -102,10 +102,10 @@ void make_room_for_one(Slots& slots) {
 
 // Both for slots in ascending order.
 void insert_slot(Slots& slots, std::uint32_t slot) {
-  slots.insert(std::ranges::lower_bound(slots, slot), slot);
+  slots.insert(std::lower_bound(slots.begin(), slots.end(), slot), slot);
 }
 bool erase_slot(Slots& slots, std::uint32_t slot) {
-  const auto at = std::ranges::lower_bound(slots, slot);
+  const auto at = std::lower_bound(slots.begin(), slots.end(), slot);
   if (at == slots.end() || *at != slot) return false;
   slots.erase(at);
   return true;
@@ -277,7 +277,7 @@ ProjectedBone set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
   source.is_strict = source.is_strict || scene.settings.strict_poses;
   check_pose_source(model, source);
   const std::span<Mat3x4> converted(scene.converted.data(), instance.input.bones.size());
-  std::ranges::copy(instance.input.bones, converted.begin());
+  std::copy(instance.input.bones.begin(), instance.input.bones.end(), converted.begin());
   convert_pose(model, source, converted);
   return take_pose(instance, converted);
 }
@@ -289,7 +289,7 @@ void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "receiver and caster are the same instance %u; its own shadow is always there", receiver);
   const std::uint32_t slot = slot_of(scene, casting);
-  if (std::ranges::binary_search(instance.input.linked, slot)) return;
+  if (std::binary_search(instance.input.linked.begin(), instance.input.linked.end(), slot)) return;
   make_room_for_one(instance.input.linked);
   make_room_for_one(casting.input.receivers);
   instance.plan.casters.reserve(instance.input.linked.capacity() + scene.nearest);

@@ -67,13 +67,14 @@ class Finder {
  public:
   // distance is in the host's unit.
   Finder(Candidates candidates, float distance) : sorted_(std::move(candidates)), distance_(distance) {
-    std::ranges::stable_sort(sorted_, {}, [](const Candidate& c) { return c.position.x; });
+    std::stable_sort(sorted_.begin(), sorted_.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.position.x < b.position.x; });
   }
 
   // With a normal, the candidate that faces it most among those that lie within the tolerance of the nearest.
   std::uint32_t find(Vec3 position, const Vec3* normal) const {
-    const auto first = std::ranges::lower_bound(sorted_, position.x - distance_, {},
-                                                [](const Candidate& c) { return c.position.x; });
+    const auto first = std::lower_bound(sorted_.begin(), sorted_.end(), position.x - distance_,
+                                        [](const Candidate& c, float x) { return c.position.x < x; });
     float nearest = INFINITY;
     for (auto c = first; c != sorted_.end() && c->position.x <= position.x + distance_; ++c)
       nearest = std::min(nearest, length(c->position - position));
@@ -120,7 +121,8 @@ void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> 
 
 std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex) {
   const auto after =
-      std::ranges::upper_bound(model.primitives, file_vertex, {}, &PrimitiveRange::first_vertex);
+      std::upper_bound(model.primitives.begin(), model.primitives.end(), file_vertex,
+                       [](std::uint32_t vertex, const PrimitiveRange& p) { return vertex < p.first_vertex; });
   return model.bind.primitive_space[static_cast<std::size_t>(after - model.primitives.begin()) - 1];
 }
 
@@ -137,7 +139,7 @@ std::uint32_t match_vertices(const CharacterModel& model, const HostVertices& ho
     if (host.primitive < 0 || static_cast<std::size_t>(host.primitive) == p)
       add_primitive(model, p, host.in_rest_space, candidates);
   if (candidates.empty()) {
-    std::ranges::fill(file_vertices, no_vertex);
+    std::fill(file_vertices.begin(), file_vertices.end(), no_vertex);
     return host.count;
   }
   const Finder finder(std::move(candidates), host.tolerance * diagonal_of(model.rest) *

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook {
@@ -21,7 +22,7 @@ class ByteWriter {
   void u16(std::uint32_t value) { little(value, 2); }
   void u32(std::uint32_t value) { little(value, 4); }
   void u64(std::uint64_t value) { little(value, 8); }
-  void f32(float value) { u32(std::bit_cast<std::uint32_t>(value)); }
+  void f32(float value) { u32(bit_cast<std::uint32_t>(value)); }
   // Writes seven bits in each byte, low bits first; the top bit is set if more bytes follow.
   void varint(std::uint32_t value) {
     for (; value >= 128; value >>= 7) u8(value | 128);
@@ -63,7 +64,7 @@ class ByteReader {
   std::uint32_t u16() { return static_cast<std::uint32_t>(little(2)); }
   std::uint32_t u32() { return static_cast<std::uint32_t>(little(4)); }
   std::uint64_t u64() { return little(8); }
-  float f32() { return std::bit_cast<float>(u32()); }
+  float f32() { return bit_cast<float>(u32()); }
   std::uint32_t varint() {
     std::uint64_t value = 0;
     for (int shift = 0; shift < 35; shift += 7) {

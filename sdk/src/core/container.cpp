@@ -66,7 +66,7 @@ void repair_checksum(std::span<std::byte> bytes) {
   if (bytes.size() < head_size) return;
   ByteWriter sum;
   sum.u64(checksum_of(bytes));
-  std::ranges::copy(sum.bytes(), bytes.begin() + checksum_at);
+  std::copy(sum.bytes().begin(), sum.bytes().end(), bytes.begin() + checksum_at);
 }
 
 FourLetters container_kind(std::span<const std::byte> bytes) {

@@ -1,4 +1,5 @@
-// The standard containers over Memory. A container of containers gives its elements the memory that it has itself.
+// The standard containers over Memory. A container of containers gives its elements the memory that it has
+// itself.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +16,8 @@
 
 namespace nook {
 
-// An allocator stays with its container: it goes along only where a container is made from an rvalue. A copy takes
-// default_memory(), so that it can outlive the memory of the original.
+// An allocator stays with its container: it goes along only where a container is made from an rvalue. A copy
+// takes default_memory(), so that it can outlive the memory of the original.
 template <class T>
 class Allocator {
  public:
@@ -37,8 +38,7 @@ class Allocator {
   }
   // Elements that take an allocator as their last argument get this one; all others are made without it.
   template <class U, class... Arguments>
-    requires std::uses_allocator_v<U, Allocator<U>>
-  void construct(U* place, Arguments&&... arguments) {
+  requires(std::uses_allocator<U, Allocator<U>>::value) void construct(U* place, Arguments&&... arguments) {
     ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)..., Allocator<U>(memory_));
   }
   Allocator select_on_container_copy_construction() const noexcept { return {}; }

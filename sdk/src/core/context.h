@@ -4,6 +4,7 @@
 
 #include <nook/nook.h>
 
+#include "sdk/src/core/compiler.h"
 #include "sdk/src/core/memory.h"
 #include "sdk/src/core/parallel.h"
 #include "sdk/src/core/ref.h"
@@ -21,8 +22,7 @@ class Context : public RefCounted {
   Memory* memory() noexcept { return &memory_; }
   const Parallel& parallel() const noexcept { return parallel_; }
   // Logs a printf-style text, which is cut at 512 characters. Does nothing if the host set no log.
-  void log(nook_log_severity severity, const char* format, ...) const noexcept
-      __attribute__((format(printf, 3, 4)));
+  void log(nook_log_severity severity, const char* format, ...) const noexcept NOOK_PRINTF(3, 4);
 
  protected:
   const nook_allocator& allocator() const noexcept { return memory_.allocator(); }

@@ -5,13 +5,15 @@
 
 #include <exception>
 
+#include "sdk/src/core/compiler.h"
+
 namespace nook {
 
 class Failure : public std::exception {
  public:
   // Takes a printf-style text: what is wrong, the value and what is needed. The api adds the name of the
   // function. The text is cut at the buffer's end, so that throwing does not allocate.
-  Failure(nook_result code, const char* format, ...) noexcept __attribute__((format(printf, 3, 4)));
+  Failure(nook_result code, const char* format, ...) noexcept NOOK_PRINTF(3, 4);
 
   nook_result code() const noexcept { return code_; }
   const char* what() const noexcept override { return text_; }

@@ -1,14 +1,15 @@
 // IEEE half floats by integer arithmetic, with the same bits on every machine.
 #pragma once
 
-#include <bit>
 #include <cstdint>
+
+#include "sdk/src/core/bit_cast.h"
 
 namespace nook {
 
 // Rounds to the nearest half, ties to even. Values beyond 65504 become infinity.
-constexpr std::uint16_t to_half(float value) {
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+inline std::uint16_t to_half(float value) {
+  const std::uint32_t bits = bit_cast<std::uint32_t>(value);
   const std::uint32_t sign = bits >> 16 & 0x8000u, magnitude = bits & 0x7fffffffu;
   if (magnitude > 0x7f800000u) return std::uint16_t(sign | 0x7e00u);
   if (magnitude >= 0x47800000u) return std::uint16_t(sign | 0x7c00u);
@@ -26,10 +27,10 @@ constexpr std::uint16_t to_half(float value) {
   return std::uint16_t(sign | (kept + (rest > half || (rest == half && (kept & 1u)))));
 }
 
-constexpr float from_half(std::uint16_t half) {
+inline float from_half(std::uint16_t half) {
   const std::uint32_t sign = std::uint32_t(half & 0x8000u) << 16, magnitude = half & 0x7fffu;
-  if (magnitude >= 0x7c00u) return std::bit_cast<float>(sign | 0x7f800000u | (magnitude & 0x3ffu) << 13);
-  if (magnitude >= 0x400u) return std::bit_cast<float>(sign | ((magnitude << 13) + (112u << 23)));
+  if (magnitude >= 0x7c00u) return bit_cast<float>(sign | 0x7f800000u | (magnitude & 0x3ffu) << 13);
+  if (magnitude >= 0x400u) return bit_cast<float>(sign | ((magnitude << 13) + (112u << 23)));
   const float value = float(magnitude) * 0x1p-24f;
   return sign ? -value : value;
 }

@@ -40,13 +40,13 @@ void Hash64::add(std::span<const std::byte> bytes) {
   size_ += bytes.size();
   if (kept > 0) {
     const std::size_t taken = std::min(stripe_size - kept, bytes.size());
-    std::ranges::copy(bytes.first(taken), rest_.begin() + std::ptrdiff_t(kept));
+    std::copy_n(bytes.begin(), taken, rest_.begin() + std::ptrdiff_t(kept));
     bytes = bytes.subspan(taken);
     if (kept + taken < stripe_size) return;
     add_stripe(rest_.data());
   }
   for (; bytes.size() >= stripe_size; bytes = bytes.subspan(stripe_size)) add_stripe(bytes.data());
-  std::ranges::copy(bytes, rest_.begin());
+  std::copy(bytes.begin(), bytes.end(), rest_.begin());
 }
 
 std::uint64_t Hash64::value() const {

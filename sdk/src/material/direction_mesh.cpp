@@ -46,7 +46,8 @@ void DirectionMesh::triangulate(std::size_t directions) {
   points_.push_back({0, far_away});
   triangles_.push_back({count, std::uint16_t(count + 1), std::uint16_t(count + 2)});
   for (std::uint16_t i = 0; i < count; ++i) insert(i);
-  std::erase_if(triangles_, [&](const Triangle& t) { return std::ranges::max(t) >= count; });
+  std::erase_if(triangles_,
+                [&](const Triangle& t) { return *std::max_element(t.begin(), t.end()) >= count; });
   points_.resize(directions);
 }
 
@@ -58,7 +59,7 @@ void DirectionMesh::insert(std::uint16_t point) {
     return true;
   });
   for (const Edge& edge : cavity_)
-    if (std::ranges::find(cavity_, Edge{edge[1], edge[0]}) == cavity_.end())
+    if (std::find(cavity_.begin(), cavity_.end(), Edge{edge[1], edge[0]}) == cavity_.end())
       triangles_.push_back({edge[0], edge[1], point});
 }
 
@@ -67,7 +68,8 @@ void DirectionMesh::find_border() {
   for (const Triangle& t : triangles_)
     for (int i = 0; i < 3; ++i) cavity_.push_back({t[i], t[(i + 1) % 3]});
   for (const Edge& edge : cavity_)
-    if (std::ranges::find(cavity_, Edge{edge[1], edge[0]}) == cavity_.end()) border_.push_back(edge);
+    if (std::find(cavity_.begin(), cavity_.end(), Edge{edge[1], edge[0]}) == cavity_.end())
+      border_.push_back(edge);
   if (!triangles_.empty()) return;
   // There are one or two directions, or all directions are on a line.
   const std::size_t last = points_.size() - 1;

@@ -63,8 +63,8 @@ void ModeExpansion::expand(std::uint32_t a, std::uint32_t b, std::span<float> sc
   const TensorShape& s = tensor_.shape;
   const float* const z = core(a, b);
   // The y mode is expanded first: scratch[p, y] = sum_q Z[p, q] Y[y, q].
-  std::ranges::fill(scratch, 0.0f);
-  std::ranges::fill(image, 0.0f);
+  std::fill(scratch.begin(), scratch.end(), 0.0f);
+  std::fill(image.begin(), image.end(), 0.0f);
   for (std::size_t p = 0; p < s.rank_x; ++p)
     for (std::size_t q = 0; q < s.rank_y; ++q) {
       const float value = z[p * s.rank_y + q];

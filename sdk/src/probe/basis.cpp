@@ -147,7 +147,7 @@ Basis dice_basis(Domain domain, Vec3 up) {
   basis.domain = domain;
   basis.up = up;
   basis.count = dice_vertices;
-  std::ranges::copy(dice_axes, basis.axis.begin());
+  std::copy(dice_axes.begin(), dice_axes.end(), basis.axis.begin());
   check_basis(basis, NOOK_ERROR_INVALID_ARGUMENT);
   basis.up = normalised(basis.up);
   return basis;

@@ -9,7 +9,7 @@ namespace nook::probe {
 
 void to_harmonics(std::span<const SphericalGaussian> lobes, std::uint32_t order,
                   std::span<Vec3> coefficients) {
-  std::ranges::fill(coefficients, Vec3{});
+  std::fill(coefficients.begin(), coefficients.end(), Vec3{});
   std::array<double, harmonic_count(4)> values;
   for (const SphericalGaussian& g : lobes) {
     evaluate_harmonics(order, double(g.axis.x), double(g.axis.y), double(g.axis.z), values.data());

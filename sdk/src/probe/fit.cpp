@@ -106,8 +106,8 @@ void Fit::prepare_gram(Memory* memory) {
   gram_ = AlignedArray<double>(gram.size(), memory);
   factor_ = AlignedArray<double>(gram.size(), memory);
   row_sum_ = AlignedArray<double>(n, memory);
-  std::ranges::copy(gram, gram_.begin());
-  std::ranges::copy(gram, factor_.begin());
+  std::copy(gram.begin(), gram.end(), gram_.begin());
+  std::copy(gram.begin(), gram.end(), factor_.begin());
   const std::uint32_t dependent = cholesky(factor_.data(), n, smallest_pivot);
   if (dependent < n)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -30,7 +30,7 @@ void Fit::seed_bands(const Vec3* start) {
   std::array<double, band_functions * max_functions> function;
   project_functions(basis_, function.data());
   const double scale = prior_weight_ / domain_area(basis_.domain);
-  std::ranges::fill(bands_, 0.0);
+  std::fill(bands_.begin(), bands_.end(), 0.0);
   for (std::size_t j = 0; j < band_functions; ++j)
     for (std::uint32_t i = 0; i < basis_.count; ++i) {
       const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};
@@ -76,8 +76,8 @@ void Fit::merge(const Fit& other) {
 }
 
 void Fit::reset() {
-  std::ranges::fill(sums_, 0.0);
-  std::ranges::fill(bands_, 0.0);
+  std::fill(sums_.begin(), sums_.end(), 0.0);
+  std::fill(bands_.begin(), bands_.end(), 0.0);
   for (float* row : {running_.change[0], running_.change[1], running_.change[2], running_.square})
     std::fill_n(row, padded_, 0.0f);
   settle();

@@ -100,7 +100,7 @@ void Fit::make_non_negative(double* b) {
   double* const x = target + n;
   double* const rest = x + n;
   const LightBands bands = bands_.size() == 0 ? LightBands{} : light_bands();
-  std::ranges::copy(gram_, gram);
+  std::copy(gram_.begin(), gram_.end(), gram);
   if (bands_.size() > 0) add_bands(bands, n, band_weight(), gram);
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t i = 0; i < n; ++i) {

@@ -59,7 +59,7 @@ void interpolate(const Probes& probes, Vec3 position_ws, std::span<Vec3> coeffic
   const Between x = between(position_ws.x, grid.origin_ws.x, grid.spacing_ws.x, grid.counts[0]);
   const Between y = between(position_ws.y, grid.origin_ws.y, grid.spacing_ws.y, grid.counts[1]);
   const Between z = between(position_ws.z, grid.origin_ws.z, grid.spacing_ws.z, grid.counts[2]);
-  std::ranges::fill(coefficients, Vec3{});
+  std::fill(coefficients.begin(), coefficients.end(), Vec3{});
   for (int corner = 0; corner < 8; ++corner) {
     const bool bx = corner & 1, by = corner & 2, bz = corner & 4;
     const float weight =

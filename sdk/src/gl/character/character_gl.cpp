@@ -14,7 +14,7 @@ CharacterGl::CharacterGl(Device& device) : scenes_(device.memory), output_(devic
 void CharacterGl::prepare(const SceneHandle& handle) {
   release_destroyed();
   const auto known = [&](const SceneHandle& of) { return of.scene == handle.scene; };
-  if (std::ranges::none_of(scenes_, known)) scenes_.push_back(handle);
+  if (std::none_of(scenes_.begin(), scenes_.end(), known)) scenes_.push_back(handle);
   tier_->prepare(*handle.scene);
 }
 

@@ -1,8 +1,8 @@
 #include "sdk/src/gl/character/compute_frame.h"
 
-#include <bit>
 #include <cstring>
 
+#include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/character/light_texels.h"
 
@@ -14,8 +14,7 @@ struct Word4 {
 };
 
 Word4 floats(Vec3 v, std::uint32_t w) {
-  return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y),
-          std::bit_cast<std::uint32_t>(v.z), w};
+  return {bit_cast<std::uint32_t>(v.x), bit_cast<std::uint32_t>(v.y), bit_cast<std::uint32_t>(v.z), w};
 }
 
 // Positions are sent relative to this point of the instance.
@@ -106,7 +105,7 @@ void write_pose(const Instance& instance, Mat3x4* out) {
 
 Word4 exact_sphere(const Instance& receiver, const Sphere& sphere) {
   return floats(sphere.centre - origin(receiver),
-                std::bit_cast<std::uint32_t>(inverse_sphere_radius(sphere.radius)));
+                bit_cast<std::uint32_t>(inverse_sphere_radius(sphere.radius)));
 }
 
 std::uint32_t first_sphere(const ComputeScene& placed, std::uint32_t slot) {

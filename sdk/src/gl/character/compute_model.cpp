@@ -1,8 +1,8 @@
 #include "sdk/src/gl/character/compute_model.h"
 
-#include <bit>
 #include <cstring>
 
+#include "sdk/src/core/bit_cast.h"
 #include "shaders/character/layout.h"
 
 namespace nook::gl {
@@ -51,8 +51,8 @@ Words pack_spread(const CharacterModel& model, Memory* memory) {
   Words out(memory);
   for (const CharacterLevel& level : model.levels)
     for (std::size_t k = 0; k < model.key_points.size(); ++k)
-      out.insert(out.end(), {level.source[k], std::bit_cast<std::uint32_t>(level.scale[k]),
-                             std::bit_cast<std::uint32_t>(level.offset[k])});
+      out.insert(out.end(), {level.source[k], bit_cast<std::uint32_t>(level.scale[k]),
+                             bit_cast<std::uint32_t>(level.offset[k])});
   return out;
 }
 
@@ -76,12 +76,12 @@ Words pack_linear(const ComputeModel& sizes, Memory* memory) {
   std::memcpy(out.data(), model.file_to_welded.data(), sizes.file_vertices() * sizeof(std::uint32_t));
   std::uint32_t* const per_vertex = out.data() + sizes.file_vertices();
   for (std::size_t v = 0; v < vertices; ++v) {
-    per_vertex[v] = std::bit_cast<std::uint32_t>(model.bias[v]);
+    per_vertex[v] = bit_cast<std::uint32_t>(model.bias[v]);
     for (std::size_t e = 0; e < model.influences; ++e) {
       const std::size_t entry = v * model.influences + e;
       per_vertex[(1 + e / 2) * vertices + v] |= std::uint32_t{model.influence[entry]} << (16 * (e % 2));
-      per_vertex[(1 + pairs + e) * vertices + v] = std::bit_cast<std::uint32_t>(model.alpha[entry]);
-      per_vertex[(1 + 3 * pairs + e) * vertices + v] = std::bit_cast<std::uint32_t>(model.blend[entry]);
+      per_vertex[(1 + pairs + e) * vertices + v] = bit_cast<std::uint32_t>(model.alpha[entry]);
+      per_vertex[(1 + 3 * pairs + e) * vertices + v] = bit_cast<std::uint32_t>(model.blend[entry]);
     }
   }
   return out;

@@ -37,7 +37,8 @@ void ComputeScene::make_sphere_buffers(Device& device) {
   const bool grown = count * bytes_each > spheres.bytes();
   if (grown) spheres = Buffer(device, "nook: spheres", count * bytes_each, nullptr, GL_DYNAMIC_COPY);
   if (grown || moved)
-    for (ComputeChunk& chunk : chunks) std::ranges::fill(chunk.transformed, ComputeChunk::Pose{});
+    for (ComputeChunk& chunk : chunks)
+      std::fill(chunk.transformed.begin(), chunk.transformed.end(), ComputeChunk::Pose{});
 }
 
 void ComputeScene::make_light_buffers(Device& device) {

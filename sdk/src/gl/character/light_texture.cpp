@@ -13,7 +13,7 @@ void LightTexture::make(Device& device) {
 }
 
 void LightTexture::upload(Device& device, const Scene& scene) {
-  std::ranges::fill(first_texels_, no_light);
+  std::fill(first_texels_.begin(), first_texels_.end(), no_light);
   std::uint64_t texels = 0;
   for (const Instance& instance : scene.instances) texels += light_texels(instance.light);
   if (texels == 0) return;

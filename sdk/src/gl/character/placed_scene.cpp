@@ -30,7 +30,7 @@ void ChunkData::make_directional_ao(Device& device) {
 }
 
 bool ChunkData::has_light(const Scene& scene) const {
-  return std::ranges::any_of(slots, [&](std::uint32_t slot) {
+  return std::any_of(slots.begin(), slots.end(), [&](std::uint32_t slot) {
     return slot != empty && scene.instances[slot].light.lobes.size() > 0;
   });
 }

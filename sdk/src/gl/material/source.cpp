@@ -3,6 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "sdk/src/core/compiler.h"
 #include "sdk/src/gl/embedded_shaders.h"
 
 namespace nook::gl {
@@ -10,7 +11,7 @@ namespace {
 
 using Text = String;
 
-void add(Text& out, const char* format, ...) __attribute__((format(printf, 2, 3)));
+void add(Text& out, const char* format, ...) NOOK_PRINTF(2, 3);
 void add(Text& out, const char* format, ...) {
   char line[200];
   va_list arguments;

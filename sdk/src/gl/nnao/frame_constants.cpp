@@ -77,7 +77,8 @@ Viewport viewport_of(const nook_nnao_frame_desc& frame) {
 FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
   FrameConstants constants;
   const auto set = [&](int row, float x, float y, float z, float w) {
-    std::ranges::copy(std::array{x, y, z, w}, &constants.values[std::size_t(4 * row)]);
+    const std::array values{x, y, z, w};
+    std::copy(values.begin(), values.end(), &constants.values[std::size_t(4 * row)]);
   };
   const bool half = pass.half_resolution != 0;
   const Viewport viewport = viewport_of(frame);

@@ -1,0 +1,32 @@
+// What compilers write in ways of their own; no other header names an attribute of one compiler.
+#pragma once
+
+// NOOK_PRINTF(format, first): the compiler checks the values from parameter `first` on against the format
+// string in parameter `format`. Parameters count from 1, and from 2 in member functions. MinGW's `printf` is
+// the format of Microsoft's C library, without %zu and %llu; libstdc++ replaces that library's functions by
+// standard ones.
+#if defined(__MINGW32__) && !defined(__clang__)
+#define NOOK_PRINTF(format_parameter, first_parameter) \
+  __attribute__((format(gnu_printf, format_parameter, first_parameter)))
+#elif defined(__GNUC__)
+#define NOOK_PRINTF(format_parameter, first_parameter) \
+  __attribute__((format(printf, format_parameter, first_parameter)))
+#else
+#define NOOK_PRINTF(format_parameter, first_parameter)
+#endif
+
+// NOOK_INLINE: a function that is inlined at any cost.
+#if defined(_MSC_VER) && !defined(__clang__)
+#define NOOK_INLINE __forceinline
+#else
+#define NOOK_INLINE inline __attribute__((always_inline))
+#endif
+
+// NOOK_CLONES: function multiversioning, one clone for each instruction set, chosen when the program is
+// loaded, from one plain source that the compiler vectorises. It needs the resolvers of the ELF format.
+// Sanitizers do not get along with these, so they run the plain version.
+#if defined(__x86_64__) && defined(__ELF__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define NOOK_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define NOOK_CLONES
+#endif
