@@ -1,0 +1,146 @@
+// nook_gpu_cost: what the shaders of a tree cost on GPUs that are not there, and how two trees differ.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "bakers/measure/gpu_cost/cost_report.h"
+
+namespace {
+
+using namespace nook::measure;
+namespace fs = std::filesystem;
+
+constexpr int exit_done = 0, exit_failed = 1, exit_other_driver = 77;
+
+struct Options {
+  std::string root = NOOK_SOURCE_ROOT;
+  std::vector<std::string> families = {"navi21", "gfx1100", "vega10"};
+  std::vector<std::string> defines;
+  std::string only, report, dump;
+  std::string before, after;
+  double limit = 1e9;
+};
+
+std::string define_lines(const std::vector<std::string>& defines) {
+  std::string lines;
+  for (std::string define : defines) {
+    if (const std::size_t equals = define.find('='); equals != std::string::npos) define[equals] = ' ';
+    lines += "#define " + define + "\n";
+  }
+  return lines;
+}
+
+void write(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  if (!(file << text)) throw std::runtime_error("nook_gpu_cost: cannot write " + path.string());
+}
+
+nlohmann::json read_json(const std::string& path) {
+  return nlohmann::json::parse(file_text(path));
+}
+
+// Vulkan GLSL, disassembly and loops of each shader, for a look at what was counted.
+void dump(const Options& options, const SourceTree& tree) {
+  fs::create_directories(options.dump);
+  for (const std::string& family : options.families) {
+    NullDevice device(family);
+    for (const ShaderCase& shader : all_shaders()) {
+      if (shader.name.find(options.only) == std::string::npos) continue;
+      const fs::path path = fs::path(options.dump) / (family + ", " + shader.name);
+      write(path.string() + ".glsl", vulkan_glsl(tree, shader).text);
+      const std::string disassembly = compile_shader(device, tree, shader).disassembly;
+      write(path.string() + ".txt", disassembly);
+      std::printf("%s, %s\n%s", family.c_str(), shader.name.c_str(), describe_loops(disassembly).c_str());
+    }
+  }
+}
+
+int fail_for(const CostReport& report) {
+  const std::string errors = report.errors();
+  if (errors.empty()) return exit_done;
+  std::fprintf(stderr, "\nnot counted:\n%s", errors.c_str());
+  return exit_failed;
+}
+
+int count(const Options& options) {
+  const SourceTree tree{options.root, define_lines(options.defines)};
+  if (!options.dump.empty()) {
+    dump(options, tree);
+    return exit_done;
+  }
+  const CostReport report = count_tree(tree, options.families, options.only);
+  std::fputs(cost_table(report).c_str(), stdout);
+  if (fail_for(report) != exit_done) return exit_failed;
+  if (!options.report.empty()) write(options.report, to_json(report).dump(1) + "\n");
+  return exit_done;
+}
+
+// A folder is a tree to count, a file the report of an earlier run.
+CostReport report_of(const Options& options, const std::string& path, const std::string& defines) {
+  if (fs::is_directory(path)) return count_tree({path, defines}, options.families, options.only);
+  return from_json(read_json(path));
+}
+
+int compare_two(const Options& options) {
+  const CostReport before = report_of(options, options.before, "");
+  const CostReport after = report_of(options, options.after, define_lines(options.defines));
+  if (before.driver != after.driver) {
+    std::printf(
+        "SKIPPED: the old numbers are of %s, the new ones of %s; numbers of two compilers do not compare\n",
+        before.driver.c_str(), after.driver.c_str());
+    return exit_other_driver;
+  }
+  const Comparison comparison = compare(before, after, options.limit);
+  std::fputs(comparison.text.c_str(), stdout);
+  if (fail_for(after) != exit_done) return exit_failed;
+  if (comparison.above_limit.empty()) return exit_done;
+  std::fprintf(stderr, "\nabove %.3f times the old cycles:\n", options.limit);
+  for (const std::string& name : comparison.above_limit) std::fprintf(stderr, "  %s\n", name.c_str());
+  return exit_failed;
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  CLI::App tool(
+      "Counts the instructions of every shader as compiled for GPUs that are not there, by RADV's null "
+      "device.\n"
+      "Exit codes: 0 done, 77 the numbers are of another compiler, 2 bad arguments, 1 anything else.",
+      "nook_gpu_cost");
+  tool.add_option("--root", options.root, "tree of the shaders")->check(CLI::ExistingDirectory);
+  tool.add_option("--family", options.families, "GPU families that RADV knows")
+      ->delimiter(',')
+      ->capture_default_str();
+  tool.add_option("--only", options.only, "shaders whose name contains this");
+  tool.add_option("--define", options.defines, "NAME or NAME=VALUE, in front of every shader");
+  tool.add_option("--report", options.report, "write the numbers to this JSON file");
+  tool.add_option("--dump", options.dump,
+                  "write Vulkan GLSL and disassembly to this folder, and print the loops");
+  CLI::App* compare = tool.add_subcommand("compare", "print the ratio of the cycles of two trees or reports");
+  compare->fallthrough();
+  compare->add_option("old", options.before, "folder of a tree, or report")
+      ->required()
+      ->check(CLI::ExistingPath);
+  compare->add_option("new", options.after, "folder of a tree, or report; --define is for this one")
+      ->required()
+      ->check(CLI::ExistingPath);
+  compare->add_option("--limit", options.limit, "fail where a ratio is above this");
+  try {
+    tool.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return tool.exit(error) == 0 ? exit_done : 2;
+  }
+  return compare->parsed() ? compare_two(options) : count(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return exit_failed;
+  }
+}

@@ -1,0 +1,78 @@
+#include <optional>
+#include <string_view>
+
+#include "bakers/measure/gpu_cost/shader_cases.h"
+#include "sdk/src/gl/embedded_shaders.h"
+#include "sdk/src/gl/material/source.h"
+
+namespace nook::measure {
+namespace {
+
+// Layers of a texture array: the minimum of OpenGL 4.5.
+constexpr std::uint32_t max_layers = 2048;
+
+struct Size {
+  const char* name;
+  std::uint32_t light_modes, view_vec4s, clusters, terms, texels;
+  std::uint32_t votf_view_vec4s, votf_clusters, votf_terms;
+  // The loop of the decoding that is not unrolled there; all are elsewhere.
+  std::optional<Loop> loop_on_vega10;
+};
+// Fiber and roughhole at the paper's ranks, as docs/material_decoding.md counts them, and weave.
+const Size sizes[] = {{"fiber, N-SVD", 16, 20, 1, 1, 96, 20, 1, 1, Loop{"view vectors", 20, {}}},
+                      {"fiber, K-CTA, K = 3", 16, 1, 20, 3, 96, 1, 20, 3, {}},
+                      {"roughhole, N-SVD", 28, 11, 1, 1, 96, 11, 1, 1, Loop{"view vectors", 11, {}}},
+                      {"roughhole, K-CTA, K = 3", 28, 1, 11, 3, 96, 1, 11, 3, Loop{"terms", 3, {}}},
+                      {"weave, K-CTA, K = 3", 20, 1, 10, 3, 48, 1, 10, 3, {}}};
+
+void set_tensor(material::TensorTables& t, std::uint32_t texels, std::uint32_t light_modes,
+                std::uint32_t view_vec4s, std::uint32_t clusters, std::uint32_t terms) {
+  t.width = t.height = texels;
+  t.light_modes = light_modes;
+  t.view_vec4_count = view_vec4s;
+  t.clusters = clusters;
+  t.terms = terms;
+  t.side = material::default_map_side;
+}
+
+// What the library writes in front of shaders/material/host.glsl, whose text comes from the tree that is
+// counted.
+std::string declarations(const Size& size) {
+  material::MaterialTables tables;
+  set_tensor(tables.btf, size.texels, size.light_modes, size.view_vec4s, size.clusters, size.terms);
+  set_tensor(tables.votf, size.texels, 1, size.votf_view_vec4s, size.votf_clusters, size.votf_terms);
+  const String source = gl::material_source(tables, max_layers, default_memory());
+  std::string text(source.data(), source.size());
+  for (const gl::EmbeddedShader* shader = gl::embedded_shaders_begin(); shader != gl::embedded_shaders_end();
+       ++shader)
+    if (std::string_view(shader->path) == "material/host.glsl")
+      text.resize(text.size() - std::string_view(shader->text).size());
+  return text;
+}
+
+constexpr char decode[] = R"(#include "shaders/material/host.glsl"
+in vec2 uv;
+in vec3 view;
+in vec3 light;
+out vec4 colour;
+void main() {
+  vec2 dx = dFdx(uv), dy = dFdy(uv);
+  vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+  nook_material_decode(uv, dx, dy, view, modes);
+  float visibility = nook_material_visibility(nook_material_occlusion(uv, dx, dy, view));
+  colour = vec4(nook_material_radiance(modes, light), visibility);
+}
+)";
+
+}  // namespace
+
+std::vector<ShaderCase> material_shaders() {
+  std::vector<ShaderCase> shaders;
+  for (const Size& size : sizes) {
+    shaders.push_back(host_shader(declarations(size) + decode, std::string("material, ") + size.name));
+    if (size.loop_on_vega10) shaders.back().other_families = {{"vega10", {*size.loop_on_vega10}}};
+  }
+  return shaders;
+}
+
+}  // namespace nook::measure

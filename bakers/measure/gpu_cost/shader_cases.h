@@ -1,0 +1,60 @@
+// Every shader that Nook ships and every baseline, each with its defines and the loops that its compiled form
+// has.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bakers/measure/gpu_cost/instruction_count.h"
+#include "bakers/measure/gpu_cost/source_text.h"
+
+namespace nook::measure {
+
+struct FamilyLoops {
+  std::string family;
+  std::vector<Loop> loops;
+};
+
+struct ShaderCase {
+  std::string name;
+  Stage stage = Stage::fragment;
+  std::string path;  // from the repository's root; empty for the shader of a host
+  std::string host;  // text of a host's shader, which includes what it calls
+  std::string defines;
+  std::vector<Loop> loops;
+  std::vector<FamilyLoops> other_families;  // where a compiler unrolls otherwise
+
+  const std::vector<Loop>& loops_of(const std::string& family) const {
+    for (const FamilyLoops& other : other_families)
+      if (other.family == family) return other.loops;
+    return loops;
+  }
+};
+
+// A shader of the tree.
+ShaderCase tree_shader(Stage stage, const std::string& path, const std::string& name,
+                       const std::string& defines = "", const std::vector<Loop>& loops = {});
+
+// A host's fragment shader.
+ShaderCase host_shader(const std::string& text, const std::string& name, const std::vector<Loop>& loops = {});
+
+// Shaders that run one after the other, each for a share of the threads.
+struct PassCase {
+  std::string name;
+  std::vector<std::pair<std::string, double>> shaders;
+};
+
+// The name of the blur that all baselines share.
+inline constexpr char baseline_blur[] = "blur of the baselines";
+
+std::vector<ShaderCase> character_shaders();
+std::vector<ShaderCase> nnao_shaders();
+std::vector<ShaderCase> baseline_shaders();
+std::vector<ShaderCase> probe_shaders();
+std::vector<ShaderCase> material_shaders();
+
+std::vector<ShaderCase> all_shaders();
+std::vector<PassCase> all_passes();
+
+}  // namespace nook::measure

@@ -1,0 +1,20 @@
+// Trip counts of the loops of the shaders, for the frames of the cost table.
+#pragma once
+
+namespace nook::measure::trips {
+
+// A character of a crowd: the bench's body in the midst of others.
+inline constexpr int group_size = 64;  // threads of a group, and spheres that it stages at a time
+inline constexpr double spheres = 130;
+inline constexpr double tiles = 3;  // of group_size spheres, the last one partly filled
+inline constexpr double spheres_in_tile = spheres / tiles;
+inline constexpr double casters = 4;        // neighbours
+inline constexpr double exact_spheres = 1;  // the ground
+inline constexpr double influence_pairs = 4;
+inline constexpr double light_lobes = 12;  // of an instance's light
+
+// The screen-space pass.
+inline constexpr double blur_reach = 3;  // texels to either side
+inline constexpr double sides = 2;
+
+}  // namespace nook::measure::trips
