@@ -185,5 +185,8 @@ TEST_CASE("scenes: bad handles and parameters of every call") {
   CHECK(nook_scene_read_directional_ao(scene, stage.first, colour.data(), stage.info.file_vertex_count, 8) ==
         invalid);
   CHECK(nook_scene_read_stats(scene, nullptr) == invalid);
+  std::uint64_t bytes = 0;
+  CHECK(nook_scene_memory(scene, nullptr) == invalid);
+  CHECK(nook_scene_memory(nullptr, &bytes) == invalid);
   CHECK(nook_scene_update(scene) == NOOK_OK);  // still well
 }

@@ -249,6 +249,14 @@ nook_result nook_scene_read_directional_ao(nook_scene scene, nook_instance_id in
   });
 }
 
+nook_result nook_scene_memory(nook_scene scene, uint64_t* bytes) {
+  return api::enter("nook_scene_memory", [&] {
+    need(scene, "scene");
+    need(bytes, "bytes");
+    *bytes = sizeof *scene + scene->metered.bytes();
+  });
+}
+
 nook_result nook_scene_read_stats(nook_scene scene, nook_scene_stats* stats) {
   return with_scene("nook_scene_read_stats", scene, [&](const Scene& s) {
     write_info(stats, offsetof(nook_scene_stats, evaluations) + sizeof stats->evaluations, s.stats);

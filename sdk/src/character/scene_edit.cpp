@@ -123,11 +123,12 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory) {
       &points.nz,         &points.surface_x,  &points.surface_y, &points.surface_z, &points.surface_nx,
       &points.surface_ny, &points.surface_nz, &points.norm_sum,  &points.shadow,    &points.optical_depth,
       &points.open,       &points.added};
+  static_assert(std::size(of_points) == point_lanes);
   arrays.spheres.count = static_cast<std::uint32_t>(model.model.spheres.size());
-  std::size_t size = 4 * padded_count(arrays.spheres.count) + std::size(of_points) * points.padded_count;
+  std::size_t size = sphere_lanes * padded_count(arrays.spheres.count) + point_lanes * points.padded_count;
   for (std::size_t l = 0; l < model.levels.size(); ++l) {
     arrays.coarse_spheres[l].count = model.levels[l].rest_spheres.view().count;
-    size += 4 * padded_count(arrays.coarse_spheres[l].count);
+    size += sphere_lanes * padded_count(arrays.coarse_spheres[l].count);
   }
 
   arrays.storage = AlignedArray<float>(size, memory);
