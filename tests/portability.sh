@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
 # Builds the library for the platforms that this machine can run, compares their results with those of GCC on Linux, runs
-# the OpenGL tests on other drivers, and ends with a table. A row that lacks a package says so; a row that fails makes the
-# exit status 1. With row names as arguments it does those alone; --quick takes the rows clang, windows, arm64 and wasm,
-# without their OpenGL half; --list prints the names. tests/portability/packages.txt lists the packages.
+# the OpenGL tests on other drivers, and ends with a table. A row whose packages are missing names them; a row that fails makes
+# the exit status 1. With row names as arguments it does those alone; --quick takes the rows windows, arm64 and wasm, without
+# their OpenGL half; --list prints the names. tests/portability/packages.txt lists the packages.
 #
-# NOOK_BUILD_DIR (default: build) is the first part of the folders' names. NOOK_CHARACTER and NOOK_MATERIAL are files to
+# NOOK_BUILD_DIR (default: build) is the first part of the folders' names. NOOK_NATIVE is a folder that has Linux's cpu_results and
+# write_portability_inputs; without it the row linux builds them. NOOK_CHARACTER and NOOK_MATERIAL are files to
 # evaluate in place of the tests' own.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${NOOK_BUILD_DIR:-$root/build}-portability
-all="linux clang libcxx windows windows-static arm64 wasm msvc-syntax gl-zink gl-softpipe es30 es31 es32 es31-softpipe browser"
+all="linux clang libcxx windows windows-gl windows-static arm64 wasm msvc-syntax gl-zink gl-softpipe es30 es31 es32 es31-softpipe browser"
 quick=OFF
 case ${1:-} in
   --list) echo "$all" | tr ' ' '\n'; exit 0 ;;
-  --quick) quick=ON; shift; rows=${*:-clang windows arm64 wasm} ;;
+  --quick) quick=ON; shift; rows=${*:-windows arm64 wasm} ;;
   *) rows=${*:-$all} ;;
 esac
 jobs=${NOOK_JOBS:-$(nproc)}
@@ -45,9 +46,11 @@ compile() {  # options...: cpu_results and the library for a platform, in $build
 
 results() {  # command...: runs cpu_results by this command and compares its values with those of Linux
   local folder=$build-$row native=$build-linux/native.values set sets
-  (cd "$build-linux" && "$@" run character.nook material.nook "$folder/$row.values") > "$folder/sets" || return 1
-  cat "$folder/sets"
+  (cd "$build-linux" && "$@" run character.nook material.nook "$folder/$row.values") > "$folder/output" || return 1
+  # Windows ends lines with two characters.
+  tr -d '\r' < "$folder/output" | tee "$folder/sets"
   sets=$(awk '$2 ~ /^[0-9a-f]+$/ && length($2) == 16 {print $1}' "$folder/sets")
+  [ -n "$sets" ] || { echo "cpu_results printed no hash"; return 1; }
   for set in $sets; do
     if grep -q "^$set " "$build-linux/sets"; then
       "$build-linux/cpu_results" compare "$native" "$folder/$row.values" "${same_set[@]}" "$set" "$set" || return 1
@@ -59,7 +62,11 @@ results() {  # command...: runs cpu_results by this command and compares its val
 
 row_linux() {
   wrapper=()
-  compile -DBUILD_SHARED_LIBS=ON "-DCMAKE_C_COMPILER=$(command -v gcc)" "-DCMAKE_CXX_COMPILER=$(command -v g++)" || return 1
+  if [ -n "${NOOK_NATIVE:-}" ]; then
+    cp "$NOOK_NATIVE/cpu_results" "$NOOK_NATIVE/write_portability_inputs" "$build-linux" || return 1
+  else
+    compile -DBUILD_SHARED_LIBS=ON "-DCMAKE_C_COMPILER=$(command -v gcc)" "-DCMAKE_CXX_COMPILER=$(command -v g++)" || return 1
+  fi
   cd "$build-linux" || return 1
   ./write_portability_inputs character.nook material.nook || return 1
   if [ -n "${NOOK_CHARACTER:-}" ]; then cp "$NOOK_CHARACTER" character.nook || return 1; fi
@@ -91,13 +98,29 @@ row_windows() {
   need x86_64-w64-mingw32-g++-posix x86_64-w64-mingw32-objdump wine
   wrapper=()
   compile --toolchain "$root/cmake/toolchains/mingw-w64.cmake" -DBUILD_SHARED_LIBS=ON || return 1
-  local folder=$build-$row
-  nm -D --defined-only "$build-linux/nook/sdk/libnook.so" | awk '{print $3}' | sort > "$folder/functions.linux"
+  [ $quick = ON ] || exported_functions || return 1
+  results under_wine
+}
+
+exported_functions() {  # of the DLL and of Linux's library
+  local folder=$build-$row linux=$build-linux/nook/sdk/libnook.so
+  [ -f "$linux" ] || { echo "the row linux has built no shared library"; return 1; }
+  nm -D --defined-only "$linux" | awk '{print $3}' | sort > "$folder/functions.linux"
   x86_64-w64-mingw32-objdump -p "$folder/nook/sdk/libnook.dll" |
     awk '/^\[Ordinal\/Name Pointer\]/ {table = 1; next} table && NF == 0 {exit} table {print $NF}' | sort > "$folder/functions"
   echo "$(wc -l < "$folder/functions") exported functions"
   diff "$folder/functions.linux" "$folder/functions" || { echo "the DLL exports other functions than the library of Linux"; return 1; }
-  results under_wine
+}
+
+# OpenGL on the DLL that the row windows has built, in a context that wine makes on a virtual screen.
+row_windows-gl() {
+  need wine xvfb-run
+  [ -f "$build-windows/windows_gl.exe" ] || missing "the row windows has not built windows_gl.exe"
+  xvfb-run -a -s "-screen 0 640x480x24" env LIBGL_ALWAYS_SOFTWARE=1 WINEPREFIX="$build-wine" WINEDEBUG=-all \
+    "WINEPATH=$build-windows/nook/sdk" wine "$build-windows/windows_gl.exe" "$build-linux/character.nook"
+  local status=$?
+  [ $status -ne 77 ] || missing "wine has no OpenGL 3.3 here"
+  return $status
 }
 
 row_windows-static() {
@@ -131,6 +154,7 @@ row_msvc-syntax() {
   [ -d /usr/lib/llvm-16/include/c++/v1 ] || missing "libc++-16-dev is not installed"
   [ -d /usr/share/mingw-w64/include ] || missing "mingw-w64-common is not installed"
   local file errors="" count=0 glad=$build-linux/nook/sdk/src/gl/glad/include
+  [ -d "$glad" ] || missing "the row linux has not made the header of OpenGL"
   while read -r file; do
     count=$((count + 1))
     errors+=$(cd "$root" && clang++-16 --target=x86_64-pc-windows-msvc -fms-compatibility-version=19.38 -fms-extensions -std=c++20 \
