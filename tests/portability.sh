@@ -185,7 +185,7 @@ row_gl-zink() {
   [ -f $icd ] || missing "lavapipe is not installed"
   # The pass's timers never become valid on zink over lavapipe of Mesa 22.3; plain time stamps do.
   filter=('~*a frame allocates nothing*')
-  gl_tests -u LIBGL_ALWAYS_SOFTWARE MESA_LOADER_DRIVER_OVERRIDE=zink VK_ICD_FILENAMES=$icd
+  gl_tests MESA_LOADER_DRIVER_OVERRIDE=zink VK_ICD_FILENAMES=$icd
 }
 row_gl-softpipe() { filter=(); gl_tests GALLIUM_DRIVER=softpipe NOOK_TEST_VERSION=3.3; }
 row_es30() { es_tests NOOK_TEST_GL=es30 MESA_GLES_VERSION_OVERRIDE=3.0; }
