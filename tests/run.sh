@@ -45,6 +45,12 @@ configure "$build" -DNOOK_HOSTS=$hosts "-DCMAKE_C_COMPILER=$(command -v gcc)" "-
 ninja -C "$build"
 ctest --test-dir "$build" --output-on-failure -j "$jobs"
 
+# Other platforms are many packages as well: MinGW with wine, the cross-compiler of ARM64 with qemu, Emscripten with node.
+if dpkg-query -W $(sed 's/#.*//' "$root/tests/portability/packages.txt") > /dev/null 2>&1; then
+  echo "== CPU results on other platforms"
+  NOOK_BUILD_DIR=$build NOOK_NATIVE=$build/tests/portability "$root/tests/portability.sh" --quick
+fi
+
 echo "== library and bakers under address and undefined-behaviour sanitizers"
 configure "$build-asan" "${clang[@]}" "${sanitized[@]}" -DNOOK_SANITIZE=ON -DNOOK_TOOL=OFF -DNOOK_SAMPLES=OFF
 ninja -C "$build-asan"
