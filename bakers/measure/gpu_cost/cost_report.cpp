@@ -1,22 +1,15 @@
 #include "bakers/measure/gpu_cost/cost_report.h"
 
 #include <algorithm>
-#include <cstdarg>
+#include <array>
 #include <cstdio>
 #include <stdexcept>
 
 namespace nook::measure {
 namespace {
 
-void add(std::string& out, const char* format, ...) __attribute__((format(printf, 2, 3)));
-void add(std::string& out, const char* format, ...) {
-  char line[300];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  out += line;
-}
+// A line of a table, cut where it is longer.
+using Line = std::array<char, 300>;
 
 // Columns of a report's rows that hold instructions.
 struct Column {
@@ -77,9 +70,12 @@ const NamedCycles* find(const std::vector<NamedCycles>& cycles, const std::strin
 }
 
 void compare_family(Comparison& comparison, const FamilyCost& before, const FamilyCost& after, double limit) {
+  Line line;
   const std::vector<NamedCycles> old = named_cycles(before), now = named_cycles(after);
   const auto unmatched = [&](const std::string& name, const char* where) {
-    add(comparison.text, "%-9s %-52s only in the %s one\n", after.family.c_str(), name.c_str(), where);
+    std::snprintf(line.data(), line.size(), "%-9s %-52s only in the %s one\n", after.family.c_str(),
+                  name.c_str(), where);
+    comparison.text += line.data();
     comparison.unmatched.push_back(after.family + ": " + name);
   };
   for (const NamedCycles& shader : now) {
@@ -91,8 +87,9 @@ void compare_family(Comparison& comparison, const FamilyCost& before, const Fami
     // Every shader has instructions.
     const double ratio = shader.cycles / std::max(was->cycles, 1.0);
     const bool above = ratio > limit;
-    add(comparison.text, "%-9s %-52s %10.1f %10.1f %8.3f%s\n", after.family.c_str(), shader.name.c_str(),
-        was->cycles, shader.cycles, ratio, above ? "  above the limit" : "");
+    std::snprintf(line.data(), line.size(), "%-9s %-52s %10.1f %10.1f %8.3f%s\n", after.family.c_str(),
+                  shader.name.c_str(), was->cycles, shader.cycles, ratio, above ? "  above the limit" : "");
+    comparison.text += line.data();
     if (above) comparison.above_limit.push_back(after.family + ": " + shader.name);
   }
   for (const NamedCycles& was : old)
@@ -190,36 +187,47 @@ CostReport from_json(const nlohmann::json& json) {
 }
 
 std::string cost_table(const CostReport& report) {
+  Line line;
   std::string out = report.driver + "; instructions and cycles of a wave of 64 threads\n";
   for (const FamilyCost& family : report.families) {
-    add(out, "\n%-52s %8s %8s %8s %6s %6s %8s %8s %5s %5s %9s %9s\n", family.family.c_str(), "valu",
-        "transc.", "fetches", "stores", "local", "scalar", "s. loads", "regs", "waves", "alu cyc.",
-        "tex. cyc.");
+    std::snprintf(line.data(), line.size(), "\n%-52s %8s %8s %8s %6s %6s %8s %8s %5s %5s %9s %9s\n",
+                  family.family.c_str(), "valu", "transc.", "fetches", "stores", "local", "scalar",
+                  "s. loads", "regs", "waves", "alu cyc.", "tex. cyc.");
+    out += line.data();
     for (const ShaderCost& shader : family.shaders) {
       if (!shader.error.empty()) {
-        add(out, "%-52s failed, see below\n", shader.shader.c_str());
+        std::snprintf(line.data(), line.size(), "%-52s failed, see below\n", shader.shader.c_str());
+        out += line.data();
         continue;
       }
       const InstructionCounts& n = shader.counts;
-      add(out, "%-52s %8.0f %8.0f %8.1f %6.0f %6.0f %8.0f %8.0f %5u %5u %9.0f %9.0f\n", shader.shader.c_str(),
-          n[InstructionClass::vector], n[InstructionClass::quarter_rate], n[InstructionClass::fetch],
-          n[InstructionClass::store], n[InstructionClass::local_memory], n[InstructionClass::scalar],
-          n[InstructionClass::scalar_load], shader.vector_registers, shader.waves, shader.cycles().alu,
-          shader.cycles().texture);
+      std::snprintf(line.data(), line.size(),
+                    "%-52s %8.0f %8.0f %8.1f %6.0f %6.0f %8.0f %8.0f %5u %5u %9.0f %9.0f\n",
+                    shader.shader.c_str(), n[InstructionClass::vector], n[InstructionClass::quarter_rate],
+                    n[InstructionClass::fetch], n[InstructionClass::store], n[InstructionClass::local_memory],
+                    n[InstructionClass::scalar], n[InstructionClass::scalar_load], shader.vector_registers,
+                    shader.waves, shader.cycles().alu, shader.cycles().texture);
+      out += line.data();
     }
     if (family.passes.empty()) continue;
-    add(out, "\n%-52s %9s %9s %9s\n", (family.family + ", whole passes").c_str(), "alu cyc.", "tex. cyc.",
-        "sum");
-    for (const PassCost& pass : family.passes)
-      add(out, "%-52s %9.0f %9.0f %9.0f\n", pass.pass.c_str(), pass.cycles.alu, pass.cycles.texture,
-          pass.cycles.all());
+    std::snprintf(line.data(), line.size(), "\n%-52s %9s %9s %9s\n",
+                  (family.family + ", whole passes").c_str(), "alu cyc.", "tex. cyc.", "sum");
+    out += line.data();
+    for (const PassCost& pass : family.passes) {
+      std::snprintf(line.data(), line.size(), "%-52s %9.0f %9.0f %9.0f\n", pass.pass.c_str(), pass.cycles.alu,
+                    pass.cycles.texture, pass.cycles.all());
+      out += line.data();
+    }
   }
   return out;
 }
 
 Comparison compare(const CostReport& before, const CostReport& after, double limit) {
   Comparison comparison;
-  add(comparison.text, "%-9s %-52s %10s %10s %8s\n", "family", "cycles of", "old", "new", "new/old");
+  Line line;
+  std::snprintf(line.data(), line.size(), "%-9s %-52s %10s %10s %8s\n", "family", "cycles of", "old", "new",
+                "new/old");
+  comparison.text += line.data();
   for (const FamilyCost& family : after.families)
     for (const FamilyCost& old : before.families)
       if (old.family == family.family) compare_family(comparison, old, family, limit);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "bakers/measure/gpu_cost/cost_report.h"
 
@@ -12,20 +13,31 @@ namespace {
 using namespace nook::measure;
 namespace fs = std::filesystem;
 
+// RADV ends the process where it does not know a name. The loops of materials are stated for the default
+// ones.
+const std::set<std::string> known_families = {"polaris10", "vega10",  "vega20",  "navi10",  "navi21",
+                                              "navi23",    "gfx1036", "gfx1100", "gfx1101", "gfx1102"};
+
 constexpr int exit_done = 0, exit_failed = 1, exit_skipped = 77;
 
 struct Options {
   std::string root = NOOK_SOURCE_ROOT;
   std::vector<std::string> families = {"navi21", "gfx1100", "vega10"};
   std::vector<std::string> defines;
+  bool buffers_as_textures = false;
   std::string only, report, dump;
   std::string before, after;
   double limit = 1e9;
 };
 
-std::string define_lines(const std::vector<std::string>& defines) {
-  std::string lines;
-  for (std::string define : defines) {
+// What OpenGL ES 3.0 has in place of a texture buffer: a 2D texture whose rows follow one another.
+constexpr char texture_rows[] =
+    "#define samplerBuffer sampler2D\n"
+    "vec4 texelFetch(sampler2D rows, int i) { return texelFetch(rows, ivec2(i & 2047, i >> 11), 0); }\n";
+
+std::string first_lines(const Options& options) {
+  std::string lines = options.buffers_as_textures ? texture_rows : "";
+  for (std::string define : options.defines) {
     if (const std::size_t equals = define.find('='); equals != std::string::npos) define[equals] = ' ';
     lines += "#define " + define + "\n";
   }
@@ -65,7 +77,7 @@ int fail_for(const CostReport& report) {
 }
 
 int count(const Options& options) {
-  const SourceTree tree{options.root, define_lines(options.defines)};
+  const SourceTree tree{options.root, first_lines(options)};
   if (!options.dump.empty()) {
     dump(options, tree);
     return exit_done;
@@ -91,7 +103,7 @@ void print_names(const char* title, const std::vector<std::string>& names) {
 
 int compare_two(const Options& options) {
   const CostReport before = report_of(options, options.before, "");
-  const CostReport after = report_of(options, options.after, define_lines(options.defines));
+  const CostReport after = report_of(options, options.after, first_lines(options));
   if (before.driver != after.driver) {
     std::printf(
         "SKIPPED: the old numbers are of %s, the new ones of %s; numbers of two compilers do not compare\n",
@@ -138,9 +150,12 @@ int run(int argc, char** argv) {
   tool.add_option("--root", options.root, "tree of the shaders")->check(CLI::ExistingDirectory);
   tool.add_option("--family", options.families, "GPU families that RADV knows")
       ->delimiter(',')
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::IsMember(known_families));
   tool.add_option("--only", options.only, "shaders whose name contains this");
   tool.add_option("--define", options.defines, "NAME or NAME=VALUE, in front of every shader");
+  tool.add_flag("--buffers-as-textures", options.buffers_as_textures,
+                "read texture buffers from 2D textures with rows of 2,048 texels");
   tool.add_option("--report", options.report, "write the numbers to this JSON file");
   tool.add_option("--dump", options.dump,
                   "write Vulkan GLSL and disassembly to this folder, and print the loops");
@@ -149,7 +164,9 @@ int run(int argc, char** argv) {
   compare->add_option("old", options.before, "folder of a tree, or report")
       ->required()
       ->check(CLI::ExistingPath);
-  compare->add_option("new", options.after, "folder of a tree, or report; --define is for this one")
+  compare
+      ->add_option("new", options.after,
+                   "folder of a tree, or report; --define and --buffers-as-textures are for this one")
       ->required()
       ->check(CLI::ExistingPath);
   compare->add_option("--limit", options.limit, "fail where a ratio is above this");
