@@ -30,7 +30,7 @@ struct Options {
   double limit = 1e9;
 };
 
-// What OpenGL ES 3.0 has in place of a texture buffer: a 2D texture whose rows follow one another.
+// A texture buffer as OpenGL ES 3.0 replaces it: a 2D texture whose rows follow one another.
 constexpr char texture_rows[] =
     "#define samplerBuffer sampler2D\n"
     "vec4 texelFetch(sampler2D rows, int i) { return texelFetch(rows, ivec2(i & 2047, i >> 11), 0); }\n";
