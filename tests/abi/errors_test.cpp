@@ -88,7 +88,7 @@ TEST_CASE("scenes: every field out of its range") {
   };
   CHECK(refused([](auto& d) { d.combine = 2; }, "desc.combine"));
   CHECK(refused([](auto& d) { d.combine = -1; }, "desc.combine"));
-  CHECK(refused([](auto& d) { d.isa = 5; }, "desc.isa"));
+  CHECK(refused([](auto& d) { d.isa = INT32_MAX; }, "desc.isa"));
   CHECK(refused([](auto& d) { d.cutoff_error = NAN; }, "desc.cutoff_error"));
   CHECK(refused([](auto& d) { d.cutoff_error = 1.1f; }, "desc.cutoff_error"));
   CHECK(refused([](auto& d) { d.lod_error = -1; }, "desc.lod_error"));
