@@ -148,9 +148,7 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory) {
 
 Scene::Scene(const SceneSettings& scene_settings, const Parallel& host_parallel, Memory* scene_memory)
     : settings(scene_settings),
-      kernels(settings.isa == NOOK_ISA_AUTO
-                  ? &best_shadow_kernels()
-                  : shadow_kernels(static_cast<Isa>(settings.isa - NOOK_ISA_SCALAR))),
+      kernels(shadow_kernels(choose_isa(settings.isa))),
       parallel(host_parallel),
       memory(scene_memory),
       instances(memory),
@@ -158,11 +156,7 @@ Scene::Scene(const SceneSettings& scene_settings, const Parallel& host_parallel,
       occluders(memory),
       free_occluders(memory),
       neighbours(memory),
-      converted(memory) {
-  if (!kernels)
-    throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "this processor or build lacks instruction set %d; use NOOK_ISA_AUTO", settings.isa);
-}
+      converted(memory) {}
 
 Instance& instance_of(Scene& scene, nook_instance_id id) {
   return find(scene.instances, id, "instance");
