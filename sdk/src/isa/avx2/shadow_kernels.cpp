@@ -9,7 +9,7 @@ using Wide = simd::Pair<Float>;  // what the loops over spheres run on
 
 #include "sdk/src/character/shadow_kernels_impl.inl"
 #include "sdk/src/character/shadow_kernels_impl_directional.inl"
-#include "sdk/src/character/shadow_kernels_pose_fours.inl"
+#include "sdk/src/character/shadow_kernels_pose_simd.inl"
 #include "sdk/src/character/shadow_kernels_table.inl"
 
 }  // namespace nook::isa_avx2

@@ -126,7 +126,7 @@ inline float sum(Float a) {
   return vaddvq_f32(a.v);
 }
 
-// The transforms work on fours.
+// The transforms take vectors of four floats.
 using Four = Float;
 inline Four load_four(const float* p) {
   return load(p);
