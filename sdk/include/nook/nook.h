@@ -119,7 +119,9 @@ enum {
   /* x86-64: processors with AVX-512F. */
   NOOK_ISA_AVX512 = 4,
   /* 64-bit ARM: every processor. */
-  NOOK_ISA_NEON = 5
+  NOOK_ISA_NEON = 5,
+  /* WebAssembly: modules that are built with its fixed-width SIMD. */
+  NOOK_ISA_WASM128 = 6
 };
 typedef int32_t nook_isa;
 
