@@ -5,7 +5,9 @@ The loop over spheres of the self-shadow (kernel nook, gamma 1) is compiled for 
 and llvm-mca runs its machine code on the model: the processor's ports, latencies and the dependence from one turn of the
 loop to the next. Memory is counted as cache hits. The scalar loop is built without vectorisation.
 
-usage: neon_cost.py [--cpu cortex-a76] [--compiler aarch64-linux-gnu-g++] [--mca llvm-mca-16]
+usage: neon_cost.py [--cpu cortex-a76] [--compiler aarch64-linux-gnu-g++] [--mca llvm-mca-16] [--at-most RATIO]
+
+Exit code 1: neon / scalar is above RATIO.
 """
 
 import argparse
@@ -28,7 +30,7 @@ TURNS = 1000
 def assembly(compiler, name, wide, flags):
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "loop.s"
-        command = [compiler, *FLAGS, *flags, f"-I{ROOT}", f"-I{ROOT}/sdk/include", f'-DVECTOR="sdk/src/isa/{name}/vector.h"',
+        command = [*compiler.split(), *FLAGS, *flags, f"-I{ROOT}", f"-I{ROOT}/sdk/include", f'-DVECTOR="sdk/src/isa/{name}/vector.h"',
                    f"-DISA_NAMESPACE=isa_{name}", f"-DWIDE={wide}", "-S", ROOT / "tests/portability/hot_loop.cpp", "-o", out]
         subprocess.run(command, check=True)
         return out.read_text().splitlines()
@@ -69,6 +71,7 @@ def main():
     arguments.add_argument("--cpu", default="cortex-a76")
     arguments.add_argument("--compiler", default="aarch64-linux-gnu-g++")
     arguments.add_argument("--mca", default="llvm-mca-16")
+    arguments.add_argument("--at-most", type=float, default=float("inf"), metavar="RATIO")
     given = arguments.parse_args()
     cost = {}
     print(f"{'set':8}{'instructions':>14}{'key points':>12}{'cycles a turn':>15}{'cycles a pair':>15}")
@@ -77,8 +80,10 @@ def main():
         cycles = cycles_a_turn(given.mca, given.cpu, loop)
         cost[name] = cycles / points
         print(f"{name:8}{len(loop):14}{points:12}{cycles:15.2f}{cost[name]:15.2f}")
-    print(f"neon / scalar: {cost['neon'] / cost['scalar']:.3f}")
+    ratio = cost["neon"] / cost["scalar"]
+    print(f"neon / scalar: {ratio:.3f}")
+    return 1 if ratio > given.at_most else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
