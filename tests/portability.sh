@@ -41,7 +41,7 @@ need() {
 }
 
 compile() {  # options...: cpu_results and the library for a platform, in $build-$row
-  local folder=$build-$row options=()
+  local folder=$build-$row options=(-DNOOK_GL=ON)
   # Compiled in less time; the kernels have an optimisation level of their own.
   [ $quick = ON ] && options=(-DNOOK_GL=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG")
   "${wrapper[@]}" cmake -S "$root/tests/portability" -B "$folder" -G Ninja -DNOOK_WERROR=ON "${options[@]}" "${launcher[@]}" "$@" &&
@@ -213,7 +213,7 @@ for row in $rows; do
   ("row_$row") > "$build-$row/log" 2>&1
   status=$?
   case $status in
-    0) state=ran; text=$(grep -hoE "^[0-9]+ exported functions|^All tests passed.*|^[0-9]+ files$" "$build-$row/log" | tail -1)
+    0) state=ran; text=$(grep -hoE "^[0-9]+ exported functions|^tier .*|^All tests passed.*|^[0-9]+ files$" "$build-$row/log" | tail -1)
        [ -f "$build-$row/compared" ] && cat "$build-$row/compared" ;;
     77) state="not had"; text=$(cat "$build-$row.reason"); rm -f "$build-$row.reason" ;;
     *) state=FAILED; text="see $build-$row/log"; failed=1; tail -30 "$build-$row/log" ;;
