@@ -152,7 +152,7 @@ TEST_CASE("fits: bad descriptors name their field") {
   refused([](Desc& d) { d.ambient = 2; }, "desc.ambient");
   refused([](Desc& d) { d.denominator = 2; }, "desc.denominator");
   refused([](Desc& d) { d.step = 2; }, "desc.step");
-  refused([](Desc& d) { d.isa = 9; }, "desc.isa");
+  refused([](Desc& d) { d.isa = INT32_MAX; }, "desc.isa");
   refused([](Desc& d) { d.reserved = 1; }, "desc.reserved");
   refused([](Desc& d) { d.lobe_count = 0; }, "desc.lobe_count is out of range (got 0, need 1 to 64)");
   refused([](Desc& d) { d.lobe_count = 64, d.ambient = 1; }, "got 64, need 1 to 63");

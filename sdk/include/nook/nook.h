@@ -106,7 +106,8 @@ typedef void (*nook_log_fn)(void* user, nook_log_severity severity, const char* 
 typedef void (*nook_job_fn)(void* body_user, uint32_t index);
 typedef void (*nook_parallel_for_fn)(void* user, uint32_t count, nook_job_fn body, void* body_user);
 
-/* The instruction sets of the CPU kernels. A set that the build or the processor lacks fails with UNSUPPORTED. */
+/* The instruction sets of the CPU kernels. A set that the build or the processor lacks fails with
+ * UNSUPPORTED. */
 enum {
   /* The best instruction set of this processor. */
   NOOK_ISA_AUTO = 0,
