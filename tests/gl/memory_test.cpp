@@ -189,7 +189,7 @@ TEST_CASE("a crowd beyond the limits of the context is refused, and evaluated on
   nook_character_model_destroy(&model);
 }
 
-TEST_CASE("memory is told as the allocator and OpenGL count it, and before it is taken") {
+TEST_CASE("memory of models and scenes is what the allocator and OpenGL count") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
   const long long before = host.bytes;

@@ -125,9 +125,9 @@ typedef struct nook_gl_memory {
   /* sizeof(nook_gl_memory); the caller sets it. */
   uint32_t struct_size;
   uint32_t reserved;
-  /* What all instances of the model share. */
+  /* The bytes that all instances of the model share. */
   uint64_t model_bytes;
-  /* What one instance takes, links apart. */
+  /* The bytes of one instance, without links. */
   uint64_t instance_bytes;
   /* The same with a light. */
   uint64_t lit_instance_bytes;
@@ -197,8 +197,8 @@ typedef struct nook_gl_ao_target {
    * vertex; a value then owns a whole word. Needs compute shaders. 0: tightly packed; the bytes of an
    * instance are rounded up to a multiple of 4, and the bytes of the padding are written. */
   uint32_t stride;
-  /* The width of the texture in texels. Needed on OpenGL ES 3.0 and WebGL 2, which cannot be asked for it;
-   * elsewhere 0 asks. */
+  /* The width of the texture in texels. OpenGL ES 3.0 and WebGL 2 have no query for it and need it; elsewhere
+   * 0 means the texture's own. */
   uint32_t texture_width;
 } nook_gl_ao_target;
 

@@ -9,7 +9,7 @@ namespace nook {
 
 // Bytes of an instance without light and without links.
 std::uint64_t instance_bytes(const LoadedModel& model);
-// What a light adds.
+// The bytes that a light adds.
 std::uint64_t light_bytes(const LoadedModel& model);
 
 }  // namespace nook

@@ -120,7 +120,7 @@ inline unsigned character_users(const Functions& gl) {
   return unsigned{gl.can.compute ? tier_43 : tier_33} |
          (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
 }
-// Of the upload of probes.
+// The same for the upload of probes.
 inline unsigned probe_users(const Functions& gl) {
   return probes | (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
 }

@@ -54,7 +54,7 @@ class Tier {
   // Copies values to `out`, waiting for the GPU. Throws Failure.
   virtual void read(const VertexValues& values, float* out) const = 0;
 
-  // Of a model that need not have been used yet.
+  // The memory of a model, which need not have been used yet.
   virtual ModelMemory memory_of(const LoadedModel& model) const = 0;
 
   // Drops everything of the scene.
