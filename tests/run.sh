@@ -41,6 +41,7 @@ done
 # The engines of samples/hosts are many packages: their tests run where all of them are installed. tests/hosts.sh installs them.
 hosts=OFF
 if dpkg-query -W $(sed 's/#.*//' "$root/samples/hosts/packages.txt") > /dev/null 2>&1; then hosts=ON; fi
+[ $hosts = ON ] || echo "== OGRE, OpenSceneGraph, VTK: LEFT OUT, packages of samples/hosts/packages.txt are missing"
 
 echo "== build and tests"
 configure "$build" -DNOOK_HOSTS=$hosts "-DCMAKE_C_COMPILER=$(command -v gcc)" "-DCMAKE_CXX_COMPILER=$(command -v g++)"
@@ -51,6 +52,8 @@ ctest --test-dir "$build" --output-on-failure -j "$jobs"
 if dpkg-query -W $(sed 's/#.*//' "$root/tests/portability/packages.txt") > /dev/null 2>&1; then
   echo "== CPU results on other platforms"
   NOOK_BUILD_DIR=$build NOOK_NATIVE=$build/tests/portability "$root/tests/portability.sh" --quick
+else
+  echo "== CPU results on other platforms: LEFT OUT, packages of tests/portability/packages.txt are missing"
 fi
 
 echo "== library and bakers under address and undefined-behaviour sanitizers"

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "sdk/src/character/loaded_model.h"
+#include "sdk/src/character/memory_use.h"
 #include "sdk/src/character/model_file.h"
 
 namespace nook::tool {
@@ -34,6 +36,13 @@ Row describe_character(std::span<const std::byte> bytes) {
     row[std::string("bytes_") + name] = container.has(letters) ? container.section(letters).remaining() : 0;
   }
   add_recipe(row, model.recipe);
+  // The host memory of the loaded model and of an instance, as nook_character_model_memory has them.
+  MeteredMemory memory(default_memory());
+  const Ref<LoadedModel> loaded =
+      Owned<LoadedModel>::make(&memory, Ref<const RefCounted>(), read_character_model(bytes, &memory), &memory);
+  row["memory_model_bytes"] = memory.bytes();
+  row["memory_instance_bytes"] = instance_bytes(*loaded);
+  row["memory_lit_instance_bytes"] = instance_bytes(*loaded) + light_bytes(*loaded);
   return row;
 }
 
