@@ -6,6 +6,7 @@
 #include "sdk/src/core/half.h"
 #include "sdk/src/gl/touched_state.h"
 #include "tests/gl/crowd.h"
+#include "tests/gl/host_textures.h"
 #include "tests/gl/poison.h"
 #include "tests/gl/test_context.h"
 
@@ -49,9 +50,7 @@ struct Fixture {
     return name;
   }
   std::vector<unsigned char> take_buffer(GLuint name, std::size_t bytes) const {
-    std::vector<unsigned char> out(bytes);
-    api.BindBuffer(GL_ARRAY_BUFFER, name);
-    api.GetBufferSubData(GL_ARRAY_BUFFER, 0, GLsizeiptr(bytes), out.data());
+    const std::vector<unsigned char> out = read_buffer(api, name, 0, bytes);
     api.DeleteBuffers(1, &name);
     return out;
   }
@@ -184,20 +183,17 @@ TEST_CASE("AO arrives in a texture of the host, row by row") {
       const std::vector<float> expected = f.ao(0);
       const int width = 7, first = 5;
       const int height = (first + static_cast<int>(expected.size()) + width - 1) / width + 1;
-      std::vector<float> texels(static_cast<std::size_t>(width * height), 0.25f);
-      GLuint texture = 0;
-      f.api.GenTextures(1, &texture);
-      f.api.BindTexture(GL_TEXTURE_2D, texture);
-      f.api.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal), width, height, 0, GL_RED, GL_FLOAT,
-                       texels.data());
-      nook_gl_ao_target target = target_of(0, NOOK_AO_FLOAT);
+      Textures textures(f.api);
+      const GLuint texture =
+          textures.floats(static_cast<GLint>(internal), 1, width, height,
+                          std::vector<float>(static_cast<std::size_t>(width * height), 0.25f));
+      // OpenGL ES converts no upload; 3.0 cannot be asked for the width.
+      nook_gl_ao_target target = target_of(0, is_es(f.api) ? format : NOOK_AO_FLOAT);
       target.texture = texture;
+      target.texture_width = is_es(f.api) ? width : 0;
       target.offset = first;
       NOOK_OK_OR_FAIL(nook_gl_scene_write_ao(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target));
-      f.api.BindTexture(GL_TEXTURE_2D, texture);
-      f.api.PixelStorei(GL_PACK_ALIGNMENT, 4);
-      f.api.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, texels.data());
-      f.api.DeleteTextures(1, &texture);
+      const std::vector<float> texels = read_texture(f.api, texture, width, height);
       float worst = 0;
       for (std::size_t v = 0; v < expected.size(); ++v)
         worst = std::max(worst, std::abs(texels[first + v] - expected[v]));
