@@ -65,7 +65,8 @@ static void upload_probe(nook_context context, nook_gl gl) {
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
   EXPECT_OK(nook_gl_probe_describe(uploaded, &info));
-  EXPECT(info.texture != 0 && info.bytes == 16 * (3 + 12 * 2) && strstr(info.glsl, "nook_probe_irradiance"));
+  /* OpenGL ES has 2D textures with whole rows. */
+  EXPECT(info.texture != 0 && info.bytes >= 16 * (3 + 12 * 2) && strstr(info.glsl, "nook_probe_irradiance"));
   nook_gl_probe_destroy(&uploaded);
   EXPECT(!uploaded);
   nook_probe_destroy(&probe);
@@ -115,7 +116,7 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
   EXPECT_OK(nook_gl_describe(gl, &info));
-  EXPECT((info.tier == 33 || info.tier == 43) && info.version && info.renderer);
+  EXPECT(info.tier != NOOK_GL_TIER_BEST && info.version && info.renderer);
   EXPECT(info.ao_bytes >= view.count * sizeof(float) && info.buffer_bytes > info.ao_bytes);
   write_ao(gl, scene, instance);
   light_instance(gl, scene, instance, view.count);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "platform/program.h"
 #include "tests/gl/crowd.h"
@@ -300,6 +301,12 @@ TEST_CASE("lights come, move and go") {
 TEST_CASE("lights beyond a texture buffer are refused, and fewer are fine again") {
   NOOK_NEED_CONTEXT(context);
   Trace trace(context);
+  if (context.is_es()) {
+    std::printf(
+        "2D textures of the least size hold 29,959 lights of 64 lobes, more than a test should make; "
+        "probes go through the same check\n");
+    return;
+  }
   trace.limits[GL_MAX_TEXTURE_BUFFER_SIZE] = 65536;
   CountedContext host;
   nook_character_model model = load_model(host.handle, sample_model(9, {3, 4, 20, 30, 5, 2}));

@@ -231,6 +231,39 @@ TEST_CASE("targets that cannot take the values are refused before anything is wr
   CHECK(nook_gl_scene_write_ao(f.gl, f.crowd.scene, &unknown, 1, &target) == NOOK_ERROR_INVALID_HANDLE);
 }
 
+TEST_CASE("a texture's width and format are checked as far as the context can be asked for them") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture f(context, tiers_of(context).back());
+  Textures textures(f.api);
+  const int vertices = static_cast<int>(f.ao(0).size());
+  nook_gl_ao_target target = target_of(0, NOOK_AO_FLOAT);
+  target.texture = textures.floats(GL_R32F, 1, 64, vertices / 64 + 1, {});
+  const auto write = [&] {
+    return nook_gl_scene_write_ao(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target);
+  };
+  const auto says = [&](const char* part) {
+    INFO(nook_last_message());
+    CHECK(std::string(nook_last_message()).find(part) != std::string::npos);
+  };
+  const bool asked = !context.is_es() || version_of(context) >= 31;
+  if (asked) {
+    CHECK(write() == NOOK_OK);
+    target.texture_width = 63;
+    CHECK(write() == NOOK_ERROR_INVALID_ARGUMENT);
+    says("target.texture_width is not that of texture");
+  } else {
+    CHECK(write() == NOOK_ERROR_INVALID_ARGUMENT);
+    says("target.texture_width is 0 (OpenGL ES 3.0 cannot be asked for it");
+  }
+  target.texture_width = 64;
+  CHECK(write() == NOOK_OK);
+  if (!context.is_es()) return;  // uploads convert there
+  target.format = NOOK_AO_UNORM8;
+  CHECK(write() == (asked ? NOOK_ERROR_INVALID_ARGUMENT : NOOK_ERROR_GL));
+  says(asked ? "target.format is not that of texture" : "on OpenGL ES target.format must be the texture's");
+  take_debug_messages();
+}
+
 TEST_CASE("writing AO keeps the promise of each state mode") {
   NOOK_NEED_CONTEXT(context);
   for (const int tier : tiers_of(context))
@@ -250,6 +283,10 @@ TEST_CASE("writing AO keeps the promise of each state mode") {
         const StateValues touched = poison.touched(), untouched = poison.untouched();
         nook_gl_ao_target target = target_of(kind == 1 ? 0 : buffer, NOOK_AO_HALF);
         target.texture = kind == 1 ? texture : 0;
+        if (kind == 1 && context.is_es()) {
+          target.format = NOOK_AO_UNORM8;
+          target.texture_width = 64;
+        }
         target.stride = kind == 2 ? 36 : 0;
         NOOK_OK_OR_FAIL(nook_gl_scene_write_ao(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target));
         if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);

@@ -400,6 +400,7 @@ StateValues Poison::untouched() const {
   // On OpenGL ES these bind their tables of texels to the first unit's 2D texture.
   if (!has.desktop && users_ & (gl::characters | gl::probes) && values.contains("texture_2d"))
     values["texture_2d"].erase(values["texture_2d"].begin());
+  if (!has.desktop && users_ & (gl::screen | gl::outputs)) values.erase("texture_unit_0");
   // Further viewports and draw buffers are the host's, whoever sets the first.
   if (has.desktop && has.version >= 41) {
     GLfloat box[4] = {};

@@ -13,6 +13,7 @@
 #include "tests/gl/host_textures.h"
 #include "tests/gl/poison.h"
 #include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -235,6 +236,7 @@ void compare(const std::vector<float>& found, const std::vector<float>& expected
 struct Fixture {
   explicit Fixture(platform::Context& context, nook_gl_state_mode mode = NOOK_GL_STATE_PRESERVE)
       : gl(create_gl(host.handle, platform::Context::loader, &context, 0, mode)) {}
+  explicit Fixture(Trace& trace) : gl(create_gl(host.handle, Trace::loader, &trace, 0)) {}
   GlProbe upload(const Probe& probe) {
     nook_gl_probe made = nullptr;
     NOOK_OK_OR_FAIL(nook_gl_probe_create(gl.get(), probe.get(), &made));
@@ -384,12 +386,19 @@ TEST_CASE("what cannot be uploaded is refused and leaves nothing") {
   CHECK(nook_gl_probe_create(fixture.gl.get(), nullptr, &made) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_gl_probe_create(fixture.gl.get(), bands.get(), nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_gl_probe_describe(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+}
 
-  GLint texels = 0;
-  context.gl().GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-  if (texels > 65536) return;
+TEST_CASE("a grid beyond the limits of the context is refused, and the old one stays") {
+  NOOK_NEED_CONTEXT(context);
+  // The least that any context has: 65,536 texels, and on OpenGL ES 2048 x 2048.
+  Trace trace(context);
+  if (is_es(context.gl()))
+    trace.limits[GL_MAX_TEXTURE_SIZE] = 2048;
+  else
+    trace.limits[GL_MAX_TEXTURE_BUFFER_SIZE] = 65536;
+  Fixture fixture(trace);
   ProbeRequest large;
-  large.counts[0] = large.counts[2] = 80;
+  large.counts[0] = large.counts[2] = is_es(context.gl()) ? 600 : 80;
   const Probe grid = make_probe(fixture.host.handle, large);
   const Probe small = make_probe(fixture.host.handle, {});
   const GlProbe uploaded = fixture.upload(small);
