@@ -65,7 +65,8 @@ static void upload_probe(nook_context context, nook_gl gl) {
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
   EXPECT_OK(nook_gl_probe_describe(uploaded, &info));
-  EXPECT(info.texture != 0 && info.bytes == 16 * (3 + 12 * 2) && strstr(info.glsl, "nook_probe_irradiance"));
+  /* OpenGL ES has 2D textures with whole rows. */
+  EXPECT(info.texture != 0 && info.bytes >= 16 * (3 + 12 * 2) && strstr(info.glsl, "nook_probe_irradiance"));
   nook_gl_probe_destroy(&uploaded);
   EXPECT(!uploaded);
   nook_probe_destroy(&probe);

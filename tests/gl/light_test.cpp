@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "platform/program.h"
 #include "tests/gl/crowd.h"
+#include "tests/gl/host_textures.h"
 #include "tests/gl/test_context.h"
 #include "tests/gl/traced_loader.h"
 
@@ -110,12 +112,11 @@ void check_agreement(platform::Context& context, const Cast& cast, const CrowdOp
 }
 
 const char* const vertex_text =
-    "#version 330 core\n"
     "void main() { gl_Position = vec4(4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0.0, 1.0); }\n";
 const char* const fragment_text =
-    "uniform samplerBuffer normals; uniform int light; out vec4 answer;\n"
+    "uniform highp sampler2D normals; uniform int light; out vec4 answer;\n"
     "void main() {\n"
-    "  vec3 n = texelFetch(normals, int(gl_FragCoord.x)).xyz;\n"
+    "  vec3 n = texelFetch(normals, ivec2(gl_FragCoord.x, 0), 0).xyz;\n"
     "  answer = vec4(nook_scene_irradiance(light, n, vec3(1.0, 0.5, 0.25)), 1.0);\n"
     "}\n";
 
@@ -123,42 +124,35 @@ const char* const fragment_text =
 std::vector<float> ask(const GladGLContext& gl, const nook_gl_light_view& view,
                        const std::vector<float>& texels, std::initializer_list<const char*> texts) {
   const int width = int(texels.size() / 4);
-  GLuint names[2], buffer, framebuffer, array;
-  gl.GenTextures(2, names);
-  gl.GenBuffers(1, &buffer);
+  Textures textures(gl);
+  const GLuint normals = textures.floats(GL_RGBA32F, 4, width, 1, texels),
+               answer = textures.floats(GL_RGBA32F, 4, width, 1, {});
+  GLuint framebuffer, array;
   gl.GenFramebuffers(1, &framebuffer);
   gl.GenVertexArrays(1, &array);
-  gl.BindBuffer(GL_TEXTURE_BUFFER, buffer);
-  gl.BufferData(GL_TEXTURE_BUFFER, GLsizeiptr(4 * texels.size()), texels.data(), GL_STATIC_DRAW);
   gl.ActiveTexture(GL_TEXTURE1);
-  gl.BindTexture(GL_TEXTURE_BUFFER, names[0]);
-  gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer);
+  gl.BindTexture(GL_TEXTURE_2D, normals);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_2D, names[1]);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, 1, 0, GL_RGBA, GL_FLOAT, nullptr);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, names[1], 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, answer, 0);
   gl.Viewport(0, 0, width, 1);
-  const GLuint program = platform::link_program(gl, {vertex_text}, texts);
+  const GLuint program = platform::link_program(gl, {glsl_header(gl), vertex_text}, texts);
   gl.UseProgram(program);
-  gl.BindTexture(GL_TEXTURE_BUFFER, view.texture);
+  gl.BindTexture(table_target(gl), view.texture);
   gl.Uniform1i(gl.GetUniformLocation(program, "nook_scene_lights"), 0);
   gl.Uniform1i(gl.GetUniformLocation(program, "normals"), 1);
   gl.Uniform1i(gl.GetUniformLocation(program, "light"), view.light);
   gl.BindVertexArray(array);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  std::vector<float> answers(texels.size());
-  gl.ReadPixels(0, 0, width, 1, GL_RGBA, GL_FLOAT, answers.data());
-  gl.BindTexture(GL_TEXTURE_BUFFER, 0);
+  std::vector<float> answers = read_texture(gl, answer, width, 1, 4);
+  gl.BindTexture(table_target(gl), 0);
   gl.UseProgram(0);
   gl.BindVertexArray(0);
-  gl.BindBuffer(GL_TEXTURE_BUFFER, 0);
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
   gl.DeleteProgram(program);
   gl.DeleteVertexArrays(1, &array);
   gl.DeleteFramebuffers(1, &framebuffer);
-  gl.DeleteBuffers(1, &buffer);
-  gl.DeleteTextures(2, names);
   return answers;
 }
 
@@ -237,7 +231,7 @@ TEST_CASE("the GLSL for hosts gives the irradiance of an instance's lobes") {
                                                   64));
       const float largest = *std::ranges::max_element(want);
       const nook_gl_light_view view = view_of(gl, crowd, i);
-      const char* const version = "#version 330 core\n";
+      const char* const version = glsl_header(context.gl());
       // Beside the text for probes, in either order.
       for (const std::vector<float>& found :
            {ask(context.gl(), view, texels, {version, view.glsl, fragment_text}),
@@ -307,6 +301,12 @@ TEST_CASE("lights come, move and go") {
 TEST_CASE("lights beyond a texture buffer are refused, and fewer are fine again") {
   NOOK_NEED_CONTEXT(context);
   Trace trace(context);
+  if (context.is_es()) {
+    std::printf(
+        "2D textures of the least size hold 29,959 lights of 64 lobes, more than a test should make; "
+        "probes go through the same check\n");
+    return;
+  }
   trace.limits[GL_MAX_TEXTURE_BUFFER_SIZE] = 65536;
   CountedContext host;
   nook_character_model model = load_model(host.handle, sample_model(9, {3, 4, 20, 30, 5, 2}));

@@ -11,19 +11,17 @@ namespace nook::test {
 namespace {
 
 const char vertex_text[] =
-    "#version 330 core\n"
     "void main() { gl_Position = vec4(vec2(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1), 0, 1); }\n";
 
 // Every fetch of the text in between is counted.
 const char counting_text[] =
-    "#version 330 core\n"
     "int fetched = 0;\n"
     "#define texelFetch(s, p, l) (++fetched, texelFetch(s, p, l))\n"
     "#define textureLod(s, p, l) (++fetched, textureLod(s, p, l))\n";
 
 const char main_text[] =
     "#undef texelFetch\n"
-    "uniform sampler2D places, views, lights;\n"
+    "uniform highp sampler2D places, views, lights;\n"
     "uniform vec2 texels;\n"
     "layout(location = 0) out vec4 value; layout(location = 1) out vec4 more;\n"
     "int taken() { int n = fetched; fetched = 0; return n; }\n"
@@ -95,7 +93,8 @@ MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_material mater
     NOOK_OK_OR_FAIL(nook_gl_material_describe_texture(material, i, &texture));
     textures_.push_back(texture);
   }
-  program_ = platform::link_program(gl, {vertex_text}, {counting_text, uploaded.glsl, main_text});
+  program_ = platform::link_program(gl, {glsl_header(gl), vertex_text},
+                                    {glsl_header(gl), counting_text, uploaded.glsl, main_text});
 }
 
 MaterialDecoder::~MaterialDecoder() {

@@ -1,10 +1,23 @@
 // An update must not allocate host memory, read back, wait, or query state outside PRESERVE.
+#include <cstdio>
+
 #include "tests/gl/crowd.h"
 #include "tests/gl/test_context.h"
 #include "tests/gl/traced_loader.h"
 
 using namespace nook;
 using namespace nook::test;
+
+namespace {
+
+// Uploads of the tier go through mapped buffers, whose maps can fail.
+bool maps_uploads(const platform::Context& context, int tier) {
+  if (!context.is_es() || computes(tier)) return true;
+  std::printf("tier %d maps nothing for uploads: OpenGL ES sends its tables by glTexSubImage2D\n", tier);
+  return false;
+}
+
+}  // namespace
 
 TEST_CASE("an update allocates nothing, reads nothing back and queries only to preserve") {
   NOOK_NEED_CONTEXT(context);
@@ -107,6 +120,7 @@ TEST_CASE("an update that OpenGL gives no memory fails, and the next one makes u
   CountedContext host;
   nook_character_model model = load_model(host.handle, sample_model(14));
   for (const int tier : tiers_of(context)) {
+    if (!maps_uploads(context, tier)) continue;
     Trace trace(context);
     CrowdOptions options;
     options.camera = true;
@@ -136,6 +150,7 @@ TEST_CASE("an upload whose contents OpenGL loses is repeated, and fails with a r
   nook_character_model model = load_model(host.handle, sample_model(16));
   const nook_probe_lobe lobe{{0, 1, 0}, 4, {1, 0.5f, 0.2f}, 0};
   for (const int tier : tiers_of(context)) {
+    if (!maps_uploads(context, tier)) continue;
     Trace trace(context);
     Crowd crowd(host.handle, {model}, {5}, {});
     for (const nook_instance_id id : crowd.ids)

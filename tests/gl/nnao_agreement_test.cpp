@@ -12,7 +12,7 @@ namespace {
 constexpr float bound = 1.0f / 255;
 // Taps that fall on the border of two texels may land on either side under another order of rounding; a
 // flipped tap moves AO by more than the bound. Of random taps some 1e-4 lie so near a border.
-constexpr float flipped = 0.01f;
+constexpr float flipped = 0.001f;
 
 float spread(const std::vector<float>& ao) {
   float low = 1, high = 0;

@@ -1,4 +1,5 @@
 // Bad input: a message that names the field, what came and what is needed; no OpenGL error, nothing drawn.
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -25,6 +26,13 @@ struct Case {
   std::function<void(nook_nnao_frame_desc&)> spoil;
   const char* message;
 };
+
+// Sizes and formats of textures, for which OpenGL ES 3.0 cannot be asked.
+bool needs_texture_sizes(const Case& bad) {
+  for (const char* part : {"has another size", "has a format", "need red"})
+    if (std::strstr(bad.message, part)) return true;
+  return false;
+}
 
 }  // namespace
 
@@ -57,7 +65,8 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffers[1]);  // not complete
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffers[2]);  // complete, but draws nothing
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour, 0);
-  gl.DrawBuffer(GL_NONE);
+  const GLenum nothing = GL_NONE;
+  gl.DrawBuffers(1, &nothing);
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
   nook_nnao pass = create_pass(fixture.gl, pass_desc(width, height));
   const GLuint own = info_of(pass).texture;
@@ -146,7 +155,13 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
       {[&](Frame& f) { f.struct_size = 20; }, "desc.struct_size is too small"},
       {[&](Frame& f) { f.next = &f; }, "desc.next is not NULL"},
   };
+  const bool knows_sizes = !context.is_es() || version_of(context) >= 31;
+  int left_out = 0;
   for (const Case& bad : cases) {
+    if (!knows_sizes && needs_texture_sizes(bad)) {
+      ++left_out;
+      continue;
+    }
     nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.5f);
     bad.spoil(frame);
     INFO(bad.message);
@@ -158,6 +173,9 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
     // error.
     take_debug_messages();
   }
+  if (left_out > 0)
+    std::printf("%d cases need sizes or formats of textures, for which OpenGL ES 3.0 cannot be asked\n",
+                left_out);
   // Nothing was drawn so far: AO is 1 everywhere, colours are as they were.
   for (const float value : own_ao(gl, pass, width, height)) REQUIRE(value == 1);
   CHECK((read_texture(gl, colour, width, height, 4) == ones));
@@ -224,6 +242,10 @@ TEST_CASE("nnao: a bad description of a pass is refused with its field") {
 
 TEST_CASE("nnao: a texture made anew under its name is seen after a recheck") {
   NOOK_NEED_CONTEXT(context);
+  if (context.is_es() && version_of(context) < 31) {
+    std::printf("OpenGL ES 3.0 cannot be asked for the sizes of textures: no recheck finds another one\n");
+    return;
+  }
   NnaoFixture fixture(context);
   const Camera camera = plain_camera(float(width) / height);
   const GLuint depth = fixture.depth_of(camera, look(camera, still_life(), width, height));

@@ -147,29 +147,6 @@ Picture halved(const Picture& picture) {
   return half;
 }
 
-GLuint Textures::make(GLint internal_format, GLenum format, GLenum type, int width, int height,
-                      const void* data) {
-  GLuint name = 0;
-  gl_.GenTextures(1, &name);
-  names_.push_back(name);
-  gl_.BindTexture(GL_TEXTURE_2D, name);
-  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  // Left without a complete set of mipmaps, as the host's may be: the pass reads through samplers of its own.
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, internal_format, width, height, 0, format, type, data);
-  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  gl_.BindTexture(GL_TEXTURE_2D, 0);
-  return name;
-}
-
-GLuint Textures::floats(GLint internal_format, int channels, int width, int height,
-                        const std::vector<float>& data) {
-  const GLenum formats[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
-  const bool depth = internal_format == GL_DEPTH_COMPONENT32F || internal_format == GL_DEPTH_COMPONENT24 ||
-                     internal_format == GL_DEPTH_COMPONENT16;
-  return make(internal_format, depth ? GL_DEPTH_COMPONENT : formats[channels - 1], GL_FLOAT, width, height,
-              data.data());
-}
-
 std::vector<float> stored_depth(const Camera& camera, const Picture& picture) {
   const float* m = camera.projection;
   const bool zero_to_one = camera.clip == NOOK_NNAO_CLIP_ZERO_TO_ONE;
@@ -198,22 +175,6 @@ std::vector<float> placed(const std::vector<float>& image, int channels, const P
   for (std::uint32_t y = 0; y < picture.height; ++y)
     std::copy_n(image.begin() + y * row, row,
                 out.begin() + ((place.y + y) * std::size_t(place.width) + place.x) * channels);
-  return out;
-}
-
-std::vector<float> read_texture(const GladGLContext& gl, GLuint texture, int width, int height,
-                                int channels) {
-  const GLenum formats[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
-  std::vector<float> out(std::size_t(width) * height * channels);
-  GLuint framebuffer = 0;
-  gl.GenFramebuffers(1, &framebuffer);
-  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  gl.FramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl.ReadPixels(0, 0, width, height, formats[channels - 1], GL_FLOAT, out.data());
-  gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
-  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-  gl.DeleteFramebuffers(1, &framebuffer);
   return out;
 }
 
@@ -258,7 +219,7 @@ nnao::Network mild_network(nnao::NetworkForm form, std::uint32_t seed) {
 }
 
 std::vector<nook_nnao_path> paths_of(const platform::Context& context) {
-  if (version_of(context) < 43) return {NOOK_NNAO_PATH_FRAGMENT};
+  if (!computes(tiers_of(context).front())) return {NOOK_NNAO_PATH_FRAGMENT};
   return {NOOK_NNAO_PATH_FRAGMENT, NOOK_NNAO_PATH_COMPUTE};
 }
 

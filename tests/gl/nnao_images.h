@@ -14,6 +14,7 @@
 #include "sdk/src/nnao/evaluate.h"
 #include "sdk/src/nnao/network.h"
 #include "tests/gl/crowd.h"
+#include "tests/gl/host_textures.h"
 
 namespace nook::test {
 
@@ -51,25 +52,6 @@ Picture look(const Camera& camera, const std::vector<Surface>& scene, std::uint3
 // Every second pixel of every second row.
 Picture halved(const Picture& picture);
 
-// Textures that are deleted with it.
-class Textures {
- public:
-  explicit Textures(const GladGLContext& gl) : gl_(gl) {}
-  ~Textures() {
-    for (const GLuint name : names_) gl_.DeleteTextures(1, &name);
-  }
-  Textures(const Textures&) = delete;
-  Textures& operator=(const Textures&) = delete;
-
-  // data may be null.
-  GLuint make(GLint internal_format, GLenum format, GLenum type, int width, int height, const void* data);
-  GLuint floats(GLint internal_format, int channels, int width, int height, const std::vector<float>& data);
-
- private:
-  const GladGLContext& gl_;
-  std::vector<GLuint> names_;
-};
-
 // The pixels of a picture inside a larger image, everything else being `around`.
 struct Place {
   int width = 0, height = 0, x = 0, y = 0;
@@ -78,9 +60,6 @@ std::vector<float> stored_depth(const Camera& camera, const Picture& picture);
 std::vector<float> flat(const std::vector<Vec3>& normals);
 std::vector<float> placed(const std::vector<float>& image, int channels, const Picture& picture,
                           const Place& place, float around);
-
-std::vector<float> read_texture(const GladGLContext& gl, GLuint texture, int width, int height,
-                                int channels = 1);
 
 // A nook_gl, and the promise that no OpenGL error and no complaint of the driver is left at the end.
 struct NnaoFixture {

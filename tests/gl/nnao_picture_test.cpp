@@ -134,7 +134,8 @@ TEST_CASE("nnao: a plane has one value, to the borders of the screen") {
       CHECK(inside.low > 1 - 8 * step);
       // Beyond the border the plane continues, but the share that does is an input of the network, and where
       // that is half or more it expects some occluder there: at most 5 %, in a corner of the screen.
-      CHECK(all.low > inside.low - 6 * step);
+      // Half a step more, for the rounding of the read.
+      CHECK(all.low > inside.low - 6.5f * step);
     }
 }
 

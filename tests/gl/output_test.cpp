@@ -6,6 +6,7 @@
 #include "sdk/src/core/half.h"
 #include "sdk/src/gl/touched_state.h"
 #include "tests/gl/crowd.h"
+#include "tests/gl/host_textures.h"
 #include "tests/gl/poison.h"
 #include "tests/gl/test_context.h"
 
@@ -49,9 +50,7 @@ struct Fixture {
     return name;
   }
   std::vector<unsigned char> take_buffer(GLuint name, std::size_t bytes) const {
-    std::vector<unsigned char> out(bytes);
-    api.BindBuffer(GL_ARRAY_BUFFER, name);
-    api.GetBufferSubData(GL_ARRAY_BUFFER, 0, GLsizeiptr(bytes), out.data());
+    const std::vector<unsigned char> out = read_buffer(api, name, 0, bytes);
     api.DeleteBuffers(1, &name);
     return out;
   }
@@ -184,20 +183,17 @@ TEST_CASE("AO arrives in a texture of the host, row by row") {
       const std::vector<float> expected = f.ao(0);
       const int width = 7, first = 5;
       const int height = (first + static_cast<int>(expected.size()) + width - 1) / width + 1;
-      std::vector<float> texels(static_cast<std::size_t>(width * height), 0.25f);
-      GLuint texture = 0;
-      f.api.GenTextures(1, &texture);
-      f.api.BindTexture(GL_TEXTURE_2D, texture);
-      f.api.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal), width, height, 0, GL_RED, GL_FLOAT,
-                       texels.data());
-      nook_gl_ao_target target = target_of(0, NOOK_AO_FLOAT);
+      Textures textures(f.api);
+      const GLuint texture =
+          textures.floats(static_cast<GLint>(internal), 1, width, height,
+                          std::vector<float>(static_cast<std::size_t>(width * height), 0.25f));
+      // OpenGL ES converts no upload; 3.0 cannot be asked for the width.
+      nook_gl_ao_target target = target_of(0, is_es(f.api) ? format : NOOK_AO_FLOAT);
       target.texture = texture;
+      target.texture_width = is_es(f.api) ? width : 0;
       target.offset = first;
       NOOK_OK_OR_FAIL(nook_gl_scene_write_ao(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target));
-      f.api.BindTexture(GL_TEXTURE_2D, texture);
-      f.api.PixelStorei(GL_PACK_ALIGNMENT, 4);
-      f.api.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, texels.data());
-      f.api.DeleteTextures(1, &texture);
+      const std::vector<float> texels = read_texture(f.api, texture, width, height);
       float worst = 0;
       for (std::size_t v = 0; v < expected.size(); ++v)
         worst = std::max(worst, std::abs(texels[first + v] - expected[v]));
@@ -235,6 +231,39 @@ TEST_CASE("targets that cannot take the values are refused before anything is wr
   CHECK(nook_gl_scene_write_ao(f.gl, f.crowd.scene, &unknown, 1, &target) == NOOK_ERROR_INVALID_HANDLE);
 }
 
+TEST_CASE("a texture's width and format are checked as far as the context can be asked for them") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture f(context, tiers_of(context).back());
+  Textures textures(f.api);
+  const int vertices = static_cast<int>(f.ao(0).size());
+  nook_gl_ao_target target = target_of(0, NOOK_AO_FLOAT);
+  target.texture = textures.floats(GL_R32F, 1, 64, vertices / 64 + 1, {});
+  const auto write = [&] {
+    return nook_gl_scene_write_ao(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target);
+  };
+  const auto says = [&](const char* part) {
+    INFO(nook_last_message());
+    CHECK(std::string(nook_last_message()).find(part) != std::string::npos);
+  };
+  const bool asked = !context.is_es() || version_of(context) >= 31;
+  if (asked) {
+    CHECK(write() == NOOK_OK);
+    target.texture_width = 63;
+    CHECK(write() == NOOK_ERROR_INVALID_ARGUMENT);
+    says("target.texture_width is not that of texture");
+  } else {
+    CHECK(write() == NOOK_ERROR_INVALID_ARGUMENT);
+    says("target.texture_width is 0 (OpenGL ES 3.0 cannot be asked for it");
+  }
+  target.texture_width = 64;
+  CHECK(write() == NOOK_OK);
+  if (!context.is_es()) return;  // uploads convert there
+  target.format = NOOK_AO_UNORM8;
+  CHECK(write() == (asked ? NOOK_ERROR_INVALID_ARGUMENT : NOOK_ERROR_GL));
+  says(asked ? "target.format is not that of texture" : "on OpenGL ES target.format must be the texture's");
+  take_debug_messages();
+}
+
 TEST_CASE("writing AO keeps the promise of each state mode") {
   NOOK_NEED_CONTEXT(context);
   for (const int tier : tiers_of(context))
@@ -254,6 +283,10 @@ TEST_CASE("writing AO keeps the promise of each state mode") {
         const StateValues touched = poison.touched(), untouched = poison.untouched();
         nook_gl_ao_target target = target_of(kind == 1 ? 0 : buffer, NOOK_AO_HALF);
         target.texture = kind == 1 ? texture : 0;
+        if (kind == 1 && context.is_es()) {
+          target.format = NOOK_AO_UNORM8;
+          target.texture_width = 64;
+        }
         target.stride = kind == 2 ? 36 : 0;
         NOOK_OK_OR_FAIL(nook_gl_scene_write_ao(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target));
         if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);

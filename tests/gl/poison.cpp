@@ -1,7 +1,9 @@
 #include "tests/gl/poison.h"
 
 #include <iterator>
+#include <span>
 
+#include "platform/program.h"
 #include "sdk/src/gl/state_guard.h"
 #include "tests/gl/test_context.h"
 
@@ -36,9 +38,42 @@ Values indexed(const GladGLContext& gl, GLenum binding, GLenum start, GLenum siz
   return {buffer, offset, bytes};
 }
 
+// What the context has of the state: OpenGL ES lacks some, and the functions of others are not those of its
+// version.
+struct Has {
+  explicit Has(const GladGLContext& gl)
+      : desktop(!is_es(gl)),
+        version(
+            static_cast<int>(10 * integers(gl, GL_MAJOR_VERSION)[0] + integers(gl, GL_MINOR_VERSION)[0])) {}
+  bool from(int desktop_version, int es_version) const {
+    return version >= (desktop ? desktop_version : es_version);
+  }
+  bool images() const { return from(42, 31); }
+  bool storage() const { return from(43, 31); }
+  bool indexed_draw_buffers() const { return from(33, 32); }
+  bool query_buffers() const { return desktop && version >= 44; }
+  bool clip_control(const GladGLContext& gl) const { return desktop && gl.ClipControl; }
+
+  bool desktop;
+  int version;
+};
+
+std::span<const GLenum> fragment_tests_of(const Has& has) {
+  const std::size_t count = has.desktop ? gl::fragment_test_count : has.version >= 31 ? 6 : 5;
+  return std::span(gl::fragment_tests).first(count);
+}
+std::span<const GLenum> pixel_store_of(const Has& has) {
+  return std::span(gl::pixel_store_names).first(std::size(gl::pixel_store_names) - (has.desktop ? 0 : 2));
+}
+
+void unbind_image(const GladGLContext& gl, const Has& has, GLuint unit) {
+  gl.BindImageTexture(unit, 0, 0, GL_FALSE, 0, GL_READ_ONLY, has.desktop ? GL_R8 : GL_R32UI);
+}
+
 // One reader for each item of the list: a new item does not compile until it has one here.
 struct Readers {
   const GladGLContext& gl;
+  const Has has{gl};
   bool feedback_objects() const { return gl.BindTransformFeedback != nullptr; }
 
   Values program() const { return integers(gl, GL_CURRENT_PROGRAM); }
@@ -57,13 +92,14 @@ struct Readers {
     for (GLuint unit = 0; unit < gl::texture_unit_count; ++unit) values.push_back(of_unit(unit, binding)[0]);
     return values;
   }
-  int version() const {
-    return static_cast<int>(10 * integers(gl, GL_MAJOR_VERSION)[0] + integers(gl, GL_MINOR_VERSION)[0]);
+  Values texture_unit_0() const {
+    return of_unit(0, has.desktop ? GL_TEXTURE_BINDING_BUFFER : GL_TEXTURE_BINDING_2D);
   }
-  Values texture_unit_0() const { return of_unit(0, GL_TEXTURE_BINDING_BUFFER); }
   Values texture_2d() const { return of_units(GL_TEXTURE_BINDING_2D); }
   Values samplers() const { return of_units(GL_SAMPLER_BINDING); }
-  Values filter_texture() const { return of_unit(gl::filter_unit, GL_TEXTURE_BINDING_BUFFER); }
+  Values filter_texture() const {
+    return has.desktop ? of_unit(gl::filter_unit, GL_TEXTURE_BINDING_BUFFER) : Values{0};
+  }
   Values texture_2d_array() const { return of_unit(0, GL_TEXTURE_BINDING_2D_ARRAY); }
   Values image_unit() const { return image_unit_of(gl::image_unit_index); }
   Values image_unit_of(GLuint unit) const {
@@ -71,20 +107,20 @@ struct Readers {
     for (const GLenum name : {GL_IMAGE_BINDING_NAME, GL_IMAGE_BINDING_LEVEL, GL_IMAGE_BINDING_LAYERED,
                               GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT}) {
       GLint value = 0;
-      if (version() >= 42) gl.GetIntegeri_v(name, unit, &value);
+      if (has.images()) gl.GetIntegeri_v(name, unit, &value);
       values.push_back(value);
     }
     return values;
   }
   Values pixel_store() const {
     Values values;
-    for (const GLenum name : gl::pixel_store_names) values.push_back(integers(gl, name)[0]);
+    for (const GLenum name : pixel_store_of(has)) values.push_back(integers(gl, name)[0]);
     return values;
   }
   Values pixel_unpack_buffer() const { return integers(gl, GL_PIXEL_UNPACK_BUFFER_BINDING); }
   Values viewport() const { return integers(gl, GL_VIEWPORT, 4); }
   Values blend() const {
-    Values values{gl.IsEnabledi(GL_BLEND, 0)};
+    Values values{has.indexed_draw_buffers() ? gl.IsEnabledi(GL_BLEND, 0) : gl.IsEnabled(GL_BLEND)};
     for (const GLenum name : {GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA, GL_BLEND_DST_ALPHA,
                               GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA})
       values.push_back(integers(gl, name)[0]);
@@ -93,23 +129,28 @@ struct Readers {
   Values color_mask() const { return color_mask_of(0); }
   Values color_mask_of(GLuint buffer) const {
     GLboolean mask[4] = {};
-    gl.GetBooleani_v(GL_COLOR_WRITEMASK, buffer, mask);
+    if (has.indexed_draw_buffers())
+      gl.GetBooleani_v(GL_COLOR_WRITEMASK, buffer, mask);
+    else
+      gl.GetBooleanv(GL_COLOR_WRITEMASK, mask);
     return {mask[0], mask[1], mask[2], mask[3]};
   }
-  Values polygon_mode() const { return integers(gl, GL_POLYGON_MODE); }
+  Values polygon_mode() const { return has.desktop ? integers(gl, GL_POLYGON_MODE) : Values{GL_FILL}; }
   Values scissor_test() const { return {gl.IsEnabled(GL_SCISSOR_TEST)}; }
-  Values framebuffer_srgb() const { return {gl.IsEnabled(GL_FRAMEBUFFER_SRGB)}; }
+  Values framebuffer_srgb() const { return {has.desktop && gl.IsEnabled(GL_FRAMEBUFFER_SRGB)}; }
   Values fragment_tests() const {
     Values values;
-    for (const GLenum test : gl::fragment_tests) values.push_back(gl.IsEnabled(test));
+    for (const GLenum test : fragment_tests_of(has)) values.push_back(gl.IsEnabled(test));
     return values;
   }
   Values dither() const { return {gl.IsEnabled(GL_DITHER)}; }
-  Values query_buffer() const { return version() >= 44 ? integers(gl, GL_QUERY_BUFFER_BINDING) : Values{0}; }
+  Values query_buffer() const {
+    return has.query_buffers() ? integers(gl, GL_QUERY_BUFFER_BINDING) : Values{0};
+  }
   Values draw_framebuffer() const { return integers(gl, GL_DRAW_FRAMEBUFFER_BINDING); }
   Values renderbuffer() const { return integers(gl, GL_RENDERBUFFER_BINDING); }
   Values rasterizer_discard() const { return {gl.IsEnabled(GL_RASTERIZER_DISCARD)}; }
-  Values primitive_restart() const { return {gl.IsEnabled(GL_PRIMITIVE_RESTART)}; }
+  Values primitive_restart() const { return {has.desktop && gl.IsEnabled(GL_PRIMITIVE_RESTART)}; }
   Values transform_feedback() const {
     return feedback_objects() ? integers(gl, GL_TRANSFORM_FEEDBACK_BINDING) : Values{0};
   }
@@ -121,13 +162,12 @@ struct Readers {
       values.push_back(v);
     return values;
   }
-  bool storage() const { return version() >= 43; }
   Values storage_buffer() const {
-    return storage() ? integers(gl, GL_SHADER_STORAGE_BUFFER_BINDING) : Values{0};
+    return has.storage() ? integers(gl, GL_SHADER_STORAGE_BUFFER_BINDING) : Values{0};
   }
   Values storage_ranges() const {
     Values values;
-    for (GLuint i = 0; storage() && i < gl::storage_binding_count; ++i)
+    for (GLuint i = 0; has.storage() && i < gl::storage_binding_count; ++i)
       for (const std::int64_t v : indexed(gl, GL_SHADER_STORAGE_BUFFER_BINDING,
                                           GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE, i))
         values.push_back(v);
@@ -135,27 +175,17 @@ struct Readers {
   }
 };
 
-GLuint make_program(const GladGLContext& gl) {
-  const GLuint shader = gl.CreateShader(GL_VERTEX_SHADER);
-  const char* text = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
-  gl.ShaderSource(shader, 1, &text, nullptr);
-  gl.CompileShader(shader);
-  const GLuint program = gl.CreateProgram();
-  gl.AttachShader(program, shader);
-  gl.LinkProgram(program);
-  gl.DeleteShader(shader);
-  return program;
-}
-
 }  // namespace
 
 unsigned users_of_tier(int tier) {
-  return computes(tier) ? gl::tier_43 : gl::tier_33;
+  const bool es = tier == NOOK_GL_TIER_ES30 || tier == NOOK_GL_TIER_ES31;
+  return unsigned{computes(tier) ? gl::tier_43 : gl::tier_33} | (es ? gl::texel_uploads : 0u);
 }
 
 Poison::Poison(platform::Context& context, unsigned users)
     : gl_(context.gl()), users_(users), objects_(std::make_unique<Objects>()) {
   const GladGLContext& gl = gl_;
+  const Has has(gl);
   Objects& o = *objects_;
   gl.GenBuffers(4, o.buffers);
   for (const GLuint buffer : o.buffers) {
@@ -178,52 +208,59 @@ Poison::Poison(platform::Context& context, unsigned users)
   gl.StencilMask(5);
   gl.DepthFunc(GL_NEVER);
   gl.StencilFunc(GL_NEVER, 1, 3);
-  gl.LogicOp(GL_CLEAR);
+  if (has.desktop) gl.LogicOp(GL_CLEAR);
   gl.SampleCoverage(0.25f, GL_TRUE);
   gl.BlendColor(0.1f, 0.2f, 0.3f, 0.4f);
   gl.Scissor(1, 2, 0, 0);
-  gl.PrimitiveRestartIndex(1);
-  if (gl.ClipControl) gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+  if (has.desktop) gl.PrimitiveRestartIndex(1);
+  if (has.clip_control(gl)) gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
 
   // The list.
-  o.program = make_program(gl);
+  o.program = platform::link_program(gl, {glsl_header(gl), "void main() { gl_Position = vec4(0.0); }\n"},
+                                     {glsl_header(gl), "void main() {}\n"});
   gl.UseProgram(o.program);
   gl.GenVertexArrays(1, &o.vertex_array);
   gl.BindVertexArray(o.vertex_array);
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, o.buffers[3]);
   gl.BindBuffer(GL_ARRAY_BUFFER, o.buffers[1]);
   gl.GenTextures(1, &o.texture);
-  gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_BUFFER, o.texture);
   gl.GenTextures(1, &o.other_texture);
-  gl.ActiveTexture(GL_TEXTURE0 + gl::filter_unit);
-  gl.BindTexture(GL_TEXTURE_BUFFER, o.other_texture);
-  gl.ActiveTexture(GL_TEXTURE5);
+  if (has.desktop) {  // OpenGL ES has 2D textures there, which are odd already
+    gl.ActiveTexture(GL_TEXTURE0);
+    gl.BindTexture(GL_TEXTURE_BUFFER, o.texture);
+    gl.ActiveTexture(GL_TEXTURE0 + gl::filter_unit);
+    gl.BindTexture(GL_TEXTURE_BUFFER, o.other_texture);
+  }
   gl.GenTextures(1, &o.texture_array);
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, o.texture_array);
+  // OpenGL ES binds immutable textures alone as images.
+  if (!has.desktop) gl.TexStorage3D(GL_TEXTURE_2D_ARRAY, 2, GL_RGBA16F, 4, 4, 4);
   gl.ActiveTexture(GL_TEXTURE5);
-  if (gl.VERSION_4_2)
+  if (has.images())
     for (const GLuint unit : {GLuint{gl::image_unit_index}, GLuint{gl::image_unit_index} + 1})
-      gl.BindImageTexture(unit, o.texture_array, 1, GL_TRUE, 3, GL_READ_WRITE, GL_RGBA16F);
-  for (const GLenum name : gl::pixel_store_names) gl.PixelStorei(name, name == GL_UNPACK_ALIGNMENT ? 8 : 1);
+      gl.BindImageTexture(unit, o.texture_array, 1, GL_TRUE, 3, has.desktop ? GL_READ_WRITE : GL_WRITE_ONLY,
+                          GL_RGBA16F);
+  for (const GLenum name : pixel_store_of(has)) gl.PixelStorei(name, name == GL_UNPACK_ALIGNMENT ? 8 : 1);
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, o.buffers[0]);
   gl.Viewport(3, 4, 5, 6);
   gl.Enable(GL_BLEND);
   gl.BlendFuncSeparate(GL_DST_COLOR, GL_ONE, GL_CONSTANT_ALPHA, GL_ZERO);
   gl.BlendEquationSeparate(GL_MIN, GL_FUNC_SUBTRACT);
   gl.ColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_FALSE);
-  gl.PolygonMode(GL_FRONT_AND_BACK, GL_POINT);
   gl.Enable(GL_SCISSOR_TEST);
-  gl.Enable(GL_FRAMEBUFFER_SRGB);
-  for (const GLenum test : gl::fragment_tests) gl.Enable(test);
+  if (has.desktop) {
+    gl.PolygonMode(GL_FRONT_AND_BACK, GL_POINT);
+    gl.Enable(GL_FRAMEBUFFER_SRGB);
+    gl.Enable(GL_PRIMITIVE_RESTART);
+  }
+  for (const GLenum test : fragment_tests_of(has)) gl.Enable(test);
   gl.Disable(GL_DITHER);
-  if (gl.VERSION_4_4) gl.BindBuffer(GL_QUERY_BUFFER, o.buffers[2]);
+  if (has.query_buffers()) gl.BindBuffer(GL_QUERY_BUFFER, o.buffers[2]);
   gl.GenFramebuffers(1, &o.framebuffer);
   gl.GenRenderbuffers(1, &o.renderbuffer);
   gl.BindFramebuffer(GL_FRAMEBUFFER, o.framebuffer);  // incomplete
   gl.BindRenderbuffer(GL_RENDERBUFFER, o.renderbuffer);
-  gl.Enable(GL_PRIMITIVE_RESTART);
   gl.Enable(GL_RASTERIZER_DISCARD);
   if (gl.BindTransformFeedback) {
     gl.GenTransformFeedbacks(1, &o.feedback);
@@ -231,7 +268,7 @@ Poison::Poison(platform::Context& context, unsigned users)
   }
   gl.BindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, o.buffers[2], 16, 64);
   gl.BindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, o.buffers[3]);
-  if (gl.VERSION_4_3) {
+  if (has.storage()) {
     for (GLuint i = 0; i < gl::storage_binding_count; i += 2)
       gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, i, o.buffers[i % 4], 256 * (i + 1), 512);
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, o.buffers[2]);
@@ -241,14 +278,12 @@ Poison::Poison(platform::Context& context, unsigned users)
 
 void Poison::reset_touched() {
   const GladGLContext& gl = gl_;
+  const Has has(gl);
   gl.UseProgram(0);
   gl.BindVertexArray(0);
   gl.BindBuffer(GL_ARRAY_BUFFER, 0);
-  gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_BUFFER, 0);
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
   gl.BindRenderbuffer(GL_RENDERBUFFER, 0);
-  gl.Disable(GL_PRIMITIVE_RESTART);
   gl.Disable(GL_RASTERIZER_DISCARD);
   if (gl.BindTransformFeedback) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, 0);
   gl.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
@@ -256,28 +291,32 @@ void Poison::reset_touched() {
   for (GLuint unit = 0; unit < gl::texture_unit_count; ++unit) {
     gl.ActiveTexture(GL_TEXTURE0 + unit);
     gl.BindTexture(GL_TEXTURE_2D, 0);
-    gl.BindTexture(GL_TEXTURE_BUFFER, 0);
+    if (has.desktop) gl.BindTexture(GL_TEXTURE_BUFFER, 0);
     gl.BindTexture(GL_TEXTURE_2D_ARRAY, 0);
     gl.BindSampler(unit, 0);
   }
-  for (const GLenum name : gl::pixel_store_names) gl.PixelStorei(name, name == GL_UNPACK_ALIGNMENT ? 4 : 0);
+  for (const GLenum name : pixel_store_of(has)) gl.PixelStorei(name, name == GL_UNPACK_ALIGNMENT ? 4 : 0);
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   gl.BlendFunc(GL_ONE, GL_ZERO);
   gl.BlendEquation(GL_FUNC_ADD);
   gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  for (const GLenum capability : {GL_BLEND, GL_SCISSOR_TEST, GL_FRAMEBUFFER_SRGB}) gl.Disable(capability);
-  for (const GLenum test : gl::fragment_tests) gl.Disable(test);
+  for (const GLenum capability : {GL_BLEND, GL_SCISSOR_TEST}) gl.Disable(capability);
+  if (has.desktop) {
+    gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    for (const GLenum capability : {GL_FRAMEBUFFER_SRGB, GL_PRIMITIVE_RESTART}) gl.Disable(capability);
+  }
+  for (const GLenum test : fragment_tests_of(has)) gl.Disable(test);
   gl.Enable(GL_DITHER);
-  if (gl.VERSION_4_4) gl.BindBuffer(GL_QUERY_BUFFER, 0);
-  if (gl.VERSION_4_2) gl.BindImageTexture(gl::image_unit_index, 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R8);
-  if (gl.VERSION_4_3)
+  if (has.query_buffers()) gl.BindBuffer(GL_QUERY_BUFFER, 0);
+  if (has.images()) unbind_image(gl, has, gl::image_unit_index);
+  if (has.storage())
     for (GLuint i = 0; i < gl::storage_binding_count; ++i) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, i, 0);
 }
 
 Poison::~Poison() {
   const GladGLContext& gl = gl_;
+  const Has has(gl);
   Objects& o = *objects_;
   reset_touched();
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -290,18 +329,18 @@ Poison::~Poison() {
   for (const GLenum target : {GL_PIXEL_PACK_BUFFER, GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER})
     gl.BindBuffer(target, 0);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, 0);
-  if (gl.VERSION_4_2) gl.BindImageTexture(gl::image_unit_index + 1, 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R8);
+  if (has.images()) unbind_image(gl, has, gl::image_unit_index + 1);
   gl.DepthMask(GL_TRUE);
   gl.StencilMask(~0u);
   gl.DepthFunc(GL_LESS);
   gl.StencilFunc(GL_ALWAYS, 0, ~0u);
-  gl.LogicOp(GL_COPY);
+  if (has.desktop) gl.LogicOp(GL_COPY);
   gl.SampleCoverage(1, GL_FALSE);
   gl.BlendColor(0, 0, 0, 0);
   gl.Viewport(0, 0, 64, 64);
   gl.Scissor(0, 0, 64, 64);
-  if (gl.ClipControl) gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
-  gl.PrimitiveRestartIndex(0);
+  if (has.clip_control(gl)) gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  if (has.desktop) gl.PrimitiveRestartIndex(0);
   gl.DeleteBuffers(4, o.buffers);
   gl.DeleteTextures(1, &o.texture);
   gl.DeleteTextures(1, &o.other_texture);
@@ -327,12 +366,15 @@ StateValues Poison::touched() const {
 }
 
 StateValues Poison::defaults() const {
+  const Has has(gl_);
+  Values pixel_store(pixel_store_of(has).size(), 0);
+  pixel_store[0] = 4;  // the alignment
   const StateValues other_than_0 = {
       {"active_texture", {GL_TEXTURE0}},
       {"blend", {GL_FALSE, GL_ONE, GL_ZERO, GL_ONE, GL_ZERO, GL_FUNC_ADD, GL_FUNC_ADD}},
       {"color_mask", {GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE}},
-      {"image_unit", {0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R8}},
-      {"pixel_store", {4, 0, 0, 0, 0, 0, 0, 0}},
+      {"image_unit", {0, 0, GL_FALSE, 0, GL_READ_ONLY, has.desktop ? GL_R8 : GL_R32UI}},
+      {"pixel_store", pixel_store},
       {"polygon_mode", {GL_FILL}},
       {"dither", {GL_TRUE}}};
   StateValues values = touched();
@@ -354,17 +396,24 @@ StateValues Poison::untouched() const {
   if (!(users_ & (item_users))) keep(#name, read.name());
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
+  const Has has(gl_);
+  // On OpenGL ES these bind their tables of texels to the first unit's 2D texture.
+  if (!has.desktop && users_ & (gl::characters | gl::probes) && values.contains("texture_2d"))
+    values["texture_2d"].erase(values["texture_2d"].begin());
+  if (!has.desktop && users_ & (gl::screen | gl::outputs)) values.erase("texture_unit_0");
   // Further viewports and draw buffers are the host's, whoever sets the first.
-  if (gl_.VERSION_4_1) {
+  if (has.desktop && has.version >= 41) {
     GLfloat box[4] = {};
     gl_.GetFloati_v(GL_VIEWPORT, 1, box);
     keep("viewport 1", Values(box, box + 4));
     keep("scissor test 1", {gl_.IsEnabledi(GL_SCISSOR_TEST, 1)});
   }
-  keep("blend 1", {gl_.IsEnabledi(GL_BLEND, 1)});
-  keep("color mask 1", read.color_mask_of(1));
+  if (has.indexed_draw_buffers()) {
+    keep("blend 1", {gl_.IsEnabledi(GL_BLEND, 1)});
+    keep("color mask 1", read.color_mask_of(1));
+  }
   keep("image unit 1", read.image_unit_of(gl::image_unit_index + 1));
-  if (gl_.VERSION_4_0)
+  if (has.from(40, 32))
     for (const GLenum name : {GL_BLEND_SRC_RGB, GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB}) {
       GLint value = 0;
       gl_.GetIntegeri_v(name, 1, &value);
@@ -377,9 +426,11 @@ StateValues Poison::untouched() const {
   NOOK_INTEGERS(GL_DEPTH_FUNC, 1);
   NOOK_INTEGERS(GL_STENCIL_WRITEMASK, 1);
   NOOK_INTEGERS(GL_STENCIL_FUNC, 1);
-  NOOK_INTEGERS(GL_LOGIC_OP_MODE, 1);
   NOOK_INTEGERS(GL_PACK_ALIGNMENT, 1);
-  NOOK_INTEGERS(GL_PRIMITIVE_RESTART_INDEX, 1);
+  if (has.desktop) {
+    NOOK_INTEGERS(GL_LOGIC_OP_MODE, 1);
+    NOOK_INTEGERS(GL_PRIMITIVE_RESTART_INDEX, 1);
+  }
   NOOK_INTEGERS(GL_PIXEL_PACK_BUFFER_BINDING, 1);
   NOOK_INTEGERS(GL_UNIFORM_BUFFER_BINDING, 1);
   NOOK_INTEGERS(GL_COPY_READ_BUFFER, 1);
@@ -393,7 +444,7 @@ StateValues Poison::untouched() const {
       keep((prefix + "2D").c_str(), integers(gl_, GL_TEXTURE_BINDING_2D));
       keep((prefix + "sampler").c_str(), integers(gl_, GL_SAMPLER_BINDING));
     }
-    if (unit != 0 && unit != gl::filter_unit)
+    if (has.desktop && unit != 0 && unit != gl::filter_unit)
       keep((prefix + "buffer").c_str(), integers(gl_, GL_TEXTURE_BINDING_BUFFER));
   }
   gl_.ActiveTexture(static_cast<GLenum>(active[0]));

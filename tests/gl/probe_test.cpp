@@ -10,8 +10,10 @@
 #include "platform/program.h"
 #include "sdk/src/gl/touched_state.h"
 #include "tests/gl/crowd.h"
+#include "tests/gl/host_textures.h"
 #include "tests/gl/poison.h"
 #include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -116,16 +118,16 @@ std::vector<Query> random_queries(std::size_t count) {
 enum Answer { radiance, bands, fitted, inner_product, isotropic, anisotropic, answer_count };
 
 const char* const vertex_text =
-    "#version 330 core\n"
     "void main() { gl_Position = vec4(4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0.0, 1.0); }\n";
 const char* const fragment_text =
-    "uniform samplerBuffer queries; out vec4 answer;\n"
+    "uniform highp sampler2D queries; out vec4 answer;\n"
+    "vec4 query(int i) { return texelFetch(queries, ivec2(i, 0), 0); }\n"
     "void main() {\n"
     "  int first = 5 * int(gl_FragCoord.x);\n"
-    "  NookProbePlace place = nook_probe_place(texelFetch(queries, first).xyz);\n"
-    "  vec3 n = texelFetch(queries, first + 1).xyz; vec4 last = texelFetch(queries, first + 4);\n"
-    "  NookProbeSurface s = NookProbeSurface(n, texelFetch(queries, first + 2).xyz,\n"
-    "                                        texelFetch(queries, first + 3).xyz, last.xy, last.z);\n"
+    "  NookProbePlace place = nook_probe_place(query(first).xyz);\n"
+    "  vec3 n = query(first + 1).xyz; vec4 last = query(first + 4);\n"
+    "  NookProbeSurface s = NookProbeSurface(n, query(first + 2).xyz,\n"
+    "                                        query(first + 3).xyz, last.xy, last.z);\n"
     "  vec3 a;\n"
     "  switch (int(gl_FragCoord.y)) {\n"
     "    case 0: a = nook_probe_radiance(place, n); break;\n"
@@ -149,43 +151,35 @@ std::vector<float> ask(const GladGLContext& gl, const nook_gl_probe_info& probe,
       texels.insert(texels.end(), {v.x, v.y, v.z, 0});
     texels.insert(texels.end(), {q.alpha_x, q.alpha_y, q.reflectance, 0});
   }
-  GLuint names[2], buffer, framebuffer, array;
-  gl.GenTextures(2, names);
-  gl.GenBuffers(1, &buffer);
+  Textures textures(gl);
+  const GLuint questions = textures.floats(GL_RGBA32F, 4, 5 * width, 1, texels),
+               answers = textures.floats(GL_RGBA32F, 4, width, answer_count, {});
+  GLuint framebuffer, array;
   gl.GenFramebuffers(1, &framebuffer);
   gl.GenVertexArrays(1, &array);
-  gl.BindBuffer(GL_TEXTURE_BUFFER, buffer);
-  gl.BufferData(GL_TEXTURE_BUFFER, GLsizeiptr(4 * texels.size()), texels.data(), GL_STATIC_DRAW);
   gl.ActiveTexture(GL_TEXTURE1);
-  gl.BindTexture(GL_TEXTURE_BUFFER, names[0]);
-  gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer);
+  gl.BindTexture(GL_TEXTURE_2D, questions);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_2D, names[1]);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, answer_count, 0, GL_RGBA, GL_FLOAT, nullptr);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, names[1], 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, answers, 0);
   gl.Viewport(0, 0, width, answer_count);
-  const GLuint program =
-      platform::link_program(gl, {vertex_text}, {"#version 330 core\n", probe.glsl, fragment_text});
+  const GLuint program = platform::link_program(gl, {glsl_header(gl), vertex_text},
+                                                {glsl_header(gl), probe.glsl, fragment_text});
   gl.UseProgram(program);
-  gl.BindTexture(GL_TEXTURE_BUFFER, probe.texture);
+  gl.BindTexture(table_target(gl), probe.texture);
   gl.Uniform1i(gl.GetUniformLocation(program, "nook_probe_texels"), 0);
   gl.Uniform1i(gl.GetUniformLocation(program, "queries"), 1);
   gl.BindVertexArray(array);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  std::vector<float> rgb(std::size_t(3) * std::size_t(width) * answer_count);
-  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl.ReadPixels(0, 0, width, answer_count, GL_RGB, GL_FLOAT, rgb.data());
-  gl.BindTexture(GL_TEXTURE_BUFFER, 0);
+  std::vector<float> rgb = read_texture(gl, answers, width, answer_count, 3);
+  gl.BindTexture(table_target(gl), 0);
   gl.UseProgram(0);
   gl.BindVertexArray(0);
-  gl.BindBuffer(GL_TEXTURE_BUFFER, 0);
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
   gl.DeleteProgram(program);
   gl.DeleteVertexArrays(1, &array);
   gl.DeleteFramebuffers(1, &framebuffer);
-  gl.DeleteBuffers(1, &buffer);
-  gl.DeleteTextures(2, names);
   return rgb;
 }
 
@@ -242,6 +236,7 @@ void compare(const std::vector<float>& found, const std::vector<float>& expected
 struct Fixture {
   explicit Fixture(platform::Context& context, nook_gl_state_mode mode = NOOK_GL_STATE_PRESERVE)
       : gl(create_gl(host.handle, platform::Context::loader, &context, 0, mode)) {}
+  explicit Fixture(Trace& trace) : gl(create_gl(host.handle, Trace::loader, &trace, 0)) {}
   GlProbe upload(const Probe& probe) {
     nook_gl_probe made = nullptr;
     NOOK_OK_OR_FAIL(nook_gl_probe_create(gl.get(), probe.get(), &made));
@@ -293,8 +288,8 @@ TEST_CASE("harmonics in shaders agree with the CPU") {
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
   gl.Viewport(0, 0, count, rows);
-  const GLuint program =
-      platform::link_program(gl, {vertex_text}, {"#version 330 core\n", info_of(probe).glsl, text});
+  const GLuint program = platform::link_program(gl, {glsl_header(gl), vertex_text},
+                                                {glsl_header(gl), info_of(probe).glsl, text});
   gl.UseProgram(program);
   gl.Uniform3fv(gl.GetUniformLocation(program, "normals"), count, normals.data());
   gl.Uniform3fv(gl.GetUniformLocation(program, "light.coefficient"), 9, harmonics.data());
@@ -302,9 +297,8 @@ TEST_CASE("harmonics in shaders agree with the CPU") {
   gl.Uniform3fv(gl.GetUniformLocation(program, "zonal.zonal"), 1, zonal.data() + 12);
   gl.BindVertexArray(array);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  std::vector<float> found(std::size_t(3) * count * rows), expected(found.size());
-  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl.ReadPixels(0, 0, count, rows, GL_RGB, GL_FLOAT, found.data());
+  const std::vector<float> found = read_texture(gl, texture, count, rows, 3);
+  std::vector<float> expected(found.size());
   gl.UseProgram(0);
   gl.BindVertexArray(0);
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -367,7 +361,7 @@ TEST_CASE("uploading a probe keeps the promises on OpenGL state") {
   for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_DEFAULTS, NOOK_GL_STATE_HOST}) {
     Fixture fixture(context, mode);
     const Probe probe = make_probe(fixture.host.handle, {});
-    Poison poison(context, gl::probes);
+    Poison poison(context, is_es(context.gl()) ? gl::probes | gl::texel_uploads : unsigned{gl::probes});
     const StateValues touched = poison.touched(), untouched = poison.untouched();
     const GlProbe uploaded = fixture.upload(probe);
     NOOK_OK_OR_FAIL(nook_gl_probe_update(uploaded.get(), probe.get()));
@@ -392,12 +386,19 @@ TEST_CASE("what cannot be uploaded is refused and leaves nothing") {
   CHECK(nook_gl_probe_create(fixture.gl.get(), nullptr, &made) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_gl_probe_create(fixture.gl.get(), bands.get(), nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_gl_probe_describe(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+}
 
-  GLint texels = 0;
-  context.gl().GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-  if (texels > 65536) return;
+TEST_CASE("a grid beyond the limits of the context is refused, and the old one stays") {
+  NOOK_NEED_CONTEXT(context);
+  // The least that any context has: 65,536 texels, and on OpenGL ES 2048 x 2048.
+  Trace trace(context);
+  if (is_es(context.gl()))
+    trace.limits[GL_MAX_TEXTURE_SIZE] = 2048;
+  else
+    trace.limits[GL_MAX_TEXTURE_BUFFER_SIZE] = 65536;
+  Fixture fixture(trace);
   ProbeRequest large;
-  large.counts[0] = large.counts[2] = 80;
+  large.counts[0] = large.counts[2] = is_es(context.gl()) ? 600 : 80;
   const Probe grid = make_probe(fixture.host.handle, large);
   const Probe small = make_probe(fixture.host.handle, {});
   const GlProbe uploaded = fixture.upload(small);

@@ -1,6 +1,7 @@
 // The promise of nook_gl_state_mode, for every call, on both tiers.
 #include <functional>
 
+#include "platform/program.h"
 #include "tests/gl/crowd.h"
 #include "tests/gl/poison.h"
 #include "tests/gl/test_context.h"
@@ -126,17 +127,11 @@ TEST_CASE("PRESERVE copes with a program that the host deleted while it was curr
   const GladGLContext& functions = context.gl();
   for (const int tier : tiers_of(context)) {
     nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
-    const GLuint program = functions.CreateProgram();
-    functions.LinkProgram(program);
-    const char* text = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
-    const GLuint shader = functions.CreateShader(GL_VERTEX_SHADER);
-    functions.ShaderSource(shader, 1, &text, nullptr);
-    functions.CompileShader(shader);
-    functions.AttachShader(program, shader);
-    functions.LinkProgram(program);
+    const GLuint program = platform::link_program(
+        functions, {glsl_header(functions), "void main() { gl_Position = vec4(0.0); }\n"},
+        {glsl_header(functions), "void main() {}\n"});
     functions.UseProgram(program);
     functions.DeleteProgram(program);
-    functions.DeleteShader(shader);
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
     CHECK(functions.GetError() == GL_NO_ERROR);
     functions.UseProgram(0);

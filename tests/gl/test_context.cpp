@@ -79,6 +79,10 @@ platform::Context* test_context() {
   return nullptr;
 }
 
+bool is_es(const GladGLContext& gl) {
+  return std::strstr(reinterpret_cast<const char*>(gl.GetString(GL_VERSION)), "OpenGL ES") != nullptr;
+}
+
 int version_of(const platform::Context& context) {
   GLint major = 0, minor = 0;
   context.gl().GetIntegerv(GL_MAJOR_VERSION, &major);
@@ -99,9 +103,9 @@ bool computes(int tier) {
   return tier == NOOK_GL_TIER_43 || tier == NOOK_GL_TIER_ES31;
 }
 
-std::string glsl_header(const platform::Context& context) {
-  return context.is_es() ? "#version 300 es\nprecision highp float;\nprecision highp int;\n"
-                         : "#version 330 core\n";
+const char* glsl_header(const GladGLContext& gl) {
+  return is_es(gl) ? "#version 300 es\nprecision highp float;\nprecision highp int;\n"
+                   : "#version 330 core\n";
 }
 
 std::vector<std::string> take_debug_messages() {

@@ -19,6 +19,8 @@ namespace nook::test {
 // NULL, said aloud, where there is none; fails the test case then if a context is required.
 platform::Context* test_context();
 
+// The functions are of an OpenGL ES context.
+bool is_es(const GladGLContext& gl);
 // 10 * major + minor.
 int version_of(const platform::Context& context);
 // The tiers that this context has, best first.
@@ -26,7 +28,7 @@ std::vector<int> tiers_of(const platform::Context& context);
 // The tier has compute shaders.
 bool computes(int tier);
 // The lines that begin a shader of the tests in the language of the context: version and precisions.
-std::string glsl_header(const platform::Context& context);
+const char* glsl_header(const GladGLContext& gl);
 
 // Errors and warnings that the driver reported through KHR_debug since the last call, in a debug context.
 std::vector<std::string> take_debug_messages();

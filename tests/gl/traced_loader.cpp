@@ -26,6 +26,7 @@ constexpr const char* names[] = {
 struct Counts {
   std::array<int, id_count> calls{};
   bool mapped_for_reading = false;
+  bool writing = false;  // the last map
   Trace* trace = nullptr;
 };
 Counts counts;
@@ -40,14 +41,19 @@ struct Traced<id, R(GLAD_API_PTR*)(A...)> {
     if constexpr (id == id_MapBufferRange) {
       const auto access = std::get<3>(std::tuple(a...));
       counts.mapped_for_reading |= (access & GL_MAP_READ_BIT) != 0;
-      if (counts.trace->mapping_fails) return nullptr;
+      counts.writing = (access & GL_MAP_WRITE_BIT) != 0;
+      if (counts.trace->mapping_fails && counts.writing) return nullptr;
     }
     if constexpr (id == id_UnmapBuffer) {
-      if (counts.trace->unmapping_fails()) {
+      if (counts.writing && counts.trace->unmapping_fails()) {
         real(a...);
         counts.trace->lose_array_buffer();
         return GL_FALSE;
       }
+    }
+    if constexpr (id == id_GetString) {
+      if (counts.trace->version && std::get<0>(std::tuple(a...)) == GL_VERSION)
+        return reinterpret_cast<const GLubyte*>(counts.trace->version);
     }
     if constexpr (id == id_GetShaderiv) {
       if (counts.trace->shaders_fail) {

@@ -23,9 +23,10 @@ class Trace {
 
   std::set<std::string> hidden;    // these names are answered with NULL
   std::map<unsigned, int> limits;  // what glGetIntegerv answers for these names
+  const char* version = nullptr;   // what glGetString answers for GL_VERSION, unless null
   bool shaders_fail = false;       // by glGetShaderiv
-  bool mapping_fails = false;      // glMapBufferRange answers NULL
-  // So many calls of glUnmapBuffer lose the contents and answer GL_FALSE before one keeps them.
+  bool mapping_fails = false;      // glMapBufferRange answers NULL for writing
+  // So many calls of glUnmapBuffer after writing lose the contents and answer GL_FALSE before one keeps them.
   int unmapping_failures = 0;
 
   void reset();

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/gl/host_textures.h"
 #include "tests/gl/test_context.h"
 
 std::vector<std::byte> nook_test_model_bytes();
@@ -127,12 +128,9 @@ TEST_CASE("the C++ wrapper draws the screen-space pass") {
   frame.radius = 0.5f;
   pass.recheck();
   pass.render(frame);
-  std::vector<unsigned char> ao(width * height);
-  g.BindTexture(GL_TEXTURE_2D, pass.info().texture);
-  g.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  g.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_UNSIGNED_BYTE, ao.data());
+  const std::vector<float> ao = nook::test::read_texture(g, pass.info().texture, width, height);
   // Next to the step the wall is darker than away from it.
-  CHECK(ao[17 * width + width / 2] + 20 < ao[28 * width + width / 2]);
+  CHECK(ao[17 * width + width / 2] + 20.0f / 255 < ao[28 * width + width / 2]);
 
   frame.radius = 0;
   try {

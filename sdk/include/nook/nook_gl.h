@@ -181,7 +181,8 @@ typedef struct nook_gl_ao_target {
   /* sizeof(nook_gl_ao_target); the caller sets it, and the other fields to 0 first. */
   uint32_t struct_size;
   /* The numbers in a buffer. A texture's own format decides instead; but on OpenGL ES, where uploads do not
-   * convert, this must be the texture's: FLOAT32 for GL_R32F, FLOAT16 for GL_R16F, UNORM8 for GL_R8. */
+   * convert, this must be the texture's: NOOK_AO_FLOAT for GL_R32F, NOOK_AO_HALF
+   * for GL_R16F, NOOK_AO_UNORM8 for GL_R8. */
   nook_ao_format format;
   /* The OpenGL name of a buffer of the host, or 0. It must not be mapped. */
   uint32_t buffer;

@@ -57,14 +57,19 @@ void check_version(const Functions& gl) {
                   major, minor, gl.version == 0 ? "; is a context current on this thread?" : "");
 }
 
-// GL_MAJOR_VERSION came with OpenGL 3.0 and OpenGL ES 3.0; older contexts leave the numbers at 0.
+// GL_MAJOR_VERSION came with OpenGL 3.0 and OpenGL ES 3.0; older OpenGL leaves the numbers at 0.
 void read_version(Functions& gl) {
+  gl.profile = profile_of(gl);
+  if (gl.profile == Profile::es) {
+    // OpenGL ES 2.0 answers the query with an error, which would be left to the host.
+    const char* const number = std::strstr(reinterpret_cast<const char*>(gl.GetString(GL_VERSION)), "ES 2.");
+    if (number) gl.version = 20 + (number[5] - '0');
+    if (number) return;
+  }
   GLint major = 0, minor = 0;
   gl.GetIntegerv(GL_MAJOR_VERSION, &major);
   gl.GetIntegerv(GL_MINOR_VERSION, &minor);
   gl.version = 10 * major + minor;
-  gl.profile = profile_of(gl);
-  if (gl.profile == Profile::es && gl.version == 0) gl.version = 20;
 }
 
 bool has_extension(const Functions& gl, const Loader& loader, const char* name) {
@@ -111,12 +116,20 @@ void load_compute(Functions& gl, const Loader& loader, int max_tier) {
   gl.can.r8_images = desktop;
 }
 
+bool load_fences(Functions& gl, const Loader& loader) {
+  loader.optional(gl.FenceSync, "glFenceSync");
+  loader.optional(gl.ClientWaitSync, "glClientWaitSync");
+  loader.optional(gl.DeleteSync, "glDeleteSync");
+  return gl.FenceSync && gl.ClientWaitSync && gl.DeleteSync;
+}
+
 // A loader may return a stub for a function that the context lacks, so the version is tested before the
 // pointer.
 void load_desktop_options(Functions& gl, const Loader& loader) {
   gl.can.texture_buffers = gl.can.maps = gl.can.buffer_reads = true;
   gl.can.indexed_feedback = gl.can.norm16_targets = gl.can.desktop_raster = true;
-  gl.can.texture_sizes = gl.can.timestamps = gl.can.indexed_draw_buffers = true;
+  gl.can.texture_sizes = gl.can.indexed_draw_buffers = true;
+  gl.can.timestamps = load_fences(gl, loader);
   if (gl.version >= 40) {
     loader.optional(gl.BindTransformFeedback, "glBindTransformFeedback");
     loader.optional(gl.DeleteTransformFeedbacks, "glDeleteTransformFeedbacks");
@@ -163,9 +176,8 @@ void load_es_options(Functions& gl, const Loader& loader) {
   }
   if (has_extension(gl, loader, es_timer_extension)) {
     loader.optional(gl.QueryCounter, "glQueryCounterEXT");
-    loader.optional(gl.GetQueryObjectiv, "glGetQueryObjectivEXT");
     loader.optional(gl.GetQueryObjectui64v, "glGetQueryObjectui64vEXT");
-    gl.can.timestamps = gl.QueryCounter && gl.GetQueryObjectiv && gl.GetQueryObjectui64v;
+    gl.can.timestamps = gl.QueryCounter && gl.GetQueryObjectui64v && load_fences(gl, loader);
   }
 }
 

@@ -103,7 +103,6 @@ namespace nook::gl {
   X(Enablei)                    \
   X(GetBooleani_v)              \
   X(GetBufferSubData)           \
-  X(GetQueryObjectiv)           \
   X(GetQueryObjectui64v)        \
   X(GetTexLevelParameteriv)     \
   X(IsEnabledi)                 \
@@ -130,7 +129,10 @@ namespace nook::gl {
   X(BindTransformFeedback)            \
   X(BlendEquationSeparatei)           \
   X(BlendFuncSeparatei)               \
+  X(ClientWaitSync)                   \
+  X(DeleteSync)                       \
   X(DeleteTransformFeedbacks)         \
+  X(FenceSync)                        \
   X(GenTransformFeedbacks)            \
   X(GetFloati_v)                      \
   X(ObjectLabel)                      \
@@ -159,7 +161,7 @@ struct Abilities {
   bool norm16_targets = false;    // GL_RG16 can be drawn into
   bool r8_images = false;         // compute shaders write GL_R8
   bool texture_sizes = false;     // glGetTexLevelParameteriv
-  bool timestamps = false;        // glQueryCounter
+  bool timestamps = false;        // glQueryCounter, and fences that tell when its answers are there
   bool indexed_draw_buffers = false;  // blending and colour mask exist once for each draw buffer
   bool indexed_viewports = false;     // viewport and scissor test exist once for each index
   bool desktop_raster =

@@ -95,7 +95,9 @@ void read_buffer_bytes(const Device& device, GLuint buffer, std::uint64_t offset
                   "a buffer cannot be read (%llu bytes); is the context of nook_gl_create current?",
                   static_cast<unsigned long long>(bytes));
   std::memcpy(out, memory, bytes);
-  gl.UnmapBuffer(GL_ARRAY_BUFFER);
+  if (gl.UnmapBuffer(GL_ARRAY_BUFFER) != GL_TRUE)
+    throw Failure(NOOK_ERROR_GL, "glUnmapBuffer reported lost contents (%llu bytes read); call again",
+                  static_cast<unsigned long long>(bytes));
 }
 
 Object Object::make(Device& device, Kind kind) {

@@ -125,6 +125,11 @@ inline unsigned probe_users(const Functions& gl) {
   return probes | (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
 }
 
+// Of the creation of a screen-space pass, which uploads the paper's filters.
+inline unsigned screen_creation_users(const Functions& gl) {
+  return screen | (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
+}
+
 // There is one query and one restore for each item of the list; the restore of a new SavedState is the reset.
 #define NOOK_X(name, users, what, note)                  \
   void query_##name(const Functions& gl, SavedState& s); \

@@ -17,7 +17,7 @@ struct nook_nnao_s : RefCounted {
   nook_nnao_s(nook_gl_s* made_by, const nook_nnao_desc& known, const nnao::Network& network)
       : gl(made_by), desc(known), horizon_form(network.form == nnao::NetworkForm::horizon) {
     gl->device.report_host_errors();
-    gl->guarded(gl::screen, [&] { pass.emplace(gl->device, known, network); });
+    gl->guarded(gl::screen_creation_users(gl->device.gl), [&] { pass.emplace(gl->device, known, network); });
   }
 
   // Returns the users of the OpenGL state that a frame touches.

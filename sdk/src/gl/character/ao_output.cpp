@@ -177,6 +177,24 @@ std::uint32_t checked_width(const Device& device, const VertexValues& source, co
   return static_cast<std::uint32_t>(width);
 }
 
+// Uploads of OpenGL ES take the type of the texture's format, which versions from 3.1 on can be asked for.
+void check_format(const Device& device, const TextureTarget& target) {
+  const Functions& gl = device.gl;
+  if (gl.profile == Profile::desktop || !gl.can.texture_sizes) return;
+  GLint type = GL_NONE, bits = 0;
+  gl.GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_RED_TYPE, &type);
+  gl.GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_RED_SIZE, &bits);
+  const bool is_float = type == GL_FLOAT;
+  const bool fits = target.format == NOOK_AO_FLOAT  ? is_float
+                    : target.format == NOOK_AO_HALF ? is_float && bits == 16
+                                                    : type == GL_UNSIGNED_NORMALIZED && bits == 8;
+  if (!fits)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "target.format is not that of texture %u (got %d for red in %d bits; OpenGL ES needs "
+                  "NOOK_AO_FLOAT for GL_R32F, NOOK_AO_HALF for GL_R16F, NOOK_AO_UNORM8 for GL_R8)",
+                  target.texture, target.format, bits);
+}
+
 struct UploadType {
   GLenum type;
   std::uint32_t bytes;
@@ -213,6 +231,7 @@ void AoOutput::write_rows(const VertexValues& source, const TextureTarget& targe
   gl.BindTexture(GL_TEXTURE_2D, target.texture);
   device_.check("binding the host's texture");
   const std::uint32_t width = checked_width(device_, source, target);
+  check_format(device_, target);
   const UploadType upload = type_of(target.format);
   gl.BindBuffer(GL_ARRAY_BUFFER, 0);
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, source.buffer);
@@ -233,7 +252,7 @@ void AoOutput::write_rows(const VertexValues& source, const TextureTarget& targe
     written += across * down;
   }
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  device_.check("writing AO to the host's texture");
+  device_.check("writing AO to the host's texture (on OpenGL ES target.format must be the texture's)");
 }
 
 }  // namespace nook::gl

@@ -9,6 +9,11 @@ StageTimer::StageTimer(Device& device) : device_(device) {
     for (Object& mark : frame) mark = Object::make(device, Object::Kind::query);
 }
 
+StageTimer::~StageTimer() {
+  if (device_.lost) return;
+  for (const GLsync fence : fences_) device_.gl.DeleteSync(fence);  // ignores null
+}
+
 void StageTimer::mark(int stage) {
   // Time stamps are used instead of elapsed-time queries, because the host may have one of these active.
   device_.gl.QueryCounter(marks_[frames_ % kept_frames][std::size_t(stage)].name(), GL_TIMESTAMP);
@@ -22,6 +27,18 @@ void StageTimer::begin_frame() {
 
 void StageTimer::end_stage() {
   mark(++stage_);
+  if (stage_ < stage_count) return;
+  GLsync& fence = fences_[frames_ % kept_frames];
+  device_.gl.DeleteSync(fence);
+  fence = device_.gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+// A fence rather than GL_QUERY_RESULT_AVAILABLE: Mesa's zink records commands for that question, so that a
+// host that asks in each frame never gets a yes. A nanosecond rather than none: with none, zink does not look
+// whether the work has ended.
+bool StageTimer::finished(std::uint64_t frame) const {
+  const GLenum status = device_.gl.ClientWaitSync(fences_[frame % kept_frames], 0, 1);
+  return status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
 }
 
 std::optional<StageTimer::Milliseconds> StageTimer::newest() const {
@@ -31,9 +48,7 @@ std::optional<StageTimer::Milliseconds> StageTimer::newest() const {
   const std::uint64_t oldest = frames_ > kept_frames ? frames_ - kept_frames : 0;
   for (std::uint64_t frame = frames_; frame > oldest; --frame) {
     const auto& marks = marks_[frame % kept_frames];
-    GLint finished = 0;
-    gl.GetQueryObjectiv(marks.back().name(), GL_QUERY_RESULT_AVAILABLE, &finished);
-    if (!finished) continue;
+    if (!finished(frame)) continue;
     Milliseconds stages{};
     GLuint64 before = 0;
     gl.GetQueryObjectui64v(marks[0].name(), GL_QUERY_RESULT, &before);

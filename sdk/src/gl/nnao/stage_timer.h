@@ -14,6 +14,9 @@ class StageTimer {
   using Milliseconds = std::array<float, stage_count>;
 
   explicit StageTimer(Device& device);
+  ~StageTimer();
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
 
   // Starts a frame, which passes through its stages and ends with the last of them.
   void begin_frame();
@@ -24,9 +27,12 @@ class StageTimer {
  private:
   static constexpr int kept_frames = 4;
   void mark(int stage);
+  bool finished(std::uint64_t frame) const;
 
   Device& device_;
   std::array<std::array<Object, stage_count + 1>, kept_frames> marks_;
+  // After the last mark of each kept frame; null before.
+  std::array<GLsync, kept_frames> fences_{};
   std::uint64_t frames_ = 0;  // number of frames that began
   int stage_ = 0;
 };

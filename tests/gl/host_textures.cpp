@@ -1,0 +1,134 @@
+#include "tests/gl/host_textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "tests/catch.h"
+#include "tests/gl/test_context.h"
+
+namespace nook::test {
+namespace {
+
+constexpr GLenum colour_formats[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
+
+// What an upload of floats becomes on OpenGL ES.
+struct Upload {
+  GLint internal_format;
+  GLenum format, type;
+};
+
+Upload upload_on_es(GLint internal_format, int channels) {
+  const GLenum colours = colour_formats[channels - 1];
+  switch (internal_format) {
+    case GL_R8:
+    case GL_RGBA8:
+    case GL_SRGB8_ALPHA8:
+      return {internal_format, colours, GL_UNSIGNED_BYTE};
+    case GL_DEPTH_COMPONENT24:
+      return {internal_format, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
+    case GL_DEPTH_COMPONENT32F:
+      return {internal_format, GL_DEPTH_COMPONENT, GL_FLOAT};
+    case GL_RGB16:
+      return {GL_RGB32F, colours, GL_FLOAT};
+    default:
+      return {internal_format, colours, GL_FLOAT};
+  }
+}
+
+template <class Number>
+std::vector<unsigned char> normalised_bytes(const std::vector<float>& data, double largest) {
+  std::vector<Number> numbers;
+  for (const float value : data)
+    numbers.push_back(static_cast<Number>(std::clamp(double(value), 0.0, 1.0) * largest + 0.5));
+  std::vector<unsigned char> bytes(numbers.size() * sizeof(Number));
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  return bytes;
+}
+
+}  // namespace
+
+GLuint Textures::make(GLint internal_format, GLenum format, GLenum type, int width, int height,
+                      const void* data) {
+  GLuint name = 0;
+  gl_.GenTextures(1, &name);
+  names_.push_back(name);
+  gl_.BindTexture(GL_TEXTURE_2D, name);
+  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  // Left without a complete set of mipmaps, as the host's may be: the pass reads through samplers of its own.
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, internal_format, width, height, 0, format, type, data);
+  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  gl_.BindTexture(GL_TEXTURE_2D, 0);
+  return name;
+}
+
+GLuint Textures::floats(GLint internal_format, int channels, int width, int height,
+                        const std::vector<float>& data) {
+  const void* const floats = data.empty() ? nullptr : data.data();
+  if (!is_es(gl_)) {
+    const bool depth = internal_format == GL_DEPTH_COMPONENT32F || internal_format == GL_DEPTH_COMPONENT24 ||
+                       internal_format == GL_DEPTH_COMPONENT16;
+    return make(internal_format, depth ? GL_DEPTH_COMPONENT : colour_formats[channels - 1], GL_FLOAT, width,
+                height, floats);
+  }
+  const Upload upload = upload_on_es(internal_format, channels);
+  if (upload.type == GL_FLOAT || !floats)
+    return make(upload.internal_format, upload.format, upload.type, width, height, floats);
+  const std::vector<unsigned char> bytes = upload.type == GL_UNSIGNED_BYTE
+                                               ? normalised_bytes<std::uint8_t>(data, 255)
+                                               : normalised_bytes<std::uint32_t>(data, 4294967295.0);
+  return make(upload.internal_format, upload.format, upload.type, width, height, bytes.data());
+}
+
+std::vector<float> read_texture(const GladGLContext& gl, GLuint texture, int width, int height,
+                                int channels) {
+  const std::size_t count = std::size_t(width) * std::size_t(height);
+  GLuint framebuffer = 0;
+  gl.GenFramebuffers(1, &framebuffer);
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  gl.FramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  std::vector<float> out(count * std::size_t(channels));
+  if (is_es(gl)) {
+    GLint type = GL_NONE;
+    gl.GetFramebufferAttachmentParameteriv(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0,
+                                           GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, &type);
+    std::vector<float> all(4 * count);
+    if (type == GL_FLOAT) {
+      gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, all.data());
+    } else {
+      std::vector<std::uint8_t> bytes(4 * count);
+      gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+      std::ranges::transform(bytes, all.begin(), [](std::uint8_t byte) { return float(byte) / 255; });
+    }
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = all[i / std::size_t(channels) * 4 + i % std::size_t(channels)];
+  } else {
+    gl.ReadPixels(0, 0, width, height, colour_formats[channels - 1], GL_FLOAT, out.data());
+  }
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  gl.DeleteFramebuffers(1, &framebuffer);
+  return out;
+}
+
+std::vector<unsigned char> read_buffer(const GladGLContext& gl, GLuint buffer, std::size_t offset,
+                                       std::size_t bytes) {
+  std::vector<unsigned char> out(bytes);
+  gl.BindBuffer(GL_COPY_READ_BUFFER, buffer);
+  // OpenGL and OpenGL ES both map; glGetBufferSubData is OpenGL's alone.
+  const void* const memory =
+      gl.MapBufferRange(GL_COPY_READ_BUFFER, GLintptr(offset), GLsizeiptr(bytes), GL_MAP_READ_BIT);
+  REQUIRE(memory != nullptr);
+  std::memcpy(out.data(), memory, bytes);
+  gl.UnmapBuffer(GL_COPY_READ_BUFFER);
+  gl.BindBuffer(GL_COPY_READ_BUFFER, 0);
+  return out;
+}
+
+GLenum table_target(const GladGLContext& gl) {
+  return is_es(gl) ? GL_TEXTURE_2D : GL_TEXTURE_BUFFER;
+}
+
+}  // namespace nook::test

@@ -1,0 +1,41 @@
+// Textures and buffers as a host has them, filled and read back on OpenGL and on OpenGL ES. OpenGL ES
+// converts nothing: an upload needs the exact type of its format, and reads give four channels.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace nook::test {
+
+// Textures that are deleted with it.
+class Textures {
+ public:
+  explicit Textures(const GladGLContext& gl) : gl_(gl) {}
+  ~Textures() {
+    for (const GLuint name : names_) gl_.DeleteTextures(1, &name);
+  }
+  Textures(const Textures&) = delete;
+  Textures& operator=(const Textures&) = delete;
+
+  // data may be null.
+  GLuint make(GLint internal_format, GLenum format, GLenum type, int width, int height, const void* data);
+  // An empty vector leaves the texels undefined. A format that OpenGL ES lacks, GL_RGB16, is GL_RGB32F there.
+  GLuint floats(GLint internal_format, int channels, int width, int height, const std::vector<float>& data);
+
+ private:
+  const GladGLContext& gl_;
+  std::vector<GLuint> names_;
+};
+
+// The first channels of level 0, of a format that can be drawn into.
+std::vector<float> read_texture(const GladGLContext& gl, GLuint texture, int width, int height,
+                                int channels = 1);
+std::vector<unsigned char> read_buffer(const GladGLContext& gl, GLuint buffer, std::size_t offset,
+                                       std::size_t bytes);
+
+// The target of the tables of texels that Nook's functions for hosts fetch from.
+GLenum table_target(const GladGLContext& gl);
+
+}  // namespace nook::test
