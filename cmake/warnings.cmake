@@ -3,9 +3,15 @@ function(nook_target_options target)
   set_target_properties(${target} PROPERTIES CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF
                         CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
                         POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-Wall -Wextra -Wshadow>)
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra -Wshadow>)
   if(NOOK_WERROR)
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-Werror>)
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Werror>)
+  endif()
+  # MSVC reads sources in the code page of the machine, accepts what is no C++ and hides the version of the language, without
+  # these options. It warns of standard functions of C, such as fopen.
+  if(MSVC)
+    target_compile_options(${target} PRIVATE /utf-8 $<$<COMPILE_LANGUAGE:CXX>:/permissive- /Zc:__cplusplus>)
+    target_compile_definitions(${target} PRIVATE _CRT_SECURE_NO_WARNINGS)
   endif()
   # Emscripten leaves exceptions out without this option; the library throws, and catches at its C functions.
   if(EMSCRIPTEN)

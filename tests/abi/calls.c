@@ -51,6 +51,8 @@ int nook_call_everything(const void* bytes, size_t size) {
   nook_character_model_info info;
   nook_scene scene = NULL;
   nook_scene_stats stats;
+  nook_character_memory memory;
+  uint64_t scene_bytes = 0;
   nook_instance_id a = 0, b = 0;
   nook_occluder_id occluder = 0;
   uint32_t first = 9, count = 0;
@@ -77,6 +79,11 @@ int nook_call_everything(const void* bytes, size_t size) {
   info.struct_size = sizeof info;
   EXPECT_OK(nook_character_model_describe(model, &info));
   EXPECT(info.bone_count > 0 && info.file_vertex_count >= info.vertex_count && info.lod_count >= 1);
+  memset(&memory, 0, sizeof memory);
+  memory.struct_size = sizeof memory;
+  EXPECT_OK(nook_character_model_memory(model, &memory));
+  EXPECT(memory.model_bytes > 0 && memory.instance_bytes > 0 &&
+         memory.lit_instance_bytes > memory.instance_bytes);
   EXPECT(nook_character_model_bone_name(model, 0) != NULL);
   EXPECT(nook_character_model_bone_name(model, info.bone_count) == NULL);
   EXPECT_OK(nook_character_model_primitive(model, 0, &first, &count));
@@ -116,6 +123,8 @@ int nook_call_everything(const void* bytes, size_t size) {
   memset(&stats, 0, sizeof stats);
   stats.struct_size = sizeof stats;
   EXPECT_OK(nook_scene_read_stats(scene, &stats));
+  EXPECT_OK(nook_scene_memory(scene, &scene_bytes));
+  EXPECT(scene_bytes > 2 * memory.instance_bytes);
   EXPECT(stats.instances == 2 && stats.instances_updated == 2 && stats.links == 2 && stats.evaluations > 0);
   EXPECT_OK(nook_scene_remove_occluder(scene, occluder));
   EXPECT_OK(nook_scene_remove_instance(scene, b));

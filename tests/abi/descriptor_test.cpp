@@ -59,6 +59,8 @@ TEST_CASE("answers are cut to the caller's struct") {
   Stage stage;
   check_info<nook_character_model_info>(
       40, [&](nook_character_model_info* info) { return nook_character_model_describe(stage.model, info); });
+  check_info<nook_character_memory>(
+      32, [&](nook_character_memory* memory) { return nook_character_model_memory(stage.model, memory); });
   check_info<nook_scene_stats>(
       32, [&](nook_scene_stats* stats) { return nook_scene_read_stats(stage.scene, stats); });
 }

@@ -151,7 +151,7 @@ NOOK_AT(nook_gl_ao_target, texture, 12);
 NOOK_AT(nook_gl_ao_target, offset, 16);
 NOOK_AT(nook_gl_ao_target, instance_stride, 24);
 NOOK_AT(nook_gl_ao_target, stride, 32);
-NOOK_AT(nook_gl_ao_target, reserved, 36);
+NOOK_AT(nook_gl_ao_target, texture_width, 36);
 
 NOOK_SIZE(nook_gl_ao_view, 24);
 NOOK_AT(nook_gl_ao_view, struct_size, 0);

@@ -49,6 +49,8 @@ room(shaders/core shaders/core)
 foreach(system character nnao probe material)
   room(sdk/src/${system} sdk/src/${system} shaders/${system} shaders/core sdk/src/core)
 endforeach()
+# The kernels of the systems, compiled for each instruction set.
+room(sdk/src/isa sdk/src/isa sdk/src/character sdk/src/probe sdk/src/core)
 room(sdk/src/gl sdk/src/gl shaders ${systems} sdk/src/core)
 room(sdk/src/api sdk/src/api sdk/src/gl ${systems} sdk/src/core)
 foreach(system nnao probe material)
@@ -84,7 +86,7 @@ room(bakers/tool bakers/tool bakers/api/import.h bakers/import/linked_files.h ba
      ${systems} sdk/src/core)
 
 forbid(sdk/src "tbb/|embree|Eigen|tiny_gltf|OpenImageIO|nlohmann|LBFGS|CLI/" "the runtime depends on nothing")
-foreach(folder core character nnao probe material)
+foreach(folder core character nnao probe material isa)
   forbid(sdk/src/${folder} "nook_gl|glad" "only gl and api/gl know OpenGL")
 endforeach()
 foreach(folder import raytrace tensor character nnao probe material job api images)

@@ -187,7 +187,7 @@ SkinFunction skinning_of(Isa isa) {
 }
 
 const bool registered = [] {
-  for (const Isa isa : {Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512}) {
+  for (const Isa isa : all_isas) {
     const ShadowKernels* kernels = shadow_kernels(isa);
     if (!kernels) continue;
     const auto name = [&](const char* what) { return std::string(what) + "/" + kernels->name; };

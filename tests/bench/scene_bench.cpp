@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sdk/src/character/model_file.h"
+#include "sdk/src/core/isa.h"
 #include "tests/bench/sample_character.h"
 
 namespace {
@@ -191,8 +192,11 @@ void under_a_light(benchmark::State& state) {
   state.counters["plain_us"] = 1e6 * without / count;
   state.counters["lit_us"] = 1e6 * with / count;
 }
-BENCHMARK(under_a_light)
-    ->ArgsProduct({{NOOK_ISA_SCALAR, NOOK_ISA_SSE2, NOOK_ISA_AVX2, NOOK_ISA_AVX512}, {1, 5}})
-    ->Unit(benchmark::kMicrosecond);
+void every_isa_alone_and_in_a_crowd(benchmark::internal::Benchmark* all) {
+  for (const Isa isa : all_isas)
+    for (const int instances : {1, 5})
+      if (isa_available(isa)) all->Args({static_cast<nook_isa>(isa), instances});
+}
+BENCHMARK(under_a_light)->Apply(every_isa_alone_and_in_a_crowd)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

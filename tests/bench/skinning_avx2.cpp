@@ -2,6 +2,7 @@
 // floats of which the next store overwrites the last.
 #include <immintrin.h>
 
+#include "sdk/src/core/processor.h"
 #include "tests/bench/skinning.h"
 
 namespace nook::bench {
@@ -41,7 +42,7 @@ void skin(const SkinnedVertices& vertices, const SkinningMatrix* bones, float* p
 }  // namespace
 
 SkinFunction skin_avx2() {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? skin : nullptr;
+  return processor_has_avx2_and_fma() ? skin : nullptr;
 }
 
 }  // namespace nook::bench

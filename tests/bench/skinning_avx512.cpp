@@ -2,6 +2,7 @@
 // overlap: four floats of which the next store overwrites the last.
 #include <immintrin.h>
 
+#include "sdk/src/core/processor.h"
 #include "tests/bench/skinning.h"
 
 namespace nook::bench {
@@ -30,7 +31,7 @@ void skin(const SkinnedVertices& vertices, const SkinningMatrix* bones, float* p
 }  // namespace
 
 SkinFunction skin_avx512() {
-  return __builtin_cpu_supports("avx512f") ? skin : nullptr;
+  return processor_has_avx512f() ? skin : nullptr;
 }
 
 }  // namespace nook::bench

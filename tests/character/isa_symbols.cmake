@@ -1,8 +1,8 @@
 # Fails when an object compiled for a better processor defines a symbol that the linker may merge with another object's:
-# every weak or external symbol of it must be named after its instruction set. Arguments: NM, FILE (without the instruction set),
+# every weak or external symbol of it must be named after its instruction set. Arguments: NM, FILE,
 # TABLE (the function that returns the table), ISA, OBJECTS (separated by |).
 string(REPLACE "|" ";" OBJECTS "${OBJECTS}")
-list(FILTER OBJECTS INCLUDE REGEX "${FILE}_${ISA}\\.")
+list(FILTER OBJECTS INCLUDE REGEX "isa/${ISA}/${FILE}\\.")
 list(LENGTH OBJECTS count)
 if(NOT count EQUAL 1)
   message(FATAL_ERROR "isa_symbols: found ${count} objects of ${ISA} (got '${OBJECTS}', need 1)")

@@ -101,7 +101,7 @@ inline double reference_norm_sum(const SphereSoa& s, const KeyPointSoa& p, std::
 // The tables this processor can run.
 inline std::vector<const ShadowKernels*> available_kernels() {
   std::vector<const ShadowKernels*> tables;
-  for (const Isa isa : {Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512})
+  for (const Isa isa : all_isas)
     if (const ShadowKernels* table = shadow_kernels(isa)) tables.push_back(table);
   return tables;
 }

@@ -85,6 +85,7 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   nook_scene_desc scene_desc;
   nook_gl_desc desc;
   nook_gl_info info;
+  nook_gl_memory memory;
   nook_gl_ao_view view;
   nook_context context = NULL;
   nook_character_model model = NULL;
@@ -115,7 +116,11 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
   EXPECT_OK(nook_gl_describe(gl, &info));
-  EXPECT((info.tier == 33 || info.tier == 43) && info.version && info.renderer);
+  EXPECT(info.tier >= NOOK_GL_TIER_33 && info.version && info.renderer);
+  memset(&memory, 0, sizeof memory);
+  memory.struct_size = sizeof memory;
+  EXPECT_OK(nook_gl_model_memory(gl, model, &memory));
+  EXPECT(memory.model_bytes > 0 && memory.lit_instance_bytes > memory.instance_bytes);
   EXPECT(info.ao_bytes >= view.count * sizeof(float) && info.buffer_bytes > info.ao_bytes);
   write_ao(gl, scene, instance);
   light_instance(gl, scene, instance, view.count);

@@ -188,3 +188,52 @@ TEST_CASE("a crowd beyond the limits of the context is refused, and evaluated on
   nook_gl_destroy(&gl);
   nook_character_model_destroy(&model);
 }
+
+TEST_CASE("memory is told as the allocator and OpenGL count it, and before it is taken") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  const long long before = host.bytes;
+  nook_character_model model = load_model(host.handle, sample_model(16, {20, 130, 300, 5000, 200, 4}));
+  nook_character_memory told{};
+  told.struct_size = sizeof told;
+  NOOK_OK_OR_FAIL(nook_character_model_memory(model, &told));
+  // A few bytes are the handle's own, which the two count apart.
+  CHECK(std::abs(static_cast<long long>(told.model_bytes) - (host.bytes - before)) <= 256);
+
+  constexpr std::uint32_t count = 40;
+  CrowdOptions options;
+  options.instances = count;
+  options.links = options.nearest = options.occluders = false;
+  const long long without_scene = host.bytes;
+  Crowd crowd(host.handle, {model}, {20}, options);
+  std::uint64_t scene_bytes = 0;
+  NOOK_OK_OR_FAIL(nook_scene_memory(crowd.scene, &scene_bytes));
+  CHECK(std::abs(static_cast<long long>(scene_bytes) - (host.bytes - without_scene)) <= 256);
+  const double told_before = double(count) * double(told.instance_bytes);
+  // Lists of slots, and the room that arrays keep to grow.
+  CHECK(double(scene_bytes) > told_before);
+  CHECK(double(scene_bytes) < 1.15 * told_before);
+
+  const nook_probe_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
+  for (const nook_instance_id id : crowd.ids)
+    NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, id, &lobe, 1));
+  NOOK_OK_OR_FAIL(nook_scene_memory(crowd.scene, &scene_bytes));
+  CHECK(double(scene_bytes) < 1.15 * count * double(told.lit_instance_bytes));
+
+  for (const int tier : tiers_of(context)) {
+    INFO("tier " << tier);
+    nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
+    nook_gl_memory memory{};
+    memory.struct_size = sizeof memory;
+    NOOK_OK_OR_FAIL(nook_gl_model_memory(gl, model, &memory));
+    const std::uint64_t empty = info_of(gl).buffer_bytes;
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    const double told_gl = double(memory.model_bytes) + count * double(memory.lit_instance_bytes);
+    const double held = double(info_of(gl).buffer_bytes - empty);
+    // Buffers that grow keep room for half as much again; 2D textures are not among the buffers.
+    CHECK(held < 1.5 * told_gl + 65536);
+    CHECK(held > (context.is_es() ? 0.5 : 0.95) * told_gl);
+    nook_gl_destroy(&gl);
+  }
+  nook_character_model_destroy(&model);
+}

@@ -68,10 +68,12 @@ std::vector<ShaderCase> character_shaders() {
     }
   add(Stage::compute, "spread.comp");
   add(Stage::compute, "colours_spread.comp");
+  const std::string outputs[] = {"", ", light", ", grey among lit ones"};  // by NOOK_OUTPUT
+  for (int output = 0; output < 3; ++output)
+    add(Stage::compute, "vertices.comp", outputs[output], define("NOOK_OUTPUT", output),
+        {{"pairs of influences", trips::influence_pairs, {}}});
   for (const int light : {0, 1}) {
     const std::string lit = light ? ", light" : "", light_define = define("NOOK_LIGHT", light);
-    add(Stage::compute, "vertices.comp", lit, light_define,
-        {{"pairs of influences", trips::influence_pairs, {}}});
     for (const int quads : {1, 2})
       add(Stage::vertex, "vertices.vert", ", " + std::to_string(4 * quads) + " influences" + lit,
           define("NOOK_QUADS", quads) + light_define);

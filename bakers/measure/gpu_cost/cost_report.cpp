@@ -1,22 +1,15 @@
 #include "bakers/measure/gpu_cost/cost_report.h"
 
 #include <algorithm>
-#include <cstdarg>
+#include <array>
 #include <cstdio>
 #include <stdexcept>
 
 namespace nook::measure {
 namespace {
 
-void add(std::string& out, const char* format, ...) __attribute__((format(printf, 2, 3)));
-void add(std::string& out, const char* format, ...) {
-  char line[300];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  out += line;
-}
+// A line of a table, cut where it is longer.
+using Line = std::array<char, 300>;
 
 // Columns of a report's rows that hold instructions.
 struct Column {
@@ -57,13 +50,74 @@ double rounded(double value) {
   return double(std::int64_t(100 * value + 0.5)) / 100;
 }
 
-void compare_line(Comparison& comparison, const std::string& family, const std::string& name, double before,
-                  double after, double limit) {
-  const double ratio = before > 0 ? after / before : after > 0 ? 1e9 : 1;
-  const bool above = ratio > limit;
-  add(comparison.text, "%-9s %-52s %10.1f %10.1f %8.3f%s\n", family.c_str(), name.c_str(), before, after,
-      ratio, above ? "  above the limit" : "");
-  if (above) comparison.above_limit.push_back(family + ": " + name);
+struct NamedCycles {
+  std::string name;
+  double cycles;
+};
+
+std::vector<NamedCycles> named_cycles(const FamilyCost& family) {
+  std::vector<NamedCycles> cycles;
+  for (const ShaderCost& shader : family.shaders)
+    if (shader.error.empty()) cycles.push_back({shader.shader, shader.cycles().all()});
+  for (const PassCost& pass : family.passes) cycles.push_back({"pass " + pass.pass, pass.cycles.all()});
+  return cycles;
+}
+
+const NamedCycles* find(const std::vector<NamedCycles>& cycles, const std::string& name) {
+  const auto found = std::find_if(cycles.begin(), cycles.end(),
+                                  [&](const NamedCycles& other) { return other.name == name; });
+  return found == cycles.end() ? nullptr : &*found;
+}
+
+void compare_family(Comparison& comparison, const FamilyCost& before, const FamilyCost& after, double limit) {
+  Line line;
+  const std::vector<NamedCycles> old = named_cycles(before), now = named_cycles(after);
+  const auto unmatched = [&](const std::string& name, const char* where) {
+    std::snprintf(line.data(), line.size(), "%-9s %-52s only in the %s one\n", after.family.c_str(),
+                  name.c_str(), where);
+    comparison.text += line.data();
+    comparison.unmatched.push_back(after.family + ": " + name);
+  };
+  for (const NamedCycles& shader : now) {
+    const NamedCycles* was = find(old, shader.name);
+    if (!was) {
+      unmatched(shader.name, "new");
+      continue;
+    }
+    // Every shader has instructions.
+    const double ratio = shader.cycles / std::max(was->cycles, 1.0);
+    const bool above = ratio > limit;
+    std::snprintf(line.data(), line.size(), "%-9s %-52s %10.1f %10.1f %8.3f%s\n", after.family.c_str(),
+                  shader.name.c_str(), was->cycles, shader.cycles, ratio, above ? "  above the limit" : "");
+    comparison.text += line.data();
+    if (above) comparison.above_limit.push_back(after.family + ": " + shader.name);
+  }
+  for (const NamedCycles& was : old)
+    if (!find(now, was.name)) unmatched(was.name, "old");
+}
+
+nlohmann::json to_json(const CostReport& report) {
+  nlohmann::json json = {{"driver", report.driver}, {"rows", nlohmann::json::array()}};
+  for (const FamilyCost& family : report.families) {
+    for (const ShaderCost& shader : family.shaders) {
+      if (!shader.error.empty()) continue;
+      nlohmann::json row = {{"shader", shader.shader}, {"family", family.family}};
+      for (const Column& column : columns) row[column.key] = rounded(shader.counts[column.counted]);
+      row["registers"] = shader.vector_registers;
+      row["scalar_registers"] = shader.scalar_registers;
+      row["waves"] = shader.waves;
+      row["code_bytes"] = shader.code_bytes;
+      row["alu_cycles"] = rounded(shader.cycles().alu);
+      row["texture_cycles"] = rounded(shader.cycles().texture);
+      json["rows"].push_back(std::move(row));
+    }
+    for (const PassCost& pass : family.passes)
+      json["passes"].push_back({{"pass", pass.pass},
+                                {"family", family.family},
+                                {"alu_cycles", rounded(pass.cycles.alu)},
+                                {"texture_cycles", rounded(pass.cycles.texture)}});
+  }
+  return json;
 }
 
 }  // namespace
@@ -92,28 +146,19 @@ CostReport count_tree(const SourceTree& tree, const std::vector<std::string>& fa
   return report;
 }
 
-nlohmann::json to_json(const CostReport& report) {
-  nlohmann::json json = {{"driver", report.driver}, {"rows", nlohmann::json::array()}};
-  for (const FamilyCost& family : report.families) {
-    for (const ShaderCost& shader : family.shaders) {
-      if (!shader.error.empty()) continue;
-      nlohmann::json row = {{"shader", shader.shader}, {"family", family.family}};
-      for (const Column& column : columns) row[column.key] = rounded(shader.counts[column.counted]);
-      row["registers"] = shader.vector_registers;
-      row["scalar_registers"] = shader.scalar_registers;
-      row["waves"] = shader.waves;
-      row["code_bytes"] = shader.code_bytes;
-      row["alu_cycles"] = rounded(shader.cycles().alu);
-      row["texture_cycles"] = rounded(shader.cycles().texture);
-      json["rows"].push_back(std::move(row));
+std::string report_text(const CostReport& report) {
+  const nlohmann::json json = to_json(report);
+  std::string text = "{\"driver\": " + json["driver"].dump();
+  for (const char* list : {"passes", "rows"}) {
+    text += std::string(",\n\"") + list + "\": [";
+    const char* separator = "\n";
+    for (const nlohmann::json& row : json.value(list, nlohmann::json::array())) {
+      text += separator + row.dump();
+      separator = ",\n";
     }
-    for (const PassCost& pass : family.passes)
-      json["passes"].push_back({{"pass", pass.pass},
-                                {"family", family.family},
-                                {"alu_cycles", rounded(pass.cycles.alu)},
-                                {"texture_cycles", rounded(pass.cycles.texture)}});
+    text += "]";
   }
-  return json;
+  return text + "}\n";
 }
 
 CostReport from_json(const nlohmann::json& json) {
@@ -142,60 +187,50 @@ CostReport from_json(const nlohmann::json& json) {
 }
 
 std::string cost_table(const CostReport& report) {
+  Line line;
   std::string out = report.driver + "; instructions and cycles of a wave of 64 threads\n";
   for (const FamilyCost& family : report.families) {
-    add(out, "\n%-52s %8s %8s %8s %6s %6s %8s %8s %5s %5s %9s %9s\n", family.family.c_str(), "valu",
-        "transc.", "fetches", "stores", "local", "scalar", "s. loads", "regs", "waves", "alu cyc.",
-        "tex. cyc.");
+    std::snprintf(line.data(), line.size(), "\n%-52s %8s %8s %8s %6s %6s %8s %8s %5s %5s %9s %9s\n",
+                  family.family.c_str(), "valu", "transc.", "fetches", "stores", "local", "scalar",
+                  "s. loads", "regs", "waves", "alu cyc.", "tex. cyc.");
+    out += line.data();
     for (const ShaderCost& shader : family.shaders) {
       if (!shader.error.empty()) {
-        add(out, "%-52s failed, see below\n", shader.shader.c_str());
+        std::snprintf(line.data(), line.size(), "%-52s failed, see below\n", shader.shader.c_str());
+        out += line.data();
         continue;
       }
       const InstructionCounts& n = shader.counts;
-      add(out, "%-52s %8.0f %8.0f %8.1f %6.0f %6.0f %8.0f %8.0f %5u %5u %9.0f %9.0f\n", shader.shader.c_str(),
-          n[InstructionClass::vector], n[InstructionClass::quarter_rate], n[InstructionClass::fetch],
-          n[InstructionClass::store], n[InstructionClass::local_memory], n[InstructionClass::scalar],
-          n[InstructionClass::scalar_load], shader.vector_registers, shader.waves, shader.cycles().alu,
-          shader.cycles().texture);
+      std::snprintf(line.data(), line.size(),
+                    "%-52s %8.0f %8.0f %8.1f %6.0f %6.0f %8.0f %8.0f %5u %5u %9.0f %9.0f\n",
+                    shader.shader.c_str(), n[InstructionClass::vector], n[InstructionClass::quarter_rate],
+                    n[InstructionClass::fetch], n[InstructionClass::store], n[InstructionClass::local_memory],
+                    n[InstructionClass::scalar], n[InstructionClass::scalar_load], shader.vector_registers,
+                    shader.waves, shader.cycles().alu, shader.cycles().texture);
+      out += line.data();
     }
     if (family.passes.empty()) continue;
-    add(out, "\n%-52s %9s %9s %9s\n", (family.family + ", whole passes").c_str(), "alu cyc.", "tex. cyc.",
-        "sum");
-    for (const PassCost& pass : family.passes)
-      add(out, "%-52s %9.0f %9.0f %9.0f\n", pass.pass.c_str(), pass.cycles.alu, pass.cycles.texture,
-          pass.cycles.all());
+    std::snprintf(line.data(), line.size(), "\n%-52s %9s %9s %9s\n",
+                  (family.family + ", whole passes").c_str(), "alu cyc.", "tex. cyc.", "sum");
+    out += line.data();
+    for (const PassCost& pass : family.passes) {
+      std::snprintf(line.data(), line.size(), "%-52s %9.0f %9.0f %9.0f\n", pass.pass.c_str(), pass.cycles.alu,
+                    pass.cycles.texture, pass.cycles.all());
+      out += line.data();
+    }
   }
   return out;
 }
 
 Comparison compare(const CostReport& before, const CostReport& after, double limit) {
   Comparison comparison;
-  add(comparison.text, "%-9s %-52s %10s %10s %8s\n", "family", "cycles of", "old", "new", "new/old");
-  for (const FamilyCost& family : after.families) {
-    const auto old = std::find_if(before.families.begin(), before.families.end(),
-                                  [&](const FamilyCost& other) { return other.family == family.family; });
-    if (old == before.families.end()) continue;
-    for (const ShaderCost& shader : family.shaders) {
-      const ShaderCost* was = find(old->shaders, shader.shader);
-      if (!shader.error.empty()) continue;
-      if (was)
-        compare_line(comparison, family.family, shader.shader, was->cycles().all(), shader.cycles().all(),
-                     limit);
-      else
-        add(comparison.text, "%-9s %-52s only in the new one\n", family.family.c_str(),
-            shader.shader.c_str());
-    }
-    for (const ShaderCost& was : old->shaders)
-      if (std::none_of(family.shaders.begin(), family.shaders.end(),
-                       [&](const ShaderCost& shader) { return shader.shader == was.shader; }))
-        add(comparison.text, "%-9s %-52s only in the old one\n", family.family.c_str(), was.shader.c_str());
-    for (const PassCost& pass : family.passes)
-      for (const PassCost& was : old->passes)
-        if (was.pass == pass.pass)
-          compare_line(comparison, family.family, "pass: " + pass.pass, was.cycles.all(), pass.cycles.all(),
-                       limit);
-  }
+  Line line;
+  std::snprintf(line.data(), line.size(), "%-9s %-52s %10s %10s %8s\n", "family", "cycles of", "old", "new",
+                "new/old");
+  comparison.text += line.data();
+  for (const FamilyCost& family : after.families)
+    for (const FamilyCost& old : before.families)
+      if (old.family == family.family) compare_family(comparison, old, family, limit);
   return comparison;
 }
 

@@ -33,7 +33,8 @@ struct CostReport {
 CostReport count_tree(const SourceTree& tree, const std::vector<std::string>& families,
                       const std::string& only);
 
-nlohmann::json to_json(const CostReport& report);
+// A row is a line, so that a change of one shader is a change of one line.
+std::string report_text(const CostReport& report);
 CostReport from_json(const nlohmann::json& json);
 
 std::string cost_table(const CostReport& report);
@@ -41,6 +42,7 @@ std::string cost_table(const CostReport& report);
 struct Comparison {
   std::string text;
   std::vector<std::string> above_limit;  // shaders whose cycles grew by more than the limit
+  std::vector<std::string> unmatched;    // shaders and passes that only one of both has
 };
 
 // The ratio of the cycles of every shader and pass that both reports have, by family.

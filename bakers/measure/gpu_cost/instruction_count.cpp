@@ -126,8 +126,10 @@ InstructionClass classify(std::string_view m) {
   using enum InstructionClass;
   if (begins_with_any(m,
                       {"v_rcp_", "v_rsq_", "v_sqrt_", "v_sin_", "v_cos_", "v_exp_", "v_log_", "v_mul_lo_u32",
-                       "v_mul_lo_i32", "v_mul_hi_u32", "v_mul_hi_i32", "v_mad_u64_u32", "v_mad_i64_i32"}))
-    return quarter_rate;
+                       "v_mul_lo_i32", "v_mul_hi_u32", "v_mul_hi_i32", "v_mad_u64_u32", "v_mad_i64_i32"})) {
+    // Products of 24-bit integers, v_mul_hi_u32_u24, have the full rate.
+    return m.find("24") == m.npos ? quarter_rate : vector;
+  }
   if (begins_with_any(m, {"v_"})) return vector;
   if (begins_with_any(m, {"image_", "buffer_", "tbuffer_", "global_", "flat_", "scratch_"})) {
     if (m.find("store") != m.npos) return store;

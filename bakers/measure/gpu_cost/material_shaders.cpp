@@ -35,8 +35,7 @@ void set_tensor(material::TensorTables& t, std::uint32_t texels, std::uint32_t l
   t.side = material::default_map_side;
 }
 
-// What the library writes in front of shaders/material/host.glsl, whose text comes from the tree that is
-// counted.
+// The library's declarations before shaders/material/host.glsl, whose text is that of the counted tree.
 std::string declarations(const Size& size) {
   material::MaterialTables tables;
   set_tensor(tables.btf, size.texels, size.light_modes, size.view_vec4s, size.clusters, size.terms);

@@ -26,6 +26,7 @@ void choose_driver(const std::string& family) {
   setenv("RADV_FORCE_FAMILY", family.c_str(), 1);
   // Vertex shaders without the code of primitive shaders, which OpenGL does not use for transform feedback.
   setenv("RADV_DEBUG", "nongg,nocache", 1);
+  for (const char* option : {"RADV_PERFTEST", "ACO_DEBUG", "RADV_FORCE_VRS"}) unsetenv(option);
   if (std::getenv("VK_ICD_FILENAMES") || std::getenv("VK_DRIVER_FILES")) return;
   const std::filesystem::path folder = "/usr/share/vulkan/icd.d";
   std::error_code missing;
@@ -176,12 +177,15 @@ NullDevice::NullDevice(const std::string& family) : vulkan_(std::make_unique<Vul
   VkInstanceCreateInfo instance_info = {};
   instance_info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
   instance_info.pApplicationInfo = &application;
-  check(vkCreateInstance(&instance_info, nullptr, &vulkan_->instance), "vkCreateInstance");
+  const std::string missing = "nook_gpu_cost: no RADV device of the family " + family +
+                              " (need mesa-vulkan-drivers, and a family that it knows)";
+  if (vkCreateInstance(&instance_info, nullptr, &vulkan_->instance) < 0) throw NoRadv(missing);
   std::uint32_t count = 1;
   const VkResult found = vkEnumeratePhysicalDevices(vulkan_->instance, &count, &vulkan_->physical);
-  if (found < 0 || count == 0 || driver().find("radv") == std::string::npos)
-    throw std::runtime_error("nook_gpu_cost: no RADV device of the family " + family +
-                             " (need mesa-vulkan-drivers)");
+  if (found < 0 || count == 0 || !driver().starts_with("radv")) {
+    vkDestroyInstance(vulkan_->instance, nullptr);
+    throw NoRadv(missing);
+  }
 
   VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR executables = {};
   executables.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,14 @@ struct CompiledShader {
   unsigned code_bytes = 0;
 };
 
+// There is no RADV on this machine.
+struct NoRadv : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class NullDevice {
  public:
-  // family is a name that RADV knows, such as navi21. Throws where there is no RADV.
+  // family is a name that RADV knows, such as navi21. Throws NoRadv.
   explicit NullDevice(const std::string& family);
   ~NullDevice();
   NullDevice(const NullDevice&) = delete;

@@ -44,7 +44,7 @@ std::string fragment_partner(const std::vector<StageVariable>& outputs) {
 
 VulkanGlsl vulkan_glsl(const SourceTree& tree, const ShaderCase& shader) {
   const std::string text = shader.path.empty() ? shader.host : file_text(tree.root / shader.path);
-  return to_vulkan_glsl(preprocess(shader.stage, with_version(shader.stage, tree.defines + shader.defines,
+  return to_vulkan_glsl(preprocess(shader.stage, with_version(shader.stage, tree.first_lines + shader.defines,
                                                               expand_includes(tree.root, text))));
 }
 

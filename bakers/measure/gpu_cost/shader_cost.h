@@ -34,7 +34,7 @@ struct ShaderCost {
 
 struct SourceTree {
   std::filesystem::path root;
-  std::string defines;  // in front of those of each shader
+  std::string first_lines;  // in front of the defines of each shader
 };
 
 // A shader as Vulkan GLSL.

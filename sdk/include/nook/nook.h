@@ -106,14 +106,22 @@ typedef void (*nook_log_fn)(void* user, nook_log_severity severity, const char* 
 typedef void (*nook_job_fn)(void* body_user, uint32_t index);
 typedef void (*nook_parallel_for_fn)(void* user, uint32_t count, nook_job_fn body, void* body_user);
 
-/* The instruction sets of the CPU kernels. */
+/* The instruction sets of the CPU kernels. A set that the build or the processor lacks fails with UNSUPPORTED. */
 enum {
   /* The best instruction set of this processor. */
   NOOK_ISA_AUTO = 0,
+  /* On every platform: one number at a time. */
   NOOK_ISA_SCALAR = 1,
+  /* x86-64: every processor. */
   NOOK_ISA_SSE2 = 2,
+  /* x86-64: processors with AVX2 and FMA. */
   NOOK_ISA_AVX2 = 3,
-  NOOK_ISA_AVX512 = 4
+  /* x86-64: processors with AVX-512F. */
+  NOOK_ISA_AVX512 = 4,
+  /* 64-bit ARM: every processor. */
+  NOOK_ISA_NEON = 5,
+  /* WebAssembly: modules that are built with its fixed-width SIMD. */
+  NOOK_ISA_WASM128 = 6
 };
 typedef int32_t nook_isa;
 

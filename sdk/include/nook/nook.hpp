@@ -120,6 +120,12 @@ class CharacterModel : public Unique<nook_character_model, nook_character_model_
     check(nook_character_model_describe(get(), &info));
     return info;
   }
+  nook_character_memory memory() const {
+    nook_character_memory memory{};
+    memory.struct_size = sizeof memory;
+    check(nook_character_model_memory(get(), &memory));
+    return memory;
+  }
   // Returns an empty string for an index out of range.
   std::string bone_name(std::uint32_t bone) const {
     const char* name = nook_character_model_bone_name(get(), bone);
@@ -235,6 +241,11 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
   void read_directional_ao(nook_instance_id id, float* out_rgb, std::uint32_t count,
                            std::size_t stride = 0) const {
     check(nook_scene_read_directional_ao(get(), id, out_rgb, count, stride));
+  }
+  std::uint64_t memory() const {
+    std::uint64_t bytes = 0;
+    check(nook_scene_memory(get(), &bytes));
+    return bytes;
   }
   nook_scene_stats stats() const {
     nook_scene_stats stats{};
@@ -413,6 +424,12 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
     info.struct_size = sizeof info;
     check(nook_gl_describe(get(), &info));
     return info;
+  }
+  nook_gl_memory memory_of(const CharacterModel& model) const {
+    nook_gl_memory memory{};
+    memory.struct_size = sizeof memory;
+    check(nook_gl_model_memory(get(), model.get(), &memory));
+    return memory;
   }
   void prepare(const Scene& scene) { check(nook_gl_scene_prepare(get(), scene.get())); }
   // Replaces scene.update().

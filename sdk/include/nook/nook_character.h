@@ -58,6 +58,24 @@ typedef struct nook_character_model_info {
 NOOK_API nook_result nook_character_model_describe(nook_character_model model,
                                                    nook_character_model_info* info);
 
+/* The host memory of a model, in bytes, without what the allocator adds to each piece. */
+typedef struct nook_character_memory {
+  /* sizeof(nook_character_memory); the caller sets it. */
+  uint32_t struct_size;
+  uint32_t reserved;
+  /* What the model holds now, which all its instances share. */
+  uint64_t model_bytes;
+  /* What an instance of it takes in a scene, links to others apart. */
+  uint64_t instance_bytes;
+  /* The same after nook_scene_set_light. */
+  uint64_t lit_instance_bytes;
+} nook_character_memory;
+
+/* Tells the host memory of a model, and of an instance before there is one. nook_gl_model_memory does so for
+ * OpenGL.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_character_model_memory(nook_character_model model, nook_character_memory* memory);
+
 /* Returns the name of a bone, so that a host can map its skeleton to the model's order, or NULL for an index
  * out of range. The text is valid while the model lives.
  * Any thread. */
@@ -273,6 +291,10 @@ typedef int32_t nook_ao_format;
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_ao_as(nook_scene scene, nook_instance_id instance, nook_ao_format format,
                                            void* out, uint32_t count, size_t stride);
+
+/* Tells the bytes of host memory that the scene holds now, its models apart.
+ * One at a time. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_scene_memory(nook_scene scene, uint64_t* bytes);
 
 typedef struct nook_scene_stats {
   /* sizeof(nook_scene_stats); the caller sets it. */

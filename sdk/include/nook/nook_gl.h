@@ -120,6 +120,23 @@ typedef struct nook_gl_info {
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info);
 
+/* The OpenGL memory of a model, in bytes, as nook_gl_info.buffer_bytes counts it. */
+typedef struct nook_gl_memory {
+  /* sizeof(nook_gl_memory); the caller sets it. */
+  uint32_t struct_size;
+  uint32_t reserved;
+  /* What all instances of the model share. */
+  uint64_t model_bytes;
+  /* What one instance takes, links apart. */
+  uint64_t instance_bytes;
+  /* The same with a light. */
+  uint64_t lit_instance_bytes;
+} nook_gl_memory;
+
+/* Computes the OpenGL memory of a model before any of it is used; buffers that grow have up to half as much
+ * again. The call makes no OpenGL call. One at a time. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_gl_model_memory(nook_gl gl, nook_character_model model, nook_gl_memory* memory);
+
 /* Creates the OpenGL objects that the scene's instances need, so that the next nook_gl_scene_update allocates
  * nothing. The call is optional, because an update does the same when instances were added. Existing
  * instances keep their AO and their view.

@@ -2,6 +2,7 @@
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
+#include "sdk/src/character/memory_use.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/descriptors.h"
 
@@ -15,9 +16,10 @@ nook_result nook_character_model_load(nook_context context, const void* bytes, s
     need(context, "context");
     need(bytes, "bytes");
     const auto shared = Ref<nook_context_s>::share(context);
-    CharacterModel model =
-        read_character_model({static_cast<const std::byte*>(bytes), size}, context->memory());
-    *out = Owned<nook_character_model_s>::make(context->memory(), shared, shared, std::move(model)).detach();
+    const auto read = [&](Memory* memory) {
+      return read_character_model({static_cast<const std::byte*>(bytes), size}, memory);
+    };
+    *out = Owned<nook_character_model_s>::make(context->memory(), shared, shared, read).detach();
     const CharacterModel& loaded = (*out)->model;
     context->log(
         NOOK_LOG_INFO, "character model: %zu vertices, %zu bones, %zu spheres, %zu key points, %zu bytes",
@@ -46,6 +48,17 @@ nook_result nook_character_model_describe(nook_character_model model, nook_chara
     answer.bounding_radius = m.bounding_radius;
     answer.gamma = m.kernel.gamma;
     write_info(info, offsetof(nook_character_model_info, gamma) + sizeof info->gamma, answer);
+  });
+}
+
+nook_result nook_character_model_memory(nook_character_model model, nook_character_memory* memory) {
+  return api::enter("nook_character_model_memory", [&] {
+    need(model, "model");
+    nook_character_memory answer{};
+    answer.model_bytes = sizeof *model + model->metered.bytes();
+    answer.instance_bytes = instance_bytes(*model);
+    answer.lit_instance_bytes = answer.instance_bytes + light_bytes(*model);
+    write_info(memory, offsetof(nook_character_memory, lit_instance_bytes) + sizeof(uint64_t), answer);
   });
 }
 

@@ -4,6 +4,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/core/descriptors.h"
+#include "sdk/src/core/isa.h"
 
 using namespace nook;
 
@@ -42,7 +43,7 @@ void check_value(const char* name, std::int32_t value, std::int32_t last) {
 SceneSettings settings_of(const nook_scene_desc& desc) {
   constexpr float tiny = 1e-6f, huge = 1e9f;
   check_value("combine", desc.combine, NOOK_COMBINE_PAPER);
-  check_value("isa", desc.isa, NOOK_ISA_AVX512);
+  check_value("isa", desc.isa, last_isa());
   check_range("cutoff_error", desc.cutoff_error, 0, 1, "0 to 1");
   check_range("lod_error", desc.lod_error, 0, huge, "0 or more");
   check_range("lod_distance", desc.lod_distance, tiny, huge, "metres above 0");
@@ -246,6 +247,14 @@ nook_result nook_scene_read_directional_ao(nook_scene scene, nook_instance_id in
     need(out_rgb, "out_rgb");
     check_output(found, count, stride, 3 * sizeof(float));
     read_directional_ao(s, found, out_rgb, stride ? stride : 3 * sizeof(float));
+  });
+}
+
+nook_result nook_scene_memory(nook_scene scene, uint64_t* bytes) {
+  return api::enter("nook_scene_memory", [&] {
+    need(scene, "scene");
+    need(bytes, "bytes");
+    *bytes = sizeof *scene + scene->metered.bytes();
   });
 }
 

@@ -90,7 +90,7 @@ nook_result nook_character_model_remap(nook_character_model model, const uint32_
             "mesh",
             i, vertices[i] == NOOK_NO_VERTEX ? "NOOK_NO_VERTEX" : "out of range", vertices[i], known);
     const auto context = Ref<nook_context_s>::share(model->context);
-    CharacterModel copy = remapped(model->model, {vertices, count}, context->memory());
-    *out = Owned<nook_character_model_s>::make(context->memory(), context, context, std::move(copy)).detach();
+    const auto remap = [&](Memory* memory) { return remapped(model->model, {vertices, count}, memory); };
+    *out = Owned<nook_character_model_s>::make(context->memory(), context, context, remap).detach();
   });
 }

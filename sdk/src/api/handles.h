@@ -21,16 +21,24 @@ struct nook_context_s final : nook::Context {
   }
 };
 
-struct nook_character_model_s : nook::LoadedModel {
-  nook_character_model_s(nook::Ref<nook_context_s> made_by, nook::CharacterModel loaded)
-      : LoadedModel(std::move(loaded), made_by->memory()), context(made_by.get()) {}
+// A base, so that it outlives the arrays of the object that derives from it.
+struct Meter {
+  explicit Meter(nook::Memory* source) noexcept : metered(source) {}
+  nook::MeteredMemory metered;
+};
+
+struct nook_character_model_s : Meter, nook::LoadedModel {
+  // make(Memory*) returns the CharacterModel, in that memory.
+  template <class Make>
+  nook_character_model_s(nook::Ref<nook_context_s> made_by, Make&& make)
+      : Meter(made_by->memory()), LoadedModel(make(&metered), &metered), context(made_by.get()) {}
 
   nook_context_s* context;  // kept alive by this object's owner reference
 };
 
-struct nook_scene_s : nook::RefCounted {
+struct nook_scene_s : Meter, nook::RefCounted {
   nook_scene_s(nook_context_s* made_by, const nook::SceneSettings& settings)
-      : context(made_by), scene(settings, made_by->parallel(), made_by->memory()) {}
+      : Meter(made_by->memory()), context(made_by), scene(settings, made_by->parallel(), &metered) {}
 
   nook_context_s* context;  // kept alive by this object's owner reference
   // The host destroyed the scene; objects that others hold for it are invalid.

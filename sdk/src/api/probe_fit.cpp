@@ -7,6 +7,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/probe_handles.h"
 #include "sdk/src/core/descriptors.h"
+#include "sdk/src/core/isa.h"
 #include "sdk/src/probe/axes.h"
 
 using namespace nook;
@@ -41,7 +42,7 @@ void check_choices(const nook_probe_fit_desc& desc) {
   check_choice("ambient", desc.ambient, 1);
   check_choice("denominator", desc.denominator, NOOK_PROBE_DENOMINATOR_PRECOMPUTED);
   check_choice("step", desc.step, NOOK_PROBE_STEP_PLAIN);
-  check_choice("isa", desc.isa, NOOK_ISA_AVX512);
+  check_choice("isa", desc.isa, last_isa());
   if (desc.reserved != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", desc.reserved);
 }

@@ -42,7 +42,7 @@ Vec3 darkest_of(std::span<const SphericalGaussian> lobes) {
 void allocate(InstanceLight& light, const PointLanes& points, Memory* memory) {
   AlignedArray<LightLobe> lobes(max_light_lobes, memory);
   AlignedArray<LobeBands> lobe_bands(max_light_lobes, memory);
-  light.storage = AlignedArray<float>(std::size_t{15} * points.padded_count, memory);
+  light.storage = AlignedArray<float>(light_lanes * points.padded_count, memory);
   light.lobes = std::move(lobes);
   light.lobe_bands = std::move(lobe_bands);
   float* at = light.storage.data();

@@ -19,6 +19,8 @@ struct Scene;
 
 inline constexpr std::uint32_t max_light_lobes = NOOK_PROBE_MAX_FUNCTIONS;
 
+inline constexpr std::size_t light_lanes = 15;  // of InstanceLight::storage
+
 struct InstanceLight {
   AlignedArray<LightLobe> lobes;       // max_light_lobes, or none before the first light
   AlignedArray<LobeBands> lobe_bands;  // the same

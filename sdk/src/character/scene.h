@@ -38,6 +38,8 @@ struct SphereLanes {
   std::uint32_t count = 0;
 };
 
+inline constexpr std::size_t sphere_lanes = 4, point_lanes = 17;  // pointers of the next two
+
 // Key points in world space, each array padded_count long. Padding holds finite numbers. Pointers are into
 // InstanceArrays::storage.
 struct PointLanes {

@@ -123,11 +123,12 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory) {
       &points.nz,         &points.surface_x,  &points.surface_y, &points.surface_z, &points.surface_nx,
       &points.surface_ny, &points.surface_nz, &points.norm_sum,  &points.shadow,    &points.optical_depth,
       &points.open,       &points.added};
+  static_assert(std::size(of_points) == point_lanes);
   arrays.spheres.count = static_cast<std::uint32_t>(model.model.spheres.size());
-  std::size_t size = 4 * padded_count(arrays.spheres.count) + std::size(of_points) * points.padded_count;
+  std::size_t size = sphere_lanes * padded_count(arrays.spheres.count) + point_lanes * points.padded_count;
   for (std::size_t l = 0; l < model.levels.size(); ++l) {
     arrays.coarse_spheres[l].count = model.levels[l].rest_spheres.view().count;
-    size += 4 * padded_count(arrays.coarse_spheres[l].count);
+    size += sphere_lanes * padded_count(arrays.coarse_spheres[l].count);
   }
 
   arrays.storage = AlignedArray<float>(size, memory);
@@ -148,9 +149,7 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory) {
 
 Scene::Scene(const SceneSettings& scene_settings, const Parallel& host_parallel, Memory* scene_memory)
     : settings(scene_settings),
-      kernels(settings.isa == NOOK_ISA_AUTO
-                  ? &best_shadow_kernels()
-                  : shadow_kernels(static_cast<Isa>(settings.isa - NOOK_ISA_SCALAR))),
+      kernels(shadow_kernels(choose_isa(settings.isa))),
       parallel(host_parallel),
       memory(scene_memory),
       instances(memory),
@@ -158,11 +157,7 @@ Scene::Scene(const SceneSettings& scene_settings, const Parallel& host_parallel,
       occluders(memory),
       free_occluders(memory),
       neighbours(memory),
-      converted(memory) {
-  if (!kernels)
-    throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "this processor or build lacks instruction set %d; use NOOK_ISA_AUTO", settings.isa);
-}
+      converted(memory) {}
 
 Instance& instance_of(Scene& scene, nook_instance_id id) {
   return find(scene.instances, id, "instance");

@@ -1,5 +1,6 @@
 // The kernels over one vector type. Each instruction set includes this file inside its own namespace, after
 // it has defined
+//   isa, its Isa,
 //   Float, a vector of `width` numbers with the operations of core/simd_scalar.h,
 //   broadcast, load and store.
 // Everything here has internal linkage or a name that contains the instruction set's type, so that code for a

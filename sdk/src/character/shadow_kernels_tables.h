@@ -4,18 +4,8 @@
 
 #include "sdk/src/character/shadow_kernels.h"
 
-namespace nook {
-
-namespace isa_scalar {
-const ShadowKernels& kernels();
-}
-namespace isa_sse2 {
-const ShadowKernels& kernels();
-}
-namespace isa_avx2 {
-const ShadowKernels& kernels();
-}
-namespace isa_avx512 {
-const ShadowKernels& kernels();
-}
-}  // namespace nook
+#define NOOK_ISA_ENTRY(name, value, built, runs) \
+  namespace nook::isa_##name {                   \
+    const ShadowKernels& kernels();              \
+  }
+#include "sdk/src/core/isa_list.inl"

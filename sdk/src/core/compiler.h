@@ -1,4 +1,4 @@
-// What compilers write in ways of their own; no other header names an attribute of one compiler.
+// The attributes that each compiler spells in its own way; no other header of the library has one.
 #pragma once
 
 // NOOK_PRINTF(format, first): the compiler checks the values from parameter `first` on against the format

@@ -5,7 +5,9 @@
 
 #include <nook/nook.h>
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <new>
 
 namespace nook {
@@ -51,6 +53,30 @@ class HostMemory final : public Memory {
   }
 
   nook_allocator allocator_;
+};
+
+// Counts the bytes that one object holds of another memory.
+class MeteredMemory final : public Memory {
+ public:
+  explicit MeteredMemory(Memory* source) noexcept : source_(source) {}
+  MeteredMemory(const MeteredMemory&) = delete;
+  MeteredMemory& operator=(const MeteredMemory&) = delete;
+
+  std::uint64_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    void* memory = source_->allocate(bytes, alignment);
+    bytes_.fetch_add(bytes, std::memory_order_relaxed);
+    return memory;
+  }
+  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
+    bytes_.fetch_sub(bytes, std::memory_order_relaxed);
+    source_->deallocate(memory, bytes, alignment);
+  }
+
+  Memory* source_;
+  std::atomic<std::uint64_t> bytes_{0};
 };
 
 // The global operator new, for code without a host, such as bakers and tests.

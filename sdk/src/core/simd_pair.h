@@ -1,5 +1,6 @@
 // Two SIMD vectors as one number type. Formulas run on both, instruction by instruction, so that the latency
-// of one hides behind the other. V is a vector of core/simd_*.h.
+// of one hides behind the other. V is a vector of
+// an instruction set, from its folder in sdk/src/isa.
 #pragma once
 
 namespace nook::simd {

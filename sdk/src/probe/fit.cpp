@@ -22,18 +22,6 @@ constexpr float padding_sharpness = 1e4f;
 // A pivot of the Gram matrix below this share of its diagonal: coefficients would be rounding alone.
 constexpr double smallest_pivot = 1e-9;
 
-const FitKernels& choose_kernels(nook_isa isa) {
-  if (isa == NOOK_ISA_AUTO) return best_fit_kernels();
-  if (isa < NOOK_ISA_AUTO || isa > NOOK_ISA_AVX512)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "isa is unknown (got %d, need %d to %d)", isa, NOOK_ISA_AUTO,
-                  NOOK_ISA_AVX512);
-  const FitKernels* kernels = fit_kernels(static_cast<Isa>(isa - NOOK_ISA_SCALAR));
-  if (!kernels)
-    throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "this processor or build lacks instruction set %d; use NOOK_ISA_AUTO", isa);
-  return *kernels;
-}
-
 void check_settings(const Basis& basis, const FitSettings& settings) {
   if (!(settings.growing_samples >= 0) || !std::isfinite(settings.growing_samples))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "growing_samples is out of range (got %g, need 0 or more)",
@@ -65,7 +53,7 @@ enum Row : std::uint32_t {
 }  // namespace
 
 Fit::Fit(const Basis& basis, const FitSettings& settings, Memory* memory)
-    : basis_(basis), settings_(settings), kernels_(&choose_kernels(settings.isa)) {
+    : basis_(basis), settings_(settings), kernels_(fit_kernels(choose_isa(settings.isa))) {
   check_basis(basis, NOOK_ERROR_INVALID_ARGUMENT);
   check_settings(basis, settings);
   const std::uint32_t n = basis.count;

@@ -64,8 +64,8 @@ struct FitKernels {
                    std::uint32_t padded, double* gram);
 };
 
-// The table of one instruction set; NULL where the processor or the build lacks it. scalar is always there.
+// The table of one instruction set; NULL where the processor or the build lacks it. choose_isa gives one that
+// is there.
 const FitKernels* fit_kernels(Isa isa);
-const FitKernels& best_fit_kernels();
 
 }  // namespace nook::probe

@@ -1,6 +1,6 @@
 // The kernels over one vector type. Each instruction set includes this file inside its own namespace, after
-// defining there Float, width, broadcast, load and store; see character/shadow_kernels_impl.inl. Everything
-// here has internal linkage.
+// defining there isa, Float, width, broadcast, load and store; see character/shadow_kernels_impl.inl.
+// Everything here but fit_kernels() has internal linkage.
 
 namespace {
 
@@ -152,4 +152,11 @@ void sum_gram(const Sample* samples, const float* values, std::uint32_t count, s
   }
 }
 
+constexpr probe::FitKernels fit_table{isa,        isa_name(isa), gaussian_values, step_fast,
+                                      step_plain, step_original, sum_moments,     sum_gram};
+
 }  // namespace
+
+const probe::FitKernels& fit_kernels() {
+  return fit_table;
+}

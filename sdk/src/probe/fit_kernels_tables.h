@@ -4,17 +4,8 @@
 
 #include "sdk/src/probe/fit_kernels.h"
 
-namespace nook {
-namespace isa_scalar {
-const probe::FitKernels& fit_kernels();
-}
-namespace isa_sse2 {
-const probe::FitKernels& fit_kernels();
-}
-namespace isa_avx2 {
-const probe::FitKernels& fit_kernels();
-}
-namespace isa_avx512 {
-const probe::FitKernels& fit_kernels();
-}
-}  // namespace nook
+#define NOOK_ISA_ENTRY(name, value, built, runs) \
+  namespace nook::isa_##name {                   \
+    const probe::FitKernels& fit_kernels();      \
+  }
+#include "sdk/src/core/isa_list.inl"

@@ -73,6 +73,19 @@ gl::SceneHandle handle_of(nook_scene scene) {
 
 }  // namespace
 
+nook_result nook_gl_model_memory(nook_gl gl, nook_character_model model, nook_gl_memory* memory) {
+  return api::enter("nook_gl_model_memory", [&] {
+    need(gl, "gl");
+    need(model, "model");
+    const gl::ModelMemory bytes = gl->characters->memory_of(*model);
+    nook_gl_memory known{};
+    known.model_bytes = bytes.shared;
+    known.instance_bytes = bytes.instance;
+    known.lit_instance_bytes = bytes.instance + bytes.light;
+    write_info(memory, offsetof(nook_gl_memory, lit_instance_bytes) + sizeof(uint64_t), known);
+  });
+}
+
 nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene) {
   return with_scene("nook_gl_scene_prepare", gl, scene,
                     [&] { gl->guarded([&] { gl->characters->prepare(handle_of(scene)); }); });

@@ -34,6 +34,7 @@ class CharacterGl {
   void read(const VertexValues& values, float* out) const;
   // Copies AO to the host's own buffers and textures, under a guard for output_users.
   AoOutput& output() { return output_; }
+  ModelMemory memory_of(const LoadedModel& model) const { return tier_->memory_of(model); }
   void release(const Scene& scene);
   // Scenes that the host destroyed.
   void release_destroyed();

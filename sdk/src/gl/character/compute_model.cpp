@@ -111,4 +111,26 @@ ComputeModel::ComputeModel(Device& device, Ref<const LoadedModel> loaded)
   if (level_count() > 1) spread = static_buffer(device, "nook: levels", pack_spread(m, memory));
 }
 
+ModelMemory compute_memory(const LoadedModel& loaded) {
+  const CharacterModel& model = loaded.model;
+  const auto ranges = ranges_of(model);
+  std::uint64_t spheres = 0, key_points = 0, coarse = 0;
+  for (std::size_t l = 0; l <= model.levels.size(); ++l) {
+    spheres += ranges[l].spheres;
+    key_points += ranges[l].key_points;
+    if (l > 0) coarse = std::max<std::uint64_t>(coarse, ranges[l].key_points);
+  }
+  const std::uint64_t word = sizeof(std::uint32_t), vec4 = 4 * word, all_points = model.key_points.size();
+  const std::uint64_t shadows = all_points + coarse, file_vertices = model.file_to_welded.size();
+  ModelMemory memory;
+  memory.shared = spheres * NOOK_REST_SPHERE_VEC4S * vec4 + key_points * NOOK_KEY_POINT_VEC4S * vec4 +
+                  model.levels.size() * all_points * NOOK_SPREAD_WORDS * word +
+                  (file_vertices + model.vertex_count() * (1 + 5 * ((model.influences + 1) / 2))) * word;
+  memory.instance = file_vertices * sizeof(float) + shadows * 2 * sizeof(float) +
+                    spheres * NOOK_SPHERE_VEC4S * vec4 +
+                    (NOOK_RECORD_UVEC4S + NOOK_BONE_ROWS * model.bone_count()) * vec4;
+  memory.light = file_vertices * 3 * sizeof(float) + shadows * NOOK_COLOUR_VEC4S * vec4;
+  return memory;
+}
+
 }  // namespace nook::gl

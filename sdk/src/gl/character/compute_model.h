@@ -5,6 +5,7 @@
 #include <array>
 
 #include "sdk/src/gl/character/model_data.h"
+#include "sdk/src/gl/character/tier.h"
 
 namespace nook::gl {
 
@@ -40,5 +41,8 @@ struct ComputeModel : ModelData {
   Buffer linear;
   Buffer spread;  // from the evaluated key points of coarser levels to all; none without such levels
 };
+
+// The sizes of the buffers of a model and of its instances.
+ModelMemory compute_memory(const LoadedModel& model);
 
 }  // namespace nook::gl

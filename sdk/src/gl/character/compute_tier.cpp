@@ -146,6 +146,10 @@ void ComputeTier::read(const VertexValues& values, float* out) const {
   read_buffer(device_, values, out);
 }
 
+ModelMemory ComputeTier::memory_of(const LoadedModel& model) const {
+  return compute_memory(model);
+}
+
 void ComputeTier::release(const Scene& scene) {
   scenes_.remove_if([&](const ComputeScene& placed) { return placed.scene == &scene; });
   drop_unused(models_);

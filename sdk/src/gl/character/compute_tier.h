@@ -15,6 +15,7 @@ class ComputeTier final : public Tier {
   VertexValues place(const Scene& scene, nook_instance_id instance) const override;
   LightPlace light_place(const Scene& scene, nook_instance_id instance) const override;
   void read(const VertexValues& values, float* out) const override;
+  ModelMemory memory_of(const LoadedModel& model) const override;
   void release(const Scene& scene) override;
 
  private:

@@ -69,4 +69,17 @@ FeedbackModel::FeedbackModel(Device& device, Ref<const LoadedModel> loaded) : Mo
   device.check("describing a model's vertices");
 }
 
+ModelMemory feedback_memory(const LoadedModel& loaded, bool indexed) {
+  const CharacterModel& model = loaded.model;
+  const std::uint64_t file_vertices = model.file_to_welded.size(), key_points = model.key_points.size();
+  const std::uint64_t stride = sizeof(float) + (model.influences + 3) / 4 * quad_bytes;
+  ModelMemory memory;
+  memory.shared = indexed ? model.vertex_count() * stride + file_vertices * sizeof(std::uint32_t)
+                          : file_vertices * stride;
+  // With the share of the page, which stops to grow at a million key points.
+  memory.instance = file_vertices * sizeof(float) + key_points * 2 * sizeof(float);
+  memory.light = file_vertices * 3 * sizeof(float) + key_points * NOOK_COLOUR_VEC4S * 4 * sizeof(float);
+  return memory;
+}
+
 }  // namespace nook::gl

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sdk/src/gl/character/model_data.h"
+#include "sdk/src/gl/character/tier.h"
 
 namespace nook::gl {
 
@@ -18,5 +19,8 @@ struct FeedbackModel : ModelData {
   Buffer indices;
   Object vertex_array;
 };
+
+// The sizes of the buffers of a model and of its instances; indexed: draws have indices.
+ModelMemory feedback_memory(const LoadedModel& model, bool indexed);
 
 }  // namespace nook::gl

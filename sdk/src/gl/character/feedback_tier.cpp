@@ -142,6 +142,10 @@ void FeedbackTier::read(const VertexValues& values, float* out) const {
   read_buffer(device_, values, out);
 }
 
+ModelMemory FeedbackTier::memory_of(const LoadedModel& model) const {
+  return feedback_memory(model, device_.gl.can.indexed_feedback);
+}
+
 void FeedbackTier::release(const Scene& scene) {
   scenes_.remove_if([&](const FeedbackScene& placed) { return placed.scene == &scene; });
   drop_unused(models_);

@@ -24,6 +24,13 @@ struct LightPlace {
   std::uint32_t first_texel = 0;
 };
 
+// OpenGL memory in bytes: what the instances of a model share, and what each takes.
+struct ModelMemory {
+  std::uint64_t shared = 0;
+  std::uint64_t instance = 0;
+  std::uint64_t light = 0;  // what a light adds to an instance
+};
+
 // Every call but the const ones may change any of the touched state; the caller holds a StateGuard.
 class Tier {
  public:
@@ -46,6 +53,9 @@ class Tier {
 
   // Copies values to `out`, waiting for the GPU. Throws Failure.
   virtual void read(const VertexValues& values, float* out) const = 0;
+
+  // Of a model that need not have been used yet.
+  virtual ModelMemory memory_of(const LoadedModel& model) const = 0;
 
   // Drops everything of the scene.
   virtual void release(const Scene& scene) = 0;

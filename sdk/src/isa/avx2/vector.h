@@ -5,9 +5,12 @@
 
 #include <cstdint>
 
+#include "sdk/src/core/isa.h"
 #include "sdk/src/core/simd_polynomials.h"
 
 namespace nook::isa_avx2 {
+
+inline constexpr Isa isa = Isa::avx2;
 
 struct Float {
   __m256 v;
@@ -113,4 +116,7 @@ inline float sum(Float a) {
   const __m128 pairs = _mm_add_ps(half, _mm_movehl_ps(half, half));
   return _mm_cvtss_f32(_mm_add_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
 }
+
+#include "sdk/src/isa/x86_four.inl"
+
 }  // namespace nook::isa_avx2

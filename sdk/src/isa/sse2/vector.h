@@ -5,9 +5,12 @@
 
 #include <cstdint>
 
+#include "sdk/src/core/isa.h"
 #include "sdk/src/core/simd_polynomials.h"
 
 namespace nook::isa_sse2 {
+
+inline constexpr Isa isa = Isa::sse2;
 
 struct Float {
   __m128 v;
@@ -109,4 +112,7 @@ inline float sum(Float a) {
   const __m128 pairs = _mm_add_ps(a.v, _mm_movehl_ps(a.v, a.v));
   return _mm_cvtss_f32(_mm_add_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
 }
+
+#include "sdk/src/isa/x86_four.inl"
+
 }  // namespace nook::isa_sse2

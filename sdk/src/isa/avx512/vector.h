@@ -5,9 +5,12 @@
 
 #include <cstdint>
 
+#include "sdk/src/core/isa.h"
 #include "sdk/src/core/simd_polynomials.h"
 
 namespace nook::isa_avx512 {
+
+inline constexpr Isa isa = Isa::avx512;
 
 struct Float {
   __m512 v;
@@ -107,4 +110,7 @@ inline Float arc_cosine(Float a) {
 inline float sum(Float a) {
   return _mm512_reduce_add_ps(a.v);
 }
+
+#include "sdk/src/isa/x86_four.inl"
+
 }  // namespace nook::isa_avx512

@@ -1,0 +1,21 @@
+#include "sdk/src/character/memory_use.h"
+
+#include "sdk/src/character/light.h"
+#include "sdk/src/character/scene.h"
+
+namespace nook {
+
+std::uint64_t instance_bytes(const LoadedModel& model) {
+  std::uint64_t floats = sphere_lanes * padded_count(model.model.spheres.size()) +
+                         point_lanes * model.rest_key_points.padded_count();
+  for (const LoadedLevel& level : model.levels)
+    floats += sphere_lanes * padded_count(level.rest_spheres.view().count);
+  return sizeof(Instance) + floats * sizeof(float) + model.model.bone_count() * sizeof(Mat3x4);
+}
+
+std::uint64_t light_bytes(const LoadedModel& model) {
+  return light_lanes * model.rest_key_points.padded_count() * sizeof(float) +
+         max_light_lobes * (sizeof(LightLobe) + sizeof(LobeBands));
+}
+
+}  // namespace nook

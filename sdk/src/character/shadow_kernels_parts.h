@@ -1,0 +1,11 @@
+// The headers of the .inl files of the kernels, which are included inside a namespace.
+#pragma once
+
+#include <cstdint>
+
+#include "sdk/src/character/directional.h"
+#include "sdk/src/character/directional_bands.h"
+#include "sdk/src/character/kernel.h"
+#include "sdk/src/character/shadow_kernels.h"
+#include "sdk/src/character/shadow_kernels_tables.h"
+#include "sdk/src/core/simd_pair.h"

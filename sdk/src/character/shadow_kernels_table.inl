@@ -1,0 +1,26 @@
+// The table of one instruction set. This file must be included after the other parts of the kernels, in the
+// same namespace.
+
+namespace {
+
+constexpr ShadowKernels table{isa,
+                              isa_name(isa),
+                              self_norm_sum,
+                              norm_root,
+                              composed_depth,
+                              exact_open,
+                              composed_occlusion,
+                              linear_layer,
+                              pose_spheres,
+                              pose_key_points,
+                              directional_norm_sum,
+                              directional_hemisphere,
+                              directional_depth,
+                              directional_open,
+                              directional_ground};
+
+}  // namespace
+
+const ShadowKernels& kernels() {
+  return table;
+}

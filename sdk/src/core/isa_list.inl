@@ -1,0 +1,16 @@
+// The instruction sets of the CPU kernels, from the plainest to the best: NOOK_ISA_AUTO takes the last one
+// that runs. Each has a folder of its name in sdk/src/isa with its vector, its kernels and the flags of its
+// compiler. The file is included after a definition of
+//   NOOK_ISA_ENTRY(name, value, built, runs)
+// name is that of the folder, of the namespace isa_name and of Isa::name; value is that of the public header;
+// built is 1 where this build has its kernels, as its isa.cmake decides; runs says whether the processor can
+// run them.
+
+NOOK_ISA_ENTRY(scalar, NOOK_ISA_SCALAR, NOOK_BUILT_SCALAR, true)
+NOOK_ISA_ENTRY(sse2, NOOK_ISA_SSE2, NOOK_BUILT_SSE2, processor_has_sse2())
+NOOK_ISA_ENTRY(avx2, NOOK_ISA_AVX2, NOOK_BUILT_AVX2, processor_has_avx2_and_fma())
+NOOK_ISA_ENTRY(avx512, NOOK_ISA_AVX512, NOOK_BUILT_AVX512, processor_has_avx512f())
+NOOK_ISA_ENTRY(neon, NOOK_ISA_NEON, NOOK_BUILT_NEON, true)
+NOOK_ISA_ENTRY(wasm128, NOOK_ISA_WASM128, NOOK_BUILT_WASM128, true)
+
+#undef NOOK_ISA_ENTRY

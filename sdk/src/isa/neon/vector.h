@@ -1,0 +1,149 @@
+// Four floats for NEON (Advanced SIMD) of 64-bit ARM, which each of its processors has.
+#pragma once
+
+#include <arm_neon.h>
+
+#include <cstdint>
+
+#include "sdk/src/core/isa.h"
+#include "sdk/src/core/simd_polynomials.h"
+
+namespace nook::isa_neon {
+
+inline constexpr Isa isa = Isa::neon;
+
+struct Float {
+  float32x4_t v;
+  Float() = default;
+  Float(float32x4_t a) : v(a) {}
+  explicit Float(float a) : v(vdupq_n_f32(a)) {}
+};
+inline constexpr std::uint32_t width = 4;
+
+inline Float broadcast(float a) {
+  return vdupq_n_f32(a);
+}
+inline Float load(const float* p) {
+  return vld1q_f32(p);
+}
+inline void store(float* p, Float a) {
+  vst1q_f32(p, a.v);
+}
+
+inline Float operator+(Float a, Float b) {
+  return vaddq_f32(a.v, b.v);
+}
+inline Float operator-(Float a, Float b) {
+  return vsubq_f32(a.v, b.v);
+}
+inline Float operator*(Float a, Float b) {
+  return vmulq_f32(a.v, b.v);
+}
+inline Float operator/(Float a, Float b) {
+  return vdivq_f32(a.v, b.v);
+}
+inline Float fma(Float a, Float b, Float c) {
+  return vfmaq_f32(c.v, a.v, b.v);
+}
+// These return the number where the other operand is NaN. Those of x86 return the second operand if either is
+// NaN, which is the same for all callers: their second operand is never NaN.
+inline Float min(Float a, Float b) {
+  return vminnmq_f32(a.v, b.v);
+}
+inline Float max(Float a, Float b) {
+  return vmaxnmq_f32(a.v, b.v);
+}
+
+struct Mask {
+  uint32x4_t v;
+};
+inline Mask less(Float a, Float b) {
+  return {vcltq_f32(a.v, b.v)};
+}
+inline Float select(Mask m, Float yes, Float no) {
+  return vbslq_f32(m.v, yes.v, no.v);
+}
+
+inline Float sqrt(Float a) {
+  return vsqrtq_f32(a.v);
+}
+
+// The processor's estimate r of 1 / sqrt(a) has 8 bits. The functions below multiply it by a power of a r^2 =
+// 1 - e, with |e| < 0.008, as three terms of its series in e, written in powers of a r^2: one multiplication
+// less than in powers of e. The relative errors are 5/16 e^3 and 35/16 e^3, below 2e-7 and 2e-6.
+
+// Returns (1 - e)^(-1/2) for u = 1 - e.
+inline Float inverse_root_near_one(Float u) {
+  return fma(fma(Float(3.0f / 8), u, Float(-5.0f / 4)), u, Float(15.0f / 8));
+}
+inline Float rsqrt(Float a) {
+  const Float r = vrsqrteq_f32(a.v);
+  return r * inverse_root_near_one(a * r * r);
+}
+inline Float sqrt_positive(Float a) {
+  const Float r = vrsqrteq_f32(a.v);
+  const Float root = a * r;
+  return root * inverse_root_near_one(root * r);
+}
+// The floor avoids 0 * infinity.
+inline Float power_three_halves(Float a) {
+  return a * sqrt_positive(max(a, Float(1e-30f)));
+}
+inline Float rsqrt_cubed(Float a, float scale) {
+  const Float r = vrsqrteq_f32(a.v);
+  const Float r2 = r * r;
+  const Float u = a * r2;
+  const Float p =
+      fma(fma(Float(scale * (15.0f / 8)), u, Float(scale * (-21.0f / 4))), u, Float(scale * (35.0f / 8)));
+  return r * (r2 * p);
+}
+
+inline void split(Float a, Float& exponent, Float& mantissa) {
+  const int32x4_t bits = vreinterpretq_s32_f32(a.v);
+  // 0x3f3504f3 is 1/sqrt(2). Subtracting it first makes the shift round at that mantissa.
+  const int32x4_t e = vshrq_n_s32(vsubq_s32(bits, vdupq_n_s32(0x3f3504f3)), 23);
+  exponent = vcvtq_f32_s32(e);
+  mantissa = vreinterpretq_f32_s32(vsubq_s32(bits, vshlq_n_s32(e, 23)));
+}
+inline Float nearest(Float a) {
+  return vrndnq_f32(a.v);
+}
+inline Float times_power_of_two(Float a, Float n) {
+  const int32x4_t e = vshlq_n_s32(vaddq_s32(vcvtq_s32_f32(n.v), vdupq_n_s32(127)), 23);
+  return a * Float(vreinterpretq_f32_s32(e));
+}
+inline Float power(Float base, Float exponent) {
+  return simd::power_of(base, exponent);
+}
+inline Float exponential(Float a) {
+  return simd::exponential_of(a);
+}
+inline Float arc_cosine(Float a) {
+  return simd::arc_cosine_of(a);
+}
+// Returns the sum of all lanes.
+inline float sum(Float a) {
+  return vaddvq_f32(a.v);
+}
+
+// The transforms take vectors of four floats.
+using Four = Float;
+inline Four load_four(const float* p) {
+  return load(p);
+}
+inline void transpose(Four& a, Four& b, Four& c, Four& d) {
+  const float32x4_t ab_even = vtrn1q_f32(a.v, b.v), ab_odd = vtrn2q_f32(a.v, b.v);
+  const float32x4_t cd_even = vtrn1q_f32(c.v, d.v), cd_odd = vtrn2q_f32(c.v, d.v);
+  const auto low = [](float32x4_t x, float32x4_t y) {
+    return vreinterpretq_f32_f64(vtrn1q_f64(vreinterpretq_f64_f32(x), vreinterpretq_f64_f32(y)));
+  };
+  const auto high = [](float32x4_t x, float32x4_t y) {
+    return vreinterpretq_f32_f64(vtrn2q_f64(vreinterpretq_f64_f32(x), vreinterpretq_f64_f32(y)));
+  };
+  a = low(ab_even, cd_even);
+  b = low(ab_odd, cd_odd);
+  c = high(ab_even, cd_even);
+  d = high(ab_odd, cd_odd);
+}
+
+}  // namespace nook::isa_neon

@@ -1,0 +1,2 @@
+# Every target has it.
+set(isa_built ON)

@@ -1,0 +1,9 @@
+// The headers of fit_kernels_impl.inl, which is included inside a namespace.
+#pragma once
+
+#include <nook/nook_probe.h>
+
+#include <cstdint>
+
+#include "sdk/src/probe/fit_kernels.h"
+#include "sdk/src/probe/fit_kernels_tables.h"
