@@ -10,9 +10,8 @@ export class Gl extends OnSurface {
       throw new NookError("Context.createGl: webgl is no WebGL2RenderingContext; call canvas.getContext(\"webgl2\")",
         "NOOK_ERROR_UNSUPPORTED");
     const surface = Surface.of(library.module.GL, webgl);
-    const handle = makeOnSurface(library, surface, (out) => library.module._nook_gl_create(context,
+    return makeOnSurface(Gl, library, surface, (out) => library.module._nook_gl_create(context,
       library.descriptor("nook_gl_desc", { stateMode: "defaults", ...options, getProc: library.module._nook_web_get_proc() }), out));
-    return new Gl(library, handle, surface);
   }
   constructor(library, handle, surface) {
     super(library, handle, "nook_gl_destroy", surface);
@@ -85,22 +84,21 @@ export class Gl extends OnSurface {
   // { maxWidth, maxHeight, taps, halfResolution, blur, blurSharpness, network }.
   createNnao({ network, ...options }) {
     const { library } = this;
-    const handle = makeOnSurface(library, this.surface, (out) => {
+    return makeOnSurface(Nnao, library, this.surface, (out) => {
       const bytes = network ? library.bytes(network) : { address: 0, size: 0 };
       return library.module._nook_nnao_create(this.handle,
         library.descriptor("nook_nnao_desc", { ...options, network: bytes.address, networkSize: bytes.size }), out);
     });
-    return new Nnao(library, handle, this.surface);
   }
   createProbe(probe) {
     const { library } = this;
-    return new GlProbe(library, makeOnSurface(library, this.surface, (out) =>
-      library.module._nook_gl_probe_create(this.handle, probe.handle, out)), this.surface);
+    return makeOnSurface(GlProbe, library, this.surface, (out) =>
+      library.module._nook_gl_probe_create(this.handle, probe.handle, out));
   }
   createMaterial(material, options = {}) {
     const { library } = this;
-    return new GlMaterial(library, makeOnSurface(library, this.surface, (out) => library.module._nook_gl_material_create(
-      this.handle, material.handle, library.descriptor("nook_gl_material_desc", options), out)), this.surface);
+    return makeOnSurface(GlMaterial, library, this.surface, (out) => library.module._nook_gl_material_create(
+      this.handle, material.handle, library.descriptor("nook_gl_material_desc", options), out));
   }
 }
 

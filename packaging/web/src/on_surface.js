@@ -14,11 +14,11 @@ export class OnSurface extends Owned {
   }
 }
 
-// Makes an object of the library by call(out) on a surface.
-export function makeOnSurface(library, surface, call) {
+// Makes an object of class Kind by call(out) on a surface.
+export function makeOnSurface(Kind, library, surface, call) {
   surface.addUser();
   try {
-    return surface.current(() => library.call(() => library.made(call)));
+    return new Kind(library, surface.current(() => library.call(() => library.made(call))), surface);
   } finally {
     surface.removeUser();
   }
