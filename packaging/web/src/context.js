@@ -1,0 +1,66 @@
+import { CharacterModel } from "./character.js";
+import { Gl } from "./gl.js";
+import { Owned } from "./library.js";
+import { Material } from "./material.js";
+import { Probe, ProbeFit } from "./probe.js";
+import { Scene } from "./scene.js";
+
+// One instance of the library; everything else is made by it.
+export class Context extends Owned {
+  static make(library, log) {
+    const { module } = library;
+    const severities = ["info", "warning", "error"];
+    module.nookLog = log ? (severity, text) => log(severities[severity], text) : () => {};
+    return new Context(library, library.call(() => library.made((out) => module._nook_context_create(
+      library.descriptor("nook_context_desc", { log: log ? module._nook_web_log() : 0 }), out))));
+  }
+  constructor(library, handle) {
+    super(library, handle, "nook_context_destroy");
+  }
+
+  // "0.2.0".
+  get version() {
+    const { version } = this.library;
+    return `${version >>> 22}.${(version >>> 12) & 1023}.${version & 4095}`;
+  }
+  // The memory of the module in bytes; it grows and never shrinks.
+  get memoryBytes() {
+    return this.library.module.HEAPU8.length;
+  }
+
+  #load(bytes, call) {
+    const { library } = this;
+    return library.call(() => library.made((out) => {
+      const copy = library.bytes(bytes);
+      return call(this.handle, copy.address, copy.size, out);
+    }));
+  }
+  // The bytes of .nook files.
+  loadCharacter(bytes) {
+    return new CharacterModel(this.library, this.#load(bytes, this.library.module._nook_character_model_load));
+  }
+  loadProbe(bytes) {
+    return new Probe(this.library, this.#load(bytes, this.library.module._nook_probe_load));
+  }
+  loadMaterial(bytes) {
+    return new Material(this.library, this.#load(bytes, this.library.module._nook_material_load));
+  }
+
+  // The members of nook_scene_desc in camelCase.
+  createScene(options = {}) {
+    const { library } = this;
+    return new Scene(library, library.call(() => library.made((out) =>
+      library.module._nook_scene_create(this.handle, library.descriptor("nook_scene_desc", options), out))));
+  }
+  // The members of nook_probe_fit_desc in camelCase.
+  createProbeFit({ axes, sharpnesses, ...options } = {}) {
+    const { library } = this;
+    return new ProbeFit(library, library.call(() => library.made((out) => library.module._nook_probe_fit_create(this.handle,
+      library.descriptor("nook_probe_fit_desc",
+        { ...options, axes: library.floats(axes), sharpnesses: library.floats(sharpnesses) }), out))));
+  }
+  // Adopts a WebGL 2 context of the host. { stateMode: "defaults" (default), "preserve" or "host" }.
+  createGl(webgl, options = {}) {
+    return Gl.make(this.library, this.handle, webgl, options);
+  }
+}

@@ -1,0 +1,396 @@
+// nook-web: ambient occlusion for WebGL 2. The names of options are those of the C headers in camelCase, constants are words;
+// the headers in sdk/include/nook describe each of them. Lengths are in metres. Every call that fails throws NookError.
+
+export class NookError extends Error {
+  /** The name of the result, such as "NOOK_ERROR_BAD_FILE". */
+  readonly code: string;
+}
+
+export type Bytes = ArrayBuffer | ArrayBufferView;
+export type Numbers = ArrayLike<number>;
+export type Instance = number;
+export type Occluder = number;
+
+export interface LoadOptions {
+  /** Where nook.wasm is, if it does not lie beside this file; or its bytes or module. */
+  wasm?: string | URL | Response | Bytes | WebAssembly.Module | Promise<Response | Bytes | WebAssembly.Module>;
+  /** Takes the lines of the library's log. */
+  log?: (severity: "info" | "warning" | "error", text: string) => void;
+}
+/** Loads the module of WebAssembly and makes a context in it. */
+export function load(options?: LoadOptions): Promise<Context>;
+
+declare class Owned {
+  /** Releases the object; a second call does nothing. */
+  destroy(): void;
+}
+
+export class Context extends Owned {
+  readonly version: string;
+  /** The memory of the module in bytes; it grows and never shrinks. */
+  readonly memoryBytes: number;
+  loadCharacter(bytes: Bytes): CharacterModel;
+  loadProbe(bytes: Bytes): Probe;
+  loadMaterial(bytes: Bytes): Material;
+  createScene(options?: SceneOptions): Scene;
+  createProbeFit(options?: ProbeFitOptions): ProbeFit;
+  /** Adopts a WebGL 2 context of the host. */
+  createGl(webgl: WebGL2RenderingContext, options?: GlOptions): Gl;
+}
+
+// ---- Characters
+
+export interface CharacterModelInfo {
+  boneCount: number;
+  sphereCount: number;
+  keyPointCount: number;
+  vertexCount: number;
+  /** The number of AO values: one for each vertex of the imported file. */
+  fileVertexCount: number;
+  primitiveCount: number;
+  lodCount: number;
+  boundingRadius: number;
+  gamma: number;
+}
+export type PoseKind = "rest-to-world" | "joint-to-world" | "skinning";
+export type TransformLayout = "rows-3x4" | "rows-4x4" | "columns-4x4" | "columns-4x3" | "dual-quaternion" | "trs";
+/** A pose in a host's own transforms. three.js and glTF: { kind: "skinning", layout: "columns-4x4", transforms }. */
+export interface Pose {
+  kind?: PoseKind;
+  layout?: TransformLayout;
+  transforms: Numbers;
+  /** Bytes between transforms; 0: tightly packed. */
+  stride?: number;
+  transformCount?: number;
+  /** The index in the file of the skin that "skinning" takes. */
+  skin?: number;
+  /** For each bone of the model the index of its transform, or -1; see CharacterModel.mapBones. */
+  transformOfBone?: Numbers;
+  /** 3x4, row-major, applied after every transform. */
+  place3x4?: Numbers;
+  /** Bones without a transform keep their matrices. */
+  partial?: boolean;
+  strict?: boolean;
+}
+export interface SkinInfo {
+  fileIndex: number;
+  jointCount: number;
+  restFromMesh3x4: Float32Array;
+}
+export interface RestVertex {
+  vertex: number;
+  position: Float32Array;
+  meshPosition: Float32Array;
+  bone: number;
+}
+export interface PoseCheck {
+  fault: "right" | "transposed" | "missing-s" | "wrong-kind" | "wrong-skin" | "wrong-order" | "wrong-unit" | "wrong-place" |
+    "inverted" | "unknown-fault";
+  maxError: number;
+  rmsError: number;
+  worstBone: number;
+  fittingSkin: number;
+  scale: number;
+  text: string;
+}
+export class CharacterModel extends Owned {
+  private constructor();
+  readonly info: CharacterModelInfo;
+  readonly boneNames: string[];
+  boneName(bone: number): string | null;
+  primitive(index: number): { firstVertex: number; vertexCount: number };
+  /** Ray-traced AO of the rest pose. */
+  staticAo(out?: Float32Array): Float32Array;
+  skin(index: number): SkinInfo;
+  /** 3x4, row-major: from rest space to the space of the bone's joint. */
+  boneBind(bone: number): Float32Array;
+  restVertex(index: number): RestVertex;
+  mapBones(names: (string | null)[], options?: { loose?: boolean; dropSharedPrefix?: boolean }):
+    { transformOfBone: Int32Array; unmatched: number };
+  convertPose(pose: Pose, out?: Float32Array): Float32Array;
+  /** Compares a pose with vertices that the host skinned itself, and names the likely fault. */
+  checkPose(pose: Pose, vertices: { positions: Numbers; restVertices?: Numbers; place3x4?: Numbers; tolerance?: number }):
+    PoseCheck;
+  /** The model's vertex for each vertex of a host's mesh; 0xffffffff where none is near enough. */
+  matchVertices(match: { positions: Numbers; normals?: Numbers; primitive?: number; inRestSpace?: boolean; tolerance?: number }):
+    { vertices: Uint32Array; unmatched: number };
+  /** A model whose vertices are those of a host's mesh. */
+  remap(vertices: Numbers): CharacterModel;
+}
+
+export interface SceneOptions {
+  combine?: "composed" | "paper";
+  isa?: "auto" | "scalar" | "wasm128";
+  cutoffError?: number;
+  lodError?: number;
+  lodDistance?: number;
+  lodMaxInterval?: number;
+  groundRadius?: number;
+  strictPoses?: boolean | number;
+}
+export interface SceneStats {
+  instances: number;
+  instancesUpdated: number;
+  links: number;
+  linksCulled: number;
+  evaluations: number;
+}
+export class Scene extends Owned {
+  private constructor();
+  addInstance(model: CharacterModel): Instance;
+  removeInstance(instance: Instance): void;
+  setModel(instance: Instance, model: CharacterModel): void;
+  /** The number of AO values of an instance. */
+  vertexCount(instance: Instance): number;
+  /** 12 floats for each bone, 3x4 row-major, from rest space to the world. */
+  setPose(instance: Instance, bones3x4: Numbers): void;
+  setPoseFrom(instance: Instance, pose: Pose): void;
+  link(receiver: Instance, caster: Instance): void;
+  unlink(receiver: Instance, caster: Instance): void;
+  linkNearest(count: number, maxDistance: number): void;
+  /** Normal and offset of the plane; null for none. */
+  setGround(instance: Instance, plane: Numbers | null): void;
+  addOccluder(centre: Numbers, radius: number): Occluder;
+  setOccluder(occluder: Occluder, centre: Numbers, radius: number): void;
+  /** 0 lifts the limit. */
+  limitOccluder(occluder: Occluder, receiver: Instance | 0): void;
+  removeOccluder(occluder: Occluder): void;
+  setLight(instance: Instance, lobes: Lobe[] | null): void;
+  setCamera(position: Numbers | null): void;
+  setTerms(terms: ("self" | "links" | "ground" | "occluders" | "all")[]): void;
+  /** Evaluates everything on the CPU; Gl.update does it on the GPU instead. */
+  update(): void;
+  readAo(instance: Instance, out?: Float32Array): Float32Array;
+  readDirectionalAo(instance: Instance, out?: Float32Array): Float32Array;
+  readonly stats: SceneStats;
+}
+
+// ---- WebGL
+
+export interface GlOptions {
+  /** What becomes of the state of WebGL that a call touches; see docs/gl_state.md. Default "defaults". "preserve" is slow in
+   *  browsers, and cannot restore objects that the host made. */
+  stateMode?: "defaults" | "preserve" | "host";
+}
+export interface GlInfo {
+  tier: string;
+  version: string;
+  renderer: string;
+  bufferBytes: number;
+  aoBytes: number;
+}
+export interface AoView {
+  buffer: WebGLBuffer;
+  offset: number;
+  stride: number;
+  count: number;
+}
+export interface LightView extends AoView {
+  /** A TEXTURE_2D for the sampler nook_scene_lights of the GLSL. */
+  texture: WebGLTexture;
+  /** The first argument of the GLSL's functions. */
+  light: number;
+  glsl: string;
+}
+export interface AoTarget {
+  buffer?: WebGLBuffer;
+  texture?: WebGLTexture;
+  format?: "float" | "half" | "unorm8";
+  offset?: number;
+  instanceStride?: number;
+  /** Needed with a texture. */
+  textureWidth?: number;
+}
+export class Gl extends Owned {
+  private constructor();
+  readonly info: GlInfo;
+  /** The number of WebGL objects that the library holds in this context. */
+  readonly objectCount: number;
+  /** Call it on "webglcontextlost"; then destroy everything, and make it anew on "webglcontextrestored". */
+  contextLost(): void;
+  prepare(scene: Scene): void;
+  /** Evaluates the AO of all instances. */
+  update(scene: Scene): void;
+  release(scene: Scene): void;
+  aoBuffer(scene: Scene, instance: Instance): AoView;
+  light(scene: Scene, instance: Instance): LightView;
+  writeAo(scene: Scene, instances: Numbers, target: AoTarget): void;
+  /** For tests: waits for the GPU. */
+  readAo(scene: Scene, instance: Instance, out?: Float32Array): Float32Array;
+  readDirectionalAo(scene: Scene, instance: Instance, out?: Float32Array): Float32Array;
+  createNnao(options: NnaoOptions): Nnao;
+  createProbe(probe: Probe): GlProbe;
+  createMaterial(material: Material, options?: { maxLayers?: number }): GlMaterial;
+}
+
+export interface NnaoOptions {
+  maxWidth: number;
+  maxHeight: number;
+  taps?: 16 | 32 | 64 | 128 | 256;
+  halfResolution?: boolean | number;
+  blur?: boolean | number;
+  blurSharpness?: number;
+  /** A .nook file of `nook train nnao`; default: the library's own. */
+  network?: Bytes;
+}
+export interface NnaoFrame {
+  width: number;
+  height: number;
+  viewport?: Numbers;
+  depthTexture: WebGLTexture;
+  depthKind?: "hardware" | "linear";
+  skyDepth?: number;
+  normalTexture?: WebGLTexture | null;
+  normalScale?: number;
+  normalBias?: number;
+  normalMatrix?: Numbers;
+  /** Column-major, as WebGL takes it. */
+  projection: Numbers;
+  clip?: "negative-one-to-one" | "zero-to-one";
+  /** Metres. */
+  radius: number;
+  maxRadiusPx?: number;
+  intensity?: number;
+  power?: number;
+  layer?: "none" | "min" | "remainder" | "replace";
+  layerTexture?: WebGLTexture | null;
+  /** Where the result goes: nothing for the pass's own texture, null for the canvas. */
+  target?: WebGLTexture | WebGLFramebuffer | null;
+  blend?: "write" | "multiply";
+  view?: "ao" | "raw" | "blurred" | "normals";
+}
+export interface NnaoInfo {
+  texture: WebGLTexture;
+  textureBytes: number;
+  taps: number;
+  horizonForm: number;
+  path: string;
+}
+export class Nnao extends Owned {
+  private constructor();
+  readonly info: NnaoInfo;
+  /** The result in its red channel, where the target is the pass's own texture. */
+  readonly texture: WebGLTexture;
+  render(frame: NnaoFrame): void;
+  /** Call it after a texture of the host has been given another size or format. */
+  recheck(): void;
+}
+
+// ---- Light probes
+
+export interface Lobe {
+  axis: Numbers;
+  sharpness: number;
+  amplitude: Numbers;
+}
+export interface ProbeInfo {
+  basis: "gaussians" | "harmonics" | "dice";
+  domain: "sphere" | "hemisphere";
+  up: Float32Array;
+  functionCount: number;
+  ambient: number;
+  order: number;
+  probeCount: number;
+  counts: Uint32Array;
+  originWs: Float32Array;
+  spacingWs: Float32Array;
+}
+export interface ProbeFitOptions {
+  method?: "naive" | "running-average" | "running-average-original" | "running-average-non-negative" | "moments" |
+    "least-squares" | "non-negative-least-squares";
+  constraint?: "bands" | "none";
+  basis?: "gaussians" | "harmonics" | "dice";
+  domain?: "sphere" | "hemisphere";
+  up?: Numbers;
+  lobeCount?: number;
+  sharpness?: number;
+  axes?: Numbers;
+  sharpnesses?: Numbers;
+  ambient?: boolean | number;
+  order?: number;
+  denominator?: "lockstep" | "precomputed";
+  step?: "fast" | "plain";
+  growingSamples?: number;
+  isa?: "auto" | "scalar" | "wasm128";
+}
+export interface ProbeFitInfo {
+  functionCount: number;
+  samples: number;
+  skipped: number;
+  skippedDirection: number;
+  skippedRadiance: number;
+  skippedWeight: number;
+  weight: number;
+  meanRadiance: Float64Array;
+}
+export class ProbeFit extends Owned {
+  private constructor();
+  readonly info: ProbeFitInfo;
+  /** Three floats for each direction and radiance. */
+  addSamples(directions: Numbers, radiance: Numbers, weights?: Numbers): void;
+  reset(): void;
+  solve(): Probe;
+}
+export class Probe extends Owned {
+  private constructor();
+  readonly info: ProbeInfo;
+  lobes(position?: Numbers): Lobe[];
+  radiance(directions: Numbers, position?: Numbers): Float32Array;
+  irradiance(normals: Numbers, position?: Numbers): Float32Array;
+}
+export class GlProbe extends Owned {
+  private constructor();
+  update(probe: Probe): void;
+  /** The texture is a TEXTURE_2D for the sampler nook_probe_texels of the GLSL. */
+  readonly info: { texture: WebGLTexture; bytes: number; glsl: string };
+}
+
+// ---- Materials
+
+export interface MaterialTensor {
+  rankLight: number;
+  rankView: number;
+  rankX: number;
+  rankY: number;
+  clusters: number;
+  mixture: number;
+  viewMapSide: number;
+  terms: number;
+}
+export interface MaterialInfo {
+  visibility: "none" | "binary" | "distance";
+  visibilityThreshold: number;
+  visibilityWeight: number;
+  lightCount: number;
+  viewCount: number;
+  width: number;
+  height: number;
+  btf: MaterialTensor;
+  votf: MaterialTensor;
+  decodeFetches: number;
+  decodeMultiplyAdds: number;
+  lightFetches: number;
+  lightMultiplyAdds: number;
+  occlusionFetches: number;
+  occlusionMultiplyAdds: number;
+  compressedBytes: number;
+  viewMapBytes: number;
+  tableBytes: number;
+}
+export interface MaterialSample {
+  uv: Numbers;
+  level?: number;
+  view: Numbers;
+  light: Numbers;
+}
+export class Material extends Owned {
+  private constructor();
+  readonly info: MaterialInfo;
+  evaluate(samples: MaterialSample[]): { radiance: Float32Array; occlusion: number; visibility: number }[];
+}
+export class GlMaterial extends Owned {
+  private constructor();
+  readonly info: { textureCount: number; textureBytes: number; glsl: string };
+  /** Bind each to a unit without a sampler object, and set the uniform of its name. */
+  readonly textures: { target: number; texture: WebGLTexture; uniform: string }[];
+}

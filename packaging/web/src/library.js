@@ -1,0 +1,181 @@
+// The module of WebAssembly with its memory: calls with checked results, and room for their arguments.
+import { NookError } from "./error.js";
+import { Layouts } from "./layouts.js";
+
+const alignment = 16;
+
+// Room for the arguments of one call after another. Its addresses are valid until the end of the outermost `call`.
+class Room {
+  constructor(module) {
+    this.module = module;
+    this.capacity = 1 << 16;
+    this.block = module._malloc(this.capacity);
+    this.used = 0;
+    this.missing = 0;
+    this.extra = [];
+    this.depth = 0;
+  }
+
+  take(bytes) {
+    const size = Math.max(alignment, (bytes + alignment - 1) & -alignment);
+    if (this.used + size <= this.capacity) {
+      this.used += size;
+      return this.block + this.used - size;
+    }
+    this.missing += size;
+    const address = this.module._malloc(size);
+    if (!address) throw new NookError(`nook: no memory for ${size} bytes`, "NOOK_ERROR_OUT_OF_MEMORY");
+    this.extra.push(address);
+    return address;
+  }
+
+  end() {
+    this.used = 0;
+    if (this.missing === 0) return;
+    for (const address of this.extra) this.module._free(address);
+    this.extra.length = 0;
+    this.module._free(this.block);
+    this.capacity += this.missing;
+    this.missing = 0;
+    this.block = this.module._malloc(this.capacity);
+  }
+}
+
+export class Library {
+  constructor(module) {
+    this.module = module;
+    this.layouts = new Layouts(module);
+    this.version = module._nook_version();
+    this.room = new Room(module);
+    this.lastMessage = "";
+  }
+
+  // Runs body, whose rooms for arguments end with it.
+  call(body) {
+    ++this.room.depth;
+    try {
+      return body();
+    } finally {
+      if (--this.room.depth === 0) this.room.end();
+    }
+  }
+
+  // Throws the library's message if a result is an error.
+  check(result) {
+    if (result >= 0) return result;
+    const { module } = this;
+    throw new NookError(module.UTF8ToString(module._nook_last_message()), module.UTF8ToString(module._nook_result_name(result)));
+  }
+
+  // A descriptor with the library's defaults, then with `values`.
+  descriptor(name, values = {}) {
+    const struct = this.layouts.struct(name);
+    const address = this.room.take(struct.size);
+    this.check(this.module[`_${name}_init`](address, struct.size, this.version));
+    this.layouts.write(struct, address, values);
+    return address;
+  }
+
+  // A struct of zeros, whose size stands in struct_size if it has one, then with `values`.
+  struct(name, values = {}) {
+    const struct = this.layouts.struct(name);
+    const address = this.room.take(struct.size);
+    this.module.HEAPU8.fill(0, address, address + struct.size);
+    if (struct.fields.has("structSize")) this.layouts.write(struct, address, { structSize: struct.size });
+    this.layouts.write(struct, address, values);
+    return address;
+  }
+
+  read(name, address) {
+    return this.layouts.read(this.layouts.struct(name), address);
+  }
+
+  // What a function of the form (handle, ..., info*) writes.
+  info(name, call, values) {
+    return this.call(() => {
+      const address = this.struct(name, values);
+      this.check(call(address));
+      return this.read(name, address);
+    });
+  }
+
+  // What a function of the form (..., handle* out) makes.
+  made(call) {
+    const out = this.room.take(4);
+    this.module.HEAPU32[out >> 2] = 0;
+    this.check(call(out));
+    return this.module.HEAPU32[out >> 2];
+  }
+
+  // Calls a function of the form (handle*).
+  destroy(name, handle) {
+    this.call(() => {
+      const address = this.room.take(4);
+      this.module.HEAPU32[address >> 2] = handle;
+      this.module[`_${name}`](address);
+    });
+  }
+
+  room32(count) {
+    return this.room.take(4 * count);
+  }
+
+  // Copies of numbers in memory; 0 for null and undefined.
+  floats(values) {
+    if (!values) return 0;
+    const address = this.room32(values.length);
+    this.module.HEAPF32.set(values, address >> 2);
+    return address;
+  }
+  integers(values) {
+    if (!values) return 0;
+    const address = this.room32(values.length);
+    this.module.HEAP32.set(values, address >> 2);
+    return address;
+  }
+  bytes(values) {
+    const view = values instanceof ArrayBuffer ? new Uint8Array(values)
+      : new Uint8Array(values.buffer, values.byteOffset, values.byteLength);
+    const address = this.room.take(view.length);
+    this.module.HEAPU8.set(view, address);
+    return { address, size: view.length };
+  }
+  texts(values) {
+    const encoder = new TextEncoder();
+    return this.integers(values.map((text) => (text === null ? 0 : this.bytes(encoder.encode(`${text}\0`)).address)));
+  }
+
+  // Calls a function of the form (..., float* out, count): `out` takes the numbers, or a new array does.
+  readFloats(count, out, call) {
+    return this.call(() => {
+      const address = this.room32(count);
+      this.check(call(address));
+      const numbers = this.module.HEAPF32.subarray(address >> 2, (address >> 2) + count);
+      if (!out) return numbers.slice();
+      out.set(numbers);
+      return out;
+    });
+  }
+}
+
+// An object of the library. `handle` is 0 after destroy().
+export class Owned {
+  #destroy;
+  constructor(library, handle, destroy) {
+    this.library = library;
+    this.address = handle;
+    this.#destroy = destroy;
+  }
+  // Throws where the object is destroyed.
+  get handle() {
+    if (!this.address) throw new NookError(`nook: the ${this.constructor.name} is destroyed`, "NOOK_ERROR_INVALID_ARGUMENT");
+    return this.address;
+  }
+  // Releases the object; a second call does nothing.
+  destroy() {
+    if (!this.address) return;
+    const handle = this.address;
+    this.address = 0;
+    this.library.destroy(this.#destroy, handle);
+  }
+}

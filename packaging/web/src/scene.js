@@ -1,0 +1,118 @@
+import { poseDescriptor } from "./character.js";
+import { Owned } from "./library.js";
+import { lobeStruct } from "./probe.js";
+
+// Instances of characters with poses, links, ground, occluders and lights; see nook_character.h. Instances and occluders are
+// numbers.
+export class Scene extends Owned {
+  #vertices = new Map();  // of each instance
+  constructor(library, handle) {
+    super(library, handle, "nook_scene_destroy");
+  }
+
+  #check(result) {
+    return this.library.check(result);
+  }
+
+  addInstance(model) {
+    const { library } = this;
+    const id = library.call(() =>
+      library.made((out) => library.module._nook_scene_add_instance(this.handle, model.handle, out)));
+    this.#vertices.set(id, model.info.fileVertexCount);
+    return id;
+  }
+  removeInstance(instance) {
+    this.#check(this.library.module._nook_scene_remove_instance(this.handle, instance));
+    this.#vertices.delete(instance);
+  }
+  setModel(instance, model) {
+    this.#check(this.library.module._nook_scene_set_model(this.handle, instance, model.handle));
+    this.#vertices.set(instance, model.info.fileVertexCount);
+  }
+  // The number of AO values of an instance.
+  vertexCount(instance) {
+    return this.#vertices.get(instance) ?? 0;
+  }
+
+  // bones3x4: 12 floats for each bone, row-major, from rest space to the world.
+  setPose(instance, bones3x4) {
+    const { library } = this;
+    library.call(() => this.#check(
+      library.module._nook_scene_set_pose(this.handle, instance, library.floats(bones3x4), Math.floor(bones3x4.length / 12))));
+  }
+  // A pose from a host's own transforms, such as skinning matrices of glTF:
+  // { kind: "skinning", layout: "columns-4x4", transforms }.
+  setPoseFrom(instance, pose) {
+    const { library } = this;
+    library.call(() => this.#check(
+      library.module._nook_scene_set_pose_from(this.handle, instance, poseDescriptor(library, pose))));
+  }
+
+  link(receiver, caster) {
+    this.#check(this.library.module._nook_scene_link(this.handle, receiver, caster));
+  }
+  unlink(receiver, caster) {
+    this.#check(this.library.module._nook_scene_unlink(this.handle, receiver, caster));
+  }
+  linkNearest(count, maxDistance) {
+    this.#check(this.library.module._nook_scene_link_nearest(this.handle, count, maxDistance));
+  }
+
+  // plane: normal and offset, or null for none.
+  setGround(instance, plane) {
+    const { library } = this;
+    library.call(() => this.#check(library.module._nook_scene_set_ground(this.handle, instance, library.floats(plane))));
+  }
+
+  addOccluder(centre, radius) {
+    const { library } = this;
+    return library.call(() => library.made((out) =>
+      library.module._nook_scene_add_occluder(this.handle, library.floats(centre), radius, out)));
+  }
+  setOccluder(occluder, centre, radius) {
+    const { library } = this;
+    library.call(() => this.#check(
+      library.module._nook_scene_set_occluder(this.handle, occluder, library.floats(centre), radius)));
+  }
+  limitOccluder(occluder, receiver) {
+    this.#check(this.library.module._nook_scene_limit_occluder(this.handle, occluder, receiver));
+  }
+  removeOccluder(occluder) {
+    this.#check(this.library.module._nook_scene_remove_occluder(this.handle, occluder));
+  }
+
+  // lobes: { axis, sharpness, amplitude } each, such as those of Probe.lobes(); null for no light.
+  setLight(instance, lobes) {
+    const { library } = this;
+    library.call(() => this.#check(library.module._nook_scene_set_light(this.handle, instance,
+      lobes ? lobeStruct(library, lobes) : 0, lobes ? lobes.length : 0)));
+  }
+
+  setCamera(position) {
+    const { library } = this;
+    library.call(() => this.#check(library.module._nook_scene_set_camera(this.handle, library.floats(position))));
+  }
+  // terms: a list of "self", "links", "ground", "occluders", "all".
+  setTerms(terms) {
+    const { library } = this;
+    this.#check(library.module._nook_scene_set_terms(this.handle, library.layouts.bits("NOOK_TERM_SELF", terms)));
+  }
+
+  // Evaluates everything on the CPU; Gl.update does it on the GPU instead.
+  update() {
+    this.#check(this.library.module._nook_scene_update(this.handle));
+  }
+  readAo(instance, out) {
+    const count = this.vertexCount(instance);
+    return this.library.readFloats(count, out, (address) =>
+      this.library.module._nook_scene_read_ao(this.handle, instance, address, count, 0));
+  }
+  readDirectionalAo(instance, out) {
+    const count = this.vertexCount(instance);
+    return this.library.readFloats(3 * count, out, (address) =>
+      this.library.module._nook_scene_read_directional_ao(this.handle, instance, address, count, 0));
+  }
+  get stats() {
+    return this.library.info("nook_scene_stats", (stats) => this.library.module._nook_scene_read_stats(this.handle, stats));
+  }
+}

@@ -1,0 +1,100 @@
+// A WebGL 2 context of the host, as the module sees it. The module knows objects of WebGL by numbers, in tables of its own; each
+// context has tables of its own here, so that a lost context leaves nothing behind, and objects of the host are in them only
+// during a call.
+const tables = ["buffers", "programs", "framebuffers", "renderbuffers", "textures", "shaders", "vaos", "samplers",
+  "transformFeedbacks", "syncs", "queries"];
+
+export class Surface {
+  #GL;
+  #context;
+  #own = {};
+  #names = new WeakMap();
+  #users = 0;
+  #handle;
+
+  static of(GL, context) {
+    const known = Surface.#known.get(context);
+    if (known && known.#GL === GL && known.#users > 0) return known;
+    const surface = new Surface(GL, context);
+    Surface.#known.set(context, surface);
+    return surface;
+  }
+  static #known = new WeakMap();
+
+  constructor(GL, context) {
+    this.#GL = GL;
+    this.#context = context;
+    this.forget();
+    const canvas = context.canvas, before = canvas?.GLctxObject;
+    this.#handle = GL.registerContext(context, { majorVersion: 2, minorVersion: 0, enableExtensionsByDefault: false });
+    if (canvas) canvas.GLctxObject = before;
+  }
+
+  // Empties the tables: a lost context has no objects any more.
+  forget() {
+    for (const table of tables) if (this.#GL[table]) this.#own[table] = [];
+  }
+
+  get context() {
+    return this.#context;
+  }
+
+  // Objects that use the surface: each adds itself once and removes itself once.
+  addUser() {
+    ++this.#users;
+  }
+  removeUser() {
+    if (--this.#users === 0) this.#GL.contexts[this.#handle] = null;
+  }
+
+  // Runs body while the module's functions draw to this context.
+  current(body) {
+    const GL = this.#GL;
+    const before = {};
+    for (const table of Object.keys(this.#own)) {
+      before[table] = GL[table];
+      GL[table] = this.#own[table];
+    }
+    GL.makeContextCurrent(this.#handle);
+    try {
+      return body();
+    } finally {
+      GL.makeContextCurrent(0);
+      for (const table of Object.keys(this.#own)) GL[table] = before[table];
+    }
+  }
+
+  // The object that the library calls `name`.
+  object(table, name) {
+    return this.#own[table][name] ?? null;
+  }
+  // The number of objects in the tables.
+  get objectCount() {
+    return Object.values(this.#own).reduce((sum, table) => sum + table.filter(Boolean).length, 0);
+  }
+
+  // Gives the host's objects numbers, the same at each call, runs body with the numbers, and takes the objects back. Objects
+  // are [table, object or null] pairs.
+  lend(objects, body) {
+    const lent = [];
+    const names = objects.map(([table, object]) => {
+      if (!object) return 0;
+      if (this.#own[table][object.name] === object) return object.name;
+      if (!this.#names.has(object)) this.#names.set(object, this.#GL.getNewId(this.#own[table]));
+      const name = this.#names.get(object);
+      lent.push({ table: this.#own[table], object, name, before: object.name });
+      this.#own[table][name] = object;
+      object.name = name;
+      return name;
+    });
+    try {
+      return body(...names);
+    } finally {
+      for (const { table, object, name, before } of lent) {
+        table[name] = null;
+        if (before === undefined) delete object.name;
+        else object.name = before;
+      }
+    }
+  }
+}

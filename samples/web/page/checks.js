@@ -1,0 +1,158 @@
+// What the test of the page calls in the browser; see ../test.mjs.
+
+const largest = (a, b) => {
+  let most = 0;
+  for (let i = 0; i < a.length; ++i) most = Math.max(most, Math.abs(a[i] - b[i]));
+  return most;
+};
+
+export function makeChecks(page) {
+  const { nook, character, webgl } = page;
+
+  // The scene that the native program evaluated.
+  function expectedScene() {
+    const scene = nook.createScene();
+    const { expected_poses: poses } = character.arrays;
+    const floats = 12 * character.bones;
+    const ids = [0, 1].map((i) => {
+      const id = scene.addInstance(page.model);
+      scene.setGround(id, [0, 1, 0, 0]);
+      scene.setPose(id, poses.subarray(i * floats, (i + 1) * floats));
+      return id;
+    });
+    scene.link(ids[0], ids[1]);
+    scene.link(ids[1], ids[0]);
+    return { scene, ids };
+  }
+
+  // The values of a buffer of Nook, read by the page.
+  function readBuffer({ buffer, offset, count }) {
+    const values = new Float32Array(count);
+    webgl.bindBuffer(webgl.COPY_READ_BUFFER, buffer);
+    webgl.getBufferSubData(webgl.COPY_READ_BUFFER, offset, values);
+    webgl.bindBuffer(webgl.COPY_READ_BUFFER, null);
+    return values;
+  }
+
+  return {
+    // Largest differences of AO over all vertices: of the CPU in WebAssembly and of WebGL against native, and of one another.
+    characters() {
+      const { scene, ids } = expectedScene();
+      const { ao } = page.renderer;
+      scene.update();
+      const cpu = ids.map((id) => scene.readAo(id));
+      ao.update(scene);
+      const gpu = ids.map((id) => readBuffer(ao.aoBuffer(scene, id)));
+      const native = [0, 1].map((i) => character.arrays.expected_ao.subarray(i * character.vertices, (i + 1) * character.vertices));
+      const differences = {
+        cpuNative: Math.max(...[0, 1].map((i) => largest(cpu[i], native[i]))),
+        gpuNative: Math.max(...[0, 1].map((i) => largest(gpu[i], native[i]))),
+        gpuCpu: Math.max(...[0, 1].map((i) => largest(gpu[i], cpu[i]))),
+        mean: gpu[0].reduce((sum, value) => sum + value, 0) / gpu[0].length,
+      };
+      // Directional occlusion.
+      for (const id of ids) scene.setLight(id, page.lobes);
+      scene.update();
+      ao.update(scene);
+      differences.directional = Math.max(...ids.map((id) => largest(ao.readDirectionalAo(scene, id), scene.readDirectionalAo(id))));
+      ao.release(scene);
+      scene.destroy();
+      return differences;
+    },
+
+    // Nook's pass on uploaded linear depth against expected bytes: the share of pixels within 1/255, and the largest difference.
+    screen({ width, height, depth, expected, projection, radius }) {
+      const gl = webgl;
+      const texture = gl.createTexture();
+      gl.bindTexture(gl.TEXTURE_2D, texture);
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.R32F, width, height, 0, gl.RED, gl.FLOAT, depth);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+      gl.bindTexture(gl.TEXTURE_2D, null);
+      const pass = page.renderer.ao.createNnao({ maxWidth: width, maxHeight: height });
+      pass.render({ depthTexture: texture, depthKind: "linear", skyDepth: 1000, width, height, projection, radius });
+      const framebuffer = gl.createFramebuffer();
+      gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, pass.texture, 0);
+      const pixels = new Uint8Array(4 * width * height);
+      gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+      gl.deleteFramebuffer(framebuffer);
+      gl.deleteTexture(texture);
+      pass.destroy();
+      let near = 0, most = 0, sum = 0;
+      for (let i = 0; i < width * height; ++i) {
+        const off = Math.abs(pixels[4 * i] - expected[i]);
+        near += off <= 1;
+        most = Math.max(most, off);
+        sum += pixels[4 * i];
+      }
+      return { share: near / (width * height), most, mean: sum / (255 * width * height) };
+    },
+    async screenFiles() {
+      const description = await (await fetch("data/screen.json")).json();
+      const bytes = await (await fetch("data/screen.bin")).arrayBuffer();
+      const count = description.width * description.height;
+      return this.screen({ ...description, depth: new Float32Array(bytes, 0, count), expected: new Uint8Array(bytes, 4 * count, count) });
+    },
+
+    // The material decoded by WebGL has no CPU picture here; the CPU in WebAssembly answers a sample.
+    material() {
+      const [value] = page.material.evaluate([{ uv: [0.3, 0.6], view: [0, 0, 1], light: [0.3, 0, 0.95] }]);
+      return { radiance: [...value.radiance], visibility: value.visibility, textures: page.renderer.material.info.textureCount };
+    },
+
+    set(values) {
+      Object.assign(page.state, values);
+      page.makeLight();
+      page.arrange();
+    },
+    draw(seconds) {
+      page.draw(seconds);
+      return webgl.getError();
+    },
+    error() {
+      return page.meanSquaredError();
+    },
+
+    // Frames for some seconds: their number, errors, and what grew after the first ones.
+    async frames(seconds) {
+      const measure = () => ({ memory: nook.memoryBytes, objects: page.renderer.ao.objectCount });
+      let start = null, count = 0, errors = 0;
+      const began = performance.now();
+      while (performance.now() - began < 1000 * seconds || count < 6) {
+        await new Promise(requestAnimationFrame);
+        page.draw(count / 30);
+        errors += webgl.getError() !== webgl.NO_ERROR;
+        if (++count === 3) start = measure();
+      }
+      return { count, errors, start, end: measure(), seconds: (performance.now() - began) / 1000 };
+    },
+
+    pixels() {
+      const { drawingBufferWidth: width, drawingBufferHeight: height } = webgl;
+      const pixels = new Uint8Array(4 * width * height);
+      webgl.readPixels(0, 0, width, height, webgl.RGBA, webgl.UNSIGNED_BYTE, pixels);
+      return pixels;
+    },
+
+    // The picture before a loss of the context and after it came back.
+    async loss(seconds) {
+      page.draw(seconds);
+      const before = this.pixels();
+      const extension = webgl.getExtension("WEBGL_lose_context");
+      const event = (name) => new Promise((resolve) => webgl.canvas.addEventListener(name, resolve, { once: true }));
+      const lost = event("webglcontextlost");
+      extension.loseContext();
+      await lost;
+      // A browser restores a context only after the event's handlers are done.
+      await new Promise((resolve) => setTimeout(resolve, 50));
+      const back = event("webglcontextrestored");
+      extension.restoreContext();
+      await back;
+      page.draw(seconds);
+      const error = webgl.getError();
+      return { most: largest(before, this.pixels()), error, objects: page.renderer.ao.objectCount };
+    },
+  };
+}

@@ -1,0 +1,265 @@
+// Draws a frame: lamp depth, depth of the view, Nook's screen-space pass, and the picture. Everything here belongs to one WebGL
+// context, and is made anew after the context was lost.
+import { lookAt, multiply, orthographic, perspective, scale } from "./matrix.js";
+import { Program, depthTarget, texture } from "./program.js";
+import { ballFragment, ballVertex, bodyDepthVertex, bodyFragment, bodyVertex, depthFragment, groundFragment, groundVertex,
+  screenFragment, screenVertex } from "./shaders.js";
+
+const lampMapSize = 1536;
+const fovY = 0.62;
+const near = 0.2, far = 60;
+const groundHalfSize = 40;
+const background = [0.8, 0.83, 0.87];
+
+// A ball of strips; uv repeats around it.
+function ballMesh(rows, columns) {
+  const vertices = [], indices = [];
+  for (let r = 0; r <= rows; ++r)
+    for (let c = 0; c <= columns; ++c) {
+      const theta = (Math.PI * r) / rows, phi = (2 * Math.PI * c) / columns;
+      vertices.push(Math.sin(theta) * Math.sin(phi), Math.cos(theta), Math.sin(theta) * Math.cos(phi), (6 * c) / columns, (-3 * r) / rows);
+      if (r < rows && c < columns) {
+        const a = r * (columns + 1) + c, b = a + columns + 1;
+        indices.push(a, b, a + 1, a + 1, b, b + 1);
+      }
+    }
+  return { vertices: new Float32Array(vertices), indices: new Uint16Array(indices) };
+}
+
+function buffer(gl, target, data) {
+  const made = gl.createBuffer();
+  gl.bindBuffer(target, made);
+  gl.bufferData(target, data, gl.STATIC_DRAW);
+  return made;
+}
+
+export class Renderer {
+  constructor(webgl, nook, character, probe, material) {
+    this.gl = webgl;
+    this.character = character;
+    this.ao = nook.createGl(webgl);
+    this.probe = this.ao.createProbe(probe);
+    this.material = material ? this.ao.createMaterial(material) : null;
+    this.pass = null;
+    this.lights = null;  // GLSL of the instances' lights; it exists after the first update with a light
+    this.#makeGeometry();
+    this.bodyDepth = new Program(webgl, bodyDepthVertex, depthFragment);
+    this.groundDepth = new Program(webgl, groundVertex, depthFragment);
+    this.ballDepth = new Program(webgl, ballVertex, depthFragment);
+    this.groundProgram = new Program(webgl, groundVertex, groundFragment(this.probe.info.glsl));
+    this.screenProgram = new Program(webgl, screenVertex, screenFragment);
+    if (this.material)
+      this.ballProgram = new Program(webgl, ballVertex, ballFragment(this.probe.info.glsl + this.material.info.glsl));
+    this.lampMap = depthTarget(webgl, lampMapSize, lampMapSize, true);
+  }
+
+  #makeGeometry() {
+    const { gl } = this;
+    const { positions, normals, joints, weights, indices, references } = this.character.arrays;
+    this.bodyArray = gl.createVertexArray();
+    gl.bindVertexArray(this.bodyArray);
+    const floats = (slot, data, size, type = gl.FLOAT, normalised = false) => {
+      const made = buffer(gl, gl.ARRAY_BUFFER, data);
+      gl.enableVertexAttribArray(slot);
+      gl.vertexAttribPointer(slot, size, type, normalised, 0, 0);
+      return made;
+    };
+    floats(0, positions, 3);
+    floats(1, normals, 3);
+    buffer(gl, gl.ARRAY_BUFFER, joints);
+    gl.enableVertexAttribArray(2);
+    gl.vertexAttribIPointer(2, 4, gl.UNSIGNED_SHORT, 0, 0);
+    floats(3, weights, 4);
+    this.references = floats(6, references, 1, gl.UNSIGNED_BYTE, true);
+    buffer(gl, gl.ELEMENT_ARRAY_BUFFER, indices);
+    this.ballArray = gl.createVertexArray();
+    gl.bindVertexArray(this.ballArray);
+    const ball = ballMesh(40, 80);
+    this.ballIndices = ball.indices.length;
+    buffer(gl, gl.ARRAY_BUFFER, ball.vertices);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 20, 0);
+    gl.enableVertexAttribArray(1);
+    gl.vertexAttribPointer(1, 2, gl.FLOAT, false, 20, 12);
+    buffer(gl, gl.ELEMENT_ARRAY_BUFFER, ball.indices);
+    this.emptyArray = gl.createVertexArray();
+    gl.bindVertexArray(null);
+    this.bones = null;
+  }
+
+  // Depth, pass and bones for a size of the canvas and a number of bodies.
+  #fit(width, height, bodies) {
+    const { gl } = this;
+    if (!this.view || this.view.width !== width || this.view.height !== height) {
+      if (this.view) {
+        gl.deleteTexture(this.view.depth);
+        gl.deleteFramebuffer(this.view.framebuffer);
+        this.pass.destroy();
+      }
+      this.view = depthTarget(gl, width, height);
+      this.pass = this.ao.createNnao({ maxWidth: width, maxHeight: height });
+    }
+    if (!this.bones || this.bones.rows < bodies) {
+      if (this.bones) gl.deleteTexture(this.bones.texture);
+      this.bones = { rows: bodies, texture: texture(gl, gl.RGBA32F, 3 * this.character.bones, bodies) };
+    }
+  }
+
+  #uploadBones(bodies) {
+    const { gl } = this;
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, this.bones.texture);
+    bodies.forEach((body, row) =>
+      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, row, 3 * this.character.bones, 1, gl.RGBA, gl.FLOAT, body.world));
+  }
+
+  #drawBodies(program, bodies, each = () => {}) {
+    const { gl } = this;
+    gl.bindVertexArray(this.bodyArray);
+    bodies.forEach((body, row) => {
+      program.set({ body: row });
+      each(body);
+      gl.drawElements(gl.TRIANGLES, this.character.arrays.indices.length, gl.UNSIGNED_INT, 0);
+    });
+  }
+  #drawGround() {
+    this.gl.bindVertexArray(this.emptyArray);
+    this.gl.drawArrays(this.gl.TRIANGLE_STRIP, 0, 4);
+  }
+  #drawBall() {
+    this.gl.bindVertexArray(this.ballArray);
+    this.gl.drawElements(this.gl.TRIANGLES, this.ballIndices, this.gl.UNSIGNED_SHORT, 0);
+  }
+
+  #drawDepth(target, clip_from_world, bodies, ball, ground) {
+    const { gl } = this;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
+    gl.viewport(0, 0, target.width, target.height);
+    gl.enable(gl.DEPTH_TEST);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    this.bodyDepth.use({ clip_from_world, bones: this.bones.texture });
+    this.#drawBodies(this.bodyDepth, bodies);
+    if (ball) {
+      this.ballDepth.use({ clip_from_world, ball });
+      this.#drawBall();
+    }
+    if (!ground) return;
+    this.groundDepth.use({ clip_from_world, half_size: groundHalfSize });
+    this.#drawGround();
+  }
+
+  // The places of an instance's occlusion as attributes 4 and 5, and of its reference as 6.
+  #bindAo(crowd, body, options) {
+    const { gl } = this;
+    const view = this.ao.aoBuffer(crowd.scene, body.instance);
+    gl.bindBuffer(gl.ARRAY_BUFFER, view.buffer);
+    gl.enableVertexAttribArray(4);
+    gl.vertexAttribPointer(4, 1, gl.FLOAT, false, view.stride, view.offset);
+    if (options.light === "lobes") {
+      const light = this.ao.light(crowd.scene, body.instance);
+      gl.bindBuffer(gl.ARRAY_BUFFER, light.buffer);
+      gl.enableVertexAttribArray(5);
+      gl.vertexAttribPointer(5, 3, gl.FLOAT, false, light.stride, light.offset);
+      this.bodyProgram.set({ light: light.light, nook_scene_lights: light.texture });
+    } else {
+      gl.disableVertexAttribArray(5);
+      gl.vertexAttrib3f(5, 1, 1, 1);
+    }
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.references);
+    gl.vertexAttribPointer(6, 1, gl.UNSIGNED_BYTE, true, 0, body.clip * this.character.vertices);
+  }
+
+  // The program of the bodies holds the text of the lights, which the first update with a light gives.
+  #makeBodyProgram(crowd) {
+    if (this.bodyProgram) return;
+    const { glsl } = this.ao.light(crowd.scene, crowd.bodies[0].instance);
+    this.bodyProgram = new Program(this.gl, bodyVertex, bodyFragment(this.probe.info.glsl + glsl));
+  }
+
+  // options: view, light, characterAo, screenAo, radius, lampDirection, lamp, exposure, eye, target, ball, irradiance.
+  draw(crowd, options) {
+    const { gl } = this;
+    const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
+    const { bodies } = crowd;
+    const views = { lit: 0, ao: 1, error: 2, screen: 1 };
+    const ball = options.ball ? [...options.ball] : null;
+    this.ao.update(crowd.scene);
+    this.#makeBodyProgram(crowd);
+    this.#fit(width, height, bodies.length);
+    this.#uploadBones(bodies);
+
+    const world = multiply(orthographic(7, 7, 0.1, 40), lookAt(scale(options.lampDirection, 20), [0, 0.8, 0]));
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1.5, 2);
+    this.#drawDepth(this.lampMap, world, bodies, ball, false);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
+
+    const projection = perspective(fovY, width / height, near, far);
+    const clip = multiply(projection, lookAt(options.eye, options.target));
+    const useScreen = options.screenAo || options.view === "screen";
+    if (useScreen) {
+      this.#drawDepth(this.view, clip, bodies, ball, true);
+      this.pass.render({ depthTexture: this.view.depth, width, height, projection, radius: options.radius });
+    }
+
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.viewport(0, 0, width, height);
+    const behind = options.view === "lit" ? background : options.view === "error" ? [0.95, 0.95, 0.95] : [1, 1, 1];
+    gl.clearColor(...behind, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    if (options.view === "screen") {
+      gl.disable(gl.DEPTH_TEST);
+      this.screenProgram.use({ screen_ao: this.pass.texture });
+      gl.bindVertexArray(this.emptyArray);
+      gl.drawArrays(gl.TRIANGLES, 0, 3);
+      return this.#end();
+    }
+    gl.enable(gl.DEPTH_TEST);
+    const shared = {
+      clip_from_world: clip, eye: options.eye, background: behind, exposure: options.exposure,
+      lamp_direction: options.lampDirection, lamp_colour: scale([1, 0.9, 0.74], 2.6 * options.lamp), lamp_from_world: world,
+      lamp_depth: this.lampMap.depth, use_screen_ao: useScreen, screen_depth: this.view.depth, screen_ao: this.pass.texture,
+      view: views[options.view], light_form: { constant: 0, probe: 1, lobes: 2 }[options.light],
+      constant_irradiance: options.irradiance, nook_probe_texels: this.probe.info.texture,
+    };
+    this.bodyProgram.use({ ...shared, use_ao: options.characterAo, bones: this.bones.texture });
+    this.#drawBodies(this.bodyProgram, bodies, (body) => {
+      const [a, b] = body.tint;
+      this.bodyProgram.set({ albedo: [0.62 + 0.16 * a, 0.56 + 0.12 * a, 0.5 + 0.1 * a + 0.1 * b] });
+      this.#bindAo(crowd, body, options);
+    });
+    this.groundProgram.use({ ...shared, half_size: groundHalfSize });
+    this.#drawGround();
+    if (ball) this.#drawMaterial({ ...shared, ball });
+    this.#end();
+  }
+
+  // Pixels of the meso-structure that are opaque, then its edges.
+  #drawMaterial(values) {
+    const { gl } = this;
+    this.ballProgram.use(values);
+    for (const each of this.material.textures) this.ballProgram.set({ [each.uniform]: each });
+    this.ballProgram.set({ solid: true });
+    this.#drawBall();
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    gl.depthMask(false);
+    this.ballProgram.set({ solid: false });
+    this.#drawBall();
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
+  }
+
+  #end() {
+    this.gl.bindVertexArray(null);
+    this.gl.useProgram(null);
+  }
+
+  // After a loss, WebGL has deleted the page's own objects already.
+  destroy() {
+    this.pass?.destroy();
+    this.probe.destroy();
+    this.material?.destroy();
+    this.ao.destroy();
+  }
+}
