@@ -53,7 +53,7 @@
 #define NOOK_ATTRIBUTE_ALPHA_1 5
 #define NOOK_ATTRIBUTE_BLEND_1 6
 
-// What vertices.comp writes.
+// The outputs of vertices.comp.
 #define NOOK_OUTPUT_AO 0
 #define NOOK_OUTPUT_COLOUR 1
 #define NOOK_OUTPUT_GREY 2
