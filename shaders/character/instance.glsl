@@ -3,7 +3,7 @@
 #include "shaders/character/constants.h"
 #include "shaders/character/layout.h"
 
-// The data of an update of the chunk: records, bones, casters and lights, floats as bits. A number of an
+// The CPU's inputs of an update of the chunk: records, bones, casters and lights, floats as bits. A number of an
 // element in a record is its place in the stream.
 layout(std430, binding = NOOK_BINDING_STREAM) readonly buffer NookStream {
   uvec4 nook_stream[];

@@ -4,7 +4,7 @@
 #include "shaders/character/light_layout.h"
 #include "shaders/probe/lobe.glsl"
 
-// Texel i of a light, which stands in the stream; light_layout.h names them.
+// Texel i of a light, which stands in the stream; light_layout.h numbers them.
 vec4 nook_light(uint light, int i) { return nook_streamed(light + uint(i)); }
 // The first of the two texels of a lobe.
 int nook_lobe_texel(int lobe) { return NOOK_LIGHT_LOBES + NOOK_LIGHT_LOBE_TEXELS * lobe; }

@@ -26,7 +26,7 @@ bool message_has(const std::string& part) {
   return std::strstr(nook_last_message(), part.c_str()) != nullptr;
 }
 
-// Of the lowest tier.
+// The functions of the lowest tier.
 std::vector<std::string> required(const platform::Context& context) {
   std::vector<std::string> names = {
 #define NOOK_X(name) "gl" #name,
@@ -132,7 +132,7 @@ TEST_CASE("an OpenGL ES 2.0 context is refused by its name and left without an e
   }
   if (old && old->version().find("OpenGL ES 2.") == std::string::npos) {
     // Drivers give the highest version that is compatible; MESA_GLES_VERSION_OVERRIDE=2.0 gives 2.0 itself.
-    std::printf("asked for OpenGL ES 2.0, got %s\n", old->version().c_str());
+    std::printf("requested OpenGL ES 2.0, got %s\n", old->version().c_str());
   } else if (old) {
     CountedContext host;
     Trace trace(*old);

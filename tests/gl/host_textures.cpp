@@ -13,7 +13,7 @@ namespace {
 
 constexpr GLenum colour_formats[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
 
-// What an upload of floats becomes on OpenGL ES.
+// The form of an upload of floats on OpenGL ES.
 struct Upload {
   GLint internal_format;
   GLenum format, type;

@@ -303,7 +303,7 @@ TEST_CASE("lights beyond a texture buffer are refused, and fewer are fine again"
   Trace trace(context);
   if (context.is_es()) {
     std::printf(
-        "2D textures of the least size hold 29,959 lights of 64 lobes, more than a test should make; "
+        "the smallest 2D textures hold 29,959 lights of 64 lobes, more than a test should make; "
         "probes go through the same check\n");
     return;
   }

@@ -27,7 +27,7 @@ struct Case {
   const char* message;
 };
 
-// Sizes and formats of textures, for which OpenGL ES 3.0 cannot be asked.
+// Sizes and formats of textures, which OpenGL ES 3.0 does not tell.
 bool needs_texture_sizes(const Case& bad) {
   for (const char* part : {"has another size", "has a format", "need red"})
     if (std::strstr(bad.message, part)) return true;
@@ -174,8 +174,7 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
     take_debug_messages();
   }
   if (left_out > 0)
-    std::printf("%d cases need sizes or formats of textures, for which OpenGL ES 3.0 cannot be asked\n",
-                left_out);
+    std::printf("%d cases need sizes or formats of textures, which OpenGL ES 3.0 does not tell\n", left_out);
   // Nothing was drawn so far: AO is 1 everywhere, colours are as they were.
   for (const float value : own_ao(gl, pass, width, height)) REQUIRE(value == 1);
   CHECK((read_texture(gl, colour, width, height, 4) == ones));
@@ -243,7 +242,7 @@ TEST_CASE("nnao: a bad description of a pass is refused with its field") {
 TEST_CASE("nnao: a texture made anew under its name is seen after a recheck") {
   NOOK_NEED_CONTEXT(context);
   if (context.is_es() && version_of(context) < 31) {
-    std::printf("OpenGL ES 3.0 cannot be asked for the sizes of textures: no recheck finds another one\n");
+    std::printf("OpenGL ES 3.0 does not tell the sizes of textures: no recheck finds another one\n");
     return;
   }
   NnaoFixture fixture(context);

@@ -215,7 +215,7 @@ TEST_CASE("nnao: compute is taken where OpenGL has it, and refused with a reason
     nook_nnao_destroy(&pass);
     nook_gl_destroy(&gl);
   };
-  // On OpenGL ES the compute path has to write four bytes for each AO: it is taken only when asked for.
+  // On OpenGL ES the compute path has to write four bytes for each AO: it is taken on request alone.
   const bool es = context.is_es();
   const auto best = has_compute && !es ? NOOK_NNAO_PATH_COMPUTE : NOOK_NNAO_PATH_FRAGMENT;
   const auto compute = has_compute ? NOOK_NNAO_PATH_COMPUTE : NOOK_NNAO_PATH_FRAGMENT;

@@ -88,7 +88,7 @@ void walk_path(platform::Context& context, nook_gl_state_mode mode, nook_nnao_pa
           {"refused frame",
            [&] {
              nook_nnao_frame_desc bad = frame;
-             // Found after the inputs were bound, on every context: some cannot be asked for formats.
+             // Found after the inputs were bound, on every context: some do not tell formats.
              bad.target = NOOK_NNAO_TARGET_TEXTURE;
              bad.target_name = stage.depth;
              CHECK(nook_nnao_render(pass, &bad) == NOOK_ERROR_INVALID_ARGUMENT);

@@ -187,7 +187,7 @@ TEST_CASE("AO arrives in a texture of the host, row by row") {
       const GLuint texture =
           textures.floats(static_cast<GLint>(internal), 1, width, height,
                           std::vector<float>(static_cast<std::size_t>(width * height), 0.25f));
-      // OpenGL ES converts no upload; 3.0 cannot be asked for the width.
+      // OpenGL ES converts no upload; 3.0 does not tell the width.
       nook_gl_ao_target target = target_of(0, is_es(f.api) ? format : NOOK_AO_FLOAT);
       target.texture = texture;
       target.texture_width = is_es(f.api) ? width : 0;
@@ -231,7 +231,7 @@ TEST_CASE("targets that cannot take the values are refused before anything is wr
   CHECK(nook_gl_scene_write_ao(f.gl, f.crowd.scene, &unknown, 1, &target) == NOOK_ERROR_INVALID_HANDLE);
 }
 
-TEST_CASE("a texture's width and format are checked as far as the context can be asked for them") {
+TEST_CASE("a texture's width and format are checked as far as the context tells them") {
   NOOK_NEED_CONTEXT(context);
   Fixture f(context, tiers_of(context).back());
   Textures textures(f.api);
@@ -253,7 +253,7 @@ TEST_CASE("a texture's width and format are checked as far as the context can be
     says("target.texture_width is not that of texture");
   } else {
     CHECK(write() == NOOK_ERROR_INVALID_ARGUMENT);
-    says("target.texture_width is 0 (OpenGL ES 3.0 cannot be asked for it");
+    says("target.texture_width is 0 (OpenGL ES 3.0 does not tell it");
   }
   target.texture_width = 64;
   CHECK(write() == NOOK_OK);

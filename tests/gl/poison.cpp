@@ -38,8 +38,8 @@ Values indexed(const GladGLContext& gl, GLenum binding, GLenum start, GLenum siz
   return {buffer, offset, bytes};
 }
 
-// What the context has of the state: OpenGL ES lacks some, and the functions of others are not those of its
-// version.
+// The part of the state that the context has: OpenGL ES lacks some, and the functions of others are not those
+// of its version.
 struct Has {
   explicit Has(const GladGLContext& gl)
       : desktop(!is_es(gl)),

@@ -390,7 +390,7 @@ TEST_CASE("what cannot be uploaded is refused and leaves nothing") {
 
 TEST_CASE("a grid beyond the limits of the context is refused, and the old one stays") {
   NOOK_NEED_CONTEXT(context);
-  // The least that any context has: 65,536 texels, and on OpenGL ES 2048 x 2048.
+  // The minimum of every context: 65,536 texels, and on OpenGL ES 2048 x 2048.
   Trace trace(context);
   if (is_es(context.gl()))
     trace.limits[GL_MAX_TEXTURE_SIZE] = 2048;

@@ -19,7 +19,8 @@ std::string names_of(unsigned users) {
                                                   {nook::gl::probes, "probe"},
                                                   {nook::gl::screen_compute, "nnao, compute path"},
                                                   {nook::gl::outputs, "output"},
-                                                  {nook::gl::outputs_compute, "output with a stride"}};
+                                                  {nook::gl::outputs_compute, "output with a stride"},
+                                                  {nook::gl::texel_uploads, "tables on OpenGL ES"}};
   std::string names;
   for (const auto& [user, name] : all)
     if (users & user) names += (names.empty() ? "" : ", ") + std::string(name);
@@ -38,7 +39,10 @@ std::string table() {
   out << "| " << what << " | " << names_of(users) << " | " << note << " |\n";
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
-  out << "\n33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions. nnao is "
+  out << "\n33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions; ES30 touches what 33 "
+         "does, "
+         "ES31 what 43 does. Tables on OpenGL ES are the uploads of 33, 43, probe and nook_nnao_create. nnao "
+         "is "
          "nook_nnao_create "
          "and nook_nnao_render; its compute path is that of nook_nnao_render if nook_nnao_info.path is "
          "NOOK_NNAO_PATH_COMPUTE. material is nook_gl_material_create. probe is nook_gl_probe_create and "

@@ -2,8 +2,8 @@
  * host's shaders read.
  *
  * Nook needs OpenGL 3.3 core, OpenGL ES 3.0 or WebGL 2, or newer, and includes no OpenGL header. There are
- * two ways: tiers 43, ES31  On OpenGL 4.3 and OpenGL ES 3.1, spheres, shadows and vertices are evaluated in
- * compute shaders. tiers 33, ES30  On OpenGL 3.3, OpenGL ES 3.0 and WebGL 2, shadows at key points are
+ * two ways. Tiers 43 and ES31: on OpenGL 4.3 and OpenGL ES 3.1, spheres, shadows and vertices are evaluated
+ * in compute shaders. Tiers 33 and ES30: on OpenGL 3.3, OpenGL ES 3.0 and WebGL 2, shadows at key points are
  * evaluated on the CPU, through the context's parallel_for, and vertices by transform feedback. On software
  * renderers such as Mesa's llvmpipe this way is faster; max_tier selects it. "Texture buffer" below means a
  * GL_TEXTURE_BUFFER on OpenGL, and a GL_TEXTURE_2D on OpenGL ES and WebGL, where Nook's GLSL text declares
@@ -198,8 +198,8 @@ typedef struct nook_gl_ao_target {
    * vertex; a value then owns a whole word. Needs compute shaders. 0: tightly packed; the bytes of an
    * instance are rounded up to a multiple of 4, and the bytes of the padding are written. */
   uint32_t stride;
-  /* The width of the texture in texels. OpenGL ES 3.0 and WebGL 2 have no query for it and need it; elsewhere
-   * 0 means the texture's own. */
+  /* The width of the texture in texels. Needed on OpenGL ES 3.0 and WebGL 2, which do not tell it;
+   * elsewhere 0 has it looked up. */
   uint32_t texture_width;
 } nook_gl_ao_target;
 
@@ -224,9 +224,8 @@ NOOK_API nook_result nook_gl_scene_read_ao(nook_gl gl, nook_scene scene, nook_in
  * colour for each vertex that takes the place of AO. The lobes of all lights lie in a texture buffer that
  * Nook owns, so that the host uploads nothing. The host puts the view's glsl after the #version line of a
  * vertex or fragment shader, sets the uniform nook_scene_lights to a texture unit, and binds the texture to
- * GL_TEXTURE_BUFFER of that unit. For each draw it sets the values as an attribute and view.light as a
- * uniform:
- *     glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
+ * GL_TEXTURE_BUFFER of that unit, on OpenGL ES to GL_TEXTURE_2D. For each draw it sets the values as an
+ * attribute and view.light as a uniform: glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
  *     glVertexAttribPointer(slot, 3, GL_FLOAT, GL_FALSE, view.stride, (const void*)(uintptr_t)view.offset);
  * In the shader, n is the unit normal in world space:
  *     vec3 e = nook_scene_irradiance(light, n, directional_ao);
@@ -245,11 +244,13 @@ typedef struct nook_gl_light_view {
   uint32_t stride;
   /* The model's file_vertex_count. */
   uint32_t count;
-  /* The OpenGL name of a GL_TEXTURE_BUFFER that Nook owns, the same for all instances of the scene. */
+  /* The OpenGL name of a GL_TEXTURE_BUFFER (OpenGL ES: GL_TEXTURE_2D) that Nook owns, the same for all
+   * instances of the scene. */
   uint32_t texture;
   /* The first argument of the GLSL functions; it is valid until the next update. */
   int32_t light;
-  /* GLSL 3.30 without #version: the uniform samplerBuffer nook_scene_lights and the functions above. The text
+  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions: the uniform samplerBuffer (OpenGL ES:
+   * sampler2D) nook_scene_lights and the functions above. The text
    * is the same for every scene and valid as long as the library is loaded. */
   const char* glsl;
 } nook_gl_light_view;

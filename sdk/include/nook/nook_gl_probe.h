@@ -2,7 +2,8 @@
  *
  * An engine loads a probe of lobes and calls nook_gl_probe_create once. It puts the GLSL of
  * nook_gl_probe_describe after the #version line of a fragment or vertex shader, and sets the uniform
- * nook_probe_texels to a texture unit. For each draw it binds the texture to GL_TEXTURE_BUFFER of that unit.
+ * nook_probe_texels to a texture unit. For each draw it binds the texture to GL_TEXTURE_BUFFER of that unit,
+ * on OpenGL ES to GL_TEXTURE_2D.
  * The shader:
  *     NookProbeSurface surface =
  *         NookProbeSurface(normal_ws, view_ws, tangent_ws, vec2(alpha_x, alpha_y), reflectance);
@@ -48,12 +49,13 @@ NOOK_API void nook_gl_probe_destroy(nook_gl_probe* gl_probe);
 typedef struct nook_gl_probe_info {
   /* sizeof(nook_gl_probe_info); the caller sets it. */
   uint32_t struct_size;
-  /* The OpenGL name of a GL_TEXTURE_BUFFER that Nook owns: the host binds it, and never changes or deletes
-   * it. */
+  /* The OpenGL name of a GL_TEXTURE_BUFFER (OpenGL ES: GL_TEXTURE_2D) that Nook owns: the host binds it, and
+   * never changes or deletes it. */
   uint32_t texture;
-  /* The size of the texture's buffer. */
+  /* The size of the texture's buffer; on OpenGL ES of the texture, in rows of 2048 texels. */
   uint64_t bytes;
-  /* GLSL 3.30 without #version: the uniform samplerBuffer nook_probe_texels and the functions above. The text
+  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions: the uniform samplerBuffer (OpenGL ES:
+   * sampler2D) nook_probe_texels and the functions above. The text
    * is the same for every probe and valid as long as the library is loaded. */
   const char* glsl;
 } nook_gl_probe_info;

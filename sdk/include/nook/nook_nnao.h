@@ -41,12 +41,12 @@ typedef struct nook_nnao_s* nook_nnao;
  * on Mesa's llvmpipe the same bits. There a frame with compute takes 0.87 to 0.99 of the processor time of a
  * frame with fragments (docs/nnao.md). No GPU was measured. */
 enum {
-  /* Compute if it is available, else fragments. */
+  /* Compute if OpenGL has it, else fragments; fragments on OpenGL ES. */
   NOOK_NNAO_PATH_AUTOMATIC = 0,
-  /* A draw, on OpenGL 3.3. */
+  /* A draw, on OpenGL 3.3, OpenGL ES 3.0 and WebGL 2. */
   NOOK_NNAO_PATH_FRAGMENT = 1,
-  /* A dispatch. It needs OpenGL 4.3, glBindImageTexture, and a max_tier in nook_gl_desc that is not below
-   * 43. */
+  /* A dispatch. It needs OpenGL 4.3 or OpenGL ES 3.1, glBindImageTexture, and a max_tier in nook_gl_desc
+   * that allows it. OpenGL ES writes no images of one byte: AO takes four there. */
   NOOK_NNAO_PATH_COMPUTE = 2
 };
 typedef int32_t nook_nnao_path;

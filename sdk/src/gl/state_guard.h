@@ -120,12 +120,12 @@ inline unsigned character_users(const Functions& gl) {
   return unsigned{gl.can.compute ? tier_43 : tier_33} |
          (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
 }
-// The same for the upload of probes.
+// The users of the items that the upload of probes touches.
 inline unsigned probe_users(const Functions& gl) {
   return probes | (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
 }
 
-// Of the creation of a screen-space pass, which uploads the paper's filters.
+// The users of the items that the creation of a screen-space pass touches: it uploads filters.
 inline unsigned screen_creation_users(const Functions& gl) {
   return screen | (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
 }

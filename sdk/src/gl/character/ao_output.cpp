@@ -151,13 +151,13 @@ void AoOutput::write_strided(const VertexValues& source, const BufferTarget& tar
 
 namespace {
 
-// The width of a texture, whose size is checked where OpenGL has a query for it. Throws Failure.
+// The width of a texture, whose size is checked where OpenGL tells it. Throws Failure.
 std::uint32_t checked_width(const Device& device, const VertexValues& source, const TextureTarget& target) {
   const Functions& gl = device.gl;
   if (!gl.can.texture_sizes) {
     if (target.width == 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "target.texture_width is 0 (%s %d.%d has no query for it, need the texture's width)",
+                    "target.texture_width is 0 (%s %d.%d does not tell it, need the texture's width)",
                     api_name(gl), gl.version / 10, gl.version % 10);
     return target.width;
   }
@@ -177,7 +177,7 @@ std::uint32_t checked_width(const Device& device, const VertexValues& source, co
   return static_cast<std::uint32_t>(width);
 }
 
-// Uploads of OpenGL ES take the type of the texture's format, which versions from 3.1 on can be asked for.
+// Uploads of OpenGL ES take the type of the texture's format, which versions from 3.1 on tell.
 void check_format(const Device& device, const TextureTarget& target) {
   const Functions& gl = device.gl;
   if (gl.profile == Profile::desktop || !gl.can.texture_sizes) return;

@@ -21,7 +21,7 @@ struct BufferTarget {
 struct TextureTarget {
   GLuint texture = 0;
   std::uint64_t first_texel = 0;          // row by row
-  std::uint32_t width = 0;                // texels; 0: the width that OpenGL says
+  std::uint32_t width = 0;                // texels; 0: looked up
   nook_ao_format format = NOOK_AO_FLOAT;  // of the texture; counts on OpenGL ES alone
 };
 

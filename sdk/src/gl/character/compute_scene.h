@@ -27,7 +27,7 @@ struct ComputeChunk : ChunkData {
   };
   Vector<Pose> transformed;
 
-  // The state of the update in progress.
+  // The CPU's inputs of the current update.
   struct Frame {
     // Instances that are evaluated come first, level by level; of the others only the spheres are needed.
     std::array<std::uint32_t, CharacterModel::max_levels + 1> due_at_level{};

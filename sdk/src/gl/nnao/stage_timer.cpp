@@ -33,9 +33,9 @@ void StageTimer::end_stage() {
   fence = device_.gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
-// A fence rather than GL_QUERY_RESULT_AVAILABLE: Mesa's zink records commands for that question, so that a
-// host that asks in each frame never gets a yes. A nanosecond rather than none: with none, zink does not look
-// whether the work has ended.
+// A fence rather than GL_QUERY_RESULT_AVAILABLE: Mesa's zink records commands for that query, so that it
+// never becomes true for a host that reads times in each frame. A nanosecond rather than none: with none,
+// zink does not look whether the work has ended.
 bool StageTimer::finished(std::uint64_t frame) const {
   const GLenum status = device_.gl.ClientWaitSync(fences_[frame % kept_frames], 0, 1);
   return status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
