@@ -2,8 +2,9 @@
 //
 //   web_screen FOLDER
 //
-// FOLDER/screen.json has size, projection and radius; FOLDER/screen.bin has depth (-z in metres, floats),
-// normals (four floats a pixel, in view space) and AO (bytes), rows from the bottom.
+// The size, the projection and the radius go to FOLDER/screen.json. FOLDER/screen.bin holds three images,
+// whose rows begin at the bottom: depth as floats (-z in metres), normals as four floats for each pixel (view
+// space), and AO as bytes.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

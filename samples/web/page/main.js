@@ -77,6 +77,7 @@ class Page {
     const axes = [1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1];
     const irradiance = this.probe.irradiance(axes);
     this.irradiance = [0, 1, 2].map((i) => (irradiance[i] + irradiance[3 + i] + irradiance[6 + i] + irradiance[9 + i] + irradiance[12 + i] + irradiance[15 + i]) / 6);
+    this.irradianceUp = irradiance.slice(6, 9);
     before?.destroy();
     this.renderer?.probe.update(this.probe);
   }
@@ -113,7 +114,7 @@ class Page {
     const target = error ? [1.15, 0.8, 0] : [0.45, 0.82, 0];
     const eye = [target[0] + away * Math.sin(turn) * Math.cos(tilt), target[1] + away * Math.sin(tilt), target[2] + away * Math.cos(turn) * Math.cos(tilt)];
     this.renderer.draw(this.crowd, {
-      ...state, light: error ? "probe" : state.light, lampDirection: this.lamp, irradiance: this.irradiance, eye, target, ball: this.ball,
+      ...state, light: error ? "probe" : state.light, lampDirection: this.lamp, irradiance: this.irradiance, irradianceUp: this.irradianceUp, eye, target, ball: this.ball,
       screenAo: state.screenAo && !error,
     });
     ++this.frames;
