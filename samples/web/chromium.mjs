@@ -58,8 +58,12 @@ export class Chromium {
     const { targetId } = await this.send("Target.createTarget", { url: "about:blank" }, undefined);
     this.session = (await this.send("Target.attachToTarget", { targetId, flatten: true }, undefined)).sessionId;
     for (const domain of ["Runtime", "Log", "Page"]) await this.send(`${domain}.enable`);
-    await this.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: false });
+    await this.size(width, height);
     await this.send("Page.navigate", { url });
+  }
+
+  size(width, height) {
+    return this.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: false });
   }
 
   // The value of an expression in the page, promises awaited.

@@ -160,7 +160,7 @@ nlohmann::json add_clips(const Character& character, Arrays& arrays) {
   return clips;
 }
 
-// What the native library makes of two instances in the middle of the first two clips, linked, on the ground.
+// The AO by the native library of two linked instances on the ground, in the middle of the first two clips.
 void add_expected(const Character& character, const std::string& model_path, Arrays& arrays) {
   const std::vector<char> file = read_file(model_path);
   const std::uint32_t bones = character.info.bone_count;

@@ -61,16 +61,18 @@ export function makeChecks(page) {
     },
 
     // Nook's pass on uploaded linear depth against expected bytes: the share of pixels within 1/255, and the largest difference.
-    screen({ width, height, depth, expected, projection, radius }) {
+    screen({ width, height, depth, normals, expected, projection, radius }) {
       const gl = webgl;
-      const texture = gl.createTexture();
-      gl.bindTexture(gl.TEXTURE_2D, texture);
-      gl.texImage2D(gl.TEXTURE_2D, 0, gl.R32F, width, height, 0, gl.RED, gl.FLOAT, depth);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
-      gl.bindTexture(gl.TEXTURE_2D, null);
+      const upload = (format, channels, data) => {
+        const texture = gl.createTexture();
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.texImage2D(gl.TEXTURE_2D, 0, format, width, height, 0, channels, gl.FLOAT, data);
+        gl.bindTexture(gl.TEXTURE_2D, null);
+        return texture;
+      };
+      const texture = upload(gl.R32F, gl.RED, depth), normalTexture = upload(gl.RGBA32F, gl.RGBA, normals);
       const pass = page.renderer.ao.createNnao({ maxWidth: width, maxHeight: height });
-      pass.render({ depthTexture: texture, depthKind: "linear", skyDepth: 1000, width, height, projection, radius });
+      pass.render({ depthTexture: texture, depthKind: "linear", normalTexture, view: "raw", width, height, projection, radius });
       const framebuffer = gl.createFramebuffer();
       gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
       gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, pass.texture, 0);
@@ -79,6 +81,7 @@ export function makeChecks(page) {
       gl.bindFramebuffer(gl.FRAMEBUFFER, null);
       gl.deleteFramebuffer(framebuffer);
       gl.deleteTexture(texture);
+      gl.deleteTexture(normalTexture);
       pass.destroy();
       let near = 0, most = 0, sum = 0;
       for (let i = 0; i < width * height; ++i) {
@@ -93,7 +96,8 @@ export function makeChecks(page) {
       const description = await (await fetch("data/screen.json")).json();
       const bytes = await (await fetch("data/screen.bin")).arrayBuffer();
       const count = description.width * description.height;
-      return this.screen({ ...description, depth: new Float32Array(bytes, 0, count), expected: new Uint8Array(bytes, 4 * count, count) });
+      return this.screen({ ...description, depth: new Float32Array(bytes, 0, count), normals: new Float32Array(bytes, 4 * count, 4 * count),
+        expected: new Uint8Array(bytes, 20 * count, count) });
     },
 
     // The material decoded by WebGL has no CPU picture here; the CPU in WebAssembly answers a sample.

@@ -54,7 +54,7 @@ export class Crowd {
   // One body for each clip, side by side and far enough from each other, in the frame that the ray-traced reference has.
   lineUp() {
     this.resize(this.character.clips.length);
-    this.bodies.forEach((body, i) => Object.assign(body, { x: 1.05 * (i - (this.count - 1) / 2), z: 0, yaw: 0.35, clip: i }));
+    this.bodies.forEach((body, i) => Object.assign(body, { x: 0.98 * (i - (this.count - 1) / 2), z: 0, yaw: 0.35, clip: i }));
   }
   scatter(count) {
     this.resize(count);

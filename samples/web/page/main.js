@@ -10,7 +10,7 @@ import { fitProbe, lampDirection } from "./sky.js";
 
 const state = {
   view: "lit", count: 12, neighbours: 4, ground: true, characterAo: true, screenAo: true, radius: 0.45, light: "lobes", azimuth: 40,
-  height: 48, lamp: 0.55, exposure: 1.15, material: false, moving: true, turn: 28, tilt: 13, distance: 6.4,
+  height: 48, lamp: 0.8, exposure: 1.3, material: false, moving: true, turn: 28, tilt: 15, distance: 7.8,
 };
 const entries = [
   ["choice", "view", "Picture", { choices: [["lit", "light and occlusion"], ["ao", "occlusion alone"], ["screen", "screen-space pass alone"], ["error", "error against ray tracing"]] }],
@@ -77,6 +77,7 @@ class Page {
     const axes = [1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1];
     const irradiance = this.probe.irradiance(axes);
     this.irradiance = [0, 1, 2].map((i) => (irradiance[i] + irradiance[3 + i] + irradiance[6 + i] + irradiance[9 + i] + irradiance[12 + i] + irradiance[15 + i]) / 6);
+    this.irradianceUp = irradiance.slice(6, 9);
     before?.destroy();
     this.renderer?.probe.update(this.probe);
   }
@@ -109,11 +110,11 @@ class Page {
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     const error = state.view === "error";
     this.crowd.animate(seconds, error);
-    const turn = (error ? 0 : state.turn) * degrees, tilt = (error ? 6 : state.tilt) * degrees, away = error ? 15 : state.distance;
-    const target = error ? [0.9, 0.85, 0] : [0.35, 0.82, 0];
+    const turn = (error ? 0 : state.turn) * degrees, tilt = (error ? 4 : state.tilt) * degrees, away = error ? 10.2 : state.distance;
+    const target = error ? [1.15, 0.8, 0] : [0.45, 0.82, 0];
     const eye = [target[0] + away * Math.sin(turn) * Math.cos(tilt), target[1] + away * Math.sin(tilt), target[2] + away * Math.cos(turn) * Math.cos(tilt)];
     this.renderer.draw(this.crowd, {
-      ...state, light: error ? "probe" : state.light, lampDirection: this.lamp, irradiance: this.irradiance, eye, target, ball: this.ball,
+      ...state, light: error ? "probe" : state.light, lampDirection: this.lamp, irradiance: this.irradiance, irradianceUp: this.irradianceUp, eye, target, ball: this.ball,
       screenAo: state.screenAo && !error,
     });
     ++this.frames;

@@ -41,12 +41,12 @@ export class Renderer {
     this.probe = this.ao.createProbe(probe);
     this.material = material ? this.ao.createMaterial(material) : null;
     this.pass = null;
-    this.lights = null;  // GLSL of the instances' lights; it exists after the first update with a light
+    this.bodyPrograms = new Map();  // by the form of the light
     this.#makeGeometry();
     this.bodyDepth = new Program(webgl, bodyDepthVertex, depthFragment);
     this.groundDepth = new Program(webgl, groundVertex, depthFragment);
     this.ballDepth = new Program(webgl, ballVertex, depthFragment);
-    this.groundProgram = new Program(webgl, groundVertex, groundFragment(this.probe.info.glsl));
+    this.groundProgram = new Program(webgl, groundVertex, groundFragment);
     this.screenProgram = new Program(webgl, screenVertex, screenFragment);
     if (this.material)
       this.ballProgram = new Program(webgl, ballVertex, ballFragment(this.probe.info.glsl + this.material.info.glsl));
@@ -97,7 +97,7 @@ export class Renderer {
         this.pass.destroy();
       }
       this.view = depthTarget(gl, width, height);
-      this.pass = this.ao.createNnao({ maxWidth: width, maxHeight: height });
+      this.pass = this.ao.createNnao({ maxWidth: width, maxHeight: height, taps: 16 });
     }
     if (!this.bones || this.bones.rows < bodies) {
       if (this.bones) gl.deleteTexture(this.bones.texture);
@@ -170,13 +170,16 @@ export class Renderer {
   }
 
   // The program of the bodies holds the text of the lights, which the first update with a light gives.
-  #makeBodyProgram(crowd) {
-    if (this.bodyProgram) return;
-    const { glsl } = this.ao.light(crowd.scene, crowd.bodies[0].instance);
-    this.bodyProgram = new Program(this.gl, bodyVertex, bodyFragment(this.probe.info.glsl + glsl));
+  #bodyProgramOf(crowd, form) {
+    if (!this.bodyPrograms.has(form)) {
+      const { glsl } = this.ao.light(crowd.scene, crowd.bodies[0].instance);
+      this.bodyPrograms.set(form, new Program(this.gl, bodyVertex, bodyFragment(this.probe.info.glsl + glsl, form)));
+    }
+    return this.bodyPrograms.get(form);
   }
 
-  // options: view, light, characterAo, screenAo, radius, lampDirection, lamp, exposure, eye, target, ball, irradiance.
+  // options: view, light, characterAo, screenAo, radius, lampDirection, lamp, exposure, eye, target, ball, irradiance and irradianceUp (the mean, and on the
+  // ground).
   draw(crowd, options) {
     const { gl } = this;
     const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
@@ -184,7 +187,7 @@ export class Renderer {
     const views = { lit: 0, ao: 1, error: 2, screen: 1 };
     const ball = options.ball ? [...options.ball] : null;
     this.ao.update(crowd.scene);
-    this.#makeBodyProgram(crowd);
+    this.bodyProgram = this.#bodyProgramOf(crowd, options.light);
     this.#fit(width, height, bodies.length);
     this.#uploadBones(bodies);
 
@@ -219,8 +222,8 @@ export class Renderer {
       clip_from_world: clip, eye: options.eye, background: behind, exposure: options.exposure,
       lamp_direction: options.lampDirection, lamp_colour: scale([1, 0.9, 0.74], 2.6 * options.lamp), lamp_from_world: world,
       lamp_depth: this.lampMap.depth, use_screen_ao: useScreen, screen_depth: this.view.depth, screen_ao: this.pass.texture,
-      view: views[options.view], light_form: { constant: 0, probe: 1, lobes: 2 }[options.light],
-      constant_irradiance: options.irradiance, nook_probe_texels: this.probe.info.texture,
+      view: views[options.view], constant_irradiance: options.irradiance,
+      ground_irradiance: options.light === "constant" ? options.irradiance : options.irradianceUp, nook_probe_texels: this.probe.info.texture,
     };
     this.bodyProgram.use({ ...shared, use_ao: options.characterAo, bones: this.bones.texture });
     this.#drawBodies(this.bodyProgram, bodies, (body) => {

@@ -117,7 +117,9 @@ vec3 shown(vec3 radiance, vec3 p) {
   return mix(mapped, background, fog);
 }`;
 
-export const bodyFragment = (glsl) => `${glsl}${surface}
+// form: "constant", "probe" or "lobes".
+export const bodyFragment = (glsl, form) => `${glsl}${surface}
+#define FORM_${form.toUpperCase()}
 in vec3 world;
 in vec3 world_normal;
 in float surface_ao;
@@ -126,7 +128,6 @@ in float surface_error;
 uniform vec3 albedo;
 uniform bool use_ao;
 uniform int view;       // 0 lit, 1 AO, 2 error
-uniform int light_form; // 0 constant, 1 probe, 2 each lobe
 uniform int light;
 uniform vec3 constant_irradiance;
 vec3 error_colour(float e) {
@@ -142,25 +143,26 @@ void main() {
     colour = vec4(error_colour(surface_error) * shade, 1.0);
     return;
   }
+#if defined(FORM_LOBES)
+  vec3 e = nook_scene_irradiance(light, n, use_ao ? surface_directional_ao : vec3(ao));
+#elif defined(FORM_PROBE)
+  vec3 e = nook_probe_irradiance(nook_probe_place(world), n) * ao;
+#else
   vec3 e = constant_irradiance * ao;
-  if (light_form == 1) e = nook_probe_irradiance(nook_probe_place(world), n) * ao;
-  if (light_form == 2) e = use_ao ? nook_scene_irradiance(light, n, surface_directional_ao)
-                                  : nook_probe_irradiance(nook_probe_place(world), n) * ao;
+#endif
   colour = vec4(shown(albedo / 3.14159265 * (e + lamp(world, n)), world), 1.0);
 }`;
 
-export const groundFragment = (glsl) => `${glsl}${surface}
+export const groundFragment = `${surface}
 in vec3 world;
 uniform int view;
-uniform int light_form;
-uniform vec3 constant_irradiance;
+uniform vec3 ground_irradiance;
 void main() {
   vec3 n = vec3(0.0, 1.0, 0.0);
   float ao = screen_occlusion();
   if (view == 1) { colour = vec4(mix(vec3(pow(ao, 1.0 / 1.4)), vec3(1.0), smoothstep(9.0, 22.0, length(world.xz))), 1.0); return; }
   if (view == 2) { colour = vec4(mix(vec3(0.86), vec3(0.95), smoothstep(2.0, 12.0, length(world.xz))), 1.0); return; }
-  vec3 e = constant_irradiance * ao;
-  if (light_form > 0) e = nook_probe_irradiance(nook_probe_place(world), n) * ao;
+  vec3 e = ground_irradiance * ao;
   vec2 cell = abs(fract(world.xz) - 0.5), width = fwidth(world.xz) * 0.8;
   vec2 line = smoothstep(0.5 - 0.006 - width, vec2(0.5), cell) * clamp(0.02 / max(width.x, width.y), 0.0, 1.0);
   vec3 albedo = vec3(0.46, 0.45, 0.43) * (1.0 - 0.22 * max(line.x, line.y));
@@ -184,7 +186,7 @@ void main() {
   if (view > 0) { colour = vec4(vec3(0.93 * (view == 1 ? screen_occlusion() : 0.9)), alpha); return; }
   vec4 modes[NOOK_LIGHT_VEC4_COUNT];
   nook_material_decode(uv, dx, dy, sight, modes);
-  // The lamp, and the probe's light from above, from the side of the eye and from below as one light each.
+  // The lamp, and the probe's light as one light nearly along the normal.
   vec3 radiance = vec3(0.0);
   if (dot(n, lamp_direction) > 0.0)
     radiance += nook_material_radiance(modes, to_tangent * lamp_direction) * lamp_colour * lamp_visibility(world, n);

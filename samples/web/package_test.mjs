@@ -1,0 +1,81 @@
+// The installed package in node, on the CPU alone: node package_test.mjs DATA_FOLDER
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { dirname, join } from "node:path";
+import { NookError, load } from "nook-web";
+
+const data = process.argv[2];
+const folder = dirname(createRequire(import.meta.url).resolve("nook-web/package.json"));
+const wasm = readFileSync(join(folder, "nook.wasm"));
+const nook = await load({ wasm });
+const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
+assert.equal(nook.version, version);
+
+// Errors are exceptions with the library's message, and name what is wrong.
+assert.throws(() => nook.loadCharacter(new Uint8Array(10)), (error) => error instanceof NookError &&
+  error.code === "NOOK_ERROR_BAD_FILE" && error.message.startsWith("nook_character_model_load: "));
+assert.throws(() => nook.createScene({ cutoff: 1 }), /nook_scene_desc has no cutoff; it has .*cutoffError/);
+assert.throws(() => nook.createScene({ combine: "both" }), /combine is unknown \(got "both", need composed, paper\)/);
+assert.throws(() => nook.createScene({ groundRadius: -1 }), /nook_scene_create: .*ground_radius/);
+assert.throws(() => nook.createGl({}), /no WebGL2RenderingContext/);
+
+// Both ways to give a pose agree.
+const model = nook.loadCharacter(readFileSync(join(data, "character.nook")));
+const { boneCount, fileVertexCount } = model.info;
+const bones = new Float32Array(12 * boneCount), skinning = new Float32Array(16 * boneCount);
+for (let b = 0; b < boneCount; ++b) {
+  bones.set([1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0], 12 * b);
+  skinning.set([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], 16 * b);
+}
+const scene = nook.createScene();
+const [first, second] = [scene.addInstance(model), scene.addInstance(model)];
+scene.setPose(first, bones);
+scene.setPoseFrom(second, { kind: "skinning", layout: "columns-4x4", transforms: skinning, place3x4: [1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0] });
+for (const instance of [first, second]) scene.setGround(instance, [0, 1, 0, 0]);
+scene.update();
+const ao = scene.readAo(first), other = scene.readAo(second);
+assert.equal(ao.length, fileVertexCount);
+// The mannequin's rest space is the space of its mesh, so that only rounding is left.
+assert.ok(ao.every((value, i) => Math.abs(value - other[i]) < 1e-5));
+assert.deepEqual([...model.mapBones(model.boneNames).transformOfBone], [...Array(boneCount).keys()]);
+const check = model.checkPose({ transforms: bones }, {
+  positions: Array.from({ length: 8 }, (_, i) => model.restVertex(i).position).flatMap((p) => [p[0] + 0.25, p[1], p[2]]) });
+assert.equal(check.fault, "right", check.text);
+assert.throws(() => scene.setPose(first, bones.fill(NaN, 0, 12)), /nook_scene_set_pose: /);
+scene.destroy();
+scene.destroy();
+assert.throws(() => scene.update(), /the Scene is destroyed/);
+model.destroy();
+
+// A probe of constant light has that light's irradiance, pi times the radiance.
+const fit = nook.createProbeFit({ lobeCount: 12 });
+const directions = Array.from({ length: 500 }, (_, i) => {
+  const y = 1 - (2 * i + 1) / 500, r = Math.sqrt(1 - y * y);
+  return [r * Math.cos(2.39996 * i), y, r * Math.sin(2.39996 * i)];
+}).flat();
+fit.addSamples(directions, directions.map(() => 2));
+const probe = fit.solve();
+// 1.6 % is the bound of the fitted form.
+for (const value of probe.irradiance([0, 1, 0, 1, 0, 0])) assert.ok(Math.abs(value / (2 * Math.PI) - 1) < 0.016);
+assert.equal(probe.lobes().length, 12);
+assert.equal(fit.info.samples, 500);
+
+// Memory that is freed is used again: as many scenes as would not fit beside one another.
+const before = nook.memoryBytes;
+for (let i = 0; i < 2000; ++i) nook.createScene().destroy();
+assert.equal(nook.memoryBytes, before);
+
+// Every struct and word of the module's tables that an option takes is in the types.
+const types = readFileSync(join(folder, "index.d.ts"), "utf8");
+const { layouts } = nook.library;
+for (const name of ["nook_scene_desc", "nook_pose_desc", "nook_nnao_frame_desc", "nook_nnao_desc", "nook_probe_fit_desc", "nook_gl_ao_target",
+  "nook_character_model_info", "nook_scene_stats", "nook_material_info", "nook_probe_info", "nook_gl_info"])
+  for (const path of layouts.struct(name).fields.keys())
+    for (const member of path.split("."))
+      if (!["structSize", "headerVersion", "next", "reserved", "flags", "boneCount", "targetName", "networkSize", "path", "timers"].includes(member))
+        assert.match(types, new RegExp(`\\b${member}\\b`), `index.d.ts lacks ${name}.${member}`);
+for (const group of ["nook_pose_kind", "nook_transform_layout", "nook_pose_fault", "nook_nnao_layer", "nook_nnao_view", "nook_nnao_clip",
+  "nook_probe_method", "nook_probe_basis", "nook_combine", "nook_ao_format"])
+  for (const word of layouts.constants.get(group).numbers.keys()) assert.ok(types.includes(`"${word}"`), `index.d.ts lacks "${word}"`);
+console.log(`nook-web ${version}: the installed package holds its checks in node`);

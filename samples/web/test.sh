@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Builds the package and the page, installs the package into an empty folder, and tests the page in Chromium without a window.
+#   samples/web/test.sh [--quick] [FOLDER]     --quick: 5 s of frames in place of 60; FOLDER as for build.sh
+# Pictures and results.json go to FOLDER/test. The exit status is 0 if every check holds.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$here/../.." && pwd)
+seconds=60
+if [ "${1:-}" = --quick ]; then
+  seconds=5
+  shift
+fi
+mkdir -p "${1:-$root/build-web}"
+folder=$(cd "${1:-$root/build-web}" && pwd)
+build=${NOOK_BUILD_DIR:-$root/build}
+"$here/build.sh" "$folder"
+
+# A package that lacks a file works beside its sources alone, so it is installed elsewhere.
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+printf '{ "private": true, "type": "module" }\n' > "$scratch/package.json"
+(cd "$scratch" && npm install --silent --no-audit --no-fund --no-package-lock --offline "$folder"/nook-web-*.tgz)
+cp "$here/package_test.mjs" "$scratch/"
+# Emscripten 3.1.6 takes the fetch of newer versions of node for that of a browser.
+(cd "$scratch" && node package_test.mjs "$folder/site/data")
+
+cmake --build "$build" -j "${NOOK_JOBS:-$(nproc)}" --target web_screen
+"$build/tests/web/web_screen" "$folder/site/data"
+mkdir -p "$folder/test"
+node "$here/test.mjs" "$folder/site" "$folder/test" "$seconds"
