@@ -38,8 +38,8 @@ Row describe_character(std::span<const std::byte> bytes) {
   add_recipe(row, model.recipe);
   // The host memory of the loaded model and of an instance, as nook_character_model_memory has them.
   MeteredMemory memory(default_memory());
-  const Ref<LoadedModel> loaded =
-      Owned<LoadedModel>::make(&memory, Ref<const RefCounted>(), read_character_model(bytes, &memory), &memory);
+  const Ref<LoadedModel> loaded = Owned<LoadedModel>::make(&memory, Ref<const RefCounted>(),
+                                                           read_character_model(bytes, &memory), &memory);
   row["memory_model_bytes"] = memory.bytes();
   row["memory_instance_bytes"] = instance_bytes(*loaded);
   row["memory_lit_instance_bytes"] = instance_bytes(*loaded) + light_bytes(*loaded);
