@@ -109,7 +109,7 @@ GLint level_value(GLenum name) {
 
 enum Id {
 #define NOOK_X(name) id_##name,
-  NOOK_GL_FUNCTIONS_33(NOOK_X) NOOK_GL_FUNCTIONS_43(NOOK_X) NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
+  NOOK_GL_FUNCTIONS_ALL(NOOK_X)
 #undef NOOK_X
 };
 
@@ -202,9 +202,7 @@ void* silent_gl_proc(void*, const char* name) {
 #define NOOK_X(function)                      \
   if (std::strcmp(name, "gl" #function) == 0) \
     return reinterpret_cast<void*>(&Silent<id_##function, decltype(gl::Functions::function)>::call);
-  NOOK_GL_FUNCTIONS_33(NOOK_X)
-  NOOK_GL_FUNCTIONS_43(NOOK_X)
-  NOOK_GL_FUNCTIONS_OPTIONAL(NOOK_X)
+  NOOK_GL_FUNCTIONS_ALL(NOOK_X)
 #undef NOOK_X
   return nullptr;
 }

@@ -110,6 +110,7 @@ export function makeChecks(page) {
       Object.assign(page.state, values);
       page.makeLight();
       page.arrange();
+      page.showPanel();
     },
     draw(seconds) {
       page.draw(seconds);

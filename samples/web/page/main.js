@@ -110,8 +110,8 @@ class Page {
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     const error = state.view === "error";
     this.crowd.animate(seconds, error);
-    const turn = (error ? 0 : state.turn) * degrees, tilt = (error ? 4 : state.tilt) * degrees, away = error ? 10.2 : state.distance;
-    const target = error ? [1.15, 0.8, 0] : [0.45, 0.82, 0];
+    const turn = (error ? 0 : state.turn) * degrees, tilt = (error ? 4 : state.tilt) * degrees, away = error ? 11 : state.distance;
+    const target = error ? [1.45, 0.8, 0] : [0.45, 0.82, 0];
     const eye = [target[0] + away * Math.sin(turn) * Math.cos(tilt), target[1] + away * Math.sin(tilt), target[2] + away * Math.cos(turn) * Math.cos(tilt)];
     this.renderer.draw(this.crowd, {
       ...state, light: error ? "probe" : state.light, lampDirection: this.lamp, irradiance: this.irradiance, irradianceUp: this.irradianceUp, eye, target, ball: this.ball,
@@ -194,7 +194,8 @@ async function start() {
     load({ log: (severity, text) => severity !== "info" && console.warn(text) }), fetchCharacter("data"), fetchBytes("data/material.nook")]);
   const page = new Page(nook, character, nook.loadCharacter(character.nook), nook.loadMaterial(materialBytes), webgl);
   character.nook = null;
-  makePanel(document.getElementById("panel"), state, entries, (member) => page.changed(member));
+  page.showPanel = () => makePanel(document.getElementById("rows"), state, entries, (member) => page.changed(member));
+  page.showPanel();
   steer(page);
   page.paused = query.has("check");
   run(page);

@@ -30,6 +30,7 @@ const rows = {
 
 // entries: [kind, member of state, text, options] each, or a heading as text.
 export function makePanel(parent, state, entries, changed) {
+  parent.replaceChildren();
   for (const entry of entries) {
     if (typeof entry === "string") {
       parent.append(element("h2", { textContent: entry }));

@@ -12,9 +12,9 @@ const head = "#version 300 es\nprecision highp float;\nprecision highp int;\npre
   "precision highp sampler2DArray;\n";
 
 // A program whose uniforms are set by name: p.set({ exposure: 1, light: [0, 1, 0], map: texture }). Samplers take the texture, or
-// { texture, target }.
+// { texture, target }. feedback: the outputs of the vertex shader that transform feedback keeps.
 export class Program {
-  constructor(gl, vertex, fragment) {
+  constructor(gl, vertex, fragment, feedback = null) {
     this.gl = gl;
     this.program = gl.createProgram();
     for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
@@ -22,6 +22,7 @@ export class Program {
       gl.attachShader(this.program, made);
       gl.deleteShader(made);
     }
+    if (feedback) gl.transformFeedbackVaryings(this.program, feedback, gl.INTERLEAVED_ATTRIBS);
     gl.linkProgram(this.program);
     if (!gl.getProgramParameter(this.program, gl.LINK_STATUS) && !gl.isContextLost())
       throw new Error(`a program of the page does not link: ${gl.getProgramInfoLog(this.program)}`);

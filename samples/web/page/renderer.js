@@ -1,14 +1,15 @@
-// Draws a frame: lamp depth, depth of the view, Nook's screen-space pass, and the picture. Everything here belongs to one WebGL
+// Draws a frame: skinning, lamp depth, depth of the view, Nook's screen-space pass, and the picture. Everything here belongs to one WebGL
 // context, and is made anew after the context was lost.
 import { lookAt, multiply, orthographic, perspective, scale } from "./matrix.js";
 import { Program, depthTarget, texture } from "./program.js";
 import { ballFragment, ballVertex, bodyDepthVertex, bodyFragment, bodyVertex, depthFragment, groundFragment, groundVertex,
-  screenFragment, screenVertex } from "./shaders.js";
+  screenFragment, screenVertex, skinVertex } from "./shaders.js";
 
-const lampMapSize = 1536;
+const lampMapSize = 1024;
 const fovY = 0.62;
 const near = 0.2, far = 60;
 const groundHalfSize = 40;
+const skinnedBytes = 24;  // of a vertex: place and normal
 const background = [0.8, 0.83, 0.87];
 
 // A ball of strips; uv repeats around it.
@@ -43,6 +44,8 @@ export class Renderer {
     this.pass = null;
     this.bodyPrograms = new Map();  // by the form of the light
     this.#makeGeometry();
+    this.skin = new Program(webgl, skinVertex, depthFragment, ["world", "world_normal"]);
+    this.feedback = webgl.createTransformFeedback();
     this.bodyDepth = new Program(webgl, bodyDepthVertex, depthFragment);
     this.groundDepth = new Program(webgl, groundVertex, depthFragment);
     this.ballDepth = new Program(webgl, ballVertex, depthFragment);
@@ -56,8 +59,8 @@ export class Renderer {
   #makeGeometry() {
     const { gl } = this;
     const { positions, normals, joints, weights, indices, references } = this.character.arrays;
-    this.bodyArray = gl.createVertexArray();
-    gl.bindVertexArray(this.bodyArray);
+    this.restArray = gl.createVertexArray();
+    gl.bindVertexArray(this.restArray);
     const floats = (slot, data, size, type = gl.FLOAT, normalised = false) => {
       const made = buffer(gl, gl.ARRAY_BUFFER, data);
       gl.enableVertexAttribArray(slot);
@@ -70,6 +73,8 @@ export class Renderer {
     gl.enableVertexAttribArray(2);
     gl.vertexAttribIPointer(2, 4, gl.UNSIGNED_SHORT, 0, 0);
     floats(3, weights, 4);
+    this.bodyArray = gl.createVertexArray();
+    gl.bindVertexArray(this.bodyArray);
     this.references = floats(6, references, 1, gl.UNSIGNED_BYTE, true);
     buffer(gl, gl.ELEMENT_ARRAY_BUFFER, indices);
     this.ballArray = gl.createVertexArray();
@@ -85,6 +90,7 @@ export class Renderer {
     this.emptyArray = gl.createVertexArray();
     gl.bindVertexArray(null);
     this.bones = null;
+    this.skinned = null;
   }
 
   // Depth, pass and bones for a size of the canvas and a number of bodies.
@@ -101,23 +107,48 @@ export class Renderer {
     }
     if (!this.bones || this.bones.rows < bodies) {
       if (this.bones) gl.deleteTexture(this.bones.texture);
+      if (this.skinned) gl.deleteBuffer(this.skinned);
+      this.skinned = gl.createBuffer();
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.skinned);
+      gl.bufferData(gl.ARRAY_BUFFER, bodies * this.character.vertices * skinnedBytes, gl.DYNAMIC_COPY);
+      gl.bindBuffer(gl.ARRAY_BUFFER, null);
       this.bones = { rows: bodies, texture: texture(gl, gl.RGBA32F, 3 * this.character.bones, bodies) };
     }
   }
 
-  #uploadBones(bodies) {
+  #skin(bodies) {
     const { gl } = this;
+    const { bones, vertices } = this.character;
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, this.bones.texture);
-    bodies.forEach((body, row) =>
-      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, row, 3 * this.character.bones, 1, gl.RGBA, gl.FLOAT, body.world));
+    bodies.forEach((body, row) => gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, row, 3 * bones, 1, gl.RGBA, gl.FLOAT, body.world));
+    this.skin.use({ bones: this.bones.texture });
+    gl.bindVertexArray(this.restArray);
+    gl.enable(gl.RASTERIZER_DISCARD);
+    gl.bindTransformFeedback(gl.TRANSFORM_FEEDBACK, this.feedback);
+    bodies.forEach((_, row) => {
+      const bytes = vertices * skinnedBytes;
+      this.skin.set({ body: row });
+      gl.bindBufferRange(gl.TRANSFORM_FEEDBACK_BUFFER, 0, this.skinned, row * bytes, bytes);
+      gl.beginTransformFeedback(gl.POINTS);
+      gl.drawArrays(gl.POINTS, 0, vertices);
+      gl.endTransformFeedback();
+    });
+    gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, null);
+    gl.bindTransformFeedback(gl.TRANSFORM_FEEDBACK, null);
+    gl.disable(gl.RASTERIZER_DISCARD);
   }
 
-  #drawBodies(program, bodies, each = () => {}) {
+  #drawBodies(bodies, each = () => {}) {
     const { gl } = this;
     gl.bindVertexArray(this.bodyArray);
     bodies.forEach((body, row) => {
-      program.set({ body: row });
+      const first = row * this.character.vertices * skinnedBytes;
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.skinned);
+      for (const slot of [0, 1]) {
+        gl.enableVertexAttribArray(slot);
+        gl.vertexAttribPointer(slot, 3, gl.FLOAT, false, skinnedBytes, first + 12 * slot);
+      }
       each(body);
       gl.drawElements(gl.TRIANGLES, this.character.arrays.indices.length, gl.UNSIGNED_INT, 0);
     });
@@ -137,8 +168,8 @@ export class Renderer {
     gl.viewport(0, 0, target.width, target.height);
     gl.enable(gl.DEPTH_TEST);
     gl.clear(gl.DEPTH_BUFFER_BIT);
-    this.bodyDepth.use({ clip_from_world, bones: this.bones.texture });
-    this.#drawBodies(this.bodyDepth, bodies);
+    this.bodyDepth.use({ clip_from_world });
+    this.#drawBodies(bodies);
     if (ball) {
       this.ballDepth.use({ clip_from_world, ball });
       this.#drawBall();
@@ -189,7 +220,7 @@ export class Renderer {
     this.ao.update(crowd.scene);
     this.bodyProgram = this.#bodyProgramOf(crowd, options.light);
     this.#fit(width, height, bodies.length);
-    this.#uploadBones(bodies);
+    this.#skin(bodies);
 
     const world = multiply(orthographic(7, 7, 0.1, 40), lookAt(scale(options.lampDirection, 20), [0, 0.8, 0]));
     gl.enable(gl.POLYGON_OFFSET_FILL);
@@ -225,8 +256,8 @@ export class Renderer {
       view: views[options.view], constant_irradiance: options.irradiance,
       ground_irradiance: options.light === "constant" ? options.irradiance : options.irradianceUp, nook_probe_texels: this.probe.info.texture,
     };
-    this.bodyProgram.use({ ...shared, use_ao: options.characterAo, bones: this.bones.texture });
-    this.#drawBodies(this.bodyProgram, bodies, (body) => {
+    this.bodyProgram.use({ ...shared, use_ao: options.characterAo });
+    this.#drawBodies(bodies, (body) => {
       const [a, b] = body.tint;
       this.bodyProgram.set({ albedo: [0.62 + 0.16 * a, 0.56 + 0.12 * a, 0.5 + 0.1 * a + 0.1 * b] });
       this.#bindAo(crowd, body, options);

@@ -1,20 +1,27 @@
 // The page's own shaders. Light and occlusion are Nook's: the text of its functions stands before those that call them.
 
-const skin = `
-uniform highp sampler2D bones;
-uniform int body;
-mat4x3 skinning(uvec4 joints, vec4 weights) {
-  vec4 rows[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
-  for (int i = 0; i < 4; ++i)
-    for (int r = 0; r < 3; ++r) rows[r] += weights[i] * texelFetch(bones, ivec2(3 * int(joints[i]) + r, body), 0);
-  return mat4x3(transpose(mat3x4(rows[0], rows[1], rows[2])));
-}`;
-
-export const bodyVertex = `${skin}
+// Skinning, once for each vertex and frame: transform feedback keeps place and normal for the passes that follow.
+export const skinVertex = `
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uvec4 joints;
 layout(location = 3) in vec4 weights;
+uniform highp sampler2D bones;
+uniform int body;
+out vec3 world;
+out vec3 world_normal;
+void main() {
+  vec4 rows[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
+  for (int i = 0; i < 4; ++i)
+    for (int r = 0; r < 3; ++r) rows[r] += weights[i] * texelFetch(bones, ivec2(3 * int(joints[i]) + r, body), 0);
+  vec4 p = vec4(position, 1.0);
+  world = vec3(dot(rows[0], p), dot(rows[1], p), dot(rows[2], p));
+  world_normal = vec3(dot(rows[0].xyz, normal), dot(rows[1].xyz, normal), dot(rows[2].xyz, normal));
+}`;
+
+export const bodyVertex = `
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
 layout(location = 4) in float ao;
 layout(location = 5) in vec3 directional_ao;
 layout(location = 6) in float reference;
@@ -25,21 +32,18 @@ out float surface_ao;
 out vec3 surface_directional_ao;
 out float surface_error;
 void main() {
-  mat4x3 m = skinning(joints, weights);
-  world = m * vec4(position, 1.0);
-  world_normal = m * vec4(normal, 0.0);
+  world = position;
+  world_normal = normal;
   surface_ao = ao;
   surface_directional_ao = directional_ao;
   surface_error = ao - reference;
   gl_Position = clip_from_world * vec4(world, 1.0);
 }`;
 
-export const bodyDepthVertex = `${skin}
+export const bodyDepthVertex = `
 layout(location = 0) in vec3 position;
-layout(location = 2) in uvec4 joints;
-layout(location = 3) in vec4 weights;
 uniform mat4 clip_from_world;
-void main() { gl_Position = clip_from_world * vec4(skinning(joints, weights) * vec4(position, 1.0), 1.0); }`;
+void main() { gl_Position = clip_from_world * vec4(position, 1.0); }`;
 
 export const depthFragment = "void main() {}";
 
