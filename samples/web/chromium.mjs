@@ -1,6 +1,7 @@
 // Chromium without a window, driven by the DevTools protocol through a pipe, with SwiftShader in place of a GPU.
 import { spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync } from "node:fs";
+import { rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
@@ -87,8 +88,9 @@ export class Chromium {
   }
 
   async close() {
+    // Processes of Chromium that outlive the first one write into the profile for a while.
     this.process.kill();
     await this.gone;
-    rmSync(this.profile, { recursive: true, force: true, maxRetries: 5 });
+    await rm(this.profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
   }
 }

@@ -1,0 +1,72 @@
+// Checks the page in Chromium and prints its numbers: node test.mjs SITE [PICTURE.png]
+import { writeFileSync } from "node:fs";
+import { Chromium } from "../../web/chromium.mjs";
+import { serve } from "../../web/serve.mjs";
+
+const [site, file] = process.argv.slice(2);
+const width = 480, height = 400;
+let failures = 0;
+function expect(right, text) {
+  console.log(`${right ? "ok    " : "FAILED"} ${text}`);
+  failures += !right;
+}
+
+const { server, url } = await serve(site);
+const chromium = new Chromium(width, height);
+try {
+  await chromium.open(`${url}/?test`, width, height);
+  await chromium.until("globalThis.checks !== undefined", 60);
+  const run = async (check) => {
+    const result = await chromium.evaluate(`checks.${check}()`);
+    const error = await chromium.evaluate("checks.error()");
+    expect(error === 0, `${check}: WebGL error ${error}`);
+    return result;
+  };
+
+  const plain = await run("plain");
+  expect(plain.colours > 1000, `the picture has ${plain.colours} colours, more than 1,000`);
+  expect(plain.repeat === 0, `three.js alone draws the same picture twice: largest difference ${plain.repeat} of 255`);
+  expect(plain.beside === 0, `the same picture with Nook at work: ${plain.beside} of 255`);
+  expect(plain.shareZero === 0, `the same picture by Nook's materials with no share of AO: ${plain.shareZero} of 255`);
+
+  const characters = await run("characters");
+  // 2e-3 is half a step of 8 bits: below it no picture of 8 bits changes by more than one step.
+  expect(characters.difference <= 2e-3,
+    `AO on ${characters.vertices} vertices of 3 characters against the CPU: ${characters.difference.toExponential(2)}, at most 2e-3`);
+  expect(characters.least < 0.3 && characters.mean > 0.5, `least AO ${characters.least.toFixed(3)}, mean ${characters.mean.toFixed(3)}`);
+  const worst = Math.max(...characters.poses.map(({ maxError }) => maxError));
+  expect(characters.poses.every(({ fault }) => fault === "right"), `poses against vertices that three.js skins: ${
+    characters.poses[0].fault}, largest distance ${worst.toExponential(2)} of the radius`);
+
+  const dark = await run("darkening");
+  expect(dark.outside === 0, `no pixel grows brighter: ${dark.outside}`);
+  // Ambient light is more than half of the light, so that half of it gone takes more than a tenth of the picture's.
+  expect(dark.low > 100 && dark.lowShare < 0.9, `${dark.low} pixels of AO below 0.5 keep ${dark.lowShare.toFixed(3)} of their light`);
+  expect(dark.openShare > 0.97, `${dark.open} pixels of AO above 0.97 keep ${dark.openShare.toFixed(4)}`);
+
+  const screen = await run("screen");
+  // Colours reach 2: a half float there has steps of 2^-10, and the AO that is compared has 8 bits.
+  expect(screen.most <= 2 ** -10 + 2 / 255, `the pass multiplies colour by its AO: ${screen.most.toExponential(2)}`);
+  expect(screen.skyKept === 0, `the sky stays: ${screen.skyKept}`);
+  expect(screen.mean < 0.99 && screen.changed > 0.05, `mean AO ${screen.mean.toFixed(3)}, ${(100 * screen.changed).toFixed(0)} % of pixels change`);
+
+  if (file) writeFileSync(file, Buffer.from(await chromium.evaluate("checks.pair()"), "base64"));
+
+  const [mesh, depth] = await run("faults");
+  expect(/24 of 24 vertices are not in the model/.test(mesh), `another mesh: ${mesh}`);
+  expect(/has no depthTexture/.test(depth), `no depth: ${depth}`);
+  const resize = await run("resize");
+  expect(resize.most === 0, `the same picture after other sizes: ${resize.most} of 255`);
+  const loss = await run("loss");
+  expect(loss.most === 0, `the same picture after a lost context: ${loss.most} of 255`);
+
+  await chromium.open(`${url}/`, width, height);
+  await chromium.until("document.querySelector('canvas') !== null", 60);
+  await chromium.evaluate("new Promise((done) => setTimeout(done, 3000))");
+  expect(chromium.console.length === 0, `lines of errors and warnings on the console: ${chromium.console.length}`);
+  chromium.console.forEach((line) => console.log(`       ${line}`));
+} finally {
+  await chromium.close();
+  server.close();
+}
+process.exit(failures ? 1 : 0);
