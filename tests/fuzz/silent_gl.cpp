@@ -139,6 +139,8 @@ struct Silent<id, R(GLAD_API_PTR*)(A...)> {
       *std::get<2>(arguments) = GL_TRUE;
     } else if constexpr (id == id_CheckFramebufferStatus) {
       return GL_FRAMEBUFFER_COMPLETE;
+    } else if constexpr (id == id_ClientWaitSync) {
+      return GL_ALREADY_SIGNALED;
     } else if constexpr (id == id_IsTexture || id == id_IsFramebuffer || id == id_IsProgram ||
                          id == id_UnmapBuffer) {
       return GL_TRUE;
