@@ -197,7 +197,9 @@ TEST_CASE("AO arrives in a texture of the host, row by row") {
       float worst = 0;
       for (std::size_t v = 0; v < expected.size(); ++v)
         worst = std::max(worst, std::abs(texels[first + v] - expected[v]));
-      CHECK(worst <= tolerance_of(format));
+      // OpenGL converts the upload, and may cut floats to halves instead of rounding them.
+      const bool cut = format == NOOK_AO_HALF && !is_es(f.api);
+      CHECK(worst <= tolerance_of(format) * (cut ? 2 : 1));
       CHECK(std::abs(texels[first - 1] - 0.25f) < 0.002f);
       CHECK(std::abs(texels[first + expected.size()] - 0.25f) < 0.002f);
     }
