@@ -151,8 +151,6 @@ struct Silent<id, R(GLAD_API_PTR*)(A...)> {
           std::get<1>(arguments) == GL_DEPTH_STENCIL_TEXTURE_MODE ? GL_DEPTH_COMPONENT : 0;
     } else if constexpr (id == id_GetFramebufferAttachmentParameteriv) {
       *std::get<3>(arguments) = 0;
-    } else if constexpr (id == id_GetQueryObjectiv) {
-      *std::get<2>(arguments) = GL_TRUE;
     } else if constexpr (id == id_GetQueryObjectui64v || id == id_GetInteger64i_v || id == id_GetIntegeri_v) {
       *std::get<2>(arguments) = 0;
     } else if constexpr (id == id_BindTexture) {
