@@ -11,6 +11,10 @@ namespace {
 const GLubyte* GLAD_API_PTR version_for_glad(GLenum) {
   return reinterpret_cast<const GLubyte*>("4.6");
 }
+// OpenGL ES 2.0 has no glGetStringi, through which glad counts the extensions of newer versions.
+const GLubyte* GLAD_API_PTR old_version_for_glad(GLenum) {
+  return reinterpret_cast<const GLubyte*>("2.1");
+}
 
 }  // namespace
 
@@ -33,8 +37,12 @@ void Context::load_functions() {
   // glad stops at the functions of the version that GL_VERSION says, and OpenGL ES counts otherwise: its
   // functions have the names and the meanings of OpenGL's, so that all that the driver has are loaded.
   const GLADuserptrloadfunc load = [](void* user, const char* name) {
-    if (std::strcmp(name, "glGetString") == 0 && static_cast<Context*>(user)->is_es())
-      return reinterpret_cast<GLADapiproc>(&version_for_glad);
+    if (std::strcmp(name, "glGetString") == 0 && static_cast<Context*>(user)->is_es()) {
+      const auto get_string = reinterpret_cast<PFNGLGETSTRINGPROC>(loader(user, name));
+      const auto* const version = reinterpret_cast<const char*>(get_string(GL_VERSION));
+      const bool old = version && std::strstr(version, "OpenGL ES 2.");
+      return reinterpret_cast<GLADapiproc>(old ? &old_version_for_glad : &version_for_glad);
+    }
     return reinterpret_cast<GLADapiproc>(loader(user, name));
   };
   if (!gladLoadGLContextUserPtr(gl_.get(), load, this))
