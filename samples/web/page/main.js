@@ -24,7 +24,7 @@ const entries = [
   ["check", "screenAo", "Of the screen"],
   ["range", "radius", "Radius", { min: 0.1, max: 1.5, step: 0.05, unit: " m" }],
   "Light",
-  ["choice", "light", "Ambient", { choices: [["constant", "constant × AO"], ["probe", "probe × AO"], ["lobes", "probe, each lobe occluded"]] }],
+  ["choice", "light", "Ambient", { choices: [["constant", "constant × AO"], ["probe", "probe × AO"], ["lobes", "each lobe occluded"]] }],
   ["range", "azimuth", "Sun side", { min: 0, max: 360, step: 1, unit: "°" }],
   ["range", "height", "Sun height", { min: 8, max: 85, step: 1, unit: "°" }],
   ["range", "lamp", "Sun", { min: 0, max: 1.5, step: 0.05 }],
