@@ -123,6 +123,12 @@ bool load_fences(Functions& gl, const Loader& loader) {
   return gl.FenceSync && gl.ClientWaitSync && gl.DeleteSync;
 }
 
+void load_feedback_objects(Functions& gl, const Loader& loader) {
+  loader.optional(gl.BindTransformFeedback, "glBindTransformFeedback");
+  loader.optional(gl.DeleteTransformFeedbacks, "glDeleteTransformFeedbacks");
+  loader.optional(gl.GenTransformFeedbacks, "glGenTransformFeedbacks");
+}
+
 // A loader may return a stub for a function that the context lacks, so the version is tested before the
 // pointer.
 void load_desktop_options(Functions& gl, const Loader& loader) {
@@ -131,9 +137,7 @@ void load_desktop_options(Functions& gl, const Loader& loader) {
   gl.can.texture_sizes = gl.can.indexed_draw_buffers = true;
   gl.can.timestamps = load_fences(gl, loader);
   if (gl.version >= 40) {
-    loader.optional(gl.BindTransformFeedback, "glBindTransformFeedback");
-    loader.optional(gl.DeleteTransformFeedbacks, "glDeleteTransformFeedbacks");
-    loader.optional(gl.GenTransformFeedbacks, "glGenTransformFeedbacks");
+    load_feedback_objects(gl, loader);
     loader.optional(gl.BlendEquationSeparatei, "glBlendEquationSeparatei");
     loader.optional(gl.BlendFuncSeparatei, "glBlendFuncSeparatei");
   }
@@ -148,9 +152,7 @@ void load_desktop_options(Functions& gl, const Loader& loader) {
 }
 
 void load_es_options(Functions& gl, const Loader& loader) {
-  loader.optional(gl.BindTransformFeedback, "glBindTransformFeedback");
-  loader.optional(gl.DeleteTransformFeedbacks, "glDeleteTransformFeedbacks");
-  loader.optional(gl.GenTransformFeedbacks, "glGenTransformFeedbacks");
+  load_feedback_objects(gl, loader);
   if (gl.profile == Profile::webgl) {
     loader.optional(gl.GetBufferSubData, "glGetBufferSubData");
     gl.can.buffer_reads = gl.GetBufferSubData != nullptr;

@@ -2,6 +2,7 @@
 // and WebGL a 2D texture whose rows follow one another. shaders/core/texels.glsl has the same two forms.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "sdk/src/core/containers.h"
@@ -26,11 +27,13 @@ class TexelTable {
   std::uint64_t bytes() const { return capacity_ * bytes_of_texel(); }
   GLuint texture() const { return texture_.name(); }
 
-  // Replaces the first `texels` texels: fill(memory) writes them, two or four floats each. More than the
-  // capacity makes room. Nothing waits for the GPU. Throws Failure.
+  // Replaces the first `texels` texels, at most device.max_texels: fill(memory) writes them, two or four
+  // floats each. More than the capacity makes room. Nothing waits for the GPU. Throws Failure.
   template <class Fill>
   void write(Device& device, std::uint64_t texels, Fill&& fill) {
-    if (texels > capacity_) reserve(device, format_, texels + texels / 2, label_);
+    // Half as much again, so that a growing scene seldom comes here.
+    if (texels > capacity_)
+      reserve(device, format_, std::min(texels + texels / 2, std::uint64_t{device.max_texels}), label_);
     if (device.gl.can.texture_buffers) {
       buffer_.write(texels * bytes_of_texel(), fill);
     } else {
