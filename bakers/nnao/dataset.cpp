@@ -6,17 +6,30 @@
 #include <atomic>
 #include <mutex>
 
+#include "bakers/nnao/host_normals.h"
+#include "bakers/nnao/training_cameras.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::nnao {
 namespace {
 
-constexpr float min_radius = 0.08f, max_radius = 1.6f;  // metres
-constexpr float min_radius_px = 4;
-// The distance of ray origins from the surface, metres. It is far above the rounding of hits a few metres
-// away, and far below the size of objects in the scenes.
-constexpr float origin_offset = 3e-4f;
+// Returns the radius of a point at which a metre covers so many pixels.
+float any_radius(Random& random, float px_per_metre) {
+  constexpr float low_px = Dataset::min_radius_px, high_px = Dataset::max_radius_px;
+  const bool in_metres = random.chance(0.5f);
+  const float metres = random.log_between(0.05f, 2.5f), px = random.log_between(low_px, high_px);
+  const float limit_px = random.log_between(40, high_px);
+  if (!in_metres) return px / px_per_metre;
+  return std::clamp(metres * px_per_metre, low_px, limit_px) / px_per_metre;
+}
+
+// The distance of a ray's origin from the surface, metres: far below the radius and the size of things, and
+// above the rounding of a hit.
+float origin_offset(Vec3 position, float depth, float radius) {
+  const float reach = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z), depth});
+  return std::max(std::min(3e-4f, 0.01f * radius), 3e-6f * reach);
+}
 
 // Every sixth round of the families is for validation, or the last one if there are fewer rounds.
 bool is_validation(std::uint32_t scene, std::uint32_t scenes) {
@@ -46,34 +59,57 @@ std::vector<DataPoint> trace_points(const RayScene& rays, const TracedView& view
   Random random(seed);
   std::vector<DataPoint> chosen;
   std::vector<Vec3> position_ws, normal_ws;
-  std::vector<float> radius;
+  std::vector<float> radius, offset;
   const Camera& camera = view.camera;
   for (std::uint32_t i = 0; i < points; ++i) {
     DataPoint point;
     point.view = view_index;
     point.x = std::uint16_t(random.below(camera.width));
     point.y = std::uint16_t(random.below(camera.height));
-    const float wanted = random.log_between(min_radius, max_radius);
     const std::size_t at = std::size_t(point.y) * camera.width + point.x;
     const float depth = view.depth[at];
     if (!std::isfinite(depth)) continue;
     const float px_per_metre = std::abs(nook::nnao::pixel_scale(camera.rays, depth).y);
-    point.radius = std::clamp(wanted * px_per_metre, min_radius_px, Dataset::max_radius_px) / px_per_metre;
+    point.radius = any_radius(random, px_per_metre);
     point.normal = view.normal[at];
     chosen.push_back(point);
     const PixelRay ray = pixel_ray(camera, float(point.x) + 0.5f, float(point.y) + 0.5f);
     position_ws.push_back(ray.origin_ws + depth * ray.direction_ws);
     normal_ws.push_back(transform_vector(camera.world_from_view, point.normal));
     radius.push_back(point.radius);
+    offset.push_back(origin_offset(position_ws.back(), depth, point.radius));
   }
   AoSettings ao;
   ao.rays = ray_count;
   ao.seed = seed;
-  ao.origin_offset = origin_offset;
-  const std::vector<float> traced = trace_ao(rays, {position_ws, normal_ws, radius}, ao);
-  for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i].ao = traced[i];
+  const Openness open = trace_openness(rays, {position_ws, normal_ws, radius, offset}, ao);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    chosen[i].ao = open.ao[i];
+    chosen[i].open_direction = view_direction(camera, open.direction[i]);
+  }
   return chosen;
 }
+
+namespace {
+
+// Replaces the normals of a view and its points by those of a host.
+void set_host_normals(const HostNormals& normals, const RayScene& rays, bool all_pixels, TracedView& view,
+                      std::vector<DataPoint>& points) {
+  const FlushDenormals flush;
+  const Camera& camera = view.camera;
+  const auto normal_at = [&](std::uint32_t x, std::uint32_t y) {
+    const PixelRay ray = pixel_ray(camera, float(x) + 0.5f, float(y) + 0.5f);
+    const RayHit hit = rays.nearest(ray.origin_ws, ray.direction_ws);
+    if (!std::isfinite(hit.distance)) return Vec3{};
+    return view_direction(camera, normals.at(hit, ray.origin_ws, ray.direction_ws));
+  };
+  for (DataPoint& point : points) point.normal = normal_at(point.x, point.y);
+  for (std::uint32_t y = 0; all_pixels && y < camera.height; ++y)
+    for (std::uint32_t x = 0; x < camera.width; ++x)
+      view.normal[std::size_t(y) * camera.width + x] = normal_at(x, y);
+}
+
+}  // namespace
 
 Dataset make_dataset(const DatasetSettings& settings, const DatasetProgress& progress) {
   check(settings);
@@ -90,9 +126,12 @@ Dataset make_dataset(const DatasetSettings& settings, const DatasetProgress& pro
     for (std::uint32_t v = s; v < settings.views; v += settings.scenes) {
       const std::uint64_t seed = mix_bits(settings.seed ^ mix_bits(v));
       Random random(seed);
-      const Camera camera = place_camera(rays, scene, random, settings.width, settings.height);
+      const Camera camera = place_training_camera(rays, scene, random, settings.width, settings.height);
       data.views[v] = trace_view(rays, camera);
       points[v] = trace_points(rays, data.views[v], v, settings.points_per_view, settings.rays, seed);
+      if (Random(mix_bits(~seed)).chance(settings.host_normal_share))
+        set_host_normals(HostNormals(scene.soup, scene.size, seed), rays, settings.normals, data.views[v],
+                         points[v]);
       if (!settings.normals) data.views[v].normal = {};
     }
     if (!progress) return;

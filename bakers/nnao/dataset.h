@@ -1,5 +1,5 @@
 // The training set: G-buffers of procedural scenes, and ray-traced AO at points of them. A tap's inputs are
-// made from the G-buffers whenever they are needed, so that 500,000 points take some hundred megabytes.
+// made from the G-buffers whenever they are needed, so that 860,000 points take 0.8 GB.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,33 @@
 namespace nook::bake::nnao {
 
 struct DatasetSettings {
-  std::uint32_t scenes = 120;  // at least 20: two of each family
-  std::uint32_t views = 720;
-  std::uint32_t points_per_view = 1000;
-  std::uint32_t rays = 128;  // for each point
-  std::uint32_t width = 480, height = 270;
+  std::uint32_t scenes = 240;  // at least 48: two of each family
+  std::uint32_t views = 1440;
+  std::uint32_t points_per_view = 600;
+  std::uint32_t rays = 128;                 // for each point
+  std::uint32_t width = 480, height = 270;  // other shapes of screens have as many pixels
   bool normals = true;  // keep the normals of all pixels, which only the paper's form reads
+
+  // The share of views whose G-buffer has normals as a host gives them, see host_normals.h. The reference
+  // remains around the triangle's normal. Nothing else of a view depends on the share.
+  float host_normal_share = 0;
   std::uint64_t seed = 1;
 };
 
-// A pixel and its reference AO.
+// A pixel and its reference AO. A half of the radii have a uniform logarithm in metres, from 0.05 m to 2.5 m,
+// and a half in pixels, from 3 to 130. Metres become at least 3 pixels, and at most a limit that has a
+// uniform logarithm from 40 to 130 pixels for each point, as hosts clamp the radius where a surface is close.
 struct DataPoint {
   std::uint32_t view = 0;
   std::uint16_t x = 0, y = 0;
-  Vec3 normal;       // view space
-  float radius = 0;  // metres; never more than max_radius_px on the screen
-  float ao = 1;      // ray-traced AO, with rays as long as the radius
+  Vec3 normal;          // of the G-buffer, view space
+  float radius = 0;     // metres; never more than max_radius_px on the screen
+  float ao = 1;         // ray-traced AO around the triangle's normal, with rays as long as the radius
+  Vec3 open_direction;  // view space: the mean direction of the rays that hit nothing, see trace_openness
 };
 
 struct Dataset {
-  // The clamp of the pass at this height.
-  static constexpr float max_radius_px = 100;
+  static constexpr float min_radius_px = 3, max_radius_px = 130;
 
   std::vector<TracedView> views;
   std::vector<DataPoint> training, validation;  // no scene is in both
@@ -44,7 +50,7 @@ using DatasetProgress = std::function<bool(std::size_t done, std::size_t total)>
 // CANCELLED (progress returned false).
 Dataset make_dataset(const DatasetSettings& settings, const DatasetProgress& progress = {});
 
-// Returns points of one view, whose radii are uniform in their logarithm.
+// Returns points of one view, with the view's normals.
 std::vector<DataPoint> trace_points(const RayScene& rays, const TracedView& view, std::uint32_t view_index,
                                     std::uint32_t points, std::uint32_t ray_count, std::uint64_t seed);
 

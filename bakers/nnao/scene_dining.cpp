@@ -6,10 +6,6 @@
 namespace nook::bake::nnao {
 namespace {
 
-Mat3x4 moved(const Mat3x4& frame, Vec3 by) {
-  return frame * Mat3x4{{1, 0, 0, by.x, 0, 1, 0, by.y, 0, 0, 1, by.z}};
-}
-
 // A thin cup on a saucer, a bowl or a jug.
 void add_crockery(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const float size = random.between(0.03f, 0.06f);

@@ -10,11 +10,6 @@ void add_leaf(TriangleSoup& soup, Vec3 foot, Vec3 along, Vec3 across, float bend
   add_triangle(soup, tip, middle - across, middle + across);
 }
 
-Vec3 any_direction(Random& random) {
-  const float z = random.between(-1, 1), angle = random.between(0, 6.2831853f), r = std::sqrt(1 - z * z);
-  return {r * std::cos(angle), z, r * std::sin(angle)};
-}
-
 void add_grass(TriangleSoup& soup, float half, int blades, Random& random) {
   const float tall = random.between(0.05f, 0.35f), wide = random.between(0.003f, 0.012f);
   for (int i = 0; i < blades; ++i) {

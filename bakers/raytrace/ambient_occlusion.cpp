@@ -16,8 +16,9 @@
 namespace nook::bake {
 namespace {
 
+// open_sum, where given, receives the sum of the directions of open rays.
 float trace_point(RTCScene scene, Vec3 position, Vec3 normal, const HemispherePatterns& patterns,
-                  float radius, float origin_offset, std::uint64_t random) {
+                  float radius, float origin_offset, std::uint64_t random, Vec3* open_sum = nullptr) {
   const float angle = 6.2831853f * unit_float(random);
   const Frame frame = turned_frame(normal, std::cos(angle), std::sin(angle));
   const Vec3* local = patterns.pattern(std::uint32_t(random));
@@ -46,9 +47,31 @@ float trace_point(RTCScene scene, Vec3 position, Vec3 normal, const HemispherePa
       packet.flags[lane] = 0;
     }
     occluded16(scene, valid, packet);
-    for (std::uint32_t lane = 0; lane < 16; ++lane) open += valid[lane] && packet.tfar[lane] >= 0;
+    for (std::uint32_t lane = 0; lane < 16; ++lane) {
+      const bool is_open = valid[lane] && packet.tfar[lane] >= 0;
+      open += is_open;
+      if (open_sum && is_open) *open_sum += Vec3{packet.dir_x[lane], packet.dir_y[lane], packet.dir_z[lane]};
+    }
   }
   return float(open) / float(rays);
+}
+
+// direction may be empty.
+void trace_receivers(const RayScene& scene, const Receivers& receivers, const AoSettings& settings,
+                     std::span<float> ao, std::span<Vec3> direction) {
+  const HemispherePatterns patterns(settings.rays, settings.seed);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ao.size(), 256), [&](const auto& range) {
+    const FlushDenormals flush;
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const float radius = receivers.radius.empty() ? settings.radius : receivers.radius[i];
+      const float offset =
+          receivers.origin_offset.empty() ? settings.origin_offset : receivers.origin_offset[i];
+      Vec3 open_sum;
+      ao[i] = trace_point(scene.get(), receivers.position[i], receivers.normal[i], patterns, radius, offset,
+                          mix_bits(settings.seed ^ mix_bits(i)), direction.empty() ? nullptr : &open_sum);
+      if (!direction.empty() && ao[i] > 0) direction[i] = open_sum * (1 / (ao[i] * float(settings.rays)));
+    }
+  });
 }
 
 }  // namespace
@@ -68,16 +91,16 @@ std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& rece
 }
 
 std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings) {
-  const HemispherePatterns patterns(settings.rays, settings.seed);
   std::vector<float> ao(receivers.position.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ao.size(), 256), [&](const auto& range) {
-    const FlushDenormals flush;
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
-      ao[i] = trace_point(scene.get(), receivers.position[i], receivers.normal[i], patterns,
-                          receivers.radius.empty() ? settings.radius : receivers.radius[i],
-                          settings.origin_offset, mix_bits(settings.seed ^ mix_bits(i)));
-  });
+  trace_receivers(scene, receivers, settings, ao, {});
   return ao;
+}
+
+Openness trace_openness(const RayScene& scene, const Receivers& receivers, const AoSettings& settings) {
+  const std::size_t count = receivers.position.size();
+  Openness open{std::vector<float>(count), std::vector<Vec3>(count)};
+  trace_receivers(scene, receivers, settings, open.ao, open.direction);
+  return open;
 }
 
 AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays,

@@ -21,6 +21,8 @@ struct Receivers {
   std::span<const Vec3> position;
   std::span<const Vec3> normal;
   std::span<const float> radius = {};  // metres, replaces the settings' radius; empty: that one for all
+  std::span<const float> origin_offset =
+      {};  // metres, replaces the settings' offset; empty: that one for all
 };
 
 struct AoSettings {
@@ -35,6 +37,15 @@ struct AoSettings {
 std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers,
                             const AoSettings& settings);
 std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings);
+
+// The AO of receivers, and the mean of the directions of their open rays: cosine-weighted, in world space,
+// and shorter the wider the opening is (2/3 over a plane); zero where no ray is open.
+struct Openness {
+  std::vector<float> ao;
+  std::vector<Vec3> direction;
+};
+// The AO is that of trace_ao, bit for bit.
+Openness trace_openness(const RayScene& scene, const Receivers& receivers, const AoSettings& settings);
 
 // Returns false to stop. Worker threads call it, one call at a time.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;

@@ -7,9 +7,9 @@ namespace nook::test {
 
 inline bake::nnao::DatasetSettings small_settings(std::uint64_t seed = 1) {
   bake::nnao::DatasetSettings settings;
-  settings.scenes = 20;
-  settings.views = 20;
-  settings.points_per_view = 256;
+  settings.scenes = 2 * bake::nnao::family_count;
+  settings.views = settings.scenes;
+  settings.points_per_view = 120;
   settings.rays = 64;
   settings.width = 192;
   settings.height = 108;

@@ -1,0 +1,87 @@
+#include "bakers/nnao/host_normals.h"
+
+#include <algorithm>
+
+#include "bakers/nnao/noise.h"
+#include "bakers/nnao/weld.h"
+
+namespace nook::bake::nnao {
+namespace {
+
+// Triangles that meet at a sharper angle do not share a normal, as exporters do it.
+constexpr float cos_crease = 0.5f;  // 60 degrees
+
+// Returns the normal, turned towards the face's where the angle between them is too large.
+Vec3 within_tilt(Vec3 normal, Vec3 face) {
+  const float cosine = dot(normal, face);
+  if (cosine >= std::cos(max_normal_tilt)) return normal;
+  const Vec3 aside = normalised(normal - cosine * face);
+  return std::cos(max_normal_tilt) * face + std::sin(max_normal_tilt) * aside;
+}
+
+}  // namespace
+
+HostNormals::HostNormals(const TriangleSoup& soup, float size, std::uint64_t seed)
+    : soup_(soup), seed_(seed) {
+  Random random(seed);
+  const int kind = random.whole(0, 2);
+  smooth_ = kind != 0;
+  if (kind != 1) {
+    map_depth_ = std::tan(random.between(0.2f, 1) * max_normal_tilt);
+    map_scale_ = random.log_between(4, 80) / size;
+  }
+  if (!smooth_) return;
+  const Places places = weld(soup.position);
+  place_ = places.of;
+  first_.assign(places.count + 1, 0);
+  for (const auto& t : soup.triangle)
+    for (const std::uint32_t corner : t) ++first_[place_[corner] + 1];
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  around_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::uint32_t i = 0; i < soup.triangle.size(); ++i) {
+    const auto& t = soup.triangle[i];
+    const Vec3 a = soup.position[t[0]];
+    area_.push_back(cross(soup.position[t[1]] - a, soup.position[t[2]] - a));
+    for (const std::uint32_t corner : t) around_[next[place_[corner]]++] = i;
+  }
+}
+
+Vec3 HostNormals::corner_normal(std::uint32_t place, Vec3 face) const {
+  Vec3 sum;
+  for (std::uint32_t i = first_[place]; i < first_[place + 1]; ++i) {
+    // Triangles of a soup are wound either way.
+    const Vec3 area = area_[around_[i]];
+    const float along = dot(area, face);
+    if (std::abs(along) > cos_crease * length(area)) sum += along > 0 ? area : -area;
+  }
+  return normalised(sum);
+}
+
+Vec3 HostNormals::smooth(const RayHit& hit) const {
+  const auto& t = soup_.triangle[hit.triangle];
+  const Vec3 n = (1 - hit.u - hit.v) * corner_normal(place_[t[0]], hit.normal) +
+                 hit.u * corner_normal(place_[t[1]], hit.normal) +
+                 hit.v * corner_normal(place_[t[2]], hit.normal);
+  return length(n) > 0.1f ? normalised(n) : hit.normal;
+}
+
+Vec3 HostNormals::at(const RayHit& hit, Vec3 origin, Vec3 direction) const {
+  Vec3 normal = smooth_ ? smooth(hit) : hit.normal;
+  if (map_depth_ > 0) {
+    const Vec3 p = map_scale_ * (origin + hit.distance * direction);
+    const Vec3 slope{fractal_noise(seed_, p, 2), fractal_noise(seed_ + 16, p, 2),
+                     fractal_noise(seed_ + 32, p, 2)};
+    normal = normalised(normal + map_depth_ * (slope - dot(slope, normal) * normal));
+  }
+  normal = within_tilt(normal, hit.normal);
+  // A host clamps or flips normals that turn away from the viewer.
+  const float facing = -dot(normal, normalised(direction));
+  constexpr float least = 0.02f;
+  if (facing >= least) return normal;
+  const float face = -dot(hit.normal, normalised(direction));
+  if (face <= least) return hit.normal;
+  return normalised(normal + (least - facing) / (face - facing) * (hit.normal - normal));
+}
+
+}  // namespace nook::bake::nnao

@@ -1,0 +1,34 @@
+// Normals as hosts draw them to their G-buffers, which are not those of the triangles: smooth ones that are
+// interpolated over a coarse mesh, and normal maps.
+#pragma once
+
+#include "bakers/nnao/solids.h"
+
+namespace nook::bake::nnao {
+
+// The largest angle between a host's normal and the triangle's, radians: 25 degrees.
+inline constexpr float max_normal_tilt = 0.436332f;
+
+class HostNormals {
+ public:
+  // The soup must outlive this. size is that of the scene's things; seed draws the map's pattern and depth,
+  // and whether there are a map, smooth normals or both.
+  HostNormals(const TriangleSoup& soup, float size, std::uint64_t seed);
+
+  // The normal at a hit of a ray, world space, unit length. It faces the viewer.
+  Vec3 at(const RayHit& hit, Vec3 origin, Vec3 direction) const;
+
+ private:
+  Vec3 smooth(const RayHit& hit) const;
+  Vec3 corner_normal(std::uint32_t place, Vec3 face) const;
+
+  const TriangleSoup& soup_;
+  std::uint64_t seed_;
+  bool smooth_ = false;
+  float map_depth_ = 0, map_scale_ = 1;        // the tangent of the largest tilt; waves a metre
+  std::vector<std::uint32_t> place_;           // of each vertex
+  std::vector<std::uint32_t> first_, around_;  // the triangles around each place
+  std::vector<Vec3> area_;                     // of each triangle, along its normal
+};
+
+}  // namespace nook::bake::nnao

@@ -1,0 +1,31 @@
+// Surfaces of smooth bodies that are given as a function of space.
+#pragma once
+
+#include <functional>
+
+#include "bakers/nnao/solids.h"
+
+namespace nook::bake::nnao {
+
+// Returns about the distance from the surface, metres; negative inside.
+using DistanceField = std::function<float(Vec3)>;
+
+// Adds the surface where the function is 0, inside the box from low to high of the frame, by marching
+// tetrahedra on cubes (Doi and Koide 1991). cell is the size of a cube.
+void add_level_set(TriangleSoup& soup, const Mat3x4& frame, Vec3 low, Vec3 high, float cell,
+                   const DistanceField& distance);
+
+// The union of two bodies whose seam is rounded over a width (the quadratic minimum of Quilez 2013).
+inline float round_union(float a, float b, float width) {
+  const float overlap = std::fmax(width - std::abs(a - b), 0.0f) / width;
+  return std::fmin(a, b) - 0.25f * width * overlap * overlap;
+}
+
+// The distance from a rod with round ends, whose radius changes along it.
+inline float distance_to_limb(Vec3 p, Vec3 from, Vec3 to, float radius_from, float radius_to) {
+  const Vec3 along = to - from;
+  const float t = std::fmin(std::fmax(dot(p - from, along) / dot(along, along), 0.0f), 1.0f);
+  return length(p - from - t * along) - radius_from - t * (radius_to - radius_from);
+}
+
+}  // namespace nook::bake::nnao
