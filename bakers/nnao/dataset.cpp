@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 
 #include "bakers/nnao/host_normals.h"
 #include "bakers/nnao/training_cameras.h"
@@ -22,6 +23,42 @@ float any_radius(Random& random, float px_per_metre) {
   const float limit_px = random.log_between(40, high_px);
   if (!in_metres) return px / px_per_metre;
   return std::clamp(metres * px_per_metre, low_px, limit_px) / px_per_metre;
+}
+
+// Returns whether the screen shows one plane around a point. Its AO is then known well enough: a choice by
+// what a network sees leaves the mean AO of equal inputs as it is.
+bool is_flat(const TracedView& view, const DataPoint& point, float radius_px) {
+  const Camera& camera = view.camera;
+  const auto position = [&](std::uint32_t x, std::uint32_t y) {
+    return nook::nnao::view_position(camera.rays, float(x) + 0.5f, float(y) + 0.5f,
+                                     view.depth[std::size_t(y) * camera.width + x]);
+  };
+  const Vec3 middle = position(point.x, point.y);
+  for (int i = 0; i < 16; ++i) {
+    const float angle = 0.7853982f * float(i % 8), reach = radius_px * (i < 8 ? 0.3f : 0.8f);
+    const int x = int(std::lround(float(point.x) + reach * std::cos(angle)));
+    const int y = int(std::lround(float(point.y) + reach * std::sin(angle)));
+    if (x < 0 || y < 0 || x >= int(camera.width) || y >= int(camera.height)) continue;
+    const Vec3 away = position(std::uint32_t(x), std::uint32_t(y)) - middle;
+    if (!(std::abs(dot(away, point.normal)) < 0.03f * point.radius)) return false;
+  }
+  return true;
+}
+
+// Draws a pixel and its radius; none if the pixel shows the sky, or is flat and not wanted.
+std::optional<DataPoint> any_point(const TracedView& view, Random& random) {
+  const Camera& camera = view.camera;
+  DataPoint point;
+  point.x = std::uint16_t(random.below(camera.width));
+  point.y = std::uint16_t(random.below(camera.height));
+  const std::size_t at = std::size_t(point.y) * camera.width + point.x;
+  const float depth = view.depth[at];
+  if (!std::isfinite(depth)) return {};
+  const float px_per_metre = std::abs(nook::nnao::pixel_scale(camera.rays, depth).y);
+  point.radius = any_radius(random, px_per_metre);
+  point.normal = view.normal[at];
+  if (is_flat(view, point, point.radius * px_per_metre) && !random.chance(Dataset::flat_share)) return {};
+  return point;
 }
 
 // The distance of a ray's origin from the surface, metres: far below the radius and the size of things, and
@@ -50,6 +87,9 @@ void check(const DatasetSettings& settings) {
         NOOK_ERROR_INVALID_ARGUMENT,
         "the data set is empty (got %u points a view, %u rays, %u x %u pixels, need at least 1, 1, 16 x 16)",
         settings.points_per_view, settings.rays, settings.width, settings.height);
+  if (!(settings.host_normal_share >= 0 && settings.host_normal_share <= 1))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the share of host normals is not in [0, 1] (got %g)",
+                  double(settings.host_normal_share));
 }
 
 }  // namespace
@@ -61,17 +101,13 @@ std::vector<DataPoint> trace_points(const RayScene& rays, const TracedView& view
   std::vector<Vec3> position_ws, normal_ws;
   std::vector<float> radius, offset;
   const Camera& camera = view.camera;
-  for (std::uint32_t i = 0; i < points; ++i) {
-    DataPoint point;
+  // A view that shows little but sky has fewer points.
+  for (std::uint32_t tries = 3 * points; chosen.size() < points && tries > 0; --tries) {
+    std::optional<DataPoint> found = any_point(view, random);
+    if (!found) continue;
+    DataPoint& point = *found;
     point.view = view_index;
-    point.x = std::uint16_t(random.below(camera.width));
-    point.y = std::uint16_t(random.below(camera.height));
-    const std::size_t at = std::size_t(point.y) * camera.width + point.x;
-    const float depth = view.depth[at];
-    if (!std::isfinite(depth)) continue;
-    const float px_per_metre = std::abs(nook::nnao::pixel_scale(camera.rays, depth).y);
-    point.radius = any_radius(random, px_per_metre);
-    point.normal = view.normal[at];
+    const float depth = view.depth[std::size_t(point.y) * camera.width + point.x];
     chosen.push_back(point);
     const PixelRay ray = pixel_ray(camera, float(point.x) + 0.5f, float(point.y) + 0.5f);
     position_ws.push_back(ray.origin_ws + depth * ray.direction_ws);

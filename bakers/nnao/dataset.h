@@ -27,6 +27,8 @@ struct DatasetSettings {
 // A pixel and its reference AO. A half of the radii have a uniform logarithm in metres, from 0.05 m to 2.5 m,
 // and a half in pixels, from 3 to 130. Metres become at least 3 pixels, and at most a limit that has a
 // uniform logarithm from 40 to 130 pixels for each point, as hosts clamp the radius where a surface is close.
+// Pixels around which the screen shows one plane as far as the radius are chosen less often than others, by a
+// factor of flat_share.
 struct DataPoint {
   std::uint32_t view = 0;
   std::uint16_t x = 0, y = 0;
@@ -38,6 +40,7 @@ struct DataPoint {
 
 struct Dataset {
   static constexpr float min_radius_px = 3, max_radius_px = 130;
+  static constexpr float flat_share = 0.4f;
 
   std::vector<TracedView> views;
   std::vector<DataPoint> training, validation;  // no scene is in both

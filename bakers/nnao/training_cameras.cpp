@@ -102,8 +102,8 @@ std::optional<Line> any_line(Kind kind, const RayScene& rays, const TrainingScen
   }
 }
 
-// Returns about 1 for a screen full of surfaces with edges and bends.
-float worth(const RayScene& rays, const Camera& camera, float nearest) {
+// Returns 1 or more for a screen full enough of surfaces, of which a wanted share has edges and bends.
+float worth(const RayScene& rays, const Camera& camera, float nearest, float wanted_relief) {
   constexpr int columns = 24, rows = 14;
   std::array<RayHit, columns * rows> hits;
   std::array<Vec3, columns * rows> position;
@@ -127,7 +127,8 @@ float worth(const RayScene& rays, const Camera& camera, float nearest) {
     }
   }
   const float relief = pairs > 0 ? float(bent) / float(pairs) : 0;
-  return float(good - 4 * near) / (columns * rows) + 2 * std::min(relief, 0.2f);
+  const float full = float(good) / (columns * rows), blocked = float(near) / (columns * rows);
+  return 0.6f * std::min(full, 0.75f) / 0.75f + 0.4f * std::min(relief / wanted_relief, 1.0f) - 4 * blocked;
 }
 
 }  // namespace
@@ -136,17 +137,18 @@ Camera place_training_camera(const RayScene& rays, const TrainingScene& scene, R
                              std::uint32_t width, std::uint32_t height) {
   const Screen screen = any_screen(random, width, height);
   const Kind kind = any_kind(random);
+  const float wanted_relief = random.between(0.06f, 0.3f);
   Camera best;
   float best_worth = -10;
   // A kind that finds no place in the scene gives way to the first kind.
-  for (int attempt = 0; attempt < 30 && best_worth < 1.1f; ++attempt) {
-    const Kind tried = attempt < 15 || best_worth > 0.7f ? kind : Kind::inside;
+  for (int attempt = 0; attempt < 40 && best_worth < 0.999f; ++attempt) {
+    const Kind tried = attempt < 25 || best_worth > 0.75f ? kind : Kind::inside;
     const auto line = any_line(tried, rays, scene, random);
     const float roll = random.between(-0.15f, 0.15f);
     if (!line || std::abs(normalised(line->eye - line->target).y) > 0.99f) continue;
     const float fov = any_field_of_view(random, screen.aspect(), line->widest);
     const Camera camera = look_at(line->eye, line->target, roll, fov, screen.width, screen.height);
-    const float camera_worth = worth(rays, camera, line->nearest);
+    const float camera_worth = worth(rays, camera, line->nearest, wanted_relief);
     if (camera_worth <= best_worth) continue;
     best = camera;
     best_worth = camera_worth;

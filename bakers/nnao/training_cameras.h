@@ -14,7 +14,8 @@ namespace nook::bake::nnao {
 //   0.08  from above, by 35 to 75 degrees, 2 to 12 m away
 // The vertical field of view has a uniform logarithm from 25 to 100 degrees, if the horizontal one is below
 // 125. Of the screens 55 % have the sides that are given; the others have as many pixels, with sides as 4:3,
-// 21:9, 3:4 and 9:16. Most of the screen shows surfaces that are not all one plane.
+// 21:9, 3:4 and 9:16. Most of the screen shows surfaces, of which 6 to 30 % lie at edges or bends where such
+// a place is found.
 Camera place_training_camera(const RayScene& rays, const TrainingScene& scene, Random& random,
                              std::uint32_t width, std::uint32_t height);
 
