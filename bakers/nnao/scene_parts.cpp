@@ -186,14 +186,14 @@ TrainingScene make_parts(Random& random) {
   add_floor(soup, 2);
   // A base plate with rows of parts. The scene is as large as a work bench; sizes are those of the hand.
   const float plate = random.between(0.012f, 0.03f);
-  add_bevelled_box(soup, standing_frame({0, 0.5f * plate, 0}, 0), {0.5f, 0.5f * plate, 0.4f}, 0.3f * plate);
-  for (const float x : {-0.46f, 0.46f})
-    for (const float z : {-0.36f, 0.36f})
+  add_bevelled_box(soup, standing_frame({0, 0.5f * plate, 0}, 0), {0.4f, 0.5f * plate, 0.3f}, 0.3f * plate);
+  for (const float x : {-0.36f, 0.36f})
+    for (const float z : {-0.26f, 0.26f})
       add_screw(soup, standing_frame({x, plate, z}, random.between(0, 3)), random.between(0.008f, 0.02f),
                 random);
   const auto spot = [&] {
     return standing_frame(
-        {random.between(-0.4f, 0.4f), plate, random.between(-0.32f, 0.32f)},
+        {random.between(-0.3f, 0.3f), plate, random.between(-0.22f, 0.22f)},
         random.chance(0.6f) ? 1.5707963f * float(random.below(4)) : random.between(0, 6.28f));
   };
   for (int i = random.whole(3, 9); i > 0; --i)
@@ -226,7 +226,7 @@ TrainingScene make_parts(Random& random) {
   }
   scene.size = 0.3f;
   scene.cameras = {{-0.7f, 0.12f, -0.3f}, {0.7f, 0.7f, 0.9f}};
-  scene.subject = {{-0.35f, 0, -0.3f}, {0.35f, 0.12f, 0.3f}};
+  scene.subject = {{-0.28f, 0, -0.2f}, {0.28f, 0.1f, 0.2f}};
   return scene;
 }
 
