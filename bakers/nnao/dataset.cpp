@@ -45,7 +45,7 @@ bool is_flat(const TracedView& view, const DataPoint& point, float radius_px) {
   return true;
 }
 
-// Draws a pixel and its radius; none if the pixel shows the sky, or is flat and not wanted.
+// Draws a pixel and its radius; nothing if the pixel shows the sky, or if it is flat and chance rejects it.
 std::optional<DataPoint> any_point(const TracedView& view, Random& random) {
   const Camera& camera = view.camera;
   DataPoint point;
@@ -168,7 +168,8 @@ Dataset make_dataset(const DatasetSettings& settings, const DatasetProgress& pro
       if (Random(mix_bits(~seed)).chance(settings.host_normal_share))
         set_host_normals(HostNormals(scene.soup, scene.size, seed), rays, settings.normals, data.views[v],
                          points[v]);
-      if (!settings.normals) data.views[v].normal = {};
+      // An assignment of {} would keep the memory.
+      if (!settings.normals) data.views[v].normal = std::vector<Vec3>();
     }
     if (!progress) return;
     const std::lock_guard lock(progress_mutex);

@@ -1,5 +1,5 @@
 // The training set: G-buffers of procedural scenes, and ray-traced AO at points of them. A tap's inputs are
-// made from the G-buffers whenever they are needed, so that 860,000 points take 0.8 GB.
+// made from the G-buffers whenever they are needed, so that 864,000 points take 0.8 GB.
 #pragma once
 
 #include <cstdint>

@@ -77,11 +77,11 @@ Vec3 HostNormals::at(const RayHit& hit, Vec3 origin, Vec3 direction) const {
   normal = within_tilt(normal, hit.normal);
   // A host clamps or flips normals that turn away from the viewer.
   const float facing = -dot(normal, normalised(direction));
-  constexpr float least = 0.02f;
-  if (facing >= least) return normal;
+  constexpr float smallest = 0.02f;
+  if (facing >= smallest) return normal;
   const float face = -dot(hit.normal, normalised(direction));
-  if (face <= least) return hit.normal;
-  return normalised(normal + (least - facing) / (face - facing) * (hit.normal - normal));
+  if (face <= smallest) return hit.normal;
+  return normalised(normal + (smallest - facing) / (face - facing) * (hit.normal - normal));
 }
 
 }  // namespace nook::bake::nnao

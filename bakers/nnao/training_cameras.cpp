@@ -102,7 +102,7 @@ std::optional<Line> any_line(Kind kind, const RayScene& rays, const TrainingScen
   }
 }
 
-// Returns 1 or more for a screen full enough of surfaces, of which a wanted share has edges and bends.
+// Returns 1 if surfaces fill the screen and have the wanted share of edges and bends. Other views have less.
 float worth(const RayScene& rays, const Camera& camera, float nearest, float wanted_relief) {
   constexpr int columns = 24, rows = 14;
   std::array<RayHit, columns * rows> hits;
