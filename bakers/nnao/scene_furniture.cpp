@@ -176,7 +176,7 @@ void add_radiator(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
             transform_point(frame, {pitch * float(ribs), y, 0.1f}), 0.018f);
 }
 
-// A wall of the room along x from 0 to width, whose surface is at z = 0. It may have a door or a window.
+// A wall of the room along x from 0 to width, whose surface is at z = 0, and its opening.
 void add_room_wall(TriangleSoup& soup, const Mat3x4& frame, float width, float height, bool door, bool window,
                    Random& random) {
   const float middle = random.between(0.3f, 0.7f) * width, half = door ? 0.45f : random.between(0.4f, 0.9f);

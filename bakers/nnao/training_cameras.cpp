@@ -102,8 +102,8 @@ std::optional<Line> any_line(Kind kind, const RayScene& rays, const TrainingScen
   }
 }
 
-// Returns 1 if surfaces fill the screen and have the wanted share of edges and bends. Other views have less.
-float worth(const RayScene& rays, const Camera& camera, float nearest, float wanted_relief) {
+// Returns 1 if surfaces fill the screen and have the given share of edges and bends. Other views have less.
+float worth(const RayScene& rays, const Camera& camera, float nearest, float relief_share) {
   constexpr int columns = 24, rows = 14;
   std::array<RayHit, columns * rows> hits;
   std::array<Vec3, columns * rows> position;
@@ -128,7 +128,7 @@ float worth(const RayScene& rays, const Camera& camera, float nearest, float wan
   }
   const float relief = pairs > 0 ? float(bent) / float(pairs) : 0;
   const float full = float(good) / (columns * rows), blocked = float(near) / (columns * rows);
-  return 0.6f * std::min(full, 0.75f) / 0.75f + 0.4f * std::min(relief / wanted_relief, 1.0f) - 4 * blocked;
+  return 0.6f * std::min(full, 0.75f) / 0.75f + 0.4f * std::min(relief / relief_share, 1.0f) - 4 * blocked;
 }
 
 }  // namespace
@@ -137,7 +137,7 @@ Camera place_training_camera(const RayScene& rays, const TrainingScene& scene, R
                              std::uint32_t width, std::uint32_t height) {
   const Screen screen = any_screen(random, width, height);
   const Kind kind = any_kind(random);
-  const float wanted_relief = random.between(0.06f, 0.3f);
+  const float relief_share = random.between(0.06f, 0.3f);
   Camera best;
   float best_worth = -10;
   // A kind that finds no place in the scene gives way to the first kind.
@@ -148,7 +148,7 @@ Camera place_training_camera(const RayScene& rays, const TrainingScene& scene, R
     if (!line || std::abs(normalised(line->eye - line->target).y) > 0.99f) continue;
     const float fov = any_field_of_view(random, screen.aspect(), line->widest);
     const Camera camera = look_at(line->eye, line->target, roll, fov, screen.width, screen.height);
-    const float camera_worth = worth(rays, camera, line->nearest, wanted_relief);
+    const float camera_worth = worth(rays, camera, line->nearest, relief_share);
     if (camera_worth <= best_worth) continue;
     best = camera;
     best_worth = camera_worth;
