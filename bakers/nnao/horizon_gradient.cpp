@@ -9,10 +9,10 @@ constexpr int direction_inputs = HorizonBatch::direction_inputs, pooled_inputs =
 
 // The offset of each layer among the parameters.
 constexpr int tap_layer = 0;
-constexpr int direction_layer = tap_layer + LayerOrder<tap_inputs, units>::count;
-constexpr int join_layer = direction_layer + LayerOrder<pooled_inputs, units>::count;
-constexpr int out_layer = join_layer + LayerOrder<joined_inputs, units>::count;
-static_assert(out_layer + LayerOrder<units, 1>::count == sizeof(HorizonNetwork) / sizeof(float));
+constexpr int direction_layer = tap_layer + tap_inputs * units;
+constexpr int join_layer = direction_layer + LeakyOrder<pooled_inputs, units>::count;
+constexpr int out_layer = join_layer + LeakyOrder<joined_inputs, units>::count;
+static_assert(out_layer + LinearOrder<units, 1>::count == sizeof(HorizonNetwork) / sizeof(float));
 
 typedef int LaneInts __attribute__((vector_size(4 * lane_count)));
 
@@ -36,28 +36,24 @@ void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNo
   const PixelScale scale = pixel_scale(view.rays, depth);
   const float radius_px = point.radius * std::abs(scale.y);
   const float facing = dot(point.normal, viewer);
-  float taps_off_screen = 0;
   for (std::uint32_t d = 0; d < grid.directions; ++d) {
     const float angle = direction_angle(d, grid.directions, noise);
     const float cosine = std::cos(angle), sine = std::sin(angle);
-    const float across = dot(point.normal, across_viewer(viewer, cosine, sine));
     for (std::uint32_t s = 0; s < grid.steps; ++s) {
       const std::size_t t = std::size_t(d) * grid.steps + s;
       const float distance_px = step_distance_px(s, grid.steps, noise, radius_px);
       const TappedTexel texel =
-          tapped_texel(view, point.x, point.y, horizon_tap(cosine, sine, distance_px, scale));
+          clamped_texel(view, point.x, point.y, horizon_tap(cosine, sine, distance_px, scale));
       const HorizonTapInput input =
-          texel.on_screen ? horizon_tap_input(view, texel, position, point.normal, viewer, point.radius)
-                          : plane_tap_input(across, facing, distance_px / radius_px);
+          horizon_tap_input(view, texel, position, point.normal, viewer, point.radius);
       for (int i = 0; i < tap_inputs; ++i) tap[t * tap_inputs + std::size_t(i)][lane] = input[std::size_t(i)];
-      taps_off_screen += float(!texel.on_screen);
     }
     Lanes* const inputs = &direction[d * direction_inputs];
-    inputs[0][lane] = across;
+    inputs[0][lane] = dot(point.normal, across_viewer(viewer, cosine, sine));
     inputs[1][lane] = facing;
   }
   join[0][lane] = facing;
-  join[1][lane] = taps_off_screen / float(grid.directions * grid.steps);
+  join[1][lane] = border_distance(view, point.x, point.y, radius_px);
 }
 
 NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace,
@@ -69,8 +65,8 @@ NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& ba
     LaneInts most_step[units] = {};
     for (std::uint32_t s = 0; s < steps; ++s) {
       const std::size_t t = std::size_t(d) * steps + s;
-      Lanes before[units], hidden[units];
-      forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], before, hidden);
+      Lanes hidden[units];
+      rectified_forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], hidden);
       for (int u = 0; u < units; ++u) {
         const Lanes h = hidden[u];
         const LaneInts here = LaneInts{} + int(s);
@@ -92,33 +88,34 @@ NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& ba
     for (int i = 0; i < direction_inputs; ++i)
       pooled[2 * units + i] = batch.direction[d * direction_inputs + std::size_t(i)];
     Lanes out[units];
-    forward<pooled_inputs, units>(parameters + direction_layer, pooled, &trace.direction_before[d * units],
-                                  out);
+    leaky_forward<pooled_inputs, units>(parameters + direction_layer, pooled,
+                                        &trace.direction_before[d * units], out);
     for (int u = 0; u < units; ++u) trace.joined[u] += out[u];
   }
   for (int u = 0; u < units; ++u) trace.joined[u] *= 1 / float(directions);
   trace.joined[units] = batch.join[0];
   trace.joined[units + 1] = batch.join[1];
-  forward<joined_inputs, units>(parameters + join_layer, trace.joined, trace.join_before, trace.join_output);
-  forward<units, 1>(parameters + out_layer, trace.join_output, trace.out_before, &output);
+  leaky_forward<joined_inputs, units>(parameters + join_layer, trace.joined, trace.join_before,
+                                      trace.join_output);
+  linear_forward<units, 1>(parameters + out_layer, trace.join_output, &output);
 }
 
 NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& batch,
                                   const HorizonTrace& trace, const Lanes& output_gradient, Lanes* gradient) {
   const auto [directions, steps] = batch.grid;
   Lanes g_join[units], g_joined[joined_inputs];
-  backward<units, 1>(parameters + out_layer, trace.join_output, trace.out_before, &output_gradient,
-                     gradient + out_layer, g_join);
-  backward<joined_inputs, units>(parameters + join_layer, trace.joined, trace.join_before, g_join,
-                                 gradient + join_layer, g_joined);
+  linear_backward<units, 1>(parameters + out_layer, trace.join_output, &output_gradient, gradient + out_layer,
+                            g_join);
+  leaky_backward<joined_inputs, units>(parameters + join_layer, trace.joined, trace.join_before, g_join,
+                                       gradient + join_layer, g_joined);
   // The gradient of the tap layer is summed here, because the loop over taps takes most of the time.
-  Lanes g_tap_layer[LayerOrder<tap_inputs, units>::count] = {};
+  Lanes g_tap_layer[tap_inputs * units] = {};
   for (std::uint32_t d = 0; d < directions; ++d) {
     Lanes g_pooled[pooled_inputs], g_out[units];
     for (int u = 0; u < units; ++u) g_out[u] = g_joined[u] * (1 / float(directions));
-    backward<pooled_inputs, units>(parameters + direction_layer, &trace.pooled[d * pooled_inputs],
-                                   &trace.direction_before[d * units], g_out, gradient + direction_layer,
-                                   g_pooled);
+    leaky_backward<pooled_inputs, units>(parameters + direction_layer, &trace.pooled[d * pooled_inputs],
+                                         &trace.direction_before[d * units], g_out,
+                                         gradient + direction_layer, g_pooled);
     for (int u = 0; u < units; ++u) g_pooled[units + u] *= 1 / float(steps);
     LaneInts most_step[units];
     for (int u = 0; u < units; ++u)
@@ -126,16 +123,15 @@ NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& b
                        sizeof(LaneInts));
     for (std::uint32_t s = 0; s < steps; ++s) {
       const std::size_t t = std::size_t(d) * steps + s;
-      Lanes before[units], hidden[units], g_hidden[units];
-      forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], before, hidden);
+      Lanes hidden[units], g_hidden[units];
+      rectified_forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], hidden);
       const LaneInts here = LaneInts{} + int(s);
       for (int u = 0; u < units; ++u)
         g_hidden[u] = most_step[u] == here ? g_pooled[u] + g_pooled[units + u] : g_pooled[units + u];
-      backward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], before, g_hidden,
-                                  g_tap_layer, static_cast<Lanes*>(nullptr));
+      rectified_backward<tap_inputs, units>(&batch.tap[t * tap_inputs], hidden, g_hidden, g_tap_layer);
     }
   }
-  for (int i = 0; i < LayerOrder<tap_inputs, units>::count; ++i) gradient[tap_layer + i] += g_tap_layer[i];
+  for (int i = 0; i < tap_inputs * units; ++i) gradient[tap_layer + i] += g_tap_layer[i];
 }
 
 }  // namespace nook::bake::nnao

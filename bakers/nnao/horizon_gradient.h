@@ -16,7 +16,7 @@ using nook::nnao::TapNoise;
 
 // Inputs of sixteen samples with the same number of taps.
 struct HorizonBatch {
-  // dot(n, t), dot(n, o), share of its steps off the screen.
+  // dot(n, t), dot(n, o).
   static constexpr int direction_inputs = 2;
 
   explicit HorizonBatch(TapGrid tap_grid);
@@ -24,7 +24,7 @@ struct HorizonBatch {
   TapGrid grid;
   LaneArray tap;        // tap_inputs for each tap, one direction after another
   LaneArray direction;  // direction_inputs of each direction
-  Lanes join[2]{};      // dot(n, o), share of the taps off the screen
+  Lanes join[2]{};      // dot(n, o), distance from the border
 
   void set(int lane, const View& view, const DataPoint& point, TapNoise noise);
 };
@@ -36,7 +36,7 @@ struct HorizonTrace {
   LaneArray pooled, direction_before;
   std::vector<int> most_step;  // the step of each direction's maximum, by unit and lane
   Lanes joined[HorizonNetwork::units + 2], join_before[HorizonNetwork::units],
-      join_output[HorizonNetwork::units], out_before[1];
+      join_output[HorizonNetwork::units];
 };
 
 // parameters are in the order of layers.h. Returns the network's output before the clamp.

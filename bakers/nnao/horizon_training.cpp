@@ -27,7 +27,8 @@ double block_gradient(const Dataset& data, const TrainingSettings& settings, con
   for (int lane = 0; lane < lane_count; ++lane) {
     const DataPoint& point = data.training[points[std::size_t(lane)]];
     const View view = data.views[point.view].view();
-    const std::uint32_t rank = random.below(16), other = (rank + 1 + random.below(15)) % 16;
+    constexpr std::uint32_t count = NOOK_NOISE_COUNT;
+    const std::uint32_t rank = random.below(count), other = (rank + 1 + random.below(count - 1)) % count;
     one.set(lane, view, point, nook::nnao::tap_noise_of_rank(rank));
     two.set(lane, view, point, nook::nnao::tap_noise_of_rank(other));
   }
@@ -55,18 +56,21 @@ double block_gradient(const Dataset& data, const TrainingSettings& settings, con
   return loss;
 }
 
+// Each of these returns the place of the next layer.
 template <int inputs, int units>
-float* start_layer(float* layer, float bias, Random& random) {
-  using Order = LayerOrder<inputs, units>;
+float* start_weights(float* layer, Random& random) {
   // Glorot's bounds.
   const float reach = std::sqrt(6.0f / float(inputs + units));
   for (int i = 0; i < inputs * units; ++i) layer[i] = random.between(-reach, reach);
-  for (int u = 0; u < units; ++u) {
-    layer[Order::bias + u] = bias;
-    layer[Order::negative + u] = 0.25f;
-    layer[Order::positive + u] = 1;
-  }
-  return layer + Order::count;
+  return layer + inputs * units;
+}
+
+template <int inputs, int units>
+float* start_leaky(float* layer, Random& random) {
+  float* const bias = start_weights<inputs, units>(layer, random);
+  std::fill_n(bias, units, 0.0f);
+  std::fill_n(bias + units, units, 0.25f);
+  return bias + 2 * units;
 }
 
 }  // namespace
@@ -77,10 +81,10 @@ std::size_t horizon_parameter_count() {
 
 void start_horizon(std::span<float> parameters, float mean_ao, Random& random) {
   constexpr int units = HorizonNetwork::units;
-  float* next = start_layer<HorizonNetwork::tap_inputs, units>(parameters.data(), 0, random);
-  next = start_layer<2 * units + 2, units>(next, 0, random);
-  next = start_layer<units + 2, units>(next, 0, random);
-  start_layer<units, 1>(next, mean_ao, random);
+  float* next = start_weights<HorizonNetwork::tap_inputs, units>(parameters.data(), random);
+  next = start_leaky<NOOK_HORIZON_DIRECTION_INPUTS, units>(next, random);
+  next = start_leaky<NOOK_HORIZON_JOIN_INPUTS, units>(next, random);
+  *start_weights<units, 1>(next, random) = mean_ao;
 }
 
 void export_horizon(std::span<const float> parameters, HorizonNetwork& network) {
@@ -101,10 +105,10 @@ double horizon_step_gradient(const Dataset& data, const TrainingSettings& settin
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the minibatch has no whole blocks (got %zu points, need a multiple of %d)", points.size(),
                   lane_count);
-  // These grids have 16, 32 and 64 taps, and the 16 steps of 128 and 256 taps. The number of directions only
-  // changes the noise.
-  constexpr TapGrid grids[] = {{4, 4}, {8, 4}, {8, 8}, {4, 16}};
-  const TapGrid grid = grids[Random(step_seed).below(4)];
+  // The grids of 9, 16 and 64 taps, and the 16 steps of 256 taps. The number of directions only changes the
+  // noise. The smallest is drawn twice as often: it has the largest error.
+  constexpr TapGrid grids[] = {{3, 3}, {3, 3}, {4, 4}, {8, 8}, {4, 16}};
+  const TapGrid grid = grids[Random(step_seed).below(std::size(grids))];
   const std::size_t blocks = points.size() / lane_count, count = horizon_parameter_count();
   std::vector<float> parts(blocks * count);
   std::vector<double> losses(blocks);

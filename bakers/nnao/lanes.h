@@ -14,7 +14,8 @@ inline LaneArray lane_array(std::size_t count) {
   return {count, default_memory()};
 }
 
-// The numbers of a Dense layer in the order of layers.h.
+// The layers of network.h are Dense, LeakyDense, RectifiedDense and LinearDense; their numbers are in the
+// order of layers.h.
 template <int inputs, int units>
 struct LayerOrder {
   static constexpr int weights = 0, bias = inputs * units, negative = bias + units,
@@ -53,6 +54,85 @@ NOOK_INLINE void backward(const float* layer, const Number* input, const Number*
       if (input_gradient) input_gradient[i] += layer[i * units + u] * g;
     }
   }
+}
+
+template <int inputs, int units>
+struct LeakyOrder {
+  static constexpr int weights = 0, bias = inputs * units, slope = bias + units, count = slope + units;
+};
+// A RectifiedDense has weights alone.
+template <int inputs, int units>
+struct LinearOrder {
+  static constexpr int weights = 0, bias = inputs * units, count = bias + units;
+};
+
+template <int inputs, int units, class Number>
+NOOK_INLINE void linear_forward(const float* layer, const Number* input, Number* output) {
+  for (int u = 0; u < units; ++u) {
+    Number sum = Number{} + layer[LinearOrder<inputs, units>::bias + u];
+    for (int i = 0; i < inputs; ++i) sum += layer[i * units + u] * input[i];
+    output[u] = sum;
+  }
+}
+
+template <int inputs, int units, class Number>
+NOOK_INLINE void linear_backward(const float* layer, const Number* input, const Number* output_gradient,
+                                 Number* gradient, Number* input_gradient) {
+  if (input_gradient)
+    for (int i = 0; i < inputs; ++i) input_gradient[i] = Number{};
+  for (int u = 0; u < units; ++u) {
+    const Number g = output_gradient[u];
+    gradient[LinearOrder<inputs, units>::bias + u] += g;
+    for (int i = 0; i < inputs; ++i) {
+      gradient[i * units + u] += g * input[i];
+      if (input_gradient) input_gradient[i] += layer[i * units + u] * g;
+    }
+  }
+}
+
+template <int inputs, int units, class Number>
+NOOK_INLINE void rectified_forward(const float* layer, const Number* input, Number* output) {
+  const Number zero{};
+  for (int u = 0; u < units; ++u) {
+    Number sum{};
+    for (int i = 0; i < inputs; ++i) sum += layer[i * units + u] * input[i];
+    output[u] = sum > 0 ? sum : zero;
+  }
+}
+
+// Adds the gradient of the layer's numbers to `gradient`.
+template <int inputs, int units, class Number>
+NOOK_INLINE void rectified_backward(const Number* input, const Number* output, const Number* output_gradient,
+                                    Number* gradient) {
+  const Number zero{};
+  for (int u = 0; u < units; ++u) {
+    const Number g = output[u] > 0 ? output_gradient[u] : zero;
+    for (int i = 0; i < inputs; ++i) gradient[i * units + u] += g * input[i];
+  }
+}
+
+// before receives the sums.
+template <int inputs, int units, class Number>
+NOOK_INLINE void leaky_forward(const float* layer, const Number* input, Number* before, Number* output) {
+  linear_forward<inputs, units>(layer, input, before);
+  for (int u = 0; u < units; ++u) {
+    const Number sloped = layer[LeakyOrder<inputs, units>::slope + u] * before[u];
+    output[u] = before[u] > sloped ? before[u] : sloped;
+  }
+}
+
+template <int inputs, int units, class Number>
+NOOK_INLINE void leaky_backward(const float* layer, const Number* input, const Number* before,
+                                const Number* output_gradient, Number* gradient, Number* input_gradient) {
+  constexpr int slope = LeakyOrder<inputs, units>::slope;
+  const Number zero{};
+  Number g_sum[units];
+  for (int u = 0; u < units; ++u) {
+    const Number g = output_gradient[u], sloped = layer[slope + u] * before[u];
+    gradient[slope + u] += before[u] > sloped ? zero : g * before[u];
+    g_sum[u] = before[u] > sloped ? g : layer[slope + u] * g;
+  }
+  linear_backward<inputs, units>(layer, input, g_sum, gradient, input_gradient);
 }
 
 }  // namespace nook::bake::nnao

@@ -65,6 +65,70 @@ Network network_of(const TrainingState& state, const Dataset& data, const Traini
   return nook::nnao::read_network(nook::nnao::write_network(network));
 }
 
+namespace {
+
+// A training under way. Batches depend on the epoch and their number alone, not on the state.
+struct Trainer {
+  const Dataset& data;
+  const TrainingSettings& settings;
+  bool paper = settings.form == NetworkForm::paper;
+  PaperNormalisation normalisation = paper ? paper_normalisation(data) : PaperNormalisation{};
+  std::vector<float> gradient = std::vector<float>(parameter_count(settings.form));
+
+  std::uint64_t epoch_seed(std::uint32_t epoch) const { return mix_bits(settings.seed + mix_bits(epoch)); }
+
+  // Returns the loss of the batch before the step.
+  double step(TrainingState& state, std::uint32_t epoch, std::span<const std::uint32_t> order,
+              std::size_t batch, float rate) {
+    const std::span points = order.subspan(batch * settings.batch, settings.batch);
+    const std::uint64_t seed = mix_bits(epoch_seed(epoch) ^ mix_bits(batch + 1));
+    const double loss =
+        paper ? paper_step_gradient(data, normalisation, settings, state.parameter, points, seed, gradient)
+              : horizon_step_gradient(data, settings, state.parameter, points, seed, gradient);
+    state.adam.step(state.parameter, gradient, rate);
+    return loss;
+  }
+};
+
+// A network of few units depends on its first numbers: some starts leave units that answer nothing. Each
+// round trains the starts that are left on the same batches and keeps the best quarter.
+constexpr std::size_t first_starts = 16, last_starts = 4;
+
+std::size_t steps_of_starts(std::size_t length) {
+  std::size_t steps = 0;
+  for (std::size_t starts = first_starts; starts >= last_starts; starts /= 4, length *= 4)
+    steps += starts * length;
+  return steps;
+}
+
+// length: steps of a start in the first round. step_done is called after each step.
+TrainingState best_start(Trainer& trainer, std::size_t length, std::size_t batches,
+                         const std::function<void()>& step_done) {
+  const std::vector<std::uint32_t> order = shuffled(trainer.data.training.size(), trainer.epoch_seed(0));
+  std::vector<std::pair<double, TrainingState>> starts;
+  for (std::size_t i = 0; i < first_starts; ++i) {
+    TrainingSettings settings = trainer.settings;
+    settings.seed = mix_bits(settings.seed + i);
+    starts.emplace_back(0.0, start_training(trainer.data, settings));
+  }
+  std::size_t first = 0;
+  for (; starts.size() >= last_starts; first += length, length *= 4) {
+    for (auto& [loss, state] : starts) {
+      loss = 0;
+      for (std::size_t b = 0; b < length; ++b) {
+        const double of_batch = trainer.step(state, 0, order, (first + b) % batches, trainer.settings.rate);
+        if (2 * b >= length) loss += of_batch;
+        step_done();
+      }
+    }
+    std::ranges::stable_sort(starts, {}, [](const auto& start) { return start.first; });
+    starts.erase(starts.begin() + std::ptrdiff_t(starts.size() / 4), starts.end());
+  }
+  return std::move(starts.front().second);
+}
+
+}  // namespace
+
 Network train(const Dataset& data, const TrainingSettings& asked, TrainingState& state,
               const OnTraining& progress, const OnEpoch& epoch_done) {
   const TrainingSettings settings = with_defaults(asked);
@@ -73,30 +137,34 @@ Network train(const Dataset& data, const TrainingSettings& asked, TrainingState&
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "too few training points for one minibatch (got %zu, need %u); use more views",
                   data.training.size(), settings.batch);
-  const bool paper = settings.form == NetworkForm::paper;
-  const PaperNormalisation normalisation = paper ? paper_normalisation(data) : PaperNormalisation{};
-  TrainingProgress now{0, settings.epochs, 0, batches * settings.epochs, 0};
-  std::vector<float> gradient(state.parameter.size());
+  Trainer trainer{data, settings};
+  const std::size_t epoch_steps = batches * settings.epochs, start_length = epoch_steps / 200 + 1;
+  const std::size_t start_steps = trainer.paper ? 0 : steps_of_starts(start_length);
+  TrainingProgress now{0, settings.epochs, 0, start_steps + epoch_steps, 0};
+  const auto check_progress = [&] {
+    if (progress && !progress(now))
+      throw Failure(NOOK_ERROR_CANCELLED, "training was stopped after %u of %u epochs", now.epoch,
+                    settings.epochs);
+  };
+  if (!trainer.paper && state.epochs_done == 0)
+    state = best_start(trainer, start_length, batches, [&] {
+      ++now.steps_done;
+      check_progress();
+    });
   for (std::uint32_t epoch = state.epochs_done; epoch < settings.epochs; ++epoch) {
     now.epoch = epoch;
     // An interruption inside the epoch returns to this state.
     const TrainingState before = state;
-    const std::uint64_t epoch_seed = mix_bits(settings.seed + mix_bits(epoch));
-    const std::vector<std::uint32_t> order = shuffled(data.training.size(), epoch_seed);
+    const std::vector<std::uint32_t> order = shuffled(data.training.size(), trainer.epoch_seed(epoch));
     for (std::size_t b = 0; b < batches; ++b) {
-      const std::span points = std::span(order).subspan(b * settings.batch, settings.batch);
-      const std::uint64_t step_seed = mix_bits(epoch_seed ^ mix_bits(b + 1));
-      if (paper)
-        paper_step_gradient(data, normalisation, settings, state.parameter, points, step_seed, gradient);
-      else
-        horizon_step_gradient(data, settings, state.parameter, points, step_seed, gradient);
-      now.steps_done = epoch * batches + b + 1;
-      state.adam.step(state.parameter, gradient,
-                      rate_at(settings.rate, double(now.steps_done) / double(now.steps)));
-      if (progress && !progress(now)) {
+      const std::size_t done = epoch * batches + b + 1;
+      trainer.step(state, epoch, order, b, rate_at(settings.rate, double(done) / double(epoch_steps)));
+      now.steps_done = start_steps + done;
+      try {
+        check_progress();
+      } catch (const Failure&) {
         state = before;
-        throw Failure(NOOK_ERROR_CANCELLED, "training was stopped after %u of %u epochs", epoch,
-                      settings.epochs);
+        throw;
       }
     }
     state.epochs_done = epoch + 1;

@@ -25,7 +25,7 @@ struct TrainingSettings {
   // Horizon form. A pass blurs, so that the visible value is the mean over the noise of neighbouring pixels.
   // The loss is (1 - w) (bias of the mean)^2 + w (error of one pixel)^2, of which the first is the product of
   // the errors with two independent noise values.
-  float unblurred_weight = 0.15f;
+  float unblurred_weight = 0.3f;
 
   // Paper form, equation 2: gamma times the mean of |theta|. The sum over 15,500 numbers would exceed any
   // error of an AO between 0 and 1.

@@ -39,8 +39,8 @@ ValidationRow validate(const nook::nnao::Network& network, const Dataset& data, 
     const View view = data.views[point.view].view();
     const nook::nnao::Sampling sampling{point.radius, Dataset::max_radius_px + 1, taps};
     double sum = 0, own = 0;
-    for (std::uint32_t y = 0; y < 4; ++y)
-      for (std::uint32_t x = 0; x < 4; ++x) {
+    for (std::uint32_t y = 0; y < NOOK_NOISE_SIZE; ++y)
+      for (std::uint32_t x = 0; x < NOOK_NOISE_SIZE; ++x) {
         const float ao =
             nook::nnao::evaluate_unclamped(network, view, point.normal, sampling, point.x, point.y,
                                            nook::nnao::tap_noise(point.x + x, point.y + y));
@@ -48,7 +48,7 @@ ValidationRow validate(const nook::nnao::Network& network, const Dataset& data, 
         sum += clamped;
         if (x == 0 && y == 0) own = clamped;
       }
-    return {squared(own - double(point.ao)), squared(sum / 16 - double(point.ao))};
+    return {squared(own - double(point.ao)), squared(sum / NOOK_NOISE_COUNT - double(point.ao))};
   });
   return {taps, mean[0], mean[1]};
 }

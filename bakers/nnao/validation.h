@@ -11,14 +11,14 @@ namespace nook::bake::nnao {
 struct ValidationRow {
   std::uint32_t taps = 0;
   double mse = 0;  // of one pixel's AO before the blur
-  double mse_blurred =
-      0;  // of the mean over the 16 noise values: what a perfect blur over 4 x 4 pixels leaves
+  // Of the mean over the noise values: the error after a perfect filter over 3 x 3 pixels.
+  double mse_blurred = 0;
 };
 
 // Evaluates every stride-th point. Threads share the work, and the result does not depend on their number.
 ValidationRow validate(const nook::nnao::Network& network, const Dataset& data, std::uint32_t taps,
                        std::size_t stride = 1);
-// The same without mse_blurred, which costs 16 times as much.
+// The same without mse_blurred, which costs 9 times as much.
 double validation_mse(const nook::nnao::Network& network, const Dataset& data, std::uint32_t taps,
                       std::size_t stride = 1);
 

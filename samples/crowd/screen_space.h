@@ -12,11 +12,11 @@
 namespace crowd {
 
 struct ScreenSpaceQuality {
-  int taps = 64;
+  int taps = 32;
   bool half_resolution = false;
 };
 
-// Software renderers get 16 taps at half resolution, and others get the defaults.
+// Software renderers get 16 taps at half resolution, and others 32 taps.
 ScreenSpaceQuality quality_for(const std::string& gl_renderer);
 
 class ScreenSpaceAo {

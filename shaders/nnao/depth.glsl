@@ -1,17 +1,13 @@
-// The host's depth buffer as view-space depth.
+// The depth of the surface's texels, as depth.frag writes it.
 #include "shaders/nnao/frame.glsl"
 
-uniform sampler2D nook_depth;
+uniform usampler2D nook_depth;  // a float's bits: OpenGL ES 3.0 draws into no texture of 32-bit floats
 
-float nook_view_depth(float stored) {
-  if ((stored - nook_far_stored) * nook_far_sign >= 0.0) return nook_no_surface;
-  float depth = (nook_depth_decode.x + nook_depth_decode.y * stored) /
-                (nook_depth_decode.z + nook_depth_decode.w * stored);
-  // Comparisons with NaN are false.
-  return depth > nook_min_depth && depth < nook_no_surface ? depth : nook_no_surface;
+float nook_depth_at(ivec2 texel) {
+  return uintBitsToFloat(texelFetch(nook_depth, texel, 0).r);
 }
 
-float nook_screen_depth(ivec2 pixel) {
-  if (!nook_inside(pixel, nook_screen_size)) return nook_no_surface;
-  return nook_view_depth(texelFetch(nook_depth, pixel + nook_origin, 0).r);
+// Returns the depth of the nearest texel of the surface.
+float nook_depth_near(ivec2 texel) {
+  return nook_depth_at(clamp(texel, ivec2(0), nook_surface_size - 1));
 }

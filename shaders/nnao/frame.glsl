@@ -4,48 +4,53 @@
 #include "shaders/nnao/layout.h"
 uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
 
-#define nook_screen_rays nook_frame[NOOK_FRAME_SCREEN_RAYS]   // x_scale, x_offset, y_scale, y_offset, for pixels of the screen
-#define nook_surface_rays nook_frame[NOOK_FRAME_SURFACE_RAYS]  // for texels of the surface
+#define nook_screen_rays nook_frame[NOOK_FRAME_SCREEN_RAYS]   // x_scale, x_offset, y_scale, y_offset, from pixels of the screen
+#define nook_surface_rays nook_frame[NOOK_FRAME_SURFACE_RAYS]  // from texels of the surface
 #define nook_depth_decode nook_frame[NOOK_FRAME_DEPTH_DECODE]  // depth = (x + y stored) / (z + w stored)
 #define nook_far_stored nook_frame[NOOK_FRAME_FAR].x  // the stored value of the far plane
 #define nook_far_sign nook_frame[NOOK_FRAME_FAR].y    // 1: stored values grow with the distance; -1: they fall
 #define nook_min_depth nook_frame[NOOK_FRAME_FAR].z
-#define nook_orthographic (nook_frame[NOOK_FRAME_FAR].w != 0.0)
+#define nook_spread nook_frame[NOOK_FRAME_SPREAD].xy  // the screen's extent at a depth is x depth + y: perspective (1, 0), orthographic (0, 1)
+#define nook_edge_tolerance nook_frame[NOOK_FRAME_SPREAD].z  // 1 / metres
+#define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // values of AO that differ by its inverse are not averaged
 #define nook_radius nook_frame[NOOK_FRAME_RADIUS].x         // metres
 #define nook_max_radius_px nook_frame[NOOK_FRAME_RADIUS].y  // texels of the surface
 #define nook_intensity nook_frame[NOOK_FRAME_RADIUS].z
 #define nook_power nook_frame[NOOK_FRAME_RADIUS].w
-#define nook_blur_sharpness nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].x
-#define nook_normal_scale nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].y
-#define nook_normal_bias nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].z
-#define nook_has_normals (nook_frame[NOOK_FRAME_BLUR_AND_NORMAL].w != 0.0)
+#define nook_normal_scale nook_frame[NOOK_FRAME_NORMAL].x
+#define nook_normal_bias nook_frame[NOOK_FRAME_NORMAL].y
+#define nook_has_normals (nook_frame[NOOK_FRAME_NORMAL].z != 0.0)
+#define nook_layer_mode int(nook_frame[NOOK_FRAME_NORMAL].w)
 #define nook_origin ivec2(nook_frame[NOOK_FRAME_VIEWPORT].xy)  // of the viewport in the host's textures
 #define nook_screen_size ivec2(nook_frame[NOOK_FRAME_VIEWPORT].zw)
-#define nook_surface_size ivec2(nook_frame[NOOK_FRAME_SURFACE].xy)
-#define nook_layer_mode int(nook_frame[NOOK_FRAME_SURFACE].z)
-#define nook_view_mode int(nook_frame[NOOK_FRAME_SURFACE].w)
+#define nook_surface_last nook_frame[NOOK_FRAME_SURFACE].xy  // the texel of the upper right corner
+#define nook_surface_size ivec2(nook_frame[NOOK_FRAME_SURFACE].zw)
 #define nook_normal_matrix mat3(nook_frame[NOOK_FRAME_NORMAL_MATRIX].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].xyz)
 
-// The depth where there is no surface: sky, far plane, off the screen.
-const float nook_no_surface = 1.0e30;
+// The depth where there is no surface: sky and far plane. Its square is still a float.
+const float nook_no_surface = 1.0e15;
 
 bool nook_inside(ivec2 texel, ivec2 size) {
   return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
 }
 
-// Returns the view-space position of a pixel's centre at a depth.
-vec3 nook_position(vec4 rays, ivec2 pixel, float depth) {
-  vec2 ray = rays.xz * (vec2(pixel) + 0.5) + rays.yw;
-  return vec3(ray * (nook_orthographic ? 1.0 : depth), -depth);
+// Returns the extent at a depth: view space x, y are the ray of a pixel times this.
+float nook_extent(float depth) {
+  return nook_spread.x * depth + nook_spread.y;
+}
+
+// Returns the view-space position of the centre of a pixel at a depth.
+vec3 nook_position(vec4 rays, vec2 pixel, float depth) {
+  return vec3((rays.xz * pixel + rays.yw) * nook_extent(depth), -depth);
 }
 
 vec3 nook_to_viewer(vec3 position) {
-  return nook_orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-position);
+  return nook_spread.y != 0.0 ? vec3(0.0, 0.0, 1.0) : normalize(-position);
 }
 
 // Returns the texels of the surface per metre at a depth.
 vec2 nook_pixel_scale(float depth) {
-  return 1.0 / (nook_surface_rays.xz * (nook_orthographic ? 1.0 : depth));
+  return 1.0 / (nook_surface_rays.xz * nook_extent(depth));
 }
 
 // Returns the radius of a pixel in metres and in texels. It shrinks where it would cover too many texels.

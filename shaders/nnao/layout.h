@@ -5,8 +5,8 @@
 
 // Texture units. A stage never reads both textures of a shared unit.
 #define NOOK_UNIT_DEPTH 0
-#define NOOK_UNIT_SURFACE 1
-#define NOOK_UNIT_HOST_NORMAL 1
+#define NOOK_UNIT_HOST_DEPTH 1
+#define NOOK_UNIT_NORMAL 1
 #define NOOK_UNIT_AO 2
 #define NOOK_UNIT_FILTERS 2
 #define NOOK_UNIT_LAYER 3
@@ -20,33 +20,33 @@
 #define NOOK_FRAME_SURFACE_RAYS 1
 #define NOOK_FRAME_DEPTH_DECODE 2
 #define NOOK_FRAME_FAR 3
-#define NOOK_FRAME_RADIUS 4
-#define NOOK_FRAME_BLUR_AND_NORMAL 5
-#define NOOK_FRAME_VIEWPORT 6
-#define NOOK_FRAME_SURFACE 7
-#define NOOK_FRAME_NORMAL_MATRIX 8
-#define NOOK_FRAME_VEC4S 11
+#define NOOK_FRAME_SPREAD 4
+#define NOOK_FRAME_RADIUS 5
+#define NOOK_FRAME_NORMAL 6
+#define NOOK_FRAME_VIEWPORT 7
+#define NOOK_FRAME_SURFACE 8
+#define NOOK_FRAME_NORMAL_MATRIX 9
+#define NOOK_FRAME_VEC4S 12
 
-// Texels that the blur reaches to either side.
-#define NOOK_BLUR_REACH 3
+// The noise of the taps repeats after so many pixels along each axis. The filter averages as many.
+#define NOOK_NOISE_SIZE 3
+#define NOOK_NOISE_COUNT 9
 
 // The paper's grid of taps: so many cells along a side.
 #define NOOK_GRID_SIZE 31
 
-// A network of the horizon form: units of a layer, and inputs of each layer. Eight units are two vec4.
-#define NOOK_HORIZON_UNITS 8
-#define NOOK_HORIZON_UNIT_VEC4S 2
-#define NOOK_HORIZON_TAP_INPUTS 5
+// A network of the horizon form: units of a layer, which are one vec4, and inputs of each layer.
+#define NOOK_HORIZON_UNITS 4
+#define NOOK_HORIZON_TAP_INPUTS 4
 #define NOOK_HORIZON_DIRECTION_INPUTS (2 * NOOK_HORIZON_UNITS + 2)
 #define NOOK_HORIZON_JOIN_INPUTS (NOOK_HORIZON_UNITS + 2)
-// vec4 of nook_network: a layer is a row of units for each input, then bias, negative and positive slopes.
-#define NOOK_HORIZON_LAYER_VEC4S(inputs) (((inputs) + 3) * NOOK_HORIZON_UNIT_VEC4S)
+// vec4 of nook_network: a layer is a row of units for each input, then bias and slopes, but for taps.
 #define NOOK_HORIZON_TAP 0
-#define NOOK_HORIZON_DIRECTION NOOK_HORIZON_LAYER_VEC4S(NOOK_HORIZON_TAP_INPUTS)
-#define NOOK_HORIZON_JOIN (NOOK_HORIZON_DIRECTION + NOOK_HORIZON_LAYER_VEC4S(NOOK_HORIZON_DIRECTION_INPUTS))
-#define NOOK_HORIZON_OUT (NOOK_HORIZON_JOIN + NOOK_HORIZON_LAYER_VEC4S(NOOK_HORIZON_JOIN_INPUTS))
-// The last layer has one unit: its weights, then bias and slopes in one vec4.
-#define NOOK_HORIZON_VEC4S (NOOK_HORIZON_OUT + NOOK_HORIZON_UNIT_VEC4S + 1)
+#define NOOK_HORIZON_DIRECTION NOOK_HORIZON_TAP_INPUTS
+#define NOOK_HORIZON_JOIN (NOOK_HORIZON_DIRECTION + NOOK_HORIZON_DIRECTION_INPUTS + 2)
+#define NOOK_HORIZON_OUT (NOOK_HORIZON_JOIN + NOOK_HORIZON_JOIN_INPUTS + 2)
+// The last layer has one unit without a slope: a vec4 of weights, then one whose first number is the bias.
+#define NOOK_HORIZON_VEC4S (NOOK_HORIZON_OUT + 2)
 
 // A network of the paper's form, four units a layer: bias and slopes of the filters, two layers of four
 // inputs, one of one unit.

@@ -4,12 +4,12 @@
 
 layout(local_size_x = NOOK_OCCLUSION_GROUP_SIZE, local_size_y = NOOK_OCCLUSION_GROUP_SIZE) in;
 #ifdef GL_ES
-layout(rgba8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;  // OpenGL ES 3.1 writes no r8
+layout(rgba8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;  // OpenGL ES 3.1 writes no rg8
 #else
-layout(r8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;
+layout(rg8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;
 #endif
 
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-  if (nook_inside(texel, nook_surface_size)) imageStore(nook_out, texel + nook_ao_origin, vec4(nook_occlusion(texel)));
+  if (nook_inside(texel, nook_surface_size)) imageStore(nook_out, texel, vec4(nook_occlusion(texel), 0.0, 1.0));
 }

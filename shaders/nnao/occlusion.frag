@@ -1,8 +1,8 @@
 // The network as a draw.
 #include "shaders/nnao/occlusion.glsl"
 
-out float nook_out;
+out vec2 nook_out;
 
 void main() {
-  nook_out = nook_occlusion(ivec2(gl_FragCoord.xy) - nook_ao_origin);
+  nook_out = nook_occlusion(ivec2(gl_FragCoord.xy));
 }

@@ -1,7 +1,6 @@
-// The AO of a texel of the surface by the network, before the blur. The fragment and the compute path share
-// this file.
-#include "shaders/nnao/depth.glsl"
-#include "shaders/nnao/surface.glsl"
+// The AO of a texel of the surface by the network, before the filter, and the edges around it. The fragment
+// and the compute path share this file.
+#include "shaders/nnao/normal.glsl"
 #include "shaders/nnao/taps.glsl"
 #if NOOK_HORIZON
 #include "shaders/nnao/horizon.glsl"
@@ -9,11 +8,17 @@
 #include "shaders/nnao/paper.glsl"
 #endif
 
-float nook_occlusion(ivec2 texel) {
-  float depth = nook_surface_depth(texel);
-  if (depth == nook_no_surface) return 1.0;
+vec2 nook_occlusion(ivec2 texel) {
+  float depth = nook_depth_at(texel);
+  if (depth == nook_no_surface) return vec2(1.0, 0.0);
+  nook_neighbours around = nook_neighbours_of(texel, depth);
+#if NOOK_HORIZON
+  vec3 normal = nook_texel_normal(texel, around);
+#else
+  vec3 normal = nook_surface_normal(texel);
+#endif
   vec2 scale = nook_pixel_scale(depth);
-  return clamp(nook_evaluate(texel, nook_position(nook_surface_rays, texel, depth), nook_surface_normal(texel), scale,
-                             nook_pixel_radius(scale)),
-               0.0, 1.0);
+  float ao = nook_evaluate(texel, nook_position(nook_surface_rays, vec2(texel), depth), normal, scale,
+                           nook_pixel_radius(scale));
+  return vec2(clamp(ao, 0.0, 1.0), nook_packed_edges(around.connected));
 }

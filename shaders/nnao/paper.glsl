@@ -1,6 +1,7 @@
 // The paper's network, which network.h defines. A tap's input is
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
 #include "shaders/core/texels.glsl"
+#include "shaders/nnao/surface_normal.glsl"
 uniform NOOK_TEXELS nook_filters;  // for each cell of the grid four texels, one an input, of four units
 uniform vec4 nook_network[NOOK_PAPER_VEC4S];  // the other layers, in the order of network.h
 // Of NOOK_STEPS taps each. Not a constant: compilers would unroll them all, into more code than caches hold.
@@ -12,10 +13,12 @@ vec4 nook_prelu(vec4 x, int slopes) {
 
 // Returns the contribution of one tap to the four sums.
 vec4 nook_tap_sum(ivec2 texel, int cell, int taps, vec2 noise, vec3 position, vec3 normal, vec2 scale, float radius) {
-  ivec2 at = nook_tapped_texel(texel, nook_paper_tap(cell, taps, noise, radius, scale));
-  float depth = nook_surface_depth(at);
+  vec2 offset = nook_paper_tap(cell, taps, noise, radius, scale);
+  ivec2 at = ivec2(floor(vec2(texel) + 0.5 + offset));
+  if (!nook_inside(at, nook_surface_size)) return vec4(0.0);
+  float depth = nook_depth_at(at);
   if (depth == nook_no_surface) return vec4(0.0);
-  vec3 v = nook_position(nook_surface_rays, at, depth) - position;
+  vec3 v = nook_position(nook_surface_rays, vec2(at), depth) - position;
   float weight = 1.0 - length(v) / radius;
   if (!(weight > 0.0)) return vec4(0.0);
   vec4 x = vec4(nook_surface_normal(at) - normal, v.z / radius) * weight;

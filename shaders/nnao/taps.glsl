@@ -2,13 +2,11 @@
 
 #include "shaders/nnao/layout.h"
 
-// rotation, offset: each takes 16 values over 4 x 4 pixels.
+// rotation, offset: each takes 9 values over 3 x 3 pixels.
 vec2 nook_tap_noise(ivec2 texel) {
-  uvec2 at = uvec2(texel);
-  uint across = at.x ^ at.y;
-  uint rank = (across & 1u) << 3 | (at.y & 1u) << 2 | (across & 2u) | (at.y & 2u) >> 1;
-  uint reversed = (rank & 1u) << 3 | (rank & 2u) << 1 | (rank & 4u) >> 1 | (rank & 8u) >> 3;
-  return (vec2(rank, reversed) + 0.5) / 16.0;
+  vec2 at = vec2(texel);
+  vec2 cell = at - 3.0 * floor((at + 0.5) / 3.0);
+  return (cell.xy * 3.0 + cell.yx + 0.5) / 9.0;
 }
 
 // Radians in the view-space x-y plane.
@@ -38,8 +36,4 @@ vec2 nook_paper_tap(int cell, int taps, vec2 noise, float radius, vec2 scale) {
   vec2 place = vec2(cell % nook_grid_size, cell / nook_grid_size) + 0.5;
   if (taps < nook_grid_cells) place += vec2(noise.y, fract(4.0 * noise.x)) - 0.5;
   return radius * (2.0 * place / float(nook_grid_size) - 1.0) * scale;
-}
-
-ivec2 nook_tapped_texel(ivec2 texel, vec2 offset) {
-  return ivec2(floor(vec2(texel) + 0.5 + offset));
 }

@@ -198,7 +198,7 @@ TEST_CASE("nnao: a bad description of a pass is refused with its field") {
   } cases[] = {
       {[](Desc& d) { d.max_width = 0; }, "desc.max_width and desc.max_height are out of range (got 0 x 12"},
       {[](Desc& d) { d.max_height = 20000; }, "desc.max_width and desc.max_height are out of range"},
-      {[](Desc& d) { d.taps = 48; }, "desc.taps is unknown (got 48, need 16, 32, 64, 128 or 256)"},
+      {[](Desc& d) { d.taps = 48; }, "desc.taps is unknown (got 48, need 9, 16, 32, 64, 128 or 256)"},
       {[](Desc& d) { d.taps = -16; }, "desc.taps is unknown"},
       {[](Desc& d) { d.half_resolution = 2; }, "desc.half_resolution is neither on nor off (got 2"},
       {[](Desc& d) { d.blur = -1; }, "desc.blur"},

@@ -1,4 +1,7 @@
 // Memory of a pass, any order of destruction, refused allocations, lost contexts.
+#include <cstring>
+
+#include "sdk/src/nnao/network_file.h"
 #include "tests/gl/nnao_images.h"
 #include "tests/gl/test_context.h"
 #include "tests/gl/traced_loader.h"
@@ -25,13 +28,23 @@ TEST_CASE("nnao: memory is known before, and small enough at 3840 x 2160") {
   nook_nnao_desc desc = pass_desc(3840, 2160);
   std::uint64_t bytes = 0;
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
-  CHECK(bytes == std::uint64_t{3840} * 2160 * 6);
-  CHECK(bytes <= 60'000'000);
+  CHECK(bytes == std::uint64_t{3840} * 2160 * 7);
+  CHECK(bytes <= 70'000'000);
   desc.half_resolution = 1;
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
-  CHECK(bytes == std::uint64_t{3840} * 2160 * 7 / 2);
-  // The paper's form adds its filters, 31 x 31 x 16 floats.
-  CHECK(bytes + 961 * 16 * 4 <= 60'000'000);
+  CHECK(bytes == std::uint64_t{3840} * 2160 * 3);
+  desc.blur = 0;
+  NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
+  CHECK(bytes == std::uint64_t{3840} * 2160 * 5 / 2);
+  // The paper's form keeps normals as well.
+  const std::vector<std::byte> paper = nnao::write_network(mild_network(nnao::NetworkForm::paper));
+  desc.network = paper.data();
+  desc.network_size = paper.size();
+  desc.half_resolution = 0;
+  NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
+  CHECK(bytes == std::uint64_t{3840} * 2160 * 11);
+  desc.network_size = 50;
+  CHECK(nook_nnao_memory(&desc, &bytes) == NOOK_ERROR_BAD_FILE);
 }
 
 TEST_CASE("nnao: a pass takes the memory that was promised, and opens with AO 1") {
@@ -45,7 +58,7 @@ TEST_CASE("nnao: a pass takes the memory that was promised, and opens with AO 1"
     nook_nnao pass = create_pass(fixture.gl, desc);
     const nook_nnao_info info = info_of(pass);
     CHECK(info.texture_bytes == bytes);
-    CHECK(info.taps == 64);
+    CHECK(info.taps == 9);
     CHECK(info.horizon_form == 1);
     for (const float value : own_ao(context.gl(), pass, 37, 23)) REQUIRE(value == 1);
     nook_nnao_timings timings{};
@@ -138,4 +151,23 @@ TEST_CASE("nnao: after the OpenGL context is lost nothing calls OpenGL, and dest
   nook_gl_destroy(&gl);
   context.make_current();
   CHECK(context.gl().GetError() == GL_NO_ERROR);
+}
+
+TEST_CASE("nnao: presets set taps, resolution and filter, and refuse what they do not know") {
+  nook_nnao_desc desc = pass_desc(640, 360);
+  CHECK((desc.taps == 9 && desc.half_resolution == 0 && desc.blur == 1));
+  const nook_nnao_desc untouched = desc;
+  desc.blur = 0;
+  NOOK_OK_OR_FAIL(nook_nnao_desc_set_preset(&desc, NOOK_NNAO_PRESET_BEST));
+  CHECK((desc.taps == 32 && desc.half_resolution == 0 && desc.blur == 1));
+  NOOK_OK_OR_FAIL(nook_nnao_desc_set_preset(&desc, NOOK_NNAO_PRESET_FAST));
+  CHECK((desc.taps == 9 && desc.half_resolution == 1 && desc.blur == 1));
+  NOOK_OK_OR_FAIL(nook_nnao_desc_set_preset(&desc, NOOK_NNAO_PRESET_DEFAULT));
+  CHECK(std::memcmp(&desc, &untouched, sizeof desc) == 0);
+  CHECK(nook_nnao_desc_set_preset(&desc, 3) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_desc_set_preset(&desc, -1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_desc_set_preset(nullptr, 0) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(std::memcmp(&desc, &untouched, sizeof desc) == 0);
+  desc.struct_size = 3;
+  CHECK(nook_nnao_desc_set_preset(&desc, 0) != NOOK_OK);
 }

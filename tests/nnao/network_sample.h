@@ -13,9 +13,14 @@ void fill_layer(Layer& layer, std::mt19937& random) {
   // mt19937's numbers are the same everywhere, those of a std distribution are not.
   const auto next = [&] { return float(random()) * 0x1p-31f - 1; };
   for (float& w : layer.weights) w = next();
-  for (float& b : layer.bias) b = next();
-  for (float& s : layer.negative_slope) s = 0.25f * next();
-  for (float& s : layer.positive_slope) s = 1 + 0.25f * next();
+  if constexpr (requires { layer.bias; })
+    for (float& b : layer.bias) b = next();
+  if constexpr (requires { layer.slope; })
+    for (float& s : layer.slope) s = 0.25f * next();
+  if constexpr (requires { layer.positive_slope; }) {
+    for (float& s : layer.negative_slope) s = 0.25f * next();
+    for (float& s : layer.positive_slope) s = 1 + 0.25f * next();
+  }
 }
 
 inline nnao::Network sample_network(nnao::NetworkForm form, std::uint32_t seed = 1) {

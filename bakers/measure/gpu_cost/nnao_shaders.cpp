@@ -7,26 +7,29 @@ namespace {
 struct Grid {
   int taps, groups, steps;
 };
-// horizon_grid of sdk/src/nnao/taps.h, and a smaller one that its shader can run as well.
-constexpr Grid grids[] = {{8, 2, 4}, {16, 4, 4}, {32, 8, 4}, {64, 8, 8}};
+// horizon_grid of sdk/src/nnao/taps.h.
+constexpr Grid grids[] = {{9, 3, 3}, {16, 4, 4}, {32, 8, 4}, {64, 8, 8}};
 
-std::string defines(bool half, bool horizon, int steps) {
+std::string defines(bool half, bool horizon, const Grid& grid) {
   return "#define NOOK_HALF " + std::to_string(half) + "\n#define NOOK_HORIZON " + std::to_string(horizon) +
-         "\n#define NOOK_STEPS " + std::to_string(steps) + "\n";
+         "\n#define NOOK_DIRECTIONS " + std::to_string(grid.groups) + "\n#define NOOK_STEPS " +
+         std::to_string(grid.steps) + "\n";
 }
 
 std::vector<Loop> grid_loops(const char* groups, const Grid& grid) {
   return {{groups, double(grid.groups), {{"steps", double(grid.steps), {}}}}};
 }
 
+// Compilers unroll the steps of a direction, and directions where their number is a constant.
+std::vector<Loop> direction_loops(const Grid& grid) {
+  if (grid.groups <= 4) return {};
+  return {{"directions", double(grid.groups), {}}};
+}
+
 // Compilers unroll four steps of the paper's form.
 std::vector<Loop> paper_loops(const Grid& grid) {
   if (grid.steps > 4) return grid_loops("groups of taps", grid);
   return {{"groups of taps", double(grid.groups), {}}};
-}
-
-std::vector<Loop> blur_loops() {
-  return {{"texels to either side", trips::blur_reach, {}}};
 }
 
 ShaderCase baseline(const std::string& file, const std::string& name, const std::vector<Loop>& loops = {}) {
@@ -44,20 +47,20 @@ std::vector<ShaderCase> nnao_shaders() {
       shaders.push_back(
           tree_shader(stage, std::string("shaders/nnao/") + file, file + variant + size, defines, loops));
     };
-    add(Stage::fragment, "normals.frag", "", defines(half, true, 4), {});
+    add(Stage::fragment, "depth.frag", "", defines(half, true, grids[0]), {});
+    add(Stage::fragment, "normals.frag", "", defines(half, false, grids[1]), {});
     for (const Grid& grid : grids) {
       const std::string taps = ", " + std::to_string(grid.taps);
-      add(Stage::fragment, "occlusion.frag", taps, defines(half, true, grid.steps),
-          grid_loops("directions", grid));
-      add(Stage::compute, "occlusion.comp", taps, defines(half, true, grid.steps),
-          grid_loops("directions", grid));
+      add(Stage::fragment, "occlusion.frag", taps, defines(half, true, grid),
+          direction_loops(grid));
+      add(Stage::compute, "occlusion.comp", taps, defines(half, true, grid),
+          direction_loops(grid));
       if (grid.taps == 16 || grid.taps == 64)
-        add(Stage::fragment, "occlusion.frag", ", paper's form" + taps, defines(half, false, grid.steps),
+        add(Stage::fragment, "occlusion.frag", ", paper's form" + taps, defines(half, false, grid),
             paper_loops(grid));
     }
-    add(Stage::fragment, "blur.frag", "", defines(half, true, 4), blur_loops());
-    add(Stage::fragment, "resolve.frag", "", defines(half, true, 4),
-        half ? std::vector<Loop>{} : blur_loops());
+    if (half) add(Stage::fragment, "filter.frag", "", defines(half, true, grids[0]), {});
+    add(Stage::fragment, "resolve.frag", "", defines(half, true, grids[0]), {});
   }
   return shaders;
 }

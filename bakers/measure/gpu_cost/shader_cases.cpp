@@ -6,13 +6,13 @@ namespace {
 // Both dimensions of the surface are halved.
 constexpr double quarter = 0.25;
 
-PassCase nnao(const std::string& name, const std::string& occlusion, bool half) {
-  if (!half) return {name, {{"normals.frag", 1}, {occlusion, 1}, {"blur.frag", 1}, {"resolve.frag", 1}}};
-  return {name + ", half",
-          {{"normals.frag, half", quarter},
-           {occlusion + ", half", quarter},
-           {"blur.frag, half", 2 * quarter},
-           {"resolve.frag, half", 1}}};
+PassCase nnao(const std::string& name, const std::string& occlusion, bool half, bool paper = false) {
+  const std::string size = half ? ", half" : "";
+  const double share = half ? quarter : 1;
+  PassCase pass{name + size, {{"depth.frag" + size, share}, {occlusion + size, share}, {"resolve.frag" + size, 1}}};
+  if (paper) pass.shaders.push_back({"normals.frag" + size, share});
+  if (half) pass.shaders.push_back({"filter.frag" + size, share});
+  return pass;
 }
 
 }  // namespace
@@ -37,11 +37,11 @@ std::vector<ShaderCase> all_shaders() {
 std::vector<PassCase> all_passes() {
   std::vector<PassCase> passes;
   for (const bool half : {false, true})
-    for (const std::string taps : {"8", "16", "32", "64"})
+    for (const std::string taps : {"9", "16", "32", "64"})
       passes.push_back(nnao("NNAO " + taps, "occlusion.frag, " + taps, half));
   for (const std::string taps : {"16", "64"}) {
     passes.push_back(nnao("NNAO " + taps + ", compute", "occlusion.comp, " + taps, false));
-    passes.push_back(nnao("NNAO, paper's form, " + taps, "occlusion.frag, paper's form, " + taps, false));
+    passes.push_back(nnao("NNAO, paper's form, " + taps, "occlusion.frag, paper's form, " + taps, false, true));
   }
   for (const ShaderCase& shader : baseline_shaders())
     if (shader.name != baseline_blur) passes.push_back({shader.name, {{shader.name, 1}, {baseline_blur, 2}}});

@@ -14,7 +14,6 @@ inline constexpr double influence_pairs = 4;
 inline constexpr double light_lobes = 12;  // of an instance's light
 
 // The screen-space pass.
-inline constexpr double blur_reach = 3;  // texels to either side
 inline constexpr double sides = 2;
 
 }  // namespace nook::measure::trips

@@ -14,7 +14,7 @@ namespace {
 
 using bake::nnao::ImageError;
 
-constexpr int network_taps[] = {16, 32, 64, 128, 256};
+constexpr int network_taps[] = {9, 16, 32, 64, 128, 256};
 constexpr int frames = 1;  // timed, of each view
 
 struct Method {

@@ -78,8 +78,10 @@ GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blu
 }
 
 int NetworkPass::fetches(bool blurred) const {
-  const int a_tap = horizon_form() ? 1 : 6;
-  return 2 + 2 + info_.taps * a_tap + 2 + (blurred ? blur_fetches : 0);
+  // The host's depth; depth and its four neighbours, the host's normal, the taps; AO in the filter. The
+  // paper's form reads those five and the normal in its stage of normals as well.
+  const int before = horizon_form() ? 1 + 5 + 1 + info_.taps : 1 + 2 * 6 + 6 * info_.taps;
+  return before + (blurred ? 9 : 1);
 }
 
 }  // namespace nook::measure

@@ -59,9 +59,8 @@ platform::Image horizon_units(const HorizonNetwork& network) {
       const auto share = [](int at) { return (float(at) + 0.5f) / tile_px; };
       const auto& tap = network.tap;
       const float elevation = 2 * share(y) - 1, nearness = 1 - share(x);
-      const float sum = tap.bias[u] + tap.weights[u] * elevation + tap.weights[2 * units + u] * nearness +
-                        tap.weights[3 * units + u] * elevation * nearness;
-      return sum * (sum > 0 ? tap.positive_slope[u] : tap.negative_slope[u]);
+      const float sum = elevation * (tap.weights[u] + tap.weights[2 * units + u] * nearness);
+      return std::max(sum, 0.0f);
     };
   });
 }

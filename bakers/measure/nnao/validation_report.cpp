@@ -15,7 +15,7 @@ Json validation_rows(const nook::nnao::Network& network, const Dataset& data) {
                   {"mse_blurred", constant_mse(data)}});
   const bool paper = network.form == nook::nnao::NetworkForm::paper;
   const std::vector<std::uint32_t> counts = paper ? std::vector<std::uint32_t>{16, 32, 64, 128, 256, 961}
-                                                  : std::vector<std::uint32_t>{16, 32, 64, 128, 256};
+                                                  : std::vector<std::uint32_t>{9, 16, 32, 64, 128, 256};
   for (const std::uint32_t taps : counts) {
     const ValidationRow row = validate(network, data, taps, stride);
     rows.push_back({{"method", paper ? "paper" : "horizon"},

@@ -226,7 +226,7 @@ export class Gl extends Owned {
 export interface NnaoOptions {
   maxWidth: number;
   maxHeight: number;
-  taps?: 16 | 32 | 64 | 128 | 256;
+  taps?: 9 | 16 | 32 | 64 | 128 | 256;
   halfResolution?: boolean | number;
   blur?: boolean | number;
   blurSharpness?: number;

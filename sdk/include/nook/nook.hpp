@@ -392,9 +392,10 @@ inline nook_gl_material_desc gl_material_desc() {
 }
 
 // The caller sets max_width and max_height.
-inline nook_nnao_desc nnao_desc() {
+inline nook_nnao_desc nnao_desc(nook_nnao_preset preset = NOOK_NNAO_PRESET_DEFAULT) {
   nook_nnao_desc desc;
   check(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check(nook_nnao_desc_set_preset(&desc, preset));
   return desc;
 }
 

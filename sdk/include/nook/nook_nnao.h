@@ -38,8 +38,7 @@ extern "C" {
 typedef struct nook_nnao_s* nook_nnao;
 
 /* The stage that evaluates the network; the other stages are draws in any case. Both paths give the same AO,
- * on Mesa's llvmpipe the same bits. There a frame with compute takes 0.87 to 0.99 of the processor time of a
- * frame with fragments (docs/nnao.md). No GPU was measured. */
+ * on Mesa's llvmpipe the same bits. No GPU was measured. */
 enum {
   /* Compute if OpenGL has it, else fragments; fragments on OpenGL ES. */
   NOOK_NNAO_PATH_AUTOMATIC = 0,
@@ -60,14 +59,15 @@ typedef struct nook_nnao_desc {
   /* Pixels, 1 to 16384; required. Frames of any size up to this maximum allocate nothing. */
   int32_t max_width;
   int32_t max_height;
-  /* The number of pixels that the network reads around each pixel: 16, 32, 64 (default), 128 or 256. */
+  /* The number of pixels that the network reads around each pixel: 9 (default), 16, 32, 64, 128 or 256. */
   int32_t taps;
   /* 1: AO is computed at half width and half height, and upsampled by a joint-bilateral filter. Default 0. */
   int32_t half_resolution;
-  /* 1 (default): a bilateral blur over 7 x 7 pixels follows, weighted by depth and normal. */
+  /* 1 (default): a bilateral filter over 3 x 3 pixels follows. It averages the noise of the taps, and keeps
+   * edges of depth and lines in AO. */
   int32_t blur;
-  /* > 0, default 16. The blur takes no pixels that lie more than 1 / blur_sharpness radii off the pixel's
-   * plane. */
+  /* > 0, default 16. Depths that depart from a surface by more than 1 / blur_sharpness radii are an edge of
+   * it: the filter does not cross edges, and normals are reconstructed from one side of them alone. */
   float blur_sharpness;
   /* 1: every stage is timed for nook_nnao_read_timings. Default 0. */
   int32_t timers;
@@ -83,10 +83,27 @@ typedef struct nook_nnao_desc {
  * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 NOOK_API nook_result nook_nnao_desc_init(nook_nnao_desc* desc, size_t size, uint32_t header_version);
 
-/* Computes the texture memory of a pass with this descriptor: 6 bytes for each pixel, or 3.5 at half
- * resolution, which at 3840 x 2160 is 50 MB and 29 MB. The filters of the paper's form take another 62 kB.
- * The call makes no OpenGL call.
+/* How much a pass costs. The cycles are those of all its stages for a pixel, as compiled for one GPU family
+ * (docs/gpu_cost.md). */
+enum {
+  /* 9 taps at half resolution. */
+  NOOK_NNAO_PRESET_FAST = 0,
+  /* 9 taps; the numbers of nook_nnao_desc_init. 2.2 times the cycles of fast. */
+  NOOK_NNAO_PRESET_DEFAULT = 1,
+  /* 32 taps. 2.3 times the cycles of default. */
+  NOOK_NNAO_PRESET_BEST = 2
+};
+typedef int32_t nook_nnao_preset;
+
+/* Sets taps, half_resolution and blur of a descriptor that nook_nnao_desc_init has filled. The call makes no
+ * OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+NOOK_API nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_preset preset);
+
+/* Computes the texture memory of a pass with this descriptor: 7 bytes for each pixel, or 3 at half
+ * resolution, which at 3840 x 2160 is 58 MB and 25 MB. A network of the paper's form takes 4 more bytes for
+ * each pixel, or 1, and its filters 62 kB. The call makes no OpenGL call.
+ * Any thread. Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION. */
 NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes);
 
 /* Creates textures and shaders; the caller may free the network's bytes afterwards. On failure *out is NULL
@@ -160,9 +177,9 @@ typedef int32_t nook_nnao_blend;
 enum {
   /* The result. */
   NOOK_NNAO_VIEW_AO = 0,
-  /* The AO of the network, without blur, intensity, power and layer. */
+  /* The AO of the network, without filter, intensity, power and layer. */
   NOOK_NNAO_VIEW_RAW = 1,
-  /* The AO after the blur, without intensity, power and layer. */
+  /* The AO after the filter, without intensity, power and layer. */
   NOOK_NNAO_VIEW_BLURRED = 2,
   /* The normals that the network used, as (n + 1) / 2 in red, green and blue. Not with
    * NOOK_NNAO_TARGET_OWN. */
@@ -274,13 +291,13 @@ typedef struct nook_nnao_timings {
   uint32_t struct_size;
   /* 0: no frame is finished yet, or the pass has no timers; the other members are 0 then. */
   int32_t valid;
-  /* Reading or reconstructing normals, and the downsampled buffers at half resolution. */
+  /* Linear depth, and the normals of the paper's form. */
   float normals;
-  /* The network. */
+  /* The network, edges, and reading or reconstructing normals. */
   float occlusion;
-  /* The blur; 0 without one. At full resolution its second direction counts as resolve. */
+  /* The filter at half resolution; at full resolution it is a part of resolve. */
   float blur;
-  /* Upsample, layer and target. */
+  /* Filter or upsample, layer and target. */
   float resolve;
   float total;
 } nook_nnao_timings;

@@ -14,13 +14,41 @@ float prelu(float x, float negative_slope, float positive_slope) {
 }
 
 template <int inputs, int units>
+std::array<float, units> sums(const std::array<float, std::size_t(inputs) * units>& weights,
+                              std::array<float, units> out, const std::array<float, inputs>& input) {
+  for (int i = 0; i < inputs; ++i)
+    for (int u = 0; u < units; ++u) out[u] += weights[i * units + u] * input[i];
+  return out;
+}
+
+template <int inputs, int units>
 std::array<float, units> through(const Dense<inputs, units>& layer,
                                  std::type_identity_t<const std::array<float, inputs>&> input) {
-  std::array<float, units> out = layer.bias;
-  for (int i = 0; i < inputs; ++i)
-    for (int u = 0; u < units; ++u) out[u] += layer.weights[i * units + u] * input[i];
+  std::array<float, units> out = sums<inputs, units>(layer.weights, layer.bias, input);
   for (int u = 0; u < units; ++u) out[u] = prelu(out[u], layer.negative_slope[u], layer.positive_slope[u]);
   return out;
+}
+
+template <int inputs, int units>
+std::array<float, units> through(const LeakyDense<inputs, units>& layer,
+                                 std::type_identity_t<const std::array<float, inputs>&> input) {
+  std::array<float, units> out = sums<inputs, units>(layer.weights, layer.bias, input);
+  for (int u = 0; u < units; ++u) out[u] = std::max(out[u], layer.slope[u] * out[u]);
+  return out;
+}
+
+template <int inputs, int units>
+std::array<float, units> through(const RectifiedDense<inputs, units>& layer,
+                                 std::type_identity_t<const std::array<float, inputs>&> input) {
+  std::array<float, units> out = sums<inputs, units>(layer.weights, {}, input);
+  for (float& value : out) value = std::max(value, 0.0f);
+  return out;
+}
+
+template <int inputs, int units>
+std::array<float, units> through(const LinearDense<inputs, units>& layer,
+                                 std::type_identity_t<const std::array<float, inputs>&> input) {
+  return sums<inputs, units>(layer.weights, layer.bias, input);
 }
 
 // Values of the pixel itself that both forms need.
@@ -49,12 +77,6 @@ Vec3 texel_position(const View& view, TappedTexel texel) {
                        texel.surface ? view.depth[view.at(texel.x, texel.y)] : sky_depth);
 }
 
-// Returns the input from s and c of network.h and the distance in radii.
-HorizonTapInput tap_input(float elevation, float angle, float distance_r) {
-  const float nearness = std::max(1 - 0.5f * distance_r, 0.0f);
-  return {elevation, angle, nearness, elevation * nearness, angle * nearness};
-}
-
 using PaperUnits = std::array<float, PaperNetwork::units>;
 
 // Returns the units of the first layer.
@@ -80,49 +102,40 @@ PaperUnits paper_units(const PaperNetwork& network, const View& view, Vec3 norma
   return sum;
 }
 
-// The mean of the directions' units, dot(n, o), and the share of the taps off the screen.
-struct HorizonUnits {
-  bool known = false;  // false if no tap lies on the screen
-  std::array<float, HorizonNetwork::units + 2> value{};
-};
+// The input of the network's join.
+using JoinInput = std::array<float, NOOK_HORIZON_JOIN_INPUTS>;
 
-HorizonUnits horizon_units(const HorizonNetwork& network, const View& view, Vec3 normal,
-                           const Sampling& sampling, std::uint32_t x, std::uint32_t y, TapNoise noise) {
+JoinInput join_input(const HorizonNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
+                     std::uint32_t x, std::uint32_t y, TapNoise noise) {
   constexpr int units = HorizonNetwork::units;
   const Centre centre = centre_of(view, normal, sampling, x, y);
   const TapGrid grid = horizon_grid(sampling.taps);
   const float facing = dot(centre.normal, centre.viewer);
-  HorizonUnits joined;
-  std::uint32_t taps_off_screen = 0;
+  JoinInput joined{};
   for (std::uint32_t d = 0; d < grid.directions; ++d) {
     const float angle = direction_angle(d, grid.directions, noise);
     const float cosine = std::cos(angle), sine = std::sin(angle);
     std::array<float, 2 * units + 2> pooled{};
     float* const most = pooled.data();
     float* const mean = pooled.data() + units;
-    const float across = dot(centre.normal, across_viewer(centre.viewer, cosine, sine));
     for (std::uint32_t s = 0; s < grid.steps; ++s) {
       const float distance_px = step_distance_px(s, grid.steps, noise, centre.radius.px);
       const TappedTexel texel =
-          tapped_texel(view, x, y, horizon_tap(cosine, sine, distance_px, centre.scale));
-      taps_off_screen += !texel.on_screen;
-      const auto hidden = through(
-          network.tap, texel.on_screen ? horizon_tap_input(view, texel, centre.position, centre.normal,
-                                                           centre.viewer, centre.radius.metres)
-                                       : plane_tap_input(across, facing, distance_px / centre.radius.px));
+          clamped_texel(view, x, y, horizon_tap(cosine, sine, distance_px, centre.scale));
+      const auto hidden = through(network.tap, horizon_tap_input(view, texel, centre.position, centre.normal,
+                                                                 centre.viewer, centre.radius.metres));
       for (int u = 0; u < units; ++u) {
         most[u] = s == 0 ? hidden[u] : std::max(most[u], hidden[u]);
         mean[u] += hidden[u] / float(grid.steps);
       }
     }
-    pooled[2 * units] = across;
+    pooled[2 * units] = dot(centre.normal, across_viewer(centre.viewer, cosine, sine));
     pooled[2 * units + 1] = facing;
     const auto out = through(network.direction, pooled);
-    for (int u = 0; u < units; ++u) joined.value[u] += out[u] / float(grid.directions);
+    for (int u = 0; u < units; ++u) joined[u] += out[u] / float(grid.directions);
   }
-  joined.known = taps_off_screen < sampling.taps;
-  joined.value[units] = facing;
-  joined.value[units + 1] = float(taps_off_screen) / float(sampling.taps);
+  joined[units] = facing;
+  joined[units + 1] = border_distance(view, x, y, centre.radius.px);
   return joined;
 }
 
@@ -145,7 +158,17 @@ TappedTexel tapped_texel(const View& view, std::uint32_t x, std::uint32_t y, Tap
   const float column = std::floor(float(x) + 0.5f + offset.x_px),
               row = std::floor(float(y) + 0.5f + offset.y_px);
   if (!(column >= 0 && column < float(view.width) && row >= 0 && row < float(view.height))) return {};
-  TappedTexel texel{true, false, std::uint32_t(column), std::uint32_t(row)};
+  TappedTexel texel{false, std::uint32_t(column), std::uint32_t(row)};
+  texel.surface = view.has_surface(texel.x, texel.y);
+  return texel;
+}
+
+TappedTexel clamped_texel(const View& view, std::uint32_t x, std::uint32_t y, TapOffset offset) {
+  const auto clamped = [](float place, std::uint32_t size) {
+    return std::uint32_t(std::clamp(std::floor(place), 0.0f, float(size - 1)));
+  };
+  TappedTexel texel{false, clamped(float(x) + 0.5f + offset.x_px, view.width),
+                    clamped(float(y) + 0.5f + offset.y_px, view.height)};
   texel.surface = view.has_surface(texel.x, texel.y);
   return texel;
 }
@@ -153,15 +176,11 @@ TappedTexel tapped_texel(const View& view, std::uint32_t x, std::uint32_t y, Tap
 HorizonTapInput horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal,
                                   Vec3 viewer, float radius) {
   const Vec3 v = texel_position(view, texel) - position;
-  // If pixels are not square, a tap can be the pixel itself, which is a tap on its own plane.
+  // At the border of the screen a tap can be the pixel itself, which is a tap on its own plane.
   const float away = std::max(length(v), 1e-12f);
-  return tap_input(dot(v, normal) / away, dot(v, viewer) / away, away / radius);
-}
-
-HorizonTapInput plane_tap_input(float across, float facing, float distance_r) {
-  // In the plane of a direction, the tangent plane runs along t - slope o.
-  const float slope = across / std::max(facing, 0.05f), stretch = std::sqrt(1 + slope * slope);
-  return tap_input(0, -slope / stretch, distance_r * stretch);
+  const float elevation = dot(v, normal) / away, angle = dot(v, viewer) / away;
+  const float nearness = std::max(1 - 0.5f * away / radius, 0.0f);
+  return {elevation, elevation * angle, elevation * nearness, elevation * angle * nearness};
 }
 
 bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal, float radius,
@@ -183,9 +202,8 @@ float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, 
     return through(paper.layer_3, through(paper.layer_2, through(paper.layer_1, units)))[0];
   }
   const HorizonNetwork& horizon = network.horizon;
-  const HorizonUnits units = horizon_units(horizon, view, normal, sampling, x, y, noise);
-  // A screen of one or two pixels contains no information on occluders.
-  return units.known ? through(horizon.out, through(horizon.join, units.value))[0] : 1;
+  const JoinInput joined = join_input(horizon, view, normal, sampling, x, y, noise);
+  return through(horizon.out, through(horizon.join, joined))[0];
 }
 
 std::array<float, 3> first_units(const Network& network, const View& view, const Sampling& sampling,
@@ -195,7 +213,7 @@ std::array<float, 3> first_units(const Network& network, const View& view, const
   const auto first = [](const auto& units) { return std::array<float, 3>{units[0], units[1], units[2]}; };
   return network.form == NetworkForm::paper
              ? first(paper_units(network.paper, view, normal, sampling, x, y, noise))
-             : first(horizon_units(network.horizon, view, normal, sampling, x, y, noise).value);
+             : first(join_input(network.horizon, view, normal, sampling, x, y, noise));
 }
 
 float evaluate_pixel(const Network& network, const View& view, const Sampling& sampling, std::uint32_t x,
@@ -222,7 +240,7 @@ void evaluate(const Network& network, const View& view, const Sampling& sampling
                                          : horizon_grid(sampling.taps).steps == 0)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
-        "the number of taps does not fit the network (got %u, need 16, 32, 64, 128 or 256, or 1 to %u "
+        "the number of taps does not fit the network (got %u, need 9, 16, 32, 64, 128 or 256, or 1 to %u "
         "for the paper's form)",
         sampling.taps, cells);
   for (std::uint32_t y = 0; y < view.height; ++y)

@@ -2,6 +2,7 @@
 // pass and of the errors of training. View space is OpenGL's; rows count from the bottom.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -67,20 +68,22 @@ inline PixelRadius pixel_radius(const Sampling& sampling, PixelScale scale) {
 
 // The texel at a tap.
 struct TappedTexel {
-  bool on_screen = false;
   bool surface = false;  // on the screen, and not the sky
   std::uint32_t x = 0, y = 0;
 };
 TappedTexel tapped_texel(const View& view, std::uint32_t x, std::uint32_t y, TapOffset offset);
+// Returns the texel of the screen that is nearest to the tap.
+TappedTexel clamped_texel(const View& view, std::uint32_t x, std::uint32_t y, TapOffset offset);
 
-// The input of the horizon form for a tap on the screen.
 using HorizonTapInput = std::array<float, HorizonNetwork::tap_inputs>;
 HorizonTapInput horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal,
                                   Vec3 viewer, float radius);
 
-// Returns the input for a tap off the screen, where the pixel's own plane continues. across and facing are
-// dot(n, t) and dot(n, o) of network.h; distance_r is the distance of the tap on the screen, in radii.
-HorizonTapInput plane_tap_input(float across, float facing, float distance_r);
+// Returns the distance of a pixel from the nearest border of the screen, in radii, at most 1.
+inline float border_distance(const View& view, std::uint32_t x, std::uint32_t y, float radius_px) {
+  const float across = float(std::min(x, view.width - 1 - x)), up = float(std::min(y, view.height - 1 - y));
+  return std::min((std::min(across, up) + 0.5f) / radius_px, 1.0f);
+}
 
 // Computes a tap's input of the paper's form. Returns false if the input is 0.
 bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal, float radius,

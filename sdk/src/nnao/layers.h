@@ -1,5 +1,5 @@
 // The numbers of a network's small layers in the order that files and training share: the order of network.h,
-// and in each layer weights, bias, negative slopes, positive slopes.
+// and in each layer that of its members.
 #pragma once
 
 #include <span>
@@ -11,9 +11,12 @@ namespace nook::nnao {
 template <class Layer, class Visit>
 void visit_layer(Layer& layer, Visit&& visit) {
   visit(std::span(layer.weights));
-  visit(std::span(layer.bias));
-  visit(std::span(layer.negative_slope));
-  visit(std::span(layer.positive_slope));
+  if constexpr (requires { layer.bias; }) visit(std::span(layer.bias));
+  if constexpr (requires { layer.slope; }) visit(std::span(layer.slope));
+  if constexpr (requires { layer.positive_slope; }) {
+    visit(std::span(layer.negative_slope));
+    visit(std::span(layer.positive_slope));
+  }
 }
 
 // Calls visit(span) for every array of the network's form, except for the paper's filters.

@@ -50,25 +50,46 @@ struct PaperNetwork {
   Dense<units, 1> layer_3;
 };
 
-// Nook's network. The taps lie along `directions` half-lines on the screen, with `steps` taps on each. With
-// v = p_t - p, the direction to the viewer o = -p / |p| (orthographic: +z), the elevation s = dot(v, n) /
-// |v|, the angle c = dot(v, o) / |v| and the nearness w = max(1 - |v| / 2r, 0), a tap's hidden units are
-// tap(input) of
-//   input = (s, c, w, s w, c w).
-// The sky is a surface at infinity. Off the screen the pixel's own plane continues, and the share of such
-// taps is an input. The input of `direction` is the maximum and the mean of the units over the steps of a
-// direction and (dot(n, t), dot(n, o)), where t is the unit vector perpendicular to o in the plane of the
-// direction. The input of `join` and `out` is the mean over directions, dot(n, o), and the share of all taps
-// off the screen.
+// y = max(x, slope x), with one slope for each unit.
+template <int inputs, int units>
+struct LeakyDense {
+  std::array<float, std::size_t(inputs) * units> weights{};  // weights[input * units + unit]
+  std::array<float, units> bias{};
+  std::array<float, units> slope{};
+};
+
+// y = max(x, 0), where x is a sum of products without a bias.
+template <int inputs, int units>
+struct RectifiedDense {
+  std::array<float, std::size_t(inputs) * units> weights{};
+};
+
+// y = x.
+template <int inputs, int units>
+struct LinearDense {
+  std::array<float, std::size_t(inputs) * units> weights{};
+  std::array<float, units> bias{};
+};
+
+// Nook's network. The taps lie along `directions` half-lines on the screen, with `steps` taps on each. A tap
+// off the screen is moved to the nearest pixel on it. With v = p_t - p, the direction to the viewer o = -p /
+// |p| (orthographic: +z), the elevation s = dot(v, n) / |v|, the angle c = dot(v, o) / |v| and the nearness
+// w = max(1 - |v| / 2r, 0), a tap's hidden units are tap(input) of
+//   input = (s, s c, s w, s c w).
+// They are 0 for every tap on the pixel's own plane, so that an open plane stays open at any angle.
+// The sky is a surface at infinity. The input of `direction` is the maximum and the mean of the units over
+// the steps of a direction and (dot(n, t), dot(n, o)), where t is the unit vector perpendicular to o in the
+// plane of the direction. The input of `join` is the mean over directions, dot(n, o), and the distance of the
+// pixel from the border of the screen in radii, at most 1.
 struct HorizonNetwork {
-  static constexpr int revision = 3;  // of what the numbers mean
+  static constexpr int revision = 5;  // of what the numbers mean
   static constexpr int tap_inputs = NOOK_HORIZON_TAP_INPUTS;
   static constexpr int units = NOOK_HORIZON_UNITS;
 
-  Dense<tap_inputs, units> tap;
-  Dense<NOOK_HORIZON_DIRECTION_INPUTS, units> direction;
-  Dense<NOOK_HORIZON_JOIN_INPUTS, units> join;
-  Dense<units, 1> out;
+  RectifiedDense<tap_inputs, units> tap;
+  LeakyDense<NOOK_HORIZON_DIRECTION_INPUTS, units> direction;
+  LeakyDense<NOOK_HORIZON_JOIN_INPUTS, units> join;
+  LinearDense<units, 1> out;
 };
 
 // AO is the network's output clamped to [0, 1]; 1 is open.

@@ -87,4 +87,8 @@ Network read_network(std::span<const std::byte> bytes, Memory* memory) {
   return network;
 }
 
+NetworkForm network_form(std::span<const std::byte> bytes) {
+  return read_head(Container(bytes, network_kind).section("HEAD"));
+}
+
 }  // namespace nook::nnao

@@ -10,21 +10,21 @@
 
 namespace nook::nnao {
 
-// Two numbers in (0, 1). Each takes 16 evenly spaced values over a block of 4 x 4 pixels, and together they
-// form the Hammersley set, so that a 4 x 4 blur contains every value once. The values of neighbours differ
-// strongly (Bayer's order).
+// Two numbers in (0, 1). Each takes 9 evenly spaced values over a block of 3 x 3 pixels, and together they
+// form the Hammersley set in base 3, so that a filter over 3 x 3 pixels contains every value once.
 struct TapNoise {
   float rotation = 0.5f, offset = 0.5f;
 };
 
 constexpr TapNoise tap_noise_of_rank(std::uint32_t rank) {
-  const std::uint32_t reversed = (rank & 1u) << 3 | (rank & 2u) << 1 | (rank & 4u) >> 1 | (rank & 8u) >> 3;
-  return {(float(rank) + 0.5f) / 16, (float(reversed) + 0.5f) / 16};
+  constexpr std::uint32_t size = NOOK_NOISE_SIZE, count = NOOK_NOISE_COUNT;
+  const std::uint32_t reversed = rank % size * size + rank / size;
+  return {(float(rank) + 0.5f) / count, (float(reversed) + 0.5f) / count};
 }
 
 constexpr TapNoise tap_noise(std::uint32_t x, std::uint32_t y) {
-  const std::uint32_t across = x ^ y;
-  return tap_noise_of_rank((across & 1u) << 3 | (y & 1u) << 2 | (across & 2u) | (y & 2u) >> 1);
+  constexpr std::uint32_t size = NOOK_NOISE_SIZE;
+  return tap_noise_of_rank(x % size * size + y % size);
 }
 
 // An offset from the centre of the pixel.
@@ -40,9 +40,11 @@ struct PixelScale {
 struct TapGrid {
   std::uint32_t directions = 0, steps = 0;
 };
-// 16 = 4 x 4, 32 = 8 x 4, 64 = 8 x 8, 128 = 16 x 8, 256 = 16 x 16; nothing for other counts.
+// 9 = 3 x 3, 16 = 4 x 4, 32 = 8 x 4, 64 = 8 x 8, 128 = 16 x 8, 256 = 16 x 16; nothing for other counts.
 constexpr TapGrid horizon_grid(std::uint32_t taps) {
   switch (taps) {
+    case 9:
+      return {3, 3};
     case 16:
       return {4, 4};
     case 32:

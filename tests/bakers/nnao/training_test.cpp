@@ -91,12 +91,7 @@ TEST_CASE("a network is recovered from the AO that it gave") {
   Network planted;
   planted.form = NetworkForm::horizon;
   auto& net = planted.horizon;
-  net.tap.positive_slope.fill(1);
-  net.direction.positive_slope.fill(1);
-  net.join.positive_slope.fill(1);
-  net.out.positive_slope.fill(1);
   net.tap.weights[0] = 1;
-  net.tap.bias[0] = -0.1f;
   net.direction.weights[0] = 1;
   net.join.weights[0] = 0.8f;
   net.out.weights[0] = -1;
@@ -104,11 +99,11 @@ TEST_CASE("a network is recovered from the AO that it gave") {
   Dataset data = test::small_dataset();
   const auto answer = [&](DataPoint& point) {
     double sum = 0;
-    for (std::uint32_t rank = 0; rank < 16; ++rank)
+    for (std::uint32_t rank = 0; rank < NOOK_NOISE_COUNT; ++rank)
       sum += double(nook::nnao::evaluate_unclamped(planted, data.views[point.view].view(), point.normal,
                                                    {point.radius, 1000, 64}, point.x, point.y,
                                                    nook::nnao::tap_noise_of_rank(rank)));
-    point.ao = float(std::clamp(sum / 16, 0.0, 1.0));
+    point.ao = float(std::clamp(sum / NOOK_NOISE_COUNT, 0.0, 1.0));
   };
   for (DataPoint& point : data.training) answer(point);
   for (DataPoint& point : data.validation) answer(point);

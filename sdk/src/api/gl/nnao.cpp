@@ -15,7 +15,7 @@ using namespace nook;
 // The OpenGL objects outlive the handle nook_gl, because this object holds a reference to its owner.
 struct nook_nnao_s : RefCounted {
   nook_nnao_s(nook_gl_s* made_by, const nook_nnao_desc& known, const nnao::Network& network)
-      : gl(made_by), desc(known), horizon_form(network.form == nnao::NetworkForm::horizon) {
+      : gl(made_by), desc(known), form(network.form) {
     gl->device.report_host_errors();
     gl->guarded(gl::screen_creation_users(gl->device.gl), [&] { pass.emplace(gl->device, known, network); });
   }
@@ -27,7 +27,7 @@ struct nook_nnao_s : RefCounted {
 
   nook_gl_s* gl;
   nook_nnao_desc desc;
-  bool horizon_form;
+  nnao::NetworkForm form;
   std::optional<gl::NnaoPass> pass;
 };
 
@@ -37,7 +37,7 @@ nook_nnao_desc default_desc() {
   nook_nnao_desc desc{};
   desc.struct_size = sizeof desc;
   desc.header_version = NOOK_VERSION;
-  desc.taps = 64;
+  desc.taps = 9;
   desc.blur = 1;
   desc.blur_sharpness = 16;
   return desc;
@@ -71,7 +71,7 @@ nook_nnao_desc checked(const nook_nnao_desc* given) {
                   "desc.max_width and desc.max_height are out of range (got %d x %d, need 1 x 1 to %d x %d)",
                   desc.max_width, desc.max_height, largest, largest);
   if (desc.taps < 0 || nnao::horizon_grid(static_cast<std::uint32_t>(desc.taps)).steps == 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.taps is unknown (got %d, need 16, 32, 64, 128 or 256)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256)",
                   desc.taps);
   check_switch("half_resolution", desc.half_resolution);
   check_switch("blur", desc.blur);
@@ -111,10 +111,24 @@ nook_result nook_nnao_desc_init(nook_nnao_desc* desc, size_t size, uint32_t head
                     [&] { init_descriptor(desc, size, header_version, first_desc, default_desc()); });
 }
 
+nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_preset preset) {
+  return api::enter("nook_nnao_desc_set_preset", [&] {
+    // A descriptor of an older or newer host is checked before it is written.
+    read_descriptor(desc, "nook_nnao_desc_init", first_desc, default_desc());
+    if (preset < NOOK_NNAO_PRESET_FAST || preset > NOOK_NNAO_PRESET_BEST)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "preset is unknown (got %d, need 0 to %d)", preset,
+                    NOOK_NNAO_PRESET_BEST);
+    desc->taps = preset == NOOK_NNAO_PRESET_BEST ? 32 : 9;
+    desc->half_resolution = preset == NOOK_NNAO_PRESET_FAST;
+    desc->blur = 1;
+  });
+}
+
 nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes) {
   return api::enter("nook_nnao_memory", [&] {
     need(bytes, "bytes");
-    *bytes = gl::texture_bytes(checked(desc));
+    const nook_nnao_desc known = checked(desc);
+    *bytes = gl::texture_bytes(known, nnao::network_form(network_bytes(known)));
   });
 }
 
@@ -159,9 +173,9 @@ nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info) {
   return with_pass("nook_nnao_describe", pass, [&] {
     nook_nnao_info known{};
     known.texture = pass->pass->ao_texture();
-    known.texture_bytes = gl::texture_bytes(pass->desc);
+    known.texture_bytes = gl::texture_bytes(pass->desc, pass->form);
     known.taps = pass->desc.taps;
-    known.horizon_form = pass->horizon_form;
+    known.horizon_form = pass->form == nnao::NetworkForm::horizon;
     known.path = pass->pass->path();
     write_info(info, first_info, known);
   });

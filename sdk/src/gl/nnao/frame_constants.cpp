@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/filter.h"
 
 namespace nook::gl {
 namespace {
@@ -80,26 +81,36 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
     const std::array values{x, y, z, w};
     std::copy(values.begin(), values.end(), &constants.values[std::size_t(4 * row)]);
   };
-  const bool half = pass.half_resolution != 0;
+  // From the number of a pixel to the ray through its centre.
+  const auto set_rays = [&](int row, const nnao::ScreenRays& rays) {
+    set(row, rays.x_scale, rays.x_offset + 0.5f * rays.x_scale, rays.y_scale,
+        rays.y_offset + 0.5f * rays.y_scale);
+  };
+  // With this range sharpness the filter averages equal values alone, which changes nothing.
+  constexpr float no_range = 1e9f;
+  const bool filters = pass.blur && frame.view != NOOK_NNAO_VIEW_RAW;
+  const bool half = pass.half_resolution != 0, strengthened = frame.view == NOOK_NNAO_VIEW_AO;
   const Viewport viewport = viewport_of(frame);
   const nnao::ScreenRays screen = rays_of(frame, viewport);
-  const nnao::ScreenRays surface = half ? half_rays(screen) : screen;
   const DepthDecode decode = depth_decode(frame);
   const float max_radius_px = frame.max_radius_px > 0 ? frame.max_radius_px : 0.25f * float(viewport.height);
+  const int surface_width = surface_length(viewport.width, half),
+            surface_height = surface_length(viewport.height, half);
   const float* n = frame.normal_matrix;
-  set(NOOK_FRAME_SCREEN_RAYS, screen.x_scale, screen.x_offset, screen.y_scale, screen.y_offset);
-  set(NOOK_FRAME_SURFACE_RAYS, surface.x_scale, surface.x_offset, surface.y_scale, surface.y_offset);
+  set_rays(NOOK_FRAME_SCREEN_RAYS, screen);
+  set_rays(NOOK_FRAME_SURFACE_RAYS, half ? half_rays(screen) : screen);
   set(NOOK_FRAME_DEPTH_DECODE, decode.x, decode.y, decode.z, decode.w);
-  set(NOOK_FRAME_FAR, decode.far_stored, decode.far_sign, perspective(frame) ? 0 : -1e30f,
-      perspective(frame) ? 0 : 1);
+  set(NOOK_FRAME_FAR, decode.far_stored, decode.far_sign, perspective(frame) ? 0 : -1e15f, 0);
+  set(NOOK_FRAME_SPREAD, perspective(frame), !perspective(frame), pass.blur_sharpness / frame.radius,
+      filters ? nnao::filter_range_sharpness(std::uint32_t(pass.taps)) : no_range);
   set(NOOK_FRAME_RADIUS, frame.radius, std::max(half ? 0.5f * max_radius_px : max_radius_px, 1.0f),
-      frame.intensity, frame.power);
-  set(NOOK_FRAME_BLUR_AND_NORMAL, pass.blur_sharpness, frame.normal_scale, frame.normal_bias,
-      frame.normal_texture != 0);
+      strengthened ? frame.intensity : 1, strengthened ? frame.power : 1);
+  set(NOOK_FRAME_NORMAL, frame.normal_scale, frame.normal_bias, frame.normal_texture != 0,
+      strengthened ? float(frame.layer) : 0);
   set(NOOK_FRAME_VIEWPORT, float(viewport.x), float(viewport.y), float(viewport.width),
       float(viewport.height));
-  set(NOOK_FRAME_SURFACE, float(surface_length(viewport.width, half)),
-      float(surface_length(viewport.height, half)), float(frame.layer), float(frame.view));
+  set(NOOK_FRAME_SURFACE, float(surface_width - 1), float(surface_height - 1), float(surface_width),
+      float(surface_height));
   for (int column = 0; column < 3; ++column)
     set(NOOK_FRAME_NORMAL_MATRIX + column, n[3 * column], n[3 * column + 1], n[3 * column + 2], 0);
   return constants;

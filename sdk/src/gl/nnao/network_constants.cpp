@@ -24,12 +24,36 @@ void add(Floats& out, const nnao::Dense<inputs, units>& layer) {
   if constexpr (units == 1) out.push_back(0);
 }
 
+template <int inputs, int units>
+void add(Floats& out, const nnao::RectifiedDense<inputs, units>& layer) {
+  add(out, layer.weights);
+}
+
+template <int inputs, int units>
+void add(Floats& out, const nnao::LeakyDense<inputs, units>& layer) {
+  add(out, layer.weights);
+  add(out, layer.bias);
+  add(out, layer.slope);
+}
+
+// The last layer's bias is a vec4 of its own.
+void add(Floats& out, const nnao::LinearDense<NOOK_HORIZON_UNITS, 1>& layer) {
+  add(out, layer.weights);
+  out.push_back(layer.bias[0]);
+  out.insert(out.end(), 3, 0.0f);
+}
+
 }  // namespace
 
-Vector<float> network_constants(const nnao::Network& network, Memory* memory) {
+Vector<float> network_constants(const nnao::Network& network, nnao::TapGrid grid, Memory* memory) {
   Floats out(memory);
   if (network.form == nnao::NetworkForm::horizon) {
-    const nnao::HorizonNetwork& horizon = network.horizon;
+    constexpr int units = NOOK_HORIZON_UNITS;
+    nnao::HorizonNetwork horizon = network.horizon;
+    for (int i = 0; i < units * units; ++i) {
+      horizon.direction.weights[units * units + i] /= float(grid.steps);
+      horizon.join.weights[i] /= float(grid.directions);
+    }
     add(out, horizon.tap);
     add(out, horizon.direction);
     add(out, horizon.join);

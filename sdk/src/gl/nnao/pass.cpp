@@ -16,10 +16,6 @@ constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE
 
 }  // namespace
 
-bool NnaoPass::blurs(const nook_nnao_frame_desc& frame) const {
-  return desc_.blur && frame.view != NOOK_NNAO_VIEW_RAW;
-}
-
 void NnaoPass::check(const nook_nnao_frame_desc& frame) {
   const HostImages images = images_of(frame);
   if (checked_ == images) return;
@@ -61,48 +57,29 @@ void NnaoPass::draw(const Stage& stage, const FrameConstants& constants, GLuint 
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void NnaoPass::run_network(const FrameConstants& constants, const RenderTexture& into,
-                           const Viewport& into_place) const {
+void NnaoPass::run_network(const FrameConstants& constants, const Viewport& surface) const {
   const Functions& gl = device_.gl;
-  gl.UseProgram(occlusion_.program.name());
-  gl.Uniform2i(occlusion_.ao_origin, into_place.x, into_place.y);
   if (path_ == NOOK_NNAO_PATH_FRAGMENT) {
-    draw(occlusion_, constants, into.framebuffer(), into_place);
+    draw(occlusion_stage_, constants, ao_[0].framebuffer(), surface);
     return;
   }
-  set_frame(occlusion_, constants);
-  // occlusion.comp declares the image in this way. OpenGL 4.3 has images of GL_R8, OpenGL ES 3.1 of GL_RGBA8.
-  gl.BindImageTexture(image_unit_index, into.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
-                      gl.can.r8_images ? GL_R8 : GL_RGBA8);
+  set_frame(occlusion_stage_, constants);
+  // occlusion.comp declares the image in this way. OpenGL 4.3 has images of GL_RG8, OpenGL ES 3.1 of
+  // GL_RGBA8.
+  gl.BindImageTexture(image_unit_index, ao_[0].texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                      gl.can.r8_images ? GL_RG8 : GL_RGBA8);
   // Pending reads and draws, also of the host, end before the texture is written.
   gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  gl.DispatchCompute(groups(into_place.width), groups(into_place.height), 1);
-  // The next stage reads the texture. If it is the own texture, the last stage also draws into it.
-  gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+  gl.DispatchCompute(groups(surface.width), groups(surface.height), 1);
+  // The next stage reads the texture.
+  gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void NnaoPass::draw_blur(const FrameConstants& constants, const RenderTexture& from,
-                         const Viewport& from_place, bool vertical, const RenderTexture& into) const {
-  const Functions& gl = device_.gl;
-  bind_texture(NOOK_UNIT_AO, from.texture());
-  gl.UseProgram(blur_.program.name());
-  gl.Uniform2i(blur_.ao_origin, from_place.x, from_place.y);
-  gl.Uniform2i(blur_.blur_axis, !vertical, vertical);
-  gl.Uniform1i(blur_.blur_reach, NOOK_BLUR_REACH);
-  draw(blur_, constants, into.framebuffer(), {0, 0, from_place.width, from_place.height});
-}
-
-void NnaoPass::draw_resolve(const nook_nnao_frame_desc& frame, const FrameConstants& constants,
-                            const RenderTexture& ao) {
+void NnaoPass::draw_output(const Stage& stage, const nook_nnao_frame_desc& frame,
+                           const FrameConstants& constants) {
   const Functions& gl = device_.gl;
   const bool to_texture = frame.target == NOOK_NNAO_TARGET_TEXTURE;
   GLuint framebuffer = own_.framebuffer();
-  bind_texture(NOOK_UNIT_DEPTH, frame.depth_texture);
-  bind_texture(NOOK_UNIT_AO, ao.texture());
-  bind_texture(NOOK_UNIT_LAYER, frame.layer != NOOK_NNAO_LAYER_NONE ? frame.layer_texture : 0);
-  gl.UseProgram(resolve_.program.name());
-  gl.Uniform2i(resolve_.blur_axis, 0, 1);
-  gl.Uniform1i(resolve_.blur_reach, blurs(frame) ? NOOK_BLUR_REACH : 0);
   if (frame.target != NOOK_NNAO_TARGET_OWN) {
     framebuffer = to_texture ? target_framebuffer_.name() : frame.target_name;
     if (gl.can.desktop_raster) gl.Enable(GL_FRAMEBUFFER_SRGB);  // OpenGL ES has no switch: it is on
@@ -112,7 +89,7 @@ void NnaoPass::draw_resolve(const nook_nnao_frame_desc& frame, const FrameConsta
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, frame.target_name, 0);
   }
-  draw(resolve_, constants, framebuffer, viewport_of(frame));
+  draw(stage, constants, framebuffer, viewport_of(frame));
   // If it stayed attached, a texture that the host deletes would live on.
   if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
 }
@@ -124,39 +101,44 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
   const Viewport viewport = viewport_of(frame);
   const Viewport surface{0, 0, surface_length(viewport.width, half()),
                          surface_length(viewport.height, half())};
+  const bool layered = frame.layer != NOOK_NNAO_LAYER_NONE;
   if (timer_) timer_->begin_frame();
   set_plain_drawing(gl);
   gl.BindVertexArray(vertex_array_.name());
   for (GLuint unit = 0; unit < texture_unit_count; ++unit) gl.BindSampler(unit, sampler_.name());
 
-  bind_texture(NOOK_UNIT_AO, 0);
-  bind_texture(NOOK_UNIT_LAYER, 0);
-  bind_texture(NOOK_UNIT_DEPTH, frame.depth_texture);
-  bind_texture(NOOK_UNIT_SURFACE, frame.normal_texture);
-  draw(normals_, constants, surface_.framebuffer(), surface);
-  end_stage();
-
-  bind_texture(NOOK_UNIT_SURFACE, surface_.texture());
-  if (filters_.made()) filters_.bind(device_);
-  // At full resolution the last stage writes the own texture, so that AO is in the other texture before. Only
-  // the viewport may change in the own texture.
-  const RenderTexture& first = half() || !blurs(frame) ? ao_[0] : own_;
-  const RenderTexture& second = half() ? ao_[1] : ao_[0];
-  const Viewport& place = &first == &own_ ? viewport : surface;
-  run_network(constants, first, place);
-  end_stage();
-
-  const RenderTexture* result = &first;
-  if (blurs(frame)) {
-    draw_blur(constants, first, place, false, second);
-    result = &second;
-    if (half()) {
-      draw_blur(constants, second, surface, true, first);
-      result = &first;
-    }
+  // No texture that a stage draws into stays bound.
+  for (const GLuint unit : {NOOK_UNIT_DEPTH, NOOK_UNIT_AO, NOOK_UNIT_LAYER}) bind_texture(unit, 0);
+  bind_texture(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
+  draw(depth_stage_, constants, depth_.framebuffer(), surface);
+  bind_texture(NOOK_UNIT_DEPTH, depth_.texture());
+  bind_texture(NOOK_UNIT_NORMAL, frame.normal_texture);
+  if (normals_stage_.program.name() != 0) {
+    draw(normals_stage_, constants, normals_.framebuffer(), surface);
+    bind_texture(NOOK_UNIT_NORMAL, normals_.texture());
+    filters_.bind(device_);
   }
   end_stage();
-  draw_resolve(frame, constants, *result);
+
+  if (frame.view == NOOK_NNAO_VIEW_NORMALS) {
+    bind_texture(NOOK_UNIT_NORMAL, frame.normal_texture);
+    end_stage();
+    end_stage();
+    draw_output(show_normals_stage_, frame, constants);
+    end_stage();
+    return;
+  }
+  run_network(constants, surface);
+  end_stage();
+  bind_texture(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
+  bind_texture(NOOK_UNIT_AO, ao_[0].texture());
+  bind_texture(NOOK_UNIT_LAYER, layered ? frame.layer_texture : 0);
+  if (half() && desc_.blur) {
+    draw(filter_stage_, constants, ao_[1].framebuffer(), surface);
+    bind_texture(NOOK_UNIT_AO, ao_[1].texture());
+  }
+  end_stage();
+  draw_output(resolve_stage_, frame, constants);
   end_stage();
 }
 

@@ -1,8 +1,10 @@
-// The screen-space pass on the GPU: normals, the network, the blur, and the output.
+// The screen-space pass on the GPU: linear depth, the network, the filter, and the output.
 //
 // The network's stage, AO, is a draw or a dispatch; the other stages are draws.
-//   full resolution  host depth -> normals -> AO -> blur along x -> blur along y and resolve
-//   half resolution  host depth -> depth and normals -> AO -> blur along x -> along y -> upsample and resolve
+//   full resolution  host depth -> depth -> AO and edges -> filter and resolve
+//   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> filter -> upsample and
+//   resolve
+// The paper's form reads the normals of its taps: a stage between depth and AO writes them.
 #pragma once
 
 #include <nook/nook_nnao.h>
@@ -19,7 +21,7 @@
 namespace nook::gl {
 
 // Returns the memory of all textures of a pass.
-std::uint64_t texture_bytes(const nook_nnao_desc& desc);
+std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form);
 
 // Every call may change any of the touched state; the caller holds a StateGuard.
 class NnaoPass {
@@ -39,27 +41,21 @@ class NnaoPass {
  private:
   struct Stage {
     Object program;
-    GLint frame = -1, ao_origin = -1, blur_axis = -1, blur_reach = -1;
+    GLint frame = -1;
   };
   Stage make_stage(Object program) const;
   void make_programs(const nnao::Network& network);
-  void make_textures();
+  void make_textures(nnao::NetworkForm form);
   void upload_filters(const nnao::Network& network);
 
   void check(const nook_nnao_frame_desc& frame);
-  bool blurs(const nook_nnao_frame_desc& frame) const;
   bool half() const { return desc_.half_resolution != 0; }
   void bind_texture(GLuint unit, GLuint texture) const;
   void set_frame(const Stage& stage, const FrameConstants& constants) const;
   void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
             const Viewport& viewport) const;
-  // into_place is the place of the surface in the texture.
-  void run_network(const FrameConstants& constants, const RenderTexture& into,
-                   const Viewport& into_place) const;
-  void draw_blur(const FrameConstants& constants, const RenderTexture& from, const Viewport& from_place,
-                 bool vertical, const RenderTexture& into) const;
-  void draw_resolve(const nook_nnao_frame_desc& frame, const FrameConstants& constants,
-                    const RenderTexture& ao);
+  void run_network(const FrameConstants& constants, const Viewport& surface) const;
+  void draw_output(const Stage& stage, const nook_nnao_frame_desc& frame, const FrameConstants& constants);
   void end_stage() {
     if (timer_) timer_->end_stage();
   }
@@ -67,9 +63,10 @@ class NnaoPass {
   Device& device_;
   nook_nnao_desc desc_;  // without network and next
   nook_nnao_path path_;
-  Stage normals_, occlusion_, blur_, resolve_;
-  RenderTexture surface_;  // normals, and at half resolution depth
-  RenderTexture ao_[2];    // of the surface; at full resolution own_ replaces the second
+  // The stage of normals belongs to the paper's form, that of the filter to half resolution.
+  Stage depth_stage_, normals_stage_, occlusion_stage_, filter_stage_, resolve_stage_, show_normals_stage_;
+  RenderTexture depth_, normals_;  // of the surface
+  RenderTexture ao_[2];            // of the surface; the second at half resolution alone
   RenderTexture own_;
   Object sampler_, vertex_array_, target_framebuffer_;
   TexelTable filters_;  // of the paper's form

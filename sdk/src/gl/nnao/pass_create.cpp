@@ -18,36 +18,39 @@ struct TexturePlan {
   const char* label;
 };
 
-// The textures of a pass: surface, AO, AO at half resolution, own.
+// The textures of a pass. Those without a width are not made.
 struct PassPlan {
-  TexturePlan textures[4];
+  TexturePlan depth, normals, ao[2], own;
 };
 
 // The formats in which a context draws normals and AO.
 struct PassFormats {
-  TextureFormat normal = TextureFormat::normal, ao = TextureFormat::ao;
+  TextureFormat normal = TextureFormat::normal, ao = TextureFormat::ao_edges;
 };
 
 PassFormats formats_of(const Functions& gl, nook_nnao_path path) {
   const bool image = path == NOOK_NNAO_PATH_COMPUTE && !gl.can.r8_images;
   return {gl.can.norm16_targets ? TextureFormat::normal : TextureFormat::normal_bits,
-          image ? TextureFormat::ao_image : TextureFormat::ao};
+          image ? TextureFormat::ao_image : TextureFormat::ao_edges};
 }
 
-PassPlan plan_of(const nook_nnao_desc& desc, const PassFormats& formats) {
-  const bool half = desc.half_resolution != 0;
+PassPlan plan_of(const nook_nnao_desc& desc, nnao::NetworkForm form, const PassFormats& formats) {
+  const bool half = desc.half_resolution != 0, paper = form == nnao::NetworkForm::paper,
+             filtered = half && desc.blur;
   const int width = surface_length(desc.max_width, half), height = surface_length(desc.max_height, half);
-  return {{{half ? TextureFormat::surface : formats.normal, width, height, "nook: surface"},
-           {formats.ao, width, height, "nook: AO of the surface"},
-           {formats.ao, half ? width : 0, half ? height : 0, "nook: blurred AO of the surface"},
-           {formats.ao, desc.max_width, desc.max_height, "nook: screen-space AO"}}};
+  return {{TextureFormat::depth, width, height, "nook: linear depth"},
+          {formats.normal, paper ? width : 0, height, "nook: normals"},
+          {{formats.ao, width, height, "nook: AO of the surface"},
+           {TextureFormat::ao_edges, filtered ? width : 0, height, "nook: filtered AO of the surface"}},
+          {TextureFormat::ao, desc.max_width, desc.max_height, "nook: screen-space AO"}};
 }
 
 }  // namespace
 
-std::uint64_t texture_bytes(const nook_nnao_desc& desc) {
+std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form) {
+  const PassPlan plan = plan_of(desc, form, {});
   std::uint64_t bytes = 0;
-  for (const TexturePlan& texture : plan_of(desc, {}).textures)
+  for (const TexturePlan& texture : {plan.depth, plan.normals, plan.ao[0], plan.ao[1], plan.own})
     bytes += std::uint64_t(texture.width) * std::uint64_t(texture.height) * bytes_per_texel(texture.format);
   return bytes;
 }
@@ -67,7 +70,7 @@ NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Netwo
         "most %d x %d)",
         desc.max_width, desc.max_height, largest, largest);
   make_programs(network);
-  make_textures();
+  make_textures(network.form);
   if (network.form == nnao::NetworkForm::paper) upload_filters(network);
   sampler_ = Object::make(device, Object::Kind::sampler);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
@@ -88,16 +91,14 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
   Stage stage;
   stage.program = std::move(program);
   stage.frame = uniform_location(device_, stage.program, "nook_frame");
-  stage.ao_origin = uniform_location(device_, stage.program, "nook_ao_origin");
-  stage.blur_axis = uniform_location(device_, stage.program, "nook_blur_axis");
-  stage.blur_reach = uniform_location(device_, stage.program, "nook_blur_reach");
   gl.UseProgram(stage.program.name());
   const struct {
     const char* name;
     GLint unit;
   } samplers[] = {{"nook_depth", NOOK_UNIT_DEPTH},
-                  {"nook_surface", NOOK_UNIT_SURFACE},
-                  {"nook_host_normal", NOOK_UNIT_HOST_NORMAL},
+                  {"nook_host_depth", NOOK_UNIT_HOST_DEPTH},
+                  {"nook_host_normal", NOOK_UNIT_NORMAL},
+                  {"nook_normal", NOOK_UNIT_NORMAL},
                   {"nook_ao", NOOK_UNIT_AO},
                   {"nook_filters", NOOK_UNIT_FILTERS},
                   {"nook_layer", NOOK_UNIT_LAYER}};
@@ -110,36 +111,42 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
 void NnaoPass::make_programs(const nnao::Network& network) {
   const bool horizon = network.form == nnao::NetworkForm::horizon;
   const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
-  char defines[100];
-  std::snprintf(defines, sizeof defines,
-                "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_STEPS %u\n", half(), horizon,
-                grid.steps);
+  char defines[120];
+  std::snprintf(
+      defines, sizeof defines,
+      "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_DIRECTIONS %u\n#define NOOK_STEPS %u\n",
+      half(), horizon, grid.directions, grid.steps);
   const auto drawn = [&](const char* path) {
     return make_stage(draw_program(device_, "nnao/screen.vert", path, defines));
   };
-  normals_ = drawn("nnao/normals.frag");
-  occlusion_ = path_ == NOOK_NNAO_PATH_COMPUTE
-                   ? make_stage(compute_program(device_, "nnao/occlusion.comp", defines))
-                   : drawn("nnao/occlusion.frag");
-  blur_ = drawn("nnao/blur.frag");
-  resolve_ = drawn("nnao/resolve.frag");
+  depth_stage_ = drawn("nnao/depth.frag");
+  if (!horizon) normals_stage_ = drawn("nnao/normals.frag");
+  occlusion_stage_ = path_ == NOOK_NNAO_PATH_COMPUTE
+                         ? make_stage(compute_program(device_, "nnao/occlusion.comp", defines))
+                         : drawn("nnao/occlusion.frag");
+  if (half() && desc_.blur) filter_stage_ = drawn("nnao/filter.frag");
+  resolve_stage_ = drawn("nnao/resolve.frag");
+  show_normals_stage_ = drawn("nnao/show_normals.frag");
   // Both forms have the same number of groups with the same number of taps.
-  device_.gl.UseProgram(occlusion_.program.name());
-  device_.gl.Uniform1i(uniform_location(device_, occlusion_.program, "nook_tap_groups"),
+  device_.gl.UseProgram(occlusion_stage_.program.name());
+  device_.gl.Uniform1i(uniform_location(device_, occlusion_stage_.program, "nook_tap_groups"),
                        static_cast<GLint>(grid.directions));
-  const Vector<float> constants = network_constants(network, device_.memory);
-  device_.gl.Uniform4fv(uniform_location(device_, occlusion_.program, "nook_network"),
+  const Vector<float> constants = network_constants(network, grid, device_.memory);
+  device_.gl.Uniform4fv(uniform_location(device_, occlusion_stage_.program, "nook_network"),
                         static_cast<GLsizei>(constants.size() / 4), constants.data());
 }
 
-void NnaoPass::make_textures() {
-  const PassPlan plan = plan_of(desc_, formats_of(device_.gl, path_));
-  RenderTexture* const textures[] = {&surface_, &ao_[0], &ao_[1], &own_};
-  for (std::size_t i = 0; i < std::size(textures); ++i) {
-    const TexturePlan& texture = plan.textures[i];
-    if (texture.width > 0)
-      *textures[i] = RenderTexture(device_, texture.format, texture.width, texture.height, texture.label);
-  }
+void NnaoPass::make_textures(nnao::NetworkForm form) {
+  const PassPlan plan = plan_of(desc_, form, formats_of(device_.gl, path_));
+  const auto make = [&](RenderTexture& texture, const TexturePlan& planned) {
+    if (planned.width > 0)
+      texture = RenderTexture(device_, planned.format, planned.width, planned.height, planned.label);
+  };
+  make(depth_, plan.depth);
+  make(normals_, plan.normals);
+  make(ao_[0], plan.ao[0]);
+  make(ao_[1], plan.ao[1]);
+  make(own_, plan.own);
   set_plain_drawing(device_.gl);
   const GLfloat open[4] = {1, 1, 1, 1};
   device_.gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, own_.framebuffer());

@@ -17,8 +17,10 @@ constexpr Layout layout_of(TextureFormat format) {
       return {GL_RG16, GL_RG, GL_UNSIGNED_SHORT, 4};
     case TextureFormat::normal_bits:
       return {GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, 4};
-    case TextureFormat::surface:
-      return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
+    case TextureFormat::depth:
+      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+    case TextureFormat::ao_edges:
+      return {GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2};
     case TextureFormat::ao_image:
       return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
     default:
@@ -37,8 +39,7 @@ RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, in
       framebuffer_(Object::make(device, Object::Kind::framebuffer)) {
   const Functions& gl = device.gl;
   const Layout layout = layout_of(format);
-  const bool is_ao = format == TextureFormat::ao || format == TextureFormat::ao_image;
-  const GLint filter = is_ao ? GL_LINEAR : GL_NEAREST;
+  const GLint filter = format == TextureFormat::ao ? GL_LINEAR : GL_NEAREST;
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D, texture_.name());
   // With a buffer bound, the null pointer would be an offset into the host's buffer.

@@ -7,10 +7,11 @@ namespace nook::gl {
 
 enum class TextureFormat {
   ao,           // GL_R8
-  ao_image,     // GL_RGBA8, for compute shaders that cannot write GL_R8
+  ao_edges,     // GL_RG8
+  ao_image,     // GL_RGBA8, for compute shaders that cannot write GL_RG8
+  depth,        // GL_R32UI, a float's bits
   normal,       // GL_RG16
   normal_bits,  // GL_RG16UI, for contexts that cannot draw into GL_RG16
-  surface       // GL_RG32UI
 };
 std::uint64_t bytes_per_texel(TextureFormat format);
 

@@ -1,0 +1,102 @@
+#include "sdk/src/nnao/filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nook::nnao {
+namespace {
+
+// The sky lies far beyond any radius.
+constexpr float sky_depth = 1e15f;
+
+float depth_near(const View& view, int x, int y) {
+  const auto column = std::uint32_t(std::clamp(x, 0, int(view.width) - 1)),
+             row = std::uint32_t(std::clamp(y, 0, int(view.height) - 1));
+  return view.has_surface(column, row) ? view.depth[view.at(column, row)] : sky_depth;
+}
+
+float axis_slope(const Neighbours& neighbours, std::size_t first) {
+  const auto& slope = neighbours.slope;
+  const auto& connected = neighbours.connected;
+  return (slope[first] * connected[first] + slope[first + 1] * connected[first + 1]) /
+         std::max(connected[first] + connected[first + 1], 1e-3f);
+}
+
+// Each 0 to 3.
+std::array<float, 4> unpacked(std::uint8_t bits) {
+  return {float(bits >> 6), float(bits >> 4 & 3), float(bits >> 2 & 3), float(bits & 3)};
+}
+
+}  // namespace
+
+Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, float tolerance) {
+  const int column = int(x), row = int(y);
+  const bool orthographic = view.rays.orthographic;
+  const float depth = view.depth[view.at(x, y)];
+  const std::array<float, 4> depths{depth_near(view, column - 1, row), depth_near(view, column + 1, row),
+                                    depth_near(view, column, row - 1), depth_near(view, column, row + 1)};
+  Neighbours found;
+  for (std::size_t i = 0; i < 4; ++i)
+    found.slope[i] = (depths[i] - depth) / (orthographic ? 1 : depths[i]) * (i % 2 == 0 ? -1.0f : 1.0f);
+  const std::array<bool, 4> inside{x > 0, x + 1 < view.width, y > 0, y + 1 < view.height};
+  // Beyond the border of the screen the surface is taken to continue.
+  for (std::size_t i = 0; i < 4; ++i)
+    if (!inside[i]) found.slope[i] = found.slope[i ^ 1];
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t axis = i / 2 * 2;
+    const float bend = 0.5f * std::abs(found.slope[axis] - found.slope[axis + 1]);
+    const float off = std::min(std::abs(found.slope[i]), bend) * (orthographic ? 1 : depth) / tolerance;
+    found.connected[i] = inside[i] ? std::clamp(1.25f - off, 0.0f, 1.0f) : 0;
+  }
+  return found;
+}
+
+Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Neighbours& neighbours) {
+  // With d(x, y) depth and (u, v) the ray of a pixel, the plane's normal in a perspective is
+  //   (du d / d, dv d / d, 1 + u du d / d + v dv d / d).
+  const ScreenRays& rays = view.rays;
+  const float along_u = axis_slope(neighbours, 0) / rays.x_scale,
+              along_v = axis_slope(neighbours, 2) / rays.y_scale;
+  const float u = rays.x_scale * (float(x) + 0.5f) + rays.x_offset,
+              v = rays.y_scale * (float(y) + 0.5f) + rays.y_offset;
+  return normalised({along_u, along_v, 1 + (rays.orthographic ? 0 : u * along_u + v * along_v)});
+}
+
+std::uint8_t packed_edges(const std::array<float, 4>& connected) {
+  std::uint32_t bits = 0;
+  for (const float edge : connected) bits = bits << 2 | std::uint32_t(std::floor(3 * edge + 0.5f));
+  return std::uint8_t(bits);
+}
+
+float filtered(std::span<const float> ao, std::span<const std::uint8_t> edges, std::uint32_t width,
+               std::uint32_t height, std::uint32_t x, std::uint32_t y, float range_sharpness) {
+  const auto at = [&](int column, int row) {
+    return std::size_t(std::clamp(row, 0, int(height) - 1)) * width +
+           std::size_t(std::clamp(column, 0, int(width) - 1));
+  };
+  const int column = int(x), row = int(y);
+  const float centre = ao[at(column, row)];
+  const std::array<float, 4> own = unpacked(edges[at(column, row)]);
+  float sum = centre, weights = 1;
+  const auto add = [&](std::size_t texel, float connected) {
+    const float near = std::clamp(1 - range_sharpness * std::abs(ao[texel] - centre), 0.0f, 1.0f);
+    sum += connected * near * ao[texel];
+    weights += connected * near;
+  };
+  add(at(column - 1, row), own[0] / 3);
+  add(at(column + 1, row), own[1] / 3);
+  add(at(column, row - 1), own[2] / 3);
+  add(at(column, row + 1), own[3] / 3);
+  for (const int down : {1, 0})
+    for (const int left : {1, 0}) {
+      // A corner is reached along x first and then along its own edge along y, or the other way round.
+      const std::size_t corner = at(column + 1 - 2 * left, row + 1 - 2 * down);
+      const std::array<float, 4> back = unpacked(edges[corner]);
+      const float x_first = own[left ? 0 : 1] * back[down ? 3 : 2],
+                  y_first = own[down ? 2 : 3] * back[left ? 1 : 0];
+      add(corner, std::max(x_first, y_first) / 9);
+    }
+  return sum / weights;
+}
+
+}  // namespace nook::nnao

@@ -1,0 +1,44 @@
+// The stages around the network, one pixel at a time: edges between pixels, normals that follow from depth,
+// and the filter. This is the reference of the tests of the OpenGL pass.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sdk/src/nnao/evaluate.h"
+
+namespace nook::nnao {
+
+// A pixel's neighbours in the order left, right, below, above.
+struct Neighbours {
+  // The change of depth from one pixel to the next along +x (left, right) or +y (below, above), divided by
+  // the depth of the neighbour (orthographic: by 1). On a plane both sides of an axis are equal, because 1 /
+  // depth (orthographic: depth) is linear on the screen.
+  std::array<float, 4> slope{};
+  // 1: the neighbour is on the same surface; 0: an edge, or the border of the screen.
+  std::array<float, 4> connected{};
+};
+
+// An edge is where depth departs by more than about `tolerance` metres from the neighbour's and from the line
+// through both sides as well.
+Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, float tolerance);
+
+// Returns the normal of the plane through the pixel and its connected neighbours.
+Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Neighbours& neighbours);
+
+// Returns the four values of `connected` in two bits each: 0, 1/3, 2/3, 1.
+std::uint8_t packed_edges(const std::array<float, 4>& connected);
+
+// Two values of AO that differ by the inverse of this are not averaged: fewer taps are noisier.
+constexpr float filter_range_sharpness(std::uint32_t taps) {
+  return taps < 16 ? 1.0f : taps < 32 ? 1.5f : taps < 64 ? 2.0f : 2.5f;
+}
+
+// Filters AO over 3 x 3 pixels. edges are packed_edges of every pixel, 0 where there is no surface. A pixel
+// next to an edge is reached around it, if the edges allow.
+float filtered(std::span<const float> ao, std::span<const std::uint8_t> edges, std::uint32_t width,
+               std::uint32_t height, std::uint32_t x, std::uint32_t y, float range_sharpness);
+
+}  // namespace nook::nnao

@@ -1,0 +1,28 @@
+// Joint-bilateral upsample: AO of a pixel from the four texels of the half-size surface around it, weighted by
+// how well they lie on the pixel's plane.
+#include "shaders/nnao/depth.glsl"
+
+uniform sampler2D nook_ao;
+
+float nook_smaller(float a, float b) {
+  return abs(a) < abs(b) ? a : b;
+}
+
+float nook_upsampled(ivec2 pixel, float depth) {
+  ivec2 low = pixel / 2, high = min(low + 1, nook_surface_size - 1);
+  ivec2 texels[4] = ivec2[4](low, ivec2(high.x, low.y), ivec2(low.x, high.y), high);
+  vec4 depths = vec4(nook_depth_at(texels[0]), nook_depth_at(texels[1]), nook_depth_at(texels[2]), nook_depth_at(texels[3]));
+  vec4 ao = vec4(texelFetch(nook_ao, texels[0], 0).r, texelFetch(nook_ao, texels[1], 0).r,
+                 texelFetch(nook_ao, texels[2], 0).r, texelFetch(nook_ao, texels[3], 0).r);
+  // This difference is linear in pixels over a plane.
+  vec4 rise = (depths - depth) / (nook_spread.x * depths + nook_spread.y);
+  vec2 slope = vec2(nook_smaller(rise.y - rise.x, rise.w - rise.z), nook_smaller(rise.z - rise.x, rise.w - rise.y));
+  vec2 place = 0.5 * vec2(pixel - 2 * low);  // from the lower left texel, in texels
+  vec4 plane = vec4(0.0, slope.x, slope.y, slope.x + slope.y) - dot(slope, place);
+  vec4 off = (rise - plane) * (nook_extent(depth) * nook_edge_tolerance);
+  vec4 lerp = vec4(1.0 - place.x, place.x, 1.0 - place.x, place.x) * vec4(1.0 - place.y, 1.0 - place.y, place.y, place.y);
+  vec4 weights = (lerp + 1.0e-3) / (1.0e-3 + off * off);
+  weights *= vec4(notEqual(depths, vec4(nook_no_surface)));
+  float sum = dot(weights, vec4(1.0));
+  return sum > 0.0 ? dot(weights, ao) / sum : 1.0;
+}

@@ -1,0 +1,124 @@
+#include "sdk/src/nnao/filter.h"
+
+#include <limits>
+#include <vector>
+
+#include "tests/catch.h"
+
+using namespace nook;
+using namespace nook::nnao;
+
+namespace {
+
+constexpr float sky = std::numeric_limits<float>::infinity();
+constexpr std::uint32_t width = 24, height = 16;
+
+struct Picture {
+  ScreenRays rays;
+  std::vector<float> depth;
+  std::vector<Vec3> normal;
+  View view() const { return {width, height, rays, depth, normal}; }
+};
+
+ScreenRays test_rays(bool orthographic) {
+  const float perspective[16] = {1 / 1.5f, 0, 0, 0, 0, 1, 0, 0, 0.2f, 0, -1, -1, 0, 0, -0.2f, 0};
+  const float parallel[16] = {0.5f / 1.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, -0.1f, 0, 0, 0, 0, 1};
+  return screen_rays(orthographic ? parallel : perspective, width, height);
+}
+
+// The plane through (0, 0, -3).
+Picture plane(Vec3 normal, bool orthographic) {
+  Picture picture{test_rays(orthographic), {}, {}};
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x) {
+      const Vec3 at_1 = view_position(picture.rays, float(x) + 0.5f, float(y) + 0.5f, 1);
+      picture.depth.push_back(orthographic ? 3 + (normal.x * at_1.x + normal.y * at_1.y) / normal.z
+                                           : -3 * normal.z / dot(at_1, normal));
+      picture.normal.push_back(normal);
+    }
+  return picture;
+}
+
+float degrees_between(Vec3 a, Vec3 b) {
+  return std::acos(std::clamp(dot(a, b), -1.0f, 1.0f)) * 57.29578f;
+}
+
+std::vector<std::uint8_t> edges_of(const Picture& picture, float tolerance) {
+  std::vector<std::uint8_t> edges;
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x)
+      edges.push_back(picture.view().has_surface(x, y)
+                          ? packed_edges(neighbours_of(picture.view(), x, y, tolerance).connected)
+                          : 0);
+  return edges;
+}
+
+}  // namespace
+
+TEST_CASE("on a plane both slopes of an axis agree, nothing is an edge, and the normal comes back") {
+  for (const bool orthographic : {false, true})
+    for (const Vec3 tilt : {Vec3{0, 0, 1}, Vec3{0.6f, 0.2f, 1}, Vec3{-1.5f, 2, 1}}) {
+      const Vec3 normal = normalised(tilt);
+      const Picture picture = plane(normal, orthographic);
+      for (const auto& [x, y] : {std::pair{0u, 0u}, {12u, 8u}, {23u, 5u}}) {
+        if (!(picture.depth[y * width + x] > 0)) continue;
+        const Neighbours found = neighbours_of(picture.view(), x, y, 0.05f);
+        const std::array<bool, 4> inside{x > 0, x + 1 < width, y > 0, y + 1 < height};
+        for (std::size_t i = 0; i < 4; ++i) CHECK(found.connected[i] == float(inside[i]));
+        // Depths of a few metres in float, differences of millimetres.
+        if (inside[0] && inside[1]) CHECK(std::abs(found.slope[0] - found.slope[1]) < 1e-5f);
+        CHECK(degrees_between(rebuilt_normal(picture.view(), x, y, found), normal) < 0.05f);
+      }
+    }
+}
+
+TEST_CASE("a step in depth is an edge on both sides, and the normal does not lean over it") {
+  Picture picture = plane({0, 0, 1}, false);
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 12; x < width; ++x) picture.depth[y * width + x] = x < 20 ? 3.5f : sky;
+  for (const std::uint32_t x : {11u, 12u, 19u}) {
+    const Neighbours found = neighbours_of(picture.view(), x, 8, 0.05f);
+    CHECK(found.connected[x == 12 ? 0 : 1] == 0);
+    CHECK(found.connected[x == 12 ? 1 : 0] == 1);
+    CHECK(degrees_between(rebuilt_normal(picture.view(), x, 8, found), {0, 0, 1}) < 0.05f);
+  }
+}
+
+TEST_CASE("edges are kept in two bits each") {
+  CHECK(packed_edges({0, 0, 0, 0}) == 0);
+  CHECK(packed_edges({1, 1, 1, 1}) == 255);
+  CHECK(packed_edges({1, 0, 0.34f, 0.6f}) == (3 << 6 | 0 << 4 | 1 << 2 | 2));
+}
+
+TEST_CASE("the filter keeps a constant, averages noise of 3 x 3 pixels, and crosses no edge") {
+  Picture picture = plane({0, 0, 1}, false);
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 12; x < width; ++x) picture.depth[y * width + x] = 4;
+  const std::vector<std::uint8_t> edges = edges_of(picture, 0.05f);
+  std::vector<float> ao(width * height, 0.375f);
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x)
+      CHECK(std::abs(filtered(ao, edges, width, height, x, y, 2) - 0.375f) < 1e-6f);
+  // Without a range every texel weighs the same: the mean of the nine.
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x)
+      ao[y * width + x] = (x < 12 ? 0.2f : 0.7f) + 0.02f * float(x % 3 * 3 + y % 3);
+  for (std::uint32_t x = 1; x < width - 1; ++x) {
+    const float mean = filtered(ao, edges, width, height, x, 7, 0);
+    if (x == 11 || x == 12)
+      CHECK(std::abs(mean - (x < 12 ? 0.28f : 0.78f)) < 0.05f);
+    else
+      CHECK(std::abs(mean - (x < 12 ? 0.28f : 0.78f)) < 1e-5f);
+  }
+}
+
+TEST_CASE("the filter leaves apart what differs too much") {
+  const Picture picture = plane({0, 0, 1}, false);
+  const std::vector<std::uint8_t> edges = edges_of(picture, 0.05f);
+  std::vector<float> ao(width * height, 0.9f);
+  for (std::uint32_t x = 0; x < width; ++x) ao[8 * width + x] = 0.3f;  // a dark line, one pixel wide
+  CHECK(std::abs(filtered(ao, edges, width, height, 12, 8, 2) - 0.3f) < 1e-6f);
+  CHECK(std::abs(filtered(ao, edges, width, height, 12, 7, 2) - 0.9f) < 1e-6f);
+  // Six of nine texels are 0.6 away, each with the weight 1 - 0.6.
+  CHECK(std::abs(filtered(ao, edges, width, height, 12, 8, 1) - (3 * 0.3f + 6 * 0.4f * 0.9f) / 5.4f) < 1e-5f);
+}
