@@ -1,6 +1,7 @@
 // nook evaluate nnao: the screen-space pass and its baselines against ray tracing, on OpenGL without a
 // display.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 
 #include "bakers/measure/nnao/comparison.h"
 #include "bakers/measure/nnao/network_picture.h"
+#include "bakers/measure/nnao/oracle_pass.h"
 #include "bakers/measure/nnao/report.h"
 #include "bakers/measure/nnao/scene_views.h"
 #include "bakers/measure/nnao/sheet.h"
@@ -17,6 +19,7 @@
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/nnao/scenes.h"
+#include "bakers/tool/nnao/views_file.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 #include "sdk/src/nnao/network_file.h"
@@ -31,8 +34,13 @@ struct Options {
   CommonOptions common;
   TruthSettings truth;
   SceneWords scenes;
-  std::filesystem::path network, images, markdown;
+  std::filesystem::path views;   // a list of scenes with their cameras, instead of files
+  std::filesystem::path folder;  // of the list's scenes
+  bool sized = false, rays_given = false;
+  std::filesystem::path references, network, images, markdown;
   std::vector<std::string> methods;  // empty: all
+  std::vector<std::string> ratios;   // METHOD:TAPS,METHOD:TAPS
+  bool raw = true;
   std::uint32_t placed_cameras = 3;
   float max_radius_px = 0;
   std::string tune;  // a baseline's name, or all; empty: no tuning
@@ -66,15 +74,14 @@ bool is_shown(const std::string& method, int taps) {
 }
 
 void write_sheets(const std::filesystem::path& folder, std::span<const MeasuredView> views,
-                  std::span<const KeptImage> images) {
+                  std::span<const std::string> names, std::span<const KeptImage> images) {
   for (const Shown& sheet : sheets)
     for (std::size_t v = 0; v < views.size(); ++v) {
       std::vector<std::vector<float>> row;
       for (const auto& [method, taps] : sheet.methods)
         for (const KeptImage& image : images)
           if (image.view == v && image.method == method && image.taps == taps) row.push_back(image.ao);
-      platform::write_image(folder / (views[v].scene + "_" + std::to_string(v) + sheet.suffix + ".png"),
-                            make_sheet(views[v], row));
+      platform::write_image(folder / (names[v] + sheet.suffix + ".png"), make_sheet(views[v], row));
     }
 }
 
@@ -83,6 +90,8 @@ std::unique_ptr<platform::Context> make_context() {
   request.major = request.minor = 3;
   return platform::create_context(request);
 }
+
+constexpr const char* thin_scene = "thin";  // the built-in scene's name
 
 // The embedded network, and that of --network.
 struct Networks {
@@ -107,11 +116,11 @@ std::string other_name(const Networks& networks) {
 }
 
 void write_network_pictures(const std::filesystem::path& folder, const std::string& prefix,
-                            const nook::nnao::Network& network, std::span<const MeasuredView> views) {
+                            const nook::nnao::Network& network, std::span<const MeasuredView> views,
+                            std::span<const std::string> names) {
   platform::write_image(folder / (prefix + "_filters.png"), filter_picture(network));
   for (std::size_t v = 0; v < views.size(); ++v)
-    platform::write_image(folder / (views[v].scene + "_" + std::to_string(v) + "_" + prefix + "_units.png"),
-                          unit_picture(network, views[v]));
+    platform::write_image(folder / (names[v] + "_" + prefix + "_units.png"), unit_picture(network, views[v]));
 }
 
 Comparison compare_views(const Options& options, platform::Context& context, const Networks& networks,
@@ -120,15 +129,15 @@ Comparison compare_views(const Options& options, platform::Context& context, con
   settings.other_network = networks.file;
   settings.other_name = other_name(networks);
   settings.methods = options.methods;
+  settings.raw = options.raw;
   settings.request.max_radius_px =
       options.max_radius_px > 0 ? options.max_radius_px : 0.5f * float(options.truth.height);
   platform::ProgressBar bar(options.common.quiet);
-  const std::string label = views.front().scene + ", measuring";
   return compare(
       context, views, settings,
       [&](const std::string& method, int taps) { return !options.images.empty() && is_shown(method, taps); },
       [&](std::size_t done, std::size_t total) {
-        bar.show(label, "methods", done, total);
+        bar.show("measuring", "methods", done, total);
         return !interrupted();
       });
 }
@@ -137,7 +146,7 @@ std::vector<MeasuredView> traced_views(const SceneRequest& scene, const Options&
   platform::ProgressBar bar(options.common.quiet);
   const std::string label = scene.name + ", ray tracing";
   return naming_file(scene.file, [&] {
-    return trace_views(scene, options.truth, options.placed_cameras,
+    return trace_views(scene, options.truth, options.placed_cameras, options.references,
                        [&](std::size_t done, std::size_t total) {
                          bar.show(label, "views", done, total);
                          return !interrupted();
@@ -145,41 +154,99 @@ std::vector<MeasuredView> traced_views(const SceneRequest& scene, const Options&
   });
 }
 
-Json evaluate(const Options& options) {
-  const std::vector<SceneRequest> scenes = parse_scenes(options.scenes);
+// The names of the views' pictures: SCENE_CAMERA, or SCENE_NUMBER without the camera's name.
+std::vector<std::string> picture_names(std::span<const MeasuredView> views) {
+  std::vector<std::string> names;
+  std::size_t number = 0;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    number = v > 0 && views[v].scene == views[v - 1].scene ? number + 1 : 0;
+    names.push_back(views[v].scene + "_" + (views[v].camera.empty() ? std::to_string(number) : views[v].camera));
+  }
+  return names;
+}
+
+// The views of each source in their order.
+std::vector<ViewGroup> group_views(std::span<const MeasuredView> views, bool has_thin) {
+  std::vector<ViewGroup> groups;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    auto group = std::ranges::find(groups, views[v].source, &ViewGroup::name);
+    if (group == groups.end())
+      group = groups.insert(group, {views[v].source, {}, has_thin && views[v].source == thin_scene});
+    group->views.push_back(v);
+  }
+  return groups;
+}
+
+// What is measured: the scenes of the command line, or those of the list.
+struct Work {
+  std::vector<SceneRequest> scenes;
+  std::vector<MethodRatio> ratios;
+};
+
+Work read_work(Options& options) {
+  Work work;
+  work.scenes = parse_scenes(options.scenes);
+  if (!options.views.empty()) {
+    ViewsFile file = read_views_file(options.views, options.folder);
+    if (!file.size.empty() && !options.sized) parse_size(file.size, options.truth);
+    if (file.rays > 0 && !options.rays_given) options.truth.rays = file.rays;
+    work.scenes.insert(work.scenes.begin(), file.scenes.begin(), file.scenes.end());
+    work.ratios = std::move(file.ratios);
+  }
+  for (const std::string& text : options.ratios) work.ratios.push_back(parse_ratio(text));
+  return work;
+}
+
+Json scene_summary(const ViewGroup& group, std::span<const MeasuredView> views) {
+  double noise = 0;
+  for (const std::size_t v : group.views) noise += views[v].noise / double(group.views.size());
+  return {{"scene", group.name},
+          {"views", group.views.size()},
+          {"radius", views[group.views.front()].radius},
+          {"noise_floor_mse", noise}};
+}
+
+void write_pictures(const Options& options, const Networks& networks, std::span<const MeasuredView> views,
+                    std::span<const KeptImage> images) {
+  const std::vector<std::string> names = picture_names(views);
+  write_sheets(options.images, views, names, images);
+  write_network_pictures(options.images, "nnao", networks.embedded, views, names);
+  if (!networks.file.empty()) write_network_pictures(options.images, "other", networks.other, views, names);
+}
+
+Json evaluate(Options& options) {
+  const Work work = read_work(options);
   const Networks networks = read_networks(options);
   std::optional<platform::OutputFile> markdown;
   if (!options.markdown.empty()) markdown.emplace(options.markdown);
   const std::string other = other_name(networks);
   for (const std::string& method : options.methods)
-    if (method.starts_with("nnao_") && method != other)
+    if (method.starts_with("nnao_") && method.substr(0, method.find(':')) != other)
       throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: --network gives no " + method);
+  if (!options.references.empty()) std::filesystem::create_directories(options.references);
   const auto context = make_context();
+  std::vector<MeasuredView> views;
+  for (const SceneRequest& scene : work.scenes)
+    for (MeasuredView& view : traced_views(scene, options)) views.push_back(std::move(view));
+  const Comparison comparison = compare_views(options, *context, networks, views);
+  if (comparison.rows.empty())
+    throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: none is measured with these taps");
+  if (!options.images.empty()) write_pictures(options, networks, views, comparison.images);
+
   const std::string resolution =
       std::to_string(options.truth.width) + "x" + std::to_string(options.truth.height);
+  const std::vector<ViewGroup> groups = group_views(views, options.scenes.thin);
   Json report{{"rows", Json::array()}, {"scenes", Json::array()}, {"borders", Json::array()}};
   Json& rows = report["rows"];
-  for (const SceneRequest& scene : scenes) {
-    const std::vector<MeasuredView> views = traced_views(scene, options);
-    const Comparison comparison = compare_views(options, *context, networks, views);
-    if (!options.images.empty()) {
-      write_sheets(options.images, views, comparison.images);
-      write_network_pictures(options.images, "nnao", networks.embedded, views);
-      if (!networks.file.empty()) write_network_pictures(options.images, "other", networks.other, views);
-    }
-    for (const Json& row : nnao_rows(comparison, scene.name, resolution, context->renderer()))
-      rows.push_back(row);
-    for (const Json& row : nnao_border_rows(comparison, scene.name)) report["borders"].push_back(row);
-    double noise = 0;
-    for (const MeasuredView& view : views) noise += view.noise / double(views.size());
-    report["scenes"].push_back({{"scene", scene.name},
-                                {"views", views.size()},
-                                {"radius", scene.radius},
-                                {"noise_floor_mse", noise}});
+  for (const ViewGroup& group : groups) {
+    for (const Json& row : nnao_rows(comparison, group, resolution, context->renderer())) rows.push_back(row);
+    for (const Json& row : nnao_border_rows(comparison, group)) report["borders"].push_back(row);
+    report["scenes"].push_back(scene_summary(group, views));
   }
-  if (scenes.size() > 1)
-    for (const Json& row : nnao_mean_rows(rows)) rows.push_back(row);
-  if (markdown) markdown->commit(nnao_markdown(rows));
+  for (const Json& row : nnao_mean_rows(rows, comparison, groups)) rows.push_back(row);
+  report["ratios"] = nnao_ratio_rows(comparison, views, groups, work.ratios, options.common.seed);
+  report["views"] = nnao_view_rows(comparison, views);
+  if (markdown) markdown->commit(nnao_markdown(rows, report["ratios"]));
   report["rays"] = options.truth.rays;
   report["opengl"] = context->version();
   report["seed"] = options.common.seed;
@@ -218,11 +285,15 @@ Json tune(const Options& options) {
 }
 
 void run(Options& options) {
-  const bool has_scenes = !options.scenes.files.empty() || options.scenes.thin;
+  const bool has_scenes = !options.scenes.files.empty() || options.scenes.thin || !options.views.empty();
   if (has_scenes == !options.tune.empty())
-    throw ToolError(exit_bad_arguments, "evaluate nnao: need scenes (files or --thin) or else --tune");
+    throw ToolError(exit_bad_arguments,
+                    "evaluate nnao: need scenes (files, --views or --thin) or else --tune");
+  if (!options.views.empty() && !options.scenes.files.empty())
+    throw ToolError(exit_bad_arguments, "evaluate nnao: --views: its scenes take the place of files");
   options.truth.seed = options.common.seed;
   CommandFiles files{{{"--network", options.network}}, {{"--markdown", options.markdown}}, options.images};
+  if (!options.views.empty()) files.inputs.push_back({"--views", options.views});
   for (const std::filesystem::path& scene : options.scenes.files) files.inputs.push_back({"a scene", scene});
   run_evaluation(options.common, files,
                  [&] { return !options.tune.empty() ? tune(options) : evaluate(options); });
@@ -240,7 +311,11 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
   command->add_option("scene", o.scenes.files,
                       "scenes in metres, y up, .glb or .gltf; of several, the means are reported as well");
   add_linked_files_option(*command, o.scenes.linked);
-  command->add_flag("--thin", o.scenes.thin, "a built-in scene of thin things, called thin");
+  command->add_option("--views", o.views,
+                      "a list of scenes with their cameras, such as docs/nnao_views.json, instead of files");
+  command->add_option("--folder", o.folder, "where the scenes of --views lie, each as NAME.glb; default: here");
+  command->add_flag("--thin", o.scenes.thin,
+                    "a built-in scene of thin things, called thin; it enters no mean");
   std::vector<std::string> baselines{"all"};
   for (const Baseline baseline : all_baselines) baselines.push_back(baseline_name(baseline));
   command
@@ -264,16 +339,35 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
       ->check(CLI::Range(0.0, 1e4));
   command
       ->add_option_function<std::string>(
-          "--size", [&o](const std::string& text) { parse_size(text, o.truth); }, "pixels; 640x360")
+          "--size",
+          [&o](const std::string& text) {
+            parse_size(text, o.truth);
+            o.sized = true;
+          },
+          "pixels; 640x360, or what the list of --views has")
       ->type_name("WxH");
-  command->add_option("--rays", o.truth.rays, "rays for each pixel")
+  command->add_option("--rays", o.truth.rays, "rays for each pixel; 128, or what the list of --views has")
       ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  std::vector<std::string> methods{"nnao", "nnao_paper", "nnao_file"};
+      ->each([&o](const std::string&) { o.rays_given = true; });
+  command->add_option("--references", o.references,
+                      "keep the ray-traced references in this folder, and take those that are there");
+  std::vector<std::string> methods{"all", "nnao", "nnao_paper", "nnao_file"};
   methods.insert(methods.end(), baselines.begin() + 1, baselines.end());
-  command->add_option("--methods", o.methods, "measure these alone, separated by commas; default: all")
+  for (const Oracle oracle : all_oracles) methods.push_back(oracle_name(oracle));
+  command
+      ->add_option("--methods", o.methods,
+                   "measure these alone, NAME or NAME:TAPS, separated by commas; default: all, which leaves out "
+                   "the slow oracle and oracle_bitmask")
       ->delimiter(',')
-      ->check(CLI::IsMember(methods));
+      ->check([methods](const std::string& text) {
+        return CLI::IsMember(methods)(text.substr(0, text.find(':')));
+      });
+  command
+      ->add_option("--ratio", o.ratios,
+                   "report the ratio of two methods' errors with its bounds, besides those of --views: "
+                   "METHOD:TAPS,METHOD:TAPS; any number of times")
+      ->type_name("RATIO");
+  command->add_flag("!--no-raw", o.raw, "measure each method with its blur alone");
   command->add_option("--network", o.network,
                       "a file of `nook train nnao`, such as the paper's form, measured as well");
   command->add_option("--images", o.images,

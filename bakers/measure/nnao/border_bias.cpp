@@ -35,6 +35,14 @@ void BorderBias::add(std::span<const float> ao, std::span<const float> truth, st
   }
 }
 
+void BorderBias::add(const BorderBias& other) {
+  for (std::size_t border = 0; border < band_.size(); ++border)
+    for (std::size_t band = 0; band < band_[border].size(); ++band)
+      band_[border][band].add(other.band_[border][band]);
+  rim_.add(other.rim_);
+  inside_.add(other.inside_);
+}
+
 double BorderBias::at(std::size_t border, std::size_t band) const {
   return band_[border][band].value();
 }

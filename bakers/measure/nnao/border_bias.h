@@ -18,6 +18,7 @@ class BorderBias {
   // finite.
   void add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth,
            std::uint32_t width);
+  void add(const BorderBias& other);
 
   // Returns the mean of AO - truth in a band of a border, or 0 if no pixel counts. A pixel in a corner counts
   // at both borders.
@@ -31,6 +32,10 @@ class BorderBias {
  private:
   struct Mean {
     double sum = 0, count = 0;
+    void add(const Mean& other) {
+      sum += other.sum;
+      count += other.count;
+    }
     double value() const { return count > 0 ? sum / count : 0; }
   };
   std::array<std::array<Mean, border_bands_px.size()>, border_names.size()> band_;

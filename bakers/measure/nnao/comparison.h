@@ -1,4 +1,4 @@
-// Every method over the views of one scene.
+// Every method over the views of the scenes.
 #pragma once
 
 #include <cstddef>
@@ -8,27 +8,44 @@
 #include <vector>
 
 #include "bakers/measure/nnao/border_bias.h"
+#include "bakers/measure/nnao/calibration.h"
+#include "bakers/measure/nnao/image_error.h"
 #include "bakers/measure/nnao/measured_view.h"
 #include "bakers/measure/nnao/network_pass.h"
 
 namespace nook::measure {
 
+// A method's numbers over one view, or over several.
+struct Measurement {
+  bake::nnao::ImageError error;
+  bake::nnao::BorderBias border;
+  bake::nnao::Calibration calibration;
+  std::vector<double> flicker;  // none of an oracle; else of each view: mean |change| of a surface's AO when the image slides by one pixel
+  std::vector<double> ms;       // wall clock of each frame, round glFinish
+
+  void add(const Measurement& other);
+  double mean_flicker() const;
+  double median_ms() const;
+};
+
 struct ComparisonRow {
   std::string method;
   int taps = 0;
   bool blurred = false;
-  double mse = 0, ssim = 0, correlation = 0;
-  bake::nnao::BorderBias border;
-  double flicker = 0;  // mean |change| of a surface's AO when the image slides by one pixel
-  int fetches = 0;     // a pixel
-  double ms = 0;       // median wall clock of a frame, round glFinish
+  int fetches = 0;                 // a pixel
+  std::vector<Measurement> views;  // in the order of the views
 };
+
+// Returns a row's numbers over some views. which: indices of views.
+Measurement pooled(const ComparisonRow& row, std::span<const std::size_t> which);
 
 struct ComparisonSettings {
   AoRequest request;                     // its radius is each view's
   std::vector<std::byte> other_network;  // a file beside the embedded one; empty: none
   std::string other_name;                // in tables
-  std::vector<std::string> methods;      // names in tables; empty: all
+  // Names in tables, or name:taps; empty: all but the oracles, which all stands for as well.
+  std::vector<std::string> methods;
+  bool raw = true;                       // measure each method without its blur as well
 };
 
 // A method's AO of a view, for pictures.

@@ -67,6 +67,17 @@ void ImageError::add(std::span<const float> ao, std::span<const float> truth, st
   }
 }
 
+void ImageError::add(const ImageError& other) {
+  count_ += other.count_;
+  squared_error_ += other.squared_error_;
+  ssim_ += other.ssim_;
+  a_ += other.a_;
+  b_ += other.b_;
+  aa_ += other.aa_;
+  bb_ += other.bb_;
+  ab_ += other.ab_;
+}
+
 double ImageError::mse() const {
   return count_ > 0 ? squared_error_ / count_ : 0;
 }

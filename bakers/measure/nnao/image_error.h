@@ -12,6 +12,7 @@ class ImageError {
   // Adds an image, row by row, with one value for each pixel. A pixel counts if its depth is finite.
   void add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth,
            std::uint32_t width);
+  void add(const ImageError& other);
 
   double mse() const;
   // Structural similarity (Wang et al. 2004) of values in [0, 1]: Gaussian windows of 11 x 11 pixels with

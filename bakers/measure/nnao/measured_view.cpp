@@ -7,14 +7,18 @@ namespace nook::measure {
 using namespace bake::nnao;
 
 MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene, const Camera& camera,
-                          const TruthSettings& settings) {
+                          const TruthSettings& settings, const TruthStore& store) {
   MeasuredView measured;
-  measured.scene = scene;
+  measured.scene = measured.source = scene;
   measured.radius = settings.radius;
   measured.view = trace_view(rays, camera);
   measured.slid = trace_view(rays, slid_by_one_pixel(camera));
-  measured.truth = trace_truth(rays, measured.view, settings.radius, settings.rays, settings.seed);
-  measured.noise = truth_noise(rays, measured.view, settings.radius, settings.rays, settings.seed);
+  Truth truth = store.read_or_trace(camera, settings, [&]() -> Truth {
+    return {trace_truth(rays, measured.view, settings.radius, settings.rays, settings.seed),
+            truth_noise(rays, measured.view, settings.radius, settings.rays, settings.seed)};
+  });
+  measured.truth = std::move(truth.ao);
+  measured.noise = truth.noise;
   return measured;
 }
 

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "bakers/measure/nnao/traced_truth.h"
+#include "bakers/measure/nnao/truth_store.h"
 
 namespace nook::measure {
 
 struct MeasuredView {
-  std::string scene;
+  std::string scene, source;  // a scene without a source is one of its own
+  std::string camera;         // its name; empty: none
   float radius = 0;  // metres
   bake::nnao::TracedView view;
   bake::nnao::TracedView slid;  // the image slides by one pixel
@@ -18,15 +19,9 @@ struct MeasuredView {
   double noise = 0;  // expected squared error of the truth
 };
 
-struct TruthSettings {
-  std::uint32_t width = 640, height = 360;  // pixels
-  std::uint32_t rays = 128;
-  float radius = 0.5f;  // metres
-  std::uint64_t seed = 1;
-};
-
 MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene,
-                          const bake::nnao::Camera& camera, const TruthSettings& settings);
+                          const bake::nnao::Camera& camera, const TruthSettings& settings,
+                          const TruthStore& store = {});
 
 // A view of one training scene of each of the first eight families, radii of 0.25, 0.5 and 1 metre in turn:
 // what the baselines are tuned on. Returns false from progress to stop, which throws Failure(CANCELLED).

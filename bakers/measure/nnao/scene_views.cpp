@@ -19,8 +19,8 @@ TrainingScene read_scene(const SceneRequest& request, std::uint64_t seed) {
 }  // namespace
 
 std::vector<MeasuredView> trace_views(const SceneRequest& request, TruthSettings truth, std::uint32_t placed,
+                                      const std::filesystem::path& references,
                                       const std::function<bool(std::size_t, std::size_t)>& progress) {
-  truth.radius = request.radius;
   const TrainingScene scene = read_scene(request, truth.seed);
   const bake::RayScene rays(scene.soup);
   std::vector<Camera> cameras;
@@ -30,11 +30,15 @@ std::vector<MeasuredView> trace_views(const SceneRequest& request, TruthSettings
     bake::Random random(bake::mix_bits(truth.seed) + i);
     cameras.push_back(place_camera(rays, scene, random, truth.width, truth.height));
   }
+  const TruthStore store(references, scene.soup);
   std::vector<MeasuredView> views;
-  for (const Camera& camera : cameras) {
-    if (!progress(views.size(), cameras.size()))
-      throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing");
-    views.push_back(measure_view(rays, request.name, camera, truth));
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (!progress(i, cameras.size())) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing");
+    const GivenCamera given = request.cameras.empty() ? GivenCamera{} : request.cameras[i];
+    truth.radius = given.radius > 0 ? given.radius : request.radius;
+    views.push_back(measure_view(rays, request.name, cameras[i], truth, store));
+    views.back().camera = given.name;
+    if (!request.source.empty()) views.back().source = request.source;
   }
   progress(views.size(), cameras.size());
   return views;

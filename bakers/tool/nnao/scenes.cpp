@@ -11,8 +11,6 @@ namespace {
 
 using namespace measure;
 
-constexpr float degree = 0.017453293f;  // radians
-
 [[noreturn]] void refuse(const std::string& text) {
   throw ToolError(exit_bad_arguments, "evaluate nnao: " + text);
 }
@@ -40,14 +38,14 @@ GivenCamera parse_camera(const std::string& text) {
         "--camera: got " + text +
         ", need ox,oy,oz,tx,ty,tz,fov: seven numbers, the eye apart from the target, metres up to 1e6, fov 1 "
         "to 170 degrees");
-  return {eye, target, v[6] * degree};
+  return {eye, target, v[6] * degree, {}, 0};
 }
 
 float parse_radius(const std::string& text) {
   float radius = 0;
   int used = 0;
   if (std::sscanf(text.c_str(), "%f%n", &radius, &used) != 1 || std::size_t(used) != text.size() ||
-      !(radius >= 1e-3f && radius <= 1e3f))
+      !(radius >= smallest_radius && radius <= largest_radius))
     refuse("--radius: got " + text + ", need 0.001 to 1000 metres");
   return radius;
 }
@@ -71,8 +69,8 @@ void apply(std::vector<SceneRequest>& scenes, const std::string& option, const s
 std::vector<SceneRequest> parse_scenes(const SceneWords& words) {
   std::vector<SceneRequest> scenes;
   for (const std::filesystem::path& file : words.files)
-    scenes.push_back({file.stem().string(), file, 0.5f, {}, words.linked});
-  if (words.thin) scenes.push_back({"thin", {}, 0.5f, {}, words.linked});
+    scenes.push_back({file.stem().string(), file, 0.5f, {}, words.linked, {}});
+  if (words.thin) scenes.push_back({"thin", {}, 0.5f, {}, words.linked, {}});
   for (std::size_t i = 0; i < scenes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (scenes[i].name == scenes[j].name) refuse("two scenes have one name (got " + scenes[i].name + ")");

@@ -54,16 +54,41 @@ TEST_CASE("a comparison has every method blurred and raw, with sane numbers") {
   for (const ComparisonRow& row : comparison.rows) {
     INFO(row.method << ' ' << row.taps << ' ' << row.blurred);
     names.insert(row.method);
-    CHECK(row.mse > 0);
-    CHECK(row.mse < 0.3);
-    CHECK(row.ssim <= 1);
-    CHECK(row.flicker >= 0);
+    REQUIRE(row.views.size() == 1);
+    const Measurement& one = row.views[0];
+    CHECK(one.error.mse() > 0);
+    CHECK(one.error.mse() < 0.3);
+    CHECK(one.error.ssim() <= 1);
+    CHECK(one.calibration.largest_bias() >= 0);
+    CHECK(one.mean_flicker() >= 0);
     CHECK(row.fetches >= row.taps);
-    CHECK(row.ms > 0);
+    CHECK(one.median_ms() > 0);
   }
   CHECK(names.size() == 6);
+  // Twice the same view is the view.
+  const ComparisonRow& first = comparison.rows[0];
+  const std::size_t twice[] = {0, 0};
+  CHECK(std::abs(pooled(first, twice).error.mse() - first.views[0].error.mse()) < 1e-12);
+  CHECK(pooled(first, twice).border.rim() == Approx(first.views[0].border.rim()));
   CHECK_THROWS_AS(compare(
                       *context, {&measured, 1}, settings, [](const std::string&, int) { return false; },
                       [](std::size_t, std::size_t) { return false; }),
                   Failure);
+}
+
+TEST_CASE("chosen methods are measured with chosen taps, and the oracle where it is named") {
+  const auto context = make_context();
+  const MeasuredView measured = measured_corner();
+  ComparisonSettings settings;
+  settings.methods = {"gtao:16", "hbao", "oracle"};
+  settings.raw = false;
+  settings.request.max_radius_px = 0.5f * float(height);
+  const Comparison comparison = compare(
+      *context, {&measured, 1}, settings, [](const std::string&, int) { return false; },
+      [](std::size_t, std::size_t) { return true; });
+  std::vector<std::string> rows;
+  for (const ComparisonRow& row : comparison.rows)
+    rows.push_back(row.method + ":" + std::to_string(row.taps) + (row.blurred ? "" : ":raw"));
+  CHECK(rows == std::vector<std::string>{"hbao:16", "hbao:32", "hbao:64", "gtao:16", "oracle:1024:raw"});
+  CHECK(comparison.rows.back().views[0].flicker.empty());
 }

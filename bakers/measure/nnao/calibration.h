@@ -1,0 +1,36 @@
+// Whether an AO image is right in the mean: where it is dark, and for each value that it gives.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace nook::bake::nnao {
+
+// Sums over pixels with a surface of any number of images.
+class Calibration {
+ public:
+  // Adds an image with one value for each pixel. A pixel counts if its depth is finite.
+  void add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth);
+  void add(const Calibration& other);
+
+  // Returns the mean of AO - truth where the truth is below 0.35, or 0 if it is nowhere: above 0 dark parts
+  // are too bright.
+  double dark_bias() const;
+  // Returns the largest |mean of AO - truth| over those tenths of AO that hold 0.5 % of the pixels or more.
+  double largest_bias() const;
+
+ private:
+  struct Mean {
+    double sum = 0, count = 0;
+    void add(const Mean& other) {
+      sum += other.sum;
+      count += other.count;
+    }
+  };
+  static constexpr std::size_t tenths = 10;
+  std::array<Mean, tenths> tenth_;
+  Mean dark_;
+};
+
+}  // namespace nook::bake::nnao

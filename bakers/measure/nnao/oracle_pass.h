@@ -1,0 +1,33 @@
+// What a screen can know of AO: a thousand taps on the same depth, integrated without any tuned number.
+#pragma once
+
+#include "bakers/measure/nnao/baseline_pass.h"
+
+namespace nook::measure {
+
+// solid: whatever lies behind a surface is solid, as horizons have it. bitmask: a surface is half a radius
+// thick, and light passes behind it.
+enum class Oracle { solid, bitmask };
+inline constexpr Oracle all_oracles[] = {Oracle::solid, Oracle::bitmask};
+inline constexpr int oracle_taps = 1024;
+
+const char* oracle_name(Oracle oracle);  // in tables
+
+class OraclePass {
+ public:
+  OraclePass(const GladGLContext& gl, int width, int height);
+  ~OraclePass();
+  OraclePass(const OraclePass&) = delete;
+  OraclePass& operator=(const OraclePass&) = delete;
+
+  // Returns the texture (R8) that holds the AO until the next call.
+  GLuint draw(Oracle oracle, const GpuView& view, float radius) const;
+
+ private:
+  const GladGLContext& gl_;
+  GLuint vertex_array_ = 0;
+  GpuProgram program_;
+  GpuImage image_;
+};
+
+}  // namespace nook::measure
