@@ -160,7 +160,8 @@ std::vector<std::string> picture_names(std::span<const MeasuredView> views) {
   std::size_t number = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
     number = v > 0 && views[v].scene == views[v - 1].scene ? number + 1 : 0;
-    names.push_back(views[v].scene + "_" + (views[v].camera.empty() ? std::to_string(number) : views[v].camera));
+    names.push_back(views[v].scene + "_" +
+                    (views[v].camera.empty() ? std::to_string(number) : views[v].camera));
   }
   return names;
 }
@@ -177,7 +178,7 @@ std::vector<ViewGroup> group_views(std::span<const MeasuredView> views, bool has
   return groups;
 }
 
-// What is measured: the scenes of the command line, or those of the list.
+// The scenes of the command line or of the list, and the ratios to report.
 struct Work {
   std::vector<SceneRequest> scenes;
   std::vector<MethodRatio> ratios;
@@ -313,7 +314,8 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
   add_linked_files_option(*command, o.scenes.linked);
   command->add_option("--views", o.views,
                       "a list of scenes with their cameras, such as docs/nnao_views.json, instead of files");
-  command->add_option("--folder", o.folder, "where the scenes of --views lie, each as NAME.glb; default: here");
+  command->add_option("--folder", o.folder,
+                      "where the scenes of --views lie, each as NAME.glb; default: here");
   command->add_flag("--thin", o.scenes.thin,
                     "a built-in scene of thin things, called thin; it enters no mean");
   std::vector<std::string> baselines{"all"};
@@ -355,9 +357,10 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
   methods.insert(methods.end(), baselines.begin() + 1, baselines.end());
   for (const Oracle oracle : all_oracles) methods.push_back(oracle_name(oracle));
   command
-      ->add_option("--methods", o.methods,
-                   "measure these alone, NAME or NAME:TAPS, separated by commas; default: all, which leaves out "
-                   "the slow oracle and oracle_bitmask")
+      ->add_option(
+          "--methods", o.methods,
+          "measure these alone, NAME or NAME:TAPS, separated by commas; default: all, which leaves out "
+          "the slow oracle and oracle_bitmask")
       ->delimiter(',')
       ->check([methods](const std::string& text) {
         return CLI::IsMember(methods)(text.substr(0, text.find(':')));

@@ -1,4 +1,4 @@
-// Whether an AO image is right in the mean: where it is dark, and for each value that it gives.
+// The mean error of an AO image: where the truth is dark, and for each value that the image gives.
 #pragma once
 
 #include <array>

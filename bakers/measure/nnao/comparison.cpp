@@ -53,8 +53,10 @@ double timed_draw(const GladGLContext& gl, const std::function<void()>& draw) {
 
 ComparisonRow measure(const GladGLContext& gl, const Method& method, bool blurred,
                       std::span<const MeasuredView> views, const std::deque<ViewOnGpu>& images,
-                      AoRequest request, const std::function<void(std::size_t, const std::vector<float>&)>& keep) {
-  ComparisonRow row{method.name, method.taps, blurred, blurred ? method.fetches_blurred : method.fetches_raw, {}};
+                      AoRequest request,
+                      const std::function<void(std::size_t, const std::vector<float>&)>& keep) {
+  ComparisonRow row{
+      method.name, method.taps, blurred, blurred ? method.fetches_blurred : method.fetches_raw, {}};
   for (std::size_t v = 0; v < views.size(); ++v) {
     Measurement measured;
     const GpuView& view = images[v].view;

@@ -20,7 +20,8 @@ struct Measurement {
   bake::nnao::ImageError error;
   bake::nnao::BorderBias border;
   bake::nnao::Calibration calibration;
-  std::vector<double> flicker;  // none of an oracle; else of each view: mean |change| of a surface's AO when the image slides by one pixel
+  std::vector<double> flicker;  // none of an oracle; else of each view: mean |change| of a surface's AO when
+                                // the image slides by one pixel
   std::vector<double> ms;       // wall clock of each frame, round glFinish
 
   void add(const Measurement& other);
@@ -45,7 +46,7 @@ struct ComparisonSettings {
   std::string other_name;                // in tables
   // Names in tables, or name:taps; empty: all but the oracles, which all stands for as well.
   std::vector<std::string> methods;
-  bool raw = true;                       // measure each method without its blur as well
+  bool raw = true;  // measure each method without its blur as well
 };
 
 // A method's AO of a view, for pictures.

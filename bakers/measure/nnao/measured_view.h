@@ -12,7 +12,7 @@ namespace nook::measure {
 struct MeasuredView {
   std::string scene, source;  // a scene without a source is one of its own
   std::string camera;         // its name; empty: none
-  float radius = 0;  // metres
+  float radius = 0;           // metres
   bake::nnao::TracedView view;
   bake::nnao::TracedView slid;  // the image slides by one pixel
   std::vector<float> truth;

@@ -1,4 +1,4 @@
-// What a screen can know of AO: a thousand taps on the same depth, integrated without any tuned number.
+// The oracle: the AO that a thousand taps on one screen's depth give, integrated without any tuned number.
 #pragma once
 
 #include "bakers/measure/nnao/baseline_pass.h"

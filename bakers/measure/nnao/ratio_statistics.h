@@ -1,4 +1,4 @@
-// How the errors of two methods compare over many views: a geometric mean with a bootstrap's bounds.
+// The ratio of two methods' errors over many views: a geometric mean with a bootstrap's bounds.
 #pragma once
 
 #include <cstddef>

@@ -29,8 +29,8 @@ struct SceneRequest {
 };
 
 // Reads the scene and traces its views; placed: how many cameras to place where none is given. references: a
-// folder of kept references; empty: none. progress counts views; false stops, which throws Failure (CANCELLED). Throws Failure (BAD_FILE) for a scene that
-// cannot be read.
+// folder of kept references; empty: none. progress counts views; false stops, which throws Failure
+// (CANCELLED). Throws Failure (BAD_FILE) for a scene that cannot be read.
 std::vector<MeasuredView> trace_views(
     const SceneRequest& scene, TruthSettings truth, std::uint32_t placed,
     const std::filesystem::path& references,

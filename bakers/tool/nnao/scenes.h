@@ -9,7 +9,7 @@
 
 namespace nook::tool {
 
-inline constexpr float degree = 0.017453293f;                    // radians
+inline constexpr float degree = 0.017453293f;                           // radians
 inline constexpr float smallest_radius = 1e-3f, largest_radius = 1e3f;  // of AO, metres
 
 // The options, still as text.

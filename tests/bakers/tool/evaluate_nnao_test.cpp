@@ -44,8 +44,9 @@ TEST_CASE("evaluate nnao measures every method on the thin scene and draws a she
   CHECK(report.at("scenes").at(0).at("noise_floor_mse") > 0);
   REQUIRE(report.at("rows").size() == 2 * (5 + 3 + 3 + 3 + 6 + 6));
   for (const auto& row : report.at("rows"))
-    for (const char* key : {"method", "taps", "blurred", "scene", "resolution", "gpu", "mse", "rmse", "ssim",
-                            "r", "border_bias", "flicker", "fetches", "ms", "ratio_to_nnao"})
+    for (const char* key :
+         {"method", "taps", "blurred", "scene", "resolution", "gpu", "mse", "rmse", "ssim", "r", "dark_bias",
+          "calibration", "border_bias", "flicker", "fetches", "ms", "ratio_to_nnao"})
       CHECK(row.contains(key));
   CHECK(report.at("rows").at(0).at("resolution") == "64x48");
   REQUIRE(report.at("borders").size() == 5 + 3 + 3 + 3 + 6 + 6);
@@ -56,37 +57,119 @@ TEST_CASE("evaluate nnao measures every method on the thin scene and draws a she
 TEST_CASE("evaluate nnao tells of several scenes each and their mean, with another network beside") {
   const TestFolder folder;
   write_text(folder.path("corner.gltf"), corner_gltf);
+  write_text(folder.path("other.gltf"), corner_gltf);
   REQUIRE(folder
               .run({"train", "nnao", "--form", "paper", "-o", folder.path("paper.nook"), "--scenes", "20",
                     "--views", "20", "--points", "16", "--rays", "4", "--epochs", "1"})
               .exit_code == 0);
-  auto arguments = tiny({folder.path("corner.gltf"), "--thin", "--camera=thin:0.6,1.1,1.6,0.2,0.4,-0.7,55",
-                         "--camera=corner:0,1.5,1.5,0,0,-2,60", "--radius=corner:0.8"},
+  auto arguments = tiny({folder.path("corner.gltf"), folder.path("other.gltf"), "--thin",
+                         "--camera=thin:0.6,1.1,1.6,0.2,0.4,-0.7,55", "--camera=corner:0,1.5,1.5,0,0,-2,60",
+                         "--camera=other:0.5,1.5,1.5,0,0,-2,50", "--radius=corner:0.8"},
                         folder);
   arguments.insert(arguments.end(),
-                   {"--markdown", folder.path("t.md"), "--network", folder.path("paper.nook")});
+                   {"--markdown", folder.path("t.md"), "--network", folder.path("paper.nook"), "--ratio",
+                    "nnao:16,gtao:16", "--methods", "nnao:16,nnao:64,nnao_paper:64,gtao:16"});
   const ToolRun run = folder.run(arguments);
   INFO(run.error);
   REQUIRE(run.exit_code == 0);
   const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
   const auto& rows = report.at("rows");
-  const std::size_t methods = 2 * (5 + 5 + 3 + 3 + 3 + 6 + 6);
-  REQUIRE(rows.size() == 3 * methods);
+  const std::size_t methods = 2 * 4;
+  REQUIRE(rows.size() == 4 * methods);
   for (std::size_t i = 0; i < methods; ++i) {
-    const auto &corner = rows.at(i), &thin = rows.at(methods + i), &mean = rows.at(2 * methods + i);
+    const auto &corner = rows.at(i), &other = rows.at(methods + i), &thin = rows.at(2 * methods + i),
+               &mean = rows.at(3 * methods + i);
     CHECK(corner.at("scene") == "corner");
+    CHECK(other.at("scene") == "other");
     CHECK(thin.at("scene") == "thin");
     CHECK(mean.at("scene") == "mean");
     CHECK(mean.at("method") == corner.at("method"));
-    const double sum = corner.at("mse").get<double>() + thin.at("mse").get<double>();
+    // The built-in scene enters no mean.
+    const double sum = corner.at("mse").get<double>() + other.at("mse").get<double>();
     CHECK(std::abs(mean.at("mse").get<double>() - sum / 2) < 1e-12);
   }
-  CHECK(rows.at(10).at("method") == "nnao_paper");
+  CHECK(rows.at(4).at("method") == "nnao_paper");
   CHECK(std::abs(report.at("scenes").at(0).at("radius").get<double>() - 0.8) < 1e-6);
   CHECK(std::abs(report.at("scenes").at(1).at("radius").get<double>() - 0.5) < 1e-6);
+  REQUIRE(report.at("ratios").size() == 1);
+  const auto& ratio = report.at("ratios").at(0);
+  CHECK(ratio.at("views") == 2);
+  const auto mse = [&](std::size_t view, const char* method, int taps) {
+    for (const auto& row : report.at("views"))
+      if (row.at("view") == view && row.at("method") == method && row.at("taps") == taps && row.at("blurred"))
+        return row.at("mse").get<double>();
+    return 0.0;
+  };
+  const double expected =
+      std::sqrt(mse(0, "nnao", 16) / mse(0, "gtao", 16) * mse(1, "nnao", 16) / mse(1, "gtao", 16));
+  CHECK(std::abs(ratio.at("ratio").get<double>() / expected - 1) < 1e-6);
   const std::string markdown = read_text(folder.path("t.md"));
-  CHECK(markdown.find("| method | taps | corner | thin | mean |\n") == 0);
+  CHECK(markdown.find("| method | taps | corner | other | thin | mean |\n") == 0);
   CHECK(markdown.find("| nnao | 64 | no |") != std::string::npos);
+  CHECK(markdown.find("| nnao 16 | gtao 16 |") != std::string::npos);
+}
+
+TEST_CASE("evaluate nnao measures a list of views by source and keeps their references") {
+  const TestFolder folder;
+  write_text(folder.path("corner.glb"), corner_gltf);  // the importer goes by the content
+  const std::string views =
+      R"({"size": "64x48", "rays": 16, "ratios": ["nnao:16,nnao:32", "nnao:16,hbao:16"], "sources": [)"
+      R"({"name": "A", "scenes": [{"name": "corner", "radius": 0.5, "cameras": [)"
+      R"({"name": "far", "eye": [0, 1.5, 1.5], "target": [0, 0, -2], "fov": 60},)"
+      R"({"name": "near", "eye": [0, 0.5, 0], "target": [0, 0, -2], "fov": 60, "radius": 0.25}]}]}]})";
+  write_text(folder.path("views.json"), views);
+  const std::vector<std::string> arguments{"evaluate",
+                                           "nnao",
+                                           "--views",
+                                           folder.path("views.json"),
+                                           "--folder",
+                                           folder.path(""),
+                                           "--references",
+                                           folder.path("kept"),
+                                           "--methods",
+                                           "nnao:16,nnao:32",
+                                           "--no-raw",
+                                           "--report",
+                                           folder.path("r.json")};
+  const ToolRun run = folder.run(arguments);
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
+  REQUIRE(report.at("rows").size() == 2);
+  CHECK(report.at("rows").at(0).at("scene") == "A");
+  CHECK(report.at("rows").at(0).at("resolution") == "64x48");
+  CHECK(report.at("rays") == 16);
+  REQUIRE(report.at("views").size() == 4);
+  CHECK(report.at("views").at(2).at("camera") == "near");
+  CHECK(report.at("views").at(2).at("radius") == 0.25);
+  // hbao is not measured.
+  REQUIRE(report.at("ratios").size() == 1);
+  CHECK(report.at("ratios").at(0).at("sources").at("A") > 0);
+  REQUIRE(folder.run(arguments).exit_code == 0);
+  const auto again = nlohmann::json::parse(read_text(folder.path("r.json")));
+  for (std::size_t i = 0; i < 4; ++i)
+    CHECK(again.at("views").at(i).at("mse") == report.at("views").at(i).at("mse"));
+
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{R"("fov": 60)", R"("fov": 0)"},
+                                                        {R"("radius": 0.5)", R"("radius": 0)"},
+                                                        {R"("name": "corner")", R"("name": "../corner")"},
+                                                        {R"([0, 1.5, 1.5])", R"([0, 1.5])"},
+                                                        {R"("nnao:16,nnao:32")", R"("nnao,nnao:32")"},
+                                                        {R"("sources": [)", R"("sources": )"}}) {
+    std::string bad = views;
+    REQUIRE(bad.find(from) != std::string::npos);
+    bad.replace(bad.find(from), from.size(), to);
+    write_text(folder.path("bad.json"), bad);
+    const ToolRun refused =
+        folder.run({"evaluate", "nnao", "--views", folder.path("bad.json"), "--folder", folder.path("")});
+    INFO(to << ": " << refused.error);
+    CHECK(refused.exit_code == 3);
+    CHECK(refused.error.find("bad.json") != std::string::npos);
+  }
+  CHECK(folder.run({"evaluate", "nnao", "--views", folder.path("views.json"), folder.path("corner.glb")})
+            .exit_code == 2);
+  CHECK(folder.run({"evaluate", "nnao", "--thin", "--ratio", "nnao:16"}).exit_code == 2);
 }
 
 TEST_CASE("evaluate nnao measures chosen methods alone") {

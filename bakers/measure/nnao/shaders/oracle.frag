@@ -1,6 +1,6 @@
 #version 330 core
-// What a screen can know of AO: 1,024 taps, none of its numbers tuned. Each tap is a line behind its pixel, from the surface
-// on, as long as `thickness`. The part of that line within the radius closes the directions in which it lies; what remains open
+// The oracle: 1,024 taps, without a tuned number. Each tap is a line behind its pixel, from the surface on, as long as
+// `thickness`. The part of that line within the radius closes the directions in which it lies; what remains open
 // is weighted with the cosine. Off the screen the depth of the border continues. The radius is never shrunk.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 

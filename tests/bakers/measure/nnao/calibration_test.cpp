@@ -24,8 +24,8 @@ TEST_CASE("dark parts are those of the truth, and the sky does not count") {
 }
 
 TEST_CASE("the largest bias is that of a tenth of the prediction, not of single pixels") {
-  // 600 pixels in the tenth from 0.5 are right in the mean, 398 from 0.8 too bright by 0.125; one pixel is far
-  // off, and one is 1, which belongs to the last tenth.
+  // 600 pixels in the tenth from 0.5 are right in the mean, 398 from 0.8 too bright by 0.125; one pixel is
+  // far off, and one is 1, which belongs to the last tenth.
   std::vector<float> ao, truth;
   for (int i = 0; i < 600; ++i) {
     ao.push_back(0.55f);

@@ -46,8 +46,9 @@ TEST_CASE("a reference is traced once for a scene, a camera and its settings") {
   const Folder folder;
   Tracer trace;
   const auto ask = [&](const bake::TriangleSoup& scene, float distance, std::uint32_t rays, float radius) {
-    return TruthStore(folder.path, scene)
-        .read_or_trace(camera(distance), settings_of(rays, radius), [&] { return trace(); });
+    return TruthStore(folder.path, scene).read_or_trace(camera(distance), settings_of(rays, radius), [&] {
+      return trace();
+    });
   };
   const Truth first = ask(corner(), 3, 64, 0.5f);
   CHECK(trace.count == 1);
