@@ -211,6 +211,7 @@ void write_pictures(const Options& options, const Networks& networks, std::span<
                     std::span<const KeptImage> images) {
   const std::vector<std::string> names = picture_names(views);
   write_sheets(options.images, views, names, images);
+  if (!options.views.empty()) return;  // a list has too many views for pictures of the networks
   write_network_pictures(options.images, "nnao", networks.embedded, views, names);
   if (!networks.file.empty()) write_network_pictures(options.images, "other", networks.other, views, names);
 }
