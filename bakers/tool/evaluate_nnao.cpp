@@ -238,17 +238,20 @@ Json evaluate(Options& options) {
   const std::string resolution =
       std::to_string(options.truth.width) + "x" + std::to_string(options.truth.height);
   const std::vector<ViewGroup> groups = group_views(views, options.scenes.thin);
-  Json report{{"rows", Json::array()}, {"scenes", Json::array()}, {"borders", Json::array()}};
-  Json& rows = report["rows"];
+  Json report, rows = Json::array(), borders = Json::array(), scenes = Json::array();
   for (const ViewGroup& group : groups) {
     for (const Json& row : nnao_rows(comparison, group, resolution, context->renderer())) rows.push_back(row);
-    for (const Json& row : nnao_border_rows(comparison, group)) report["borders"].push_back(row);
-    report["scenes"].push_back(scene_summary(group, views));
+    for (const Json& row : nnao_border_rows(comparison, group)) borders.push_back(row);
+    scenes.push_back(scene_summary(group, views));
   }
   for (const Json& row : nnao_mean_rows(rows, comparison, groups)) rows.push_back(row);
-  report["ratios"] = nnao_ratio_rows(comparison, views, groups, work.ratios, options.common.seed);
+  const Json ratios = nnao_ratio_rows(comparison, views, groups, work.ratios, options.common.seed);
+  if (markdown) markdown->commit(nnao_markdown(rows, ratios));
+  report["rows"] = std::move(rows);
+  report["scenes"] = std::move(scenes);
+  report["borders"] = std::move(borders);
+  report["ratios"] = ratios;
   report["views"] = nnao_view_rows(comparison, views);
-  if (markdown) markdown->commit(nnao_markdown(rows, report["ratios"]));
   report["rays"] = options.truth.rays;
   report["opengl"] = context->version();
   report["seed"] = options.common.seed;
