@@ -160,8 +160,10 @@ std::vector<std::string> picture_names(std::span<const MeasuredView> views) {
   std::size_t number = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
     number = v > 0 && views[v].scene == views[v - 1].scene ? number + 1 : 0;
-    names.push_back(views[v].scene + "_" +
-                    (views[v].camera.empty() ? std::to_string(number) : views[v].camera));
+    std::string name = views[v].scene;
+    name += '_';
+    name += views[v].camera.empty() ? std::to_string(number) : views[v].camera;
+    names.push_back(name);
   }
   return names;
 }
