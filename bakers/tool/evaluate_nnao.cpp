@@ -34,8 +34,9 @@ struct Options {
   CommonOptions common;
   TruthSettings truth;
   SceneWords scenes;
-  std::filesystem::path views;   // a list of scenes with their cameras, instead of files
-  std::filesystem::path folder;  // of the list's scenes
+  std::filesystem::path views;       // a list of scenes with their cameras, instead of files
+  std::filesystem::path folder;      // of the list's scenes
+  std::vector<std::string> sources;  // of the list; empty: all
   bool sized = false, rays_given = false;
   std::filesystem::path references, network, images, markdown;
   std::vector<std::string> methods;  // empty: all
@@ -186,6 +187,16 @@ struct Work {
   std::vector<MethodRatio> ratios;
 };
 
+void keep_sources(std::vector<SceneRequest>& scenes, const std::vector<std::string>& sources) {
+  for (const std::string& source : sources)
+    if (std::ranges::find(scenes, source, &SceneRequest::source) == scenes.end())
+      throw ToolError(exit_bad_arguments, "evaluate nnao: --sources: the list has no " + source);
+  if (!sources.empty())
+    std::erase_if(scenes, [&](const SceneRequest& scene) {
+      return std::ranges::find(sources, scene.source) == sources.end();
+    });
+}
+
 Work read_work(Options& options) {
   Work work;
   work.scenes = parse_scenes(options.scenes);
@@ -193,6 +204,7 @@ Work read_work(Options& options) {
     ViewsFile file = read_views_file(options.views, options.folder);
     if (!file.size.empty() && !options.sized) parse_size(file.size, options.truth);
     if (file.rays > 0 && !options.rays_given) options.truth.rays = file.rays;
+    keep_sources(file.scenes, options.sources);
     work.scenes.insert(work.scenes.begin(), file.scenes.begin(), file.scenes.end());
     work.ratios = std::move(file.ratios);
   }
@@ -322,6 +334,8 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
                       "a list of scenes with their cameras, such as docs/nnao_views.json, instead of files");
   command->add_option("--folder", o.folder,
                       "where the scenes of --views lie, each as NAME.glb; default: here");
+  command->add_option("--sources", o.sources, "measure these sources of --views alone, separated by commas")
+      ->delimiter(',');
   command->add_flag("--thin", o.scenes.thin,
                     "a built-in scene of thin things, called thin; it enters no mean");
   std::vector<std::string> baselines{"all"};

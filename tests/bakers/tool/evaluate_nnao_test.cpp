@@ -169,6 +169,8 @@ TEST_CASE("evaluate nnao measures a list of views by source and keeps their refe
   }
   CHECK(folder.run({"evaluate", "nnao", "--views", folder.path("views.json"), folder.path("corner.glb")})
             .exit_code == 2);
+  CHECK(folder.run({"evaluate", "nnao", "--views", folder.path("views.json"), "--sources", "B"}).exit_code ==
+        2);
   CHECK(folder.run({"evaluate", "nnao", "--thin", "--ratio", "nnao:16"}).exit_code == 2);
 }
 
