@@ -5,8 +5,8 @@
 
 namespace nook::measure {
 
-// solid: whatever lies behind a surface is solid, as horizons have it. bitmask: a surface is half a radius
-// thick, and light passes behind it.
+// solid: whatever lies behind a surface within the radius is solid, as horizons have it. bitmask: a surface
+// is half a radius thick, and light passes behind it.
 enum class Oracle { solid, bitmask };
 inline constexpr Oracle all_oracles[] = {Oracle::solid, Oracle::bitmask};
 inline constexpr int oracle_taps = 1024;

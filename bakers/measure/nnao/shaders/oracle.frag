@@ -4,7 +4,7 @@
 // is weighted with the cosine. Off the screen the depth of the border continues. The radius is never shrunk.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
-uniform float thickness;  // in radii; 0: whatever lies behind a surface is solid
+uniform float thickness;  // in radii; 0: whatever lies behind a surface within the radius is solid
 
 const float pi = 3.14159265;
 const int groups = 16;  // slices, 32 directions
@@ -69,6 +69,8 @@ float angle_in(Frame frame, vec3 offset) {
 
 uvec4 closed_by(Frame frame, ivec2 at, float depth, vec3 position, float radius) {
   vec3 tap = position_at(at, depth), front = tap - position, behind = normalize(tap);
+  // A horizon is that of the surfaces within the radius; else whatever stands before a wall would darken it.
+  if (thickness <= 0.0 && dot(front, front) > radius * radius) return uvec4(0u);
   // The part of the line front + s behind within the sphere of the radius.
   float along = dot(front, behind), inside = along * along - dot(front, front) + radius * radius;
   if (inside <= 0.0) return uvec4(0u);
