@@ -292,12 +292,19 @@ Json tune(const Options& options) {
   report["rows"] = Json::array();
   for (const TunedBaseline& t : tuned) {
     std::fputs(tuning_line(t.method).c_str(), stdout);
+    for (const std::string& axis : t.at_edge)
+      std::fprintf(stderr, "%s %d: the best %s is the last of its grid\n", baseline_name(t.method.baseline),
+                   t.method.taps, axis.c_str());
     report["rows"].push_back({{"method", baseline_name(t.method.baseline)},
                               {"taps", t.method.taps},
                               {"radius_scale", t.method.tuning.radius_scale},
                               {"power", t.method.tuning.power},
                               {"shape", t.method.tuning.shape},
+                              {"thin", t.method.tuning.thin},
                               {"equal_weights", t.method.tuning.equal_weights},
+                              {"border", border_name(t.method.tuning.border)},
+                              {"denoiser", denoiser_name(t.method.tuning.denoiser)},
+                              {"at_edge", t.at_edge},
                               {"mse", t.mse}});
   }
   return report;
@@ -321,10 +328,10 @@ void run(Options& options) {
 }  // namespace
 
 void add_evaluate_nnao(CLI::App& evaluate_command) {
-  CLI::App* command = evaluate_command.add_subcommand(
-      "nnao",
-      "the screen-space pass, and SSAO, SSAO+, HBAO, GTAO and GTAO with a visibility bitmask, against ray "
-      "tracing");
+  CLI::App* command = evaluate_command.add_subcommand("nnao",
+                                                      "the screen-space pass, and SSAO, SSAO+, HBAO, GTAO, "
+                                                      "GTAO with a visibility bitmask and XeGTAO, against "
+                                                      "ray tracing");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command->add_option("scene", o.scenes.files,

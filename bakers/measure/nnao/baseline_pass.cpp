@@ -1,26 +1,49 @@
 #include "bakers/measure/nnao/baseline_pass.h"
 
+#include <cmath>
+
 namespace nook::measure {
+namespace {
+
+// XeGTAO's AO before its denoiser may be above 1; it is divided by this.
+constexpr float headroom = 1.5f;
+
+}  // namespace
 
 BaselinePass::BaselinePass(const GladGLContext& gl, int width, int height)
     : gl_(gl),
       width_(width),
       height_(height),
       blur_(gl, "blur.frag"),
-      images_{{gl, GL_R8, GL_RED, width, height, nullptr}, {gl, GL_R8, GL_RED, width, height, nullptr}} {
+      images_{{gl, GL_R8, GL_RED, width, height, nullptr}, {gl, GL_R8, GL_RED, width, height, nullptr}},
+      edge_denoiser_(gl, width, height),
+      depth_levels_(gl, width, height),
+      hilbert_(hilbert_image(gl)) {
   gl.GenVertexArrays(1, &vertex_array_);
-  for (const Baseline baseline : all_baselines)
-    programs_[baseline] = std::make_unique<GpuProgram>(gl, baseline_shader(baseline));
+  gl.GenFramebuffers(1, &with_edges_);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, with_edges_);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, images_[0].texture(), 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D,
+                          edge_denoiser_.edge_image().texture(), 0);
+  const GLenum targets[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl.DrawBuffers(2, targets);
 }
 
 BaselinePass::~BaselinePass() {
+  gl_.DeleteFramebuffers(1, &with_edges_);
   gl_.DeleteVertexArrays(1, &vertex_array_);
+}
+
+const GpuProgram& BaselinePass::program(const BaselineMethod& method) {
+  const std::string path = baseline_shader(method.baseline), defines = baseline_defines(method);
+  std::unique_ptr<GpuProgram>& made = programs_[path + "\n" + defines];
+  if (!made) made = std::make_unique<GpuProgram>(gl_, path, defines);
+  return *made;
 }
 
 void BaselinePass::set_surface(const GpuProgram& program, const GpuView& view,
                                const AoRequest& request) const {
   gl_.Viewport(0, 0, width_, height_);
-  gl_.BindVertexArray(vertex_array_);
   gl_.UseProgram(program.name());
   gl_.ActiveTexture(GL_TEXTURE1);
   gl_.BindTexture(GL_TEXTURE_2D, view.normal.texture());
@@ -35,22 +58,64 @@ void BaselinePass::set_surface(const GpuProgram& program, const GpuView& view,
   gl_.Uniform1f(program.at("max_radius_px"), request.max_radius_px);
 }
 
-GLuint BaselinePass::draw(const BaselineMethod& method, const GpuView& view, const AoRequest& request,
-                          bool blurred) {
-  const GpuProgram& program = *programs_.at(method.baseline);
-  set_surface(program, view, request);
+void BaselinePass::draw_raw(const BaselineMethod& method, const GpuView& view, const AoRequest& request) {
+  const GpuProgram& shader = program(method);
+  set_surface(shader, view, request);
   const BaselineGrid grid = baseline_grid(method.baseline, method.taps);
   const BaselineTuning& tuning = method.tuning;
-  gl_.Uniform1f(program.at("radius_scale"), tuning.radius_scale);
-  gl_.Uniform1f(program.at("power"), tuning.power);
-  gl_.Uniform1i(program.at("groups"), grid.groups);
-  gl_.Uniform1i(program.at("steps"), grid.steps);
+  gl_.Uniform1f(shader.at("radius_scale"), tuning.radius_scale);
+  gl_.Uniform1f(shader.at("power"), tuning.power);
+  gl_.Uniform1i(shader.at("groups"), grid.groups);
+  gl_.Uniform1i(shader.at("steps"), grid.steps);
   // A baseline has one of these; the location of the others is -1, which OpenGL ignores.
-  for (const char* shape : {"bias", "falloff", "thickness"}) gl_.Uniform1f(program.at(shape), tuning.shape);
-  gl_.Uniform1i(program.at("equal_weights"), tuning.equal_weights);
+  for (const char* shape : {"bias", "falloff", "thickness"}) gl_.Uniform1f(shader.at(shape), tuning.shape);
+  gl_.Uniform2f(shader.at("bias_turn"), std::cos(tuning.shape), std::sin(tuning.shape));
+  gl_.Uniform1i(shader.at("equal_weights"), tuning.equal_weights);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, images_[0].framebuffer());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  return blurred ? blur(images_[0].texture(), view, request) : images_[0].texture();
+}
+
+void BaselinePass::draw_xegtao(const BaselineMethod& method, const GpuView& view, const AoRequest& request,
+                               float scale) {
+  const BaselineTuning& tuning = method.tuning;
+  depth_levels_.draw(view, tuning.radius_scale * request.radius, tuning.shape);
+  const GpuProgram& shader = program(method);
+  set_surface(shader, view, request);
+  gl_.ActiveTexture(GL_TEXTURE2);
+  gl_.BindTexture(GL_TEXTURE_2D, hilbert_.texture());
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, depth_levels_.texture());
+  gl_.Uniform1i(shader.at("depth_levels"), 0);
+  gl_.Uniform1i(shader.at("hilbert_image"), 2);
+  gl_.Uniform2f(shader.at("texel"), 1 / float(width_), 1 / float(height_));
+  gl_.Uniform1f(shader.at("radius_scale"), tuning.radius_scale);
+  gl_.Uniform1f(shader.at("power"), tuning.power);
+  gl_.Uniform1f(shader.at("falloff"), tuning.shape);
+  gl_.Uniform1f(shader.at("thin"), tuning.thin);
+  gl_.Uniform1f(shader.at("output_scale"), scale);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, with_edges_);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+GLuint BaselinePass::draw(const BaselineMethod& method, const GpuView& view, const AoRequest& request,
+                          bool denoised) {
+  gl_.BindVertexArray(vertex_array_);
+  const Denoiser denoiser = method.tuning.denoiser;
+  if (method.baseline == Baseline::xegtao) {
+    const bool by_edges = denoised && denoiser != Denoiser::blur;
+    draw_xegtao(method, view, request, by_edges ? 1 / headroom : 1);
+    if (by_edges) return edge_denoiser_.denoise(images_[0].texture(), int(denoiser), headroom);
+  } else {
+    draw_raw(method, view, request);
+  }
+  return denoised ? denoise(images_[0].texture(), view, request, denoiser) : images_[0].texture();
+}
+
+GLuint BaselinePass::denoise(GLuint ao, const GpuView& view, const AoRequest& request, Denoiser denoiser) {
+  gl_.BindVertexArray(vertex_array_);
+  if (denoiser == Denoiser::blur) return blur(ao, view, request);
+  edge_denoiser_.find_edges(view);
+  return edge_denoiser_.denoise(ao, int(denoiser), 1);
 }
 
 GLuint BaselinePass::blur(GLuint ao, const GpuView& view, const AoRequest& request) {

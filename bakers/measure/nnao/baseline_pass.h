@@ -1,10 +1,13 @@
-// Draws the baselines, and blurs them as the library blurs its own AO.
+// Draws the baselines, and denoises them.
 #pragma once
 
 #include <map>
 #include <memory>
+#include <string>
 
 #include "bakers/measure/nnao/baselines.h"
+#include "bakers/measure/nnao/depth_levels.h"
+#include "bakers/measure/nnao/edge_denoiser.h"
 #include "bakers/measure/nnao/gpu_image.h"
 
 namespace nook::measure {
@@ -21,20 +24,28 @@ class BaselinePass {
   BaselinePass(const GladGLContext& gl, int width, int height);
   ~BaselinePass();
 
-  // Returns the texture (R8) that holds the AO until the next call.
-  GLuint draw(const BaselineMethod& method, const GpuView& view, const AoRequest& request, bool blurred);
-  // Blurs AO that lies in a texture of the same size.
-  GLuint blur(GLuint ao, const GpuView& view, const AoRequest& request);
+  // Returns the texture (R8) that holds the AO until the next call. denoised: by the tuning's denoiser.
+  GLuint draw(const BaselineMethod& method, const GpuView& view, const AoRequest& request, bool denoised);
+  // Smooths AO that lies in a texture of the same size.
+  GLuint denoise(GLuint ao, const GpuView& view, const AoRequest& request, Denoiser denoiser);
 
  private:
+  const GpuProgram& program(const BaselineMethod& method);
   void set_surface(const GpuProgram& program, const GpuView& view, const AoRequest& request) const;
+  void draw_raw(const BaselineMethod& method, const GpuView& view, const AoRequest& request);
+  // XeGTAO writes the edges too, and AO above 1 for its own denoiser.
+  void draw_xegtao(const BaselineMethod& method, const GpuView& view, const AoRequest& request, float scale);
+  GLuint blur(GLuint ao, const GpuView& view, const AoRequest& request);
 
   const GladGLContext& gl_;
   int width_, height_;
-  GLuint vertex_array_ = 0;
-  std::map<Baseline, std::unique_ptr<GpuProgram>> programs_;
+  GLuint vertex_array_ = 0, with_edges_ = 0;
+  std::map<std::string, std::unique_ptr<GpuProgram>> programs_;  // by path and defines, made at first use
   GpuProgram blur_;
   GpuImage images_[2];
+  EdgeDenoiser edge_denoiser_;
+  DepthLevels depth_levels_;
+  GpuImage hilbert_;
 };
 
 }  // namespace nook::measure

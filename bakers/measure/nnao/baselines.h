@@ -2,24 +2,43 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 namespace nook::measure {
 
-enum class Baseline { ssao, ssao_plus, hbao, gtao, bitmask };
+enum class Baseline { ssao, ssao_plus, hbao, gtao, bitmask, xegtao };
 inline constexpr Baseline all_baselines[] = {Baseline::ssao, Baseline::ssao_plus, Baseline::hbao,
-                                             Baseline::gtao, Baseline::bitmask};
+                                             Baseline::gtao, Baseline::bitmask,   Baseline::xegtao};
 
 const char* baseline_name(Baseline baseline);    // in tables
 const char* baseline_shader(Baseline baseline);  // in shaders/
 
-// The parameters that the grid search chooses.
+// A tap beyond the screen meets nothing; or the nearest pixel on the screen, at its own place; or the depth
+// of that pixel at the tap's place, which is what a sampler that clamps gives. The values are NOOK_BORDER's.
+enum class Border { nothing, pixel, depth };
+inline constexpr Border all_borders[] = {Border::nothing, Border::pixel, Border::depth};
+const char* border_name(Border border);
+
+// The noise is smoothed by the bilateral blur over 7 x 7 pixels, or by XeGTAO's edge-aware denoiser over 3 x
+// 3, run as often as its value says.
+enum class Denoiser { blur, edges_1, edges_2, edges_3 };
+inline constexpr Denoiser all_denoisers[] = {Denoiser::blur, Denoiser::edges_1, Denoiser::edges_2,
+                                             Denoiser::edges_3};
+const char* denoiser_name(Denoiser denoiser);
+
+// The parameters that the search chooses.
 struct BaselineTuning {
   float radius_scale = 1;  // the method's radius over the radius of the request
   float power = 1;         // of its result
   // Bias of SSAO+ in radii and of HBAO in radians; where GTAO's falloff begins, in radii; thickness of the
-  // bitmask in radii. SSAO has none.
+  // bitmask in radii; XeGTAO's falloff range in radii. SSAO has none.
   float shape = 0;
+  float thin = 0;              // XeGTAO's compensation for thin occluders
   bool equal_weights = false;  // bitmask: sectors of equal cosine-weighted share; else of equal angle
+  Border border = Border::nothing;
+  Denoiser denoiser = Denoiser::blur;
+
+  bool operator==(const BaselineTuning&) const = default;
 };
 
 struct BaselineMethod {
@@ -28,18 +47,21 @@ struct BaselineMethod {
   BaselineTuning tuning;
 };
 
-// Taps as directions x steps (HBAO), or 2 halves x slices x steps (GTAO and the bitmask).
+// Taps as directions x steps (HBAO), or 2 halves x slices x steps (GTAO, the bitmask and XeGTAO).
 struct BaselineGrid {
   int groups, steps;
 };
 BaselineGrid baseline_grid(Baseline baseline, int taps);
 
+// Lines in front of the shader's text: what is known when it is compiled.
+std::string baseline_defines(const BaselineMethod& method);
+
 // Every row of the comparison, with the tuning that `nook evaluate nnao --tune all` prints.
 std::span<const BaselineMethod> baseline_methods();
 
-// Texture fetches for each pixel: its depth and normal, and one depth for each tap; the blur's are
-// blur_fetches more.
-int baseline_fetches(const BaselineMethod& method);
+// Texels that are read for each pixel: its depth and normal, and one depth for each tap; XeGTAO's depth
+// levels, four neighbours and noise as well. denoised: the denoiser's are included.
+int baseline_fetches(const BaselineMethod& method, bool denoised);
 // Two axes, each AO, depth and normal of 7 pixels.
 inline constexpr int blur_fetches = 2 * 3 * 7;
 

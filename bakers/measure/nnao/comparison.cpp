@@ -21,6 +21,7 @@ struct Method {
   int taps = 0;
   std::function<GLuint(const GpuView&, const AoRequest&, bool)> draw;
   int fetches_raw = 0, fetches_blurred = 0;
+  std::string denoiser;    // of the blurred one
   bool is_oracle = false;  // drawn once a view: no blur, no flicker
 };
 
@@ -55,8 +56,9 @@ ComparisonRow measure(const GladGLContext& gl, const Method& method, bool blurre
                       std::span<const MeasuredView> views, const std::deque<ViewOnGpu>& images,
                       AoRequest request,
                       const std::function<void(std::size_t, const std::vector<float>&)>& keep) {
-  ComparisonRow row{
-      method.name, method.taps, blurred, blurred ? method.fetches_blurred : method.fetches_raw, {}};
+  ComparisonRow row{method.name, method.taps,
+                    blurred,     blurred ? method.fetches_blurred : method.fetches_raw,
+                    {},          blurred ? method.denoiser : "none"};
   for (std::size_t v = 0; v < views.size(); ++v) {
     Measurement measured;
     const GpuView& view = images[v].view;
@@ -93,7 +95,7 @@ void add_network(std::vector<Method>& methods, const std::string& name,
                        [pass](const GpuView& view, const AoRequest& request, bool blurred) {
                          return pass->draw(view, request, blurred);
                        },
-                       pass->fetches(false), pass->fetches(true)});
+                       pass->fetches(false), pass->fetches(true), "library"});
   }
 }
 
@@ -155,7 +157,8 @@ Comparison compare(platform::Context& context, std::span<const MeasuredView> vie
                          [&baselines, baseline](const GpuView& view, const AoRequest& request, bool blurred) {
                            return baselines.draw(baseline, view, request, blurred);
                          },
-                         baseline_fetches(baseline), baseline_fetches(baseline) + blur_fetches});
+                         baseline_fetches(baseline, false), baseline_fetches(baseline, true),
+                         denoiser_name(baseline.tuning.denoiser)});
   const OraclePass oracle_pass(gl, width, height);
   for (const Oracle oracle : all_oracles)
     if (named(oracle_name(oracle)))
@@ -163,7 +166,7 @@ Comparison compare(platform::Context& context, std::span<const MeasuredView> vie
                          [&oracle_pass, oracle](const GpuView& view, const AoRequest& request, bool) {
                            return oracle_pass.draw(oracle, view, request.radius);
                          },
-                         2 + oracle_taps, 2 + oracle_taps, true});
+                         2 + oracle_taps, 2 + oracle_taps, "none", true});
 
   Comparison comparison;
   for (std::size_t m = 0; m < methods.size(); ++m) {

@@ -35,6 +35,7 @@ struct ComparisonRow {
   bool blurred = false;
   int fetches = 0;                 // a pixel
   std::vector<Measurement> views;  // in the order of the views
+  std::string denoiser;            // a baseline's tuned one, the library's, or none
 };
 
 // Returns a row's numbers over some views. which: indices of views.

@@ -13,6 +13,13 @@ const char* shader_text(const std::string& path) {
   throw Failure(NOOK_ERROR_INTERNAL, "no shader %s in this build", path.c_str());
 }
 
+GLuint linked(const GladGLContext& gl, const std::string& path, const std::string& defines) {
+  const std::string text = shader_text(path);
+  const std::size_t second_line = text.find('\n') + 1;  // behind #version
+  const std::string head = text.substr(0, second_line) + defines;
+  return platform::link_program(gl, {shader_text("screen.vert")}, {head.c_str(), text.c_str() + second_line});
+}
+
 const float* numbers(const std::vector<Vec3>& vectors) {
   static_assert(sizeof(Vec3) == 3 * sizeof(float));
   return &vectors.front().x;
@@ -48,8 +55,8 @@ std::vector<float> read_red(const GladGLContext& gl, GLuint texture, int width, 
   return values;
 }
 
-GpuProgram::GpuProgram(const GladGLContext& gl, const std::string& path)
-    : gl_(gl), name_(platform::link_program(gl, {shader_text("screen.vert")}, {shader_text(path)})) {}
+GpuProgram::GpuProgram(const GladGLContext& gl, const std::string& path, const std::string& defines)
+    : gl_(gl), name_(linked(gl, path, defines)) {}
 
 GpuProgram::~GpuProgram() {
   gl_.DeleteProgram(name_);

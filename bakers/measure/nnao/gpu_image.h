@@ -32,8 +32,9 @@ std::vector<float> read_red(const GladGLContext& gl, GLuint texture, int width, 
 
 class GpuProgram {
  public:
-  // path: of an embedded fragment shader. Throws std::runtime_error with the compiler's words.
-  GpuProgram(const GladGLContext& gl, const std::string& path);
+  // path: of an embedded fragment shader. defines: lines in front of its text. Throws std::runtime_error with
+  // the compiler's words.
+  GpuProgram(const GladGLContext& gl, const std::string& path, const std::string& defines = "");
   ~GpuProgram();
   GpuProgram(const GpuProgram&) = delete;
   GpuProgram& operator=(const GpuProgram&) = delete;

@@ -23,8 +23,8 @@ MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene,
                           const bake::nnao::Camera& camera, const TruthSettings& settings,
                           const TruthStore& store = {});
 
-// A view of one training scene of each of the first eight families, radii of 0.25, 0.5 and 1 metre in turn:
-// what the baselines are tuned on. Returns false from progress to stop, which throws Failure(CANCELLED).
+// 24 views, each of a training scene of its own, the families and radii of 0.25, 0.5 and 1 metre in turn:
+// what the baselines are tuned on. Return false from progress to stop, which throws Failure(CANCELLED).
 std::vector<MeasuredView> tuning_views(std::uint64_t seed,
                                        const std::function<bool(std::size_t, std::size_t)>& progress);
 

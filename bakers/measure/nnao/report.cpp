@@ -68,15 +68,15 @@ std::string scene_table(const Json& rows) {
 }
 
 std::string mean_table(const Json& rows) {
-  std::string text = head({"method", "taps", "blurred", "mse", "rmse", "ssim", "r", "dark_bias",
+  std::string text = head({"method", "taps", "blurred", "denoiser", "mse", "rmse", "ssim", "r", "dark_bias",
                            "calibration", "border_bias", "flicker", "fetches", "ms", "ratio_to_nnao"});
   const std::string shown = scenes_of(rows).back();
   for (const Json& row : rows)
     if (row["scene"] == shown)
       text +=
-          line({row["method"], row["taps"].dump(), row["blurred"] ? "yes" : "no", short_power(row["mse"]),
-                decimals(row["rmse"], 3), decimals(row["ssim"], 3), decimals(row["r"], 3),
-                decimals(row["dark_bias"], 3), decimals(row["calibration"], 3),
+          line({row["method"], row["taps"].dump(), row["blurred"] ? "yes" : "no", row["denoiser"],
+                short_power(row["mse"]), decimals(row["rmse"], 3), decimals(row["ssim"], 3),
+                decimals(row["r"], 3), decimals(row["dark_bias"], 3), decimals(row["calibration"], 3),
                 decimals(row["border_bias"], 3), row["flicker"].is_null() ? "-" : decimals(row["flicker"], 4),
                 row["fetches"].dump(), decimals(row["ms"], 0), decimals(row["ratio_to_nnao"], 2)});
   return text;
@@ -136,6 +136,7 @@ Json nnao_rows(const Comparison& comparison, const ViewGroup& group, const std::
     rows.push_back({{"method", r.method},
                     {"taps", r.taps},
                     {"blurred", r.blurred},
+                    {"denoiser", r.denoiser},
                     {"scene", group.name},
                     {"resolution", resolution},
                     {"gpu", gpu},

@@ -1,128 +1,241 @@
 #include "bakers/measure/nnao/tuning.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <deque>
-#include <string>
+#include <limits>
+#include <map>
 
 #include "bakers/measure/nnao/baseline_pass.h"
+#include "bakers/measure/nnao/tuning_grid.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::measure {
 namespace {
 
-constexpr float radius_scales[] = {0.63f, 0.8f, 1.0f, 1.26f, 1.6f, 2.0f, 2.5f};
-constexpr float powers[] = {0.63f, 0.8f, 1.0f, 1.26f, 1.6f, 2.0f, 2.5f, 3.2f};
+using Step = std::array<int, tuned_axes>;
 
-std::vector<float> shapes_of(Baseline baseline) {
-  switch (baseline) {
-    case Baseline::ssao:
-      return {};
-    case Baseline::ssao_plus:
-      return {0.01f, 0.03f, 0.06f, 0.1f};
-    case Baseline::hbao:
-      return {0.0f, 0.05f, 0.1f, 0.2f, 0.35f};
-    case Baseline::gtao:
-      return {0.0f, 0.2f, 0.4f, 0.6f, 0.8f, 0.95f};
-    default:
-      return {0.1f, 0.2f, 0.35f, 0.6f, 1.0f, 1.6f};
-  }
-}
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr std::size_t power_axis = 1;
 
-struct Search {
-  const GladGLContext& gl;
-  std::span<const MeasuredView> views;
-  std::deque<GpuView> images;
-  BaselinePass pass;
-
-  double mse(const BaselineMethod& method) {
-    double sum = 0, count = 0;
-    for (std::size_t v = 0; v < views.size(); ++v) {
-      AoRequest request;
-      request.radius = views[v].radius;
-      request.max_radius_px = 0.5f * float(images[v].height);
-      const std::vector<float> ao =
-          read_red(gl, pass.draw(method, images[v], request, true), images[v].width, images[v].height);
-      for (std::size_t i = 0; i < ao.size(); ++i) {
-        if (!std::isfinite(views[v].view.depth[i])) continue;
-        const double error = double(ao[i]) - double(views[v].truth[i]);
-        sum += error * error;
-        count += 1;
-      }
-    }
-    return sum / count;
-  }
-
-  // Returns whether a candidate is better than `best`, and makes it the best of them if so.
-  bool improve(TunedBaseline& best, const std::vector<BaselineTuning>& candidates) {
-    bool better = false;
-    for (const BaselineTuning& candidate : candidates) {
-      const BaselineMethod tried{best.method.baseline, best.method.taps, candidate};
-      const double tried_mse = mse(tried);
-      if (!(tried_mse < best.mse)) continue;
-      best = {tried, tried_mse};
-      better = true;
-    }
-    return better;
-  }
+struct ViewOnGpu {
+  ViewOnGpu(const GladGLContext& gl, const MeasuredView& of) : measured(of), image(gl, of.view) {}
+  const MeasuredView& measured;
+  GpuView image;
 };
 
-// The middle of its shapes, its own radius and contrast.
-BaselineTuning untuned(Baseline baseline) {
-  const std::vector<float> shapes = shapes_of(baseline);
-  return {1, 1, shapes.empty() ? 0 : shapes[shapes.size() / 2], false};
-}
-
-// A larger radius, less contrast and more thickness darken alike, so that valleys lie across the grid.
-std::vector<BaselineTuning> all_radii_and_powers(const BaselineTuning& tuning) {
-  std::vector<BaselineTuning> candidates;
-  for (const float radius_scale : radius_scales)
-    for (const float power : powers)
-      candidates.push_back({radius_scale, power, tuning.shape, tuning.equal_weights});
-  return candidates;
-}
-
-std::vector<BaselineTuning> all_shapes(Baseline baseline, const BaselineTuning& tuning) {
-  std::vector<BaselineTuning> candidates;
-  for (const float shape : shapes_of(baseline)) {
-    candidates.push_back({tuning.radius_scale, tuning.power, shape, tuning.equal_weights});
-    if (baseline == Baseline::bitmask)
-      candidates.push_back({tuning.radius_scale, tuning.power, shape, !tuning.equal_weights});
+// Of all pixels with one of the 256 values of AO: how many there are, and the sum of their truth. The error
+// after any function of the AO follows from these.
+class TruthByLevel {
+ public:
+  void add(const std::vector<float>& ao, const MeasuredView& measured) {
+    for (std::size_t i = 0; i < ao.size(); ++i) {
+      if (!std::isfinite(measured.view.depth[i])) continue;
+      const double truth = double(measured.truth[i]);
+      Level& level = levels_[std::size_t(std::lround(255 * ao[i]))];
+      level.count += 1;
+      level.truth += truth;
+      squared_truth_ += truth * truth;
+      count_ += 1;
+    }
   }
-  return candidates;
+
+  // The mean squared error of AO to a power.
+  double mse(double power) const {
+    double sum = squared_truth_;
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+      const double ao = std::pow(double(i) / 255, power);
+      sum += ao * (ao * levels_[i].count - 2 * levels_[i].truth);
+    }
+    return sum / count_;
+  }
+
+ private:
+  struct Level {
+    double count = 0, truth = 0;
+  };
+  std::array<Level, 256> levels_;
+  double squared_truth_ = 0, count_ = 0;
+};
+
+struct Found {
+  TuningPlace place;
+  double mse = never;
+};
+
+// One method on some of the views. The best contrast of each place is estimated from its image: the shaders
+// apply it before the denoiser, the estimate behind it. settled: the image is drawn again with the estimate
+// until it stays.
+class Search {
+ public:
+  Search(const GladGLContext& gl, BaselinePass& pass, const std::deque<ViewOnGpu>& views, std::size_t every,
+         const BaselineMethod& method, bool settled)
+      : gl_(gl), pass_(pass), method_(method), settled_(settled) {
+    for (std::size_t v = 0; v < views.size(); v += every) views_.push_back(&views[v]);
+  }
+
+  // Returns the place with the best contrast, and its error.
+  Found with_best_power(TuningPlace place) {
+    Found found = estimate(place);
+    for (int again = 0; settled_ && again < 4 && found.place != place; ++again)
+      found = estimate(place = found.place);
+    return found;
+  }
+
+  // The error of a place as it is.
+  double mse(const TuningPlace& place) { return drawn(place).mse(1); }
+
+  // Returns whether a place is on the grids and, with its best contrast, better than `best`, which then moves
+  // there.
+  bool improve(Found& best, const TuningPlace& place) {
+    for (std::size_t axis = 0; axis < tuned_axes; ++axis)
+      if (place.at[axis] < 0 || place.at[axis] >= int(axis_values(method_.baseline, axis).size()))
+        return false;
+    const Found found = with_best_power(place);
+    if (!(found.mse < best.mse)) return false;
+    best = found;
+    return true;
+  }
+
+  // Goes on in each direction while that helps, until none does.
+  void descend(Found& best, const std::vector<Step>& steps) {
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (const Step& step : steps) {
+        TuningPlace next;
+        do {
+          next = best.place;
+          for (std::size_t axis = 0; axis < tuned_axes; ++axis) next.at[axis] += step[axis];
+        } while (improve(best, next) && (moved = true));
+      }
+    }
+  }
+
+  // Tries what is no number. Returns whether something helped.
+  bool flip(Found& best) {
+    bool better = false;
+    for (const Border border : all_borders) {
+      TuningPlace place = best.place;
+      place.border = border;
+      better = (place != best.place && improve(best, place)) || better;
+    }
+    if (method_.baseline != Baseline::bitmask) return better;
+    TuningPlace place = best.place;
+    place.equal_weights = !place.equal_weights;
+    return improve(best, place) || better;
+  }
+
+ private:
+  const TruthByLevel& drawn(const TuningPlace& place) {
+    if (const auto known = known_.find(place); known != known_.end()) return known->second;
+    const BaselineMethod tried{method_.baseline, method_.taps, tuning_at(method_.baseline, place)};
+    TruthByLevel& truth = known_[place];
+    for (const ViewOnGpu* view : views_) {
+      AoRequest request;
+      request.radius = view->measured.radius;
+      request.max_radius_px = 0.5f * float(view->image.height);
+      const GLuint ao = pass_.draw(tried, view->image, request, true);
+      truth.add(read_red(gl_, ao, view->image.width, view->image.height), view->measured);
+    }
+    return truth;
+  }
+
+  Found estimate(const TuningPlace& place) {
+    constexpr int reach = 6;
+    const TruthByLevel& truth = drawn(place);
+    const std::span<const float> powers = axis_values(method_.baseline, power_axis);
+    const double drawn_with = double(powers[std::size_t(place.at[power_axis])]);
+    Found best{place, truth.mse(1)};
+    for (int at = std::max(place.at[power_axis] - reach, 0);
+         at <= std::min(place.at[power_axis] + reach, int(powers.size()) - 1); ++at) {
+      const double mse = truth.mse(double(powers[std::size_t(at)]) / drawn_with);
+      if (!(mse < best.mse)) continue;
+      best.mse = mse;
+      best.place.at[power_axis] = at;
+    }
+    return best;
+  }
+
+  const GladGLContext& gl_;
+  BaselinePass& pass_;
+  BaselineMethod method_;
+  bool settled_;
+  std::vector<const ViewOnGpu*> views_;
+  std::map<TuningPlace, TruthByLevel> known_;
+};
+
+// Radii and shapes, alone and together; grids of shapes are coarser.
+std::vector<Step> steps(Baseline baseline, int stride) {
+  const int small = std::max(stride / 2, 1);
+  std::vector<Step> all{{stride, 0, 0, 0}, {-stride, 0, 0, 0}};
+  for (std::size_t axis = power_axis + 1; axis < tuned_axes; ++axis) {
+    if (axis_values(baseline, axis).size() == 1) continue;
+    for (const int turn : {small, -small}) {
+      all.push_back({});
+      all.back()[axis] = turn;
+    }
+  }
+  if (stride > 1 || baseline == Baseline::ssao) return all;
+  for (const int turn : {1, -1}) {
+    all.push_back({1, 0, turn, 0});
+    all.push_back({-1, 0, turn, 0});
+  }
+  return all;
 }
 
-bool is_near(std::span<const float> grid, float a, float b) {
-  return std::abs(std::ranges::find(grid, a) - std::ranges::find(grid, b)) <= 1;
+Found search_some(Search& search, Baseline baseline, const std::vector<TuningPlace>& before) {
+  Found best;
+  for (const TuningPlace& start : before) search.improve(best, start);
+  if (before.empty()) {
+    search.improve(best, first_place(baseline));
+    search.descend(best, steps(baseline, 4));
+  }
+  search.flip(best);
+  search.descend(best, steps(baseline, 2));
+  return best;
 }
 
-// Returns the neighbours on the grid, diagonal ones included.
-std::vector<BaselineTuning> neighbours(Baseline baseline, const BaselineTuning& tuning) {
-  std::vector<float> shapes = shapes_of(baseline);
-  if (shapes.empty()) shapes = {tuning.shape};
-  std::vector<BaselineTuning> candidates;
-  for (const float radius_scale : radius_scales)
-    for (const float power : powers)
-      for (const float shape : shapes)
-        if (is_near(radius_scales, radius_scale, tuning.radius_scale) &&
-            is_near(powers, power, tuning.power) && is_near(shapes, shape, tuning.shape))
-          candidates.push_back({radius_scale, power, shape, tuning.equal_weights});
-  return candidates;
+// The best of each denoiser, the very best first.
+std::vector<Found> by_denoiser(Search& search, const Found& start) {
+  std::vector<Found> found;
+  for (const Denoiser denoiser : all_denoisers) {
+    Found best = start;
+    if (denoiser != start.place.denoiser) {
+      best.place.denoiser = denoiser;
+      best = search.with_best_power(best.place);
+      search.descend(best, {{2, 0, 0, 0}, {-2, 0, 0, 0}});
+    }
+    found.push_back(best);
+  }
+  std::ranges::stable_sort(found, {}, &Found::mse);
+  return found;
 }
 
-// before: what this search found for other numbers of taps; it ends in the nearest of several valleys.
-TunedBaseline tune(Search& search, Baseline baseline, int taps, std::span<const TunedBaseline> before) {
-  const BaselineMethod start{baseline, taps, untuned(baseline)};
-  TunedBaseline best{start, search.mse(start)};
-  std::vector<BaselineTuning> found;
-  for (const TunedBaseline& tuned : before)
-    if (tuned.method.baseline == baseline) found.push_back(tuned.method.tuning);
-  search.improve(best, found);
-  search.improve(best, all_radii_and_powers(best.method.tuning));
-  search.improve(best, all_shapes(baseline, best.method.tuning));
-  // Each step goes down a finite grid.
-  while (search.improve(best, neighbours(baseline, best.method.tuning))) {
+// The denoisers that come within this of the best on a part of the views are compared on all.
+constexpr double near_best = 1.02;
+
+Found tune(const GladGLContext& gl, BaselinePass& pass, const std::deque<ViewOnGpu>& views,
+           const BaselineMethod& method, const std::vector<TuningPlace>& before) {
+  Search some(gl, pass, views, views.size() < 12 ? 1 : 3, method, false),
+      all(gl, pass, views, 1, method, true);
+  std::vector<Found> candidates = by_denoiser(some, search_some(some, method.baseline, before));
+  std::erase_if(candidates, [limit = near_best * candidates.front().mse](const Found& found) {
+    return found.mse > limit;
+  });
+  Found best;
+  for (const Found& candidate : candidates) all.improve(best, candidate.place);
+  do {
+    all.descend(best, steps(method.baseline, 1));
+  } while (all.flip(best));
+  // The estimate of the contrast is off where the denoiser mixes much.
+  for (const int turn : {1, -1}) {
+    TuningPlace place = best.place;
+    place.at[power_axis] += turn;
+    const std::span<const float> powers = axis_values(method.baseline, power_axis);
+    if (place.at[power_axis] < 0 || place.at[power_axis] >= int(powers.size())) continue;
+    if (const double mse = all.mse(place); mse < best.mse) best = {place, mse};
   }
   return best;
 }
@@ -133,15 +246,17 @@ std::vector<TunedBaseline> tune_baselines(platform::Context& context, std::span<
                                           std::span<const BaselineMethod> methods,
                                           const std::function<bool(std::size_t, std::size_t)>& progress) {
   const GladGLContext& gl = context.gl();
-  Search search{
-      gl,
-      views,
-      {},
-      BaselinePass(gl, int(views.front().view.camera.width), int(views.front().view.camera.height))};
-  for (const MeasuredView& view : views) search.images.emplace_back(gl, view.view);
+  BaselinePass pass(gl, int(views.front().view.camera.width), int(views.front().view.camera.height));
+  std::deque<ViewOnGpu> images;
+  for (const MeasuredView& view : views) images.emplace_back(gl, view);
   std::vector<TunedBaseline> tuned;
+  std::map<Baseline, std::vector<TuningPlace>> before;
   for (const BaselineMethod& method : methods) {
-    tuned.push_back(tune(search, method.baseline, method.taps, tuned));
+    const Found found = tune(gl, pass, images, method, before[method.baseline]);
+    before[method.baseline].push_back(found.place);
+    tuned.push_back({{method.baseline, method.taps, tuning_at(method.baseline, found.place)},
+                     found.mse,
+                     axes_at_edge(method.baseline, found.place)});
     if (!progress(tuned.size(), methods.size()))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while tuning");
   }
@@ -149,12 +264,13 @@ std::vector<TunedBaseline> tune_baselines(platform::Context& context, std::span<
 }
 
 std::string tuning_line(const BaselineMethod& method) {
-  constexpr const char* names[] = {"ssao", "ssao_plus", "hbao", "gtao", "bitmask"};
-  char text[120];
-  std::snprintf(text, sizeof text, "    {Baseline::%s, %d, {%.2ff, %.2ff, %.2ff, %s}},\n",
-                names[int(method.baseline)], method.taps, double(method.tuning.radius_scale),
-                double(method.tuning.power), double(method.tuning.shape),
-                method.tuning.equal_weights ? "true" : "false");
+  constexpr const char* names[] = {"ssao", "ssao_plus", "hbao", "gtao", "bitmask", "xegtao"};
+  const BaselineTuning& t = method.tuning;
+  char text[160];
+  std::snprintf(
+      text, sizeof text, "{Baseline::%s, %d, {%.2ff, %.2ff, %.3ff, %.2ff, %s, Border::%s, Denoiser::%s}},\n",
+      names[int(method.baseline)], method.taps, double(t.radius_scale), double(t.power), double(t.shape),
+      double(t.thin), t.equal_weights ? "true" : "false", border_name(t.border), denoiser_name(t.denoiser));
   return text;
 }
 

@@ -1,4 +1,4 @@
-// The grid search that gives each baseline its radius, contrast and shape.
+// The search that gives each baseline its radius, contrast, shape, border and denoiser.
 #pragma once
 
 #include <functional>
@@ -14,13 +14,15 @@ namespace nook::measure {
 
 struct TunedBaseline {
   BaselineMethod method;
-  double mse;  // blurred, mean over the views
+  double mse;  // denoised, mean over the views
+  // Parameters whose best value is the last one of a grid that could go on: the grid is too small.
+  std::vector<std::string> at_edge;
 };
 
-// Each method from nothing, or from what the search has just found for the same baseline with other taps
-// where that is better: radius and contrast together over their grid, then the shape, then to the best
-// neighbour of all three until there is none. Tunings that the methods have already do not matter. progress
-// counts methods; false stops, which throws Failure(CANCELLED).
+// Each method from nothing, or from what the search has just found for the same baseline with other taps:
+// down the grids in strides that shrink, on a third of the views and then on all; borders and sectors by
+// trial; each denoiser with a radius and a contrast of its own. Tunings that the methods have already do not
+// matter. progress counts methods; false stops, which throws Failure(CANCELLED).
 std::vector<TunedBaseline> tune_baselines(platform::Context& context, std::span<const MeasuredView> views,
                                           std::span<const BaselineMethod> methods,
                                           const std::function<bool(std::size_t, std::size_t)>& progress);

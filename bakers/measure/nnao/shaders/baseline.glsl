@@ -19,6 +19,28 @@ vec2 pixel_noise() {
   return (vec2(rank, reversed) + 0.5) / 16.0;
 }
 
+// Beyond the screen lies 0: nothing; 1: the nearest pixel on it, at its own place; 2: the depth of that pixel at the place of the
+// tap, as from a sampler that clamps.
+#ifndef NOOK_BORDER
+#define NOOK_BORDER 0
+#endif
+
+// The depth that a tap meets. at: its pixel, which moves onto the screen with 1.
+float tap_depth(inout ivec2 at) {
+#if NOOK_BORDER == 0
+  return depth_at(at);
+#else
+  ivec2 inside = clamp(at, ivec2(0), size_px - 1);
+#if NOOK_BORDER == 1
+  at = inside;
+  // A pixel does not occlude itself.
+  if (at == ivec2(gl_FragCoord.xy)) return no_surface;
+#endif
+  float depth = texelFetch(depth_image, inside, 0).r;
+  return depth < no_surface ? depth : no_surface;
+#endif
+}
+
 // The pixel that a view-space position falls on.
 ivec2 pixel_of(vec3 position) {
   return ivec2(floor((position.xy / -position.z - screen_rays.yw) / screen_rays.xz));

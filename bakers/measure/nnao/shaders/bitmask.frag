@@ -33,7 +33,7 @@ uint closed_sectors(Slice slice, float side, vec3 position, vec3 viewer, vec2 ra
   uint closed = 0u;
   for (int k = 0; k < steps; ++k) {
     ivec2 at = stepped(side * slice.direction, step_px(k, noise, radius.y));
-    float depth = depth_at(at);
+    float depth = tap_depth(at);
     if (depth == no_surface) continue;
     vec3 tap = position_at(at, depth), front = tap - position;
     float away = length(front);

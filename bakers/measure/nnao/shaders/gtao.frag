@@ -9,15 +9,17 @@ uniform float falloff;  // where fading begins, in radii
 
 // The cosine of the horizon on one side (1 or -1).
 float horizon(Slice slice, float side, vec3 position, vec3 viewer, vec2 radius, vec2 noise) {
-  float lowest = cos(slice.tilt + side * 0.5 * pi), highest = lowest;
+  float lowest = -side * sin(slice.tilt), highest = lowest;
+  // The weight falls by the first for each metre, from the second.
+  vec2 fade = vec2(1.0 / radius.x, 1.0) / (1.0 - falloff);
   for (int k = 0; k < steps; ++k) {
     ivec2 at = stepped(side * slice.direction, step_px(k, noise, radius.y));
-    float depth = depth_at(at);
+    float depth = tap_depth(at);
     if (depth == no_surface) continue;
     vec3 v = position_at(at, depth) - position;
-    float away = length(v);
-    float weight = clamp((radius.x - away) / (radius.x * (1.0 - falloff)), 0.0, 1.0);
-    highest = max(highest, mix(lowest, dot(v, viewer) / away, weight));
+    float squared = dot(v, v), inverse = inversesqrt(squared);
+    float weight = clamp(fade.y - squared * inverse * fade.x, 0.0, 1.0);
+    highest = max(highest, mix(lowest, dot(v, viewer) * inverse, weight));
   }
   return highest;
 }

@@ -9,7 +9,8 @@ float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noi
   for (int i = 0; i < steps; ++i) {
     vec3 point = position + radius.x * ball_point(i, steps, noise);
     if (point.z > -1.0e-3) continue;
-    float depth = depth_at(pixel_of(point));
+    ivec2 at = pixel_of(point);
+    float depth = tap_depth(at);
     // Surfaces far in front of the pixel have nothing to do with it.
     float in_front = -position.z - depth;
     if (depth < -point.z) closed += in_front > radius.x ? radius.x / in_front : 1.0;

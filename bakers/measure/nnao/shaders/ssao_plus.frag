@@ -17,7 +17,8 @@ float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noi
     vec3 offset = ball_point(i, steps, noise);
     vec3 point = position + radius.x * (dot(offset, normal) < 0.0 ? -offset : offset);
     if (point.z > -1.0e-3) continue;
-    float in_front = (-point.z - depth_at(pixel_of(point))) / radius.x;
+    ivec2 at = pixel_of(point);
+    float in_front = (-point.z - tap_depth(at)) / radius.x;
     if (in_front > margin) closed += in_front > 1.0 ? 1.0 / (in_front * in_front) : 1.0;
   }
   return 1.0 - closed / float(steps);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "bakers/measure/nnao/network_pass.h"
+#include "bakers/raytrace/random.h"
 #include "tests/bakers/measure/nnao/small_scenes.h"
 #include "tests/catch.h"
 
@@ -24,6 +26,10 @@ BaselineMethod untuned(BaselineMethod method) {
   method.tuning.radius_scale = 1;
   if (method.baseline == Baseline::gtao) method.tuning.shape = 0.9f;
   if (method.baseline == Baseline::bitmask) method.tuning.shape = 1;
+  if (method.baseline == Baseline::xegtao) {
+    method.tuning.shape = 0.1f;
+    method.tuning.thin = 0;
+  }
   return method;
 }
 
@@ -58,7 +64,7 @@ TEST_CASE("every baseline leaves an open plane open") {
     // SSAO clips what exceeds 1: with n points, half of them closed, 2 (open share) falls short by about 0.4
     // / sqrt(n). GTAO and the bitmask take a texel's angle for that of their slice. SSAO+ and HBAO allow for
     // texels.
-    const bool slices = method.baseline == Baseline::gtao || method.baseline == Baseline::bitmask;
+    const bool slices = method.baseline >= Baseline::gtao;
     const float bound = method.baseline == Baseline::ssao        ? 0.5f / std::sqrt(float(method.taps))
                         : method.baseline == Baseline::ssao_plus ? 0.01f
                         : slices                                 ? 0.03f
@@ -112,9 +118,11 @@ TEST_CASE("baselines know the AO of a right-angled corner") {
                   << row_mean(truth, row));
       // The cosine-weighted methods are exact but for fading, steps and sectors; the others answer other
       // questions (points in a volume, horizons of equal weight) and come near by their tuning.
-      const bool cosine_weighted = method.baseline == Baseline::bitmask || method.baseline == Baseline::gtao;
+      const bool cosine_weighted = method.baseline >= Baseline::gtao;
+      // XeGTAO's three steps begin 1.3 pixels away.
+      const float bound = method.baseline == Baseline::xegtao ? 0.13f : 0.1f;
       if (cosine_weighted && method.taps >= 32)
-        CHECK(std::abs(row_mean(ao, row) - row_mean(truth, row)) < 0.1f);
+        CHECK(std::abs(row_mean(ao, row) - row_mean(truth, row)) < bound);
       CHECK(std::abs(row_mean(tuned, row) - row_mean(truth, row)) < 0.25f);
     }
     // It darkens towards the line.
@@ -132,8 +140,8 @@ TEST_CASE("light passes behind a thin bar in the bitmask and not in GTAO") {
   const RayScene rays(soup);
   constexpr float radius = 0.6f;
   const std::vector<float> truth = trace_truth(rays, view, radius, 256, 1);
-  BaselineMethod gtao{Baseline::gtao, 64, {1, 1, 0.9f, false}},
-      bitmask{Baseline::bitmask, 64, {1, 1, 0.1f, true}};
+  BaselineMethod gtao{Baseline::gtao, 64, {1, 1, 0.9f}},
+      bitmask{Baseline::bitmask, 64, {1, 1, 0.1f, 0, true}};
   const int row = height / 2 + 4;  // the wall just above the bar
   const float by_gtao = row_mean(draw(*context, gtao, view, radius, false), row);
   const float by_bitmask = row_mean(draw(*context, bitmask, view, radius, false), row);
@@ -155,7 +163,8 @@ TEST_CASE("the baselines' blur is the library's") {
     BaselinePass baselines(context->gl(), width, height);
     by_library = read_red(context->gl(), network.draw(images, request, true), width, height);
     const GLuint raw = network.draw(images, request, false);
-    by_peers = read_red(context->gl(), baselines.blur(raw, images, request), width, height);
+    by_peers =
+        read_red(context->gl(), baselines.denoise(raw, images, request, Denoiser::blur), width, height);
   }
   float largest = 0;
   for (std::size_t i = 0; i < by_library.size(); ++i)
@@ -163,4 +172,82 @@ TEST_CASE("the baselines' blur is the library's") {
   // Both round to 1/255 between the axes, from normals of which the library's have 16 bits: two levels.
   CHECK(largest < 2.1f / 255);
   CHECK(context->gl().GetError() == GL_NO_ERROR);
+}
+
+TEST_CASE("a wall that goes on beyond the screen darkens its floor where the border stands for it") {
+  // The upper border cuts the wall just above the line: a method that meets nothing beyond the screen misses
+  // most of it, and one that takes the border's depth sees it lean towards the viewer.
+  const auto context = make_context();
+  const TracedView view = traced(corner(), look_at({0, 2.12f, 2.12f}, {0, 0, 1.55f}, 0, 0.8f, width, height));
+  for (const Baseline baseline : {Baseline::hbao, Baseline::gtao, Baseline::bitmask, Baseline::xegtao}) {
+    const int taps = baseline == Baseline::xegtao ? 54 : 64;
+    BaselineMethod method{baseline, taps, {1, 1, baseline == Baseline::hbao ? 0.0f : 0.5f}};
+    std::map<Border, std::vector<float>> ao;
+    for (const Border border : all_borders) {
+      method.tuning.border = border;
+      ao[border] = draw(*context, method, view, 0.8f, false);
+    }
+    const int top = height - 4, middle = height / 2;
+    INFO(baseline_name(baseline) << " nothing " << row_mean(ao[Border::nothing], top) << " pixel "
+                                 << row_mean(ao[Border::pixel], top) << " depth "
+                                 << row_mean(ao[Border::depth], top));
+    CHECK(row_mean(ao[Border::pixel], top) <= row_mean(ao[Border::nothing], top) + 0.01f);
+    CHECK(row_mean(ao[Border::depth], top) < row_mean(ao[Border::nothing], top));
+    CHECK(std::abs(row_mean(ao[Border::depth], middle) - row_mean(ao[Border::nothing], middle)) < 0.05f);
+  }
+}
+
+namespace {
+
+std::vector<float> denoised(platform::Context& context, const TracedView& view, const std::vector<float>& ao,
+                            Denoiser denoiser) {
+  BaselinePass pass(context.gl(), width, height);
+  const GpuView images(context.gl(), view);
+  const GpuImage image(context.gl(), GL_R8, GL_RED, width, height, ao.data());
+  AoRequest request;
+  request.max_radius_px = 0.5f * float(height);
+  return read_red(context.gl(), pass.denoise(image.texture(), images, request, denoiser), width, height);
+}
+
+}  // namespace
+
+TEST_CASE("every denoiser keeps a constant, and a step across an edge of depth") {
+  const auto context = make_context();
+  TracedView view = traced(plane(), camera());
+  std::vector<float> constant(view.depth.size(), 0.6f), step = constant;
+  for (std::size_t i = 0; i < step.size(); ++i)
+    if (i % width >= width / 2) {
+      view.depth[i] *= 3;
+      step[i] = 0.2f;
+    }
+  for (const Denoiser denoiser : all_denoisers) {
+    INFO(denoiser_name(denoiser));
+    float off_constant = 0, off_step = 0;
+    const std::vector<float> flat = denoised(*context, view, constant, denoiser);
+    const std::vector<float> kept = denoised(*context, view, step, denoiser);
+    for (std::size_t i = 0; i < step.size(); ++i) {
+      off_constant = std::max(off_constant, std::abs(flat[i] - constant[i]));
+      off_step = std::max(off_step, std::abs(kept[i] - step[i]));
+    }
+    // A level of 8 bits for each pass.
+    CHECK(off_constant < 3.1f / 255);
+    CHECK(off_step < 3.1f / 255);
+  }
+}
+
+TEST_CASE("more passes of the edge-aware denoiser leave less noise") {
+  const auto context = make_context();
+  const TracedView view = traced(plane(), camera());
+  std::vector<float> noise(view.depth.size());
+  Random random(1);
+  for (float& value : noise) value = random.unit();
+  float before = 1;
+  for (const Denoiser denoiser : {Denoiser::edges_1, Denoiser::edges_2, Denoiser::edges_3}) {
+    const std::vector<float> ao = denoised(*context, view, noise, denoiser);
+    float variance = 0;
+    for (const float value : ao) variance += (value - 0.5f) * (value - 0.5f) / float(ao.size());
+    INFO(denoiser_name(denoiser) << " variance " << variance);
+    CHECK(variance < 0.75f * before);
+    before = variance;
+  }
 }

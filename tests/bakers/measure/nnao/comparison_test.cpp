@@ -63,8 +63,9 @@ TEST_CASE("a comparison has every method blurred and raw, with sane numbers") {
     CHECK(one.mean_flicker() >= 0);
     CHECK(row.fetches >= row.taps);
     CHECK(one.median_ms() > 0);
+    CHECK((row.denoiser == "none") == !row.blurred);
   }
-  CHECK(names.size() == 6);
+  CHECK(names.size() == 7);
   // Twice the same view is the view.
   const ComparisonRow& first = comparison.rows[0];
   const std::size_t twice[] = {0, 0};

@@ -1,8 +1,10 @@
 // The grid search finds the tuning that made its own truth.
 #include "bakers/measure/nnao/tuning.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "bakers/measure/nnao/tuning_grid.h"
 #include "tests/bakers/measure/nnao/small_scenes.h"
 #include "tests/catch.h"
 
@@ -11,11 +13,11 @@ using namespace nook::measure;
 using namespace nook::test;
 
 TEST_CASE("the table of tunings is a row for each method of the comparison") {
-  int count[5] = {};
+  int count[6] = {};
   for (const BaselineMethod& method : baseline_methods()) {
     ++count[int(method.baseline)];
     const BaselineGrid grid = baseline_grid(method.baseline, method.taps);
-    const int halves = method.baseline == Baseline::gtao || method.baseline == Baseline::bitmask ? 2 : 1;
+    const int halves = method.baseline >= Baseline::gtao ? 2 : 1;
     CHECK(grid.groups * grid.steps * halves == method.taps);
     CHECK(method.tuning.radius_scale > 0);
     CHECK(method.tuning.power > 0);
@@ -25,6 +27,7 @@ TEST_CASE("the table of tunings is a row for each method of the comparison") {
   CHECK(count[2] == 3);
   CHECK(count[3] == 6);
   CHECK(count[4] == 6);
+  CHECK(count[5] == 3);
 }
 
 TEST_CASE("tuning never ends above where it began, and a planted truth is found") {
@@ -32,7 +35,7 @@ TEST_CASE("tuning never ends above where it began, and a planted truth is found"
   MeasuredView measured;
   measured.radius = 0.5f;
   measured.view = traced(corner(), camera());
-  const BaselineMethod planted{Baseline::ssao_plus, 16, {0.8f, 1.6f, 0.03f, false}};
+  const BaselineMethod planted{Baseline::ssao_plus, 16, {0.8f, 1.6f, 0.03f}};
   {
     BaselinePass pass(context->gl(), width, height);
     const GpuView images(context->gl(), measured.view);
@@ -42,11 +45,37 @@ TEST_CASE("tuning never ends above where it began, and a planted truth is found"
     const GLuint texture = pass.draw(planted, images, request, true);
     measured.truth = read_red(context->gl(), texture, width, height);
   }
-  const BaselineMethod start{Baseline::ssao_plus, 16, {1.26f, 1.0f, 0.1f, false}};
+  const BaselineMethod start{Baseline::ssao_plus, 16, {1.26f, 1.0f, 0.1f}};
   const std::vector<TunedBaseline> tuned =
       tune_baselines(*context, {&measured, 1}, {&start, 1}, [](std::size_t, std::size_t) { return true; });
   REQUIRE(tuned.size() == 1);
   // The corner alone is matched by neighbours on the grid nearly as well: a level of 8 bits, squared, four
   // times.
   CHECK(tuned[0].mse < 4.0 / (255 * 255));
+}
+
+TEST_CASE("the grids of the search grow, and a baseline begins within them") {
+  for (const Baseline baseline : all_baselines) {
+    const TuningPlace first = first_place(baseline);
+    CHECK(tuning_at(baseline, first).radius_scale == 1);
+    CHECK(tuning_at(baseline, first).power == 1);
+    CHECK(axes_at_edge(baseline, first).empty());
+    for (std::size_t axis = 0; axis < tuned_axes; ++axis) {
+      const std::span<const float> values = axis_values(baseline, axis);
+      CHECK(std::ranges::is_sorted(values));
+      CHECK(first.at[axis] < int(values.size()));
+    }
+  }
+}
+
+TEST_CASE("a best value that is the last of its grid is named, unless the parameter ends there") {
+  TuningPlace place = first_place(Baseline::xegtao);
+  place.at = {0, int(axis_values(Baseline::xegtao, 1).size()) - 1,
+              int(axis_values(Baseline::xegtao, 2).size()) - 1, 0};
+  CHECK(axes_at_edge(Baseline::xegtao, place) == std::vector<std::string>{"radius_scale", "power"});
+  place = first_place(Baseline::hbao);
+  place.at[2] = 0;
+  CHECK(axes_at_edge(Baseline::hbao, place).empty());
+  place.at[2] = int(axis_values(Baseline::hbao, 2).size()) - 1;
+  CHECK(axes_at_edge(Baseline::hbao, place) == std::vector<std::string>{"shape"});
 }
