@@ -1,5 +1,6 @@
 #include "bakers/measure/gpu_cost/shader_cases.h"
 #include "bakers/measure/gpu_cost/trip_counts.h"
+#include "bakers/measure/nnao/baselines.h"
 
 namespace nook::measure {
 namespace {
@@ -32,9 +33,35 @@ std::vector<Loop> paper_loops(const Grid& grid) {
   return {{"groups of taps", double(grid.groups), {}}};
 }
 
-ShaderCase baseline(const std::string& file, const std::string& name, const std::vector<Loop>& loops = {}) {
-  return tree_shader(Stage::fragment, "bakers/measure/nnao/shaders/" + file, name, "", loops);
+// Its loops by the grid of its taps. Steps are those on one side of a slice.
+std::vector<Loop> baseline_loops(const BaselineMethod& method) {
+  const BaselineGrid grid = baseline_grid(method.baseline, method.taps);
+  const double groups = grid.groups, steps = grid.steps;
+  switch (method.baseline) {
+    case Baseline::ssao:
+    case Baseline::ssao_plus:
+      return {{"taps", steps, {}}};
+    case Baseline::hbao:
+      return {{"directions", groups, {{"steps", steps, {}}}}};
+    case Baseline::xegtao:
+      // Their numbers are known when it is compiled, and all taps are unrolled.
+      return {};
+    default:
+      return {{"slices", groups, {{"steps behind", steps, {}}, {"steps ahead", steps, {}}}}};
+  }
 }
+
+bool is_counted(const BaselineMethod& method) {
+  switch (method.baseline) {
+    case Baseline::gtao:
+    case Baseline::bitmask:
+      return method.taps == 16 || method.taps == 18 || method.taps == 64;
+    default:
+      return true;
+  }
+}
+
+const std::string shader_folder = "bakers/measure/nnao/shaders/";
 
 }  // namespace
 
@@ -65,27 +92,38 @@ std::vector<ShaderCase> nnao_shaders() {
   return shaders;
 }
 
+std::vector<BaselineMethod> counted_baselines() {
+  std::vector<BaselineMethod> counted;
+  for (const BaselineMethod& method : baseline_methods())
+    if (is_counted(method)) counted.push_back(method);
+  return counted;
+}
+
+std::string counted_name(const BaselineMethod& method) {
+  constexpr const char* names[] = {"SSAO", "SSAO+", "HBAO", "GTAO", "GTAO with bitmask", "XeGTAO"};
+  const std::string name = std::string(names[int(method.baseline)]) + " ";
+  if (method.baseline != Baseline::xegtao) return name + std::to_string(method.taps);
+  return name + (method.taps == 8 ? "Medium" : method.taps == 18 ? "High" : "Ultra");
+}
+
 std::vector<ShaderCase> baseline_shaders() {
   std::vector<ShaderCase> shaders;
-  const auto add = [&](const char* file, const std::string& method, int taps,
-                       const std::vector<Loop>& loops) {
-    shaders.push_back(baseline(file, method + " " + std::to_string(taps), loops));
+  for (const BaselineMethod& method : counted_baselines()) {
+    shaders.push_back(tree_shader(Stage::fragment, shader_folder + baseline_shader(method.baseline),
+                                  counted_name(method), baseline_defines(method), baseline_loops(method)));
+    // GCN's compiler keeps the loop over many slices.
+    if (method.baseline == Baseline::xegtao && method.taps == 54)
+      shaders.back().other_families = {{"vega10", {{"slices", 9, {}}}}};
+  }
+  const auto add = [&](Stage stage, const char* file, const char* name) {
+    shaders.push_back(tree_shader(stage, shader_folder + file, name));
   };
-  for (const Grid& grid : {grids[1], grids[2], grids[3]})
-    add("hbao.frag", "HBAO", grid.taps, grid_loops("directions", grid));
-  // Steps are those on one side of a slice.
-  for (const Grid& grid : {Grid{16, 2, 4}, Grid{18, 3, 3}, Grid{64, 4, 8}}) {
-    const double steps = grid.steps;
-    const std::vector<Loop> loops = {
-        {"slices", double(grid.groups), {{"steps behind", steps, {}}, {"steps ahead", steps, {}}}}};
-    add("gtao.frag", "GTAO", grid.taps, loops);
-    add("bitmask.frag", "GTAO with bitmask", grid.taps, loops);
-  }
-  for (const int taps : {4, 8, 16}) {
-    add("ssao.frag", "SSAO", taps, {{"taps", double(taps), {}}});
-    add("ssao_plus.frag", "SSAO+", taps, {{"taps", double(taps), {}}});
-  }
-  shaders.push_back(baseline("blur.frag", baseline_blur));
+  add(Stage::compute, "depth_levels.comp", xegtao_levels);
+  add(Stage::fragment, "depth_level.frag", "depth levels, one by one");
+  add(Stage::fragment, "edges.frag", denoiser_edges);
+  add(Stage::compute, "denoise.comp", edge_denoiser);
+  add(Stage::fragment, "denoise.frag", "edge-aware denoiser, a pixel a thread");
+  add(Stage::fragment, "blur.frag", baseline_blur);
   return shaders;
 }
 

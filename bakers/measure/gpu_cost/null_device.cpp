@@ -12,7 +12,7 @@ namespace nook::measure {
 namespace {
 
 // Bindings that the storage blocks and images of a shader may have.
-constexpr std::size_t storage_blocks = 16, images = 4;
+constexpr std::size_t storage_blocks = 16, images = 5;
 constexpr std::uint32_t wave_lanes = 64;
 
 void check(VkResult result, const char* call) {

@@ -3,7 +3,7 @@
 namespace nook::measure {
 namespace {
 
-// Both dimensions of the surface are halved.
+// Both dimensions of the surface are halved, or a thread makes two pixels of each.
 constexpr double quarter = 0.25;
 
 PassCase nnao(const std::string& name, const std::string& occlusion, bool half, bool paper = false) {
@@ -13,6 +13,33 @@ PassCase nnao(const std::string& name, const std::string& occlusion, bool half, 
   if (paper) pass.shaders.push_back({"normals.frag" + size, share});
   if (half) pass.shaders.push_back({"filter.frag" + size, share});
   return pass;
+}
+
+std::string passes_text(int passes) {
+  return passes == 1 ? "once" : passes == 2 ? "twice" : "three times";
+}
+
+// From the host's depth and normals to smooth AO.
+PassCase baseline_pass(const BaselineMethod& method, Denoiser denoiser) {
+  const int passes = int(denoiser);
+  const bool xegtao = method.baseline == Baseline::xegtao;
+  PassCase pass{counted_name(method) + (passes > 0 ? ", denoised " + passes_text(passes) : ", blurred"), {}};
+  if (xegtao) pass.shaders.push_back({xegtao_levels, quarter});
+  pass.shaders.push_back({counted_name(method), 1});
+  if (passes > 0 && !xegtao) pass.shaders.push_back({denoiser_edges, 1});
+  pass.shaders.push_back(passes > 0 ? std::pair<std::string, double>(edge_denoiser, 0.5 * passes)
+                                    : std::pair<std::string, double>(baseline_blur, 2));
+  return pass;
+}
+
+void add_baselines(std::vector<PassCase>& passes) {
+  for (const BaselineMethod& method : counted_baselines()) {
+    if (method.baseline != Baseline::xegtao) {
+      passes.push_back(baseline_pass(method, method.tuning.denoiser));
+      continue;
+    }
+    for (const Denoiser denoiser : all_denoisers) passes.push_back(baseline_pass(method, denoiser));
+  }
 }
 
 }  // namespace
@@ -43,8 +70,7 @@ std::vector<PassCase> all_passes() {
     passes.push_back(nnao("NNAO " + taps + ", compute", "occlusion.comp, " + taps, false));
     passes.push_back(nnao("NNAO, paper's form, " + taps, "occlusion.frag, paper's form, " + taps, false, true));
   }
-  for (const ShaderCase& shader : baseline_shaders())
-    if (shader.name != baseline_blur) passes.push_back({shader.name, {{shader.name, 1}, {baseline_blur, 2}}});
+  add_baselines(passes);
   return passes;
 }
 

@@ -8,6 +8,7 @@
 
 #include "bakers/measure/gpu_cost/instruction_count.h"
 #include "bakers/measure/gpu_cost/source_text.h"
+#include "bakers/measure/nnao/baselines.h"
 
 namespace nook::measure {
 
@@ -45,8 +46,15 @@ struct PassCase {
   std::vector<std::pair<std::string, double>> shaders;
 };
 
-// The name of the blur that all baselines share.
+// Names of what baselines share. The denoiser makes two pixels a thread, the levels four.
 inline constexpr char baseline_blur[] = "blur of the baselines";
+inline constexpr char edge_denoiser[] = "edge-aware denoiser, two pixels a thread";
+inline constexpr char denoiser_edges[] = "edges for the denoiser";
+inline constexpr char xegtao_levels[] = "XeGTAO depth levels, four pixels a thread";
+
+// The baselines of the table, with their tuning.
+std::vector<BaselineMethod> counted_baselines();
+std::string counted_name(const BaselineMethod& method);
 
 std::vector<ShaderCase> character_shaders();
 std::vector<ShaderCase> nnao_shaders();

@@ -185,15 +185,21 @@ std::vector<Step> steps(Baseline baseline, int stride) {
   return all;
 }
 
+// Valleys have two ends, small radii with steep falloffs and large ones with soft falloffs: the search goes
+// down from both.
 Found search_some(Search& search, Baseline baseline, const std::vector<TuningPlace>& before) {
+  TuningPlace wide = first_place(baseline);
+  wide.at[0] += 6;
   Found best;
-  for (const TuningPlace& start : before) search.improve(best, start);
-  if (before.empty()) {
-    search.improve(best, first_place(baseline));
-    search.descend(best, steps(baseline, 4));
+  for (const TuningPlace& start : {first_place(baseline), wide}) {
+    Found found = search.with_best_power(start);
+    search.descend(found, steps(baseline, 4));
+    search.flip(found);
+    search.descend(found, steps(baseline, 2));
+    if (found.mse < best.mse) best = found;
   }
-  search.flip(best);
-  search.descend(best, steps(baseline, 2));
+  for (const TuningPlace& start : before)
+    if (search.improve(best, start)) search.descend(best, steps(baseline, 2));
   return best;
 }
 

@@ -19,7 +19,7 @@ constexpr float hbao_biases[] = {0, 0.05f, 0.1f, 0.15f, 0.2f, 0.25f, 0.3f, 0.35f
 constexpr float gtao_falloffs[] = {0, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 0.95f};
 constexpr float thicknesses[] = {0.035f, 0.05f, 0.07f, 0.1f, 0.14f, 0.2f, 0.28f,
                                  0.4f,   0.56f, 0.8f,  1.1f, 1.6f,  2.2f, 3.2f};
-constexpr float xegtao_falloffs[] = {0.05f, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.615f, 0.7f, 0.8f, 0.9f, 1};
+constexpr float xegtao_falloffs[] = {0.02f, 0.05f, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.615f, 0.7f, 0.8f, 0.9f, 1};
 constexpr float compensations[] = {0, 0.1f, 0.2f, 0.35f, 0.5f, 0.7f, 1, 1.4f, 2, 2.8f, 4};
 
 std::span<const float> shapes(Baseline baseline) {
@@ -81,8 +81,8 @@ std::vector<std::string> axes_at_edge(Baseline baseline, const TuningPlace& plac
   for (std::size_t axis = 0; axis < tuned_axes; ++axis) {
     const std::span<const float> values = axis_values(baseline, axis);
     const bool first = place.at[axis] == 0, last = place.at[axis] + 1 == int(values.size());
-    const bool ends_at_one = baseline == Baseline::xegtao && axis == 2;
-    if (values.size() > 1 && ((first && values.front() != 0) || (last && !ends_at_one)))
+    const bool complete = baseline == Baseline::xegtao && axis == 2;
+    if (values.size() > 1 && !complete && ((first && values.front() != 0) || last))
       found.push_back(axis_names[axis]);
   }
   return found;

@@ -32,7 +32,7 @@ BaselineTuning tuning_at(Baseline baseline, const TuningPlace& place);
 TuningPlace first_place(Baseline baseline);
 
 // Returns the axes on which a place is the last of a grid that could go on. A bias or a compensation cannot
-// be below 0, and a falloff takes at most the whole radius.
+// be below 0, and XeGTAO's falloff takes from nearly nothing to the whole radius.
 std::vector<std::string> axes_at_edge(Baseline baseline, const TuningPlace& place);
 
 }  // namespace nook::measure
