@@ -79,9 +79,9 @@ class Search {
   // Returns the place with the best contrast, and its error.
   Found with_best_power(TuningPlace place) {
     Found found = estimate(place);
-    for (int again = 0; settled_ && again < 4 && found.place != place; ++again)
-      found = estimate(place = found.place);
-    return found;
+    if (!settled_) return found;
+    for (int again = 0; again < 4 && found.place != place; ++again) found = estimate(place = found.place);
+    return {place, mse(place)};
   }
 
   // The error of a place as it is.
