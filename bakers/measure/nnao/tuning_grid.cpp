@@ -73,6 +73,7 @@ TuningPlace first_place(Baseline baseline) {
   place.at[0] = int(std::ranges::find(radius_scales, 1.0f) - radius_scales);
   place.at[1] = int(std::ranges::find(powers, 1.0f) - powers);
   place.at[2] = int(shapes(baseline).size() / 2);
+  place.denoiser = Denoiser::edges_2;
   return place;
 }
 

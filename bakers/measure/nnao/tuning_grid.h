@@ -28,7 +28,7 @@ std::span<const float> axis_values(Baseline baseline, std::size_t axis);
 
 BaselineTuning tuning_at(Baseline baseline, const TuningPlace& place);
 
-// Radius and contrast of the request, the middle of the shapes.
+// Radius and contrast of the request, the middle of the shapes, a denoiser that is soon drawn.
 TuningPlace first_place(Baseline baseline);
 
 // Returns the axes on which a place is the last of a grid that could go on. A bias or a compensation cannot
