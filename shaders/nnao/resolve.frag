@@ -7,7 +7,9 @@
 #include "shaders/nnao/filter.glsl"
 #endif
 
+#ifdef NOOK_LAYERED
 uniform sampler2D nook_layer;
+#endif
 
 out vec4 nook_out;
 
@@ -26,16 +28,21 @@ float nook_strengthened(float ao) {
   return nook_power == 1.0 || base == 1.0 ? base : pow(base, nook_power);
 }
 
+#ifdef NOOK_LAYERED
 // The modes of nook_nnao_layer.
 float nook_combined(float ao, ivec2 pixel) {
-  if (nook_layer_mode == 0) return ao;
   vec2 layer = texelFetch(nook_layer, pixel + nook_origin, 0).rg;
   if (nook_layer_mode == 3) return mix(ao, layer.r, layer.g);
   float smaller = min(ao, layer.r);
   return nook_layer_mode == 1 ? smaller : layer.r > 0.0 ? smaller / layer.r : 1.0;
 }
+#endif
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy) - nook_origin;
-  nook_out = vec4(vec3(nook_combined(nook_strengthened(nook_screen_ao(pixel)), pixel)), 1.0);
+  float ao = nook_strengthened(nook_screen_ao(pixel));
+#ifdef NOOK_LAYERED
+  ao = nook_combined(ao, pixel);
+#endif
+  nook_out = vec4(vec3(ao), 1.0);
 }

@@ -78,16 +78,17 @@ std::vector<ShaderCase> nnao_shaders() {
     add(Stage::fragment, "normals.frag", "", defines(half, false, grids[1]), {});
     for (const Grid& grid : grids) {
       const std::string taps = ", " + std::to_string(grid.taps);
-      add(Stage::fragment, "occlusion.frag", taps, defines(half, true, grid),
-          direction_loops(grid));
-      add(Stage::compute, "occlusion.comp", taps, defines(half, true, grid),
-          direction_loops(grid));
+      add(Stage::fragment, "occlusion.frag", taps, defines(half, true, grid), direction_loops(grid));
+      add(Stage::compute, "occlusion.comp", taps, defines(half, true, grid), direction_loops(grid));
       if (grid.taps == 16 || grid.taps == 64)
         add(Stage::fragment, "occlusion.frag", ", paper's form" + taps, defines(half, false, grid),
             paper_loops(grid));
     }
     if (half) add(Stage::fragment, "filter.frag", "", defines(half, true, grids[0]), {});
     add(Stage::fragment, "resolve.frag", "", defines(half, true, grids[0]), {});
+    add(Stage::fragment, "resolve.frag", ", layered",
+        defines(half, true, grids[0]) + "#define NOOK_LAYERED 1\n", {});
+    add(Stage::fragment, "show_normals.frag", "", defines(half, true, grids[0]), {});
   }
   return shaders;
 }

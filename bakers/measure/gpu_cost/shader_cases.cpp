@@ -9,7 +9,8 @@ constexpr double quarter = 0.25;
 PassCase nnao(const std::string& name, const std::string& occlusion, bool half, bool paper = false) {
   const std::string size = half ? ", half" : "";
   const double share = half ? quarter : 1;
-  PassCase pass{name + size, {{"depth.frag" + size, share}, {occlusion + size, share}, {"resolve.frag" + size, 1}}};
+  PassCase pass{name + size,
+                {{"depth.frag" + size, share}, {occlusion + size, share}, {"resolve.frag" + size, 1}}};
   if (paper) pass.shaders.push_back({"normals.frag" + size, share});
   if (half) pass.shaders.push_back({"filter.frag" + size, share});
   return pass;
@@ -68,7 +69,8 @@ std::vector<PassCase> all_passes() {
       passes.push_back(nnao("NNAO " + taps, "occlusion.frag, " + taps, half));
   for (const std::string taps : {"16", "64"}) {
     passes.push_back(nnao("NNAO " + taps + ", compute", "occlusion.comp, " + taps, false));
-    passes.push_back(nnao("NNAO, paper's form, " + taps, "occlusion.frag, paper's form, " + taps, false, true));
+    passes.push_back(
+        nnao("NNAO, paper's form, " + taps, "occlusion.frag, paper's form, " + taps, false, true));
   }
   add_baselines(passes);
   return passes;

@@ -254,7 +254,7 @@ Json nnao_ratio_rows(const Comparison& comparison, std::span<const MeasuredView>
 
 std::string nnao_markdown(const Json& rows, const Json& ratios) {
   std::string text = scene_table(rows) + "\n" + mean_table(rows);
-  if (!ratios.empty()) text += "\n" + ratio_table(ratios);
+  if (!ratios.empty()) text.append(1, '\n').append(ratio_table(ratios));
   return text;
 }
 

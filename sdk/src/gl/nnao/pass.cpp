@@ -138,7 +138,9 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
     bind_texture(NOOK_UNIT_AO, ao_[1].texture());
   }
   end_stage();
-  draw_output(resolve_stage_, frame, constants);
+  // The views for debugging have no layer.
+  const bool combined = layered && frame.view == NOOK_NNAO_VIEW_AO;
+  draw_output(combined ? layered_stage_ : resolve_stage_, frame, constants);
   end_stage();
 }
 

@@ -64,7 +64,8 @@ class NnaoPass {
   nook_nnao_desc desc_;  // without network and next
   nook_nnao_path path_;
   // The stage of normals belongs to the paper's form, that of the filter to half resolution.
-  Stage depth_stage_, normals_stage_, occlusion_stage_, filter_stage_, resolve_stage_, show_normals_stage_;
+  Stage depth_stage_, normals_stage_, occlusion_stage_, filter_stage_, resolve_stage_, layered_stage_,
+      show_normals_stage_;
   RenderTexture depth_, normals_;  // of the surface
   RenderTexture ao_[2];            // of the surface; the second at half resolution alone
   RenderTexture own_;

@@ -111,22 +111,24 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
 void NnaoPass::make_programs(const nnao::Network& network) {
   const bool horizon = network.form == nnao::NetworkForm::horizon;
   const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
-  char defines[120];
+  char defines[120], layered[160];
   std::snprintf(
       defines, sizeof defines,
       "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_DIRECTIONS %u\n#define NOOK_STEPS %u\n",
       half(), horizon, grid.directions, grid.steps);
-  const auto drawn = [&](const char* path) {
-    return make_stage(draw_program(device_, "nnao/screen.vert", path, defines));
+  std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
+  const auto drawn = [&](const char* path, const char* text) {
+    return make_stage(draw_program(device_, "nnao/screen.vert", path, text));
   };
-  depth_stage_ = drawn("nnao/depth.frag");
-  if (!horizon) normals_stage_ = drawn("nnao/normals.frag");
+  depth_stage_ = drawn("nnao/depth.frag", defines);
+  if (!horizon) normals_stage_ = drawn("nnao/normals.frag", defines);
   occlusion_stage_ = path_ == NOOK_NNAO_PATH_COMPUTE
                          ? make_stage(compute_program(device_, "nnao/occlusion.comp", defines))
-                         : drawn("nnao/occlusion.frag");
-  if (half() && desc_.blur) filter_stage_ = drawn("nnao/filter.frag");
-  resolve_stage_ = drawn("nnao/resolve.frag");
-  show_normals_stage_ = drawn("nnao/show_normals.frag");
+                         : drawn("nnao/occlusion.frag", defines);
+  if (half() && desc_.blur) filter_stage_ = drawn("nnao/filter.frag", defines);
+  resolve_stage_ = drawn("nnao/resolve.frag", defines);
+  layered_stage_ = drawn("nnao/resolve.frag", layered);
+  show_normals_stage_ = drawn("nnao/show_normals.frag", defines);
   // Both forms have the same number of groups with the same number of taps.
   device_.gl.UseProgram(occlusion_stage_.program.name());
   device_.gl.Uniform1i(uniform_location(device_, occlusion_stage_.program, "nook_tap_groups"),
