@@ -4,15 +4,15 @@ namespace nook::bake::nnao {
 namespace {
 
 constexpr int units = HorizonNetwork::units, tap_inputs = HorizonNetwork::tap_inputs;
-constexpr int direction_inputs = HorizonBatch::direction_inputs, pooled_inputs = 2 * units + direction_inputs,
-              joined_inputs = units + 2;
+constexpr int direction_gates = HorizonBatch::direction_gates, join_gates = HorizonBatch::join_gates,
+              pooled_inputs = 2 * units;
 
 // The offset of each layer among the parameters.
 constexpr int tap_layer = 0;
 constexpr int direction_layer = tap_layer + tap_inputs * units;
-constexpr int join_layer = direction_layer + LeakyOrder<pooled_inputs, units>::count;
-constexpr int out_layer = join_layer + LeakyOrder<joined_inputs, units>::count;
-static_assert(out_layer + LinearOrder<units, 1>::count == sizeof(HorizonNetwork) / sizeof(float));
+constexpr int join_layer = direction_layer + GatedOrder<pooled_inputs, direction_gates, units>::count;
+constexpr int out_layer = join_layer + GatedOrder<units, join_gates, units>::count;
+static_assert(out_layer + units == sizeof(HorizonNetwork) / sizeof(float));
 
 typedef int LaneInts __attribute__((vector_size(4 * lane_count)));
 
@@ -21,11 +21,11 @@ typedef int LaneInts __attribute__((vector_size(4 * lane_count)));
 HorizonBatch::HorizonBatch(TapGrid tap_grid)
     : grid(tap_grid),
       tap(lane_array(std::size_t(grid.directions) * grid.steps * tap_inputs)),
-      direction(lane_array(direction_inputs * std::size_t(grid.directions))) {}
+      direction(lane_array(direction_gates * std::size_t(grid.directions))) {}
 
 HorizonTrace::HorizonTrace(TapGrid grid)
     : pooled(lane_array(std::size_t(grid.directions) * pooled_inputs)),
-      direction_before(lane_array(std::size_t(grid.directions) * units)),
+      direction_sums(lane_array(std::size_t(grid.directions) * units)),
       most_step(std::size_t(grid.directions) * units * lane_count) {}
 
 void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNoise noise) {
@@ -48,9 +48,9 @@ void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNo
           horizon_tap_input(view, texel, position, point.normal, viewer, point.radius);
       for (int i = 0; i < tap_inputs; ++i) tap[t * tap_inputs + std::size_t(i)][lane] = input[std::size_t(i)];
     }
-    Lanes* const inputs = &direction[d * direction_inputs];
-    inputs[0][lane] = dot(point.normal, across_viewer(viewer, cosine, sine));
-    inputs[1][lane] = facing;
+    Lanes* const gate = &direction[d * direction_gates];
+    gate[0][lane] = dot(point.normal, across_viewer(viewer, cosine, sine));
+    gate[1][lane] = facing;
   }
   join[0][lane] = facing;
   join[1][lane] = border_distance(view, point.x, point.y, radius_px);
@@ -85,37 +85,37 @@ NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& ba
       __builtin_memcpy(&trace.most_step[(d * units + std::size_t(u)) * lane_count], &most_step[u],
                        sizeof(LaneInts));
     }
-    for (int i = 0; i < direction_inputs; ++i)
-      pooled[2 * units + i] = batch.direction[d * direction_inputs + std::size_t(i)];
     Lanes out[units];
-    leaky_forward<pooled_inputs, units>(parameters + direction_layer, pooled,
-                                        &trace.direction_before[d * units], out);
+    gated_forward<pooled_inputs, direction_gates, units>(parameters + direction_layer, pooled,
+                                                         &batch.direction[d * direction_gates],
+                                                         &trace.direction_sums[d * units], out);
     for (int u = 0; u < units; ++u) trace.joined[u] += out[u];
   }
   for (int u = 0; u < units; ++u) trace.joined[u] *= 1 / float(directions);
-  trace.joined[units] = batch.join[0];
-  trace.joined[units + 1] = batch.join[1];
-  leaky_forward<joined_inputs, units>(parameters + join_layer, trace.joined, trace.join_before,
-                                      trace.join_output);
-  linear_forward<units, 1>(parameters + out_layer, trace.join_output, &output);
+  gated_forward<units, join_gates, units>(parameters + join_layer, trace.joined, batch.join, trace.join_sums,
+                                          trace.join_output);
+  output = Lanes{} + 1.0f;
+  for (int u = 0; u < units; ++u) output += parameters[out_layer + u] * trace.join_output[u];
 }
 
 NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& batch,
                                   const HorizonTrace& trace, const Lanes& output_gradient, Lanes* gradient) {
   const auto [directions, steps] = batch.grid;
-  Lanes g_join[units], g_joined[joined_inputs];
-  linear_backward<units, 1>(parameters + out_layer, trace.join_output, &output_gradient, gradient + out_layer,
-                            g_join);
-  leaky_backward<joined_inputs, units>(parameters + join_layer, trace.joined, trace.join_before, g_join,
-                                       gradient + join_layer, g_joined);
+  Lanes g_join[units], g_joined[units];
+  for (int u = 0; u < units; ++u) {
+    gradient[out_layer + u] += output_gradient * trace.join_output[u];
+    g_join[u] = parameters[out_layer + u] * output_gradient;
+  }
+  gated_backward<units, join_gates, units>(parameters + join_layer, trace.joined, batch.join, trace.join_sums,
+                                           g_join, gradient + join_layer, g_joined);
   // The gradient of the tap layer is summed here, because the loop over taps takes most of the time.
   Lanes g_tap_layer[tap_inputs * units] = {};
   for (std::uint32_t d = 0; d < directions; ++d) {
     Lanes g_pooled[pooled_inputs], g_out[units];
     for (int u = 0; u < units; ++u) g_out[u] = g_joined[u] * (1 / float(directions));
-    leaky_backward<pooled_inputs, units>(parameters + direction_layer, &trace.pooled[d * pooled_inputs],
-                                         &trace.direction_before[d * units], g_out,
-                                         gradient + direction_layer, g_pooled);
+    gated_backward<pooled_inputs, direction_gates, units>(
+        parameters + direction_layer, &trace.pooled[d * pooled_inputs], &batch.direction[d * direction_gates],
+        &trace.direction_sums[d * units], g_out, gradient + direction_layer, g_pooled);
     for (int u = 0; u < units; ++u) g_pooled[units + u] *= 1 / float(steps);
     LaneInts most_step[units];
     for (int u = 0; u < units; ++u)

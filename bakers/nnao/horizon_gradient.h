@@ -17,14 +17,16 @@ using nook::nnao::TapNoise;
 // Inputs of sixteen samples with the same number of taps.
 struct HorizonBatch {
   // dot(n, t), dot(n, o).
-  static constexpr int direction_inputs = 2;
+  static constexpr int direction_gates = 2;
+  // dot(n, o), distance from the border.
+  static constexpr int join_gates = 2;
 
   explicit HorizonBatch(TapGrid tap_grid);
 
   TapGrid grid;
   LaneArray tap;        // tap_inputs for each tap, one direction after another
-  LaneArray direction;  // direction_inputs of each direction
-  Lanes join[2]{};      // dot(n, o), distance from the border
+  LaneArray direction;  // direction_gates of each direction
+  Lanes join[join_gates]{};
 
   void set(int lane, const View& view, const DataPoint& point, TapNoise noise);
 };
@@ -33,10 +35,9 @@ struct HorizonBatch {
 struct HorizonTrace {
   explicit HorizonTrace(TapGrid grid);
 
-  LaneArray pooled, direction_before;
+  LaneArray pooled, direction_sums;
   std::vector<int> most_step;  // the step of each direction's maximum, by unit and lane
-  Lanes joined[HorizonNetwork::units + 2], join_before[HorizonNetwork::units],
-      join_output[HorizonNetwork::units];
+  Lanes joined[HorizonNetwork::units], join_sums[HorizonNetwork::units], join_output[HorizonNetwork::units];
 };
 
 // parameters are in the order of layers.h. Returns the network's output before the clamp.

@@ -65,12 +65,13 @@ float* start_weights(float* layer, Random& random) {
   return layer + inputs * units;
 }
 
-template <int inputs, int units>
-float* start_leaky(float* layer, Random& random) {
-  float* const bias = start_weights<inputs, units>(layer, random);
-  std::fill_n(bias, units, 0.0f);
-  std::fill_n(bias + units, units, 0.25f);
-  return bias + 2 * units;
+// Gates start at 1 for every input.
+template <int inputs, int gates, int units>
+float* start_gated(float* layer, Random& random) {
+  float* const gate = start_weights<inputs, units>(layer, random);
+  std::fill_n(gate, gates * units, 0.0f);
+  std::fill_n(gate + gates * units, units, 0.25f);
+  return layer + GatedOrder<inputs, gates, units>::count;
 }
 
 }  // namespace
@@ -79,12 +80,16 @@ std::size_t horizon_parameter_count() {
   return sizeof(HorizonNetwork) / sizeof(float);
 }
 
-void start_horizon(std::span<float> parameters, float mean_ao, Random& random) {
+void start_horizon(std::span<float> parameters, Random& random) {
   constexpr int units = HorizonNetwork::units;
   float* next = start_weights<HorizonNetwork::tap_inputs, units>(parameters.data(), random);
-  next = start_leaky<NOOK_HORIZON_DIRECTION_INPUTS, units>(next, random);
-  next = start_leaky<NOOK_HORIZON_JOIN_INPUTS, units>(next, random);
-  *start_weights<units, 1>(next, random) = mean_ao;
+  // Taps above the plane are those that occlude: units begin by answering them, whatever their distance.
+  for (int u = 0; u < units; ++u)
+    for (const int input : {0, 2})
+      parameters[std::size_t(input * units + u)] = std::abs(parameters[std::size_t(input * units + u)]);
+  next = start_gated<2 * units, HorizonBatch::direction_gates, units>(next, random);
+  next = start_gated<units, HorizonBatch::join_gates, units>(next, random);
+  start_weights<units, 1>(next, random);
 }
 
 void export_horizon(std::span<const float> parameters, HorizonNetwork& network) {

@@ -14,7 +14,7 @@ inline LaneArray lane_array(std::size_t count) {
   return {count, default_memory()};
 }
 
-// The layers of network.h are Dense, LeakyDense, RectifiedDense and LinearDense; their numbers are in the
+// The layers of network.h are Dense, RectifiedDense and GatedDense; their numbers are in the
 // order of layers.h.
 template <int inputs, int units>
 struct LayerOrder {
@@ -56,39 +56,11 @@ NOOK_INLINE void backward(const float* layer, const Number* input, const Number*
   }
 }
 
-template <int inputs, int units>
-struct LeakyOrder {
-  static constexpr int weights = 0, bias = inputs * units, slope = bias + units, count = slope + units;
+template <int inputs, int gates, int units>
+struct GatedOrder {
+  static constexpr int weights = 0, gate = inputs * units, slope = gate + gates * units,
+                       count = slope + units;
 };
-// A RectifiedDense has weights alone.
-template <int inputs, int units>
-struct LinearOrder {
-  static constexpr int weights = 0, bias = inputs * units, count = bias + units;
-};
-
-template <int inputs, int units, class Number>
-NOOK_INLINE void linear_forward(const float* layer, const Number* input, Number* output) {
-  for (int u = 0; u < units; ++u) {
-    Number sum = Number{} + layer[LinearOrder<inputs, units>::bias + u];
-    for (int i = 0; i < inputs; ++i) sum += layer[i * units + u] * input[i];
-    output[u] = sum;
-  }
-}
-
-template <int inputs, int units, class Number>
-NOOK_INLINE void linear_backward(const float* layer, const Number* input, const Number* output_gradient,
-                                 Number* gradient, Number* input_gradient) {
-  if (input_gradient)
-    for (int i = 0; i < inputs; ++i) input_gradient[i] = Number{};
-  for (int u = 0; u < units; ++u) {
-    const Number g = output_gradient[u];
-    gradient[LinearOrder<inputs, units>::bias + u] += g;
-    for (int i = 0; i < inputs; ++i) {
-      gradient[i * units + u] += g * input[i];
-      if (input_gradient) input_gradient[i] += layer[i * units + u] * g;
-    }
-  }
-}
 
 template <int inputs, int units, class Number>
 NOOK_INLINE void rectified_forward(const float* layer, const Number* input, Number* output) {
@@ -111,28 +83,51 @@ NOOK_INLINE void rectified_backward(const Number* input, const Number* output, c
   }
 }
 
-// before receives the sums.
-template <int inputs, int units, class Number>
-NOOK_INLINE void leaky_forward(const float* layer, const Number* input, Number* before, Number* output) {
-  linear_forward<inputs, units>(layer, input, before);
+template <int inputs, int gates, int units, class Number>
+NOOK_INLINE void set_gate_factor(const float* layer, const Number* gate, int unit, Number& factor) {
+  factor = Number{} + 1.0f;
+  for (int i = 0; i < gates; ++i)
+    factor += layer[GatedOrder<inputs, gates, units>::gate + i * units + unit] * gate[i];
+}
+
+// sums receives the sums before the gate.
+template <int inputs, int gates, int units, class Number>
+NOOK_INLINE void gated_forward(const float* layer, const Number* input, const Number* gate, Number* sums,
+                               Number* output) {
   for (int u = 0; u < units; ++u) {
-    const Number sloped = layer[LeakyOrder<inputs, units>::slope + u] * before[u];
-    output[u] = before[u] > sloped ? before[u] : sloped;
+    Number sum{};
+    for (int i = 0; i < inputs; ++i) sum += layer[i * units + u] * input[i];
+    sums[u] = sum;
+    Number factor;
+    set_gate_factor<inputs, gates, units>(layer, gate, u, factor);
+    const Number gated = sum * factor;
+    const Number sloped = layer[GatedOrder<inputs, gates, units>::slope + u] * gated;
+    output[u] = gated > sloped ? gated : sloped;
   }
 }
 
-template <int inputs, int units, class Number>
-NOOK_INLINE void leaky_backward(const float* layer, const Number* input, const Number* before,
-                                const Number* output_gradient, Number* gradient, Number* input_gradient) {
-  constexpr int slope = LeakyOrder<inputs, units>::slope;
+// Adds the gradient of the layer's numbers to `gradient`, and sets the gradient of the inputs.
+template <int inputs, int gates, int units, class Number>
+NOOK_INLINE void gated_backward(const float* layer, const Number* input, const Number* gate,
+                                const Number* sums, const Number* output_gradient, Number* gradient,
+                                Number* input_gradient) {
+  using Order = GatedOrder<inputs, gates, units>;
   const Number zero{};
-  Number g_sum[units];
+  for (int i = 0; i < inputs; ++i) input_gradient[i] = zero;
   for (int u = 0; u < units; ++u) {
-    const Number g = output_gradient[u], sloped = layer[slope + u] * before[u];
-    gradient[slope + u] += before[u] > sloped ? zero : g * before[u];
-    g_sum[u] = before[u] > sloped ? g : layer[slope + u] * g;
+    Number factor;
+    set_gate_factor<inputs, gates, units>(layer, gate, u, factor);
+    const Number g = output_gradient[u];
+    const Number gated = sums[u] * factor, sloped = layer[Order::slope + u] * gated;
+    gradient[Order::slope + u] += gated > sloped ? zero : g * gated;
+    const Number g_gated = gated > sloped ? g : layer[Order::slope + u] * g;
+    const Number g_sum = g_gated * factor, g_factor = g_gated * sums[u];
+    for (int i = 0; i < gates; ++i) gradient[Order::gate + i * units + u] += g_factor * gate[i];
+    for (int i = 0; i < inputs; ++i) {
+      gradient[i * units + u] += g_sum * input[i];
+      input_gradient[i] += layer[i * units + u] * g_sum;
+    }
   }
-  linear_backward<inputs, units>(layer, input, g_sum, gradient, input_gradient);
 }
 
 }  // namespace nook::bake::nnao

@@ -51,7 +51,7 @@ TrainingState start_training(const Dataset& data, const TrainingSettings& settin
   if (settings.form == NetworkForm::paper)
     start_paper(state.parameter, float(mean), random);
   else
-    start_horizon(state.parameter, float(mean), random);
+    start_horizon(state.parameter, random);
   return state;
 }
 

@@ -62,10 +62,8 @@ struct Shown {
   const char* suffix;
   std::vector<std::pair<std::string, int>> methods;
 };
-const Shown sheets[] = {
-    {"", {{"nnao", 64}, {"hbao", 64}, {"gtao_bitmask", 16}, {"ssao+", 16}}},
-    // These take 60 to 64 fetches for each pixel, with the blur.
-    {"_equal_fetches", {{"nnao", 16}, {"gtao_bitmask", 16}, {"hbao", 16}, {"ssao+", 16}}}};
+const Shown sheets[] = {{"", {{"nnao", 9}, {"xegtao", 18}, {"gtao_bitmask", 16}, {"hbao", 64}}},
+                        {"_presets", {{half_name, 9}, {"nnao", 9}, {"nnao", 32}, {"gtao", 16}}}};
 
 bool is_shown(const std::string& method, int taps) {
   for (const Shown& sheet : sheets)
@@ -237,8 +235,9 @@ Json evaluate(Options& options) {
   if (!options.markdown.empty()) markdown.emplace(options.markdown);
   const std::string other = other_name(networks);
   for (const std::string& method : options.methods)
-    if (method.starts_with("nnao_") && method.substr(0, method.find(':')) != other)
-      throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: --network gives no " + method);
+    for (const std::string of_file : {"nnao_paper", "nnao_file"})
+      if (method.substr(0, method.find(':')) == of_file && of_file != other)
+        throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: --network gives no " + method);
   if (!options.references.empty()) std::filesystem::create_directories(options.references);
   const auto context = make_context();
   std::vector<MeasuredView> views;
@@ -380,7 +379,7 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
       ->each([&o](const std::string&) { o.rays_given = true; });
   command->add_option("--references", o.references,
                       "keep the ray-traced references in this folder, and take those that are there");
-  std::vector<std::string> methods{"all", "nnao", "nnao_paper", "nnao_file"};
+  std::vector<std::string> methods{"all", "nnao", half_name, twice_name, "nnao_paper", "nnao_file"};
   methods.insert(methods.end(), baselines.begin() + 1, baselines.end());
   for (const Oracle oracle : all_oracles) methods.push_back(oracle_name(oracle));
   command

@@ -16,7 +16,7 @@ struct nook_filter_sum {
 };
 
 void nook_add_texel(inout nook_filter_sum sum, float centre, float ao, float connected) {
-  float weight = connected * clamp(1.0 - nook_range_sharpness * abs(ao - centre), 0.0, 1.0);
+  float weight = connected * clamp(2.0 - nook_range_sharpness * abs(ao - centre), 0.0, 1.0);
   sum.ao += weight * ao;
   sum.weight += weight;
 }

@@ -12,7 +12,7 @@ uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_min_depth nook_frame[NOOK_FRAME_FAR].z
 #define nook_spread nook_frame[NOOK_FRAME_SPREAD].xy  // the screen's extent at a depth is x depth + y: perspective (1, 0), orthographic (0, 1)
 #define nook_edge_tolerance nook_frame[NOOK_FRAME_SPREAD].z  // 1 / metres
-#define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // values of AO that differ by its inverse are not averaged
+#define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // values of AO that differ by twice its inverse are not averaged
 #define nook_radius nook_frame[NOOK_FRAME_RADIUS].x         // metres
 #define nook_max_radius_px nook_frame[NOOK_FRAME_RADIUS].y  // texels of the surface
 #define nook_intensity nook_frame[NOOK_FRAME_RADIUS].z

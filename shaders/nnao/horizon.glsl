@@ -10,14 +10,6 @@ uniform int nook_tap_groups;
 #define NOOK_LOOPED_DIRECTIONS NOOK_DIRECTIONS
 #endif
 
-// Where each layer begins, and its bias, which its slopes follow.
-const int nook_tap_layer = NOOK_HORIZON_TAP;
-const int nook_direction_layer = NOOK_HORIZON_DIRECTION;
-const int nook_direction_bias = nook_direction_layer + NOOK_HORIZON_DIRECTION_INPUTS;
-const int nook_join_layer = NOOK_HORIZON_JOIN;
-const int nook_join_bias = nook_join_layer + NOOK_HORIZON_JOIN_INPUTS;
-const int nook_out_layer = NOOK_HORIZON_OUT;
-
 // The cosine and the sine of the angle between two directions.
 const vec2 nook_turn = vec2(cos(6.2831853 / float(NOOK_DIRECTIONS)), sin(6.2831853 / float(NOOK_DIRECTIONS)));
 
@@ -34,8 +26,8 @@ vec4 nook_products(vec4 x, int weights) {
          x.w * nook_network[weights + 3];
 }
 
-vec4 nook_leaky(vec4 x, int bias) {
-  return max(x, nook_network[bias + 1] * x);
+vec4 nook_leaky(vec4 x, int slope) {
+  return max(x, nook_network[slope] * x);
 }
 
 // Returns the units of the tap at a place, in texels.
@@ -45,13 +37,13 @@ vec4 nook_tap_units(nook_centre centre, vec2 place) {
   float squared = max(dot(v, v), 1.0e-24), per_metre = inversesqrt(squared);
   float elevation = dot(v, centre.normal) * per_metre, angle = dot(v, centre.viewer) * per_metre;
   float nearness = clamp(1.0 - squared * per_metre * centre.half_nearness, 0.0, 1.0);
-  vec4 x = nook_network[nook_tap_layer] + angle * nook_network[nook_tap_layer + 1] +
-           nearness * (nook_network[nook_tap_layer + 2] + angle * nook_network[nook_tap_layer + 3]);
+  vec4 x = nook_network[NOOK_HORIZON_TAP] + angle * nook_network[NOOK_HORIZON_TAP + 1] +
+           nearness * (nook_network[NOOK_HORIZON_TAP + 2] + angle * nook_network[NOOK_HORIZON_TAP + 3]);
   return max(elevation * x, 0.0);
 }
 
-// direction: a unit vector of view space. bias: that of the layer, with the inputs that all directions share.
-vec4 nook_direction_units(nook_centre centre, vec2 direction, vec2 scale, vec4 bias) {
+// direction: a unit vector of view space. gate: that of the layer, but for what differs between directions.
+vec4 nook_direction_units(nook_centre centre, vec2 direction, vec2 scale, vec4 gate) {
   vec2 along_px = nook_horizon_tap(direction, 1.0, scale);
   vec4 most = vec4(0.0), sum = vec4(0.0);
   for (int i = 0; i < NOOK_STEPS; ++i) {
@@ -63,9 +55,8 @@ vec4 nook_direction_units(nook_centre centre, vec2 direction, vec2 scale, vec4 b
   float towards = dot(direction, centre.viewer.xy);
   float across = (dot(direction, centre.normal.xy) - towards * dot(centre.normal, centre.viewer)) *
                  inversesqrt(1.0 - towards * towards);
-  vec4 x = bias + nook_products(most, nook_direction_layer) + nook_products(sum, nook_direction_layer + 4) +
-           across * nook_network[nook_direction_layer + 8];
-  return nook_leaky(x, nook_direction_bias);
+  vec4 x = nook_products(most, NOOK_HORIZON_DIRECTION) + nook_products(sum, NOOK_HORIZON_DIRECTION + 4);
+  return nook_leaky(x * (gate + across * nook_network[NOOK_HORIZON_DIRECTION_GATE]), NOOK_HORIZON_DIRECTION_SLOPE);
 }
 
 // Returns the distance from the nearest border, in texels.
@@ -84,18 +75,17 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
   centre.half_nearness = 0.5 / radius.x;
   for (int i = 0; i < NOOK_STEPS; ++i) centre.steps_px[i] = nook_step_distance(i, NOOK_STEPS, noise, radius.y);
   float facing = dot(normal, centre.viewer);
-  vec4 bias = nook_network[nook_direction_bias] + facing * nook_network[nook_direction_layer + 9];
+  vec4 gate = 1.0 + facing * nook_network[NOOK_HORIZON_DIRECTION_GATE + 1];
   float angle = nook_direction_angle(0, NOOK_DIRECTIONS, noise);
   vec2 direction = vec2(cos(angle), sin(angle));
   vec4 sum = vec4(0.0);
   for (int i = 0; i < NOOK_LOOPED_DIRECTIONS; ++i) {
-    sum += nook_direction_units(centre, direction, scale, bias);
+    sum += nook_direction_units(centre, direction, scale, gate);
     direction = vec2(direction.x * nook_turn.x - direction.y * nook_turn.y,
                      direction.x * nook_turn.y + direction.y * nook_turn.x);
   }
   float border = min(nook_border_distance(centre.place) / radius.y, 1.0);
-  vec4 joined = nook_network[nook_join_bias] + nook_products(sum, nook_join_layer) +
-                facing * nook_network[nook_join_layer + 4] + border * nook_network[nook_join_layer + 5];
-  joined = nook_leaky(joined, nook_join_bias);
-  return dot(joined, nook_network[nook_out_layer]) + nook_network[nook_out_layer + 1].x;
+  vec4 join_gate = 1.0 + facing * nook_network[NOOK_HORIZON_JOIN_GATE] + border * nook_network[NOOK_HORIZON_JOIN_GATE + 1];
+  vec4 joined = nook_leaky(nook_products(sum, NOOK_HORIZON_JOIN) * join_gate, NOOK_HORIZON_JOIN_SLOPE);
+  return 1.0 + dot(joined, nook_network[NOOK_HORIZON_OUT]);
 }

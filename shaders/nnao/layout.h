@@ -35,18 +35,20 @@
 // The paper's grid of taps: so many cells along a side.
 #define NOOK_GRID_SIZE 31
 
-// A network of the horizon form: units of a layer, which are one vec4, and inputs of each layer.
+// A network of the horizon form: units of a layer, which are one vec4, and inputs of a tap.
 #define NOOK_HORIZON_UNITS 4
 #define NOOK_HORIZON_TAP_INPUTS 4
-#define NOOK_HORIZON_DIRECTION_INPUTS (2 * NOOK_HORIZON_UNITS + 2)
-#define NOOK_HORIZON_JOIN_INPUTS (NOOK_HORIZON_UNITS + 2)
-// vec4 of nook_network: a layer is a row of units for each input, then bias and slopes, but for taps.
+// vec4 of nook_network: the layers in the order of network.h; a layer is a row of units for each input, then
+// one for each value of its gate, then slopes, but for taps, which have inputs alone.
 #define NOOK_HORIZON_TAP 0
 #define NOOK_HORIZON_DIRECTION NOOK_HORIZON_TAP_INPUTS
-#define NOOK_HORIZON_JOIN (NOOK_HORIZON_DIRECTION + NOOK_HORIZON_DIRECTION_INPUTS + 2)
-#define NOOK_HORIZON_OUT (NOOK_HORIZON_JOIN + NOOK_HORIZON_JOIN_INPUTS + 2)
-// The last layer has one unit without a slope: a vec4 of weights, then one whose first number is the bias.
-#define NOOK_HORIZON_VEC4S (NOOK_HORIZON_OUT + 2)
+#define NOOK_HORIZON_DIRECTION_GATE (NOOK_HORIZON_DIRECTION + 2 * NOOK_HORIZON_UNITS)
+#define NOOK_HORIZON_DIRECTION_SLOPE (NOOK_HORIZON_DIRECTION_GATE + 2)
+#define NOOK_HORIZON_JOIN (NOOK_HORIZON_DIRECTION_SLOPE + 1)
+#define NOOK_HORIZON_JOIN_GATE (NOOK_HORIZON_JOIN + NOOK_HORIZON_UNITS)
+#define NOOK_HORIZON_JOIN_SLOPE (NOOK_HORIZON_JOIN_GATE + 2)
+#define NOOK_HORIZON_OUT (NOOK_HORIZON_JOIN_SLOPE + 1)
+#define NOOK_HORIZON_VEC4S (NOOK_HORIZON_OUT + 1)
 
 // A network of the paper's form, four units a layer: bias and slopes of the filters, two layers of four
 // inputs, one of one unit.

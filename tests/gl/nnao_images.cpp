@@ -213,8 +213,9 @@ nnao::Network mild_network(nnao::NetworkForm form, std::uint32_t seed) {
   nnao::Network network = sample_network(form, seed);
   for (float& weight : network.paper.filters) weight /= 64;
   for (float& weight : network.paper.layer_3.weights) weight *= 0.1f;
-  for (float& weight : network.horizon.out.weights) weight *= 0.1f;
-  network.paper.layer_3.bias = network.horizon.out.bias = {0.5f};
+  for (float& weight : network.horizon.tap.weights) weight = std::abs(weight);
+  for (float& weight : network.horizon.out) weight = -0.3f * std::abs(weight);
+  network.paper.layer_3.bias = {0.5f};
   return network;
 }
 

@@ -30,6 +30,10 @@ TEST_CASE("nnao: memory is known before, and small enough at 3840 x 2160") {
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
   CHECK(bytes == std::uint64_t{3840} * 2160 * 7);
   CHECK(bytes <= 70'000'000);
+  desc.blur = 2;
+  NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
+  CHECK(bytes == std::uint64_t{3840} * 2160 * 9);
+  desc.blur = 1;
   desc.half_resolution = 1;
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
   CHECK(bytes == std::uint64_t{3840} * 2160 * 3);

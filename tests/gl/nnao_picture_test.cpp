@@ -49,6 +49,15 @@ float degrees_off(const std::vector<float>& shown, const Picture& picture, std::
   return std::acos(std::clamp(dot(normalised(n), picture.normal[pixel]), -1.0f, 1.0f)) * 57.29578f;
 }
 
+bool touches_another_plane(const Picture& picture, std::size_t pixel) {
+  const std::size_t w = picture.width, x = pixel % w, y = pixel / w;
+  const auto differs = [&](std::size_t other) {
+    return length(picture.normal[other] - picture.normal[pixel]) > 1e-3f;
+  };
+  return (x > 0 && differs(pixel - 1)) || (x + 1 < w && differs(pixel + 1)) ||
+         (y > 0 && differs(pixel - w)) || (y + 1 < picture.height && differs(pixel + w));
+}
+
 struct Range {
   float low = 1, high = 0;
 };
@@ -131,12 +140,9 @@ TEST_CASE("nnao: a plane has one value, to the borders of the screen") {
       const Range inside = range_inside(ao, width, height, 13), all = range_inside(ao, width, height, 0);
       INFO("normal " << normal.x << " " << normal.y << " " << normal.z << ", half " << half << ": inside "
                      << inside.low << " to " << inside.high << ", all " << all.low << " to " << all.high);
-      // The embedded network is not exact on a plane: a few steps of 8 bits.
-      CHECK(inside.low > 1 - 8 * step);
-      // Beyond the border the plane continues, but the share that does is an input of the network, and where
-      // that is half or more it expects some occluder there: at most 5 %, in a corner of the screen.
-      // Half a step more, for the rounding of the read.
-      CHECK(all.low > inside.low - 6.5f * step);
+      // No unit of the network answers to a plane; rounding may leave a step of 8 bits.
+      CHECK(inside.low > 1 - 1.5f * step);
+      CHECK(all.low > 1 - 1.5f * step);
     }
 }
 
@@ -241,13 +247,14 @@ TEST_CASE("nnao: normals rebuilt from depth are the plane's, and do not lean ove
     int off = 0, surface = 0;
     for (std::size_t i = 0; i < picture.depth.size(); ++i) {
       if (!std::isfinite(picture.depth[i])) continue;
+      // Along a crease the slope between two pixels is that of neither plane.
+      if (touches_another_plane(picture, i)) continue;
       ++surface;
       // Half a degree: depth in 32-bit floats between 0.2 and 40 m.
       off += degrees_off(shown, picture, i) > 0.5f;
     }
     INFO(all[camera].name << ": " << off << " of " << surface << " pixels");
     CHECK(surface > 1000);
-    // In the corner of two edges a pixel may have no two neighbours on its own plane.
     CHECK(off <= surface / 200);
   }
 }
@@ -299,9 +306,10 @@ TEST_CASE("nnao: half resolution is near full resolution") {
   const std::vector<float> half = draw(fixture, camera, picture, drawing, nullptr);
   const Difference found = difference(full, half, 0.1f);
   INFO("largest " << found.largest << ", mean " << found.mean << ", beyond 0.1 " << found.beyond);
-  // Half resolution loses what is narrower than two pixels, along silhouettes and contacts.
-  CHECK(found.mean < 0.012f);
-  CHECK(found.beyond < 0.02f);
+  // Half resolution loses what is narrower than two pixels, along silhouettes and contacts, and its normals
+  // are those of every second pixel.
+  CHECK(found.mean < 0.015f);
+  CHECK(found.beyond < 0.045f);
 }
 
 TEST_CASE("nnao: normals given and normals rebuilt give nearly the same AO") {

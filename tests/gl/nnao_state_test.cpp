@@ -224,8 +224,8 @@ TEST_CASE("nnao: a frame allocates nothing, reads nothing back and queries OpenG
       NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
     }
     CHECK(stage.fixture.host.allocations == allocations);
-    // Normals, AO, blur along x, at half resolution along y, resolve.
-    CHECK(trace.calls("glDrawArrays") == 6 * ((half ? 5 : 4) - dispatches));
+    // Depth, AO, at half resolution the filter, resolve.
+    CHECK(trace.calls("glDrawArrays") == 6 * ((half ? 4 : 3) - dispatches));
     CHECK(trace.calls("glDispatchCompute") == 6 * dispatches);
     // Before the dispatch and after it.
     CHECK(trace.calls("glMemoryBarrier") == 12 * dispatches);

@@ -121,20 +121,25 @@ TEST_CASE("off the screen a tap is the nearest pixel on it, and the distance fro
     CHECK(clamped_texel(open.view(), 2, 3, {-10, 0}).x == 0);
     CHECK(clamped_texel(open.view(), 95, 63, {5, 400}).x == 95);
     CHECK(clamped_texel(open.view(), 95, 63, {5, 400}).y == 63);
-    // The distance from the border is the last input of the third layer. The radius is 8 pixels, and a
-    // pixel's centre lies half a pixel inside.
+    // The radius is 8 pixels, and a pixel's centre lies half a pixel inside.
     CHECK(border_distance(open.view(), 48, 0, 8) == 0.5f / 8);
     CHECK(border_distance(open.view(), 93, 30, 8) == 2.5f / 8);
     CHECK(border_distance(open.view(), 48, 32, 8) == 1);
-    Network blind = network;
-    std::fill_n(blind.horizon.join.weights.end() - HorizonNetwork::units, HorizonNetwork::units, 0.0f);
-    const auto seen = [&](std::uint32_t y) {
-      return unclamped(network, open.view(), sampling, 48, y, {}) -
-             unclamped(blind, open.view(), sampling, 48, y, {});
-    };
-    CHECK(seen(0) != seen(32));
-    CHECK(seen(30) == seen(32));
+    // An open plane is exactly open, to the border and beyond.
+    for (const std::uint32_t y : {0u, 1u, 32u, 63u})
+      CHECK(std::abs(unclamped(network, open.view(), sampling, 48, y, {}) - 1) < 1e-3f);
   }
+  // The distance from the border is the last value of the third layer's gate.
+  Picture ridge = plane({0, 0, -3}, {0, 0, 1}, true);
+  for (std::uint32_t y = 0; y < ridge.height; ++y) ridge.depth[y * ridge.width + 50] = 2.8f;
+  Network blind = network;
+  std::fill_n(blind.horizon.join.gate_weights.end() - HorizonNetwork::units, HorizonNetwork::units, 0.0f);
+  const auto seen = [&](std::uint32_t y) {
+    return unclamped(network, ridge.view(), sampling, 48, y, {}) -
+           unclamped(blind, ridge.view(), sampling, 48, y, {});
+  };
+  CHECK(seen(0) != seen(32));
+  CHECK(seen(30) == seen(32));
 
   // A screen of one pixel is a plane whose taps all are the pixel.
   const std::vector<float> depth{2};
@@ -156,9 +161,9 @@ TEST_CASE("the units shown in pictures are those that the network goes on with")
     HorizonNetwork& h = network.horizon;
     h.join = {};
     h.out = {};
-    h.join.weights[u * 4] = h.out.weights[0] = 1;
+    h.join.weights[u * 4] = h.out[0] = 1;
     h.join.slope.fill(1);
-    CHECK(first_units(network, picture.view(), sampling, 40, 30)[u] ==
+    CHECK(1 + first_units(network, picture.view(), sampling, 40, 30)[u] ==
           unclamped(network, picture.view(), sampling, 40, 30, tap_noise(40, 30)));
     Network paper = test::sample_network(NetworkForm::paper);
     PaperNetwork& p = paper.paper;
@@ -196,9 +201,16 @@ TEST_CASE("on a plane that faces the viewer each form has a value that a hand co
       out[u] *= double(out[u] > 0 ? dense.positive_slope[u] : dense.negative_slope[u]);
     return out;
   };
-  const auto leaky = [&](const auto& dense, const auto& input) {
-    std::vector<double> out = sums(dense, input);
-    for (std::size_t u = 0; u < out.size(); ++u) out[u] = std::max(out[u], double(dense.slope[u]) * out[u]);
+  const auto gated = [](const auto& dense, const std::vector<double>& input,
+                        const std::vector<double>& gate) {
+    std::vector<double> out(4);
+    for (std::size_t u = 0; u < 4; ++u) {
+      double factor = 1;
+      for (std::size_t i = 0; i < input.size(); ++i) out[u] += double(dense.weights[4 * i + u]) * input[i];
+      for (std::size_t i = 0; i < gate.size(); ++i) factor += double(dense.gate_weights[4 * i + u]) * gate[i];
+      out[u] *= factor;
+      out[u] = std::max(out[u], double(dense.slope[u]) * out[u]);
+    }
     return out;
   };
   std::vector<double> hidden(4);
@@ -210,17 +222,43 @@ TEST_CASE("on a plane that faces the viewer each form has a value that a hand co
       layer(network.paper.layer_3, layer(network.paper.layer_2, layer(network.paper.layer_1, hidden)))[0];
   CHECK(std::abs(unclamped(network, picture.view(), sampling, 48, 32, {}) - paper) < 1e-5);
 
-  // Every tap of the horizon form sees zeros.
+  // Every tap of the horizon form sees a wall one metre before the plane: at 45 degrees where it is 1 m away.
   network = test::sample_network(NetworkForm::horizon);
+  Picture hole = plane({0, 0, -3}, {0, 0, 1}, true);
+  for (float& depth : hole.depth) depth = 2;
+  hole.depth[hole.view().at(48, 32)] = 3;
   const TapNoise noise = tap_noise(48, 32);
-  std::vector<double> pooled(10);
-  pooled[9] = 1;  // the normal is the direction to the viewer
-  std::vector<double> joined = leaky(network.horizon.direction, pooled);
-  joined.resize(6);
-  joined[4] = joined[5] = 1;  // the same direction; the border is more than a radius away
-  const double horizon = sums(network.horizon.out, leaky(network.horizon.join, joined))[0];
+  std::vector<double> joined(4);
+  for (std::uint32_t d = 0; d < 8; ++d) {
+    const float angle = direction_angle(d, 8, noise);
+    std::vector<double> pooled(8);
+    for (std::uint32_t s = 0; s < 8; ++s) {
+      // 64 pixels are 4 m, so the radius is 8 pixels.
+      const float distance = step_distance_px(s, 8, noise, 8);
+      const double x = std::floor(48.5f + distance * std::cos(angle)) - 48;
+      const double y = std::floor(32.5f + distance * std::sin(angle)) - 32;
+      const double away = std::hypot(x / 16, y / 16, 1.0), elevation = 1 / away;
+      const double nearness = std::max(1 - away / 2 / 0.5, 0.0);
+      const double input[] = {elevation, elevation * elevation, elevation * nearness,
+                              elevation * elevation * nearness};
+      for (std::size_t u = 0; u < 4; ++u) {
+        double h = 0;
+        for (std::size_t i = 0; i < 4; ++i) h += double(network.horizon.tap.weights[4 * i + u]) * input[i];
+        h = std::max(h, 0.0);
+        pooled[u] = std::max(pooled[u], h);
+        pooled[4 + u] += h / 8;
+      }
+    }
+    // The normal is the direction to the viewer.
+    const std::vector<double> out = gated(network.horizon.direction, pooled, {0, 1});
+    for (std::size_t u = 0; u < 4; ++u) joined[u] += out[u] / 8;
+  }
+  // The border is more than a radius away.
+  const std::vector<double> last = gated(network.horizon.join, joined, {1, 1});
+  double horizon = 1;
+  for (std::size_t u = 0; u < 4; ++u) horizon += double(network.horizon.out[u]) * last[u];
   // Sums of some hundred products in float.
-  CHECK(std::abs(unclamped(network, picture.view(), sampling, 48, 32, noise) - horizon) < 1e-4);
+  CHECK(std::abs(unclamped(network, hole.view(), sampling, 48, 32, noise) - horizon) < 1e-4);
 }
 
 TEST_CASE("the embedded network leaves open planes open and darkens a corner") {

@@ -117,8 +117,8 @@ TEST_CASE("the filter leaves apart what differs too much") {
   const std::vector<std::uint8_t> edges = edges_of(picture, 0.05f);
   std::vector<float> ao(width * height, 0.9f);
   for (std::uint32_t x = 0; x < width; ++x) ao[8 * width + x] = 0.3f;  // a dark line, one pixel wide
-  CHECK(std::abs(filtered(ao, edges, width, height, 12, 8, 2) - 0.3f) < 1e-6f);
-  CHECK(std::abs(filtered(ao, edges, width, height, 12, 7, 2) - 0.9f) < 1e-6f);
-  // Six of nine texels are 0.6 away, each with the weight 1 - 0.6.
-  CHECK(std::abs(filtered(ao, edges, width, height, 12, 8, 1) - (3 * 0.3f + 6 * 0.4f * 0.9f) / 5.4f) < 1e-5f);
+  CHECK(std::abs(filtered(ao, edges, width, height, 12, 8, 4) - 0.3f) < 1e-6f);
+  CHECK(std::abs(filtered(ao, edges, width, height, 12, 7, 4) - 0.9f) < 1e-6f);
+  // Six of nine texels are 0.6 away, each with the weight 2 - 2.5 x 0.6.
+  CHECK(std::abs(filtered(ao, edges, width, height, 12, 8, 2.5f) - (3 * 0.3f + 6 * 0.5f * 0.9f) / 6) < 1e-5f);
 }

@@ -89,7 +89,7 @@ TEST_CASE("a network file flipped with its checksum repaired is refused or holds
           const auto sound = [](float value) { return std::abs(value) <= max_parameter; };
           REQUIRE(std::ranges::all_of(network.paper.filters, sound));
           REQUIRE(std::ranges::all_of(network.horizon.tap.weights, sound));
-          REQUIRE(std::ranges::all_of(network.horizon.out.weights, sound));
+          REQUIRE(std::ranges::all_of(network.horizon.out, sound));
         } catch (const Failure& failure) {
           REQUIRE((failure.code() == NOOK_ERROR_BAD_FILE || failure.code() == NOOK_ERROR_FILE_VERSION));
           ++refused;

@@ -15,8 +15,10 @@ void fill_layer(Layer& layer, std::mt19937& random) {
   for (float& w : layer.weights) w = next();
   if constexpr (requires { layer.bias; })
     for (float& b : layer.bias) b = next();
-  if constexpr (requires { layer.slope; })
+  if constexpr (requires { layer.gate_weights; }) {
+    for (float& g : layer.gate_weights) g = 0.5f * next();
     for (float& s : layer.slope) s = 0.25f * next();
+  }
   if constexpr (requires { layer.positive_slope; }) {
     for (float& s : layer.negative_slope) s = 0.25f * next();
     for (float& s : layer.positive_slope) s = 1 + 0.25f * next();
@@ -44,7 +46,7 @@ inline nnao::Network sample_network(nnao::NetworkForm form, std::uint32_t seed =
     fill_layer(network.horizon.tap, random);
     fill_layer(network.horizon.direction, random);
     fill_layer(network.horizon.join, random);
-    fill_layer(network.horizon.out, random);
+    for (float& w : network.horizon.out) w = float(random()) * 0x1p-31f - 1;
   }
   network.recipe = "{\"seed\": 1}";
   return network;

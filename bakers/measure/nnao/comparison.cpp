@@ -13,7 +13,6 @@
 namespace nook::measure {
 namespace {
 
-constexpr int network_taps[] = {9, 16, 32, 64, 128, 256};
 constexpr int frames = 1;  // timed, of each view
 
 struct Method {
@@ -83,15 +82,18 @@ ComparisonRow measure(const GladGLContext& gl, const Method& method, bool blurre
   return row;
 }
 
-void add_network(std::vector<Method>& methods, const std::string& name,
+constexpr NetworkForm plain_forms[] = {{9}, {16}, {32}, {64}, {128}, {256}},
+                      half_forms[] = {{9, true}, {16, true}}, twice_forms[] = {{9, false, 2}, {16, false, 2}};
+
+void add_network(std::vector<Method>& methods, const std::string& name, std::span<const NetworkForm> forms,
                  std::vector<std::unique_ptr<NetworkPass>>& passes, const NookGl& gl, int width, int height,
                  std::span<const std::byte> network, float sharpness,
                  const std::function<bool(const std::string&, int)>& wanted) {
-  for (const int taps : network_taps) {
-    if (!wanted(name, taps)) continue;
-    passes.push_back(std::make_unique<NetworkPass>(gl, width, height, taps, network, sharpness));
+  for (const NetworkForm& form : forms) {
+    if (!wanted(name, form.taps)) continue;
+    passes.push_back(std::make_unique<NetworkPass>(gl, width, height, form, network, sharpness));
     NetworkPass* const pass = passes.back().get();
-    methods.push_back({name, taps,
+    methods.push_back({name, form.taps,
                        [pass](const GpuView& view, const AoRequest& request, bool blurred) {
                          return pass->draw(view, request, blurred);
                        },
@@ -146,10 +148,12 @@ Comparison compare(platform::Context& context, std::span<const MeasuredView> vie
   std::vector<Method> methods;
   std::vector<std::unique_ptr<NetworkPass>> passes;
   const float sharpness = settings.request.blur_sharpness;
-  add_network(methods, "nnao", passes, nook_gl, width, height, {}, sharpness, wanted);
+  add_network(methods, "nnao", plain_forms, passes, nook_gl, width, height, {}, sharpness, wanted);
+  add_network(methods, half_name, half_forms, passes, nook_gl, width, height, {}, sharpness, wanted);
+  add_network(methods, twice_name, twice_forms, passes, nook_gl, width, height, {}, sharpness, wanted);
   if (!settings.other_network.empty())
-    add_network(methods, settings.other_name, passes, nook_gl, width, height, settings.other_network,
-                sharpness, wanted);
+    add_network(methods, settings.other_name, plain_forms, passes, nook_gl, width, height,
+                settings.other_network, sharpness, wanted);
   BaselinePass baselines(gl, width, height);
   for (const BaselineMethod& baseline : baseline_methods())
     if (wanted(baseline_name(baseline.baseline), baseline.taps))

@@ -41,6 +41,9 @@ struct ComparisonRow {
 // Returns a row's numbers over some views. which: indices of views.
 Measurement pooled(const ComparisonRow& row, std::span<const std::size_t> which);
 
+// Rows of the embedded network besides nnao: at half resolution, and with the filter twice.
+inline constexpr char half_name[] = "nnao_half", twice_name[] = "nnao_twice";
+
 struct ComparisonSettings {
   AoRequest request;                     // its radius is each view's
   std::vector<std::byte> other_network;  // a file beside the embedded one; empty: none

@@ -41,13 +41,16 @@ NookGl::~NookGl() {
   nook_context_destroy(&context_);
 }
 
-NetworkPass::NetworkPass(const NookGl& gl, int width, int height, int taps,
-                         std::span<const std::byte> network, float blur_sharpness) {
+NetworkPass::NetworkPass(const NookGl& gl, int width, int height, const NetworkForm& form,
+                         std::span<const std::byte> network, float blur_sharpness)
+    : form_(form) {
   nook_nnao_desc desc;
   succeed(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
   desc.max_width = width;
   desc.max_height = height;
-  desc.taps = taps;
+  desc.taps = form.taps;
+  desc.half_resolution = form.half_resolution;
+  desc.blur = form.blur;
   desc.blur_sharpness = blur_sharpness;
   desc.path = NOOK_NNAO_PATH_FRAGMENT;  // as the baselines, so that times compare
   desc.network = network.empty() ? nullptr : network.data();
@@ -78,10 +81,14 @@ GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blu
 }
 
 int NetworkPass::fetches(bool blurred) const {
-  // The host's depth; depth and its four neighbours, the host's normal, the taps; AO in the filter. The
-  // paper's form reads those five and the normal in its stage of normals as well.
+  // The host's depth; depth and its four neighbours, the host's normal, the taps; AO in each filter. The
+  // paper's form reads those five and the normal in its stage of normals as well. At half resolution a
+  // quarter of the texels have these, and the upsample reads the host's depth, four depths and four values of
+  // AO.
   const int before = horizon_form() ? 1 + 5 + 1 + info_.taps : 1 + 2 * 6 + 6 * info_.taps;
-  return before + (blurred ? 9 : 1);
+  const int filters = blurred ? 9 * form_.blur : 0;
+  if (form_.half_resolution) return (before + filters) / 4 + 9;
+  return before + (blurred ? filters : 9);
 }
 
 }  // namespace nook::measure

@@ -26,11 +26,18 @@ class NookGl {
   nook_gl gl_ = nullptr;
 };
 
+// A form in which the pass is measured.
+struct NetworkForm {
+  int taps = 9;
+  bool half_resolution = false;
+  int blur = 1;  // how often the filter runs
+};
+
 class NetworkPass {
  public:
   // network empty: the embedded one.
-  NetworkPass(const NookGl& gl, int width, int height, int taps, std::span<const std::byte> network,
-              float blur_sharpness);
+  NetworkPass(const NookGl& gl, int width, int height, const NetworkForm& form,
+              std::span<const std::byte> network, float blur_sharpness);
   ~NetworkPass();
   NetworkPass(const NetworkPass&) = delete;
   NetworkPass& operator=(const NetworkPass&) = delete;
@@ -39,11 +46,11 @@ class NetworkPass {
   GLuint draw(const GpuView& view, const AoRequest& request, bool blurred);
   bool horizon_form() const { return info_.horizon_form != 0; }
 
-  // Texture fetches for each pixel: depth and normal into the surface buffer; its texel there, one depth for
-  // each tap (the paper's form: a normal and four texels of its filter too); depth and AO of the resolve.
+  // Texture fetches for each pixel of all stages.
   int fetches(bool blurred) const;
 
  private:
+  NetworkForm form_;
   nook_nnao pass_ = nullptr;
   nook_nnao_info info_{};
 };

@@ -29,11 +29,18 @@ std::array<float, units> through(const Dense<inputs, units>& layer,
   return out;
 }
 
-template <int inputs, int units>
-std::array<float, units> through(const LeakyDense<inputs, units>& layer,
-                                 std::type_identity_t<const std::array<float, inputs>&> input) {
-  std::array<float, units> out = sums<inputs, units>(layer.weights, layer.bias, input);
-  for (int u = 0; u < units; ++u) out[u] = std::max(out[u], layer.slope[u] * out[u]);
+template <int inputs, int gates, int units>
+std::array<float, units> through(const GatedDense<inputs, gates, units>& layer,
+                                 std::type_identity_t<const std::array<float, inputs>&> input,
+                                 std::type_identity_t<const std::array<float, gates>&> gate) {
+  std::array<float, units> out = sums<inputs, units>(layer.weights, {}, input);
+  std::array<float, units> factor;
+  factor.fill(1);
+  factor = sums<gates, units>(layer.gate_weights, factor, gate);
+  for (int u = 0; u < units; ++u) {
+    out[u] *= factor[u];
+    out[u] = std::max(out[u], layer.slope[u] * out[u]);
+  }
   return out;
 }
 
@@ -43,12 +50,6 @@ std::array<float, units> through(const RectifiedDense<inputs, units>& layer,
   std::array<float, units> out = sums<inputs, units>(layer.weights, {}, input);
   for (float& value : out) value = std::max(value, 0.0f);
   return out;
-}
-
-template <int inputs, int units>
-std::array<float, units> through(const LinearDense<inputs, units>& layer,
-                                 std::type_identity_t<const std::array<float, inputs>&> input) {
-  return sums<inputs, units>(layer.weights, layer.bias, input);
 }
 
 // Values of the pixel itself that both forms need.
@@ -102,8 +103,11 @@ PaperUnits paper_units(const PaperNetwork& network, const View& view, Vec3 norma
   return sum;
 }
 
-// The input of the network's join.
-using JoinInput = std::array<float, NOOK_HORIZON_JOIN_INPUTS>;
+// The input of the network's join and its gate.
+struct JoinInput {
+  std::array<float, HorizonNetwork::units> mean{};
+  std::array<float, 2> gate{};
+};
 
 JoinInput join_input(const HorizonNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
                      std::uint32_t x, std::uint32_t y, TapNoise noise) {
@@ -115,7 +119,7 @@ JoinInput join_input(const HorizonNetwork& network, const View& view, Vec3 norma
   for (std::uint32_t d = 0; d < grid.directions; ++d) {
     const float angle = direction_angle(d, grid.directions, noise);
     const float cosine = std::cos(angle), sine = std::sin(angle);
-    std::array<float, 2 * units + 2> pooled{};
+    std::array<float, 2 * units> pooled{};
     float* const most = pooled.data();
     float* const mean = pooled.data() + units;
     for (std::uint32_t s = 0; s < grid.steps; ++s) {
@@ -129,13 +133,11 @@ JoinInput join_input(const HorizonNetwork& network, const View& view, Vec3 norma
         mean[u] += hidden[u] / float(grid.steps);
       }
     }
-    pooled[2 * units] = dot(centre.normal, across_viewer(centre.viewer, cosine, sine));
-    pooled[2 * units + 1] = facing;
-    const auto out = through(network.direction, pooled);
-    for (int u = 0; u < units; ++u) joined[u] += out[u] / float(grid.directions);
+    const float across = dot(centre.normal, across_viewer(centre.viewer, cosine, sine));
+    const auto out = through(network.direction, pooled, {across, facing});
+    for (int u = 0; u < units; ++u) joined.mean[u] += out[u] / float(grid.directions);
   }
-  joined[units] = facing;
-  joined[units + 1] = border_distance(view, x, y, centre.radius.px);
+  joined.gate = {facing, border_distance(view, x, y, centre.radius.px)};
   return joined;
 }
 
@@ -203,7 +205,10 @@ float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, 
   }
   const HorizonNetwork& horizon = network.horizon;
   const JoinInput joined = join_input(horizon, view, normal, sampling, x, y, noise);
-  return through(horizon.out, through(horizon.join, joined))[0];
+  const auto units = through(horizon.join, joined.mean, joined.gate);
+  float ao = 1;
+  for (std::size_t u = 0; u < units.size(); ++u) ao += horizon.out[u] * units[u];
+  return ao;
 }
 
 std::array<float, 3> first_units(const Network& network, const View& view, const Sampling& sampling,
@@ -213,7 +218,7 @@ std::array<float, 3> first_units(const Network& network, const View& view, const
   const auto first = [](const auto& units) { return std::array<float, 3>{units[0], units[1], units[2]}; };
   return network.form == NetworkForm::paper
              ? first(paper_units(network.paper, view, normal, sampling, x, y, noise))
-             : first(join_input(network.horizon, view, normal, sampling, x, y, noise));
+             : first(join_input(network.horizon, view, normal, sampling, x, y, noise).mean);
 }
 
 float evaluate_pixel(const Network& network, const View& view, const Sampling& sampling, std::uint32_t x,

@@ -79,7 +79,7 @@ float filtered(std::span<const float> ao, std::span<const std::uint8_t> edges, s
   const std::array<float, 4> own = unpacked(edges[at(column, row)]);
   float sum = centre, weights = 1;
   const auto add = [&](std::size_t texel, float connected) {
-    const float near = std::clamp(1 - range_sharpness * std::abs(ao[texel] - centre), 0.0f, 1.0f);
+    const float near = std::clamp(2 - range_sharpness * std::abs(ao[texel] - centre), 0.0f, 1.0f);
     sum += connected * near * ao[texel];
     weights += connected * near;
   };

@@ -31,9 +31,10 @@ Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Ne
 // Returns the four values of `connected` in two bits each: 0, 1/3, 2/3, 1.
 std::uint8_t packed_edges(const std::array<float, 4>& connected);
 
-// Two values of AO that differ by the inverse of this are not averaged: fewer taps are noisier.
+// Values of AO that differ by less than the inverse of this are averaged alike, and those that differ by more
+// than twice as much are not averaged. Fewer taps are noisier.
 constexpr float filter_range_sharpness(std::uint32_t taps) {
-  return taps < 16 ? 1.0f : taps < 32 ? 1.5f : taps < 64 ? 2.0f : 2.5f;
+  return taps < 32 ? 3.0f : 4.0f;
 }
 
 // Filters AO over 3 x 3 pixels. edges are packed_edges of every pixel, 0 where there is no surface. A pixel

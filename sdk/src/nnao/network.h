@@ -50,11 +50,12 @@ struct PaperNetwork {
   Dense<units, 1> layer_3;
 };
 
-// y = max(x, slope x), with one slope for each unit.
-template <int inputs, int units>
-struct LeakyDense {
-  std::array<float, std::size_t(inputs) * units> weights{};  // weights[input * units + unit]
-  std::array<float, units> bias{};
+// y = max(x, slope x), where x is a sum of products of the input, times 1 + a sum of products of the gate's
+// values. Each unit has its own gate and slope.
+template <int inputs, int gates, int units>
+struct GatedDense {
+  std::array<float, std::size_t(inputs) * units> weights{};      // weights[input * units + unit]
+  std::array<float, std::size_t(gates) * units> gate_weights{};  // gate_weights[gate * units + unit]
   std::array<float, units> slope{};
 };
 
@@ -64,32 +65,26 @@ struct RectifiedDense {
   std::array<float, std::size_t(inputs) * units> weights{};
 };
 
-// y = x.
-template <int inputs, int units>
-struct LinearDense {
-  std::array<float, std::size_t(inputs) * units> weights{};
-  std::array<float, units> bias{};
-};
-
 // Nook's network. The taps lie along `directions` half-lines on the screen, with `steps` taps on each. A tap
 // off the screen is moved to the nearest pixel on it. With v = p_t - p, the direction to the viewer o = -p /
 // |p| (orthographic: +z), the elevation s = dot(v, n) / |v|, the angle c = dot(v, o) / |v| and the nearness
 // w = max(1 - |v| / 2r, 0), a tap's hidden units are tap(input) of
 //   input = (s, s c, s w, s c w).
-// They are 0 for every tap on the pixel's own plane, so that an open plane stays open at any angle.
 // The sky is a surface at infinity. The input of `direction` is the maximum and the mean of the units over
-// the steps of a direction and (dot(n, t), dot(n, o)), where t is the unit vector perpendicular to o in the
-// plane of the direction. The input of `join` is the mean over directions, dot(n, o), and the distance of the
-// pixel from the border of the screen in radii, at most 1.
+// the steps of a direction; its gate is (dot(n, t), dot(n, o)), where t is the unit vector perpendicular to o
+// in the plane of the direction. The input of `join` is the mean over directions; its gate is dot(n, o) and
+// the distance of the pixel from the border of the screen in radii, at most 1. AO is 1 + dot(out, join).
+// No layer has a bias: where every tap lies on or below the pixel's plane, all units are 0 and AO is 1. A
+// plane is open from every angle, to the border of the screen.
 struct HorizonNetwork {
-  static constexpr int revision = 5;  // of what the numbers mean
+  static constexpr int revision = 6;  // of what the numbers mean
   static constexpr int tap_inputs = NOOK_HORIZON_TAP_INPUTS;
   static constexpr int units = NOOK_HORIZON_UNITS;
 
   RectifiedDense<tap_inputs, units> tap;
-  LeakyDense<NOOK_HORIZON_DIRECTION_INPUTS, units> direction;
-  LeakyDense<NOOK_HORIZON_JOIN_INPUTS, units> join;
-  LinearDense<units, 1> out;
+  GatedDense<2 * units, 2, units> direction;
+  GatedDense<units, 2, units> join;
+  std::array<float, units> out{};
 };
 
 // AO is the network's output clamped to [0, 1]; 1 is open.

@@ -94,8 +94,7 @@ TEST_CASE("a network is recovered from the AO that it gave") {
   net.tap.weights[0] = 1;
   net.direction.weights[0] = 1;
   net.join.weights[0] = 0.8f;
-  net.out.weights[0] = -1;
-  net.out.bias[0] = 1;
+  net.out[0] = -1;
   Dataset data = test::small_dataset();
   const auto answer = [&](DataPoint& point) {
     double sum = 0;

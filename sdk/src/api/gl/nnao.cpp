@@ -74,7 +74,8 @@ nook_nnao_desc checked(const nook_nnao_desc* given) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256)",
                   desc.taps);
   check_switch("half_resolution", desc.half_resolution);
-  check_switch("blur", desc.blur);
+  if (desc.blur < 0 || desc.blur > 2)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.blur is out of range (got %d, need 0 to 2)", desc.blur);
   check_switch("timers", desc.timers);
   if (!(desc.blur_sharpness > 0) || !std::isfinite(desc.blur_sharpness))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -29,18 +29,11 @@ void add(Floats& out, const nnao::RectifiedDense<inputs, units>& layer) {
   add(out, layer.weights);
 }
 
-template <int inputs, int units>
-void add(Floats& out, const nnao::LeakyDense<inputs, units>& layer) {
+template <int inputs, int gates, int units>
+void add(Floats& out, const nnao::GatedDense<inputs, gates, units>& layer) {
   add(out, layer.weights);
-  add(out, layer.bias);
+  add(out, layer.gate_weights);
   add(out, layer.slope);
-}
-
-// The last layer's bias is a vec4 of its own.
-void add(Floats& out, const nnao::LinearDense<NOOK_HORIZON_UNITS, 1>& layer) {
-  add(out, layer.weights);
-  out.push_back(layer.bias[0]);
-  out.insert(out.end(), 3, 0.0f);
 }
 
 }  // namespace

@@ -133,9 +133,9 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
   bind_texture(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
   bind_texture(NOOK_UNIT_AO, ao_[0].texture());
   bind_texture(NOOK_UNIT_LAYER, layered ? frame.layer_texture : 0);
-  if (half() && desc_.blur) {
-    draw(filter_stage_, constants, ao_[1].framebuffer(), surface);
-    bind_texture(NOOK_UNIT_AO, ao_[1].texture());
+  for (int pass = 0; pass < drawn_filters(desc_); ++pass) {
+    draw(filter_stage_, constants, ao_[(pass + 1) % 2].framebuffer(), surface);
+    bind_texture(NOOK_UNIT_AO, ao_[(pass + 1) % 2].texture());
   }
   end_stage();
   // The views for debugging have no layer.

@@ -1,9 +1,9 @@
 // The screen-space pass on the GPU: linear depth, the network, the filter, and the output.
 //
 // The network's stage, AO, is a draw or a dispatch; the other stages are draws.
-//   full resolution  host depth -> depth -> AO and edges -> filter and resolve
-//   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> filter -> upsample and
-//   resolve
+//   full resolution  host depth -> depth -> AO and edges -> [filter ->] filter and resolve
+//   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> filter [-> filter] ->
+//                    upsample and resolve
 // The paper's form reads the normals of its taps: a stage between depth and AO writes them.
 #pragma once
 
@@ -22,6 +22,11 @@ namespace nook::gl {
 
 // Returns the memory of all textures of a pass.
 std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form);
+
+// Returns how often the filter is a draw of its own: at full resolution the last one is a part of resolve.
+constexpr int drawn_filters(const nook_nnao_desc& desc) {
+  return desc.half_resolution || desc.blur == 0 ? desc.blur : desc.blur - 1;
+}
 
 // Every call may change any of the touched state; the caller holds a StateGuard.
 class NnaoPass {
@@ -63,11 +68,11 @@ class NnaoPass {
   Device& device_;
   nook_nnao_desc desc_;  // without network and next
   nook_nnao_path path_;
-  // The stage of normals belongs to the paper's form, that of the filter to half resolution.
+  // The stage of normals belongs to the paper's form, that of the filter where it is a draw.
   Stage depth_stage_, normals_stage_, occlusion_stage_, filter_stage_, resolve_stage_, layered_stage_,
       show_normals_stage_;
   RenderTexture depth_, normals_;  // of the surface
-  RenderTexture ao_[2];            // of the surface; the second at half resolution alone
+  RenderTexture ao_[2];            // of the surface; the second where the filter is a draw
   RenderTexture own_;
   Object sampler_, vertex_array_, target_framebuffer_;
   TexelTable filters_;  // of the paper's form

@@ -36,12 +36,12 @@ PassFormats formats_of(const Functions& gl, nook_nnao_path path) {
 
 PassPlan plan_of(const nook_nnao_desc& desc, nnao::NetworkForm form, const PassFormats& formats) {
   const bool half = desc.half_resolution != 0, paper = form == nnao::NetworkForm::paper,
-             filtered = half && desc.blur;
+             filtered = drawn_filters(desc) > 0;
   const int width = surface_length(desc.max_width, half), height = surface_length(desc.max_height, half);
   return {{TextureFormat::depth, width, height, "nook: linear depth"},
           {formats.normal, paper ? width : 0, height, "nook: normals"},
           {{formats.ao, width, height, "nook: AO of the surface"},
-           {TextureFormat::ao_edges, filtered ? width : 0, height, "nook: filtered AO of the surface"}},
+           {formats.ao, filtered ? width : 0, height, "nook: filtered AO of the surface"}},
           {TextureFormat::ao, desc.max_width, desc.max_height, "nook: screen-space AO"}};
 }
 
@@ -125,7 +125,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   occlusion_stage_ = path_ == NOOK_NNAO_PATH_COMPUTE
                          ? make_stage(compute_program(device_, "nnao/occlusion.comp", defines))
                          : drawn("nnao/occlusion.frag", defines);
-  if (half() && desc_.blur) filter_stage_ = drawn("nnao/filter.frag", defines);
+  if (drawn_filters(desc_) > 0) filter_stage_ = drawn("nnao/filter.frag", defines);
   resolve_stage_ = drawn("nnao/resolve.frag", defines);
   layered_stage_ = drawn("nnao/resolve.frag", layered);
   show_normals_stage_ = drawn("nnao/show_normals.frag", defines);

@@ -159,7 +159,7 @@ TEST_CASE("the baselines' blur is the library's") {
   std::vector<float> by_library, by_peers;
   {
     const NookGl gl(*context);
-    NetworkPass network(gl, width, height, 16, {}, request.blur_sharpness);
+    NetworkPass network(gl, width, height, {16}, {}, request.blur_sharpness);
     BaselinePass baselines(context->gl(), width, height);
     by_library = read_red(context->gl(), network.draw(images, request, true), width, height);
     const GLuint raw = network.draw(images, request, false);
