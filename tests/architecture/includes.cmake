@@ -78,7 +78,8 @@ room(bakers/measure/nnao bakers/measure/nnao bakers/nnao platform ${ground} sdk/
 room(bakers/measure/probe bakers/measure/probe bakers/probe ${ground} sdk/src/probe)
 room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor ${process}
      ${ground} sdk/src/material)
-room(bakers/measure/gpu_cost bakers/measure/gpu_cost shaders sdk/src/gl/material/source.h sdk/src/gl/embedded_shaders.h)
+room(bakers/measure/gpu_cost bakers/measure/gpu_cost bakers/measure/nnao/baselines.h shaders sdk/src/gl/material/source.h
+     sdk/src/gl/embedded_shaders.h)
 room(bakers/measure/crowd bakers/measure/crowd bakers/measure/truth platform)
 room(bakers/job bakers/job bakers/measure ${process} ${makers})
 room(bakers/api bakers/api bakers/job ${makers})

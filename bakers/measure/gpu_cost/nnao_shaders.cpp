@@ -44,8 +44,8 @@ std::vector<Loop> baseline_loops(const BaselineMethod& method) {
     case Baseline::hbao:
       return {{"directions", groups, {{"steps", steps, {}}}}};
     case Baseline::xegtao:
-      // Their numbers are known when it is compiled, and all taps are unrolled.
-      return {};
+      // Steps are unrolled, as their number is known when it is compiled.
+      return {{"slices", groups, {}}};
     default:
       return {{"slices", groups, {{"steps behind", steps, {}}, {"steps ahead", steps, {}}}}};
   }
@@ -109,13 +109,9 @@ std::string counted_name(const BaselineMethod& method) {
 
 std::vector<ShaderCase> baseline_shaders() {
   std::vector<ShaderCase> shaders;
-  for (const BaselineMethod& method : counted_baselines()) {
+  for (const BaselineMethod& method : counted_baselines())
     shaders.push_back(tree_shader(Stage::fragment, shader_folder + baseline_shader(method.baseline),
                                   counted_name(method), baseline_defines(method), baseline_loops(method)));
-    // GCN's compiler keeps the loop over many slices.
-    if (method.baseline == Baseline::xegtao && method.taps == 54)
-      shaders.back().other_families = {{"vega10", {{"slices", 9, {}}}}};
-  }
   const auto add = [&](Stage stage, const char* file, const char* name) {
     shaders.push_back(tree_shader(stage, shader_folder + file, name));
   };

@@ -90,6 +90,7 @@ void BaselinePass::draw_xegtao(const BaselineMethod& method, const GpuView& view
   gl_.Uniform2f(shader.at("texel"), 1 / float(width_), 1 / float(height_));
   gl_.Uniform1f(shader.at("radius_scale"), tuning.radius_scale);
   gl_.Uniform1f(shader.at("power"), tuning.power);
+  gl_.Uniform1i(shader.at("groups"), baseline_grid(method.baseline, method.taps).groups);
   gl_.Uniform1f(shader.at("falloff"), tuning.shape);
   gl_.Uniform1f(shader.at("thin"), tuning.thin);
   gl_.Uniform1f(shader.at("output_scale"), scale);

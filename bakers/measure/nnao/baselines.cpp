@@ -63,8 +63,7 @@ BaselineGrid baseline_grid(Baseline baseline, int taps) {
 std::string baseline_defines(const BaselineMethod& method) {
   std::string defines = define("NOOK_BORDER", int(method.tuning.border));
   if (method.baseline != Baseline::xegtao) return defines;
-  const BaselineGrid grid = baseline_grid(method.baseline, method.taps);
-  return defines + define("NOOK_SLICES", grid.groups) + define("NOOK_STEPS", grid.steps) +
+  return defines + define("NOOK_STEPS", baseline_grid(method.baseline, method.taps).steps) +
          define("NOOK_THIN", method.tuning.thin != 0);
 }
 

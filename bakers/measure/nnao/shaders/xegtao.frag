@@ -12,9 +12,6 @@
 #ifndef NOOK_STEPS
 #define NOOK_STEPS 3  // on one side of a slice
 #endif
-#ifndef NOOK_SLICES
-#define NOOK_SLICES 3
-#endif
 #ifndef NOOK_THIN
 #define NOOK_THIN 0  // thin things occlude less
 #endif
@@ -23,6 +20,7 @@ uniform sampler2D depth_levels;   // metres, five levels; clamped, the nearest t
 uniform sampler2D hilbert_image;  // places on a Hilbert curve over 64 x 64 pixels
 uniform vec2 texel;               // 1 / size
 uniform float radius_scale;
+uniform int groups;        // slices
 uniform float falloff;     // share of the radius over which taps fade
 uniform float power;
 uniform float thin;        // how much more of the radius a metre towards the viewer takes
@@ -81,7 +79,7 @@ float arc(float angle, float tilt, float cos_tilt, float sin_tilt) {
 }
 
 float slice_visibility(int slice, vec2 noise, Centre centre, vec3 normal, float facing, float radius_px) {
-  float turn = pi * (float(slice) + noise.x) / float(NOOK_SLICES);
+  float turn = pi * (float(slice) + noise.x) / float(groups);
   vec2 direction = vec2(cos(turn), sin(turn));
   vec3 across = vec3(direction, 0.0) - dot(direction, centre.viewer.xy) * centre.viewer;
   float rise = dot(normal, across) * inversesqrt(dot(across, across));
@@ -118,7 +116,7 @@ void main() {
   vec2 noise = pixel_noise(pixel);
   // Small radii fade out.
   float open = 0.5 * clamp((10.0 - radius.y) / 100.0, 0.0, 1.0);
-  for (int slice = 0; slice < NOOK_SLICES; ++slice)
+  for (int slice = 0; slice < groups; ++slice)
     open += slice_visibility(slice, noise, centre, normal, facing, radius.y);
-  result = output_scale * max(pow(max(open, 0.0) / float(NOOK_SLICES), power), 0.03);
+  result = output_scale * max(pow(max(open, 0.0) / float(groups), power), 0.03);
 }
