@@ -12,6 +12,8 @@ namespace nook::bake::nnao {
 // The numbers are in the order of nnao/layers.h.
 std::size_t horizon_parameter_count();
 void start_horizon(std::span<float> parameters, Random& random);
+// Moves thresholds below 0 to 0, after a step.
+void constrain_horizon(std::span<float> parameters);
 void export_horizon(std::span<const float> parameters, nook::nnao::HorizonNetwork& network);
 
 // Computes the gradient of the mean loss over one minibatch, a multiple of 16 points. Random draws depend on

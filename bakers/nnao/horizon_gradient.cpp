@@ -9,7 +9,8 @@ constexpr int direction_gates = HorizonBatch::direction_gates, join_gates = Hori
 
 // The offset of each layer among the parameters.
 constexpr int tap_layer = 0;
-constexpr int direction_layer = tap_layer + tap_inputs * units;
+constexpr int tap_count = (tap_inputs + 1) * units;
+constexpr int direction_layer = tap_layer + tap_count;
 constexpr int join_layer = direction_layer + GatedOrder<pooled_inputs, direction_gates, units>::count;
 constexpr int out_layer = join_layer + GatedOrder<units, join_gates, units>::count;
 static_assert(out_layer + units == sizeof(HorizonNetwork) / sizeof(float));
@@ -66,7 +67,7 @@ NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& ba
     for (std::uint32_t s = 0; s < steps; ++s) {
       const std::size_t t = std::size_t(d) * steps + s;
       Lanes hidden[units];
-      rectified_forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], hidden);
+      threshold_forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], hidden);
       for (int u = 0; u < units; ++u) {
         const Lanes h = hidden[u];
         const LaneInts here = LaneInts{} + int(s);
@@ -109,7 +110,7 @@ NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& b
   gated_backward<units, join_gates, units>(parameters + join_layer, trace.joined, batch.join, trace.join_sums,
                                            g_join, gradient + join_layer, g_joined);
   // The gradient of the tap layer is summed here, because the loop over taps takes most of the time.
-  Lanes g_tap_layer[tap_inputs * units] = {};
+  Lanes g_tap_layer[tap_count] = {};
   for (std::uint32_t d = 0; d < directions; ++d) {
     Lanes g_pooled[pooled_inputs], g_out[units];
     for (int u = 0; u < units; ++u) g_out[u] = g_joined[u] * (1 / float(directions));
@@ -124,14 +125,14 @@ NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& b
     for (std::uint32_t s = 0; s < steps; ++s) {
       const std::size_t t = std::size_t(d) * steps + s;
       Lanes hidden[units], g_hidden[units];
-      rectified_forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], hidden);
+      threshold_forward<tap_inputs, units>(parameters + tap_layer, &batch.tap[t * tap_inputs], hidden);
       const LaneInts here = LaneInts{} + int(s);
       for (int u = 0; u < units; ++u)
         g_hidden[u] = most_step[u] == here ? g_pooled[u] + g_pooled[units + u] : g_pooled[units + u];
-      rectified_backward<tap_inputs, units>(&batch.tap[t * tap_inputs], hidden, g_hidden, g_tap_layer);
+      threshold_backward<tap_inputs, units>(&batch.tap[t * tap_inputs], hidden, g_hidden, g_tap_layer);
     }
   }
-  for (int i = 0; i < tap_inputs * units; ++i) gradient[tap_layer + i] += g_tap_layer[i];
+  for (int i = 0; i < tap_count; ++i) gradient[tap_layer + i] += g_tap_layer[i];
 }
 
 }  // namespace nook::bake::nnao

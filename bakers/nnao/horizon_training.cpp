@@ -17,6 +17,14 @@ float error_of(float output, float ao) {
   return std::clamp(output, 0.0f, 1.0f) - ao;
 }
 
+// Depth buffers of 24 bits and normals of 8 bits are off by some tenths of a degree. Returns a normal that is
+// turned by as much, so that the network does not answer to it.
+Vec3 rounded_normal(Vec3 normal, Random& random) {
+  constexpr float reach = 0.01f;  // radians
+  return normalised(normal + Vec3{random.between(-reach, reach), random.between(-reach, reach),
+                                  random.between(-reach, reach)});
+}
+
 // Evaluates sixteen points with two noise values each. Returns the loss summed over lanes and sets the
 // gradient.
 double block_gradient(const Dataset& data, const TrainingSettings& settings, const float* parameters,
@@ -25,7 +33,8 @@ double block_gradient(const Dataset& data, const TrainingSettings& settings, con
   Random random(seed);
   HorizonBatch one(grid), two(grid);
   for (int lane = 0; lane < lane_count; ++lane) {
-    const DataPoint& point = data.training[points[std::size_t(lane)]];
+    DataPoint point = data.training[points[std::size_t(lane)]];
+    point.normal = rounded_normal(point.normal, random);
     const View view = data.views[point.view].view();
     constexpr std::uint32_t count = NOOK_NOISE_COUNT;
     const std::uint32_t rank = random.below(count), other = (rank + 1 + random.below(count - 1)) % count;
@@ -87,9 +96,16 @@ void start_horizon(std::span<float> parameters, Random& random) {
   for (int u = 0; u < units; ++u)
     for (const int input : {0, 2})
       parameters[std::size_t(input * units + u)] = std::abs(parameters[std::size_t(input * units + u)]);
-  next = start_gated<2 * units, HorizonBatch::direction_gates, units>(next, random);
+  std::fill_n(next, units, 0.01f);
+  next = start_gated<2 * units, HorizonBatch::direction_gates, units>(next + units, random);
   next = start_gated<units, HorizonBatch::join_gates, units>(next, random);
   start_weights<units, 1>(next, random);
+}
+
+void constrain_horizon(std::span<float> parameters) {
+  constexpr int first = HorizonNetwork::tap_inputs * HorizonNetwork::units;
+  for (float& threshold : parameters.subspan(first, HorizonNetwork::units))
+    threshold = std::max(threshold, 0.0f);
 }
 
 void export_horizon(std::span<const float> parameters, HorizonNetwork& network) {

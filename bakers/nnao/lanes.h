@@ -14,7 +14,7 @@ inline LaneArray lane_array(std::size_t count) {
   return {count, default_memory()};
 }
 
-// The layers of network.h are Dense, RectifiedDense and GatedDense; their numbers are in the
+// The layers of network.h are Dense, ThresholdDense and GatedDense; their numbers are in the
 // order of layers.h.
 template <int inputs, int units>
 struct LayerOrder {
@@ -63,10 +63,10 @@ struct GatedOrder {
 };
 
 template <int inputs, int units, class Number>
-NOOK_INLINE void rectified_forward(const float* layer, const Number* input, Number* output) {
+NOOK_INLINE void threshold_forward(const float* layer, const Number* input, Number* output) {
   const Number zero{};
   for (int u = 0; u < units; ++u) {
-    Number sum{};
+    Number sum = Number{} - layer[inputs * units + u];
     for (int i = 0; i < inputs; ++i) sum += layer[i * units + u] * input[i];
     output[u] = sum > 0 ? sum : zero;
   }
@@ -74,11 +74,12 @@ NOOK_INLINE void rectified_forward(const float* layer, const Number* input, Numb
 
 // Adds the gradient of the layer's numbers to `gradient`.
 template <int inputs, int units, class Number>
-NOOK_INLINE void rectified_backward(const Number* input, const Number* output, const Number* output_gradient,
+NOOK_INLINE void threshold_backward(const Number* input, const Number* output, const Number* output_gradient,
                                     Number* gradient) {
   const Number zero{};
   for (int u = 0; u < units; ++u) {
     const Number g = output[u] > 0 ? output_gradient[u] : zero;
+    gradient[inputs * units + u] -= g;
     for (int i = 0; i < inputs; ++i) gradient[i * units + u] += g * input[i];
   }
 }

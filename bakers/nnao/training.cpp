@@ -86,6 +86,7 @@ struct Trainer {
         paper ? paper_step_gradient(data, normalisation, settings, state.parameter, points, seed, gradient)
               : horizon_step_gradient(data, settings, state.parameter, points, seed, gradient);
     state.adam.step(state.parameter, gradient, rate);
+    if (!paper) constrain_horizon(state.parameter);
     return loss;
   }
 };

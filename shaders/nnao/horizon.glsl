@@ -39,7 +39,7 @@ vec4 nook_tap_units(nook_centre centre, vec2 place) {
   float nearness = clamp(1.0 - squared * per_metre * centre.half_nearness, 0.0, 1.0);
   vec4 x = nook_network[NOOK_HORIZON_TAP] + angle * nook_network[NOOK_HORIZON_TAP + 1] +
            nearness * (nook_network[NOOK_HORIZON_TAP + 2] + angle * nook_network[NOOK_HORIZON_TAP + 3]);
-  return max(elevation * x, 0.0);
+  return max(elevation * x - nook_network[NOOK_HORIZON_TAP_THRESHOLD], 0.0);
 }
 
 // direction: a unit vector of view space. gate: that of the layer, but for what differs between directions.

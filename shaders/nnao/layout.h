@@ -39,9 +39,10 @@
 #define NOOK_HORIZON_UNITS 4
 #define NOOK_HORIZON_TAP_INPUTS 4
 // vec4 of nook_network: the layers in the order of network.h; a layer is a row of units for each input, then
-// one for each value of its gate, then slopes, but for taps, which have inputs alone.
+// one for each value of its gate, then slopes. Taps have thresholds instead.
 #define NOOK_HORIZON_TAP 0
-#define NOOK_HORIZON_DIRECTION NOOK_HORIZON_TAP_INPUTS
+#define NOOK_HORIZON_TAP_THRESHOLD NOOK_HORIZON_TAP_INPUTS
+#define NOOK_HORIZON_DIRECTION (NOOK_HORIZON_TAP_THRESHOLD + 1)
 #define NOOK_HORIZON_DIRECTION_GATE (NOOK_HORIZON_DIRECTION + 2 * NOOK_HORIZON_UNITS)
 #define NOOK_HORIZON_DIRECTION_SLOPE (NOOK_HORIZON_DIRECTION_GATE + 2)
 #define NOOK_HORIZON_JOIN (NOOK_HORIZON_DIRECTION_SLOPE + 1)

@@ -244,7 +244,7 @@ TEST_CASE("on a plane that faces the viewer each form has a value that a hand co
       for (std::size_t u = 0; u < 4; ++u) {
         double h = 0;
         for (std::size_t i = 0; i < 4; ++i) h += double(network.horizon.tap.weights[4 * i + u]) * input[i];
-        h = std::max(h, 0.0);
+        h = std::max(h - double(network.horizon.tap.threshold[u]), 0.0);
         pooled[u] = std::max(pooled[u], h);
         pooled[4 + u] += h / 8;
       }

@@ -15,6 +15,8 @@ void fill_layer(Layer& layer, std::mt19937& random) {
   for (float& w : layer.weights) w = next();
   if constexpr (requires { layer.bias; })
     for (float& b : layer.bias) b = next();
+  if constexpr (requires { layer.threshold; })
+    for (float& t : layer.threshold) t = 0.05f + 0.05f * next();
   if constexpr (requires { layer.gate_weights; }) {
     for (float& g : layer.gate_weights) g = 0.5f * next();
     for (float& s : layer.slope) s = 0.25f * next();

@@ -84,7 +84,7 @@ std::vector<ShaderCase> nnao_shaders() {
         add(Stage::fragment, "occlusion.frag", ", paper's form" + taps, defines(half, false, grid),
             paper_loops(grid));
     }
-    if (half) add(Stage::fragment, "filter.frag", "", defines(half, true, grids[0]), {});
+    add(Stage::fragment, "filter.frag", "", defines(half, true, grids[0]), {});
     add(Stage::fragment, "resolve.frag", "", defines(half, true, grids[0]), {});
     add(Stage::fragment, "resolve.frag", ", layered",
         defines(half, true, grids[0]) + "#define NOOK_LAYERED 1\n", {});

@@ -67,6 +67,11 @@ std::vector<PassCase> all_passes() {
   for (const bool half : {false, true})
     for (const std::string taps : {"9", "16", "32", "64"})
       passes.push_back(nnao("NNAO " + taps, "occlusion.frag, " + taps, half));
+  for (const std::string taps : {"9", "16"}) {
+    PassCase twice = nnao("NNAO " + taps + ", filtered twice", "occlusion.frag, " + taps, false);
+    twice.shaders.push_back({"filter.frag", 1});
+    passes.push_back(twice);
+  }
   for (const std::string taps : {"16", "64"}) {
     passes.push_back(nnao("NNAO " + taps + ", compute", "occlusion.comp, " + taps, false));
     passes.push_back(

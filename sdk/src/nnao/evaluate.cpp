@@ -45,10 +45,10 @@ std::array<float, units> through(const GatedDense<inputs, gates, units>& layer,
 }
 
 template <int inputs, int units>
-std::array<float, units> through(const RectifiedDense<inputs, units>& layer,
+std::array<float, units> through(const ThresholdDense<inputs, units>& layer,
                                  std::type_identity_t<const std::array<float, inputs>&> input) {
   std::array<float, units> out = sums<inputs, units>(layer.weights, {}, input);
-  for (float& value : out) value = std::max(value, 0.0f);
+  for (int u = 0; u < units; ++u) out[u] = std::max(out[u] - layer.threshold[u], 0.0f);
   return out;
 }
 

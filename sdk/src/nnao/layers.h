@@ -12,6 +12,7 @@ template <class Layer, class Visit>
 void visit_layer(Layer& layer, Visit&& visit) {
   visit(std::span(layer.weights));
   if constexpr (requires { layer.bias; }) visit(std::span(layer.bias));
+  if constexpr (requires { layer.threshold; }) visit(std::span(layer.threshold));
   if constexpr (requires { layer.gate_weights; }) {
     visit(std::span(layer.gate_weights));
     visit(std::span(layer.slope));

@@ -59,10 +59,11 @@ struct GatedDense {
   std::array<float, units> slope{};
 };
 
-// y = max(x, 0), where x is a sum of products without a bias.
+// y = max(x - threshold, 0), where x is a sum of products.
 template <int inputs, int units>
-struct RectifiedDense {
+struct ThresholdDense {
   std::array<float, std::size_t(inputs) * units> weights{};
+  std::array<float, units> threshold{};  // 0 or more
 };
 
 // Nook's network. The taps lie along `directions` half-lines on the screen, with `steps` taps on each. A tap
@@ -74,14 +75,15 @@ struct RectifiedDense {
 // the steps of a direction; its gate is (dot(n, t), dot(n, o)), where t is the unit vector perpendicular to o
 // in the plane of the direction. The input of `join` is the mean over directions; its gate is dot(n, o) and
 // the distance of the pixel from the border of the screen in radii, at most 1. AO is 1 + dot(out, join).
-// No layer has a bias: where every tap lies on or below the pixel's plane, all units are 0 and AO is 1. A
-// plane is open from every angle, to the border of the screen.
+// Only taps have a threshold, no other layer has a bias: where every tap lies on the pixel's plane, below it
+// or a little above it, all units are 0 and AO is 1. A plane is open from every angle, to the border of the
+// screen, also where depth and normals are rounded.
 struct HorizonNetwork {
-  static constexpr int revision = 6;  // of what the numbers mean
+  static constexpr int revision = 7;  // of what the numbers mean
   static constexpr int tap_inputs = NOOK_HORIZON_TAP_INPUTS;
   static constexpr int units = NOOK_HORIZON_UNITS;
 
-  RectifiedDense<tap_inputs, units> tap;
+  ThresholdDense<tap_inputs, units> tap;
   GatedDense<2 * units, 2, units> direction;
   GatedDense<units, 2, units> join;
   std::array<float, units> out{};

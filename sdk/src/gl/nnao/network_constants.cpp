@@ -25,8 +25,9 @@ void add(Floats& out, const nnao::Dense<inputs, units>& layer) {
 }
 
 template <int inputs, int units>
-void add(Floats& out, const nnao::RectifiedDense<inputs, units>& layer) {
+void add(Floats& out, const nnao::ThresholdDense<inputs, units>& layer) {
   add(out, layer.weights);
+  add(out, layer.threshold);
 }
 
 template <int inputs, int gates, int units>
