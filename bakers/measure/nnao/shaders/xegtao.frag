@@ -95,7 +95,8 @@ float slice_visibility(int slice, vec2 noise, Centre centre, vec3 normal, float 
     ahead = max(ahead, tap_cosine(centre, offset_px, level, -sin_tilt));
     behind = max(behind, tap_cosine(centre, -offset_px, level, sin_tilt));
   }
-  // Open planes at a slant come out too dark without the twentieth.
+  // Open planes at a slant come out too dark without the twentieth: directions that are even over the screen are not even around
+  // the viewer's direction, except in the middle of the image. GTAO divides that away; XeGTAO, as published, does not.
   float projected = mix((rise * rise + facing * facing) * inverse, 1.0, 0.05);
   return projected * (arc(fast_acos(ahead), tilt, cos_tilt, sin_tilt) + arc(-fast_acos(behind), tilt, cos_tilt, sin_tilt));
 }
