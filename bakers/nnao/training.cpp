@@ -139,7 +139,8 @@ Network train(const Dataset& data, const TrainingSettings& asked, TrainingState&
                   "too few training points for one minibatch (got %zu, need %u); use more views",
                   data.training.size(), settings.batch);
   Trainer trainer{data, settings};
-  const std::size_t epoch_steps = batches * settings.epochs, start_length = epoch_steps / 200 + 1;
+  const std::size_t epoch_steps = batches * settings.epochs,
+                    start_length = std::min(epoch_steps / 200, batches) + 1;
   const std::size_t start_steps = trainer.paper ? 0 : steps_of_starts(start_length);
   TrainingProgress now{0, settings.epochs, 0, start_steps + epoch_steps, 0};
   const auto check_progress = [&] {

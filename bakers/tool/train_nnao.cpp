@@ -150,7 +150,7 @@ void add_train_nnao(CLI::App& train) {
       ->check(CLI::IsMember({"horizon", "paper"}))
       ->type_name("NAME");
   command->add_option("--scenes", o.data.scenes, "procedural scenes, a sixth of them for validation")
-      ->check(CLI::Range(20, 100000));
+      ->check(CLI::Range(48, 100000));
   command->add_option("--views", o.data.views, "cameras over all scenes")->check(CLI::Range(16, 1000000));
   command->add_option("--points", o.data.points_per_view, "points of each view")
       ->check(CLI::Range(1, 100000));

@@ -63,7 +63,7 @@ typedef struct nook_nnao_desc {
   int32_t taps;
   /* 1: AO is computed at half width and half height, and upsampled by a joint-bilateral filter. Default 0. */
   int32_t half_resolution;
-  /* How often a bilateral filter over 3 x 3 pixels follows: 0, 1 (default) or 2. It averages the noise of the
+  /* The number of times that a bilateral filter over 3 x 3 pixels follows: 0, 1 (default) or 2. It averages the noise of the
    * taps, and keeps edges of depth and lines in AO. The second time takes noise away that is left at edges,
    * and fine lines with it. */
   int32_t blur;
@@ -84,7 +84,7 @@ typedef struct nook_nnao_desc {
  * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 NOOK_API nook_result nook_nnao_desc_init(nook_nnao_desc* desc, size_t size, uint32_t header_version);
 
-/* How much a pass costs. The cycles are those of all its stages for a pixel, as compiled for one GPU family
+/* Presets by cost. The cycles are those of all its stages for a pixel, as compiled for one GPU family
  * (docs/gpu_cost.md). */
 enum {
   /* 9 taps at half resolution. */

@@ -89,7 +89,7 @@ float filtered(std::span<const float> ao, std::span<const std::uint8_t> edges, s
   add(at(column, row + 1), own[3] / 3);
   for (const int down : {1, 0})
     for (const int left : {1, 0}) {
-      // A corner is reached along x first and then along its own edge along y, or the other way round.
+      // Two ways lead to a corner: first along x and then along the corner's own edge in y, or first along y.
       const std::size_t corner = at(column + 1 - 2 * left, row + 1 - 2 * down);
       const std::array<float, 4> back = unpacked(edges[corner]);
       const float x_first = own[left ? 0 : 1] * back[down ? 3 : 2],

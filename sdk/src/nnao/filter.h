@@ -37,8 +37,8 @@ constexpr float filter_range_sharpness(std::uint32_t taps) {
   return taps < 32 ? 3.0f : 4.0f;
 }
 
-// Filters AO over 3 x 3 pixels. edges are packed_edges of every pixel, 0 where there is no surface. A pixel
-// next to an edge is reached around it, if the edges allow.
+// Filters AO over 3 x 3 pixels. edges are packed_edges of every pixel, 0 where there is no surface. A corner
+// counts by the better of the two ways around.
 float filtered(std::span<const float> ao, std::span<const std::uint8_t> edges, std::uint32_t width,
                std::uint32_t height, std::uint32_t x, std::uint32_t y, float range_sharpness);
 

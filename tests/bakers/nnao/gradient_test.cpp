@@ -109,9 +109,10 @@ TEST_CASE("the gradient of the pair loss agrees with finite differences") {
   const Dataset data = test::small_dataset();
   TrainingSettings settings;
   TrainingState state = start_training(data, settings);
-  // Small outputs about 0.5: where AO is clamped the gradient is not the loss's, on purpose.
+  // AO between 0 and 1: where it is clamped the gradient is not the loss's, on purpose.
+  for (float& parameter : state.parameter) parameter = std::abs(parameter);
   for (std::size_t i = state.parameter.size() - 4; i < state.parameter.size(); ++i)
-    state.parameter[i] = -0.1f * std::abs(state.parameter[i]);
+    state.parameter[i] = -0.02f * std::max(state.parameter[i], 0.2f);
   const std::vector<std::uint32_t> points = first_points(32);
   std::vector<float> gradient(state.parameter.size()), unused(state.parameter.size());
   horizon_step_gradient(data, settings, state.parameter, points, 7, gradient);

@@ -42,14 +42,14 @@ TEST_CASE("evaluate nnao measures every method on the thin scene and draws a she
     CHECK(read_text(folder.path("sheets/" + std::string(picture) + ".png")).substr(1, 3) == "PNG");
   const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
   CHECK(report.at("scenes").at(0).at("noise_floor_mse") > 0);
-  REQUIRE(report.at("rows").size() == 2 * (6 + 3 + 3 + 3 + 6 + 6 + 3));
+  REQUIRE(report.at("rows").size() == 2 * (6 + 4 + 3 + 3 + 3 + 6 + 6 + 3));
   for (const auto& row : report.at("rows"))
     for (const char* key :
          {"method", "taps", "blurred", "scene", "resolution", "gpu", "mse", "rmse", "ssim", "r", "dark_bias",
           "calibration", "border_bias", "flicker", "fetches", "ms", "ratio_to_nnao", "denoiser"})
       CHECK(row.contains(key));
   CHECK(report.at("rows").at(0).at("resolution") == "64x48");
-  REQUIRE(report.at("borders").size() == 6 + 3 + 3 + 3 + 6 + 6 + 3);
+  REQUIRE(report.at("borders").size() == 6 + 4 + 3 + 3 + 3 + 6 + 6 + 3);
   for (const char* border : {"left", "right", "bottom", "top"})
     CHECK(report.at("borders").at(0).at(border).size() == 3);
 }
@@ -59,8 +59,8 @@ TEST_CASE("evaluate nnao tells of several scenes each and their mean, with anoth
   write_text(folder.path("corner.gltf"), corner_gltf);
   write_text(folder.path("other.gltf"), corner_gltf);
   REQUIRE(folder
-              .run({"train", "nnao", "--form", "paper", "-o", folder.path("paper.nook"), "--scenes", "20",
-                    "--views", "20", "--points", "16", "--rays", "4", "--epochs", "1"})
+              .run({"train", "nnao", "--form", "paper", "-o", folder.path("paper.nook"), "--scenes", "48",
+                    "--views", "48", "--points", "16", "--rays", "4", "--epochs", "1"})
               .exit_code == 0);
   auto arguments = tiny({folder.path("corner.gltf"), folder.path("other.gltf"), "--thin",
                          "--camera=thin:0.6,1.1,1.6,0.2,0.4,-0.7,55", "--camera=corner:0,1.5,1.5,0,0,-2,60",
@@ -179,7 +179,7 @@ TEST_CASE("evaluate nnao measures chosen methods alone") {
   auto arguments = tiny({"--thin", "--cameras", "1", "--methods", "nnao,hbao"}, folder);
   REQUIRE(folder.run(arguments).exit_code == 0);
   const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
-  REQUIRE(report.at("rows").size() == 2 * (5 + 3));
+  REQUIRE(report.at("rows").size() == 2 * (6 + 3));
   for (const auto& row : report.at("rows")) CHECK((row.at("method") == "nnao" || row.at("method") == "hbao"));
   CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "other"}).exit_code == 2);
   // No file, no method of that name.

@@ -25,7 +25,7 @@ bool has(const std::string& text, const std::string& part) {
 
 // A network of a second, or one that is trained until it is stopped. It needs no input.
 Names training(const std::string& out, const std::string& epochs) {
-  return {"train",    "nnao", "-o",     out, "--scenes", "20",   "--views", "24",
+  return {"train",    "nnao", "-o",     out, "--scenes", "48",   "--views", "48",
           "--points", "8",    "--rays", "8", "--epochs", epochs, "--batch", "16"};
 }
 

@@ -20,12 +20,16 @@ double fetches_of(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("the network fetches depth and normal of the pixel and one depth a tap") {
-  for (const int taps : {8, 16, 32, 64})
-    CHECK(fetches_of("occlusion.frag, " + std::to_string(taps)) == 2 + taps);
+TEST_CASE(
+    "the network fetches depths of the pixel and its four neighbours, the host's normal, and one depth a "
+    "tap") {
+  for (const int taps : {9, 16, 32, 64})
+    CHECK(fetches_of("occlusion.frag, " + std::to_string(taps)) == 6 + taps);
+  // The filter takes nine values of AO.
+  CHECK(fetches_of("resolve.frag") == 9);
 }
 
-TEST_CASE("HBAO fetches as many") {
+TEST_CASE("HBAO fetches depth and normal of the pixel and one depth a tap") {
   for (const int taps : {16, 32, 64}) CHECK(fetches_of("HBAO " + std::to_string(taps)) == 2 + taps);
 }
 

@@ -1,12 +1,10 @@
-// Every baseline against what is known: planes and skies are open, the AO of a corner has a closed form, and
-// the blur is the library's.
+// Every baseline against what is known: planes and skies are open, and the AO of a corner has a closed form.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
 
-#include "bakers/measure/nnao/network_pass.h"
 #include "bakers/raytrace/random.h"
 #include "tests/bakers/measure/nnao/small_scenes.h"
 #include "tests/catch.h"
@@ -173,30 +171,6 @@ TEST_CASE("light passes behind a thin bar in the bitmask and not in GTAO") {
   INFO("gtao " << by_gtao << " bitmask " << by_bitmask << " truth " << row_mean(truth, row));
   CHECK(by_bitmask > by_gtao + 0.1f);
   CHECK(std::abs(by_bitmask - row_mean(truth, row)) < std::abs(by_gtao - row_mean(truth, row)));
-}
-
-TEST_CASE("the baselines' blur is the library's") {
-  const auto context = make_context();
-  const TracedView view = traced(corner(), camera());
-  const GpuView images(context->gl(), view);
-  AoRequest request;
-  request.max_radius_px = 0.5f * float(height);
-  std::vector<float> by_library, by_peers;
-  {
-    const NookGl gl(*context);
-    NetworkPass network(gl, width, height, {16}, {}, request.blur_sharpness);
-    BaselinePass baselines(context->gl(), width, height);
-    by_library = read_red(context->gl(), network.draw(images, request, true), width, height);
-    const GLuint raw = network.draw(images, request, false);
-    by_peers =
-        read_red(context->gl(), baselines.denoise(raw, images, request, Denoiser::blur), width, height);
-  }
-  float largest = 0;
-  for (std::size_t i = 0; i < by_library.size(); ++i)
-    largest = std::max(largest, std::abs(by_library[i] - by_peers[i]));
-  // Both round to 1/255 between the axes, from normals of which the library's have 16 bits: two levels.
-  CHECK(largest < 2.1f / 255);
-  CHECK(context->gl().GetError() == GL_NO_ERROR);
 }
 
 TEST_CASE("a wall that goes on beyond the screen darkens its floor where the border stands for it") {

@@ -47,7 +47,7 @@ TEST_CASE("a comparison has every method blurred and raw, with sane numbers") {
       *context, {&measured, 1}, settings,
       [](const std::string& method, int taps) { return method == "nnao" && taps == 16; },
       [](std::size_t, std::size_t) { return true; });
-  CHECK(comparison.rows.size() == 2 * (5 + baseline_methods().size()));
+  CHECK(comparison.rows.size() == 2 * (10 + baseline_methods().size()));
   REQUIRE(comparison.images.size() == 1);
   CHECK(comparison.images[0].ao.size() == measured.truth.size());
   std::set<std::string> names;
@@ -61,11 +61,12 @@ TEST_CASE("a comparison has every method blurred and raw, with sane numbers") {
     CHECK(one.error.ssim() <= 1);
     CHECK(one.calibration.largest_bias() >= 0);
     CHECK(one.mean_flicker() >= 0);
-    CHECK(row.fetches >= row.taps);
+    // At half resolution a quarter of the pixels have taps.
+    CHECK(row.fetches >= row.taps / 4);
     CHECK(one.median_ms() > 0);
     CHECK((row.denoiser == "none") == !row.blurred);
   }
-  CHECK(names.size() == 7);
+  CHECK(names.size() == 9);
   // Twice the same view is the view.
   const ComparisonRow& first = comparison.rows[0];
   const std::size_t twice[] = {0, 0};
