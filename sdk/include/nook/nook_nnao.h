@@ -63,9 +63,9 @@ typedef struct nook_nnao_desc {
   int32_t taps;
   /* 1: AO is computed at half width and half height, and upsampled by a joint-bilateral filter. Default 0. */
   int32_t half_resolution;
-  /* The number of times that a bilateral filter over 3 x 3 pixels follows: 0, 1 (default) or 2. It averages the noise of the
-   * taps, and keeps edges of depth and lines in AO. The second time takes noise away that is left at edges,
-   * and fine lines with it. */
+  /* The number of times that a bilateral filter over 3 x 3 pixels follows: 0, 1 (default) or 2. It averages
+   * the noise of the taps, and keeps edges of depth and lines in AO. The second time takes noise away that is
+   * left at edges, and fine lines with it. */
   int32_t blur;
   /* > 0, default 16. Depths that depart from a surface by more than 1 / blur_sharpness radii are an edge of
    * it: the filter does not cross edges, and normals are reconstructed from one side of them alone. */
@@ -102,8 +102,9 @@ typedef int32_t nook_nnao_preset;
 NOOK_API nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_preset preset);
 
 /* Computes the texture memory of a pass with this descriptor: 7 bytes for each pixel, or 3 at half
- * resolution, which at 3840 x 2160 is 58 MB and 25 MB. A blur of 2 at full resolution takes 2 more bytes. A network of the paper's form takes 4 more bytes for
- * each pixel, or 1, and its filters 62 kB. The call makes no OpenGL call.
+ * resolution, which at 3840 x 2160 is 58 MB and 25 MB. A blur of 2 at full resolution takes 2 more bytes. A
+ * network of the paper's form takes 4 more bytes for each pixel, or 1, and its filters 62 kB. The call makes
+ * no OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION. */
 NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes);
 

@@ -71,8 +71,8 @@ nook_nnao_desc checked(const nook_nnao_desc* given) {
                   "desc.max_width and desc.max_height are out of range (got %d x %d, need 1 x 1 to %d x %d)",
                   desc.max_width, desc.max_height, largest, largest);
   if (desc.taps < 0 || nnao::horizon_grid(static_cast<std::uint32_t>(desc.taps)).steps == 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256)",
-                  desc.taps);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256)", desc.taps);
   check_switch("half_resolution", desc.half_resolution);
   if (desc.blur < 0 || desc.blur > 2)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.blur is out of range (got %d, need 0 to 2)", desc.blur);
