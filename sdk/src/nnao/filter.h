@@ -34,7 +34,7 @@ std::uint8_t packed_edges(const std::array<float, 4>& connected);
 // Values of AO that differ by less than the inverse of this are averaged alike, and those that differ by more
 // than twice as much are not averaged. Fewer taps are noisier.
 constexpr float filter_range_sharpness(std::uint32_t taps) {
-  return taps < 32 ? 3.0f : 4.0f;
+  return taps < 16 ? 2.0f : taps < 32 ? 2.5f : 4.0f;
 }
 
 // Filters AO over 3 x 3 pixels. edges are packed_edges of every pixel, 0 where there is no surface. A corner
