@@ -3,15 +3,16 @@
 
 uniform sampler2D nook_host_normal;
 
-// Returns the slope along one axis, by the sides that lie on the texel's own surface. With edges on both
-// sides, as on a wire, the slope is unknown; 0 keeps the normal from turning sideways.
-float nook_axis_slope(vec2 slope, vec2 connected) {
-  return dot(slope, connected) / max(connected.x + connected.y, 1.0e-3);
+// Returns the slope along one axis from those of both sides, each weighted by the inverse of its square: past a
+// silhouette depth changes more steeply than on the texel's own surface. On a wire both sides balance, so that
+// the normal does not turn sideways.
+float nook_axis_slope(vec2 slope) {
+  vec2 steep = slope * slope + 1.0e-12;
+  return dot(slope, steep.yx) / (steep.x + steep.y);
 }
 
 vec3 nook_rebuilt_normal(ivec2 texel, nook_neighbours around) {
-  vec2 slope = vec2(nook_axis_slope(around.slope.xy, around.connected.xy),
-                    nook_axis_slope(around.slope.zw, around.connected.zw)) / nook_surface_rays.xz;
+  vec2 slope = vec2(nook_axis_slope(around.slope.xy), nook_axis_slope(around.slope.zw)) / nook_surface_rays.xz;
   vec2 ray = nook_surface_rays.xz * vec2(texel) + nook_surface_rays.yw;
   return normalize(vec3(slope, 1.0 + nook_spread.x * dot(ray, slope)));
 }

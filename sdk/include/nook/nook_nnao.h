@@ -68,7 +68,7 @@ typedef struct nook_nnao_desc {
    * left at edges, and fine lines with it. */
   int32_t blur;
   /* > 0, default 16. Depths that depart from a surface by more than 1 / blur_sharpness radii are an edge of
-   * it: the filter does not cross edges, and normals are reconstructed from one side of them alone. */
+   * it, which the filter does not cross. */
   float blur_sharpness;
   /* 1: every stage is timed for nook_nnao_read_timings. Default 0. */
   int32_t timers;

@@ -15,11 +15,11 @@ float depth_near(const View& view, int x, int y) {
   return view.has_surface(column, row) ? view.depth[view.at(column, row)] : sky_depth;
 }
 
+// Weights the slope of each side by the inverse of its square.
 float axis_slope(const Neighbours& neighbours, std::size_t first) {
-  const auto& slope = neighbours.slope;
-  const auto& connected = neighbours.connected;
-  return (slope[first] * connected[first] + slope[first + 1] * connected[first + 1]) /
-         std::max(connected[first] + connected[first + 1], 1e-3f);
+  const float a = neighbours.slope[first], b = neighbours.slope[first + 1];
+  const float steep_a = a * a + 1e-12f, steep_b = b * b + 1e-12f;
+  return (a * steep_b + b * steep_a) / (steep_a + steep_b);
 }
 
 // Each 0 to 3.

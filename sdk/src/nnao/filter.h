@@ -25,7 +25,8 @@ struct Neighbours {
 // through both sides as well.
 Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, float tolerance);
 
-// Returns the normal of the plane through the pixel and its connected neighbours.
+// Returns the normal that follows from the slopes. Of the two sides of an axis the flatter one counts more:
+// past a silhouette depth changes more steeply than on the pixel's own surface.
 Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Neighbours& neighbours);
 
 // Returns the four values of `connected` in two bits each: 0, 1/3, 2/3, 1.
