@@ -84,7 +84,9 @@ int main(int argc, char** argv) {
     }
   nnao::Sampling sampling;
   sampling.radius = radius_m;
-  sampling.max_radius_px = 0.25f * height;  // the pass's default
+  // The pass's defaults.
+  sampling.max_radius_px = 0.25f * height;
+  sampling.taps = 9;
   nnao::evaluate(nnao::read_network(nnao::default_network_file()), {width, height, rays, depth, normal},
                  sampling, ao);
   std::vector<std::uint8_t> bytes;
