@@ -84,9 +84,7 @@ int main(int argc, char** argv) {
     }
   nnao::Sampling sampling;
   sampling.radius = radius_m;
-  // The pass's defaults.
-  sampling.max_radius_px = 0.25f * height;
-  sampling.taps = 9;
+  sampling.max_radius_px = 0.25f * height;  // the pass's default, as the number of taps is
   nnao::evaluate(nnao::read_network(nnao::default_network_file()), {width, height, rays, depth, normal},
                  sampling, ao);
   std::vector<std::uint8_t> bytes;

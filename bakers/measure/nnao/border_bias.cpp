@@ -17,21 +17,17 @@ std::size_t band_of(std::uint32_t distance_px) {
 void BorderBias::add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth,
                      std::uint32_t width) {
   const std::uint32_t height = std::uint32_t(ao.size() / width);
-  const auto count = [](Mean& mean, double error) {
-    mean.sum += error;
-    mean.count += 1;
-  };
   for (std::size_t i = 0; i < ao.size(); ++i) {
     if (!std::isfinite(depth[i])) continue;
     const auto x = std::uint32_t(i % width), y = std::uint32_t(i / width);
     const std::array<std::uint32_t, 4> distance_px{x, width - 1 - x, y, height - 1 - y};
     const double error = double(ao[i]) - double(truth[i]);
     const std::uint32_t nearest_px = std::ranges::min(distance_px);
-    if (nearest_px < rim_px) count(rim_, error);
-    if (nearest_px >= border_bands_px.back()) count(inside_, error);
+    if (nearest_px < rim_px) rim_.add(error);
+    if (nearest_px >= border_bands_px.back()) inside_.add(error);
     for (std::size_t border = 0; border < distance_px.size(); ++border)
       if (distance_px[border] < border_bands_px.back())
-        count(band_[border][band_of(distance_px[border])], error);
+        band_[border][band_of(distance_px[border])].add(error);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "bakers/measure/nnao/mean.h"
+
 namespace nook::bake::nnao {
 
 inline constexpr std::array<const char*, 4> border_names{"left", "right", "bottom", "top"};
@@ -30,14 +32,6 @@ class BorderBias {
   double rim() const;
 
  private:
-  struct Mean {
-    double sum = 0, count = 0;
-    void add(const Mean& other) {
-      sum += other.sum;
-      count += other.count;
-    }
-    double value() const { return count > 0 ? sum / count : 0; }
-  };
   std::array<std::array<Mean, border_bands_px.size()>, border_names.size()> band_;
   Mean rim_, inside_;
 };

@@ -14,7 +14,7 @@ constexpr double counting_share = 0.005;  // of the pixels; means of fewer pixel
 void Calibration::add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth) {
   for (std::size_t i = 0; i < ao.size(); ++i) {
     if (!std::isfinite(depth[i])) continue;
-    const Mean error{double(ao[i]) - double(truth[i]), 1};
+    const double error = double(ao[i]) - double(truth[i]);
     const float place = float(tenths) * std::clamp(ao[i], 0.0f, 1.0f);
     tenth_[std::min(std::size_t(place), tenths - 1)].add(error);
     if (truth[i] < dark_below) dark_.add(error);
@@ -27,7 +27,7 @@ void Calibration::add(const Calibration& other) {
 }
 
 double Calibration::dark_bias() const {
-  return dark_.count > 0 ? dark_.sum / dark_.count : 0;
+  return dark_.value();
 }
 
 double Calibration::largest_bias() const {
@@ -35,7 +35,7 @@ double Calibration::largest_bias() const {
   for (const Mean& tenth : tenth_) all += tenth.count;
   for (const Mean& tenth : tenth_)
     if (tenth.count > 0 && tenth.count >= counting_share * all)
-      largest = std::max(largest, std::abs(tenth.sum / tenth.count));
+      largest = std::max(largest, std::abs(tenth.value()));
   return largest;
 }
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <span>
 
+#include "bakers/measure/nnao/mean.h"
+
 namespace nook::bake::nnao {
 
 // Sums over pixels with a surface of any number of images.
@@ -21,13 +23,6 @@ class Calibration {
   double largest_bias() const;
 
  private:
-  struct Mean {
-    double sum = 0, count = 0;
-    void add(const Mean& other) {
-      sum += other.sum;
-      count += other.count;
-    }
-  };
   static constexpr std::size_t tenths = 10;
   std::array<Mean, tenths> tenth_;
   Mean dark_;

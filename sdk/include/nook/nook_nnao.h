@@ -89,7 +89,7 @@ NOOK_API nook_result nook_nnao_desc_init(nook_nnao_desc* desc, size_t size, uint
 enum {
   /* 9 taps at half resolution. */
   NOOK_NNAO_PRESET_FAST = 0,
-  /* 9 taps; the numbers of nook_nnao_desc_init. 2.2 times the cycles of fast. */
+  /* 9 taps; the numbers of nook_nnao_desc_init. 2.3 times the cycles of fast. */
   NOOK_NNAO_PRESET_DEFAULT = 1,
   /* 32 taps. 2.3 times the cycles of default. */
   NOOK_NNAO_PRESET_BEST = 2

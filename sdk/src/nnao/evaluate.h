@@ -51,9 +51,9 @@ struct View {
 };
 
 struct Sampling {
-  float radius = 1;           // metres
-  float max_radius_px = 256;  // a radius that covers more pixels shrinks
-  std::uint32_t taps = 64;    // horizon form: a count of horizon_grid; paper form: 1 to 961
+  float radius = 1;                   // metres
+  float max_radius_px = 256;          // a radius that covers more pixels shrinks
+  std::uint32_t taps = default_taps;  // horizon form: a count of horizon_grid; paper form: 1 to 961
 };
 
 // The radius of one pixel after the clamp.

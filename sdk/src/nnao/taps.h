@@ -37,6 +37,9 @@ struct PixelScale {
   float x = 1, y = 1;
 };
 
+// Taps of a pass unless its host chooses others, and of the best preset.
+inline constexpr std::uint32_t default_taps = 9, best_taps = 32;
+
 struct TapGrid {
   std::uint32_t directions = 0, steps = 0;
 };

@@ -37,7 +37,7 @@ nook_nnao_desc default_desc() {
   nook_nnao_desc desc{};
   desc.struct_size = sizeof desc;
   desc.header_version = NOOK_VERSION;
-  desc.taps = 9;
+  desc.taps = nnao::default_taps;
   desc.blur = 1;
   desc.blur_sharpness = 16;
   return desc;
@@ -119,7 +119,7 @@ nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_preset pre
     if (preset < NOOK_NNAO_PRESET_FAST || preset > NOOK_NNAO_PRESET_BEST)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "preset is unknown (got %d, need 0 to %d)", preset,
                     NOOK_NNAO_PRESET_BEST);
-    desc->taps = preset == NOOK_NNAO_PRESET_BEST ? 32 : 9;
+    desc->taps = preset == NOOK_NNAO_PRESET_BEST ? nnao::best_taps : nnao::default_taps;
     desc->half_resolution = preset == NOOK_NNAO_PRESET_FAST;
     desc->blur = 1;
   });
