@@ -3,6 +3,12 @@
 namespace nook::bake::nnao {
 namespace {
 
+void set_vector(Lanes* to, int lane, Vec3 from) {
+  to[0][lane] = from.x;
+  to[1][lane] = from.y;
+  to[2][lane] = from.z;
+}
+
 constexpr int units = HorizonNetwork::units, tap_inputs = HorizonNetwork::tap_inputs;
 constexpr int direction_gates = HorizonBatch::direction_gates, join_gates = HorizonBatch::join_gates,
               pooled_inputs = 2 * units;
@@ -13,7 +19,10 @@ constexpr int tap_count = (tap_inputs + 1) * units;
 constexpr int direction_layer = tap_layer + tap_count;
 constexpr int join_layer = direction_layer + GatedOrder<pooled_inputs, direction_gates, units>::count;
 constexpr int out_layer = join_layer + GatedOrder<units, join_gates, units>::count;
-static_assert(out_layer + units == sizeof(HorizonNetwork) / sizeof(float));
+constexpr int bent_layer = out_layer + units;
+constexpr int bent_outputs = 2;
+static_assert(bent_layer + LinearOrder<pooled_inputs, direction_gates, bent_outputs>::count ==
+              sizeof(HorizonNetwork) / sizeof(float));
 
 typedef int LaneInts __attribute__((vector_size(4 * lane_count)));
 
@@ -22,11 +31,13 @@ typedef int LaneInts __attribute__((vector_size(4 * lane_count)));
 HorizonBatch::HorizonBatch(TapGrid tap_grid)
     : grid(tap_grid),
       tap(lane_array(std::size_t(grid.directions) * grid.steps * tap_inputs)),
-      direction(lane_array(direction_gates * std::size_t(grid.directions))) {}
+      direction(lane_array(direction_gates * std::size_t(grid.directions))),
+      tangent(lane_array(3 * std::size_t(grid.directions))) {}
 
 HorizonTrace::HorizonTrace(TapGrid grid)
     : pooled(lane_array(std::size_t(grid.directions) * pooled_inputs)),
       direction_sums(lane_array(std::size_t(grid.directions) * units)),
+      bent_sums(lane_array(std::size_t(grid.directions) * bent_outputs)),
       most_step(std::size_t(grid.directions) * units * lane_count) {}
 
 void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNoise noise) {
@@ -37,9 +48,13 @@ void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNo
   const PixelScale scale = pixel_scale(view.rays, depth);
   const float radius_px = point.radius * std::abs(scale.y);
   const float facing = dot(point.normal, viewer);
+  set_vector(normal, lane, point.normal);
+  set_vector(view_axis, lane, viewer);
+  float horizons = 0;
   for (std::uint32_t d = 0; d < grid.directions; ++d) {
     const float angle = direction_angle(d, grid.directions, noise);
     const float cosine = std::cos(angle), sine = std::sin(angle);
+    float horizon = 0;
     for (std::uint32_t s = 0; s < grid.steps; ++s) {
       const std::size_t t = std::size_t(d) * grid.steps + s;
       const float distance_px = step_distance_px(s, grid.steps, noise, radius_px);
@@ -47,20 +62,26 @@ void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNo
           clamped_texel(view, point.x, point.y, horizon_tap(cosine, sine, distance_px, scale));
       const HorizonTapInput input =
           horizon_tap_input(view, texel, position, point.normal, viewer, point.radius);
+      horizon = std::max(horizon, input[2]);
       for (int i = 0; i < tap_inputs; ++i) tap[t * tap_inputs + std::size_t(i)][lane] = input[std::size_t(i)];
     }
     Lanes* const gate = &direction[d * direction_gates];
-    gate[0][lane] = dot(point.normal, across_viewer(viewer, cosine, sine));
+    const Vec3 across = across_viewer(viewer, cosine, sine);
+    gate[0][lane] = dot(point.normal, across);
     gate[1][lane] = facing;
+    set_vector(&tangent[3 * d], lane, across);
+    horizons += horizon;
   }
+  bound[lane] = float(NOOK_HORIZON_BOUND) * horizons / float(grid.directions);
   join[0][lane] = facing;
   join[1][lane] = border_distance(view, point.x, point.y, radius_px);
 }
 
 NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace,
-                                 Lanes& output) {
+                                 HorizonOutput& output) {
   const auto [directions, steps] = batch.grid;
   for (int u = 0; u < units; ++u) trace.joined[u] = Lanes{};
+  for (int i = 0; i < 3; ++i) output.bent[i] = batch.normal[i];
   for (std::uint32_t d = 0; d < directions; ++d) {
     Lanes* const pooled = &trace.pooled[d * pooled_inputs];
     LaneInts most_step[units] = {};
@@ -91,21 +112,33 @@ NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& ba
                                                          &batch.direction[d * direction_gates],
                                                          &trace.direction_sums[d * units], out);
     for (int u = 0; u < units; ++u) trace.joined[u] += out[u];
+    Lanes bent[bent_outputs];
+    linear_forward<pooled_inputs, direction_gates, bent_outputs>(parameters + bent_layer, pooled,
+                                                                 &batch.direction[d * direction_gates],
+                                                                 &trace.bent_sums[d * bent_outputs], bent);
+    for (int i = 0; i < 3; ++i)
+      output.bent[i] += (bent[0] * batch.tangent[3 * d + std::size_t(i)] + bent[1] * batch.view_axis[i]) *
+                        (1 / float(directions));
   }
   for (int u = 0; u < units; ++u) trace.joined[u] *= 1 / float(directions);
   gated_forward<units, join_gates, units>(parameters + join_layer, trace.joined, batch.join, trace.join_sums,
                                           trace.join_output);
-  output = Lanes{} + 1.0f;
-  for (int u = 0; u < units; ++u) output += parameters[out_layer + u] * trace.join_output[u];
+  trace.darkness = Lanes{};
+  for (int u = 0; u < units; ++u) trace.darkness -= parameters[out_layer + u] * trace.join_output[u];
+  output.ao = 1.0f - (trace.darkness < batch.bound ? trace.darkness : batch.bound);
 }
 
 NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& batch,
-                                  const HorizonTrace& trace, const Lanes& output_gradient, Lanes* gradient) {
+                                  const HorizonTrace& trace, const HorizonOutput& output_gradient,
+                                  Lanes* gradient) {
   const auto [directions, steps] = batch.grid;
+  const Lanes g_ao = trace.darkness < batch.bound ? output_gradient.ao : Lanes{};
+  Lanes g_towards{};
+  for (int i = 0; i < 3; ++i) g_towards += output_gradient.bent[i] * batch.view_axis[i];
   Lanes g_join[units], g_joined[units];
   for (int u = 0; u < units; ++u) {
-    gradient[out_layer + u] += output_gradient * trace.join_output[u];
-    g_join[u] = parameters[out_layer + u] * output_gradient;
+    gradient[out_layer + u] += g_ao * trace.join_output[u];
+    g_join[u] = parameters[out_layer + u] * g_ao;
   }
   gated_backward<units, join_gates, units>(parameters + join_layer, trace.joined, batch.join, trace.join_sums,
                                            g_join, gradient + join_layer, g_joined);
@@ -117,6 +150,12 @@ NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& b
     gated_backward<pooled_inputs, direction_gates, units>(
         parameters + direction_layer, &trace.pooled[d * pooled_inputs], &batch.direction[d * direction_gates],
         &trace.direction_sums[d * units], g_out, gradient + direction_layer, g_pooled);
+    Lanes g_bent[bent_outputs] = {Lanes{}, g_towards * (1 / float(directions))};
+    for (int i = 0; i < 3; ++i)
+      g_bent[0] += output_gradient.bent[i] * batch.tangent[3 * d + std::size_t(i)] * (1 / float(directions));
+    linear_backward<pooled_inputs, direction_gates, bent_outputs>(
+        parameters + bent_layer, &trace.pooled[d * pooled_inputs], &batch.direction[d * direction_gates],
+        &trace.bent_sums[d * bent_outputs], g_bent, gradient + bent_layer, g_pooled);
     for (int u = 0; u < units; ++u) g_pooled[units + u] *= 1 / float(steps);
     LaneInts most_step[units];
     for (int u = 0; u < units; ++u)

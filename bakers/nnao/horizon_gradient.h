@@ -24,9 +24,12 @@ struct HorizonBatch {
   explicit HorizonBatch(TapGrid tap_grid);
 
   TapGrid grid;
-  LaneArray tap;        // tap_inputs for each tap, one direction after another
-  LaneArray direction;  // direction_gates of each direction
+  LaneArray tap;                      // tap_inputs for each tap, one direction after another
+  LaneArray direction;                // direction_gates of each direction
+  LaneArray tangent;                  // t of each direction, x, y, z
+  Lanes normal[3]{}, view_axis[3]{};  // n, o
   Lanes join[join_gates]{};
+  Lanes bound{};  // of 1 - AO
 
   void set(int lane, const View& view, const DataPoint& point, TapNoise noise);
 };
@@ -35,16 +38,24 @@ struct HorizonBatch {
 struct HorizonTrace {
   explicit HorizonTrace(TapGrid grid);
 
-  LaneArray pooled, direction_sums;
+  LaneArray pooled, direction_sums, bent_sums;
   std::vector<int> most_step;  // the step of each direction's maximum, by unit and lane
+  Lanes darkness;              // before the bound
   Lanes joined[HorizonNetwork::units], join_sums[HorizonNetwork::units], join_output[HorizonNetwork::units];
 };
 
-// parameters are in the order of layers.h. Returns the network's output before the clamp.
-void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace, Lanes& output);
+// The network's outputs, and gradients of a loss for each of them.
+struct HorizonOutput {
+  Lanes ao{};       // before the clamp to [0, 1]
+  Lanes bent[3]{};  // x, y, z, not normalised
+};
+
+// parameters are in the order of layers.h.
+void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace,
+                     HorizonOutput& output);
 
 // Adds the gradient of the output times output_gradient for each parameter and lane.
 void horizon_backward(const float* parameters, const HorizonBatch& batch, const HorizonTrace& trace,
-                      const Lanes& output_gradient, Lanes* gradient);
+                      const HorizonOutput& output_gradient, Lanes* gradient);
 
 }  // namespace nook::bake::nnao

@@ -25,6 +25,50 @@ Vec3 rounded_normal(Vec3 normal, Random& random) {
                                   random.between(-reach, reach)});
 }
 
+// The loss of two outputs, and its gradient for each of them.
+struct PairLoss {
+  float loss = 0, g_one = 0, g_two = 0;
+};
+
+// Returns the loss of a pair of outputs with independent noise. Dark references count for more: see
+// TrainingSettings.
+PairLoss ao_loss(const TrainingSettings& settings, float ao, float output_one, float output_two) {
+  const float w = settings.unblurred_weight, weight = 1 + settings.dark_weight * (1 - ao) * (1 - ao);
+  const float e_one = error_of(output_one, ao), e_two = error_of(output_two, ao);
+  return {weight * ((1 - w) * e_one * e_two + 0.5f * w * (e_one * e_one + e_two * e_two)),
+          weight * ((1 - w) * e_two + w * e_one), weight * ((1 - w) * e_one + w * e_two)};
+}
+
+Vec3 lane_vector(const Lanes (&from)[3], int lane) {
+  return {from[0][lane], from[1][lane], from[2][lane]};
+}
+
+// Returns the gradient of a loss for a vector from that for its unit vector.
+Vec3 before_normalising(Vec3 gradient, Vec3 unit, float size) {
+  return (gradient - dot(gradient, unit) * unit) * (1 / size);
+}
+
+// The same for the bent normal: squared distances of unit vectors, weighted by 1 - AO, because the direction
+// of a nearly open point hardly departs from its normal.
+float bent_loss(const TrainingSettings& settings, const DataPoint& point, const HorizonOutput& one,
+                const HorizonOutput& two, int lane, HorizonOutput& g_one, HorizonOutput& g_two) {
+  const Vec3 bent_one = lane_vector(one.bent, lane), bent_two = lane_vector(two.bent, lane);
+  const float size_one = std::max(length(bent_one), 1e-3f), size_two = std::max(length(bent_two), 1e-3f);
+  const Vec3 reference = normalised(point.open_direction);
+  const float weight = length(reference) > 0 ? settings.bent_weight * (1 - point.ao) : 0;
+  const Vec3 unit_one = bent_one * (1 / size_one), unit_two = bent_two * (1 / size_two);
+  const Vec3 e_one = unit_one - reference, e_two = unit_two - reference;
+  const float w = settings.unblurred_weight;
+  const Vec3 from_one = before_normalising(weight * ((1 - w) * e_two + w * e_one), unit_one, size_one);
+  const Vec3 from_two = before_normalising(weight * ((1 - w) * e_one + w * e_two), unit_two, size_two);
+  for (const auto& [gradient, from] : {std::pair(&g_one, from_one), std::pair(&g_two, from_two)}) {
+    gradient->bent[0][lane] = from.x;
+    gradient->bent[1][lane] = from.y;
+    gradient->bent[2][lane] = from.z;
+  }
+  return weight * ((1 - w) * dot(e_one, e_two) + 0.5f * w * (dot(e_one, e_one) + dot(e_two, e_two)));
+}
+
 // Evaluates sixteen points with two noise values each. Returns the loss summed over lanes and sets the
 // gradient.
 double block_gradient(const Dataset& data, const TrainingSettings& settings, const float* parameters,
@@ -42,17 +86,17 @@ double block_gradient(const Dataset& data, const TrainingSettings& settings, con
     two.set(lane, view, point, nook::nnao::tap_noise_of_rank(other));
   }
   HorizonTrace trace_one(grid), trace_two(grid);
-  Lanes output_one, output_two, g_one, g_two;
+  HorizonOutput output_one, output_two, g_one, g_two;
   horizon_forward(parameters, one, trace_one, output_one);
   horizon_forward(parameters, two, trace_two, output_two);
-  const float w = settings.unblurred_weight;
   double loss = 0;
   for (int lane = 0; lane < lane_count; ++lane) {
-    const float ao = data.training[points[std::size_t(lane)]].ao;
-    const float e_one = error_of(output_one[lane], ao), e_two = error_of(output_two[lane], ao);
-    loss += double((1 - w) * e_one * e_two + 0.5f * w * (e_one * e_one + e_two * e_two));
-    g_one[lane] = (1 - w) * e_two + w * e_one;
-    g_two[lane] = (1 - w) * e_one + w * e_two;
+    const DataPoint& point = data.training[points[std::size_t(lane)]];
+    const PairLoss of_ao = ao_loss(settings, point.ao, output_one.ao[lane], output_two.ao[lane]);
+    g_one.ao[lane] = of_ao.g_one;
+    g_two.ao[lane] = of_ao.g_two;
+    loss += double(of_ao.loss);
+    loss += double(bent_loss(settings, point, output_one, output_two, lane, g_one, g_two));
   }
   LaneArray sums = lane_array(horizon_parameter_count());
   horizon_backward(parameters, one, trace_one, g_one, sums.data());
@@ -99,7 +143,9 @@ void start_horizon(std::span<float> parameters, Random& random) {
   std::fill_n(next, units, 0.01f);
   next = start_gated<2 * units, HorizonBatch::direction_gates, units>(next + units, random);
   next = start_gated<units, HorizonBatch::join_gates, units>(next, random);
-  start_weights<units, 1>(next, random);
+  next = start_weights<units, 1>(next, random);
+  // The bent normal starts at the normal.
+  std::fill(next, parameters.data() + parameters.size(), 0.0f);
 }
 
 void constrain_horizon(std::span<float> parameters) {

@@ -131,4 +131,42 @@ NOOK_INLINE void gated_backward(const float* layer, const Number* input, const N
   }
 }
 
+// The numbers of GatedLinear: those of GatedDense without slopes.
+template <int inputs, int gates, int units>
+struct LinearOrder {
+  static constexpr int gate = GatedOrder<inputs, gates, units>::gate, count = gate + gates * units;
+};
+
+// sums receives the sums before the gate.
+template <int inputs, int gates, int units, class Number>
+NOOK_INLINE void linear_forward(const float* layer, const Number* input, const Number* gate, Number* sums,
+                                Number* output) {
+  for (int u = 0; u < units; ++u) {
+    Number sum{};
+    for (int i = 0; i < inputs; ++i) sum += layer[i * units + u] * input[i];
+    sums[u] = sum;
+    Number factor;
+    set_gate_factor<inputs, gates, units>(layer, gate, u, factor);
+    output[u] = sum * factor;
+  }
+}
+
+// Adds the gradient of the layer's numbers to `gradient`, and that of the inputs to input_gradient.
+template <int inputs, int gates, int units, class Number>
+NOOK_INLINE void linear_backward(const float* layer, const Number* input, const Number* gate,
+                                 const Number* sums, const Number* output_gradient, Number* gradient,
+                                 Number* input_gradient) {
+  for (int u = 0; u < units; ++u) {
+    Number factor;
+    set_gate_factor<inputs, gates, units>(layer, gate, u, factor);
+    const Number g_sum = output_gradient[u] * factor, g_factor = output_gradient[u] * sums[u];
+    for (int i = 0; i < gates; ++i)
+      gradient[LinearOrder<inputs, gates, units>::gate + i * units + u] += g_factor * gate[i];
+    for (int i = 0; i < inputs; ++i) {
+      gradient[i * units + u] += g_sum * input[i];
+      input_gradient[i] += layer[i * units + u] * g_sum;
+    }
+  }
+}
+
 }  // namespace nook::bake::nnao

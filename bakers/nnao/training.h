@@ -26,6 +26,11 @@ struct TrainingSettings {
   // The loss is (1 - w) (bias of the mean)^2 + w (error of one pixel)^2, of which the first is the product of
   // the errors with two independent noise values.
   float unblurred_weight = 0.3f;
+  // The weight of a sample is 1 + dark_weight (1 - AO)^2. The mean error alone leaves dark parts too bright:
+  // they are few, and a network that cannot tell them apart from brighter ones gives both the mean.
+  float dark_weight = 8;
+  // Of the squared error of the bent normal, times 1 - AO.
+  float bent_weight = 0.1f;
 
   // Paper form, equation 2: gamma times the mean of |theta|. The sum over 15,500 numbers would exceed any
   // error of an AO between 0 and 1.

@@ -13,6 +13,11 @@ struct ValidationRow {
   double mse = 0;  // of one pixel's AO before the blur
   // Of the mean over the noise values: the error after a perfect filter over 3 x 3 pixels.
   double mse_blurred = 0;
+  // Of that mean, AO minus reference, where the reference is below 0.35.
+  double dark_bias = 0;
+  // Degrees, the median angle from the reference where its AO is below 0.7: of the bent normal, as the mean
+  // over the noise values, and of the normal.
+  double bent_angle = 0, normal_angle = 0;
 };
 
 // Evaluates every stride-th point. Threads share the work, and the result does not depend on their number.

@@ -1,6 +1,6 @@
 // A bilateral filter over 3 x 3 texels: it averages the noise of the taps, which repeats after as many, over
 // texels that the edges connect and whose AO does not differ too much.
-uniform sampler2D nook_ao;  // AO, edges
+uniform sampler2D nook_ao;  // AO, edges, and the bent normal in passes that have it
 
 uint nook_edge_bits(float packed_edges) {
   return uint(255.0 * packed_edges + 0.5);
@@ -13,37 +13,42 @@ vec4 nook_edges_of(uint bits) {
 
 struct nook_filter_sum {
   float ao, weight;
+  vec2 bent;
 };
 
-void nook_add_texel(inout nook_filter_sum sum, float centre, float ao, float connected) {
-  float weight = connected * clamp(2.0 - nook_range_sharpness * abs(ao - centre), 0.0, 1.0);
-  sum.ao += weight * ao;
+// centre, texel: values of nook_ao.
+void nook_add_texel(inout nook_filter_sum sum, vec4 centre, vec4 texel, float connected) {
+  float weight = connected * clamp(2.0 - nook_range_sharpness * abs(texel.r - centre.r), 0.0, 1.0);
+  sum.ao += weight * texel.r;
   sum.weight += weight;
+#if NOOK_BENT_NORMALS
+  sum.bent += weight * texel.ba;
+#endif
 }
 
 // One of the corners. horizontal and vertical: the edges of the centre on the way to it; back: those of the
 // corner on its way to the centre's neighbours, (along x, along y).
-void nook_add_corner(inout nook_filter_sum sum, float centre, float ao, float horizontal, float vertical, vec2 back) {
-  nook_add_texel(sum, centre, ao, max(horizontal * back.y, vertical * back.x) / 9.0);
+void nook_add_corner(inout nook_filter_sum sum, vec4 centre, vec4 texel, float horizontal, float vertical, vec2 back) {
+  nook_add_texel(sum, centre, texel, max(horizontal * back.y, vertical * back.x) / 9.0);
 }
 
-// Returns AO and edges of a texel after the filter.
-vec2 nook_filtered(ivec2 texel, ivec2 last) {
+// Returns a texel after the filter; its edges stay.
+vec4 nook_filtered(ivec2 texel, ivec2 last) {
   ivec2 low = max(texel - 1, ivec2(0)), high = min(texel + 1, last);
-  vec2 centre = texelFetch(nook_ao, texel, 0).rg;
+  vec4 centre = texelFetch(nook_ao, texel, 0);
   vec4 edges = nook_edges_of(nook_edge_bits(centre.g));
-  nook_filter_sum sum = nook_filter_sum(centre.r, 1.0);
-  nook_add_texel(sum, centre.r, texelFetch(nook_ao, ivec2(low.x, texel.y), 0).r, edges.x / 3.0);
-  nook_add_texel(sum, centre.r, texelFetch(nook_ao, ivec2(high.x, texel.y), 0).r, edges.y / 3.0);
-  nook_add_texel(sum, centre.r, texelFetch(nook_ao, ivec2(texel.x, low.y), 0).r, edges.z / 3.0);
-  nook_add_texel(sum, centre.r, texelFetch(nook_ao, ivec2(texel.x, high.y), 0).r, edges.w / 3.0);
-  vec2 corner = texelFetch(nook_ao, low, 0).rg;
-  nook_add_corner(sum, centre.r, corner.r, edges.x, edges.z, nook_edges_of(nook_edge_bits(corner.g)).yw);
-  corner = texelFetch(nook_ao, ivec2(high.x, low.y), 0).rg;
-  nook_add_corner(sum, centre.r, corner.r, edges.y, edges.z, nook_edges_of(nook_edge_bits(corner.g)).xw);
-  corner = texelFetch(nook_ao, ivec2(low.x, high.y), 0).rg;
-  nook_add_corner(sum, centre.r, corner.r, edges.x, edges.w, nook_edges_of(nook_edge_bits(corner.g)).yz);
-  corner = texelFetch(nook_ao, high, 0).rg;
-  nook_add_corner(sum, centre.r, corner.r, edges.y, edges.w, nook_edges_of(nook_edge_bits(corner.g)).xz);
-  return vec2(sum.ao / sum.weight, centre.g);
+  nook_filter_sum sum = nook_filter_sum(centre.r, 1.0, centre.ba);
+  nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(low.x, texel.y), 0), edges.x / 3.0);
+  nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(high.x, texel.y), 0), edges.y / 3.0);
+  nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(texel.x, low.y), 0), edges.z / 3.0);
+  nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(texel.x, high.y), 0), edges.w / 3.0);
+  vec4 corner = texelFetch(nook_ao, low, 0);
+  nook_add_corner(sum, centre, corner, edges.x, edges.z, nook_edges_of(nook_edge_bits(corner.g)).yw);
+  corner = texelFetch(nook_ao, ivec2(high.x, low.y), 0);
+  nook_add_corner(sum, centre, corner, edges.y, edges.z, nook_edges_of(nook_edge_bits(corner.g)).xw);
+  corner = texelFetch(nook_ao, ivec2(low.x, high.y), 0);
+  nook_add_corner(sum, centre, corner, edges.x, edges.w, nook_edges_of(nook_edge_bits(corner.g)).yz);
+  corner = texelFetch(nook_ao, high, 0);
+  nook_add_corner(sum, centre, corner, edges.y, edges.w, nook_edges_of(nook_edge_bits(corner.g)).xz);
+  return vec4(sum.ao / sum.weight, centre.g, sum.bent / sum.weight);
 }

@@ -10,6 +10,7 @@ uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_far_stored nook_frame[NOOK_FRAME_FAR].x  // the stored value of the far plane
 #define nook_far_sign nook_frame[NOOK_FRAME_FAR].y    // 1: stored values grow with the distance; -1: they fall
 #define nook_min_depth nook_frame[NOOK_FRAME_FAR].z
+#define nook_writes_bent_normals (nook_frame[NOOK_FRAME_FAR].w != 0.0)
 #define nook_spread nook_frame[NOOK_FRAME_SPREAD].xy  // the screen's extent at a depth is x depth + y: perspective (1, 0), orthographic (0, 1)
 #define nook_edge_tolerance nook_frame[NOOK_FRAME_SPREAD].z  // 1 / metres
 #define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // values of AO that differ by twice its inverse are not averaged

@@ -30,8 +30,13 @@ vec4 nook_leaky(vec4 x, int slope) {
   return max(x, nook_network[slope] * x);
 }
 
-// Returns the units of the tap at a place, in texels.
-vec4 nook_tap_units(nook_centre centre, vec2 place) {
+// What the taps of a direction find.
+struct nook_horizon {
+  vec4 most, sum;  // of the units
+  float bound;     // the greatest elevation times nearness, at least 0
+};
+
+void nook_add_tap(inout nook_horizon found, nook_centre centre, vec2 place) {
   vec2 texel = clamp(floor(place), vec2(0.0), nook_surface_last);
   vec3 v = nook_position(nook_surface_rays, texel, nook_depth_at(ivec2(texel))) - centre.position;
   float squared = max(dot(v, v), 1.0e-24), per_metre = inversesqrt(squared);
@@ -39,24 +44,38 @@ vec4 nook_tap_units(nook_centre centre, vec2 place) {
   float nearness = clamp(1.0 - squared * per_metre * centre.half_nearness, 0.0, 1.0);
   vec4 x = nook_network[NOOK_HORIZON_TAP] + angle * nook_network[NOOK_HORIZON_TAP + 1] +
            nearness * (nook_network[NOOK_HORIZON_TAP + 2] + angle * nook_network[NOOK_HORIZON_TAP + 3]);
-  return max(elevation * x - nook_network[NOOK_HORIZON_TAP_THRESHOLD], 0.0);
+  vec4 hidden = max(elevation * x - nook_network[NOOK_HORIZON_TAP_THRESHOLD], 0.0);
+  found.most = max(found.most, hidden);
+  found.sum += hidden;
+  found.bound = max(found.bound, elevation * nearness);
 }
 
-// direction: a unit vector of view space. gate: that of the layer, but for what differs between directions.
-vec4 nook_direction_units(nook_centre centre, vec2 direction, vec2 scale, vec4 gate) {
+// The sums over the directions.
+struct nook_sums {
+  vec4 units;
+  float bound;
+  vec3 bent;
+};
+
+// direction: a unit vector of view space. gate, bent_gate: those of the layers, but for what differs between
+// directions.
+void nook_add_direction(inout nook_sums sums, nook_centre centre, vec2 direction, vec2 scale, vec4 gate, vec2 bent_gate) {
   vec2 along_px = nook_horizon_tap(direction, 1.0, scale);
-  vec4 most = vec4(0.0), sum = vec4(0.0);
-  for (int i = 0; i < NOOK_STEPS; ++i) {
-    vec4 hidden = nook_tap_units(centre, centre.place + along_px * centre.steps_px[i]);
-    most = max(most, hidden);
-    sum += hidden;
-  }
+  nook_horizon found = nook_horizon(vec4(0.0), vec4(0.0), 0.0);
+  for (int i = 0; i < NOOK_STEPS; ++i) nook_add_tap(found, centre, centre.place + along_px * centre.steps_px[i]);
   // The unit vector across the direction to the viewer, in the plane of the direction, times the normal.
-  float towards = dot(direction, centre.viewer.xy);
-  float across = (dot(direction, centre.normal.xy) - towards * dot(centre.normal, centre.viewer)) *
-                 inversesqrt(1.0 - towards * towards);
-  vec4 x = nook_products(most, NOOK_HORIZON_DIRECTION) + nook_products(sum, NOOK_HORIZON_DIRECTION + 4);
-  return nook_leaky(x * (gate + across * nook_network[NOOK_HORIZON_DIRECTION_GATE]), NOOK_HORIZON_DIRECTION_SLOPE);
+  float towards = dot(direction, centre.viewer.xy), per_length = inversesqrt(1.0 - towards * towards);
+  float across = (dot(direction, centre.normal.xy) - towards * dot(centre.normal, centre.viewer)) * per_length;
+  vec4 x = nook_products(found.most, NOOK_HORIZON_DIRECTION) + nook_products(found.sum, NOOK_HORIZON_DIRECTION + 4);
+  sums.units += nook_leaky(x * (gate + across * nook_network[NOOK_HORIZON_DIRECTION_GATE]), NOOK_HORIZON_DIRECTION_SLOPE);
+  sums.bound += found.bound;
+#if NOOK_BENT_NORMALS
+  vec2 bent = vec2(dot(found.most, nook_network[NOOK_HORIZON_BENT]) + dot(found.sum, nook_network[NOOK_HORIZON_BENT + 2]),
+                   dot(found.most, nook_network[NOOK_HORIZON_BENT + 1]) + dot(found.sum, nook_network[NOOK_HORIZON_BENT + 3]));
+  bent *= bent_gate + across * nook_network[NOOK_HORIZON_BENT_GATE].xy;
+  bent.x *= per_length;
+  sums.bent += vec3(bent.x * direction, 0.0) + (bent.y - bent.x * towards) * centre.viewer;
+#endif
 }
 
 // Returns the distance from the nearest border, in texels.
@@ -65,7 +84,8 @@ float nook_border_distance(vec2 place) {
   return min(inside.x, inside.y);
 }
 
-float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 radius) {
+// Returns AO. bent becomes the bent normal, not normalised, in passes that have it.
+float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 radius, out vec3 bent) {
   vec2 noise = nook_tap_noise(texel);
   nook_centre centre;
   centre.place = vec2(texel) + 0.5;
@@ -78,14 +98,16 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
   vec4 gate = 1.0 + facing * nook_network[NOOK_HORIZON_DIRECTION_GATE + 1];
   float angle = nook_direction_angle(0, NOOK_DIRECTIONS, noise);
   vec2 direction = vec2(cos(angle), sin(angle));
-  vec4 sum = vec4(0.0);
+  vec2 bent_gate = 1.0 + facing * nook_network[NOOK_HORIZON_BENT_GATE].zw;
+  nook_sums sums = nook_sums(vec4(0.0), 0.0, normal);
   for (int i = 0; i < NOOK_LOOPED_DIRECTIONS; ++i) {
-    sum += nook_direction_units(centre, direction, scale, gate);
+    nook_add_direction(sums, centre, direction, scale, gate, bent_gate);
     direction = vec2(direction.x * nook_turn.x - direction.y * nook_turn.y,
                      direction.x * nook_turn.y + direction.y * nook_turn.x);
   }
   float border = min(nook_border_distance(centre.place) / radius.y, 1.0);
   vec4 join_gate = 1.0 + facing * nook_network[NOOK_HORIZON_JOIN_GATE] + border * nook_network[NOOK_HORIZON_JOIN_GATE + 1];
-  vec4 joined = nook_leaky(nook_products(sum, NOOK_HORIZON_JOIN) * join_gate, NOOK_HORIZON_JOIN_SLOPE);
-  return 1.0 + dot(joined, nook_network[NOOK_HORIZON_OUT]);
+  vec4 joined = nook_leaky(nook_products(sums.units, NOOK_HORIZON_JOIN) * join_gate, NOOK_HORIZON_JOIN_SLOPE);
+  bent = sums.bent;
+  return 1.0 + max(dot(joined, nook_network[NOOK_HORIZON_OUT]), -NOOK_HORIZON_BOUND / float(NOOK_DIRECTIONS) * sums.bound);
 }

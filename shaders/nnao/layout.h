@@ -39,7 +39,8 @@
 #define NOOK_HORIZON_UNITS 4
 #define NOOK_HORIZON_TAP_INPUTS 4
 // vec4 of nook_network: the layers in the order of network.h; a layer is a row of units for each input, then
-// one for each value of its gate, then slopes. Taps have thresholds instead.
+// one for each value of its gate, then slopes. Taps have thresholds instead. The layer of the bent normal has
+// two outputs and no slopes: a vec4 is four weights of one output, and the last one is both gates.
 #define NOOK_HORIZON_TAP 0
 #define NOOK_HORIZON_TAP_THRESHOLD NOOK_HORIZON_TAP_INPUTS
 #define NOOK_HORIZON_DIRECTION (NOOK_HORIZON_TAP_THRESHOLD + 1)
@@ -49,7 +50,11 @@
 #define NOOK_HORIZON_JOIN_GATE (NOOK_HORIZON_JOIN + NOOK_HORIZON_UNITS)
 #define NOOK_HORIZON_JOIN_SLOPE (NOOK_HORIZON_JOIN_GATE + 2)
 #define NOOK_HORIZON_OUT (NOOK_HORIZON_JOIN_SLOPE + 1)
-#define NOOK_HORIZON_VEC4S (NOOK_HORIZON_OUT + 1)
+#define NOOK_HORIZON_BENT (NOOK_HORIZON_OUT + 1)
+#define NOOK_HORIZON_BENT_GATE (NOOK_HORIZON_BENT + 4)
+#define NOOK_HORIZON_VEC4S (NOOK_HORIZON_BENT_GATE + 1)
+// 1 - AO is at most so many times the mean over the directions of the greatest elevation times nearness.
+#define NOOK_HORIZON_BOUND 8.0
 
 // A network of the paper's form, four units a layer: bias and slopes of the filters, two layers of four
 // inputs, one of one unit.

@@ -3,7 +3,7 @@
 #include "shaders/nnao/occlusion.glsl"
 
 layout(local_size_x = NOOK_OCCLUSION_GROUP_SIZE, local_size_y = NOOK_OCCLUSION_GROUP_SIZE) in;
-#ifdef GL_ES
+#if defined(GL_ES) || NOOK_BENT_NORMALS
 layout(rgba8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;  // OpenGL ES 3.1 writes no rg8
 #else
 layout(rg8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;
@@ -11,5 +11,5 @@ layout(rg8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;
 
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-  if (nook_inside(texel, nook_surface_size)) imageStore(nook_out, texel, vec4(nook_occlusion(texel), 0.0, 1.0));
+  if (nook_inside(texel, nook_surface_size)) imageStore(nook_out, texel, nook_occlusion(texel));
 }

@@ -1,8 +1,17 @@
 // The network as a draw.
 #include "shaders/nnao/occlusion.glsl"
 
+#if NOOK_BENT_NORMALS
+out vec4 nook_out;
+#else
 out vec2 nook_out;
+#endif
 
 void main() {
-  nook_out = nook_occlusion(ivec2(gl_FragCoord.xy));
+  vec4 found = nook_occlusion(ivec2(gl_FragCoord.xy));
+#if NOOK_BENT_NORMALS
+  nook_out = found;
+#else
+  nook_out = found.rg;
+#endif
 }

@@ -2,15 +2,19 @@
 // and the compute path share this file.
 #include "shaders/nnao/normal.glsl"
 #include "shaders/nnao/taps.glsl"
+#if NOOK_BENT_NORMALS
+#include "shaders/nnao/bent_normal.glsl"
+#endif
 #if NOOK_HORIZON
 #include "shaders/nnao/horizon.glsl"
 #else
 #include "shaders/nnao/paper.glsl"
 #endif
 
-vec2 nook_occlusion(ivec2 texel) {
+// Returns AO, edges, and the bent normal in passes that have it.
+vec4 nook_occlusion(ivec2 texel) {
   float depth = nook_depth_at(texel);
-  if (depth == nook_no_surface) return vec2(1.0, 0.0);
+  if (depth == nook_no_surface) return vec4(1.0, 0.0, vec2(128.0 / 255.0));
   nook_neighbours around = nook_neighbours_of(texel, depth);
 #if NOOK_HORIZON
   vec3 normal = nook_texel_normal(texel, around);
@@ -18,7 +22,11 @@ vec2 nook_occlusion(ivec2 texel) {
   vec3 normal = nook_surface_normal(texel);
 #endif
   vec2 scale = nook_pixel_scale(depth);
-  float ao = nook_evaluate(texel, nook_position(nook_surface_rays, vec2(texel), depth), normal, scale,
-                           nook_pixel_radius(scale));
-  return vec2(clamp(ao, 0.0, 1.0), nook_packed_edges(around.connected));
+  vec3 position = nook_position(nook_surface_rays, vec2(texel), depth), bent;
+  float ao = nook_evaluate(texel, position, normal, scale, nook_pixel_radius(scale), bent);
+  vec4 found = vec4(clamp(ao, 0.0, 1.0), nook_packed_edges(around.connected), 0.0, 1.0);
+#if NOOK_BENT_NORMALS
+  found.ba = nook_coded_bent_normal(bent, nook_to_viewer(position));
+#endif
+  return found;
 }

@@ -44,7 +44,8 @@ vec4 nook_paper_layer(vec4 x, int first) {
   return nook_prelu(sum, first + 5);
 }
 
-float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 radius) {
+float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 radius, out vec3 bent) {
+  bent = normal;
   vec4 x = nook_prelu(nook_paper_sum(texel, position, normal, scale, radius.x) + nook_network[NOOK_PAPER_FILTERS], NOOK_PAPER_FILTERS + 1);
   x = nook_paper_layer(nook_paper_layer(x, NOOK_PAPER_LAYER_1), NOOK_PAPER_LAYER_2);
   vec4 last = nook_network[NOOK_PAPER_LAYER_3 + 1];  // bias, negative slope, positive slope

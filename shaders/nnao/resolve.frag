@@ -6,6 +6,9 @@
 #else
 #include "shaders/nnao/filter.glsl"
 #endif
+#if NOOK_BENT_NORMALS
+#include "shaders/nnao/bent_normal.glsl"
+#endif
 
 #ifdef NOOK_LAYERED
 uniform sampler2D nook_layer;
@@ -13,12 +16,13 @@ uniform sampler2D nook_layer;
 
 out vec4 nook_out;
 
-float nook_screen_ao(ivec2 pixel) {
+// Returns AO, and the bent normal in blue and alpha.
+vec4 nook_screen_value(ivec2 pixel) {
 #if NOOK_HALF
   float depth = nook_screen_depth(pixel);
-  return depth == nook_no_surface ? 1.0 : nook_upsampled(pixel, depth);
+  return depth == nook_no_surface ? nook_open : nook_upsampled(pixel, depth);
 #else
-  return nook_filtered(pixel, nook_screen_size - 1).r;
+  return nook_filtered(pixel, nook_screen_size - 1);
 #endif
 }
 
@@ -40,9 +44,13 @@ float nook_combined(float ao, ivec2 pixel) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy) - nook_origin;
-  float ao = nook_strengthened(nook_screen_ao(pixel));
+  vec4 value = nook_screen_value(pixel);
+  float ao = nook_strengthened(value.r);
 #ifdef NOOK_LAYERED
   ao = nook_combined(ao, pixel);
 #endif
   nook_out = vec4(vec3(ao), 1.0);
+#if NOOK_BENT_NORMALS
+  if (nook_writes_bent_normals) nook_out = vec4(0.5 * nook_decoded_bent_normal(value.ba, pixel) + 0.5, ao);
+#endif
 }

@@ -3,17 +3,20 @@
 #include "shaders/nnao/depth.glsl"
 
 uniform sampler2D nook_ao;
+// A texel of nook_ao without a surface.
+const vec4 nook_open = vec4(1.0, 0.0, vec2(128.0 / 255.0));
 
 float nook_smaller(float a, float b) {
   return abs(a) < abs(b) ? a : b;
 }
 
-float nook_upsampled(ivec2 pixel, float depth) {
+// Returns a value of nook_ao; its edges mean nothing.
+vec4 nook_upsampled(ivec2 pixel, float depth) {
   ivec2 low = pixel / 2, high = min(low + 1, nook_surface_size - 1);
   ivec2 texels[4] = ivec2[4](low, ivec2(high.x, low.y), ivec2(low.x, high.y), high);
   vec4 depths = vec4(nook_depth_at(texels[0]), nook_depth_at(texels[1]), nook_depth_at(texels[2]), nook_depth_at(texels[3]));
-  vec4 ao = vec4(texelFetch(nook_ao, texels[0], 0).r, texelFetch(nook_ao, texels[1], 0).r,
-                 texelFetch(nook_ao, texels[2], 0).r, texelFetch(nook_ao, texels[3], 0).r);
+  mat4 values = mat4(texelFetch(nook_ao, texels[0], 0), texelFetch(nook_ao, texels[1], 0),
+                     texelFetch(nook_ao, texels[2], 0), texelFetch(nook_ao, texels[3], 0));
   // This difference is linear in pixels over a plane.
   vec4 rise = (depths - depth) / (nook_spread.x * depths + nook_spread.y);
   vec2 slope = vec2(nook_smaller(rise.y - rise.x, rise.w - rise.z), nook_smaller(rise.z - rise.x, rise.w - rise.y));
@@ -24,5 +27,5 @@ float nook_upsampled(ivec2 pixel, float depth) {
   vec4 weights = (lerp + 1.0e-3) / (1.0e-3 + off * off);
   weights *= vec4(notEqual(depths, vec4(nook_no_surface)));
   float sum = dot(weights, vec4(1.0));
-  return sum > 0.0 ? dot(weights, ao) / sum : 1.0;
+  return sum > 0.0 ? values * weights / sum : nook_open;
 }

@@ -21,7 +21,10 @@ Json validation_rows(const nook::nnao::Network& network, const Dataset& data) {
     rows.push_back({{"method", paper ? "paper" : "horizon"},
                     {"taps", taps},
                     {"mse", row.mse},
-                    {"mse_blurred", row.mse_blurred}});
+                    {"mse_blurred", row.mse_blurred},
+                    {"dark_bias", row.dark_bias},
+                    {"bent_angle", row.bent_angle},
+                    {"normal_angle", row.normal_angle}});
   }
   return rows;
 }

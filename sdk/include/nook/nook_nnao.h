@@ -78,6 +78,13 @@ typedef struct nook_nnao_desc {
   const void* network;
   /* The size of network in bytes. */
   size_t network_size;
+  /* 1: the pass computes bent normals as well: the mean of the open directions, weighted by their cosine.
+   * nook_nnao_glsl has functions that light with them. The pass's own texture is GL_RGBA8 then, and
+   * NOOK_NNAO_WRITE writes (n + 1) / 2 of the bent normal n into red, green and blue, in view space and of unit
+   * length, and AO into alpha. Not with a network of the paper's form. Default 0. */
+  int32_t bent_normals;
+  /* 0. */
+  int32_t reserved;
 } nook_nnao_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
@@ -102,7 +109,8 @@ typedef int32_t nook_nnao_preset;
 NOOK_API nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_preset preset);
 
 /* Computes the texture memory of a pass with this descriptor: 7 bytes for each pixel, or 3 at half
- * resolution, which at 3840 x 2160 is 58 MB and 25 MB. A blur of 2 at full resolution takes 2 more bytes. A
+ * resolution, which at 3840 x 2160 is 58 MB and 25 MB. A blur of 2 at full resolution takes 2 more bytes. With
+ * bent normals it is 12 bytes or 7, 100 MB and 58 MB, and 4 more with a blur of 2 at full resolution. A
  * network of the paper's form takes 4 more bytes for each pixel, or 1, and its filters 62 kB. The call makes
  * no OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION. */
@@ -156,7 +164,7 @@ typedef int32_t nook_nnao_layer;
 
 /* Where the result goes. */
 enum {
-  /* The red channel of the pass's own texture; see nook_nnao_info. */
+  /* The pass's own texture: AO in red, or the bent normal and AO; see nook_nnao_info. */
   NOOK_NNAO_TARGET_OWN = 0,
   /* Level 0 of a 2D texture of the host. */
   NOOK_NNAO_TARGET_TEXTURE = 1,
@@ -168,7 +176,7 @@ typedef int32_t nook_nnao_target;
 
 /* The change that the result makes to its target. */
 enum {
-  /* The target becomes (ao, ao, ao, 1). */
+  /* The target becomes (ao, ao, ao, 1), or the bent normal and ao; see nook_nnao_desc.bent_normals. */
   NOOK_NNAO_WRITE = 0,
   /* The target's colour is multiplied by ao, and its alpha stays. Not with NOOK_NNAO_TARGET_OWN. */
   NOOK_NNAO_MULTIPLY = 1
@@ -268,8 +276,8 @@ NOOK_API nook_result nook_nnao_recheck(nook_nnao pass);
 typedef struct nook_nnao_info {
   /* sizeof(nook_nnao_info); the caller sets it. */
   uint32_t struct_size;
-  /* The OpenGL name of the pass's own texture: GL_R8, max_width x max_height, the AO of pixel (x, y) in texel
-   * (x, y). Nook owns it: the host reads it, and never writes or deletes it. It is 1 everywhere before the
+  /* The OpenGL name of the pass's own texture: GL_R8, or GL_RGBA8 with bent normals, max_width x max_height,
+   * the AO of pixel (x, y) in texel (x, y), in red or in alpha. Nook owns it: the host reads it, and never writes or deletes it. AO is 1 everywhere before the
    * first frame. Later frames write only their viewport; frames with another target leave it undefined. */
   uint32_t texture;
   /* The memory of all textures of the pass. */
@@ -279,8 +287,8 @@ typedef struct nook_nnao_info {
   int32_t horizon_form;
   /* The path in use: NOOK_NNAO_PATH_FRAGMENT or NOOK_NNAO_PATH_COMPUTE. */
   nook_nnao_path path;
-  /* 0. */
-  int32_t reserved;
+  /* 1: the texture has bent normals. */
+  int32_t bent_normals;
 } nook_nnao_info;
 
 /* Describes a pass. The call makes no OpenGL call.

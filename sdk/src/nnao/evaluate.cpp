@@ -44,6 +44,18 @@ std::array<float, units> through(const GatedDense<inputs, gates, units>& layer,
   return out;
 }
 
+template <int inputs, int gates, int units>
+std::array<float, units> through(const GatedLinear<inputs, gates, units>& layer,
+                                 std::type_identity_t<const std::array<float, inputs>&> input,
+                                 std::type_identity_t<const std::array<float, gates>&> gate) {
+  std::array<float, units> out = sums<inputs, units>(layer.weights, {}, input);
+  std::array<float, units> factor;
+  factor.fill(1);
+  factor = sums<gates, units>(layer.gate_weights, factor, gate);
+  for (int u = 0; u < units; ++u) out[u] *= factor[u];
+  return out;
+}
+
 template <int inputs, int units>
 std::array<float, units> through(const ThresholdDense<inputs, units>& layer,
                                  std::type_identity_t<const std::array<float, inputs>&> input) {
@@ -103,10 +115,12 @@ PaperUnits paper_units(const PaperNetwork& network, const View& view, Vec3 norma
   return sum;
 }
 
-// The input of the network's join and its gate.
+// The input of the network's join and its gate, and the outputs that need no join.
 struct JoinInput {
   std::array<float, HorizonNetwork::units> mean{};
   std::array<float, 2> gate{};
+  float bound = 0;
+  Vec3 bent;  // not normalised
 };
 
 JoinInput join_input(const HorizonNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
@@ -116,26 +130,35 @@ JoinInput join_input(const HorizonNetwork& network, const View& view, Vec3 norma
   const TapGrid grid = horizon_grid(sampling.taps);
   const float facing = dot(centre.normal, centre.viewer);
   JoinInput joined{};
+  joined.bent = centre.normal;
   for (std::uint32_t d = 0; d < grid.directions; ++d) {
     const float angle = direction_angle(d, grid.directions, noise);
     const float cosine = std::cos(angle), sine = std::sin(angle);
     std::array<float, 2 * units> pooled{};
     float* const most = pooled.data();
     float* const mean = pooled.data() + units;
+    float horizon = 0;
     for (std::uint32_t s = 0; s < grid.steps; ++s) {
       const float distance_px = step_distance_px(s, grid.steps, noise, centre.radius.px);
       const TappedTexel texel =
           clamped_texel(view, x, y, horizon_tap(cosine, sine, distance_px, centre.scale));
-      const auto hidden = through(network.tap, horizon_tap_input(view, texel, centre.position, centre.normal,
-                                                                 centre.viewer, centre.radius.metres));
+      const HorizonTapInput input =
+          horizon_tap_input(view, texel, centre.position, centre.normal, centre.viewer, centre.radius.metres);
+      horizon = std::max(horizon, input[2]);
+      const auto hidden = through(network.tap, input);
       for (int u = 0; u < units; ++u) {
         most[u] = s == 0 ? hidden[u] : std::max(most[u], hidden[u]);
         mean[u] += hidden[u] / float(grid.steps);
       }
     }
-    const float across = dot(centre.normal, across_viewer(centre.viewer, cosine, sine));
-    const auto out = through(network.direction, pooled, {across, facing});
-    for (int u = 0; u < units; ++u) joined.mean[u] += out[u] / float(grid.directions);
+    const Vec3 tangent = across_viewer(centre.viewer, cosine, sine);
+    const std::array<float, 2> gate{dot(centre.normal, tangent), facing};
+    const float share = 1 / float(grid.directions);
+    const auto out = through(network.direction, pooled, gate);
+    for (int u = 0; u < units; ++u) joined.mean[u] += out[u] * share;
+    joined.bound += float(NOOK_HORIZON_BOUND) * horizon * share;
+    const auto [aside, towards] = through(network.bent, pooled, gate);
+    joined.bent = joined.bent + aside * share * tangent + towards * share * centre.viewer;
   }
   joined.gate = {facing, border_distance(view, x, y, centre.radius.px)};
   return joined;
@@ -196,19 +219,25 @@ bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 no
   return true;
 }
 
-float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
-                         std::uint32_t x, std::uint32_t y, TapNoise noise) {
+Openness evaluate_openness(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
+                           std::uint32_t x, std::uint32_t y, TapNoise noise) {
   if (network.form == NetworkForm::paper) {
     const PaperNetwork& paper = network.paper;
     const PaperUnits units = paper_units(paper, view, normal, sampling, x, y, noise);
-    return through(paper.layer_3, through(paper.layer_2, through(paper.layer_1, units)))[0];
+    return {through(paper.layer_3, through(paper.layer_2, through(paper.layer_1, units)))[0], normal};
   }
   const HorizonNetwork& horizon = network.horizon;
   const JoinInput joined = join_input(horizon, view, normal, sampling, x, y, noise);
   const auto units = through(horizon.join, joined.mean, joined.gate);
-  float ao = 1;
-  for (std::size_t u = 0; u < units.size(); ++u) ao += horizon.out[u] * units[u];
-  return ao;
+  float darkness = 0;
+  for (std::size_t u = 0; u < units.size(); ++u) darkness -= horizon.out[u] * units[u];
+  const float size = length(joined.bent);
+  return {1 - std::min(darkness, joined.bound), size > 1e-6f ? joined.bent * (1 / size) : normal};
+}
+
+float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
+                         std::uint32_t x, std::uint32_t y, TapNoise noise) {
+  return evaluate_openness(network, view, normal, sampling, x, y, noise).ao;
 }
 
 std::array<float, 3> first_units(const Network& network, const View& view, const Sampling& sampling,

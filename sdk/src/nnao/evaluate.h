@@ -95,8 +95,18 @@ inline Vec3 across_viewer(Vec3 viewer, float cosine, float sine) {
   return normalised(along - dot(along, viewer) * viewer);
 }
 
-// Returns the network's output, not clamped, for a given normal and noise of the pixel, which must have a
-// surface. The horizon form reads no other normal of the view. Training uses this function.
+// The outputs of the network for one pixel.
+struct Openness {
+  float ao = 1;      // not clamped
+  Vec3 bent_normal;  // view space, unit length; the paper's form gives the normal
+};
+
+// Returns the network's outputs for a given normal and noise of the pixel, which must have a surface. The
+// horizon form reads no other normal of the view. Training uses this function.
+Openness evaluate_openness(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
+                           std::uint32_t x, std::uint32_t y, TapNoise noise);
+
+// Returns the AO of evaluate_openness.
 float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
                          std::uint32_t x, std::uint32_t y, TapNoise noise);
 

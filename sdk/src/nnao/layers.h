@@ -13,10 +13,8 @@ void visit_layer(Layer& layer, Visit&& visit) {
   visit(std::span(layer.weights));
   if constexpr (requires { layer.bias; }) visit(std::span(layer.bias));
   if constexpr (requires { layer.threshold; }) visit(std::span(layer.threshold));
-  if constexpr (requires { layer.gate_weights; }) {
-    visit(std::span(layer.gate_weights));
-    visit(std::span(layer.slope));
-  }
+  if constexpr (requires { layer.gate_weights; }) visit(std::span(layer.gate_weights));
+  if constexpr (requires { layer.slope; }) visit(std::span(layer.slope));
   if constexpr (requires { layer.positive_slope; }) {
     visit(std::span(layer.negative_slope));
     visit(std::span(layer.positive_slope));
@@ -40,6 +38,7 @@ void visit_layers(AnyNetwork& network, Visit&& visit) {
     visit_layer(horizon.direction, visit);
     visit_layer(horizon.join, visit);
     visit(std::span(horizon.out));
+    visit_layer(horizon.bent, visit);
   }
 }
 

@@ -59,6 +59,13 @@ struct GatedDense {
   std::array<float, units> slope{};
 };
 
+// y = a sum of products of the input, times 1 + a sum of products of the gate's values.
+template <int inputs, int gates, int units>
+struct GatedLinear {
+  std::array<float, std::size_t(inputs) * units> weights{};      // weights[input * units + unit]
+  std::array<float, std::size_t(gates) * units> gate_weights{};  // gate_weights[gate * units + unit]
+};
+
 // y = max(x - threshold, 0), where x is a sum of products.
 template <int inputs, int units>
 struct ThresholdDense {
@@ -74,12 +81,18 @@ struct ThresholdDense {
 // The sky is a surface at infinity. The input of `direction` is the maximum and the mean of the units over
 // the steps of a direction; its gate is (dot(n, t), dot(n, o)), where t is the unit vector perpendicular to o
 // in the plane of the direction. The input of `join` is the mean over directions; its gate is dot(n, o) and
-// the distance of the pixel from the border of the screen in radii, at most 1. AO is 1 + dot(out, join).
+// the distance of the pixel from the border of the screen in radii, at most 1. AO is
+//   1 - min(-dot(out, join), bound),
+// where bound is NOOK_HORIZON_BOUND times the mean over directions of the greatest max(s w, 0) of a
+// direction: without a tap that is near and above the plane nothing darkens, whatever lies behind a
+// silhouette. bent has the input and the gate of `direction`, and two outputs (p, q) for each direction. The
+// bent normal, which is the mean of the open directions weighted by their cosine, points along
+//   n + mean over directions of (p t + q o).
 // Only taps have a threshold, no other layer has a bias: where every tap lies on the pixel's plane, below it
 // or a little above it, all units are 0 and AO is 1. A plane is open from every angle, to the border of the
 // screen, also where depth and normals are rounded.
 struct HorizonNetwork {
-  static constexpr int revision = 7;  // of what the numbers mean
+  static constexpr int revision = 8;  // of what the numbers mean
   static constexpr int tap_inputs = NOOK_HORIZON_TAP_INPUTS;
   static constexpr int units = NOOK_HORIZON_UNITS;
 
@@ -87,6 +100,7 @@ struct HorizonNetwork {
   GatedDense<2 * units, 2, units> direction;
   GatedDense<units, 2, units> join;
   std::array<float, units> out{};
+  GatedLinear<2 * units, 2, 2> bent;
 };
 
 // AO is the network's output clamped to [0, 1]; 1 is open.

@@ -34,6 +34,14 @@ double gradient_error(std::vector<float> parameters, const std::vector<float>& g
   return std::sqrt(error / size);
 }
 
+// A training starts with bent normals that are normals; gives their layer, which is the last one, other
+// numbers.
+void bend(TrainingState& state) {
+  const std::size_t count = sizeof(HorizonNetwork::bent) / sizeof(float);
+  for (std::size_t i = 0; i < count; ++i)
+    state.parameter[state.parameter.size() - count + i] = 0.1f * std::sin(1.7f * float(i + 1));
+}
+
 std::vector<std::uint32_t> first_points(std::size_t count) {
   std::vector<std::uint32_t> points(count);
   std::iota(points.begin(), points.end(), 100u);
@@ -45,6 +53,7 @@ std::vector<std::uint32_t> first_points(std::size_t count) {
 TEST_CASE("sixteen lanes agree with the reference") {
   const Dataset data = test::small_dataset();
   TrainingState state = start_training(data, {});
+  bend(state);
   Network network;
   network.form = NetworkForm::horizon;
   export_horizon(state.parameter, network.horizon);
@@ -56,23 +65,26 @@ TEST_CASE("sixteen lanes agree with the reference") {
       batch.set(lane, data.views[point.view].view(), point,
                 nook::nnao::tap_noise_of_rank(std::uint32_t(lane) % NOOK_NOISE_COUNT));
     }
-    Lanes output;
+    HorizonOutput output;
     horizon_forward(state.parameter.data(), batch, trace, output);
     for (int lane = 0; lane < lane_count; ++lane) {
       const DataPoint& point = data.training[std::size_t(lane) * 37];
-      const float reference = nook::nnao::evaluate_unclamped(
+      const nook::nnao::Openness reference = nook::nnao::evaluate_openness(
           network, data.views[point.view].view(), point.normal,
           {point.radius, 1000, grid.directions * grid.steps}, point.x, point.y,
           nook::nnao::tap_noise_of_rank(std::uint32_t(lane) % NOOK_NOISE_COUNT));
       // The order of a few hundred sums differs.
-      CHECK(std::abs(output[lane] - reference) < 1e-4f);
+      CHECK(std::abs(output.ao[lane] - reference.ao) < 1e-4f);
+      const Vec3 bent{output.bent[0][lane], output.bent[1][lane], output.bent[2][lane]};
+      CHECK(length(normalised(bent) - reference.bent_normal) < 1e-4f);
     }
   }
 }
 
 TEST_CASE("the gradient of the horizon form agrees with finite differences, in every parameter") {
   const Dataset data = test::small_dataset();
-  const TrainingState state = start_training(data, {});
+  TrainingState state = start_training(data, {});
+  bend(state);
   const TapGrid grid{8, 4};
   HorizonBatch batch(grid);
   for (int lane = 0; lane < lane_count; ++lane) {
@@ -80,18 +92,24 @@ TEST_CASE("the gradient of the horizon form agrees with finite differences, in e
     batch.set(lane, data.views[point.view].view(), point,
               nook::nnao::tap_noise_of_rank(std::uint32_t(lane) % NOOK_NOISE_COUNT));
   }
-  Lanes weights;
-  for (int lane = 0; lane < lane_count; ++lane) weights[lane] = 0.5f + 0.1f * float(lane);
+  HorizonOutput weights;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    weights.ao[lane] = 0.5f + 0.1f * float(lane);
+    for (int i = 0; i < 3; ++i) weights.bent[i][lane] = 0.3f * float(i + 1) - 0.05f * float(lane);
+  }
   const auto loss = [&](const std::vector<float>& parameters) {
     HorizonTrace trace(grid);
-    Lanes output;
+    HorizonOutput output;
     horizon_forward(parameters.data(), batch, trace, output);
     double sum = 0;
-    for (int lane = 0; lane < lane_count; ++lane) sum += double(weights[lane]) * double(output[lane]);
+    for (int lane = 0; lane < lane_count; ++lane) {
+      sum += double(weights.ao[lane]) * double(output.ao[lane]);
+      for (int i = 0; i < 3; ++i) sum += double(weights.bent[i][lane]) * double(output.bent[i][lane]);
+    }
     return sum;
   };
   HorizonTrace trace(grid);
-  Lanes output;
+  HorizonOutput output;
   horizon_forward(state.parameter.data(), batch, trace, output);
   LaneArray lanes = lane_array(state.parameter.size());
   horizon_backward(state.parameter.data(), batch, trace, weights, lanes.data());
@@ -111,8 +129,10 @@ TEST_CASE("the gradient of the pair loss agrees with finite differences") {
   TrainingState state = start_training(data, settings);
   // AO between 0 and 1: where it is clamped the gradient is not the loss's, on purpose.
   for (float& parameter : state.parameter) parameter = std::abs(parameter);
-  for (std::size_t i = state.parameter.size() - 4; i < state.parameter.size(); ++i)
+  const std::size_t out = state.parameter.size() - sizeof(HorizonNetwork::bent) / sizeof(float) - 4;
+  for (std::size_t i = out; i < out + 4; ++i)
     state.parameter[i] = -0.02f * std::max(state.parameter[i], 0.2f);
+  bend(state);
   const std::vector<std::uint32_t> points = first_points(32);
   std::vector<float> gradient(state.parameter.size()), unused(state.parameter.size());
   horizon_step_gradient(data, settings, state.parameter, points, 7, gradient);

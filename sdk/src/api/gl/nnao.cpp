@@ -84,6 +84,7 @@ nook_nnao_desc checked(const nook_nnao_desc* given) {
   if (desc.path < NOOK_NNAO_PATH_AUTOMATIC || desc.path > NOOK_NNAO_PATH_COMPUTE)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.path is unknown (got %d, need 0 to %d)", desc.path,
                   NOOK_NNAO_PATH_COMPUTE);
+  check_switch("bent_normals", desc.bent_normals);
   if (!desc.network && desc.network_size != 0)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
@@ -95,6 +96,14 @@ nook_nnao_desc checked(const nook_nnao_desc* given) {
 std::span<const std::byte> network_bytes(const nook_nnao_desc& desc) {
   if (!desc.network) return nnao::default_network_file();
   return {static_cast<const std::byte*>(desc.network), desc.network_size};
+}
+
+void check_form(const nook_nnao_desc& desc, nnao::NetworkForm form) {
+  if (desc.bent_normals && form == nnao::NetworkForm::paper)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.bent_normals needs a network of the horizon form (got one of the paper's form); train "
+        "one, or leave desc.network NULL");
 }
 
 template <class Body>
@@ -129,7 +138,9 @@ nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes) {
   return api::enter("nook_nnao_memory", [&] {
     need(bytes, "bytes");
     const nook_nnao_desc known = checked(desc);
-    *bytes = gl::texture_bytes(known, nnao::network_form(network_bytes(known)));
+    const nnao::NetworkForm form = nnao::network_form(network_bytes(known));
+    check_form(known, form);
+    *bytes = gl::texture_bytes(known, form);
   });
 }
 
@@ -141,6 +152,7 @@ nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, nook_nnao* 
     gl->device.need_alive();
     const nook_nnao_desc known = checked(desc);
     const nnao::Network network = nnao::read_network(network_bytes(known), gl->device.memory);
+    check_form(known, network.form);
     *out =
         Owned<nook_nnao_s>::make(gl->device.memory, Ref<nook_gl_s>::share(gl), gl, known, network).detach();
   });
@@ -178,6 +190,7 @@ nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info) {
     known.taps = pass->desc.taps;
     known.horizon_form = pass->form == nnao::NetworkForm::horizon;
     known.path = pass->pass->path();
+    known.bent_normals = pass->desc.bent_normals;
     write_info(info, first_info, known);
   });
 }

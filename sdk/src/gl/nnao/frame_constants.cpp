@@ -100,7 +100,8 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
   set_rays(NOOK_FRAME_SCREEN_RAYS, screen);
   set_rays(NOOK_FRAME_SURFACE_RAYS, half ? half_rays(screen) : screen);
   set(NOOK_FRAME_DEPTH_DECODE, decode.x, decode.y, decode.z, decode.w);
-  set(NOOK_FRAME_FAR, decode.far_stored, decode.far_sign, perspective(frame) ? 0 : -1e15f, 0);
+  set(NOOK_FRAME_FAR, decode.far_stored, decode.far_sign, perspective(frame) ? 0 : -1e15f,
+      pass.bent_normals && frame.blend == NOOK_NNAO_WRITE);
   set(NOOK_FRAME_SPREAD, perspective(frame), !perspective(frame), pass.blur_sharpness / frame.radius,
       filters ? nnao::filter_range_sharpness(std::uint32_t(pass.taps)) : no_range);
   set(NOOK_FRAME_RADIUS, frame.radius, std::max(half ? 0.5f * max_radius_px : max_radius_px, 1.0f),

@@ -37,6 +37,18 @@ void add(Floats& out, const nnao::GatedDense<inputs, gates, units>& layer) {
   add(out, layer.slope);
 }
 
+// Four weights of one output in each vec4: of maxima, for both outputs, then of sums, then both gates. The
+// means over the directions are sums in the shader too.
+template <int inputs>
+void add_bent(Floats& out, const nnao::GatedLinear<inputs, 2, 2>& layer, nnao::TapGrid grid) {
+  for (int first = 0; first < inputs; first += 4)
+    for (int unit = 0; unit < 2; ++unit)
+      for (int input = first; input < first + 4; ++input)
+        out.push_back(layer.weights[std::size_t(input * 2 + unit)] /
+                      float(first > 0 ? grid.directions * grid.steps : grid.directions));
+  add(out, layer.gate_weights);
+}
+
 }  // namespace
 
 Vector<float> network_constants(const nnao::Network& network, nnao::TapGrid grid, Memory* memory) {
@@ -52,6 +64,7 @@ Vector<float> network_constants(const nnao::Network& network, nnao::TapGrid grid
     add(out, horizon.direction);
     add(out, horizon.join);
     add(out, horizon.out);
+    add_bent(out, horizon.bent, grid);
   } else {
     const nnao::PaperNetwork& paper = network.paper;
     add(out, paper.bias);

@@ -65,9 +65,9 @@ void NnaoPass::run_network(const FrameConstants& constants, const Viewport& surf
   }
   set_frame(occlusion_stage_, constants);
   // occlusion.comp declares the image in this way. OpenGL 4.3 has images of GL_RG8, OpenGL ES 3.1 of
-  // GL_RGBA8.
+  // GL_RGBA8, which bent normals need as well.
   gl.BindImageTexture(image_unit_index, ao_[0].texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
-                      gl.can.r8_images ? GL_RG8 : GL_RGBA8);
+                      gl.can.r8_images && !desc_.bent_normals ? GL_RG8 : GL_RGBA8);
   // Pending reads and draws, also of the host, end before the texture is written.
   gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   gl.DispatchCompute(groups(surface.width), groups(surface.height), 1);

@@ -25,13 +25,23 @@ struct PassPlan {
 
 // The formats in which a context draws normals and AO.
 struct PassFormats {
-  TextureFormat normal = TextureFormat::normal, ao = TextureFormat::ao_edges;
+  TextureFormat normal = TextureFormat::normal, ao = TextureFormat::ao_edges, own = TextureFormat::ao;
 };
 
-PassFormats formats_of(const Functions& gl, nook_nnao_path path) {
-  const bool image = path == NOOK_NNAO_PATH_COMPUTE && !gl.can.r8_images;
-  return {gl.can.norm16_targets ? TextureFormat::normal : TextureFormat::normal_bits,
-          image ? TextureFormat::ao_image : TextureFormat::ao_edges};
+PassFormats formats_of(const nook_nnao_desc& desc) {
+  PassFormats formats;
+  if (desc.bent_normals) {
+    formats.ao = TextureFormat::ao_image;
+    formats.own = TextureFormat::bent_ao;
+  }
+  return formats;
+}
+
+PassFormats formats_of(const nook_nnao_desc& desc, const Functions& gl, nook_nnao_path path) {
+  PassFormats formats = formats_of(desc);
+  if (!gl.can.norm16_targets) formats.normal = TextureFormat::normal_bits;
+  if (path == NOOK_NNAO_PATH_COMPUTE && !gl.can.r8_images) formats.ao = TextureFormat::ao_image;
+  return formats;
 }
 
 PassPlan plan_of(const nook_nnao_desc& desc, nnao::NetworkForm form, const PassFormats& formats) {
@@ -42,13 +52,13 @@ PassPlan plan_of(const nook_nnao_desc& desc, nnao::NetworkForm form, const PassF
           {formats.normal, paper ? width : 0, height, "nook: normals"},
           {{formats.ao, width, height, "nook: AO of the surface"},
            {formats.ao, filtered ? width : 0, height, "nook: filtered AO of the surface"}},
-          {TextureFormat::ao, desc.max_width, desc.max_height, "nook: screen-space AO"}};
+          {formats.own, desc.max_width, desc.max_height, "nook: screen-space AO"}};
 }
 
 }  // namespace
 
 std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form) {
-  const PassPlan plan = plan_of(desc, form, {});
+  const PassPlan plan = plan_of(desc, form, formats_of(desc));
   std::uint64_t bytes = 0;
   for (const TexturePlan& texture : {plan.depth, plan.normals, plan.ao[0], plan.ao[1], plan.own})
     bytes += std::uint64_t(texture.width) * std::uint64_t(texture.height) * bytes_per_texel(texture.format);
@@ -111,11 +121,12 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
 void NnaoPass::make_programs(const nnao::Network& network) {
   const bool horizon = network.form == nnao::NetworkForm::horizon;
   const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
-  char defines[120], layered[160];
+  char defines[160], layered[200];
   std::snprintf(
       defines, sizeof defines,
-      "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_DIRECTIONS %u\n#define NOOK_STEPS %u\n",
-      half(), horizon, grid.directions, grid.steps);
+      "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_DIRECTIONS %u\n#define NOOK_STEPS %u\n"
+      "#define NOOK_BENT_NORMALS %d\n",
+      half(), horizon, grid.directions, grid.steps, desc_.bent_normals);
   std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
   const auto drawn = [&](const char* path, const char* text) {
     return make_stage(draw_program(device_, "nnao/screen.vert", path, text));
@@ -139,7 +150,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
 }
 
 void NnaoPass::make_textures(nnao::NetworkForm form) {
-  const PassPlan plan = plan_of(desc_, form, formats_of(device_.gl, path_));
+  const PassPlan plan = plan_of(desc_, form, formats_of(desc_, device_.gl, path_));
   const auto make = [&](RenderTexture& texture, const TexturePlan& planned) {
     if (planned.width > 0)
       texture = RenderTexture(device_, planned.format, planned.width, planned.height, planned.label);
@@ -150,7 +161,8 @@ void NnaoPass::make_textures(nnao::NetworkForm form) {
   make(ao_[1], plan.ao[1]);
   make(own_, plan.own);
   set_plain_drawing(device_.gl);
-  const GLfloat open[4] = {1, 1, 1, 1};
+  // AO in red, or the direction to the viewer and AO in alpha.
+  const GLfloat aside = desc_.bent_normals ? 0.5f : 1, open[4] = {aside, aside, 1, 1};
   device_.gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, own_.framebuffer());
   device_.gl.ClearBufferfv(GL_COLOR, 0, open);
 }

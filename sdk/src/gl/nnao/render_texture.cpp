@@ -22,6 +22,7 @@ constexpr Layout layout_of(TextureFormat format) {
     case TextureFormat::ao_edges:
       return {GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2};
     case TextureFormat::ao_image:
+    case TextureFormat::bent_ao:
       return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
     default:
       return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
@@ -39,7 +40,8 @@ RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, in
       framebuffer_(Object::make(device, Object::Kind::framebuffer)) {
   const Functions& gl = device.gl;
   const Layout layout = layout_of(format);
-  const GLint filter = format == TextureFormat::ao ? GL_LINEAR : GL_NEAREST;
+  const GLint filter =
+      format == TextureFormat::ao || format == TextureFormat::bent_ao ? GL_LINEAR : GL_NEAREST;
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D, texture_.name());
   // With a buffer bound, the null pointer would be an offset into the host's buffer.

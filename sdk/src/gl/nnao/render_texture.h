@@ -7,8 +7,9 @@ namespace nook::gl {
 
 enum class TextureFormat {
   ao,           // GL_R8
+  bent_ao,      // GL_RGBA8, filtered linearly as ao is
   ao_edges,     // GL_RG8
-  ao_image,     // GL_RGBA8, for compute shaders that cannot write GL_RG8
+  ao_image,     // GL_RGBA8, for bent normals, and for compute shaders that cannot write GL_RG8
   depth,        // GL_R32UI, a float's bits
   normal,       // GL_RG16
   normal_bits,  // GL_RG16UI, for contexts that cannot draw into GL_RG16
