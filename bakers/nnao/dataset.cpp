@@ -61,13 +61,6 @@ std::optional<DataPoint> any_point(const TracedView& view, Random& random) {
   return point;
 }
 
-// The distance of a ray's origin from the surface, metres: far below the radius and the size of things, and
-// above the rounding of a hit.
-float origin_offset(Vec3 position, float depth, float radius) {
-  const float reach = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z), depth});
-  return std::max(std::min(3e-4f, 0.01f * radius), 3e-6f * reach);
-}
-
 // Every sixth round of the families is for validation, or the last one if there are fewer rounds.
 bool is_validation(std::uint32_t scene, std::uint32_t scenes) {
   const std::uint32_t rounds = scenes / family_count;
@@ -93,6 +86,11 @@ void check(const DatasetSettings& settings) {
 }
 
 }  // namespace
+
+float origin_offset(Vec3 position, float depth, float radius) {
+  const float reach = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z), depth});
+  return std::max(std::min(3e-4f, 0.01f * radius), 3e-6f * reach);
+}
 
 std::vector<DataPoint> trace_points(const RayScene& rays, const TracedView& view, std::uint32_t view_index,
                                     std::uint32_t points, std::uint32_t ray_count, std::uint64_t seed) {

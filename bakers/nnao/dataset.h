@@ -53,6 +53,10 @@ using DatasetProgress = std::function<bool(std::size_t done, std::size_t total)>
 // CANCELLED (progress returned false).
 Dataset make_dataset(const DatasetSettings& settings, const DatasetProgress& progress = {});
 
+// The distance of a ray's origin from the surface, metres: far below the radius and the size of things, and
+// above the rounding of a hit.
+float origin_offset(Vec3 position, float depth, float radius);
+
 // Returns points of one view, with the view's normals.
 std::vector<DataPoint> trace_points(const RayScene& rays, const TracedView& view, std::uint32_t view_index,
                                     std::uint32_t points, std::uint32_t ray_count, std::uint64_t seed);

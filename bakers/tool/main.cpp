@@ -35,6 +35,7 @@ int run(int argc, char** argv) {
   nook::tool::add_evaluate_material(*evaluate);
   CLI::App* train = tool.add_subcommand("train", "train networks")->require_subcommand(1);
   nook::tool::add_train_nnao(*train);
+  nook::tool::add_train_specular(*train);
   nook::tool::add_inspect(tool);
   try {
     tool.parse(argc, argv);

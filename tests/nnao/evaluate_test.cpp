@@ -106,9 +106,22 @@ TEST_CASE("sky is exactly 1, and to its neighbours the same as a surface far awa
     deep.depth[32 * 96 + 10] = deep.depth[32 * 96 + 11] = 1e4f;
     const float near_sky = unclamped(network, holed.view(), sampling, 12, 32, {});
     CHECK(std::abs(near_sky - unclamped(network, deep.view(), sampling, 12, 32, {})) < 1e-3f);
-    // The paper's form takes neither into account.
-    CHECK((near_sky != unclamped(network, open.view(), sampling, 12, 32, {})) ==
-          (form == NetworkForm::horizon));
+    // The paper's form takes neither into account; in the horizon form nothing darkens without a thing that
+    // is near and above the plane.
+    CHECK(near_sky >= unclamped(network, open.view(), sampling, 12, 32, {}));
+  }
+}
+
+TEST_CASE("what lies two radii behind a silhouette darkens nothing, whatever the network") {
+  // A near plane ends in the middle of the image.
+  Picture edge = plane({0, 0, -3}, {0, 0, 1}, true);
+  for (std::uint32_t y = 0; y < edge.height; ++y)
+    for (std::uint32_t x = 48; x < edge.width; ++x) edge.depth[edge.view().at(x, y)] = 4.5f;
+  for (std::uint32_t seed = 1; seed < 6; ++seed) {
+    const Network network = test::sample_network(NetworkForm::horizon, seed);
+    for (const std::uint32_t taps : {9u, 16u, 64u})
+      for (std::uint32_t x = 40; x < 48; ++x)
+        CHECK(unclamped(network, edge.view(), {0.5f, 256, taps}, x, 32, tap_noise(x, 32)) >= 1);
   }
 }
 
@@ -223,22 +236,27 @@ TEST_CASE("on a plane that faces the viewer each form has a value that a hand co
   CHECK(std::abs(unclamped(network, picture.view(), sampling, 48, 32, {}) - paper) < 1e-5);
 
   // Every tap of the horizon form sees a wall one metre before the plane: at 45 degrees where it is 1 m away.
+  const Sampling wide{1, 256, 64};
   network = test::sample_network(NetworkForm::horizon);
   Picture hole = plane({0, 0, -3}, {0, 0, 1}, true);
   for (float& depth : hole.depth) depth = 2;
   hole.depth[hole.view().at(48, 32)] = 3;
   const TapNoise noise = tap_noise(48, 32);
   std::vector<double> joined(4);
+  double bound = 0;
+  Vec3 bent{0, 0, 1};
   for (std::uint32_t d = 0; d < 8; ++d) {
     const float angle = direction_angle(d, 8, noise);
     std::vector<double> pooled(8);
+    double highest = 0;
     for (std::uint32_t s = 0; s < 8; ++s) {
-      // 64 pixels are 4 m, so the radius is 8 pixels.
-      const float distance = step_distance_px(s, 8, noise, 8);
+      // 64 pixels are 4 m, so the radius is 16 pixels.
+      const float distance = step_distance_px(s, 8, noise, 16);
       const double x = std::floor(48.5f + distance * std::cos(angle)) - 48;
       const double y = std::floor(32.5f + distance * std::sin(angle)) - 32;
       const double away = std::hypot(x / 16, y / 16, 1.0), elevation = 1 / away;
-      const double nearness = std::max(1 - away / 2 / 0.5, 0.0);
+      const double nearness = std::max(1 - away / 2, 0.0);
+      highest = std::max(highest, elevation * nearness);
       const double input[] = {elevation, elevation * elevation, elevation * nearness,
                               elevation * elevation * nearness};
       for (std::size_t u = 0; u < 4; ++u) {
@@ -252,13 +270,24 @@ TEST_CASE("on a plane that faces the viewer each form has a value that a hand co
     // The normal is the direction to the viewer.
     const std::vector<double> out = gated(network.horizon.direction, pooled, {0, 1});
     for (std::size_t u = 0; u < 4; ++u) joined[u] += out[u] / 8;
+    bound += NOOK_HORIZON_BOUND * highest / 8;
+    double lean[2] = {};
+    for (std::size_t u = 0; u < 2; ++u) {
+      for (std::size_t i = 0; i < 8; ++i)
+        lean[u] += double(network.horizon.bent.weights[2 * i + u]) * pooled[i];
+      lean[u] *= 1 + double(network.horizon.bent.gate_weights[2 + u]);
+    }
+    bent +=
+        float(lean[0] / 8) * Vec3{std::cos(angle), std::sin(angle), 0} + float(lean[1] / 8) * Vec3{0, 0, 1};
   }
   // The border is more than a radius away.
   const std::vector<double> last = gated(network.horizon.join, joined, {1, 1});
-  double horizon = 1;
-  for (std::size_t u = 0; u < 4; ++u) horizon += double(network.horizon.out[u]) * last[u];
+  double darkness = 0;
+  for (std::size_t u = 0; u < 4; ++u) darkness -= double(network.horizon.out[u]) * last[u];
+  const Openness found = evaluate_openness(network, hole.view(), {0, 0, 1}, wide, 48, 32, noise);
   // Sums of some hundred products in float.
-  CHECK(std::abs(unclamped(network, hole.view(), sampling, 48, 32, noise) - horizon) < 1e-4);
+  CHECK(std::abs(double(found.ao) - (1 - std::min(darkness, bound))) < 1e-4);
+  CHECK(length(found.bent_normal - normalised(bent)) < 1e-4f);
 }
 
 TEST_CASE("the embedded network leaves open planes open and darkens a corner") {

@@ -79,9 +79,9 @@ typedef struct nook_nnao_desc {
   /* The size of network in bytes. */
   size_t network_size;
   /* 1: the pass computes bent normals as well: the mean of the open directions, weighted by their cosine.
-   * nook_nnao_glsl has functions that light with them. The pass's own texture is GL_RGBA8 then, and
-   * NOOK_NNAO_WRITE writes (n + 1) / 2 of the bent normal n into red, green and blue, in view space and of unit
-   * length, and AO into alpha. Not with a network of the paper's form. Default 0. */
+   * nook_nnao_info.glsl has functions that light with them. The pass's own texture is GL_RGBA8 then, and
+   * NOOK_NNAO_WRITE writes (n + 1) / 2 of the bent normal n into red, green and blue, in view space and of
+   * unit length, and AO into alpha. Not with a network of the paper's form. Default 0. */
   int32_t bent_normals;
   /* 0. */
   int32_t reserved;
@@ -109,8 +109,8 @@ typedef int32_t nook_nnao_preset;
 NOOK_API nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_preset preset);
 
 /* Computes the texture memory of a pass with this descriptor: 7 bytes for each pixel, or 3 at half
- * resolution, which at 3840 x 2160 is 58 MB and 25 MB. A blur of 2 at full resolution takes 2 more bytes. With
- * bent normals it is 12 bytes or 7, 100 MB and 58 MB, and 4 more with a blur of 2 at full resolution. A
+ * resolution, which at 3840 x 2160 is 58 MB and 25 MB. A blur of 2 at full resolution takes 2 more bytes.
+ * With bent normals it is 12 bytes or 7, 100 MB and 58 MB, and 4 more with a blur of 2 at full resolution. A
  * network of the paper's form takes 4 more bytes for each pixel, or 1, and its filters 62 kB. The call makes
  * no OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION. */
@@ -277,8 +277,9 @@ typedef struct nook_nnao_info {
   /* sizeof(nook_nnao_info); the caller sets it. */
   uint32_t struct_size;
   /* The OpenGL name of the pass's own texture: GL_R8, or GL_RGBA8 with bent normals, max_width x max_height,
-   * the AO of pixel (x, y) in texel (x, y), in red or in alpha. Nook owns it: the host reads it, and never writes or deletes it. AO is 1 everywhere before the
-   * first frame. Later frames write only their viewport; frames with another target leave it undefined. */
+   * the AO of pixel (x, y) in texel (x, y), in red or in alpha. Nook owns it: the host reads it, and never
+   * writes or deletes it. AO is 1 everywhere before the first frame. Later frames write only their viewport;
+   * frames with another target leave it undefined. */
   uint32_t texture;
   /* The memory of all textures of the pass. */
   uint64_t texture_bytes;
@@ -289,6 +290,16 @@ typedef struct nook_nnao_info {
   nook_nnao_path path;
   /* 1: the texture has bent normals. */
   int32_t bent_normals;
+  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, for the host's shader that lights.
+   * Directions are unit vectors in one space, roughness is perceptual (the GGX width is its square): vec3
+   * nook_nnao_bent_normal(vec4 texel)                    view space, of a texel with bent normals float
+   * nook_nnao_cone_cosine(float ao)                     cosine of the open cone's half angle vec3
+   * nook_nnao_multi_bounce(float ao, vec3 albedo)        AO with light that the surroundings reflect float
+   * nook_nnao_specular_occlusion(vec3 bent_normal, float ao, vec3 normal, vec3 to_viewer, float roughness)
+   * The irradiance of a probe is looked up along the bent normal and multiplied by AO; what a glossy surface
+   * reflects is multiplied by the specular occlusion. The text is the same for every pass and valid as long
+   * as the library is loaded. */
+  const char* glsl;
 } nook_nnao_info;
 
 /* Describes a pass. The call makes no OpenGL call.

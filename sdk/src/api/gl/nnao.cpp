@@ -191,6 +191,7 @@ nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info) {
     known.horizon_form = pass->form == nnao::NetworkForm::horizon;
     known.path = pass->pass->path();
     known.bent_normals = pass->desc.bent_normals;
+    known.glsl = gl::screen_ao_glsl();
     write_info(info, first_info, known);
   });
 }

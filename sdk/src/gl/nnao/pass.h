@@ -20,6 +20,9 @@
 
 namespace nook::gl {
 
+// Returns the functions of a host's shader that lights with the result.
+const char* screen_ao_glsl();
+
 // Returns the memory of all textures of a pass.
 std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form);
 

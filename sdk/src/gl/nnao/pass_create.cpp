@@ -57,6 +57,10 @@ PassPlan plan_of(const nook_nnao_desc& desc, nnao::NetworkForm form, const PassF
 
 }  // namespace
 
+const char* screen_ao_glsl() {
+  return embedded_text("nnao/host.glsl");
+}
+
 std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form) {
   const PassPlan plan = plan_of(desc, form, formats_of(desc));
   std::uint64_t bytes = 0;

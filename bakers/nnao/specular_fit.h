@@ -1,0 +1,57 @@
+// The fit of the specular occlusion of sdk/src/nnao/lighting.h to ray tracing in procedural scenes. One half
+// of the loss has AO and bent normals of the reference, the other those of a network, as a pass gives them.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "bakers/nnao/dataset.h"
+#include "sdk/src/nnao/lighting.h"
+
+namespace nook::bake::nnao {
+
+struct SpecularFitSettings {
+  DatasetSettings data{.scenes = 192, .views = 960, .points_per_view = 300, .rays = 256, .normals = false};
+  std::uint32_t taps = 9;   // of the network
+  std::uint32_t rays = 64;  // for each of five values of roughness
+  std::uint32_t steps = 40000;
+  std::uint64_t seed = 1;
+};
+
+// A point with the share of its reflections that is open.
+struct SpecularSample {
+  static constexpr std::size_t gloss_count = 5;
+
+  nook::nnao::LitPixel reference, network;
+  std::array<float, gloss_count> roughness{}, visible{};
+};
+
+struct SpecularSamples {
+  std::vector<SpecularSample> training, validation;  // the last sixth of the scenes is for validation
+};
+// The same bits on any number of threads. Return false from progress to stop, which throws
+// Failure(CANCELLED).
+SpecularSamples trace_specular_samples(const nook::nnao::Network& network,
+                                       const SpecularFitSettings& settings,
+                                       const DatasetProgress& progress = {});
+
+nook::nnao::SpecularNumbers fit_specular(const std::vector<SpecularSample>& samples,
+                                         const SpecularFitSettings& settings);
+
+// Mean squared errors over the samples with the network's AO.
+struct SpecularError {
+  double fitted = 0;
+  double lagarde = 0;  // of S. Lagarde's form of the same AO
+};
+SpecularError specular_error(const std::vector<SpecularSample>& samples,
+                             const nook::nnao::SpecularNumbers& numbers);
+
+// Returns the share of a reflection that AO leaves by S. Lagarde, C. de Rousiers, Moving Frostbite to PBR,
+// 2014. facing is dot(normal, viewer).
+float lagarde_occlusion(float ao, float facing, float roughness);
+
+// Returns shaders/nnao/specular_numbers.h.
+std::string specular_header(const nook::nnao::SpecularNumbers& numbers, const SpecularFitSettings& settings);
+
+}  // namespace nook::bake::nnao

@@ -1,0 +1,26 @@
+// The reference of specular occlusion: the share of a glossy reflection of uniform light that reaches the
+// viewer.
+#pragma once
+
+#include <cstdint>
+
+#include "bakers/raytrace/ray_scene.h"
+
+namespace nook::bake {
+
+// A point in world space. Directions have unit length, and dot(normal, to_viewer) is above 0.
+struct GlossyPoint {
+  Vec3 position, normal, to_viewer;
+  float radius = 1;         // metres; hits beyond it count as open
+  float origin_offset = 0;  // metres along the normal
+};
+
+// Returns the mean visibility over the directions that a GGX surface without Fresnel's term reflects to the
+// viewer, weighted by its radiance of uniform light. roughness is perceptual, in (0, 1]: the GGX width is its
+// square. Directions are drawn from the visible normals (E. Heitz, Sampling the GGX Distribution of Visible
+// Normals, 2018); their weight is the masking of the light's side given that of the viewer's, G2 / G1.
+// The same seed gives the same result. Needs FlushDenormals on the calling thread.
+float trace_specular_visibility(const RayScene& scene, const GlossyPoint& point, float roughness,
+                                std::uint32_t rays, std::uint64_t seed);
+
+}  // namespace nook::bake

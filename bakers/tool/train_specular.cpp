@@ -1,0 +1,86 @@
+// nook train specular: fits the specular occlusion of the screen-space pass and writes its numbers as a
+// header.
+#include <tbb/task_arena.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/nnao/specular_fit.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/distinct_files.h"
+#include "bakers/tool/interrupt.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
+#include "sdk/src/nnao/network_file.h"
+
+namespace nook::tool {
+namespace {
+
+using namespace nook::bake::nnao;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::string output;
+  SpecularFitSettings fit;
+};
+
+void run_in_arena(const Options& options) {
+  platform::OutputFile output(options.output);
+  std::optional<platform::OutputFile> report_file;
+  if (!options.common.report.empty()) report_file.emplace(options.common.report);
+  const nook::nnao::Network network = nook::nnao::read_network(nook::nnao::default_network_file());
+  platform::ProgressBar bar(options.common.quiet);
+  const SpecularSamples samples =
+      trace_specular_samples(network, options.fit, [&](std::size_t done, std::size_t total) {
+        bar.show("ray tracing", "scenes", done, total);
+        return !interrupted();
+      });
+  const nook::nnao::SpecularNumbers numbers = fit_specular(samples.training, options.fit);
+  const SpecularError error = specular_error(samples.validation, numbers);
+  output.commit(specular_header(numbers, options.fit));
+  if (report_file) {
+    const Json report = {{"training_points", samples.training.size()},
+                         {"validation_points", samples.validation.size()},
+                         {"mse", error.fitted},
+                         {"mse_lagarde", error.lagarde}};
+    report_file->commit(report.dump(2) + "\n");
+  }
+  if (!options.common.quiet)
+    std::printf("mse %.5f, by Lagarde's form of the same AO %.5f, ratio %.3f\n", error.fitted, error.lagarde,
+                error.fitted / error.lagarde);
+}
+
+void run(Options& options) {
+  require_distinct_files({{}, {{"-o", options.output}, {"--report", options.common.report}}, {}});
+  options.fit.seed = options.fit.data.seed = options.common.seed;
+  tbb::task_arena arena(options.common.threads == 0 ? tbb::task_arena::automatic
+                                                    : int(options.common.threads));
+  arena.execute([&] { run_in_arena(options); });
+}
+
+}  // namespace
+
+void add_train_specular(CLI::App& train) {
+  CLI::App* command = train.add_subcommand(
+      "specular", "fit the specular occlusion by AO and bent normals to ray tracing in procedural scenes");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command->add_option("-o,--output", o.output, "the header to write, shaders/nnao/specular_numbers.h")
+      ->required();
+  command->add_option("--scenes", o.fit.data.scenes, "procedural scenes, a sixth of them for validation")
+      ->check(CLI::Range(48, 100000));
+  command->add_option("--views", o.fit.data.views, "cameras over all scenes")->check(CLI::Range(48, 1000000));
+  command->add_option("--points", o.fit.data.points_per_view, "points of each view")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--rays", o.fit.rays, "rays of each reflection")->check(CLI::Range(1, 65536));
+  command->add_option("--steps", o.fit.steps, "steps of the fit")->check(CLI::Range(1, 1000000));
+  add_common_options(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

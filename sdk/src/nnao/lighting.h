@@ -1,0 +1,42 @@
+// Lighting with AO and bent normals: the functions of shaders/nnao/host.glsl on the CPU, which is what tests
+// and measurements compare with.
+#pragma once
+
+#include <array>
+
+#include "sdk/src/core/vec.h"
+
+namespace nook::nnao {
+
+// Numbers of the specular occlusion, which is a network of one hidden layer. With the half angle of the cone
+// cos = sqrt(1 - AO), the bent normal b, the normal n, the direction to the viewer v, its reflection r and
+// the roughness, the inputs are x = (cos, dot(b, r), dot(n, v), dot(n, b), roughness), and
+//   hidden = out . max(weights x + bias, 0) + out_bias
+//   occlusion = clamp(lerp(1 - cos hidden, AO, roughness^4), 0, 1).
+// Roughness is perceptual: the GGX width is its square. A rough reflection is as open as the hemisphere.
+struct SpecularNumbers {
+  static constexpr int inputs = 5, units = 8;
+
+  std::array<std::array<float, units>, inputs> weights{};
+  std::array<float, units> bias{}, out{};
+  float out_bias = 0;
+};
+// Those of the shader: the fit of `nook train specular`.
+SpecularNumbers specular_numbers();
+
+// What a pixel has. Directions have unit length.
+struct LitPixel {
+  Vec3 bent_normal, normal, to_viewer;
+  float ao = 1;
+};
+
+std::array<float, SpecularNumbers::inputs> specular_inputs(const LitPixel& pixel, float roughness);
+float specular_occlusion(const SpecularNumbers& numbers, const LitPixel& pixel, float roughness);
+
+// Returns the cosine of the half angle of the cone around the bent normal that is as open as the pixel.
+float cone_cosine(float ao);
+
+// Returns AO with the light that the surroundings reflect, for one channel of the albedo.
+float multi_bounce(float ao, float albedo);
+
+}  // namespace nook::nnao
