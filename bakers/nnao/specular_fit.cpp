@@ -41,15 +41,20 @@ SpecularNumbers numbers_of(std::span<const float> parameters) {
   return numbers;
 }
 
-// AO and bent normal of a network as they are after a perfect filter: the means over the noise values.
+// AO and bent normal of a network about as they are after the filter, which stops at edges and lines: the
+// means over some of the noise values.
+constexpr std::uint32_t averaged_noise = 2;
+
 LitPixel network_pixel(const nook::nnao::Network& network, const TracedView& view, const DataPoint& point,
-                       Vec3 to_viewer, std::uint32_t taps) {
+                       Vec3 to_viewer, std::uint32_t taps, Random& random) {
   LitPixel pixel{{}, point.normal, to_viewer, 0};
-  for (std::uint32_t rank = 0; rank < NOOK_NOISE_COUNT; ++rank) {
+  const std::uint32_t first = random.below(NOOK_NOISE_COUNT);
+  for (std::uint32_t i = 0; i < averaged_noise; ++i) {
+    const std::uint32_t rank = (first + 4 * i) % NOOK_NOISE_COUNT;
     const nook::nnao::Openness open = nook::nnao::evaluate_openness(
         network, view.view(), point.normal, {point.radius, Dataset::max_radius_px + 1, taps}, point.x,
         point.y, nook::nnao::tap_noise_of_rank(rank));
-    pixel.ao += std::clamp(open.ao, 0.0f, 1.0f) / NOOK_NOISE_COUNT;
+    pixel.ao += std::clamp(open.ao, 0.0f, 1.0f) / float(averaged_noise);
     pixel.bent_normal += open.bent_normal;
   }
   pixel.bent_normal = normalised(pixel.bent_normal);
@@ -71,11 +76,11 @@ SpecularSample trace_sample(const RayScene& rays, const TracedView& view, const 
   const Vec3 to_viewer = view_direction(camera, to_viewer_ws);
   SpecularSample sample;
   sample.reference = reference_pixel(point, to_viewer);
-  sample.network = network_pixel(network, view, point, to_viewer, settings.taps);
   const Vec3 position = ray.origin_ws + depth * ray.direction_ws;
   const GlossyPoint glossy{position, transform_vector(camera.world_from_view, point.normal), to_viewer_ws,
                            point.radius, origin_offset(position, depth, point.radius)};
   Random random(seed);
+  sample.network = network_pixel(network, view, point, to_viewer, settings.taps, random);
   for (std::size_t i = 0; i < SpecularSample::gloss_count; ++i) {
     sample.roughness[i] = (float(i) + random.between(0.1f, 1)) / float(SpecularSample::gloss_count);
     sample.visible[i] =
@@ -180,7 +185,7 @@ double step_fit(Fit& fit, const std::vector<SpecularSample>& samples, Random& ra
   double error = 0;
   for (std::uint32_t b = 0; b < batch; ++b) {
     const SpecularSample& sample = samples[random.below(std::uint32_t(samples.size()))];
-    const LitPixel& pixel = b % 2 ? sample.network : sample.reference;
+    const LitPixel& pixel = b % 16 ? sample.network : sample.reference;
     for (std::size_t i = 0; i < SpecularSample::gloss_count; ++i)
       error += add_gradient(fit.parameters, pixel, sample.roughness[i], sample.visible[i],
                             1 / float(batch * SpecularSample::gloss_count), gradient);

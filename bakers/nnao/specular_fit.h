@@ -1,5 +1,5 @@
-// The fit of the specular occlusion of sdk/src/nnao/lighting.h to ray tracing in procedural scenes. One half
-// of the loss has AO and bent normals of the reference, the other those of a network, as a pass gives them.
+// The fit of the specular occlusion of sdk/src/nnao/lighting.h to ray tracing in procedural scenes. Most
+// samples have AO and bent normals of a network, as a pass gives them, and some those of the reference.
 #pragma once
 
 #include <array>

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bakers/measure/nnao/bent_comparison.h"
 #include "bakers/measure/nnao/comparison.h"
 #include "bakers/measure/nnao/network_picture.h"
 #include "bakers/measure/nnao/oracle_pass.h"
@@ -42,6 +43,7 @@ struct Options {
   std::vector<std::string> methods;  // empty: all
   std::vector<std::string> ratios;   // METHOD:TAPS,METHOD:TAPS
   bool raw = true;
+  bool bent = false;  // bent normals and specular occlusion in place of AO
   std::uint32_t placed_cameras = 3;
   float max_radius_px = 0;
   std::string tune;  // a baseline's name, or all; empty: no tuning
@@ -271,6 +273,33 @@ Json evaluate(Options& options) {
   return report;
 }
 
+// Bent normals and specular occlusion in place of AO.
+Json evaluate_bent(Options& options) {
+  const Work work = read_work(options);
+  options.truth.bent_stride = 4;
+  std::optional<platform::OutputFile> markdown;
+  if (!options.markdown.empty()) markdown.emplace(options.markdown);
+  if (!options.references.empty()) std::filesystem::create_directories(options.references);
+  const auto context = make_context();
+  std::vector<MeasuredView> views;
+  for (const SceneRequest& scene : work.scenes)
+    for (MeasuredView& view : traced_views(scene, options)) views.push_back(std::move(view));
+  AoRequest request;
+  request.max_radius_px =
+      options.max_radius_px > 0 ? options.max_radius_px : 0.5f * float(options.truth.height);
+  platform::ProgressBar bar(options.common.quiet);
+  Json report;
+  report["rows"] = bent_rows(*context, views, request, [&](std::size_t done, std::size_t total) {
+    bar.show("measuring", "methods", done, total);
+    return !interrupted();
+  });
+  if (markdown) markdown->commit(bent_markdown(report["rows"]));
+  report["roughness"] = measured_roughness;
+  report["rays"] = options.truth.rays;
+  report["seed"] = options.common.seed;
+  return report;
+}
+
 Json tune(const Options& options) {
   platform::ProgressBar bar(options.common.quiet);
   const std::vector<MeasuredView> views =
@@ -320,8 +349,10 @@ void run(Options& options) {
   CommandFiles files{{{"--network", options.network}}, {{"--markdown", options.markdown}}, options.images};
   if (!options.views.empty()) files.inputs.push_back({"--views", options.views});
   for (const std::filesystem::path& scene : options.scenes.files) files.inputs.push_back({"a scene", scene});
-  run_evaluation(options.common, files,
-                 [&] { return !options.tune.empty() ? tune(options) : evaluate(options); });
+  run_evaluation(options.common, files, [&] {
+    if (!options.tune.empty()) return tune(options);
+    return options.bent ? evaluate_bent(options) : evaluate(options);
+  });
 }
 
 }  // namespace
@@ -396,6 +427,8 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
                    "report the ratio of two methods' errors with its bounds, besides those of --views: "
                    "METHOD:TAPS,METHOD:TAPS; any number of times")
       ->type_name("RATIO");
+  command->add_flag("--bent-normals", o.bent,
+                    "measure bent normals and specular occlusion in place of AO, at every 16th pixel");
   command->add_flag("!--no-raw", o.raw, "measure each method with its blur alone");
   command->add_option("--network", o.network,
                       "a file of `nook train nnao`, such as the paper's form, measured as well");

@@ -87,15 +87,15 @@ TEST_CASE("nnao: bent normals are the reference's, and AO is that of a pass with
             const Vec3 viewer = nnao::to_viewer(
                 picture.rays,
                 nnao::view_position(picture.rays, float(x) + 0.5f, float(y) + 0.5f, picture.depth[i]));
-            if (dot(wanted.bent_normal, viewer) < 0.1f) continue;
+            if (dot(wanted.bent_normal, viewer) < 0.25f) continue;
             const float off = degrees_between(found[i].bent_normal, wanted.bent_normal);
             mean += off;
             far_off += off > 4;
             ++surfaces;
           }
         INFO(all[c].name << ", " << taps << " taps, path " << path);
-        // Two coordinates and three in 8 bits: half a step of each is 0.3 degrees in the middle and 2.5 where
-        // the bent normal is 84 degrees from the viewer, and flipped taps (see nnao_agreement_test.cpp) add a
+        // Two coordinates and three in 8 bits: half a step of each is 0.3 degrees in the middle and 1 where
+        // the bent normal is 75 degrees from the viewer, and flipped taps (see nnao_agreement_test.cpp) add a
         // few.
         CHECK(surfaces > 1000);
         CHECK(mean / surfaces < 0.6f);

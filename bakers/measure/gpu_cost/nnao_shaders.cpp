@@ -11,10 +11,10 @@ struct Grid {
 // horizon_grid of sdk/src/nnao/taps.h.
 constexpr Grid grids[] = {{9, 3, 3}, {16, 4, 4}, {32, 8, 4}, {64, 8, 8}};
 
-std::string defines(bool half, bool horizon, const Grid& grid) {
+std::string defines(bool half, bool horizon, const Grid& grid, bool bent = false) {
   return "#define NOOK_HALF " + std::to_string(half) + "\n#define NOOK_HORIZON " + std::to_string(horizon) +
          "\n#define NOOK_DIRECTIONS " + std::to_string(grid.groups) + "\n#define NOOK_STEPS " +
-         std::to_string(grid.steps) + "\n";
+         std::to_string(grid.steps) + "\n#define NOOK_BENT_NORMALS " + std::to_string(bent) + "\n";
 }
 
 std::vector<Loop> grid_loops(const char* groups, const Grid& grid) {
@@ -67,25 +67,29 @@ const std::string shader_folder = "bakers/measure/nnao/shaders/";
 
 std::vector<ShaderCase> nnao_shaders() {
   std::vector<ShaderCase> shaders;
+  const std::string bent = bent_normals;
   for (const bool half : {false, true}) {
     const std::string size = half ? ", half" : "";
-    const auto add = [&](Stage stage, const char* file, const std::string& variant,
-                         const std::string& defines, const std::vector<Loop>& loops) {
+    const auto add = [&](Stage stage, const char* file, const std::string& variant, const std::string& lines,
+                         const std::vector<Loop>& loops) {
       shaders.push_back(
-          tree_shader(stage, std::string("shaders/nnao/") + file, file + variant + size, defines, loops));
+          tree_shader(stage, std::string("shaders/nnao/") + file, file + variant + size, lines, loops));
     };
     add(Stage::fragment, "depth.frag", "", defines(half, true, grids[0]), {});
     add(Stage::fragment, "normals.frag", "", defines(half, false, grids[1]), {});
     for (const Grid& grid : grids) {
       const std::string taps = ", " + std::to_string(grid.taps);
       add(Stage::fragment, "occlusion.frag", taps, defines(half, true, grid), direction_loops(grid));
+      add(Stage::fragment, "occlusion.frag", taps + bent, defines(half, true, grid, true),
+          direction_loops(grid));
       add(Stage::compute, "occlusion.comp", taps, defines(half, true, grid), direction_loops(grid));
       if (grid.taps == 16 || grid.taps == 64)
         add(Stage::fragment, "occlusion.frag", ", paper's form" + taps, defines(half, false, grid),
             paper_loops(grid));
     }
-    add(Stage::fragment, "filter.frag", "", defines(half, true, grids[0]), {});
-    add(Stage::fragment, "resolve.frag", "", defines(half, true, grids[0]), {});
+    for (const bool with : {false, true})
+      for (const char* file : {"filter.frag", "resolve.frag"})
+        add(Stage::fragment, file, with ? bent : "", defines(half, true, grids[0], with), {});
     add(Stage::fragment, "resolve.frag", ", layered",
         defines(half, true, grids[0]) + "#define NOOK_LAYERED 1\n", {});
     add(Stage::fragment, "show_normals.frag", "", defines(half, true, grids[0]), {});

@@ -6,13 +6,16 @@ namespace {
 // Both dimensions of the surface are halved, or a thread makes two pixels of each.
 constexpr double quarter = 0.25;
 
-PassCase nnao(const std::string& name, const std::string& occlusion, bool half, bool paper = false) {
+PassCase nnao(const std::string& name, const std::string& occlusion, bool half, bool paper = false,
+              const std::string& outputs = "") {
   const std::string size = half ? ", half" : "";
   const double share = half ? quarter : 1;
   PassCase pass{name + size,
-                {{"depth.frag" + size, share}, {occlusion + size, share}, {"resolve.frag" + size, 1}}};
+                {{"depth.frag" + size, share},
+                 {occlusion + outputs + size, share},
+                 {"resolve.frag" + outputs + size, 1}}};
   if (paper) pass.shaders.push_back({"normals.frag" + size, share});
-  if (half) pass.shaders.push_back({"filter.frag" + size, share});
+  if (half) pass.shaders.push_back({"filter.frag" + outputs + size, share});
   return pass;
 }
 
@@ -67,6 +70,10 @@ std::vector<PassCase> all_passes() {
   for (const bool half : {false, true})
     for (const std::string taps : {"9", "16", "32", "64"})
       passes.push_back(nnao("NNAO " + taps, "occlusion.frag, " + taps, half));
+  for (const bool half : {false, true})
+    for (const std::string taps : {"9", "16", "32"})
+      passes.push_back(
+          nnao("NNAO " + taps + bent_normals, "occlusion.frag, " + taps, half, false, bent_normals));
   for (const std::string taps : {"9", "16"}) {
     PassCase twice = nnao("NNAO " + taps + ", filtered twice", "occlusion.frag, " + taps, false);
     twice.shaders.push_back({"filter.frag", 1});

@@ -47,6 +47,8 @@ struct PassCase {
 };
 
 // Names of what baselines share. The denoiser makes two pixels a thread, the levels four.
+// Behind the names of what has bent normals as a second output.
+inline constexpr char bent_normals[] = ", bent normals";
 inline constexpr char baseline_blur[] = "blur of the baselines";
 inline constexpr char edge_denoiser[] = "edge-aware denoiser, two pixels a thread";
 inline constexpr char denoiser_edges[] = "edges for the denoiser";

@@ -34,8 +34,9 @@ BaselinePass::~BaselinePass() {
   gl_.DeleteVertexArrays(1, &vertex_array_);
 }
 
-const GpuProgram& BaselinePass::program(const BaselineMethod& method) {
-  const std::string path = baseline_shader(method.baseline), defines = baseline_defines(method);
+const GpuProgram& BaselinePass::program(const BaselineMethod& method, const std::string& more_defines) {
+  const std::string path = baseline_shader(method.baseline),
+                    defines = baseline_defines(method) + more_defines;
   std::unique_ptr<GpuProgram>& made = programs_[path + "\n" + defines];
   if (!made) made = std::make_unique<GpuProgram>(gl_, path, defines);
   return *made;
@@ -75,11 +76,10 @@ void BaselinePass::draw_raw(const BaselineMethod& method, const GpuView& view, c
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void BaselinePass::draw_xegtao(const BaselineMethod& method, const GpuView& view, const AoRequest& request,
-                               float scale) {
+void BaselinePass::draw_xegtao(const GpuProgram& shader, const BaselineMethod& method, const GpuView& view,
+                               const AoRequest& request, float scale, GLuint framebuffer) {
   const BaselineTuning& tuning = method.tuning;
   depth_levels_.draw(view, tuning.radius_scale * request.radius, tuning.shape);
-  const GpuProgram& shader = program(method);
   set_surface(shader, view, request);
   gl_.ActiveTexture(GL_TEXTURE2);
   gl_.BindTexture(GL_TEXTURE_2D, hilbert_.texture());
@@ -94,8 +94,30 @@ void BaselinePass::draw_xegtao(const BaselineMethod& method, const GpuView& view
   gl_.Uniform1f(shader.at("falloff"), tuning.shape);
   gl_.Uniform1f(shader.at("thin"), tuning.thin);
   gl_.Uniform1f(shader.at("output_scale"), scale);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, with_edges_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+BaselinePass::BentImage BaselinePass::draw_bent(const BaselineMethod& xegtao, const GpuView& view,
+                                                const AoRequest& request) {
+  gl_.BindVertexArray(vertex_array_);
+  const GpuImage bent(gl_, GL_RGBA32F, GL_RGBA, width_, height_, nullptr);
+  GLuint framebuffer = 0;
+  gl_.GenFramebuffers(1, &framebuffer);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  const GLuint images[] = {images_[0].texture(), edge_denoiser_.edge_image().texture(), bent.texture()};
+  const GLenum targets[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+  for (std::size_t i = 0; i < 3; ++i)
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, targets[i], GL_TEXTURE_2D, images[i], 0);
+  gl_.DrawBuffers(3, targets);
+  draw_xegtao(program(xegtao, "#define NOOK_BENT_NORMALS\n"), xegtao, view, request, 1, framebuffer);
+  gl_.DeleteFramebuffers(1, &framebuffer);
+  BentImage image;
+  image.edges = read_red(gl_, edge_denoiser_.edge_image().texture(), width_, height_);
+  const std::vector<float> rgba = read_rgba(gl_, bent.texture(), width_, height_);
+  for (std::size_t i = 0; i < rgba.size(); i += 4)
+    image.bent_normal.push_back({rgba[i], rgba[i + 1], rgba[i + 2]});
+  return image;
 }
 
 GLuint BaselinePass::draw(const BaselineMethod& method, const GpuView& view, const AoRequest& request,
@@ -104,7 +126,7 @@ GLuint BaselinePass::draw(const BaselineMethod& method, const GpuView& view, con
   const Denoiser denoiser = method.tuning.denoiser;
   if (method.baseline == Baseline::xegtao) {
     const bool by_edges = denoised && denoiser != Denoiser::blur;
-    draw_xegtao(method, view, request, by_edges ? 1 / headroom : 1);
+    draw_xegtao(program(method), method, view, request, by_edges ? 1 / headroom : 1, with_edges_);
     if (by_edges) return edge_denoiser_.denoise(images_[0].texture(), int(denoiser), headroom);
   } else {
     draw_raw(method, view, request);

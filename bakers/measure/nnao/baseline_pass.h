@@ -26,15 +26,22 @@ class BaselinePass {
 
   // Returns the texture (R8) that holds the AO until the next call. denoised: by the tuning's denoiser.
   GLuint draw(const BaselineMethod& method, const GpuView& view, const AoRequest& request, bool denoised);
+  // The bent normals of XeGTAO before its denoiser, in view space, and the packed edges, both row by row.
+  struct BentImage {
+    std::vector<Vec3> bent_normal;  // zero where there is no surface
+    std::vector<float> edges;
+  };
+  BentImage draw_bent(const BaselineMethod& xegtao, const GpuView& view, const AoRequest& request);
   // Smooths AO that lies in a texture of the same size.
   GLuint denoise(GLuint ao, const GpuView& view, const AoRequest& request, Denoiser denoiser);
 
  private:
-  const GpuProgram& program(const BaselineMethod& method);
+  const GpuProgram& program(const BaselineMethod& method, const std::string& more_defines = "");
   void set_surface(const GpuProgram& program, const GpuView& view, const AoRequest& request) const;
   void draw_raw(const BaselineMethod& method, const GpuView& view, const AoRequest& request);
   // XeGTAO writes the edges too, and AO above 1 for its own denoiser.
-  void draw_xegtao(const BaselineMethod& method, const GpuView& view, const AoRequest& request, float scale);
+  void draw_xegtao(const GpuProgram& shader, const BaselineMethod& method, const GpuView& view,
+                   const AoRequest& request, float scale, GLuint framebuffer);
   GLuint blur(GLuint ao, const GpuView& view, const AoRequest& request);
 
   const GladGLContext& gl_;

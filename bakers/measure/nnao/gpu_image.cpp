@@ -55,6 +55,14 @@ std::vector<float> read_red(const GladGLContext& gl, GLuint texture, int width, 
   return values;
 }
 
+std::vector<float> read_rgba(const GladGLContext& gl, GLuint texture, int width, int height) {
+  std::vector<float> values(std::size_t(width) * std::size_t(height) * 4);
+  gl.BindTexture(GL_TEXTURE_2D, texture);
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl.GetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, values.data());
+  return values;
+}
+
 GpuProgram::GpuProgram(const GladGLContext& gl, const std::string& path, const std::string& defines)
     : gl_(gl), name_(linked(gl, path, defines)) {}
 

@@ -30,6 +30,9 @@ class GpuImage {
 // The red channel of level 0.
 std::vector<float> read_red(const GladGLContext& gl, GLuint texture, int width, int height);
 
+// All four channels of level 0.
+std::vector<float> read_rgba(const GladGLContext& gl, GLuint texture, int width, int height);
+
 class GpuProgram {
  public:
   // path: of an embedded fragment shader. defines: lines in front of its text. Throws std::runtime_error with

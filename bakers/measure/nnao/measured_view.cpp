@@ -19,6 +19,9 @@ MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene, 
   });
   measured.truth = std::move(truth.ao);
   measured.noise = truth.noise;
+  if (settings.bent_stride > 0)
+    measured.bent = trace_bent_truth(rays, measured.view, settings.radius, settings.rays, settings.seed,
+                                     settings.bent_stride);
   return measured;
 }
 

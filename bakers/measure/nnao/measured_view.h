@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bakers/measure/nnao/bent_truth.h"
 #include "bakers/measure/nnao/truth_store.h"
 
 namespace nook::measure {
@@ -16,7 +17,8 @@ struct MeasuredView {
   bake::nnao::TracedView view;
   bake::nnao::TracedView slid;  // the image slides by one pixel
   std::vector<float> truth;
-  double noise = 0;  // expected squared error of the truth
+  double noise = 0;             // expected squared error of the truth
+  std::vector<BentTruth> bent;  // if the settings want it
 };
 
 MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene,

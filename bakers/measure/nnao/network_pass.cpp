@@ -52,6 +52,7 @@ NetworkPass::NetworkPass(const NookGl& gl, int width, int height, const NetworkF
   desc.half_resolution = form.half_resolution;
   desc.blur = form.blur;
   desc.blur_sharpness = blur_sharpness;
+  desc.bent_normals = form.bent;
   desc.path = NOOK_NNAO_PATH_FRAGMENT;  // as the baselines, so that times compare
   desc.network = network.empty() ? nullptr : network.data();
   desc.network_size = network.size();

@@ -30,7 +30,8 @@ class NookGl {
 struct NetworkForm {
   int taps = 9;
   bool half_resolution = false;
-  int blur = 1;  // how often the filter runs
+  int blur = 1;       // how often the filter runs
+  bool bent = false;  // with bent normals
 };
 
 class NetworkPass {
@@ -42,7 +43,7 @@ class NetworkPass {
   NetworkPass(const NetworkPass&) = delete;
   NetworkPass& operator=(const NetworkPass&) = delete;
 
-  // Returns the pass's texture (R8).
+  // Returns the pass's texture: R8, or RGBA8 with bent normals.
   GLuint draw(const GpuView& view, const AoRequest& request, bool blurred);
   bool horizon_form() const { return info_.horizon_form != 0; }
 

@@ -14,6 +14,9 @@ struct TruthSettings {
   std::uint32_t rays = 128;
   float radius = 0.5f;  // metres
   std::uint64_t seed = 1;
+  // > 0: bent normals and reflections are traced as well, at every so manyth pixel of both axes. They are not
+  // kept.
+  std::uint32_t bent_stride = 0;
 };
 
 struct Truth {

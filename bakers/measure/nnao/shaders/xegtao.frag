@@ -28,6 +28,9 @@ uniform float output_scale;
 
 layout(location = 0) out float result;
 layout(location = 1) out float packed_edges;
+#ifdef NOOK_BENT_NORMALS
+layout(location = 2) out vec4 bent_normal;  // view space
+#endif
 
 const float pi = 3.14159265;
 const float mip_offset = 3.3;          // octaves of pixels that the finest level covers
@@ -78,7 +81,16 @@ float arc(float angle, float tilt, float cos_tilt, float sin_tilt) {
   return 0.25 * (cos_tilt + 2.0 * angle * sin_tilt - cos(2.0 * angle - tilt));
 }
 
-float slice_visibility(int slice, vec2 noise, Centre centre, vec3 normal, float facing, float radius_px) {
+// The cosine-weighted mean of the directions from the viewer's to an angle, along the slice and towards the viewer:
+// the integrals of cos(a - tilt) |sin a| (sin a, cos a).
+vec2 arc_mean(float angle, float tilt) {
+  float once = sin(angle - tilt) + sin(tilt), thrice = (sin(3.0 * angle - tilt) + sin(tilt)) / 3.0;
+  return vec2(0.5 * once - 0.25 * (thrice + sin(angle + tilt) - sin(tilt)),
+              0.25 * ((cos(tilt) - cos(3.0 * angle - tilt)) / 3.0 + cos(tilt) - cos(angle + tilt)));
+}
+
+// bent: the open directions are added.
+float slice_visibility(int slice, vec2 noise, Centre centre, vec3 normal, float facing, float radius_px, inout vec3 bent) {
   float turn = pi * (float(slice) + noise.x) / float(groups);
   vec2 direction = vec2(cos(turn), sin(turn));
   vec3 across = vec3(direction, 0.0) - dot(direction, centre.viewer.xy) * centre.viewer;
@@ -98,6 +110,10 @@ float slice_visibility(int slice, vec2 noise, Centre centre, vec3 normal, float 
   // Open planes at a slant come out too dark without the twentieth: directions that are even over the screen are not even around
   // the viewer's direction, except in the middle of the image. GTAO divides that away; XeGTAO, as published, does not.
   float projected = mix((rise * rise + facing * facing) * inverse, 1.0, 0.05);
+#ifdef NOOK_BENT_NORMALS
+  vec2 mean = projected * (arc_mean(fast_acos(ahead), tilt) + arc_mean(-fast_acos(behind), tilt));
+  bent += mean.x * normalize(across) + mean.y * centre.viewer;
+#endif
   return projected * (arc(fast_acos(ahead), tilt, cos_tilt, sin_tilt) + arc(-fast_acos(behind), tilt, cos_tilt, sin_tilt));
 }
 
@@ -107,6 +123,9 @@ void main() {
   float depth = low.y;
   packed_edges = pack_edges(edge_weights(depth, vec4(low.x, high.z, low.z, high.x)));
   result = output_scale;
+#ifdef NOOK_BENT_NORMALS
+  bent_normal = vec4(0.0);
+#endif
   if (depth >= far_depth) return;
   vec2 radius = pixel_radius(depth) * radius_scale;
   // Rounded depths must not occlude their own plane.
@@ -117,7 +136,11 @@ void main() {
   vec2 noise = pixel_noise(pixel);
   // Small radii fade out.
   float open = 0.5 * clamp((10.0 - radius.y) / 100.0, 0.0, 1.0);
+  vec3 bent = vec3(0.0);
   for (int slice = 0; slice < groups; ++slice)
-    open += slice_visibility(slice, noise, centre, normal, facing, radius.y);
+    open += slice_visibility(slice, noise, centre, normal, facing, radius.y, bent);
+#ifdef NOOK_BENT_NORMALS
+  bent_normal = vec4(normalize(bent + 1.0e-6 * normal), 1.0);
+#endif
   result = output_scale * max(pow(max(open, 0.0) / float(groups), power), 0.03);
 }
