@@ -30,7 +30,7 @@ vec4 nook_leaky(vec4 x, int slope) {
   return max(x, nook_network[slope] * x);
 }
 
-// What the taps of a direction find.
+// The findings of the taps of a direction.
 struct nook_horizon {
   vec4 most, sum;  // of the units
   float bound;     // the greatest elevation times nearness, at least 0

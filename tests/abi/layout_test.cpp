@@ -385,7 +385,7 @@ NOOK_AT(nook_gl_material_texture, target, 4);
 NOOK_AT(nook_gl_material_texture, texture, 8);
 NOOK_AT(nook_gl_material_texture, uniform, 16);
 
-NOOK_SIZE(nook_nnao_desc, 64);
+NOOK_SIZE(nook_nnao_desc, 72);
 NOOK_AT(nook_nnao_desc, struct_size, 0);
 NOOK_AT(nook_nnao_desc, header_version, 4);
 NOOK_AT(nook_nnao_desc, next, 8);
@@ -399,6 +399,8 @@ NOOK_AT(nook_nnao_desc, timers, 40);
 NOOK_AT(nook_nnao_desc, path, 44);
 NOOK_AT(nook_nnao_desc, network, 48);
 NOOK_AT(nook_nnao_desc, network_size, 56);
+NOOK_AT(nook_nnao_desc, bent_normals, 64);
+NOOK_AT(nook_nnao_desc, reserved, 68);
 
 NOOK_SIZE(nook_nnao_frame_desc, 208);
 NOOK_AT(nook_nnao_frame_desc, width, 16);
@@ -424,13 +426,14 @@ NOOK_AT(nook_nnao_frame_desc, target_name, 196);
 NOOK_AT(nook_nnao_frame_desc, blend, 200);
 NOOK_AT(nook_nnao_frame_desc, view, 204);
 
-NOOK_SIZE(nook_nnao_info, 32);
+NOOK_SIZE(nook_nnao_info, 40);
 NOOK_AT(nook_nnao_info, texture, 4);
 NOOK_AT(nook_nnao_info, texture_bytes, 8);
 NOOK_AT(nook_nnao_info, taps, 16);
 NOOK_AT(nook_nnao_info, horizon_form, 20);
 NOOK_AT(nook_nnao_info, path, 24);
-NOOK_AT(nook_nnao_info, reserved, 28);
+NOOK_AT(nook_nnao_info, bent_normals, 28);
+NOOK_AT(nook_nnao_info, glsl, 32);
 
 NOOK_SIZE(nook_nnao_timings, 28);
 NOOK_AT(nook_nnao_timings, valid, 4);

@@ -83,7 +83,7 @@ TEST_CASE("nnao: bent normals are the reference's, and AO is that of a pass with
             const nnao::Openness wanted = nnao::evaluate_openness(network, picture.view(), picture.normal[i],
                                                                   sampling, x, y, nnao::tap_noise(x, y));
             other_ao += std::abs(found[i].ao - std::clamp(wanted.ao, 0.0f, 1.0f)) > step;
-            // What points away from the viewer is turned towards the rim, which the reference does not do.
+            // A direction away from the viewer is turned towards the rim, which the reference does not do.
             const Vec3 viewer = nnao::to_viewer(
                 picture.rays,
                 nnao::view_position(picture.rays, float(x) + 0.5f, float(y) + 0.5f, picture.depth[i]));

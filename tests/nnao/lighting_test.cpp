@@ -27,7 +27,7 @@ TEST_CASE("an open pixel reflects everything, a closed one nothing that is rough
         const LitPixel pixel{direction(20, 2), {0, 0, 1}, direction(view, 1), ao};
         const float occlusion = specular_occlusion(numbers, pixel, roughness);
         CHECK((occlusion >= 0 && occlusion <= 1));
-        // At roughness 1 it is AO.
+        // Roughness 1 gives AO.
         CHECK(std::abs(specular_occlusion(numbers, pixel, 1) - ao) < 1e-6f);
       }
     }

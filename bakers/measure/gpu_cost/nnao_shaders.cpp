@@ -61,6 +61,18 @@ bool is_counted(const BaselineMethod& method) {
   }
 }
 
+constexpr char lighting[] = R"(#include "shaders/nnao/host.glsl"
+uniform sampler2D screen_ao;
+in vec3 normal;
+in vec3 view;
+in vec2 roughness;
+out vec4 colour;
+void main() {
+  vec4 texel = texelFetch(screen_ao, ivec2(gl_FragCoord.xy), 0);
+  colour = vec4(nook_nnao_specular_occlusion(nook_nnao_bent_normal(texel), texel.a, normal, view, roughness.x));
+}
+)";
+
 const std::string shader_folder = "bakers/measure/nnao/shaders/";
 
 }  // namespace
@@ -94,6 +106,7 @@ std::vector<ShaderCase> nnao_shaders() {
         defines(half, true, grids[0]) + "#define NOOK_LAYERED 1\n", {});
     add(Stage::fragment, "show_normals.frag", "", defines(half, true, grids[0]), {});
   }
+  shaders.push_back(host_shader(lighting, "specular occlusion by a bent normal"));
   return shaders;
 }
 
@@ -113,9 +126,15 @@ std::string counted_name(const BaselineMethod& method) {
 
 std::vector<ShaderCase> baseline_shaders() {
   std::vector<ShaderCase> shaders;
-  for (const BaselineMethod& method : counted_baselines())
+  for (const BaselineMethod& method : counted_baselines()) {
+    if (method.baseline == Baseline::xegtao)
+      shaders.push_back(tree_shader(Stage::fragment, shader_folder + baseline_shader(method.baseline),
+                                    counted_name(method) + bent_normals,
+                                    baseline_defines(method) + "#define NOOK_BENT_NORMALS\n",
+                                    baseline_loops(method)));
     shaders.push_back(tree_shader(Stage::fragment, shader_folder + baseline_shader(method.baseline),
                                   counted_name(method), baseline_defines(method), baseline_loops(method)));
+  }
   const auto add = [&](Stage stage, const char* file, const char* name) {
     shaders.push_back(tree_shader(stage, shader_folder + file, name));
   };

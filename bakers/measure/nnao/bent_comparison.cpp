@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What a method says of a view: a bent normal for each pixel, and AO if it has one for lighting.
+// The result of a method for a view: a bent normal for each pixel, and AO if it has one for lighting.
 struct BentView {
   std::vector<Vec3> bent_normal;
   std::vector<float> ao;

@@ -11,7 +11,7 @@
 namespace nook::measure {
 namespace {
 
-// As in traced_truth.cpp.
+// The same as in traced_truth.cpp.
 constexpr float origin_offset = 3e-4f;
 
 }  // namespace

@@ -24,7 +24,7 @@ struct SpecularNumbers {
 // Those of the shader: the fit of `nook train specular`.
 SpecularNumbers specular_numbers();
 
-// What a pixel has. Directions have unit length.
+// The input of a pixel. Directions have unit length.
 struct LitPixel {
   Vec3 bent_normal, normal, to_viewer;
   float ao = 1;

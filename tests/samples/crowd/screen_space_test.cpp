@@ -175,8 +175,8 @@ void check_floor_and_body(const Picture& on, const Picture& off) {
     body_off = std::max(body_off, std::abs(on.at(*pixel) - off.at(*pixel)));
   }
   CHECK(body_points > 1000);
-  // A pixel at the silhouette holds some of the floor behind, which the network darkens by up to 6 % beside a
-  // body before it.
+  // A pixel at the silhouette holds some of the floor behind, which the network darkens by up to 6 % where a
+  // body stands less than two radii before it.
   CHECK(body_off < 0.06f);
 }
 
