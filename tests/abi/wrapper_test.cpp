@@ -1,8 +1,12 @@
 // The C++ wrapper. This file sees public headers only, as a host does.
-#include <nook/nook.hpp>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nook/nook.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +15,22 @@
 
 std::vector<std::byte> nook_test_model_bytes();
 std::vector<std::byte> nook_test_material_bytes();
+
+namespace {
+
+// A folder of this process that is removed with it.
+struct TemporaryFolder {
+  TemporaryFolder()
+      : path(std::filesystem::temp_directory_path() / ("nook_recording_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+  std::ptrdiff_t files() const { return std::distance(std::filesystem::directory_iterator(path), {}); }
+
+  const std::filesystem::path path;
+};
+
+}  // namespace
 
 TEST_CASE("the C++ wrapper owns, moves and throws") {
   const std::vector<std::byte> bytes = nook_test_model_bytes();
@@ -122,4 +142,33 @@ TEST_CASE("the C++ wrapper owns a material and decodes it") {
   material.evaluate(&sample, 1, &value);
   CHECK(value.visibility >= 0);
   CHECK_THROWS_AS(nook::Material(context, bytes.data(), 10), nook::Error);
+}
+
+TEST_CASE("recorded frames: the wrapper writes a file whole or not at all") {
+  const TemporaryFolder folder;
+  nook::Context context;
+  const std::vector<float> depth(20, 0.97f), ao(20, 0.5f);
+  nook_nnao_recording_desc desc = nook::nnao_recording_desc();
+  desc.width = 5;
+  desc.height = 4;
+  desc.depth = depth.data();
+  desc.ao = ao.data();
+  desc.radius = 0.5f;
+  desc.note = "a remark";
+  desc.projection[0] = desc.projection[5] = 1.5f;
+  desc.projection[10] = desc.projection[11] = -1;
+  desc.projection[14] = -0.2f;
+  const nook::Recording recording(context, desc);
+  const std::filesystem::path file = folder.path / "frame.nook";
+  std::ofstream(file) << "an older file";
+  recording.write(file);
+  std::ifstream in(file, std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  CHECK(bytes.size() == recording.save().size());
+  const nook::Recording loaded(context, bytes.data(), bytes.size());
+  CHECK(loaded.save() == recording.save());
+  CHECK(loaded.desc().note == std::string(desc.note));
+  CHECK(folder.files() == 1);
+  CHECK_THROWS_AS(recording.write(folder.path / "absent" / "frame.nook"), std::runtime_error);
+  CHECK(folder.files() == 1);
 }

@@ -116,6 +116,12 @@ void render(const std::vector<std::byte>& file, Script& script) {
     ok(nook_nnao_render(pass, &frame));
     if (script.below(4) == 3) require(ok(nook_nnao_recheck(pass)));
   } while (++frames < 4 && !script.at_end());
+  if (script.below(2) == 1) {
+    const nook_nnao_frame_desc frame = frame_of(script);
+    nook_nnao_recording recording = nullptr;
+    require(ok(nook_nnao_record(pass, &frame, nullptr, &recording)) == (recording != nullptr));
+    nook_nnao_recording_destroy(&recording);
+  }
   nook_nnao_info info{};
   info.struct_size = sizeof info;
   require(ok(nook_nnao_describe(pass, &info)) && info.texture_bytes >= bytes);

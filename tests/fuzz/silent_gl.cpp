@@ -51,7 +51,7 @@ std::size_t channels_of(GLenum format) {
 }
 
 std::size_t bytes_of(GLenum type) {
-  if (type == GL_FLOAT) return 4;
+  if (type == GL_FLOAT || type == GL_UNSIGNED_INT) return 4;
   return type == GL_HALF_FLOAT || type == GL_UNSIGNED_SHORT ? 2 : 1;
 }
 
@@ -181,6 +181,9 @@ struct Silent<id, R(GLAD_API_PTR*)(A...)> {
       need_inside(std::get<0>(arguments), std::get<1>(arguments), std::get<2>(arguments));
       std::vector<std::byte>(static_cast<std::size_t>(std::get<2>(arguments))).swap(s.mapped);
       return s.mapped.data();
+    } else if constexpr (id == id_ReadPixels) {
+      const auto [x, y, width, height, format, type, data] = arguments;
+      std::memset(data, 0, std::size_t(width) * std::size_t(height) * channels_of(format) * bytes_of(type));
     } else if constexpr (id == id_TexImage2D) {
       const auto [target, level, internal, width, height, border, format, type, data] = arguments;
       read_texels(width, height, 1, format, type, data);

@@ -66,6 +66,10 @@ std::span<const GLenum> pixel_store_of(const Has& has) {
   return std::span(gl::pixel_store_names).first(std::size(gl::pixel_store_names) - (has.desktop ? 0 : 2));
 }
 
+std::span<const GLenum> pixel_pack_of(const Has& has) {
+  return std::span(gl::pixel_pack_names).first(std::size(gl::pixel_pack_names) - (has.desktop ? 0 : 1));
+}
+
 void unbind_image(const GladGLContext& gl, const Has& has, GLuint unit) {
   gl.BindImageTexture(unit, 0, 0, GL_FALSE, 0, GL_READ_ONLY, has.desktop ? GL_R8 : GL_R32UI);
 }
@@ -117,6 +121,13 @@ struct Readers {
     for (const GLenum name : pixel_store_of(has)) values.push_back(integers(gl, name)[0]);
     return values;
   }
+  Values pixel_pack() const {
+    Values values;
+    for (const GLenum name : pixel_pack_of(has)) values.push_back(integers(gl, name)[0]);
+    return values;
+  }
+  Values pixel_pack_buffer() const { return integers(gl, GL_PIXEL_PACK_BUFFER_BINDING); }
+  Values read_framebuffer() const { return integers(gl, GL_READ_FRAMEBUFFER_BINDING); }
   Values pixel_unpack_buffer() const { return integers(gl, GL_PIXEL_UNPACK_BUFFER_BINDING); }
   Values viewport() const { return integers(gl, GL_VIEWPORT, 4); }
   Values blend() const {
@@ -242,6 +253,7 @@ Poison::Poison(platform::Context& context, unsigned users)
       gl.BindImageTexture(unit, o.texture_array, 1, GL_TRUE, 3, has.desktop ? GL_READ_WRITE : GL_WRITE_ONLY,
                           GL_RGBA16F);
   for (const GLenum name : pixel_store_of(has)) gl.PixelStorei(name, name == GL_UNPACK_ALIGNMENT ? 8 : 1);
+  for (const GLenum name : pixel_pack_of(has)) gl.PixelStorei(name, name == GL_PACK_ALIGNMENT ? 2 : 1);
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, o.buffers[0]);
   gl.Viewport(3, 4, 5, 6);
   gl.Enable(GL_BLEND);
@@ -282,7 +294,7 @@ void Poison::reset_touched() {
   gl.UseProgram(0);
   gl.BindVertexArray(0);
   gl.BindBuffer(GL_ARRAY_BUFFER, 0);
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
   gl.BindRenderbuffer(GL_RENDERBUFFER, 0);
   gl.Disable(GL_RASTERIZER_DISCARD);
   if (gl.BindTransformFeedback) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, 0);
@@ -296,7 +308,9 @@ void Poison::reset_touched() {
     gl.BindSampler(unit, 0);
   }
   for (const GLenum name : pixel_store_of(has)) gl.PixelStorei(name, name == GL_UNPACK_ALIGNMENT ? 4 : 0);
+  for (const GLenum name : pixel_pack_of(has)) gl.PixelStorei(name, name == GL_PACK_ALIGNMENT ? 4 : 0);
   gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   gl.BlendFunc(GL_ONE, GL_ZERO);
   gl.BlendEquation(GL_FUNC_ADD);
@@ -368,13 +382,15 @@ StateValues Poison::touched() const {
 StateValues Poison::defaults() const {
   const Has has(gl_);
   Values pixel_store(pixel_store_of(has).size(), 0);
-  pixel_store[0] = 4;  // the alignment
+  Values pixel_pack(pixel_pack_of(has).size(), 0);
+  pixel_store[0] = pixel_pack[0] = 4;  // the alignment
   const StateValues other_than_0 = {
       {"active_texture", {GL_TEXTURE0}},
       {"blend", {GL_FALSE, GL_ONE, GL_ZERO, GL_ONE, GL_ZERO, GL_FUNC_ADD, GL_FUNC_ADD}},
       {"color_mask", {GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE}},
       {"image_unit", {0, 0, GL_FALSE, 0, GL_READ_ONLY, has.desktop ? GL_R8 : GL_R32UI}},
       {"pixel_store", pixel_store},
+      {"pixel_pack", pixel_pack},
       {"polygon_mode", {GL_FILL}},
       {"dither", {GL_TRUE}}};
   StateValues values = touched();
@@ -420,18 +436,15 @@ StateValues Poison::untouched() const {
       keep(("blend 1 " + std::to_string(name)).c_str(), {value});
     }
 #define NOOK_INTEGERS(name, count) keep(#name, integers(gl_, name, count))
-  NOOK_INTEGERS(GL_READ_FRAMEBUFFER_BINDING, 1);
   NOOK_INTEGERS(GL_SCISSOR_BOX, 4);
   NOOK_INTEGERS(GL_DEPTH_WRITEMASK, 1);
   NOOK_INTEGERS(GL_DEPTH_FUNC, 1);
   NOOK_INTEGERS(GL_STENCIL_WRITEMASK, 1);
   NOOK_INTEGERS(GL_STENCIL_FUNC, 1);
-  NOOK_INTEGERS(GL_PACK_ALIGNMENT, 1);
   if (has.desktop) {
     NOOK_INTEGERS(GL_LOGIC_OP_MODE, 1);
     NOOK_INTEGERS(GL_PRIMITIVE_RESTART_INDEX, 1);
   }
-  NOOK_INTEGERS(GL_PIXEL_PACK_BUFFER_BINDING, 1);
   NOOK_INTEGERS(GL_UNIFORM_BUFFER_BINDING, 1);
   NOOK_INTEGERS(GL_COPY_READ_BUFFER, 1);
   NOOK_INTEGERS(GL_COPY_WRITE_BUFFER, 1);

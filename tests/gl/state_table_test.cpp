@@ -20,7 +20,8 @@ std::string names_of(unsigned users) {
                                                   {nook::gl::screen_compute, "nnao, compute path"},
                                                   {nook::gl::outputs, "output"},
                                                   {nook::gl::outputs_compute, "output with a stride"},
-                                                  {nook::gl::texel_uploads, "tables on OpenGL ES"}};
+                                                  {nook::gl::texel_uploads, "tables on OpenGL ES"},
+                                                  {nook::gl::screen_reads, "nook_nnao_record"}};
   std::string names;
   for (const auto& [user, name] : all)
     if (users & user) names += (names.empty() ? "" : ", ") + std::string(name);
@@ -46,7 +47,8 @@ std::string table() {
          "nook_nnao_create "
          "and nook_nnao_render; its compute path is that of nook_nnao_render if nook_nnao_info.path is "
          "NOOK_NNAO_PATH_COMPUTE. material is nook_gl_material_create. probe is nook_gl_probe_create and "
-         "nook_gl_probe_update. output is nook_gl_scene_write_ao.\n\n"
+         "nook_gl_probe_update. nook_nnao_record touches what nnao does as well. output is "
+         "nook_gl_scene_write_ao.\n\n"
          "No other state changes: no parameter of a host's texture or sampler, no other pixel-store value, "
          "and "
          "no depth, stencil or scissor parameter. Viewports and draw buffers other than the first keep their "

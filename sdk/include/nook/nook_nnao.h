@@ -30,6 +30,7 @@
 #define NOOK_NNAO_H
 
 #include "nook_gl.h"
+#include "nook_nnao_recording.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -326,6 +327,16 @@ typedef struct nook_nnao_timings {
 /* Gives the newest times; the call never waits.
  * Context thread. Errors: INVALID_ARGUMENT, GL. */
 NOOK_API nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* timings);
+
+/* Records a frame: draws its AO into the pass's own texture, and reads that back with the depth, the normals
+ * and the layer of the frame. Blend, target and target_name have no effect: no target of the host is written.
+ * NOOK_NNAO_VIEW_NORMALS records the result. note is a remark for whoever opens the file, or NULL. The call
+ * may stand before nook_nnao_render of the same frame or after it. It WAITS FOR THE GPU, allocates, and makes
+ * a program: it is meant for reports of errors and for measurements. On failure *out is NULL.
+ * Context thread. Errors: INVALID_ARGUMENT (as nook_nnao_render; also, the note is longer than 1000 bytes or
+ * has control characters), VERSION, GL, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_nnao_record(nook_nnao pass, const nook_nnao_frame_desc* frame, const char* note,
+                                      nook_nnao_recording* out);
 
 #ifdef __cplusplus
 }

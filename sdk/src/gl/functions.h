@@ -78,6 +78,7 @@ namespace nook::gl {
   X(IsTexture)                           \
   X(LinkProgram)                         \
   X(PixelStorei)                         \
+  X(ReadPixels)                          \
   X(RenderbufferStorage)                 \
   X(SamplerParameteri)                   \
   X(ShaderSource)                        \

@@ -115,6 +115,39 @@ void restore_pixel_store(const Functions& gl, const SavedState& s) {
   set_pixel_store(gl, s.pixel_store);
 }
 
+namespace {
+
+std::size_t pixel_pack_count(const Functions& gl) {
+  return std::size(pixel_pack_names) - (gl.profile == Profile::desktop ? 0 : 1);
+}
+
+}  // namespace
+
+void set_pixel_pack(const Functions& gl, const PixelPack& pack) {
+  for (std::size_t i = 0; i < pixel_pack_count(gl); ++i) gl.PixelStorei(pixel_pack_names[i], pack.values[i]);
+}
+void query_pixel_pack(const Functions& gl, SavedState& s) {
+  for (std::size_t i = 0; i < pixel_pack_count(gl); ++i)
+    s.pixel_pack.values[i] = integer(gl, pixel_pack_names[i]);
+}
+void restore_pixel_pack(const Functions& gl, const SavedState& s) {
+  set_pixel_pack(gl, s.pixel_pack);
+}
+
+void query_pixel_pack_buffer(const Functions& gl, SavedState& s) {
+  s.pixel_pack_buffer = integer(gl, GL_PIXEL_PACK_BUFFER_BINDING);
+}
+void restore_pixel_pack_buffer(const Functions& gl, const SavedState& s) {
+  gl.BindBuffer(GL_PIXEL_PACK_BUFFER, s.pixel_pack_buffer);
+}
+
+void query_read_framebuffer(const Functions& gl, SavedState& s) {
+  s.read_framebuffer = integer(gl, GL_READ_FRAMEBUFFER_BINDING);
+}
+void restore_read_framebuffer(const Functions& gl, const SavedState& s) {
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, s.read_framebuffer);
+}
+
 void query_draw_framebuffer(const Functions& gl, SavedState& s) {
   s.draw_framebuffer = integer(gl, GL_DRAW_FRAMEBUFFER_BINDING);
 }

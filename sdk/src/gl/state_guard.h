@@ -45,6 +45,13 @@ struct PixelStore {
   GLint values[std::size(pixel_store_names)] = {4};
 };
 
+// The last one is not of OpenGL ES.
+inline constexpr GLenum pixel_pack_names[] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
+                                              GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES};
+struct PixelPack {
+  GLint values[std::size(pixel_pack_names)] = {4};
+};
+
 struct ImageUnit {
   // format 0: the default of the profile, GL_R8 or GL_R32UI.
   GLint texture = 0, level = 0, layered = GL_FALSE, layer = 0, access = GL_READ_ONLY, format = 0;
@@ -56,7 +63,7 @@ struct SavedState {
   GLint vertex_array = 0;
   GLint active_texture = GL_TEXTURE0;
   GLint texture_unit_0 = 0;
-  GLint draw_framebuffer = 0;
+  GLint draw_framebuffer = 0, read_framebuffer = 0;
   GLint renderbuffer = 0;
   GLboolean rasterizer_discard = GL_FALSE;
   GLboolean primitive_restart = GL_FALSE;
@@ -72,8 +79,9 @@ struct SavedState {
   GLint filter_texture = 0;
   ImageUnit image_unit;
   GLint texture_2d_array = 0;
-  GLint pixel_unpack_buffer = 0;
+  GLint pixel_unpack_buffer = 0, pixel_pack_buffer = 0;
   PixelStore pixel_store;
+  PixelPack pixel_pack;
   struct {
     bool known = false;  // false: there is no default
     GLfloat box[4] = {};
@@ -92,6 +100,7 @@ struct SavedState {
 void set_blend(const Functions& gl, const BlendState& blend);
 void set_viewport(const Functions& gl, const GLfloat (&box)[4]);
 void set_pixel_store(const Functions& gl, const PixelStore& store);
+void set_pixel_pack(const Functions& gl, const PixelPack& pack);
 void set_scissor_test(const Functions& gl, bool enabled);
 // Nothing on OpenGL ES, whose restart index is that of the index type alone.
 void set_primitive_restart(const Functions& gl, bool enabled);

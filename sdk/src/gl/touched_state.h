@@ -8,9 +8,9 @@
 namespace nook::gl {
 
 // The users of an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload
-// of probes and materials, the screen-space pass if its network is a compute shader, and the writing of AO to
-// buffers and textures of the host. OpenGL ES has tables of texels in 2D textures, whose upload is another
-// user.
+// of probes and materials, the screen-space pass if its network is a compute shader, the writing of AO to
+// buffers and textures of the host, and the recording of frames. OpenGL ES has tables of texels in 2D
+// textures, whose upload is another user.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
@@ -22,6 +22,7 @@ enum : unsigned {
   outputs = 128,
   outputs_compute = 256,
   texel_uploads = 512,
+  screen_reads = 1024,
   characters = tier_33 | tier_43,
   everyone = characters | screen,
   draws = tier_33 | screen,
@@ -59,6 +60,11 @@ enum : unsigned {
     "uploads without gaps; default 0, alignment 4")                                                          \
   X(draw_framebuffer, draws | outputs, "GL_DRAW_FRAMEBUFFER_BINDING",                                        \
     "a draw needs a complete framebuffer; default 0")                                                        \
+  X(read_framebuffer, screen_reads, "GL_READ_FRAMEBUFFER_BINDING", "what is read back; default 0")           \
+  X(pixel_pack_buffer, screen_reads, "GL_PIXEL_PACK_BUFFER_BINDING", "texels go to host memory; default 0")  \
+  X(pixel_pack, screen_reads,                                                                                \
+    "GL_PACK_ALIGNMENT, ROW_LENGTH, SKIP_ROWS, SKIP_PIXELS, SWAP_BYTES; the last not on OpenGL ES",          \
+    "texels without gaps; default alignment 4, else 0")                                                      \
   X(renderbuffer, tier_33 | outputs, "GL_RENDERBUFFER_BINDING",                                              \
     "in nook_gl_create and nook_gl_scene_write_ao only; default 0")                                          \
   X(viewport, screen, "GL_VIEWPORT, of index 0 from OpenGL 4.1 on",                                          \

@@ -4,8 +4,10 @@
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
+#include "sdk/src/api/nnao_recording_handle.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/gl/nnao/frame_check.h"
+#include "sdk/src/gl/nnao/frame_record.h"
 #include "sdk/src/gl/nnao/pass.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/taps.h"
@@ -15,7 +17,12 @@ using namespace nook;
 // The OpenGL objects outlive the handle nook_gl, because this object holds a reference to its owner.
 struct nook_nnao_s : RefCounted {
   nook_nnao_s(nook_gl_s* made_by, const nook_nnao_desc& known, const nnao::Network& network)
-      : gl(made_by), desc(known), form(network.form) {
+      : gl(made_by), desc(known), form(network.form), own_network(made_by->device.memory) {
+    if (known.network) {
+      const auto* const first = static_cast<const std::byte*>(known.network);
+      own_network.assign(first, first + known.network_size);
+    }
+    desc.network = nullptr;
     gl->device.report_host_errors();
     gl->guarded(gl::screen_creation_users(gl->device.gl), [&] { pass.emplace(gl->device, known, network); });
   }
@@ -25,9 +32,15 @@ struct nook_nnao_s : RefCounted {
     return pass->path() == NOOK_NNAO_PATH_COMPUTE ? gl::screen | gl::screen_compute : gl::screen;
   }
 
+  // Returns the file of the network.
+  std::span<const std::byte> network() const {
+    return own_network.empty() ? nnao::default_network_file() : own_network;
+  }
+
   nook_gl_s* gl;
-  nook_nnao_desc desc;
+  nook_nnao_desc desc;  // without network
   nnao::NetworkForm form;
+  Vector<std::byte> own_network;  // for recordings; empty: the embedded one
   std::optional<gl::NnaoPass> pass;
 };
 
@@ -211,5 +224,27 @@ nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* timings) {
       known.total = known.normals + known.occlusion + known.blur + known.resolve;
     }
     write_info(timings, first_timings, known);
+  });
+}
+
+nook_result nook_nnao_record(nook_nnao pass, const nook_nnao_frame_desc* frame, const char* note,
+                             nook_nnao_recording* out) {
+  return with_pass("nook_nnao_record", pass, [&] {
+    need(out, "out");
+    *out = nullptr;
+    const nook_nnao_frame_desc known =
+        read_descriptor(frame, "nook_nnao_frame_desc_init", first_frame, default_frame());
+    gl::check_frame(known, pass->desc);
+    gl::Device& device = pass->gl->device;
+    std::optional<nnao::Recording> recorded;
+    device.need_alive();
+    device.report_host_errors();
+    pass->gl->guarded(pass->users() | gl::screen_reads, [&] {
+      recorded.emplace(gl::record_frame(device, *pass->pass, pass->desc, pass->network(), known, note));
+    });
+    // The owner is the context, so that a recording is destroyed on any thread.
+    *out = Owned<nook_nnao_recording_s>::make(device.memory, Ref<const Context>::share(&device.context),
+                                              std::move(*recorded))
+               .detach();
   });
 }

@@ -1,10 +1,10 @@
 #include "sdk/src/gl/nnao/frame_check.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/nnao/frame_constants.h"
+#include "sdk/src/nnao/host_depth.h"
 
 namespace nook::gl {
 namespace {
@@ -74,54 +74,7 @@ void check_normals(const nook_nnao_frame_desc& frame) {
   if (frame.normal_texture == 0) return;
   check_range("normal_scale", frame.normal_scale, frame.normal_scale != 0, "a number other than 0");
   check_range("normal_bias", frame.normal_bias, true, "a number");
-  const float* m = frame.normal_matrix;
-  const double determinant = double(m[0]) * (double(m[4]) * m[8] - double(m[7]) * m[5]) -
-                             double(m[3]) * (double(m[1]) * m[8] - double(m[7]) * m[2]) +
-                             double(m[6]) * (double(m[1]) * m[5] - double(m[4]) * m[2]);
-  if (!std::isfinite(determinant) || std::abs(determinant) < 1e-12)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "frame.normal_matrix cannot be inverted (got the determinant %g, need a rotation to view space)",
-        determinant);
-}
-
-void check_projection(const nook_nnao_frame_desc& frame) {
-  const float* m = frame.projection;
-  float largest = 0;
-  for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(m[i]))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "frame.projection[%d] is not finite (got %g, need a projection matrix)", i,
-                    static_cast<double>(m[i]));
-    largest = std::max(largest, std::abs(m[i]));
-  }
-  const auto zero = [&](int i) { return std::abs(m[i]) <= 1e-6f * largest; };
-  const bool hardware = frame.depth_kind == NOOK_NNAO_DEPTH_HARDWARE;
-  const bool perspective = !zero(11);
-  if (zero(0) || zero(5) || (perspective ? m[11] > 0 : !(m[15] > 0)))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.projection is no projection of a camera that looks along -z, or singular (got [0] "
-                  "%g, [5] %g, [11] "
-                  "%g, [15] %g; need [0] and [5] other than 0, and [11] below 0 or [15] above 0)",
-                  double(m[0]), double(m[5]), double(m[11]), double(m[15]));
-  // Clip x depends on x and z, clip y on y and z, and depth on z alone: there is no roll, no shear and no
-  // oblique clip plane.
-  for (const int i : {1, 3, 4, 7, perspective ? 12 : 8, perspective ? 13 : 9, perspective ? 15 : 11})
-    if (!zero(i))
-      throw Failure(
-          NOOK_ERROR_INVALID_ARGUMENT,
-          "frame.projection[%d] is %g, need 0; give the projection alone, not multiplied by a view matrix", i,
-          double(m[i]));
-  if (!hardware) return;
-  for (const int i : {2, 6})
-    if (!zero(i))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "frame.projection[%d] is %g, need 0; with an oblique clip plane give linear depth", i,
-                    double(m[i]));
-  if (m[perspective ? 14 : 10] == 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.projection is singular: depth does not depend on the distance (got [%d] 0)",
-                  perspective ? 14 : 10);
+  nnao::check_normal_matrix(frame.normal_matrix);
 }
 
 }  // namespace
@@ -131,7 +84,7 @@ void check_frame(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) 
   check_kinds(frame);
   check_numbers(frame);
   check_normals(frame);
-  check_projection(frame);
+  nnao::check_projection(frame.projection, nnao::DepthKind(frame.depth_kind));
 }
 
 }  // namespace nook::gl

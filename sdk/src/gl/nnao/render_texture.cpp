@@ -19,6 +19,8 @@ constexpr Layout layout_of(TextureFormat format) {
       return {GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, 4};
     case TextureFormat::depth:
       return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+    case TextureFormat::texel_bits:
+      return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
     case TextureFormat::ao_edges:
       return {GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2};
     case TextureFormat::ao_image:

@@ -13,6 +13,7 @@ enum class TextureFormat {
   depth,        // GL_R32UI, a float's bits
   normal,       // GL_RG16
   normal_bits,  // GL_RG16UI, for contexts that cannot draw into GL_RG16
+  texel_bits,   // GL_RGBA32UI, the bits of four floats
 };
 std::uint64_t bytes_per_texel(TextureFormat format);
 

@@ -1,0 +1,89 @@
+#include "sdk/src/gl/nnao/frame_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/nnao/texel_reader.h"
+
+namespace nook::gl {
+namespace {
+
+// A driver's text as a recording may hold it.
+void copy_driver_text(const Functions& gl, GLenum name, String& text) {
+  const auto* given = reinterpret_cast<const char*>(gl.GetString(name));
+  if (!given) return;
+  text.assign(given, std::min(std::strlen(given), nnao::max_recorded_text));
+  for (char& c : text)
+    if (const auto code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7f) c = '?';
+}
+
+void copy_note(const char* note, String& text) {
+  if (!note) return;
+  const void* const end = std::memchr(note, 0, nnao::max_recorded_text + 1);
+  if (!end)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "note is too long (need at most %zu bytes)",
+                  nnao::max_recorded_text);
+  text.assign(note, static_cast<const char*>(end));
+}
+
+// The frame that is drawn in place of the host's, so that no target of the host is written.
+nook_nnao_frame_desc own_target(nook_nnao_frame_desc frame) {
+  frame.target = NOOK_NNAO_TARGET_OWN;
+  frame.target_name = 0;
+  frame.blend = NOOK_NNAO_WRITE;
+  if (frame.view == NOOK_NNAO_VIEW_NORMALS) frame.view = NOOK_NNAO_VIEW_AO;
+  return frame;
+}
+
+nnao::RecordedFrame settings_of(const nook_nnao_frame_desc& frame) {
+  nnao::RecordedFrame recorded;
+  recorded.depth_kind = frame.depth_kind;
+  recorded.clip = frame.clip;
+  recorded.sky_depth = frame.sky_depth;
+  recorded.normal_scale = frame.normal_scale;
+  recorded.normal_bias = frame.normal_bias;
+  std::ranges::copy(frame.normal_matrix, recorded.normal_matrix);
+  std::ranges::copy(frame.projection, recorded.projection);
+  recorded.radius = frame.radius;
+  recorded.max_radius_px = frame.max_radius_px;
+  recorded.intensity = frame.intensity;
+  recorded.power = frame.power;
+  recorded.layer = frame.layer;
+  recorded.view = frame.view;
+  return recorded;
+}
+
+}  // namespace
+
+nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_desc& made_with,
+                             std::span<const std::byte> network, const nook_nnao_frame_desc& frame,
+                             const char* note) {
+  const nook_nnao_frame_desc drawn = own_target(frame);
+  const Viewport viewport = viewport_of(frame);
+  nnao::Recording recording(device.memory);
+  copy_note(note, recording.note);
+  pass.render(drawn);
+  TexelReader reader(device, viewport.width);
+  recording.depth = reader.read(frame.depth_texture, viewport, 1);
+  if (frame.normal_texture) recording.normals = reader.read(frame.normal_texture, viewport, 3);
+  if (frame.layer != NOOK_NNAO_LAYER_NONE) recording.layer = reader.read(frame.layer_texture, viewport, 2);
+  recording.ao = reader.read(pass.ao_texture(), viewport, 1);
+  // AO has 8 bits; some drivers divide by 255 inexactly.
+  for (float& ao : recording.ao) ao = std::round(255 * std::clamp(ao, 0.0f, 1.0f)) / 255;
+  recording.width = std::uint32_t(viewport.width);
+  recording.height = std::uint32_t(viewport.height);
+  recording.library_version = NOOK_VERSION;
+  recording.frame = settings_of(drawn);
+  recording.pass = {made_with.taps, made_with.half_resolution, made_with.blur, made_with.blur_sharpness,
+                    pass.path()};
+  recording.network.assign(network.begin(), network.end());
+  copy_driver_text(device.gl, GL_VENDOR, recording.vendor);
+  copy_driver_text(device.gl, GL_RENDERER, recording.renderer);
+  copy_driver_text(device.gl, GL_VERSION, recording.driver_version);
+  nnao::check_recording(recording);
+  return recording;
+}
+
+}  // namespace nook::gl

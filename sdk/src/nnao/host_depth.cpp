@@ -1,0 +1,118 @@
+#include "sdk/src/nnao/host_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sdk/src/core/failure.h"
+
+namespace nook::nnao {
+namespace {
+
+// The matrix is defined up to a factor; here clip w is -z or 1.
+double factor(const float (&projection)[16]) {
+  return 1.0 / (is_perspective(projection) ? -double(projection[11]) : double(projection[15]));
+}
+
+// From here on a depth is no surface; its square is still a float.
+constexpr float no_surface = 1e15f;
+
+}  // namespace
+
+bool is_perspective(const float (&projection)[16]) {
+  return projection[11] < 0;
+}
+
+ScreenRays projection_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height) {
+  float scaled[16];
+  for (int i = 0; i < 16; ++i) scaled[i] = float(projection[i] * factor(projection));
+  if (!is_perspective(projection)) scaled[11] = 0;
+  return screen_rays(scaled, width, height);
+}
+
+DepthDecode depth_decode(const DepthSource& source) {
+  DepthDecode decode;
+  if (source.kind == DepthKind::linear) {
+    if (source.sky_depth > 0) decode.far_stored = source.sky_depth;
+    return decode;
+  }
+  const auto& m = source.projection;
+  const double m10 = m[10] * factor(m), m14 = m[14] * factor(m);
+  // ndc = scale stored + offset.
+  const bool zero_to_one = source.clip == ClipRange::zero_to_one;
+  const double scale = zero_to_one ? 1 : 2, offset = zero_to_one ? 0 : -1;
+  bool grows = false;
+  if (is_perspective(m)) {  // ndc = m14 / depth - m10
+    decode.x = float(m14);
+    decode.y = 0;
+    decode.z = float(offset + m10);
+    decode.w = float(scale);
+    grows = m14 < 0;
+  } else {  // ndc = m14 - m10 depth
+    decode.x = float((m14 - offset) / m10);
+    decode.y = float(-scale / m10);
+    grows = m10 < 0;
+  }
+  decode.far_stored = grows ? 1 : 0;
+  decode.far_sign = grows ? 1 : -1;
+  return decode;
+}
+
+float view_depth(const DepthDecode& decode, bool perspective, float stored) {
+  constexpr float none = std::numeric_limits<float>::infinity();
+  if ((stored - decode.far_stored) * decode.far_sign >= 0) return none;
+  const float depth = (decode.x + decode.y * stored) / (decode.z + decode.w * stored);
+  // Comparisons with NaN are false.
+  return depth > min_surface_depth(perspective) && depth < no_surface ? depth : none;
+}
+
+void check_projection(const float (&m)[16], DepthKind kind) {
+  float largest = 0;
+  for (int i = 0; i < 16; ++i) {
+    if (!std::isfinite(m[i]))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "frame.projection[%d] is not finite (got %g, need a projection matrix)", i,
+                    static_cast<double>(m[i]));
+    largest = std::max(largest, std::abs(m[i]));
+  }
+  const auto zero = [&](int i) { return std::abs(m[i]) <= 1e-6f * largest; };
+  const bool hardware = kind == DepthKind::hardware;
+  const bool perspective = !zero(11);
+  if (zero(0) || zero(5) || (perspective ? m[11] > 0 : !(m[15] > 0)))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.projection is no projection of a camera that looks along -z, or singular (got [0] "
+                  "%g, [5] %g, [11] "
+                  "%g, [15] %g; need [0] and [5] other than 0, and [11] below 0 or [15] above 0)",
+                  double(m[0]), double(m[5]), double(m[11]), double(m[15]));
+  // Clip x depends on x and z, clip y on y and z, and depth on z alone: there is no roll, no shear and no
+  // oblique clip plane.
+  for (const int i : {1, 3, 4, 7, perspective ? 12 : 8, perspective ? 13 : 9, perspective ? 15 : 11})
+    if (!zero(i))
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "frame.projection[%d] is %g, need 0; give the projection alone, not multiplied by a view matrix", i,
+          double(m[i]));
+  if (!hardware) return;
+  for (const int i : {2, 6})
+    if (!zero(i))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "frame.projection[%d] is %g, need 0; with an oblique clip plane give linear depth", i,
+                    double(m[i]));
+  if (m[perspective ? 14 : 10] == 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.projection is singular: depth does not depend on the distance (got [%d] 0)",
+                  perspective ? 14 : 10);
+}
+
+void check_normal_matrix(const float (&m)[9]) {
+  const double determinant = double(m[0]) * (double(m[4]) * m[8] - double(m[7]) * m[5]) -
+                             double(m[3]) * (double(m[1]) * m[8] - double(m[7]) * m[2]) +
+                             double(m[6]) * (double(m[1]) * m[5] - double(m[4]) * m[2]);
+  if (!std::isfinite(determinant) || std::abs(determinant) < 1e-12)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "frame.normal_matrix cannot be inverted (got the determinant %g, need a rotation to view space)",
+        determinant);
+}
+
+}  // namespace nook::nnao

@@ -1,0 +1,48 @@
+// The projection and the depth of a host as numbers: the meaning of a stored depth value, and what a matrix
+// must be. Matrices are column-major, as OpenGL takes them.
+#pragma once
+
+#include "sdk/src/nnao/evaluate.h"
+
+namespace nook::nnao {
+
+// The values are those of nook_nnao_depth_kind and nook_nnao_clip.
+enum class DepthKind { hardware = 0, linear = 1 };
+enum class ClipRange { negative_one_to_one = 0, zero_to_one = 1 };
+
+struct DepthSource {
+  const float (&projection)[16];
+  DepthKind kind = DepthKind::hardware;
+  ClipRange clip = ClipRange::negative_one_to_one;
+  float sky_depth = 0;  // metres, of linear depth: this depth and greater ones are sky; 0: no depth is
+};
+
+bool is_perspective(const float (&projection)[16]);
+
+// As screen_rays, for a matrix that may be multiplied by any factor above 0.
+ScreenRays projection_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height);
+
+// Depth = (x + y stored) / (z + w stored), and the stored value of the far plane.
+struct DepthDecode {
+  float x = 0, y = 1, z = 1, w = 0;
+  float far_stored = 1e30f;  // values from here on are no surface
+  float far_sign = 1;        // 1: stored values grow with the distance; -1: they fall
+};
+DepthDecode depth_decode(const DepthSource& source);
+
+// The view depth of a surface is above this: that of a perspective is positive.
+constexpr float min_surface_depth(bool perspective) {
+  return perspective ? 0 : -1e15f;
+}
+
+// Returns the view depth of a stored value in metres, or infinity where there is no surface. It is the
+// reference of host_depth.glsl.
+float view_depth(const DepthDecode& decode, bool perspective, float stored);
+
+// Throw Failure(NOOK_ERROR_INVALID_ARGUMENT) with the name of the descriptor's field. The projection is that
+// of a camera that looks along -z, without roll and shear, with hardware depth also without an oblique clip
+// plane.
+void check_projection(const float (&projection)[16], DepthKind kind);
+void check_normal_matrix(const float (&matrix)[9]);
+
+}  // namespace nook::nnao

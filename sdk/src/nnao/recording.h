@@ -1,0 +1,90 @@
+// A frame of the screen-space pass as plain data: what the pass read, its settings, and the AO that it made.
+// The members of the frame and of the pass have the meaning and the numbers of nook_nnao_frame_desc and
+// nook_nnao_desc.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sdk/src/core/containers.h"
+#include "sdk/src/nnao/host_depth.h"
+#include "sdk/src/nnao/taps.h"
+
+namespace nook::nnao {
+
+// The values of nook_nnao_layer and nook_nnao_view that a recording can have.
+inline constexpr std::int32_t last_recorded_layer = 3, last_recorded_view = 2, last_recorded_path = 2;
+inline constexpr std::uint32_t max_recorded_size_px = 16384;
+inline constexpr std::size_t max_recorded_text = 1000;  // bytes
+
+struct RecordedFrame {
+  std::int32_t depth_kind = 0, clip = 0;
+  float sky_depth = 0;  // metres
+  float normal_scale = 1, normal_bias = 0;
+  float normal_matrix[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  float projection[16] = {};
+  float radius = 0;         // metres
+  float max_radius_px = 0;  // 0: a quarter of the height
+  float intensity = 1, power = 1;
+  std::int32_t layer = 0, view = 0;
+};
+
+struct RecordedPass {
+  std::int32_t taps = default_taps;
+  std::int32_t half_resolution = 0, blur = 1;
+  float blur_sharpness = 16;
+  std::int32_t path = 0;  // 0: unknown
+};
+
+// Images are row by row from the bottom.
+struct Recording {
+  explicit Recording(Memory* memory = default_memory())
+      : depth(memory),
+        normals(memory),
+        layer(memory),
+        ao(memory),
+        network(memory),
+        vendor(memory),
+        renderer(memory),
+        driver_version(memory),
+        note(memory) {}
+
+  std::size_t pixels() const { return std::size_t(width) * height; }
+  DepthSource depth_source() const {
+    return {frame.projection, DepthKind(frame.depth_kind), ClipRange(frame.clip), frame.sky_depth};
+  }
+
+  std::uint32_t width = 0, height = 0;
+  std::uint32_t library_version = 0;  // of the library that made ao
+  RecordedFrame frame;
+  RecordedPass pass;
+  // Texels as a shader reads them. Empty: there are none.
+  Vector<float> depth;        // 1 for each pixel
+  Vector<float> normals;      // 3
+  Vector<float> layer;        // 2
+  Vector<float> ao;           // 1
+  Vector<std::byte> network;  // the file of the network
+  String vendor, renderer, driver_version, note;
+};
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) that names the field. Depth, normals and layer may be any
+// numbers, as in a host's textures: a frame with a NaN in its depth is worth recording.
+void check_recording(const Recording& recording);
+
+// The network's file of a recording, as far as this library knows it.
+struct RecordedNetwork {
+  bool readable = false;  // this library evaluates it
+  bool embedded = false;  // it is the one in this library
+};
+RecordedNetwork recorded_network(const Recording& recording);
+
+// View depths of a recording in metres, infinite where there is no surface.
+std::vector<float> view_depths(const Recording& recording);
+
+// Returns the normals that the network sees at full resolution: the host's, in view space, or those that
+// follow from depth. They are {0, 0, 1} where there is no surface.
+std::vector<Vec3> view_normals(const Recording& recording, std::span<const float> depths);
+
+}  // namespace nook::nnao

@@ -1,0 +1,35 @@
+// Recorded frames as .nook files. Version 1 of the kind "FRAM" has the sections
+//   HEAD  u32: library version, width, height
+//         u8: depth kind, clip, layer, view; f32: sky_depth, normal_scale, normal_bias, normal_matrix 9,
+//         projection 16, radius, max_radius_px, intensity, power
+//   PASS  u32 taps; u8: half_resolution, blur, path; f32 blur_sharpness
+//   DPTH  depth, one number for each pixel; u8 packing, then the numbers (exact_packing.h)
+//   NORM  normals, three for each pixel, in the same way; only if there are any
+//   LAYR  the layer, two for each pixel; only if there is one
+//   AOCC  AO, one for each pixel; only if it was made
+//   NETW  the network's file; may be empty
+//   TEXT  vendor, renderer, driver_version, note: each u32 bytes, then UTF-8
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sdk/src/core/container.h"
+#include "sdk/src/core/memory.h"
+#include "sdk/src/nnao/recording.h"
+
+namespace nook::nnao {
+
+inline constexpr ContainerKind recording_kind{four_letters("FRAM"), "recorded frame of the screen-space pass",
+                                              1, 1};
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for what check_recording refuses.
+std::vector<std::byte> write_recording(const Recording& recording);
+
+// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
+// NOOK_ERROR_FILE_VERSION), and allocates no more than the images, the network and the texts of the file. The
+// network is not looked into: a later library may have written it.
+Recording read_recording(std::span<const std::byte> bytes, Memory* memory = default_memory());
+
+}  // namespace nook::nnao

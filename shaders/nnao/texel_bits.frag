@@ -1,0 +1,10 @@
+// Copies texels as the bits of their floats, which every OpenGL reads back exactly: OpenGL ES reads neither depth nor
+// floats.
+uniform sampler2D nook_image;
+uniform ivec2 nook_first;  // the texel for the lower left pixel of the target
+
+out uvec4 nook_out;
+
+void main() {
+  nook_out = floatBitsToUint(texelFetch(nook_image, ivec2(gl_FragCoord.xy) + nook_first, 0));
+}
