@@ -9,6 +9,7 @@
 
 #include "bakers/measure/nnao/bent_comparison.h"
 #include "bakers/measure/nnao/comparison.h"
+#include "bakers/measure/nnao/frame_comparison.h"
 #include "bakers/measure/nnao/network_picture.h"
 #include "bakers/measure/nnao/oracle_pass.h"
 #include "bakers/measure/nnao/report.h"
@@ -19,6 +20,7 @@
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
+#include "bakers/tool/nnao/evaluate_frames.h"
 #include "bakers/tool/nnao/scenes.h"
 #include "bakers/tool/nnao/views_file.h"
 #include "platform/output_file.h"
@@ -35,9 +37,10 @@ struct Options {
   CommonOptions common;
   TruthSettings truth;
   SceneWords scenes;
-  std::filesystem::path views;       // a list of scenes with their cameras, instead of files
-  std::filesystem::path folder;      // of the list's scenes
-  std::vector<std::string> sources;  // of the list; empty: all
+  std::filesystem::path views;                // a list of scenes with their cameras, instead of files
+  std::filesystem::path folder;               // of the list's scenes
+  std::vector<std::string> sources;           // of the list; empty: all
+  std::vector<std::filesystem::path> frames;  // recorded ones, instead of scenes
   bool sized = false, rays_given = false;
   std::filesystem::path references, network, images, markdown;
   std::vector<std::string> methods;  // empty: all
@@ -240,6 +243,10 @@ Json evaluate(Options& options) {
     for (const std::string of_file : {"nnao_paper", "nnao_file"})
       if (method.substr(0, method.find(':')) == of_file && of_file != other)
         throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: --network gives no " + method);
+  for (const std::string& method : options.methods)
+    for (const std::string& of_frames : frame_method_names())
+      if (method.substr(0, method.find(':')) == of_frames)
+        throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: " + method + " is of --frame alone");
   if (!options.references.empty()) std::filesystem::create_directories(options.references);
   const auto context = make_context();
   std::vector<MeasuredView> views;
@@ -338,18 +345,26 @@ Json tune(const Options& options) {
   return report;
 }
 
+Json replay(const Options& options) {
+  const auto context = make_context();
+  return evaluate_frames(*context, {options.frames, options.methods, options.images, options.common.quiet});
+}
+
 void run(Options& options) {
   const bool has_scenes = !options.scenes.files.empty() || options.scenes.thin || !options.views.empty();
-  if (has_scenes == !options.tune.empty())
+  const int works = int(has_scenes) + int(!options.tune.empty()) + int(!options.frames.empty());
+  if (works != 1)
     throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: need scenes (files, --views or --thin) or else --tune");
+                    "evaluate nnao: need scenes (files, --views or --thin), or --frame, or else --tune");
   if (!options.views.empty() && !options.scenes.files.empty())
     throw ToolError(exit_bad_arguments, "evaluate nnao: --views: its scenes take the place of files");
   options.truth.seed = options.common.seed;
   CommandFiles files{{{"--network", options.network}}, {{"--markdown", options.markdown}}, options.images};
   if (!options.views.empty()) files.inputs.push_back({"--views", options.views});
   for (const std::filesystem::path& scene : options.scenes.files) files.inputs.push_back({"a scene", scene});
+  for (const std::filesystem::path& frame : options.frames) files.inputs.push_back({"--frame", frame});
   run_evaluation(options.common, files, [&] {
+    if (!options.frames.empty()) return replay(options);
     if (!options.tune.empty()) return tune(options);
     return options.bent ? evaluate_bent(options) : evaluate(options);
   });
@@ -375,6 +390,12 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
       ->delimiter(',');
   command->add_flag("--thin", o.scenes.thin,
                     "a built-in scene of thin things, called thin; it enters no mean");
+  command
+      ->add_option(
+          "--frame", o.frames,
+          "replay frames that nook_nnao_record wrote, instead of scenes: against the recorded AO and "
+          "the oracle; any number of times")
+      ->type_name("FILE.nook");
   std::vector<std::string> baselines{"all"};
   for (const Baseline baseline : all_baselines) baselines.push_back(baseline_name(baseline));
   command
@@ -413,11 +434,12 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
   std::vector<std::string> methods{"all", "nnao", half_name, twice_name, "nnao_paper", "nnao_file"};
   methods.insert(methods.end(), baselines.begin() + 1, baselines.end());
   for (const Oracle oracle : all_oracles) methods.push_back(oracle_name(oracle));
+  for (const std::string& name : frame_method_names()) methods.push_back(name);
   command
       ->add_option(
           "--methods", o.methods,
           "measure these alone, NAME or NAME:TAPS, separated by commas; default: all, which leaves out "
-          "the slow oracle and oracle_bitmask")
+          "the slow oracle and oracle_bitmask; with --frame replayed, fast, default, best and oracle")
       ->delimiter(',')
       ->check([methods](const std::string& text) {
         return CLI::IsMember(methods)(text.substr(0, text.find(':')));

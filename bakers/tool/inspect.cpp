@@ -15,6 +15,7 @@
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/nnao/network_file.h"
+#include "sdk/src/nnao/recording_file.h"
 #include "sdk/src/probe/probe_file.h"
 
 namespace nook::tool {
@@ -42,6 +43,7 @@ struct Kind {
 };
 constexpr Kind kinds[] = {{character_kind.kind, describe_character},
                           {nnao::network_kind.kind, describe_network},
+                          {nnao::recording_kind.kind, describe_recording},
                           {probe::probe_kind.kind, describe_probes},
                           {material::material_kind.kind, describe_material},
                           {bake::material::raw_kind.kind, describe_raw_material}};

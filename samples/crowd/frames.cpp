@@ -8,6 +8,7 @@
 
 #include "platform/stopwatch.h"
 #include "samples/crowd/floor_light.h"
+#include "samples/crowd/recorded_frames.h"
 
 namespace crowd {
 namespace {
@@ -76,6 +77,10 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
       look.screen_ao = stage.screen_space->draw(stage.renderer, drawn, camera);
       gl.Finish();
       now.screen_space = watch.lap_ms();
+      if (!request.record.empty()) {
+        write_recorded_frame(*stage.screen_space, request.record, frame);
+        watch.lap_ms();
+      }
     }
     stage.target.bind();
     if (request.light) {

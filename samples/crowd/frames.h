@@ -32,6 +32,7 @@ struct FrameRequest {
   std::uint32_t frames = 4;
   std::filesystem::path out;
   const Light* light = nullptr;  // null for plain ambient light and a key light
+  std::filesystem::path record;  // empty, or where each frame of the screen-space pass is recorded
 };
 
 // The instances in their poses, with what the scene's last update left of each. If lit, all of them had a

@@ -133,9 +133,9 @@ void run(const Options& o) {
   platform::ProgressBar bar(o.quiet);
   const std::unique_ptr<Light> light = light_of_frames(scene.context(), o);
   if (light) scene.set_light(light->lobes());
-  const FrameTimes ms = draw_frames(stage, scene, {o.frames, o.out, light.get()}, [&](std::uint32_t done) {
-    bar.show("drawing", "frames", done, o.frames);
-  });
+  const FrameTimes ms =
+      draw_frames(stage, scene, {o.frames, o.out, light.get(), o.record},
+                  [&](std::uint32_t done) { bar.show("drawing", "frames", done, o.frames); });
   // The comparisons below set their own lights.
   scene.set_light({});
   nlohmann::ordered_json report = describe(*context, scene, o);

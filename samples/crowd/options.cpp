@@ -58,6 +58,10 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("!--no-light", o.probe_light,
                "light the frames by plain ambient light times AO and a key light");
+  app.add_option(
+      "--record", o.record,
+      "folder for recorded frames of the screen-space pass, frame_0000.nook and so on; in a window "
+      "a button records one (default there: --out)");
   app.add_option("--seed", o.seed, "seed of the places, the clips and the rays");
   app.add_option("--cache", o.cache, "folder where baked characters are kept");
   app.add_flag("!--no-sheets", o.sheets, "no comparison sheets, and no ray tracing except for --light");
@@ -67,6 +71,8 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
     for (const std::string& fault : {parse_size(size, o), parse_tier(tier, o)})
       if (!fault.empty()) throw CLI::ValidationError("--size", fault);
     o.screen_space = screen_space == "on";
+    if (!o.record.empty() && !o.screen_space)
+      throw CLI::ValidationError("--record", "needs --screen-space on");
     // A window runs until it is closed, unless the user gives a number of pictures.
     if (o.context == "window" && frames->count() == 0) o.frames = 0;
     if (o.report.empty()) o.report = o.out / "report.json";

@@ -17,6 +17,7 @@ struct Options {
   int tier = 0;  // 33, 43, or 0 for the best that the context has
   std::filesystem::path out = "out/crowd", report;
   std::filesystem::path cache;
+  std::filesystem::path record;  // empty: frames are recorded by the window's button alone, into out
   std::vector<std::filesystem::path> lights;  // probes (.nook) or maps of the environment (.hdr, .exr)
   bool probe_light = true;                    // the frames have the first of the lights, or the built-in sky
   bool screen_space = true, sheets = true, quiet = false;

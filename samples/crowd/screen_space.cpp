@@ -75,7 +75,8 @@ ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> 
   gl_.ClearBufferfv(GL_COLOR, 1, open);
   gl_.ClearBufferfv(GL_DEPTH, 0, &far_plane);
   renderer.draw_surfaces(instances, camera, aspect);
-  nook_nnao_frame_desc frame = nook::nnao_frame_desc();
+  nook_nnao_frame_desc& frame = frame_;
+  frame = nook::nnao_frame_desc();
   frame.width = width_px_;
   frame.height = height_px_;
   frame.depth_texture = textures_[kDepth];

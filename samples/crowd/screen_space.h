@@ -39,6 +39,9 @@ class ScreenSpaceAo {
   ScreenAo draw(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
                 nook_nnao_layer layer = NOOK_NNAO_LAYER_REPLACE);
 
+  // Records the frame that was drawn last. Waits for the GPU.
+  nook::Recording record(const char* note) { return pass_.record(frame_, note); }
+
  private:
   enum Texture { kDepth, kNormals, kLayer, kTextures };
 
@@ -48,6 +51,7 @@ class ScreenSpaceAo {
   GLuint textures_[kTextures] = {};
   GLuint framebuffer_ = 0;
   nook::Nnao pass_;
+  nook_nnao_frame_desc frame_{};  // of the last draw
 };
 
 }  // namespace crowd

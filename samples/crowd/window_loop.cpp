@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include "platform/stopwatch.h"
 #include "samples/crowd/floor_light.h"
 #include "samples/crowd/frames.h"
+#include "samples/crowd/recorded_frames.h"
 
 namespace crowd {
 namespace {
@@ -19,6 +21,8 @@ namespace {
 struct Controls {
   bool ao = true, probe_light = true, self = true, neighbours = true, ground = true, screen_space = true,
        playing = true;
+  bool record = false;   // the next frame of the screen-space pass
+  std::string recorded;  // the name of the last file
   float intensity = 1.0f, key = 0.5f;
   int link_count = 4;
   int tier = 0;  // 33, 43, or 0 for the best
@@ -72,6 +76,10 @@ bool show_controls(Controls& c, const CrowdScene& scene, bool have_light, double
   ImGui::Checkbox("ground", &c.ground);
   ImGui::Checkbox("screen-space AO on the floor", &c.screen_space);
   ImGui::SliderInt("nearest neighbours", &c.link_count, 0, 16);
+  if (c.screen_space) {
+    c.record = ImGui::Button("record a frame");
+    if (!c.recorded.empty()) ImGui::TextUnformatted(c.recorded.c_str());
+  }
   if (have_light) ImGui::Checkbox("light of a probe", &c.probe_light);
   if (!have_light || !c.probe_light) ImGui::SliderFloat("key light", &c.key, 0, 1);
   ImGui::Checkbox("play", &c.playing);
@@ -104,6 +112,17 @@ Camera camera_of(const Controls& c) {
   return camera;
 }
 
+// Returns a line for the user.
+std::string record_frame(ScreenSpaceAo& screen_space, const std::filesystem::path& folder) {
+  try {
+    const unsigned number = next_frame_number(folder);
+    write_recorded_frame(screen_space, folder, number);
+    return "recorded frame " + std::to_string(number) + " into " + folder.string();
+  } catch (const std::exception& failure) {
+    return failure.what();
+  }
+}
+
 }  // namespace
 
 void run_window(platform::Context& context, const Hero& hero, std::span<const unsigned char> model,
@@ -117,6 +136,7 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
   controls.screen_space = options.screen_space;
   const float radius_m = crowd_radius_m(places);
   controls.distance_m = radius_m + 4;
+  const std::filesystem::path record_folder = options.record.empty() ? options.out : options.record;
   std::unique_ptr<CrowdScene> scene;
   std::unique_ptr<ScreenSpaceAo> screen_space;
   bool tier_changed = true;
@@ -163,6 +183,8 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
         screen_space = std::make_unique<ScreenSpaceAo>(context, scene->gl(), width, height);
       }
       look.screen_ao = screen_space->draw(renderer, drawn, camera);
+      if (controls.record) controls.recorded = record_frame(*screen_space, record_folder);
+      controls.record = false;
     }
     context.framebuffer();
     gl.Viewport(0, 0, width, height);

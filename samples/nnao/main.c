@@ -2,10 +2,10 @@
  *
  *   nnao [FOLDER] [RADIUS]
  *
- * It writes before.png, after.png and ao.png. The radius is in metres and 0.5 by default.
+ * It writes before.png, after.png, ao.png and frame.nook. The radius is in metres and 0.5 by default.
  *
- * An engine needs the three marked regions. The rest of this file, room.c and samples/offscreen stand in for
- * the engine. */
+ * An engine needs the first three marked regions, and the fourth for reports of wrong pictures. The rest of
+ * this file, room.c and samples/offscreen stand in for the engine. */
 #include <math.h>
 #include <nook/nook_nnao.h>
 #include <stddef.h>
@@ -187,6 +187,37 @@ static void stop_pass(Pass* p) {
   nook_context_destroy(&p->context);
 }
 
+/* ---- 4. When a picture is wrong: the frame in a file, for nook evaluate nnao --frame ---- */
+static nook_result record_frame(Pass* p, const Engine* e, float radius_m, void** bytes, size_t* size) {
+  nook_nnao_frame_desc frame;
+  nook_nnao_recording recording = NULL;
+  nook_result r = describe_frame(e, radius_m, &frame);
+  if (!r) r = nook_nnao_record(p->nnao, &frame, "the room of samples/nnao", &recording);
+  if (!r) r = nook_nnao_recording_save(recording, NULL, size);
+  if (!r) *bytes = malloc(*size);
+  if (!r && *bytes) r = nook_nnao_recording_save(recording, *bytes, size);
+  nook_nnao_recording_destroy(&recording);
+  return r;
+}
+
+/* The file is written beside its place and renamed, so that no half file appears. */
+static int save_frame(Pass* p, const Engine* e, float radius_m, const char* folder) {
+  char path[1024], part[1024];
+  void* bytes = NULL;
+  size_t size = 0;
+  FILE* file = NULL;
+  int ok = record_frame(p, e, radius_m, &bytes, &size) == NOOK_OK && bytes &&
+           snprintf(path, sizeof path, "%s/frame.nook", folder) < (int)sizeof path &&
+           snprintf(part, sizeof part, "%s/frame.nook.part", folder) < (int)sizeof part;
+  if (ok) file = fopen(part, "wb");
+  ok = file && fwrite(bytes, 1, size, file) == size;
+  if (file) ok = !fclose(file) && ok;
+  ok = ok && rename(part, path) == 0;
+  if (!ok) fprintf(stderr, "nnao: %s/frame.nook cannot be written: %s\n", folder, nook_last_message());
+  free(bytes);
+  return ok;
+}
+
 int main(int argc, char** argv) {
   Engine engine = {0};
   Pass pass = {NULL, NULL, NULL};
@@ -214,6 +245,7 @@ int main(int argc, char** argv) {
   saved = saved && save(folder, "after.png");
   result = show_ao(&pass, &engine, radius_m);
   saved = saved && !result && save(folder, "ao.png");
+  saved = saved && save_frame(&pass, &engine, radius_m, folder);
   stop_pass(&pass);
   offscreen_stop();
   return saved ? 0 : 1;

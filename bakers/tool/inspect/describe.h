@@ -16,6 +16,7 @@ Row describe_network(std::span<const std::byte> bytes);
 Row describe_probes(std::span<const std::byte> bytes);
 Row describe_material(std::span<const std::byte> bytes);
 Row describe_raw_material(std::span<const std::byte> bytes);
+Row describe_recording(std::span<const std::byte> bytes);
 
 // Adds the entries of a recipe, a JSON object, to row, those of an object in it as object_entry; anything
 // else adds nothing.

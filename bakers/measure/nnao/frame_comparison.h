@@ -1,0 +1,49 @@
+// Every method over one recorded frame: its AO against the recorded AO, and against the oracle.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bakers/measure/nnao/frame_replay.h"
+
+namespace nook::measure {
+
+inline constexpr char recorded_name[] = "recorded", replayed_name[] = "replayed";
+
+// An image of AO against another one, over all pixels, both rounded to 8 bits.
+struct AoDifference {
+  double mean = 0;          // of |a - b|
+  double largest = 0;       // of |a - b|
+  double share_beyond = 0;  // of the pixels that differ by more than one step
+};
+AoDifference difference_of(std::span<const float> a, std::span<const float> b);
+
+struct FrameRow {
+  std::string method;
+  nook::nnao::RecordedPass pass;  // of the library's pass; taps alone for the others
+  bool is_library = false;        // drawn by the library's pass
+  std::string network;            // of the library's pass: recorded or embedded
+  std::vector<float> ao;          // with the frame's intensity, power, layer and view
+  // None of the recorded row itself, and of baselines and oracles where the recorded AO has a layer,
+  // intensity or power, which they have not.
+  std::optional<AoDifference> from_recorded;
+  // Over pixels with a surface, of AO without intensity, power and layer.
+  std::optional<double> oracle_mse, oracle_bias;
+};
+
+// Names in tables or name:taps; empty: the library's rows and the oracle.
+using MethodFilter = std::vector<std::string>;
+
+// The names that a filter can have besides those of the baselines and the oracles.
+std::vector<std::string> frame_method_names();
+
+// progress counts methods; false stops, which throws Failure(CANCELLED). The order of the rows: recorded,
+// replayed, the presets, the baselines, the oracles. A frame without a perspective has no baseline and no
+// oracle.
+std::vector<FrameRow> compare_frame(FrameReplay& replay, const nook::nnao::Recording& recording,
+                                    const MethodFilter& methods,
+                                    const std::function<bool(std::size_t, std::size_t)>& progress);
+
+}  // namespace nook::measure

@@ -1,0 +1,115 @@
+#include "bakers/measure/nnao/frame_replay.h"
+
+#include <algorithm>
+
+#include "sdk/src/core/failure.h"
+
+namespace nook::measure {
+namespace {
+
+void succeed(nook_result result) {
+  if (result != NOOK_OK) throw Failure(result, "%s", nook_last_message());
+}
+
+std::unique_ptr<GpuImage> image_of(const GladGLContext& gl, GLint internal_format, GLenum format, int width,
+                                   int height, const Vector<float>& texels) {
+  if (texels.empty()) return nullptr;
+  return std::make_unique<GpuImage>(gl, internal_format, format, width, height, texels.data());
+}
+
+// A pass that is destroyed with it.
+struct Pass {
+  Pass(nook_gl gl, const nook_nnao_desc& desc) { succeed(nook_nnao_create(gl, &desc, &handle)); }
+  ~Pass() { nook_nnao_destroy(&handle); }
+  Pass(const Pass&) = delete;
+  Pass& operator=(const Pass&) = delete;
+
+  nook_nnao handle = nullptr;
+};
+
+nook_nnao_frame_desc frame_of(const nook::nnao::Recording& recording) {
+  const nook::nnao::RecordedFrame& recorded = recording.frame;
+  nook_nnao_frame_desc frame;
+  succeed(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+  frame.width = int(recording.width);
+  frame.height = int(recording.height);
+  frame.depth_kind = recorded.depth_kind;
+  frame.sky_depth = recorded.sky_depth;
+  frame.normal_scale = recorded.normal_scale;
+  frame.normal_bias = recorded.normal_bias;
+  std::ranges::copy(recorded.normal_matrix, frame.normal_matrix);
+  std::ranges::copy(recorded.projection, frame.projection);
+  frame.clip = recorded.clip;
+  frame.radius = recorded.radius;
+  frame.max_radius_px = recorded.max_radius_px;
+  frame.intensity = recorded.intensity;
+  frame.power = recorded.power;
+  frame.layer = recorded.layer;
+  return frame;
+}
+
+}  // namespace
+
+bake::nnao::TracedView view_of_frame(const nook::nnao::Recording& recording) {
+  bake::nnao::TracedView view;
+  view.camera.width = recording.width;
+  view.camera.height = recording.height;
+  view.camera.rays =
+      nook::nnao::projection_rays(recording.frame.projection, recording.width, recording.height);
+  view.depth = nook::nnao::view_depths(recording);
+  view.normal = nook::nnao::view_normals(recording, view.depth);
+  return view;
+}
+
+FrameReplay::FrameReplay(const GladGLContext& gl, const NookGl& nook, const nook::nnao::Recording& recording)
+    : gl_(gl),
+      nook_(nook),
+      recording_(recording),
+      view_(view_of_frame(recording)),
+      depth_(gl, GL_R32F, GL_RED, width(), height(), recording.depth.data()),
+      normals_(image_of(gl, GL_RGB32F, GL_RGB, width(), height(), recording.normals)),
+      layer_(image_of(gl, GL_RG32F, GL_RG, width(), height(), recording.layer)),
+      gpu_view_(gl, view_) {}
+
+std::vector<float> FrameReplay::draw(const nook::nnao::RecordedPass& settings,
+                                     std::span<const std::byte> network, nook_nnao_view shown) const {
+  nook_nnao_desc desc;
+  succeed(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.max_width = width();
+  desc.max_height = height();
+  desc.taps = settings.taps;
+  desc.half_resolution = settings.half_resolution;
+  desc.blur = settings.blur;
+  desc.blur_sharpness = settings.blur_sharpness;
+  desc.path = NOOK_NNAO_PATH_FRAGMENT;  // both paths give the same bits
+  desc.network = network.empty() ? nullptr : network.data();
+  desc.network_size = network.size();
+  const Pass pass(nook_.get(), desc);
+  nook_nnao_frame_desc frame = frame_of(recording_);
+  frame.depth_texture = depth_.texture();
+  if (normals_) frame.normal_texture = normals_->texture();
+  if (frame.layer != NOOK_NNAO_LAYER_NONE) frame.layer_texture = layer_->texture();
+  frame.view = shown;
+  succeed(nook_nnao_render(pass.handle, &frame));
+  nook_nnao_info info{};
+  info.struct_size = sizeof info;
+  succeed(nook_nnao_describe(pass.handle, &info));
+  return read(info.texture);
+}
+
+std::vector<float> FrameReplay::draw(const BaselineMethod& method) {
+  if (!baselines_) baselines_ = std::make_unique<BaselinePass>(gl_, width(), height());
+  AoRequest request;
+  request.radius = recording_.frame.radius;
+  request.max_radius_px =
+      recording_.frame.max_radius_px > 0 ? recording_.frame.max_radius_px : 0.25f * float(height());
+  request.blur_sharpness = recording_.pass.blur_sharpness;
+  return read(baselines_->draw(method, gpu_view_, request, true));
+}
+
+std::vector<float> FrameReplay::draw(Oracle oracle) {
+  if (!oracle_) oracle_ = std::make_unique<OraclePass>(gl_, width(), height());
+  return read(oracle_->draw(oracle, gpu_view_, recording_.frame.radius));
+}
+
+}  // namespace nook::measure

@@ -1,0 +1,50 @@
+// A recorded frame drawn anew: by the library's pass with the recorded settings or others, by the peers, and
+// by the oracle on the same depth.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bakers/measure/nnao/baseline_pass.h"
+#include "bakers/measure/nnao/network_pass.h"
+#include "bakers/measure/nnao/oracle_pass.h"
+#include "sdk/src/nnao/recording.h"
+
+namespace nook::measure {
+
+// The frame's depth and normals in view space, as the evaluation of views has them.
+bake::nnao::TracedView view_of_frame(const nook::nnao::Recording& recording);
+
+class FrameReplay {
+ public:
+  // The recording must outlive this object.
+  FrameReplay(const GladGLContext& gl, const NookGl& nook, const nook::nnao::Recording& recording);
+
+  // The baselines and the oracle know perspectives alone.
+  bool has_perspective() const { return !view_.camera.rays.orthographic; }
+  const bake::nnao::TracedView& view() const { return view_; }
+
+  // Returns the AO of the library's pass in the pixels of the recording. network empty: the embedded one.
+  std::vector<float> draw(const nook::nnao::RecordedPass& settings, std::span<const std::byte> network,
+                          nook_nnao_view shown) const;
+  std::vector<float> draw(const BaselineMethod& method);
+  std::vector<float> draw(Oracle oracle);
+
+ private:
+  int width() const { return int(recording_.width); }
+  int height() const { return int(recording_.height); }
+  std::vector<float> read(GLuint texture) const { return read_red(gl_, texture, width(), height()); }
+
+  const GladGLContext& gl_;
+  const NookGl& nook_;
+  const nook::nnao::Recording& recording_;
+  bake::nnao::TracedView view_;
+  GpuImage depth_;
+  std::unique_ptr<GpuImage> normals_, layer_;  // null: the frame has none
+  GpuView gpu_view_;                           // of the baselines and the oracle
+  std::unique_ptr<BaselinePass> baselines_;
+  std::unique_ptr<OraclePass> oracle_;
+};
+
+}  // namespace nook::measure
