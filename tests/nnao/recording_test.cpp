@@ -34,7 +34,7 @@ std::vector<std::uint32_t> bits(const Vector<float>& values) {
 ExactPacking round_trip(const Vector<float>& values) {
   ByteWriter out;
   write_exact(out, values);
-  CHECK(out.bytes().size() == 1 + values.size() * packed_bytes(exact_packing(values)));
+  CHECK(out.bytes().size() == 2 + values.size() * exact_packing(values).bytes());
   Vector<float> read;
   read_exact({out.bytes(), "TEST"}, std::uint32_t(values.size()), read);
   CHECK(bits(read) == bits(values));
@@ -80,20 +80,30 @@ struct Lens {
 }  // namespace
 
 TEST_CASE("numbers of few bits are packed, and every number comes back with its bits") {
-  Vector<float> bytes, words, halves, floats;
-  for (int i = 0; i < 256; ++i) bytes.push_back(float(i) / 255);
-  for (int i = 0; i < 65536; i += 7) words.push_back(float(i) / 65535);
+  for (const std::uint32_t bits_of : {8u, 10u, 16u, 24u}) {
+    const std::uint32_t largest = (1u << bits_of) - 1, step = bits_of == 24 ? 401 : 1;
+    Vector<float> divided, multiplied, wide;
+    for (std::uint32_t i = 0; i <= largest; i += step) {
+      divided.push_back(float(i) / float(largest));
+      multiplied.push_back(float(i) * (1.0f / float(largest)));
+      wide.push_back(float(double(i) * (1.0 / double(largest))));
+    }
+    INFO(bits_of);
+    CHECK(round_trip(divided).bits == bits_of);
+    // A product of floats has fewer bits than 24, so that integers run together.
+    CHECK(round_trip(multiplied).bits == (bits_of == 24 ? 32 : bits_of));
+    CHECK(round_trip(wide).bits == bits_of);
+  }
+  Vector<float> halves, floats;
   for (std::uint32_t i = 0; i < 0x7c00; i += 3) halves.push_back(from_half(std::uint16_t(i | (i % 2) << 15)));
   for (int i = 0; i < 100; ++i) floats.push_back(std::sin(float(i)));
-  CHECK(round_trip(bytes) == ExactPacking::unorm8);
-  CHECK(round_trip(words) == ExactPacking::unorm16);
-  CHECK(round_trip(halves) == ExactPacking::half);
-  CHECK(round_trip(floats) == ExactPacking::float32);
-  CHECK(round_trip({0.0f, 1.0f}) == ExactPacking::unorm8);
-  CHECK(round_trip({-0.0f, 1.0f}) == ExactPacking::half);
-  CHECK(round_trip({infinite, -infinite}) == ExactPacking::half);
+  CHECK(round_trip(halves) == packed_as_halves);
+  CHECK(round_trip(floats) == packed_as_floats);
+  CHECK(round_trip({0.0f, 1.0f}).bits == 8);
+  CHECK(round_trip({-0.0f, 1.0f}) == packed_as_halves);
+  CHECK(round_trip({infinite, -infinite}) == packed_as_halves);
   // The payload of a NaN stays.
-  CHECK(round_trip({bit_cast<float>(0x7fc00001u), 0.5f}) == ExactPacking::float32);
+  CHECK(round_trip({bit_cast<float>(0x7fc00001u), 0.5f}) == packed_as_floats);
 }
 
 TEST_CASE("a recorded frame comes back from its file bit for bit") {

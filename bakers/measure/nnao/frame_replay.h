@@ -1,5 +1,5 @@
-// A recorded frame drawn anew: by the library's pass with the recorded settings or others, by the peers, and
-// by the oracle on the same depth.
+// A recorded frame drawn anew: by the library's pass with the recorded settings or others, by the baselines,
+// and by the oracle on the same depth.
 #pragma once
 
 #include <memory>

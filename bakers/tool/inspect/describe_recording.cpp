@@ -17,9 +17,12 @@ std::string version_text(std::uint32_t version) {
          std::to_string(version & 4095);
 }
 
-const char* packing_name(const Vector<float>& image) {
-  constexpr const char* names[] = {"float", "half", "8 bits", "16 bits"};
-  return image.empty() ? "none" : names[std::size_t(nnao::exact_packing(image))];
+std::string packing_name(const Vector<float>& image) {
+  if (image.empty()) return "none";
+  const nnao::ExactPacking packing = nnao::exact_packing(image);
+  if (packing == nnao::packed_as_floats) return "float";
+  if (packing == nnao::packed_as_halves) return "half float";
+  return std::to_string(packing.bits) + " bits";
 }
 
 // The depths of the near and the far plane, null where they follow from nothing or are infinite.

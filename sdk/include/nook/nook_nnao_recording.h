@@ -105,11 +105,11 @@ NOOK_API nook_result nook_nnao_recording_load(nook_context context, const void* 
 NOOK_API void nook_nnao_recording_destroy(nook_nnao_recording* recording);
 
 /* Writes the .nook file of a recording to bytes; the host stores it. *size is the buffer's size before the
- * call and the file's size afterwards. With bytes NULL the call gives only the size. A texel takes up to 4
- * bytes for each of its numbers, and 1 or 2 where these hold all numbers of the image exactly: every number
- * comes back with the same bits. It allocates from the C++ heap.
- * Any thread. Errors: INVALID_ARGUMENT (also, the buffer is too small; *size is then the required size),
- * OUT_OF_MEMORY. */
+ * call and the file's size afterwards. With bytes NULL the call gives only the size. A number of an image
+ * takes 4 bytes, or 1 to 3 where these hold all numbers of the image exactly, as those of depth with 24 bits
+ * or normals with 10: every number comes back with the same bits. It allocates from the C++ heap. Any thread.
+ * Errors: INVALID_ARGUMENT (also, the buffer is too small; *size is then the required size), OUT_OF_MEMORY.
+ */
 NOOK_API nook_result nook_nnao_recording_save(nook_nnao_recording recording, void* bytes, size_t* size);
 
 /* Fills *desc with what the recording holds, so that nook_nnao_recording_create makes an equal one of it. The

@@ -10,20 +10,27 @@
 
 namespace nook::nnao {
 
-enum class ExactPacking : std::uint8_t {
-  float32 = 0,
-  half = 1,
-  unorm8 = 2,   // v = float(u) / 255
-  unorm16 = 3,  // v = float(u) / 65535
+// The way in which a driver turns an integer of a normalised format into a float.
+enum class Normalisation : std::uint8_t {
+  division = 0,      // float(u) / largest
+  product = 1,       // float(u) * (1.0f / largest)
+  wide_product = 2,  // float(double(u) * (1.0 / largest))
 };
-inline constexpr std::uint32_t exact_packing_count = 4;
 
-std::size_t packed_bytes(ExactPacking packing);
+struct ExactPacking {
+  std::uint8_t bits = 32;  // 32: floats; 8, 10, 16, 24: normalised integers; 15: half floats
+  Normalisation normalisation = Normalisation::division;
 
-// The smallest form that holds all values; of two of the same size, the first.
+  // Of one value: 4, 2 for half floats, else those of the bits rounded up.
+  constexpr std::size_t bytes() const { return (std::size_t(bits) + 7) / 8; }
+  bool operator==(const ExactPacking&) const = default;
+};
+inline constexpr ExactPacking packed_as_floats{32}, packed_as_halves{15};
+
+// The smallest form that holds all values.
 ExactPacking exact_packing(std::span<const float> values);
 
-// Writes the packing as one byte, and the values.
+// Writes two bytes, the bits and the normalisation, and the values.
 void write_exact(ByteWriter& out, std::span<const float> values);
 
 // Reads what write_exact wrote, to the end of the section, into `values`, which gets `count` numbers. Throws

@@ -3,7 +3,7 @@
 //         u8: depth kind, clip, layer, view; f32: sky_depth, normal_scale, normal_bias, normal_matrix 9,
 //         projection 16, radius, max_radius_px, intensity, power
 //   PASS  u32 taps; u8: half_resolution, blur, path; f32 blur_sharpness
-//   DPTH  depth, one number for each pixel; u8 packing, then the numbers (exact_packing.h)
+//   DPTH  depth, one number for each pixel; u8 bits, u8 normalisation, then the numbers (exact_packing.h)
 //   NORM  normals, three for each pixel, in the same way; only if there are any
 //   LAYR  the layer, two for each pixel; only if there is one
 //   AOCC  AO, one for each pixel; only if it was made
