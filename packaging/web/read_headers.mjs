@@ -4,7 +4,7 @@
 // node read_headers.mjs INCLUDE_FOLDER OUTPUT_FOLDER
 import { readFileSync, writeFileSync } from "node:fs";
 
-const headers = ["nook", "nook_character", "nook_pose", "nook_vertices", "nook_gl", "nook_nnao", "nook_probe", "nook_gl_probe",
+const headers = ["nook", "nook_character", "nook_pose", "nook_vertices", "nook_gl", "nook_nnao_recording", "nook_nnao", "nook_probe", "nook_gl_probe",
   "nook_material", "nook_gl_material"];
 const [include, output] = process.argv.slice(2);
 const text = headers.map((name) => readFileSync(`${include}/nook/${name}.h`, "utf8")).join("\n")
