@@ -107,6 +107,7 @@ std::vector<ShaderCase> nnao_shaders() {
     add(Stage::fragment, "show_normals.frag", "", defines(half, true, grids[0]), {});
   }
   shaders.push_back(host_shader(lighting, "specular occlusion by a bent normal"));
+  shaders.push_back(tree_shader(Stage::fragment, "shaders/nnao/texel_bits.frag", "texel_bits.frag", "", {}));
   return shaders;
 }
 
