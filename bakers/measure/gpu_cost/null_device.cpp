@@ -51,11 +51,10 @@ VkFormat attribute_format(const std::string& type) {
 }
 
 VkFormat target_format(const std::string& type) {
-  static const std::map<std::string, VkFormat> formats = {{"float", VK_FORMAT_R8_UNORM},
-                                                          {"vec2", VK_FORMAT_R16G16_UNORM},
-                                                          {"vec4", VK_FORMAT_R8G8B8A8_UNORM},
-                                                          {"uint", VK_FORMAT_R32_UINT},
-                                                          {"uvec2", VK_FORMAT_R32G32_UINT}};
+  static const std::map<std::string, VkFormat> formats = {
+      {"float", VK_FORMAT_R8_UNORM},          {"vec2", VK_FORMAT_R16G16_UNORM},
+      {"vec4", VK_FORMAT_R8G8B8A8_UNORM},     {"uint", VK_FORMAT_R32_UINT},
+      {"uvec4", VK_FORMAT_R32G32B32A32_UINT}, {"uvec2", VK_FORMAT_R32G32_UINT}};
   return format_of(formats, type);
 }
 
