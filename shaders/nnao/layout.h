@@ -10,7 +10,10 @@
 #define NOOK_UNIT_AO 2
 #define NOOK_UNIT_FILTERS 2
 #define NOOK_UNIT_LAYER 3
-#define NOOK_UNIT_COUNT 4
+#define NOOK_UNIT_HISTORY_DEPTH 1
+#define NOOK_UNIT_HISTORY 3
+#define NOOK_UNIT_MOTION 4
+#define NOOK_UNIT_COUNT 5
 // Image unit, and the threads of a group along x and y, where the network runs as a compute shader.
 #define NOOK_IMAGE_UNIT 0
 #define NOOK_OCCLUSION_GROUP_SIZE 8
@@ -27,6 +30,13 @@
 #define NOOK_FRAME_SURFACE 8
 #define NOOK_FRAME_NORMAL_MATRIX 9
 #define NOOK_FRAME_VEC4S 12
+
+// vec4 of the uniform array nook_earlier: the rows of the matrix to the earlier frame's view space, then
+// these.
+#define NOOK_EARLIER_RAYS 3
+#define NOOK_EARLIER_SIZE 4
+#define NOOK_EARLIER_MOTION 5
+#define NOOK_EARLIER_VEC4S 6
 
 // The noise of the taps repeats after so many pixels along each axis. The filter averages as many.
 #define NOOK_NOISE_SIZE 3

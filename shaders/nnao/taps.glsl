@@ -6,7 +6,11 @@
 vec2 nook_tap_noise(ivec2 texel) {
   vec2 at = vec2(texel);
   vec2 cell = at - 3.0 * floor((at + 0.5) / 3.0);
-  return (cell.xy * 3.0 + cell.yx + 0.5) / 9.0;
+  vec2 noise = (cell.xy * 3.0 + cell.yx + 0.5) / 9.0;
+#if NOOK_TEMPORAL
+  noise = fract(noise + nook_noise_shift);
+#endif
+  return noise;
 }
 
 // Radians in the view-space x-y plane.

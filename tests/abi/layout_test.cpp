@@ -401,7 +401,7 @@ NOOK_AT(nook_nnao_desc, path, 44);
 NOOK_AT(nook_nnao_desc, network, 48);
 NOOK_AT(nook_nnao_desc, network_size, 56);
 NOOK_AT(nook_nnao_desc, bent_normals, 64);
-NOOK_AT(nook_nnao_desc, reserved, 68);
+NOOK_AT(nook_nnao_desc, temporal_frames, 68);
 
 NOOK_SIZE(nook_nnao_recording_desc, 272);
 NOOK_AT(nook_nnao_recording_desc, struct_size, 0);
@@ -439,7 +439,7 @@ NOOK_AT(nook_nnao_recording_desc, renderer, 248);
 NOOK_AT(nook_nnao_recording_desc, driver_version, 256);
 NOOK_AT(nook_nnao_recording_desc, note, 264);
 
-NOOK_SIZE(nook_nnao_frame_desc, 208);
+NOOK_SIZE(nook_nnao_frame_desc, 272);
 NOOK_AT(nook_nnao_frame_desc, width, 16);
 NOOK_AT(nook_nnao_frame_desc, height, 20);
 NOOK_AT(nook_nnao_frame_desc, viewport, 24);
@@ -462,6 +462,10 @@ NOOK_AT(nook_nnao_frame_desc, target, 192);
 NOOK_AT(nook_nnao_frame_desc, target_name, 196);
 NOOK_AT(nook_nnao_frame_desc, blend, 200);
 NOOK_AT(nook_nnao_frame_desc, view, 204);
+NOOK_AT(nook_nnao_frame_desc, earlier_from_view, 208);
+NOOK_AT(nook_nnao_frame_desc, motion_texture, 256);
+NOOK_AT(nook_nnao_frame_desc, motion_scale, 260);
+NOOK_AT(nook_nnao_frame_desc, reset, 268);
 
 NOOK_SIZE(nook_nnao_info, 40);
 NOOK_AT(nook_nnao_info, texture, 4);

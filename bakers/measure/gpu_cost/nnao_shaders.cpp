@@ -14,7 +14,8 @@ constexpr Grid grids[] = {{9, 3, 3}, {16, 4, 4}, {32, 8, 4}, {64, 8, 8}};
 std::string defines(bool half, bool horizon, const Grid& grid, bool bent = false) {
   return "#define NOOK_HALF " + std::to_string(half) + "\n#define NOOK_HORIZON " + std::to_string(horizon) +
          "\n#define NOOK_DIRECTIONS " + std::to_string(grid.groups) + "\n#define NOOK_STEPS " +
-         std::to_string(grid.steps) + "\n#define NOOK_BENT_NORMALS " + std::to_string(bent) + "\n";
+         std::to_string(grid.steps) + "\n#define NOOK_BENT_NORMALS " + std::to_string(bent) +
+         "\n#define NOOK_TEMPORAL 0\n";
 }
 
 std::vector<Loop> grid_loops(const char* groups, const Grid& grid) {

@@ -84,8 +84,11 @@ typedef struct nook_nnao_desc {
    * NOOK_NNAO_WRITE writes (n + 1) / 2 of the bent normal n into red, green and blue, in view space and of
    * unit length, and AO into alpha. Not with a network of the paper's form. Default 0. */
   int32_t bent_normals;
-  /* 0. */
-  int32_t reserved;
+  /* 2 to 64: the pass keeps a mean of AO over at most so many frames, so that fewer taps suffice and nothing
+   * flickers; 8 is a good start. It follows surfaces by nook_nnao_frame_desc.earlier_from_view and
+   * motion_texture, and begins anew where a surface was not seen before. 0 (default): each frame stands
+   * alone. Not with bent_normals. */
+  int32_t temporal_frames;
 } nook_nnao_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
@@ -111,7 +114,8 @@ NOOK_API nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_p
 
 /* Computes the texture memory of a pass with this descriptor: 7 bytes for each pixel, or 3 at half
  * resolution, which at 3840 x 2160 is 58 MB and 25 MB. A blur of 2 at full resolution takes 2 more bytes.
- * With bent normals it is 12 bytes or 7, 100 MB and 58 MB, and 4 more with a blur of 2 at full resolution. A
+ * With bent normals it is 12 bytes or 7, 100 MB and 58 MB, and 4 more with a blur of 2 at full resolution.
+ * temporal_frames take 12 more bytes, or 3 at half resolution. A
  * network of the paper's form takes 4 more bytes for each pixel, or 1, and its filters 62 kB. The call makes
  * no OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION. */
@@ -188,7 +192,7 @@ typedef int32_t nook_nnao_blend;
 enum {
   /* The result. */
   NOOK_NNAO_VIEW_AO = 0,
-  /* The AO of the network, without filter, intensity, power and layer. */
+  /* The AO of the network for this frame, without filter, intensity, power and layer. */
   NOOK_NNAO_VIEW_RAW = 1,
   /* The AO after the filter, without intensity, power and layer. */
   NOOK_NNAO_VIEW_BLURRED = 2,
@@ -255,6 +259,20 @@ typedef struct nook_nnao_frame_desc {
   nook_nnao_blend blend;
   /* Default NOOK_NNAO_VIEW_AO. */
   nook_nnao_view view;
+  /* The fields below are for passes with temporal_frames; others do not read them. The earlier frame is the
+   * last one that this pass rendered. Three rows of four: from the view space of this frame to that of the
+   * earlier frame, which is the earlier view matrix times the inverse of this one. The identity by default: a
+   * camera that does not move. */
+  float earlier_from_view[12];
+  /* Red and green times motion_scale are the pixels by which the surface moved since the earlier frame, to
+   * the right and up: its position in this frame less that in the earlier one, with the camera's motion. A 2D
+   * texture of width x height in floats or normalised integers. 0 (default): nothing but the camera moves. */
+  uint32_t motion_texture;
+  /* 1, 1 by default: motion in pixels. Motion in texture coordinates needs width, height. */
+  float motion_scale[2];
+  /* 1: a cut: nothing of earlier frames is used. Changes of the viewport's size and of the kind of projection
+   * are cuts as well. Default 0. */
+  int32_t reset;
 } nook_nnao_frame_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
@@ -315,7 +333,7 @@ typedef struct nook_nnao_timings {
   int32_t valid;
   /* Linear depth, and the normals of the paper's form. */
   float normals;
-  /* The network, edges, and reading or reconstructing normals. */
+  /* The network, edges, reading or reconstructing normals, and the mean over frames. */
   float occlusion;
   /* The filter at half resolution; at full resolution it is a part of resolve. */
   float blur;

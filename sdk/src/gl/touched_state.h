@@ -41,9 +41,9 @@ enum : unsigned {
   X(texture_unit_0, characters | probes,                                                                     \
     "GL_TEXTURE_BINDING_BUFFER of unit 0; on OpenGL ES GL_TEXTURE_BINDING_2D",                               \
     "shadows at key points, texels of probes and lights; default 0")                                         \
-  X(texture_2d, screen | outputs, "GL_TEXTURE_BINDING_2D of units 0 to 3",                                   \
+  X(texture_2d, screen | outputs, "GL_TEXTURE_BINDING_2D of units 0 to 4",                                   \
     "inputs of the stages; default 0")                                                                       \
-  X(samplers, screen, "GL_SAMPLER_BINDING of units 0 to 3",                                                  \
+  X(samplers, screen, "GL_SAMPLER_BINDING of units 0 to 4",                                                  \
     "so that no parameter of a texture counts; default 0")                                                   \
   X(filter_texture, screen, "GL_TEXTURE_BINDING_BUFFER of unit 2, not on OpenGL ES",                         \
     "filters of the paper's network; default 0")                                                             \

@@ -16,6 +16,13 @@ struct TapNoise {
   float rotation = 0.5f, offset = 0.5f;
 };
 
+// The shift of the noise of a frame: the first two numbers of M. Roberts' sequence R2, so that a mean over
+// frames has more directions and distances.
+inline TapNoise frame_noise_step(std::uint32_t frame) {
+  constexpr double rotation = 0.7548776662466927, offset = 0.5698402909980532;
+  return {float(std::fmod(rotation * frame, 1.0)), float(std::fmod(offset * frame, 1.0))};
+}
+
 constexpr TapNoise tap_noise_of_rank(std::uint32_t rank) {
   constexpr std::uint32_t size = NOOK_NOISE_SIZE, count = NOOK_NOISE_COUNT;
   const std::uint32_t reversed = rank % size * size + rank / size;

@@ -64,6 +64,8 @@ nook_nnao_frame_desc default_frame() {
   frame.normal_scale = 1;
   frame.normal_matrix[0] = frame.normal_matrix[4] = frame.normal_matrix[8] = 1;
   frame.intensity = frame.power = 1;
+  frame.earlier_from_view[0] = frame.earlier_from_view[5] = frame.earlier_from_view[10] = 1;
+  frame.motion_scale[0] = frame.motion_scale[1] = 1;
   return frame;
 }
 constexpr std::size_t first_frame = offsetof(nook_nnao_frame_desc, view) + sizeof(nook_nnao_view);
@@ -98,6 +100,13 @@ nook_nnao_desc checked(const nook_nnao_desc* given) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.path is unknown (got %d, need 0 to %d)", desc.path,
                   NOOK_NNAO_PATH_COMPUTE);
   check_switch("bent_normals", desc.bent_normals);
+  if (desc.temporal_frames != 0 && (desc.temporal_frames < 2 || desc.temporal_frames > 64))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.temporal_frames is out of range (got %d, need 0, or 2 to 64)", desc.temporal_frames);
+  if (desc.temporal_frames != 0 && desc.bent_normals)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.temporal_frames does not go with desc.bent_normals (got %d and 1); use one of them",
+                  desc.temporal_frames);
   if (!desc.network && desc.network_size != 0)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,

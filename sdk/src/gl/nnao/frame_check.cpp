@@ -77,6 +77,16 @@ void check_normals(const nook_nnao_frame_desc& frame) {
   nnao::check_normal_matrix(frame.normal_matrix);
 }
 
+// Of a pass over several frames.
+void check_motion(const nook_nnao_frame_desc& frame) {
+  for (const float number : frame.earlier_from_view)
+    check_range("earlier_from_view", number, true, "twelve finite numbers");
+  for (const float scale : frame.motion_scale) check_range("motion_scale", scale, true, "finite numbers");
+  if (frame.reset != 0 && frame.reset != 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.reset is neither on nor off (got %d, need 0 or 1)",
+                  frame.reset);
+}
+
 }  // namespace
 
 void check_frame(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
@@ -84,6 +94,7 @@ void check_frame(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) 
   check_kinds(frame);
   check_numbers(frame);
   check_normals(frame);
+  if (pass.temporal_frames) check_motion(frame);
   nnao::check_projection(frame.projection, nnao::DepthKind(frame.depth_kind));
 }
 

@@ -25,7 +25,8 @@ Viewport viewport_of(const nook_nnao_frame_desc& frame) {
   return {v[0], v[1], v[2], v[3]};
 }
 
-FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
+FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass,
+                               std::uint32_t count) {
   FrameConstants constants;
   const auto set = [&](int row, float x, float y, float z, float w) {
     const std::array values{x, y, z, w};
@@ -65,8 +66,10 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
       float(viewport.height));
   set(NOOK_FRAME_SURFACE, float(surface_width - 1), float(surface_height - 1), float(surface_width),
       float(surface_height));
+  const nnao::TapNoise shift = nnao::frame_noise_step(count);
+  const float last[] = {shift.rotation, shift.offset, 0};
   for (int column = 0; column < 3; ++column)
-    set(NOOK_FRAME_NORMAL_MATRIX + column, n[3 * column], n[3 * column + 1], n[3 * column + 2], 0);
+    set(NOOK_FRAME_NORMAL_MATRIX + column, n[3 * column], n[3 * column + 1], n[3 * column + 2], last[column]);
   return constants;
 }
 

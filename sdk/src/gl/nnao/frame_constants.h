@@ -4,6 +4,7 @@
 #include <nook/nook_nnao.h>
 
 #include <array>
+#include <cstdint>
 
 #include "shaders/nnao/layout.h"
 
@@ -25,7 +26,9 @@ struct FrameConstants {
   std::array<float, NOOK_FRAME_VEC4S * 4> values{};
 };
 
-// The frame must have passed check_frame.
-FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass);
+// The frame must have passed check_frame. count: the frames that the pass has drawn, which turns the noise of
+// the taps of passes with temporal_frames.
+FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass,
+                               std::uint32_t count);
 
 }  // namespace nook::gl

@@ -55,6 +55,16 @@ nnao::RecordedFrame settings_of(const nook_nnao_frame_desc& frame) {
   return recorded;
 }
 
+// AO is in red, or in alpha beside bent normals.
+Vector<float> ao_of(TexelReader& reader, const NnaoPass& pass, const nook_nnao_desc& made_with,
+                    const Viewport& viewport) {
+  if (!made_with.bent_normals) return reader.read(pass.ao_texture(), viewport, 1);
+  Vector<float> texels = reader.read(pass.ao_texture(), viewport, 4);
+  for (std::size_t i = 0; 4 * i < texels.size(); ++i) texels[i] = texels[4 * i + 3];
+  texels.resize(texels.size() / 4);
+  return texels;
+}
+
 }  // namespace
 
 nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_desc& made_with,
@@ -69,7 +79,7 @@ nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_des
   recording.depth = reader.read(frame.depth_texture, viewport, 1);
   if (frame.normal_texture) recording.normals = reader.read(frame.normal_texture, viewport, 3);
   if (frame.layer != NOOK_NNAO_LAYER_NONE) recording.layer = reader.read(frame.layer_texture, viewport, 2);
-  recording.ao = reader.read(pass.ao_texture(), viewport, 1);
+  recording.ao = ao_of(reader, pass, made_with, viewport);
   // AO has 8 bits; some drivers divide by 255 inexactly.
   for (float& ao : recording.ao) ao = std::round(255 * std::clamp(ao, 0.0f, 1.0f)) / 255;
   recording.width = std::uint32_t(viewport.width);

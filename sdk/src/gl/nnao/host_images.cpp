@@ -98,6 +98,13 @@ void check_layer(const Functions& gl, nook_nnao_layer layer) {
     refuse_format(gl, "layer_texture", "red and green for NOOK_NNAO_LAYER_REPLACE");
 }
 
+void check_motion(const Functions& gl) {
+  if (!gl.can.texture_sizes) return;
+  for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE})
+    if (!is_float_or_normalised(level_value(gl, channel)))
+      refuse_format(gl, "motion_texture", "red and green in floats or normalised integers");
+}
+
 void check_complete(const Functions& gl, const HostImages& images) {
   const GLenum status = gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
@@ -115,7 +122,8 @@ void check_apart(const HostImages& images, std::uint32_t target, const char* tar
     const char* field;
   } inputs[] = {{images.depth, "depth_texture"},
                 {images.normal, "normal_texture"},
-                {images.layer_texture, "layer_texture"}};
+                {images.layer_texture, "layer_texture"},
+                {images.motion, "motion_texture"}};
   for (const auto& input : inputs)
     if (input.name != 0 && input.name == target)
       throw Failure(
@@ -168,7 +176,7 @@ void check_target_texture(const Device& device, const HostImages& images, std::u
 
 }  // namespace
 
-HostImages images_of(const nook_nnao_frame_desc& frame) {
+HostImages images_of(const nook_nnao_frame_desc& frame, bool temporal) {
   HostImages images;
   images.width = frame.width;
   images.height = frame.height;
@@ -179,6 +187,7 @@ HostImages images_of(const nook_nnao_frame_desc& frame) {
   images.normal = frame.normal_texture;
   if (frame.layer != NOOK_NNAO_LAYER_NONE) images.layer_texture = frame.layer_texture;
   if (frame.target != NOOK_NNAO_TARGET_OWN) images.target_name = frame.target_name;
+  if (temporal) images.motion = frame.motion_texture;
   return images;
 }
 
@@ -194,6 +203,10 @@ void check_images(const Device& device, const HostImages& images, std::uint32_t 
   if (images.layer_texture) {
     bind_checked(device, images, images.layer_texture, "layer_texture");
     check_layer(gl, images.layer);
+  }
+  if (images.motion) {
+    bind_checked(device, images, images.motion, "motion_texture");
+    check_motion(gl);
   }
   if (images.target == NOOK_NNAO_TARGET_TEXTURE) check_target_texture(device, images, own_texture);
   if (images.target == NOOK_NNAO_TARGET_FRAMEBUFFER) check_framebuffer(device, images);

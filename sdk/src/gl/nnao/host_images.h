@@ -13,11 +13,12 @@ struct HostImages {
   nook_nnao_depth_kind depth_kind = 0;
   nook_nnao_layer layer = 0;
   nook_nnao_target target = 0;
-  std::uint32_t depth = 0, normal = 0, layer_texture = 0, target_name = 0;
+  std::uint32_t depth = 0, normal = 0, layer_texture = 0, motion = 0, target_name = 0;
 
   bool operator==(const HostImages&) const = default;
 };
-HostImages images_of(const nook_nnao_frame_desc& frame);
+// temporal: whether the pass reads motion.
+HostImages images_of(const nook_nnao_frame_desc& frame, bool temporal);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless every image exists and has a suitable size and format,
 // and no input is the target. own_texture is that of the pass. Binds 2D textures to unit 0 and the draw

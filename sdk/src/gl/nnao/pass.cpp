@@ -17,7 +17,7 @@ constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE
 }  // namespace
 
 void NnaoPass::check(const nook_nnao_frame_desc& frame) {
-  const HostImages images = images_of(frame);
+  const HostImages images = images_of(frame, temporal());
   if (checked_ == images) return;
   checked_.reset();
   check_images(device_, images, own_.texture());
@@ -75,6 +75,21 @@ void NnaoPass::run_network(const FrameConstants& constants, const Viewport& surf
   gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
+GLuint NnaoPass::accumulate(const nook_nnao_frame_desc& frame, const FrameConstants& constants,
+                            const Viewport& surface) {
+  const std::size_t now = turn(), before = 1 - now;
+  const HistoryConstants values = history_constants(frame, desc_, constants, earlier_);
+  bind_texture(NOOK_UNIT_AO, ao_[0].texture());
+  bind_texture(NOOK_UNIT_HISTORY, history_[before].texture());
+  bind_texture(NOOK_UNIT_HISTORY_DEPTH, depth_[before].texture());
+  bind_texture(NOOK_UNIT_MOTION, frame.motion_texture);
+  device_.gl.UseProgram(accumulate_stage_.program.name());
+  device_.gl.Uniform4fv(earlier_location_, NOOK_EARLIER_VEC4S, values.data());
+  draw(accumulate_stage_, constants, history_[now].framebuffer(), surface);
+  earlier_ = {earlier_.count + 1, true, constants, surface.width, surface.height};
+  return history_[now].texture();
+}
+
 void NnaoPass::draw_output(const Stage& stage, const nook_nnao_frame_desc& frame,
                            const FrameConstants& constants) {
   const Functions& gl = device_.gl;
@@ -97,7 +112,8 @@ void NnaoPass::draw_output(const Stage& stage, const nook_nnao_frame_desc& frame
 void NnaoPass::render(const nook_nnao_frame_desc& frame) {
   check(frame);
   const Functions& gl = device_.gl;
-  const FrameConstants constants = frame_constants(frame, desc_);
+  const FrameConstants constants = frame_constants(frame, desc_, earlier_.count);
+  const RenderTexture& depth = depth_[turn()];
   const Viewport viewport = viewport_of(frame);
   const Viewport surface{0, 0, surface_length(viewport.width, half()),
                          surface_length(viewport.height, half())};
@@ -108,10 +124,11 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
   for (GLuint unit = 0; unit < texture_unit_count; ++unit) gl.BindSampler(unit, sampler_.name());
 
   // No texture that a stage draws into stays bound.
-  for (const GLuint unit : {NOOK_UNIT_DEPTH, NOOK_UNIT_AO, NOOK_UNIT_LAYER}) bind_texture(unit, 0);
+  for (const GLuint unit : {NOOK_UNIT_DEPTH, NOOK_UNIT_AO, NOOK_UNIT_LAYER, NOOK_UNIT_MOTION})
+    bind_texture(unit, 0);
   bind_texture(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
-  draw(depth_stage_, constants, depth_.framebuffer(), surface);
-  bind_texture(NOOK_UNIT_DEPTH, depth_.texture());
+  draw(depth_stage_, constants, depth.framebuffer(), surface);
+  bind_texture(NOOK_UNIT_DEPTH, depth.texture());
   bind_texture(NOOK_UNIT_NORMAL, frame.normal_texture);
   if (normals_stage_.program.name() != 0) {
     draw(normals_stage_, constants, normals_.framebuffer(), surface);
@@ -129,9 +146,10 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
     return;
   }
   run_network(constants, surface);
+  const GLuint mean = temporal() ? accumulate(frame, constants, surface) : ao_[0].texture();
   end_stage();
   bind_texture(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
-  bind_texture(NOOK_UNIT_AO, ao_[0].texture());
+  bind_texture(NOOK_UNIT_AO, frame.view == NOOK_NNAO_VIEW_RAW ? ao_[0].texture() : mean);
   bind_texture(NOOK_UNIT_LAYER, layered ? frame.layer_texture : 0);
   for (int pass = 0; pass < drawn_filters(desc_); ++pass) {
     draw(filter_stage_, constants, ao_[(pass + 1) % 2].framebuffer(), surface);

@@ -1,9 +1,11 @@
 // The screen-space pass on the GPU: linear depth, the network, the filter, and the output.
 //
 // The network's stage, AO, is a draw or a dispatch; the other stages are draws.
-//   full resolution  host depth -> depth -> AO and edges -> [filter ->] filter and resolve
-//   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> filter [-> filter] ->
+//   full resolution  host depth -> depth -> AO and edges -> [mean ->] [filter ->] filter and resolve
+//   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> [mean ->] filter [->
+//   filter] ->
 //                    upsample and resolve
+// The mean over frames belongs to passes with temporal_frames.
 // The paper's form reads the normals of its taps: a stage between depth and AO writes them.
 #pragma once
 
@@ -12,6 +14,7 @@
 #include <optional>
 
 #include "sdk/src/gl/nnao/frame_constants.h"
+#include "sdk/src/gl/nnao/history_constants.h"
 #include "sdk/src/gl/nnao/host_images.h"
 #include "sdk/src/gl/nnao/render_texture.h"
 #include "sdk/src/gl/nnao/stage_timer.h"
@@ -57,12 +60,18 @@ class NnaoPass {
   void upload_filters(const nnao::Network& network);
 
   void check(const nook_nnao_frame_desc& frame);
+  bool temporal() const { return desc_.temporal_frames != 0; }
+  // The one of two textures that the present frame writes.
+  std::size_t turn() const { return temporal() ? earlier_.count % 2 : 0; }
   bool half() const { return desc_.half_resolution != 0; }
   void bind_texture(GLuint unit, GLuint texture) const;
   void set_frame(const Stage& stage, const FrameConstants& constants) const;
   void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
             const Viewport& viewport) const;
   void run_network(const FrameConstants& constants, const Viewport& surface) const;
+  // Blends the frame with those before it, and returns the texture of the mean.
+  GLuint accumulate(const nook_nnao_frame_desc& frame, const FrameConstants& constants,
+                    const Viewport& surface);
   void draw_output(const Stage& stage, const nook_nnao_frame_desc& frame, const FrameConstants& constants);
   void end_stage() {
     if (timer_) timer_->end_stage();
@@ -72,15 +81,19 @@ class NnaoPass {
   nook_nnao_desc desc_;  // without network and next
   nook_nnao_path path_;
   // The stage of normals belongs to the paper's form, that of the filter where it is a draw.
-  Stage depth_stage_, normals_stage_, occlusion_stage_, filter_stage_, resolve_stage_, layered_stage_,
-      show_normals_stage_;
-  RenderTexture depth_, normals_;  // of the surface
-  RenderTexture ao_[2];            // of the surface; the second where the filter is a draw
+  Stage depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_, filter_stage_, resolve_stage_,
+      layered_stage_, show_normals_stage_;
+  GLint earlier_location_ = -1;  // of accumulate_stage_
+  RenderTexture depth_[2];       // of the surface; two for means over frames, which use them in turns
+  RenderTexture normals_;        // of the surface
+  RenderTexture history_[2];     // means over frames, in turns
+  RenderTexture ao_[2];          // of the surface; the second where the filter is a draw
   RenderTexture own_;
   Object sampler_, vertex_array_, target_framebuffer_;
   TexelTable filters_;  // of the paper's form
   std::optional<StageTimer> timer_;
   std::optional<HostImages> checked_;
+  EarlierFrame earlier_;
 };
 
 }  // namespace nook::gl

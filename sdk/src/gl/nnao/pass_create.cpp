@@ -20,7 +20,7 @@ struct TexturePlan {
 
 // The textures of a pass. Those without a width are not made.
 struct PassPlan {
-  TexturePlan depth, normals, ao[2], own;
+  TexturePlan depth[2], normals, ao[2], history[2], own;
 };
 
 // The formats in which a context draws normals and AO.
@@ -48,10 +48,14 @@ PassPlan plan_of(const nook_nnao_desc& desc, nnao::NetworkForm form, const PassF
   const bool half = desc.half_resolution != 0, paper = form == nnao::NetworkForm::paper,
              filtered = drawn_filters(desc) > 0;
   const int width = surface_length(desc.max_width, half), height = surface_length(desc.max_height, half);
-  return {{TextureFormat::depth, width, height, "nook: linear depth"},
+  const int temporal_width = desc.temporal_frames ? width : 0;
+  return {{{TextureFormat::depth, width, height, "nook: linear depth"},
+           {TextureFormat::depth, temporal_width, height, "nook: linear depth of the frame before"}},
           {formats.normal, paper ? width : 0, height, "nook: normals"},
           {{formats.ao, width, height, "nook: AO of the surface"},
            {formats.ao, filtered ? width : 0, height, "nook: filtered AO of the surface"}},
+          {{TextureFormat::ao_image, temporal_width, height, "nook: mean AO over frames"},
+           {TextureFormat::ao_image, temporal_width, height, "nook: mean AO over the frames before"}},
           {formats.own, desc.max_width, desc.max_height, "nook: screen-space AO"}};
 }
 
@@ -64,7 +68,8 @@ const char* screen_ao_glsl() {
 std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form) {
   const PassPlan plan = plan_of(desc, form, formats_of(desc));
   std::uint64_t bytes = 0;
-  for (const TexturePlan& texture : {plan.depth, plan.normals, plan.ao[0], plan.ao[1], plan.own})
+  for (const TexturePlan& texture : {plan.depth[0], plan.depth[1], plan.normals, plan.ao[0], plan.ao[1],
+                                     plan.history[0], plan.history[1], plan.own})
     bytes += std::uint64_t(texture.width) * std::uint64_t(texture.height) * bytes_per_texel(texture.format);
   return bytes;
 }
@@ -115,7 +120,10 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
                   {"nook_normal", NOOK_UNIT_NORMAL},
                   {"nook_ao", NOOK_UNIT_AO},
                   {"nook_filters", NOOK_UNIT_FILTERS},
-                  {"nook_layer", NOOK_UNIT_LAYER}};
+                  {"nook_layer", NOOK_UNIT_LAYER},
+                  {"nook_history", NOOK_UNIT_HISTORY},
+                  {"nook_history_depth", NOOK_UNIT_HISTORY_DEPTH},
+                  {"nook_motion", NOOK_UNIT_MOTION}};
   // Where a stage has no such sampler the location is -1, which OpenGL ignores.
   for (const auto& sampler : samplers)
     gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
@@ -125,12 +133,12 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
 void NnaoPass::make_programs(const nnao::Network& network) {
   const bool horizon = network.form == nnao::NetworkForm::horizon;
   const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
-  char defines[160], layered[200];
+  char defines[200], layered[240];
   std::snprintf(
       defines, sizeof defines,
       "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_DIRECTIONS %u\n#define NOOK_STEPS %u\n"
-      "#define NOOK_BENT_NORMALS %d\n",
-      half(), horizon, grid.directions, grid.steps, desc_.bent_normals);
+      "#define NOOK_BENT_NORMALS %d\n#define NOOK_TEMPORAL %d\n",
+      half(), horizon, grid.directions, grid.steps, desc_.bent_normals, temporal());
   std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
   const auto drawn = [&](const char* path, const char* text) {
     return make_stage(draw_program(device_, "nnao/screen.vert", path, text));
@@ -140,6 +148,10 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   occlusion_stage_ = path_ == NOOK_NNAO_PATH_COMPUTE
                          ? make_stage(compute_program(device_, "nnao/occlusion.comp", defines))
                          : drawn("nnao/occlusion.frag", defines);
+  if (temporal()) {
+    accumulate_stage_ = drawn("nnao/accumulate.frag", defines);
+    earlier_location_ = uniform_location(device_, accumulate_stage_.program, "nook_earlier");
+  }
   if (drawn_filters(desc_) > 0) filter_stage_ = drawn("nnao/filter.frag", defines);
   resolve_stage_ = drawn("nnao/resolve.frag", defines);
   layered_stage_ = drawn("nnao/resolve.frag", layered);
@@ -159,7 +171,10 @@ void NnaoPass::make_textures(nnao::NetworkForm form) {
     if (planned.width > 0)
       texture = RenderTexture(device_, planned.format, planned.width, planned.height, planned.label);
   };
-  make(depth_, plan.depth);
+  for (int i = 0; i < 2; ++i) {
+    make(depth_[i], plan.depth[i]);
+    make(history_[i], plan.history[i]);
+  }
   make(normals_, plan.normals);
   make(ao_[0], plan.ao[0]);
   make(ao_[1], plan.ao[1]);

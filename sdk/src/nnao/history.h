@@ -1,0 +1,42 @@
+// The mean of AO over frames, one pixel at a time. This is the reference of the tests of the OpenGL pass; the
+// stage is shaders/nnao/accumulate.frag.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "sdk/src/nnao/evaluate.h"
+
+namespace nook::nnao {
+
+// What an earlier frame left: its depths and, for each of its pixels, a mean of AO and the frames in it.
+struct History {
+  std::uint32_t width = 0, height = 0;
+  ScreenRays rays;
+  std::span<const float> depth;   // metres, not finite for the sky
+  std::span<const float> ao;      // means
+  std::span<const float> frames;  // 0: none
+  Mat3x4 earlier_from_view;       // from the view space of the present frame to that of the earlier one
+};
+
+// The present frame.
+struct PresentAo {
+  View view;
+  std::span<const float> ao;            // before the filter
+  std::span<const std::uint8_t> edges;  // packed_edges
+  std::span<const float> motion;        // two numbers for each pixel, in pixels; empty: none
+  float tolerance = 0.03f;              // metres; nook_nnao_desc: radius / blur_sharpness
+};
+
+// Returns the noise of a pixel in a frame, see frame_noise_step.
+TapNoise noise_of_frame(TapNoise noise, std::uint32_t frame);
+
+struct MeanAo {
+  float ao = 1, frames = 0;
+};
+// Returns the mean of a pixel with at most max_frames frames.
+MeanAo accumulated(const PresentAo& present, const History& history, std::uint32_t x, std::uint32_t y,
+                   std::uint32_t max_frames);
+
+}  // namespace nook::nnao
