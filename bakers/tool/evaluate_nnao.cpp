@@ -346,8 +346,10 @@ Json tune(const Options& options) {
 }
 
 Json replay(const Options& options) {
+  const Networks networks = read_networks(options);
   const auto context = make_context();
-  return evaluate_frames(*context, {options.frames, options.methods, options.images, options.common.quiet});
+  return evaluate_frames(
+      *context, {options.frames, options.methods, networks.file, options.images, options.common.quiet});
 }
 
 void run(Options& options) {
@@ -356,6 +358,10 @@ void run(Options& options) {
   if (works != 1)
     throw ToolError(exit_bad_arguments,
                     "evaluate nnao: need scenes (files, --views or --thin), or --frame, or else --tune");
+  if (!options.frames.empty() &&
+      (!options.markdown.empty() || !options.scenes.cameras.empty() || !options.scenes.radii.empty()))
+    throw ToolError(exit_bad_arguments,
+                    "evaluate nnao: --frame: --markdown, --camera and --radius are of scenes alone");
   if (!options.views.empty() && !options.scenes.files.empty())
     throw ToolError(exit_bad_arguments, "evaluate nnao: --views: its scenes take the place of files");
   options.truth.seed = options.common.seed;

@@ -82,27 +82,31 @@ std::vector<std::string> frame_method_names() {
 }
 
 std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& recording,
-                                    const MethodFilter& methods,
+                                    const MethodFilter& methods, std::span<const std::byte> other_network,
                                     const std::function<bool(std::size_t, std::size_t)>& progress) {
   const nook::nnao::RecordedNetwork network = nook::nnao::recorded_network(recording);
   const bool own_network = network.readable && !network.embedded;
   const auto shown = nook_nnao_view(recording.frame.view);
   std::vector<Job> jobs;
-  const auto add_library = [&](const std::string& name, const RecordedPass& settings, bool with_recorded) {
+  // file: of the network; empty: the embedded one.
+  const auto add_library = [&](const std::string& name, const RecordedPass& settings,
+                               std::span<const std::byte> file, const char* named) {
     if (!methods.empty() && !is_wanted(methods, name, settings.taps)) return;
-    const std::span<const std::byte> file =
-        with_recorded ? std::span<const std::byte>(recording.network) : std::span<const std::byte>();
     FrameRow row;
     row.method = name;
     row.pass = settings;
     row.is_library = true;
-    row.network = with_recorded ? "recorded" : "embedded";
+    row.network = named;
     jobs.push_back({std::move(row), [=, &replay] { return replay.draw(settings, file, shown); },
                     [=, &replay] { return replay.draw(settings, file, NOOK_NNAO_VIEW_BLURRED); }});
   };
-  add_library(replayed_name, recording.pass, own_network);
+  if (own_network)
+    add_library(replayed_name, recording.pass, recording.network, "recorded");
+  else
+    add_library(replayed_name, recording.pass, {}, "embedded");
+  if (!other_network.empty()) add_library(file_name, recording.pass, other_network, "file");
   for (const Preset& preset : presets)
-    add_library(preset.name, settings_of(preset.preset, recording.pass.blur_sharpness), false);
+    add_library(preset.name, settings_of(preset.preset, recording.pass.blur_sharpness), {}, "embedded");
   std::vector<std::pair<Oracle, FrameRow>> oracles;
   if (replay.has_perspective()) {
     for (const BaselineMethod& method : baseline_methods())

@@ -10,7 +10,8 @@
 
 namespace nook::measure {
 
-inline constexpr char recorded_name[] = "recorded", replayed_name[] = "replayed";
+inline constexpr char recorded_name[] = "recorded", replayed_name[] = "replayed",
+                      file_name[] = "nnao_file";  // the recorded settings with another network
 
 // An image of AO against another one, over all pixels, both rounded to 8 bits.
 struct AoDifference {
@@ -24,7 +25,7 @@ struct FrameRow {
   std::string method;
   nook::nnao::RecordedPass pass;  // of the library's pass; taps alone for the others
   bool is_library = false;        // drawn by the library's pass
-  std::string network;            // of the library's pass: recorded or embedded
+  std::string network;            // of the library's pass: recorded, embedded or file
   std::vector<float> ao;          // with the frame's intensity, power, layer and view
   // None of the recorded row itself, and of baselines and oracles where the recorded AO has a layer,
   // intensity or power, which they have not.
@@ -39,11 +40,11 @@ using MethodFilter = std::vector<std::string>;
 // The names that a filter can have besides those of the baselines and the oracles.
 std::vector<std::string> frame_method_names();
 
-// progress counts methods; false stops, which throws Failure(CANCELLED). The order of the rows: recorded,
-// replayed, the presets, the baselines, the oracles. A frame without a perspective has no baseline and no
-// oracle.
+// other_network: the file of a network that is measured as well; empty: none. progress counts methods; false
+// stops, which throws Failure(CANCELLED). The order of the rows: recorded, replayed, nnao_file, the presets,
+// the baselines, the oracles. A frame without a perspective has no baseline and no oracle.
 std::vector<FrameRow> compare_frame(FrameReplay& replay, const nook::nnao::Recording& recording,
-                                    const MethodFilter& methods,
+                                    const MethodFilter& methods, std::span<const std::byte> other_network,
                                     const std::function<bool(std::size_t, std::size_t)>& progress);
 
 }  // namespace nook::measure

@@ -68,8 +68,8 @@ Json evaluate_frames(platform::Context& context, const FrameWords& words) {
     warn_about_network(name, recording);
     naming_file(file, [&] {
       FrameReplay replay(context.gl(), nook, recording);
-      const std::vector<FrameRow> drawn =
-          compare_frame(replay, recording, words.methods, [&](std::size_t done, std::size_t total) {
+      const std::vector<FrameRow> drawn = compare_frame(
+          replay, recording, words.methods, words.network, [&](std::size_t done, std::size_t total) {
             bar.show("replaying " + name, "methods", done, total);
             return !interrupted();
           });

@@ -13,6 +13,7 @@ namespace nook::tool {
 struct FrameWords {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> methods;  // NAME or NAME:TAPS; empty: the library's rows and the oracle
+  std::vector<std::byte> network;    // a file of `nook train nnao`, measured as well; empty: none
   std::filesystem::path images;      // empty: no pictures
   bool quiet = false;
 };

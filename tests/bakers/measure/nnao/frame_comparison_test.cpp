@@ -10,6 +10,7 @@
 #include "sdk/src/nnao/recording_file.h"
 #include "tests/bakers/measure/nnao/small_scenes.h"
 #include "tests/catch.h"
+#include "tests/nnao/network_sample.h"
 
 using namespace nook;
 using namespace nook::measure;
@@ -98,14 +99,14 @@ TEST_CASE("a frame replays to its recorded AO, and its errors are those against 
   const nook::nnao::Recording read = nook::nnao::read_recording(nook::nnao::write_recording(recording));
   FrameReplay replay(context->gl(), nook, read);
   REQUIRE(replay.has_perspective());
-  const std::vector<FrameRow> rows = compare_frame(replay, read, {}, go_on);
+  const std::vector<FrameRow> rows = compare_frame(replay, read, {}, {}, go_on);
   std::vector<std::string> names;
   for (const FrameRow& row : rows) names.push_back(row.method);
   CHECK(names == std::vector<std::string>{"recorded", "replayed", "fast", "default", "best", "oracle"});
   const FrameRow& replayed = row_of(rows, "replayed");
   CHECK(replayed.from_recorded.value().largest == 0);
   CHECK(replayed.network == "embedded");
-  // The recorded settings are those of best, with another number of the same filter's runs.
+  // The recorded settings are those of best.
   CHECK(row_of(rows, "best").from_recorded.value().largest == 0);
   CHECK(row_of(rows, "fast").from_recorded.value().largest > 0.02);
   CHECK(std::abs(row_of(rows, "recorded").oracle_mse.value() - replayed.oracle_mse.value()) < 1e-6);
@@ -133,14 +134,32 @@ TEST_CASE("a frame replays to its recorded AO, and its errors are those against 
   CHECK((sheet.width == 3 * width + 8 && sheet.height == 3 * height + 8));
 }
 
+TEST_CASE("a frame keeps its network, and another one is measured beside it") {
+  const auto context = make_context();
+  const NookGl nook(*context);
+  nook::nnao::Recording recording = host_frame();
+  const auto own = nook::nnao::write_network(sample_network(nook::nnao::NetworkForm::horizon, 1));
+  const auto other = nook::nnao::write_network(sample_network(nook::nnao::NetworkForm::horizon, 2));
+  recording.network.assign(own.begin(), own.end());
+  FrameReplay replay(context->gl(), nook, recording);
+  const auto rows = compare_frame(replay, recording, {"replayed", "nnao_file", "default"}, other, go_on);
+  REQUIRE(rows.size() == 3);
+  CHECK((rows[0].network == "recorded" && rows[1].network == "file" && rows[2].network == "embedded"));
+  // Each is that of its own network.
+  CHECK(difference_of(rows[0].ao, replay.draw(recording.pass, own, NOOK_NNAO_VIEW_AO)).largest == 0);
+  CHECK(difference_of(rows[1].ao, replay.draw(recording.pass, other, NOOK_NNAO_VIEW_AO)).largest == 0);
+  CHECK(difference_of(rows[2].ao, replay.draw(recording.pass, {}, NOOK_NNAO_VIEW_AO)).largest == 0);
+  CHECK(difference_of(rows[0].ao, rows[1].ao).largest > 0.01);
+}
+
 TEST_CASE("a frame with intensity is compared with the oracle without it") {
   const auto context = make_context();
   const NookGl nook(*context);
   nook::nnao::Recording plain = host_frame(), strong = host_frame();
   strong.frame.intensity = 2;
   FrameReplay plain_replay(context->gl(), nook, plain), strong_replay(context->gl(), nook, strong);
-  const auto of_plain = compare_frame(plain_replay, plain, {"replayed", "oracle", "hbao:16"}, go_on);
-  const auto of_strong = compare_frame(strong_replay, strong, {"replayed", "oracle", "hbao:16"}, go_on);
+  const auto of_plain = compare_frame(plain_replay, plain, {"replayed", "oracle", "hbao:16"}, {}, go_on);
+  const auto of_strong = compare_frame(strong_replay, strong, {"replayed", "oracle", "hbao:16"}, {}, go_on);
   REQUIRE(of_plain.size() == 3);
   for (std::size_t i = 0; i < 3; ++i)
     CHECK(std::abs(of_plain[i].oracle_mse.value() - of_strong[i].oracle_mse.value()) < 1e-9);
@@ -156,10 +175,10 @@ TEST_CASE("a frame without a perspective has no oracle, and a run can be stopped
   std::ranges::copy(parallel, recording.frame.projection);
   FrameReplay replay(context->gl(), nook, recording);
   CHECK(!replay.has_perspective());
-  const auto rows = compare_frame(replay, recording, {"all"}, go_on);
+  const auto rows = compare_frame(replay, recording, {"all"}, {}, go_on);
   REQUIRE(rows.size() == 4);
   CHECK(!rows[0].oracle_mse.has_value());
-  CHECK_THROWS_AS(compare_frame(replay, recording, {}, [](std::size_t, std::size_t) { return false; }),
+  CHECK_THROWS_AS(compare_frame(replay, recording, {}, {}, [](std::size_t, std::size_t) { return false; }),
                   Failure);
 }
 
