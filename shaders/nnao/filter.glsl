@@ -36,7 +36,7 @@ void nook_add_corner(inout nook_filter_sum sum, vec4 centre, vec4 texel, float h
 vec4 nook_filtered(ivec2 texel, ivec2 last) {
   ivec2 low = max(texel - 1, ivec2(0)), high = min(texel + 1, last);
   vec4 centre = texelFetch(nook_ao, texel, 0);
-  vec4 edges = nook_edges_of(nook_edge_bits(centre.g));
+  vec4 edges = nook_filter_strength * nook_edges_of(nook_edge_bits(centre.g));
   nook_filter_sum sum = nook_filter_sum(centre.r, 1.0, centre.ba);
   nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(low.x, texel.y), 0), edges.x / 3.0);
   nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(high.x, texel.y), 0), edges.y / 3.0);

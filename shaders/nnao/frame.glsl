@@ -29,6 +29,7 @@ uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_normal_matrix mat3(nook_frame[NOOK_FRAME_NORMAL_MATRIX].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].xyz)
 
 #define nook_noise_shift vec2(nook_frame[NOOK_FRAME_NORMAL_MATRIX].w, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].w)  // of this frame
+#define nook_filter_strength nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].w  // 1, or 0: the filter leaves every texel as it is
 
 // The depth where there is no surface: sky and far plane. Its square is still a float.
 const float nook_no_surface = 1.0e15;

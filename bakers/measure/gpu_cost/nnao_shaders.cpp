@@ -103,6 +103,7 @@ std::vector<ShaderCase> nnao_shaders() {
     for (const bool with : {false, true})
       for (const char* file : {"filter.frag", "resolve.frag"})
         add(Stage::fragment, file, with ? bent : "", defines(half, true, grids[0], with), {});
+    add(Stage::fragment, "accumulate.frag", "", defines(half, true, grids[0]), {});
     add(Stage::fragment, "resolve.frag", ", layered",
         defines(half, true, grids[0]) + "#define NOOK_LAYERED 1\n", {});
     add(Stage::fragment, "show_normals.frag", "", defines(half, true, grids[0]), {});

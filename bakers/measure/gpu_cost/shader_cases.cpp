@@ -74,6 +74,11 @@ std::vector<PassCase> all_passes() {
     for (const std::string taps : {"9", "16", "32"})
       passes.push_back(
           nnao("NNAO " + taps + bent_normals, "occlusion.frag, " + taps, half, false, bent_normals));
+  for (const bool half : {false, true}) {
+    PassCase mean = nnao("NNAO 9, mean over frames", "occlusion.frag, 9", half);
+    mean.shaders.push_back({half ? "accumulate.frag, half" : "accumulate.frag", half ? quarter : 1});
+    passes.push_back(mean);
+  }
   for (const std::string taps : {"9", "16"}) {
     PassCase twice = nnao("NNAO " + taps + ", filtered twice", "occlusion.frag, " + taps, false);
     twice.shaders.push_back({"filter.frag", 1});

@@ -37,8 +37,6 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
     set(row, rays.x_scale, rays.x_offset + 0.5f * rays.x_scale, rays.y_scale,
         rays.y_offset + 0.5f * rays.y_scale);
   };
-  // With this range sharpness the filter averages equal values alone, which changes nothing.
-  constexpr float no_range = 1e9f;
   const bool filters = pass.blur && frame.view != NOOK_NNAO_VIEW_RAW;
   const bool half = pass.half_resolution != 0, strengthened = frame.view == NOOK_NNAO_VIEW_AO;
   const Viewport viewport = viewport_of(frame);
@@ -57,7 +55,7 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
   set(NOOK_FRAME_FAR, decode.far_stored, decode.far_sign, nnao::min_surface_depth(perspective),
       pass.bent_normals && frame.blend == NOOK_NNAO_WRITE);
   set(NOOK_FRAME_SPREAD, perspective, !perspective, pass.blur_sharpness / frame.radius,
-      filters ? nnao::filter_range_sharpness(std::uint32_t(pass.taps)) : no_range);
+      nnao::filter_range_sharpness(std::uint32_t(pass.taps)));
   set(NOOK_FRAME_RADIUS, frame.radius, std::max(half ? 0.5f * max_radius_px : max_radius_px, 1.0f),
       strengthened ? frame.intensity : 1, strengthened ? frame.power : 1);
   set(NOOK_FRAME_NORMAL, frame.normal_scale, frame.normal_bias, frame.normal_texture != 0,
@@ -67,7 +65,7 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
   set(NOOK_FRAME_SURFACE, float(surface_width - 1), float(surface_height - 1), float(surface_width),
       float(surface_height));
   const nnao::TapNoise shift = nnao::frame_noise_step(count);
-  const float last[] = {shift.rotation, shift.offset, 0};
+  const float last[] = {shift.rotation, shift.offset, float(filters)};
   for (int column = 0; column < 3; ++column)
     set(NOOK_FRAME_NORMAL_MATRIX + column, n[3 * column], n[3 * column + 1], n[3 * column + 2], last[column]);
   return constants;
