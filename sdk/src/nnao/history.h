@@ -10,7 +10,7 @@
 
 namespace nook::nnao {
 
-// What an earlier frame left: its depths and, for each of its pixels, a mean of AO and the frames in it.
+// The remains of an earlier frame: its depths and, for each of its pixels, a mean of AO and the frames in it.
 struct History {
   std::uint32_t width = 0, height = 0;
   ScreenRays rays;

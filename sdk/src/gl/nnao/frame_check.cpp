@@ -77,7 +77,7 @@ void check_normals(const nook_nnao_frame_desc& frame) {
   nnao::check_normal_matrix(frame.normal_matrix);
 }
 
-// Of a pass over several frames.
+// The numbers of a pass over several frames.
 void check_motion(const nook_nnao_frame_desc& frame) {
   for (const float number : frame.earlier_from_view)
     check_range("earlier_from_view", number, true, "twelve finite numbers");
