@@ -155,6 +155,39 @@ TEST_CASE("a model comes back from its file within the steps of its codes") {
   }
 }
 
+TEST_CASE("world casters come back from a file within the steps of their codes, in few bytes") {
+  CharacterModel model = test::sample_model(3, {40, 60, 90, 700, 200, 8});
+  const std::size_t without = write_character_model(model).size();
+  CHECK(quantise(model).world_casters.empty());
+  test::Numbers numbers(8);
+  test::add_world_casters(model, numbers);
+  while (model.world_casters.size() < CharacterModel::max_world_casters)
+    model.world_casters.push_back(model.world_casters[model.world_casters.size() % 40]);
+  model.world_casters.resize(CharacterModel::max_world_casters);
+  CHECK(write_character_model(model).size() - without <= 2048);
+  const CharacterModel read = quantise(model);
+  REQUIRE(read.world_casters.size() == model.world_casters.size());
+  for (std::size_t i = 0; i < read.world_casters.size(); ++i) {
+    const WorldCaster &got = read.world_casters[i], &want = model.world_casters[i];
+    // Half a step of 1.4 m / 16383, on three axes; of 0.07 m / 4095; of 0.5 / 255.
+    CHECK(length(got.capsule.a - want.capsule.a) < 8e-5f);
+    CHECK(length(got.capsule.b - want.capsule.b) < 8e-5f);
+    CHECK(std::abs(got.capsule.radius_a - want.capsule.radius_a) < 1e-5f);
+    CHECK(std::abs(got.capsule.radius_b - want.capsule.radius_b) < 1e-5f);
+    CHECK(std::abs(got.ao_scale - want.ao_scale) < 1.1e-3f);
+    CHECK(got.bone == want.bone);
+  }
+  CHECK(write_character_model(read) == write_character_model(quantise(read)));
+  model.world_casters.push_back(model.world_casters.front());
+  CHECK_THROWS_AS(write_character_model(model), Failure);
+  model.world_casters.pop_back();
+  model.world_casters[3].bone = 40;
+  CHECK_THROWS_AS(write_character_model(model), Failure);
+  model.world_casters[3].bone = 0;
+  model.world_casters[5].capsule.radius_b = 0;
+  CHECK_THROWS_AS(write_character_model(model), Failure);
+}
+
 TEST_CASE("quantising twice changes nothing more") {
   const CharacterModel once = quantise(test::sample_model(5));
   CHECK(write_character_model(once) == write_character_model(quantise(once)));

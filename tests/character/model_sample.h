@@ -73,6 +73,20 @@ inline void add_bind_data(CharacterModel& model, Numbers& numbers) {
   }
 }
 
+// Capsules and spheres, one or two for each bone.
+inline void add_world_casters(CharacterModel& model, Numbers& numbers) {
+  for (std::size_t b = 0; b < model.bone_count(); ++b)
+    for (std::size_t i = 0; i < 1 + b % 2; ++i) {
+      WorldCaster& caster = model.world_casters.emplace_back();
+      caster.bone = static_cast<std::uint16_t>(b);
+      caster.capsule.a = numbers.place(0.5f);
+      caster.capsule.b = i == 0 ? caster.capsule.a + numbers.place(0.2f) : caster.capsule.a;
+      caster.capsule.radius_a = numbers.between(0.03f, 0.1f);
+      caster.capsule.radius_b = numbers.between(0.03f, 0.1f);
+      caster.ao_scale = numbers.between(0.6f, 1.1f);
+    }
+}
+
 // Spheres, key points and weights at random in a box of a metre; `repeats` file vertices are second copies.
 inline CharacterModel sample_model(std::uint32_t seed = 1, SampleSize size = {}) {
   Numbers numbers(seed);

@@ -14,6 +14,8 @@ std::vector<Seed> seeds() {
   level.offset = {0, 0.01f, 0, -0.01f, 0.02f, 0};
   level.error_rms = 0.02f;
   levels.levels.push_back(level);
+  Numbers numbers(5);
+  add_world_casters(levels, numbers);
   CharacterModel paper = sample_model(4, {2, 3, 5, 9, 1, 2});
   paper.kernel.form = KernelForm(1);
   paper.kernel.gamma = 2;

@@ -9,6 +9,7 @@
 
 #include "sdk/src/character/bind_data.h"
 #include "sdk/src/character/kernel.h"
+#include "sdk/src/core/capsule.h"
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
 
@@ -22,6 +23,16 @@ struct ProxySphere {
   // The share of the sphere's form factor that counts when it darkens another instance, >= 0. It is fitted at
   // bake time against ray tracing, so that overlapping spheres of one character do not darken twice.
   float caster_weight = 1;
+};
+
+// A capsule that is rigid to one bone. The casters of a body together stand for its volume where it darkens
+// what is not its own.
+struct WorldCaster {
+  Capsule capsule;  // as it hides a light
+  std::uint16_t bone = 0;
+  // The radii in AO over those of the capsule. AO multiplies what casters leave open, as if they covered the
+  // hemisphere independently, so that casters which overlap must count as thinner.
+  float ao_scale = 1;
 };
 
 // A point that follows up to four bones by linear blend skinning; the blended normal is renormalised.
@@ -81,6 +92,7 @@ struct CharacterModel {
         file_to_welded(memory),
         primitives(memory),
         levels(memory),
+        world_casters(memory),
         bind(memory),
         rest(memory),
         recipe(memory) {}
@@ -110,6 +122,9 @@ struct CharacterModel {
 
   static constexpr std::size_t max_levels = 4;
   Vector<CharacterLevel> levels;  // from fine to coarse, without full detail; may be empty
+
+  static constexpr std::size_t max_world_casters = 64;
+  Vector<WorldCaster> world_casters;  // may be empty: the model was baked without
 
   float bounding_radius = 0;  // metres, of the rest pose around bounding_centre
   Vec3 bounding_centre;

@@ -137,6 +137,21 @@ void check_level(const CharacterModel& model, const CharacterLevel& level, const
   check.that(within(level.error_rms, 0, max_coefficient), "error of level", 0, level.error_rms, "0 to 1e4");
 }
 
+void check_world_casters(const CharacterModel& model, const Check& check) {
+  check.count("world casters", model.world_casters.size(), 0, CharacterModel::max_world_casters);
+  for (std::size_t i = 0; i < model.world_casters.size(); ++i) {
+    const WorldCaster& caster = model.world_casters[i];
+    check.place("first end of world caster", i, caster.capsule.a);
+    check.place("second end of world caster", i, caster.capsule.b);
+    for (const float radius : {caster.capsule.radius_a, caster.capsule.radius_b})
+      check.that(radius > 0 && radius <= max_metres, "radius of world caster", i, radius, "more than 0");
+    check.that(caster.ao_scale > 0 && caster.ao_scale <= max_coefficient, "AO scale of world caster", i,
+               caster.ao_scale, "more than 0");
+    check.that(caster.bone < model.bone_count(), "bone of world caster", i, caster.bone,
+               "less than the number of bones");
+  }
+}
+
 void check_file_order(const CharacterModel& model, const Check& check) {
   for (std::size_t i = 0; i < model.file_to_welded.size(); ++i)
     check.that(model.file_to_welded[i] < model.vertex_count(), "welded vertex of file vertex", i,
@@ -246,6 +261,7 @@ void check_model(const CharacterModel& model, nook_result code) {
   check_file_order(model, check);
   check_bind_data(model, check);
   check_rest_surface(model, check);
+  check_world_casters(model, check);
   check.count("levels of detail", model.levels.size(), 0, CharacterModel::max_levels);
   for (const CharacterLevel& level : model.levels) check_level(model, level, check);
 }

@@ -31,6 +31,9 @@ struct CharacterBits {
   static constexpr int blend = 5;
   static constexpr int level_scale = 8;
   static constexpr int level_offset = 8;
+  static constexpr int world_caster_end = 14;  // 0.1 mm in 2 m
+  static constexpr int world_caster_radius = 12;
+  static constexpr int world_caster_scale = 8;
   static constexpr int rest_position = 16;
   static constexpr int rest_normal = 7;  // the error is within 2 degrees
 };

@@ -300,6 +300,27 @@ void read_rest_surface(ByteReader in, CharacterModel& model) {
   in.check_end();
 }
 
+void read_world_casters(ByteReader in, CharacterModel& model) {
+  const int bone_bits = index_bits(model.bone_count());
+  const std::uint32_t count = in.varint();
+  const Box box = read_box(in, max_box_metres);
+  const Range radius = read_range(in, max_box_metres);
+  const Range scale = read_range(in, max_coefficient);
+  in.check_count(count, 6 * Bits::world_caster_end + 2 * Bits::world_caster_radius + Bits::world_caster_scale,
+                 "world casters");
+  model.world_casters.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    WorldCaster& caster = model.world_casters.emplace_back();
+    caster.capsule.a = read_point(in, box, Bits::world_caster_end);
+    caster.capsule.b = read_point(in, box, Bits::world_caster_end);
+    caster.capsule.radius_a = radius.decode(in.bits(Bits::world_caster_radius), Bits::world_caster_radius);
+    caster.capsule.radius_b = radius.decode(in.bits(Bits::world_caster_radius), Bits::world_caster_radius);
+    caster.ao_scale = scale.decode(in.bits(Bits::world_caster_scale), Bits::world_caster_scale);
+    caster.bone = static_cast<std::uint16_t>(in.bits(bone_bits));
+  }
+  in.check_end();
+}
+
 }  // namespace
 
 CharacterModel read_character_model(std::span<const std::byte> bytes, Memory* memory) {
@@ -318,6 +339,7 @@ CharacterModel read_character_model(std::span<const std::byte> bytes, Memory* me
   if (file.has("LODS")) read_levels(file.section("LODS"), model);
   if (file.has("BIND")) read_bind_data(file.section("BIND"), model);
   if (file.has("REST")) read_rest_surface(file.section("REST"), model);
+  if (file.has("WCAS")) read_world_casters(file.section("WCAS"), model);
   ByteReader recipe = file.section("RECP");
   model.recipe = recipe.text(recipe.remaining());
   check_model(model, NOOK_ERROR_BAD_FILE);

@@ -309,6 +309,34 @@ ByteWriter write_rest_surface(const RestSurface& rest) {
   return out;
 }
 
+ByteWriter write_world_casters(const CharacterModel& model) {
+  const Capsule& first = model.world_casters.front().capsule;
+  Box box = Box::around(first.a);
+  Range radius{first.radius_a, first.radius_a};
+  Range scale{model.world_casters.front().ao_scale, model.world_casters.front().ao_scale};
+  for (const WorldCaster& caster : model.world_casters) {
+    box.include(caster.capsule.a);
+    box.include(caster.capsule.b);
+    radius.include(caster.capsule.radius_a);
+    radius.include(caster.capsule.radius_b);
+    scale.include(caster.ao_scale);
+  }
+  ByteWriter out;
+  out.varint(static_cast<std::uint32_t>(model.world_casters.size()));
+  write_box(out, box);
+  write_range(out, radius);
+  write_range(out, scale);
+  for (const WorldCaster& caster : model.world_casters) {
+    write_point(out, box, caster.capsule.a, Bits::world_caster_end);
+    write_point(out, box, caster.capsule.b, Bits::world_caster_end);
+    out.bits(radius.encode(caster.capsule.radius_a, Bits::world_caster_radius), Bits::world_caster_radius);
+    out.bits(radius.encode(caster.capsule.radius_b, Bits::world_caster_radius), Bits::world_caster_radius);
+    out.bits(scale.encode(caster.ao_scale, Bits::world_caster_scale), Bits::world_caster_scale);
+    out.bits(caster.bone, index_bits(model.bone_count()));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::byte> write_character_model(const CharacterModel& model) {
@@ -335,6 +363,7 @@ std::vector<std::byte> write_character_model(const CharacterModel& model) {
   }
   if (!model.bind.empty()) add("BIND", write_bind_data(model));
   if (!model.rest.position.empty()) add("REST", write_rest_surface(model.rest));
+  if (!model.world_casters.empty()) add("WCAS", write_world_casters(model));
   ByteWriter recipe;
   recipe.text(model.recipe);
   add("RECP", recipe);

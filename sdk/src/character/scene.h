@@ -14,6 +14,7 @@
 #include "sdk/src/character/neighbours.h"
 #include "sdk/src/character/pose_source.h"
 #include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/capsule.h"
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/parallel.h"
 
@@ -105,8 +106,18 @@ struct InstanceResult {
   std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
 };
 
+// The world casters of an instance in its pose (world_casters.h).
+struct InstanceCasters {
+  explicit InstanceCasters(Memory* memory) : posed(memory) {}
+
+  Vector<PosedCaster> posed;  // one for each of the model, which may have none
+  Sphere bound;               // holds all of them
+  float strength = 0;  // square metres; the AO that they take at the distance d is at most strength / d^2
+  std::uint64_t posed_revision = 0;  // InstanceInput::pose_revision of the above; 0: never posed
+};
+
 struct Instance {
-  explicit Instance(Memory* memory) : input(memory), plan(memory) {}
+  explicit Instance(Memory* memory) : input(memory), plan(memory), casters(memory) {}
 
   nook_instance_id id = 0;       // 0: this slot is free, and everything below but `generation` is empty
   std::uint32_t generation = 0;  // how often the slot was used before, part of the id
@@ -116,6 +127,7 @@ struct Instance {
   InstancePlan plan;
   InstanceResult result;
   InstanceLight light;
+  InstanceCasters casters;
 };
 
 struct Occluder {

@@ -175,6 +175,7 @@ nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model) {
   added.input.bones.resize(model->model.bone_count());
   if (scene.converted.size() < added.input.bones.size()) scene.converted.resize(added.input.bones.size());
   added.result.arrays = make_instance_arrays(*model, scene.memory);
+  added.casters.posed.resize(model->model.world_casters.size());
   added.plan.casters.reserve(scene.nearest);
   added.plan.occluders.reserve(scene.occluders.size());
   added.model = std::move(model);
@@ -239,8 +240,11 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
                   model->model.bone_count(), instance.input.bones.size());
   InstanceArrays arrays = make_instance_arrays(*model, scene.memory);
   InstanceLight light = moved_light(instance.light, arrays.points, scene.memory);
+  InstanceCasters casters(scene.memory);
+  casters.posed.resize(model->model.world_casters.size());
   instance.result.arrays = std::move(arrays);
   instance.light = std::move(light);
+  instance.casters = std::move(casters);
   instance.model = std::move(model);
   float longest_squared = 0;
   for (const Mat3x4& bone : instance.input.bones)

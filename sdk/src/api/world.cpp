@@ -1,0 +1,106 @@
+// The C functions of nook_world.h.
+#include <nook/nook_world.h>
+
+#include <cmath>
+
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/handles.h"
+#include "sdk/src/api/world_casting.h"
+#include "sdk/src/core/descriptors.h"
+#include "sdk/src/world/sample.h"
+
+using namespace nook;
+
+static_assert(NOOK_WORLD_MAX_CASTERS == CharacterModel::max_world_casters);
+static_assert(NOOK_WORLD_CONE_PARTS == world::cone_parts);
+
+namespace {
+
+constexpr std::size_t first_sample_desc = offsetof(nook_world_sample_desc, light_degrees) + sizeof(float);
+
+nook_world_sample_desc default_sample_desc() {
+  nook_world_sample_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.header_version = NOOK_VERSION;
+  return desc;
+}
+
+world::SampleRequest request_of(const nook_world_sample_desc& desc, float cutoff_error) {
+  if (desc.point_count > 0) {
+    need(desc.positions, "desc.positions");
+    need(desc.normals, "desc.normals");
+  }
+  if (desc.stride % sizeof(float) != 0 || (desc.stride != 0 && desc.stride < 3 * sizeof(float)))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.stride is out of range (got %u, need 0 or a multiple of 4 from 12 on)", desc.stride);
+  api::check_props("desc", desc.props, desc.prop_count);
+  world::SampleRequest request;
+  request.positions = desc.positions;
+  request.normals = desc.normals;
+  request.count = desc.point_count;
+  if (desc.stride) request.stride = desc.stride / sizeof(float);
+  request.cutoff_error = cutoff_error;
+  if (desc.light_degrees == 0) return request;
+  if (!(desc.light_degrees > 0 && desc.light_degrees < 179))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.light_degrees is out of range (got %g, need 0, or more than 0 and less than 179)",
+                  double(desc.light_degrees));
+  const Vec3 axis = api::vector_of(desc.light_axis);
+  if (!(std::abs(length(axis) - 1) <= 1e-3f))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.light_axis is not of unit length (got %g, need 1 to 0.001)", double(length(axis)));
+  request.has_light = true;
+  request.light_axis = normalised(axis);
+  request.light_half_angle_radians = 0.5f * desc.light_degrees * 0.0174532925f;
+  return request;
+}
+
+}  // namespace
+
+nook_result nook_world_read_casters(nook_character_model model, nook_world_caster* out, uint32_t* count) {
+  return api::enter("nook_world_read_casters", [&] {
+    need(model, "model");
+    need(count, "count");
+    const auto& casters = model->model.world_casters;
+    const std::uint32_t room = *count, own = static_cast<std::uint32_t>(casters.size());
+    *count = own;
+    if (own == 0)
+      throw Failure(NOOK_ERROR_UNSUPPORTED,
+                    "the model has no world casters, because it was baked without; bake the character again");
+    if (!out) return;
+    if (room < own)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "*count is too small (got %u, need %u)", room, own);
+    for (const WorldCaster& caster : casters) {
+      const Capsule& c = caster.capsule;
+      *out++ = {{{c.a.x, c.a.y, c.a.z}, c.radius_a, {c.b.x, c.b.y, c.b.z}, c.radius_b},
+                caster.bone,
+                caster.ao_scale};
+    }
+  });
+}
+
+nook_result nook_world_sample_desc_init(nook_world_sample_desc* desc, size_t size, uint32_t header_version) {
+  return api::enter("nook_world_sample_desc_init", [&] {
+    init_descriptor(desc, size, header_version, first_sample_desc, default_sample_desc());
+  });
+}
+
+nook_result nook_world_sample(nook_scene scene, const nook_world_sample_desc* desc, float* ao, float* light) {
+  return api::enter("nook_world_sample", [&] {
+    const nook_world_sample_desc given =
+        read_descriptor(desc, "nook_world_sample_desc_init", first_sample_desc, default_sample_desc());
+    if (light && given.light_degrees == 0)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "light is not NULL, but desc.light_degrees is 0; give the light's full angle");
+    const world::SampleRequest request = request_of(given, scene ? scene->scene.settings.cutoff_error : 0);
+    if (given.receiver) {
+      if (!scene) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.receiver is given without a scene");
+      instance_of(scene->scene, given.receiver);
+    }
+    const api::Casting casting(scene ? &scene->scene : nullptr, given.receiver, given.props,
+                               given.prop_count);
+    const Isa isa = scene ? scene->scene.kernels->isa : choose_isa(NOOK_ISA_AUTO);
+    world::sample(*world::world_kernels(isa), scene ? scene->scene.parallel : Parallel{}, request,
+                  {casting.group_count(), &casting, api::Casting::group}, ao, light);
+  });
+}

@@ -1,0 +1,97 @@
+#include "sdk/src/api/world_casting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sdk/src/character/world_casters.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
+
+namespace nook::api {
+namespace {
+
+PosedCaster caster_of(const nook_world_capsule& prop) {
+  return {{vector_of(prop.a), vector_of(prop.b), prop.radius_a, prop.radius_b}, 1};
+}
+
+world::CasterGroup lone(const PosedCaster& caster, PosedCaster& room) {
+  room = caster;
+  const Capsule& c = room.capsule;
+  return {
+      {&room, 1}, 0.5f * (c.a + c.b), 0.5f * length(c.b - c.a) + std::max(c.radius_a, c.radius_b), INFINITY};
+}
+
+template <class Objects>
+std::uint32_t size_of(const Objects& objects) {
+  return static_cast<std::uint32_t>(objects.size());
+}
+
+}  // namespace
+
+void check_props(const char* descriptor, const nook_world_capsule* props, std::uint32_t count) {
+  if (count > 0 && !props)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.props is NULL with %s.prop_count %u", descriptor,
+                  descriptor, count);
+  constexpr std::uint32_t largest = 1u << 20;
+  if (count > largest)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.prop_count is too large (got %u, need at most %u)",
+                  descriptor, count, largest);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (const auto& end : {props[i].a, props[i].b})
+      if (!is_place({end[0], end[1], end[2]}))
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "%s.props[%u] has an end out of range (got %g %g %g, need finite metres below 1e6)",
+                      descriptor, i, double(end[0]), double(end[1]), double(end[2]));
+    for (const float radius : {props[i].radius_a, props[i].radius_b})
+      if (!(radius > 0 && radius <= max_metres))
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "%s.props[%u] has a radius out of range (got %g, need metres above 0)", descriptor, i,
+                      double(radius));
+  }
+}
+
+Casting::Casting(Scene* scene, nook_instance_id receiver, const nook_world_capsule* props,
+                 std::uint32_t prop_count)
+    : scene_(scene), receiver_(receiver), props_(props), prop_count_(prop_count) {
+  if (!scene) return;
+  for (Instance& instance : scene->instances)
+    if (instance.id) pose_world_casters(instance);
+}
+
+std::uint32_t Casting::group_count() const {
+  return (scene_ ? size_of(scene_->instances) + size_of(scene_->occluders) : 0) + prop_count_;
+}
+
+std::uint32_t Casting::caster_count() const {
+  std::uint32_t count = prop_count_;
+  if (!scene_) return count;
+  for (const Instance& instance : scene_->instances)
+    if (casts(instance)) count += size_of(instance.casters.posed);
+  for (const Occluder& occluder : scene_->occluders) count += casts(occluder);
+  return count;
+}
+
+world::CasterGroup Casting::group(const void* user, std::uint32_t index, PosedCaster& room) {
+  const Casting& casting = *static_cast<const Casting*>(user);
+  if (const Scene* const scene = casting.scene_) {
+    if (index < scene->instances.size()) {
+      const Instance& instance = scene->instances[index];
+      if (!casting.casts(instance)) return {};
+      const InstanceCasters& casters = instance.casters;
+      return {{casters.posed.data(), casters.posed.size()},
+              casters.bound.centre,
+              casters.bound.radius,
+              casters.strength};
+    }
+    index -= size_of(scene->instances);
+    if (index < scene->occluders.size()) {
+      const Occluder& occluder = scene->occluders[index];
+      if (!casting.casts(occluder)) return {};
+      return lone(nook::caster_of(occluder.sphere), room);
+    }
+    index -= size_of(scene->occluders);
+  }
+  return lone(caster_of(casting.props_[index]), room);
+}
+
+}  // namespace nook::api

@@ -1,0 +1,43 @@
+// What casts in a call: the bodies and occluders of a scene, and the host's props.
+#pragma once
+
+#include <nook/nook_world.h>
+
+#include "sdk/src/character/scene.h"
+#include "sdk/src/world/sample.h"
+
+namespace nook::api {
+
+inline Vec3 vector_of(const float (&v)[3]) {
+  return {v[0], v[1], v[2]};
+}
+
+// Throws Failure unless every prop is a capsule; the message begins with the descriptor's name.
+void check_props(const char* descriptor, const nook_world_capsule* props, std::uint32_t count);
+
+class Casting {
+ public:
+  // Poses the casters of the scene's instances. scene may be NULL. receiver: the instance that does not cast,
+  // or 0.
+  Casting(Scene* scene, nook_instance_id receiver, const nook_world_capsule* props, std::uint32_t prop_count);
+
+  // Bodies by slot, then occluders by slot, then props; a free slot is a group without casters.
+  std::uint32_t group_count() const;
+  // Of all groups.
+  std::uint32_t caster_count() const;
+  // user: a Casting. The strength of an occluder or a prop is infinite, so that it is never left out.
+  static world::CasterGroup group(const void* user, std::uint32_t index, PosedCaster& room);
+
+ private:
+  bool casts(const Instance& instance) const { return instance.id != 0 && instance.id != receiver_; }
+  bool casts(const Occluder& occluder) const {
+    return occluder.id != 0 && (occluder.receiver == 0 || occluder.receiver == receiver_);
+  }
+
+  const Scene* scene_;
+  nook_instance_id receiver_;
+  const nook_world_capsule* props_;
+  std::uint32_t prop_count_;
+};
+
+}  // namespace nook::api

@@ -1,0 +1,36 @@
+// What casters leave open at many points, as a table of plain functions, one table for each instruction set.
+// Arrays of points belong to the caller and are padded to a multiple of simd_width; padding holds finite
+// numbers. None allocates, locks or throws.
+#pragma once
+
+#include <cstdint>
+
+#include "sdk/src/core/capsule.h"
+#include "sdk/src/core/isa.h"
+#include "sdk/src/world/cone.h"
+
+namespace nook::world {
+
+// World space, metres; normals of unit length.
+struct PointSoa {
+  const float *x = nullptr, *y = nullptr, *z = nullptr;
+  const float *nx = nullptr, *ny = nullptr, *nz = nullptr;
+  std::uint32_t padded_count = 0;
+};
+
+struct WorldKernels {
+  Isa isa = Isa::scalar;
+  const char* name = nullptr;
+
+  // open[i] *= the product over the casters of 1 - coverage.
+  void (*open_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
+                          float* open);
+  // The same for one part of a cone: 1 - part_coverage.
+  void (*open_part)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points, Vec3 axis,
+                    float slope, float* open);
+};
+
+// The table of one instruction set; NULL where the processor or the build lacks it.
+const WorldKernels* world_kernels(Isa isa);
+
+}  // namespace nook::world

@@ -1,0 +1,28 @@
+// Constants of the formulas that sdk/src/world (coverage.h, cone.h) and these shaders share; the headers
+// describe them. C++ and GLSL both include this file.
+#ifndef NOOK_WORLD_CONSTANTS_H
+#define NOOK_WORLD_CONSTANTS_H
+
+// The arc cosine within 7e-5: Abramowitz and Stegun 4.4.45.
+#define NOOK_ARC_0 1.5707288
+#define NOOK_ARC_1 -0.2121144
+#define NOOK_ARC_2 0.0742610
+#define NOOK_ARC_3 -0.0187293
+
+// The squared sine of the angle between the ends of a capsule below which they count as one place.
+#define NOOK_SMALLEST_SPREAD 1e-6
+// The largest sine of an end's angular radius, just below that of a surface that is touched.
+#define NOOK_LARGEST_SINE 0.9999
+
+// What the horizon cuts off, w1 (1 - t^2) + w2 (1 - t^2)^2 with w = b (c0 + b (c1 + b c2)).
+#define NOOK_HORIZON_10 1.09177
+#define NOOK_HORIZON_11 -1.52723
+#define NOOK_HORIZON_12 0.68546
+#define NOOK_HORIZON_20 -0.49913
+#define NOOK_HORIZON_21 1.05297
+#define NOOK_HORIZON_22 -0.51604
+
+// The equal parts of a cone of light.
+#define NOOK_CONE_PARTS 16
+
+#endif

@@ -1,0 +1,34 @@
+/* Every function of nook_world.h, called from C; returns the number of failed expectations and prints each.
+ */
+#include <nook/nook_world.h>
+#include <stdio.h>
+
+int nook_world_call_everything(nook_character_model model, nook_scene scene);
+
+static int failures;
+static void expect(int condition, const char* what, int line) {
+  if (condition) return;
+  ++failures;
+  printf("world_calls.c:%d: %s: %s\n", line, what, nook_last_message());
+}
+#define EXPECT(condition) expect((condition), #condition, __LINE__)
+
+int nook_world_call_everything(nook_character_model model, nook_scene scene) {
+  nook_world_caster casters[NOOK_WORLD_MAX_CASTERS];
+  uint32_t count = NOOK_WORLD_MAX_CASTERS;
+  nook_world_sample_desc desc;
+  const float position[3] = {0, -1, 0}, normal[3] = {0, 1, 0};
+  float ao = -1, light = -1;
+  failures = 0;
+  EXPECT(nook_world_read_casters(model, casters, &count) == NOOK_OK);
+  EXPECT(count > 0 && casters[0].ao_scale > 0);
+  EXPECT(nook_world_sample_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  desc.positions = position;
+  desc.normals = normal;
+  desc.point_count = 1;
+  desc.light_axis[1] = 1;
+  desc.light_degrees = 20;
+  EXPECT(nook_world_sample(scene, &desc, &ao, &light) == NOOK_OK);
+  EXPECT(ao > 0 && ao < 1 && light >= 0 && light <= 1);
+  return failures;
+}
