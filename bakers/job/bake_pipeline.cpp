@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bakers/character/bind_data.h"
+#include "bakers/world/fit_casters.h"
 #include "platform/peak_memory.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
@@ -27,7 +28,7 @@ nook_bake_stage stage_of(BakeStage stage) {
 }
 
 std::string report_text(const ImportedCharacter& character, const Recipe& recipe, const CharacterModel& model,
-                        std::size_t model_bytes, const BakeReport& report) {
+                        std::size_t model_bytes, const BakeReport& report, const WorldCasterReport& casters) {
   Json j;
   j["vertices"] = model.vertex_count();
   j["file_vertices"] = model.file_to_welded.size();
@@ -38,6 +39,10 @@ std::string report_text(const ImportedCharacter& character, const Recipe& recipe
   j["model_bytes"] = model_bytes;
   j["seconds_raytrace"] = report.seconds_raytrace;
   j["seconds_fit"] = report.seconds_fit;
+  j["seconds_world_casters"] = casters.seconds;
+  j["world_casters"] = model.world_casters.size();
+  j["world_caster_error_initial"] = casters.error_initial;
+  j["world_caster_error"] = casters.error_fitted;
   j["iterations"] = report.iterations;
   j["train_poses"] = report.train_poses;
   j["rays"] = recipe.settings.rays;
@@ -61,6 +66,20 @@ std::string report_text(const ImportedCharacter& character, const Recipe& recipe
   return j.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
+// A draft takes a few seconds for the casters, the others a share of their time.
+WorldCasterSettings caster_settings(const Recipe& recipe) {
+  WorldCasterSettings settings;
+  settings.seed = recipe.settings.seed;
+  if (recipe.preset == Preset::draft) {
+    settings.poses = 32;
+    settings.steps = 8;
+  } else if (recipe.preset == Preset::production) {
+    settings.poses = 256;
+    settings.steps = 30;
+  }
+  return settings;
+}
+
 }  // namespace
 
 BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recipe,
@@ -71,12 +90,17 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
                                     [&](BakeStage stage, std::size_t done, std::size_t total) {
                                       return progress(stage_of(stage), done, total);
                                     });
+  WorldCasterReport caster_report;
+  const std::vector<WorldCaster> casters = fit_world_casters(
+      character.mesh, poses, caster_settings(recipe), &caster_report,
+      [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_CASTERS, done, total); });
+  baked.model.world_casters.assign(casters.begin(), casters.end());
   baked.model.bind = bind_data_of(character);
   baked.model.rest = rest_surface_of(character.mesh);
   baked.model.recipe = recipe_text(character, recipe);
   BakedFile file;
   file.model = write_character_model(baked.model);
-  file.report = report_text(character, recipe, baked.model, file.model.size(), baked.report);
+  file.report = report_text(character, recipe, baked.model, file.model.size(), baked.report, caster_report);
   return file;
 }
 

@@ -16,6 +16,7 @@ void add_evaluate_casters(CLI::App& evaluate);
 void add_evaluate_nnao(CLI::App& evaluate);
 void add_evaluate_probe(CLI::App& evaluate);
 void add_evaluate_material(CLI::App& evaluate);
+void add_evaluate_world(CLI::App& evaluate);
 void add_train_nnao(CLI::App& train);
 void add_train_specular(CLI::App& train);
 void add_inspect(CLI::App& tool);

@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   nook::tool::add_evaluate_nnao(*evaluate);
   nook::tool::add_evaluate_probe(*evaluate);
   nook::tool::add_evaluate_material(*evaluate);
+  nook::tool::add_evaluate_world(*evaluate);
   CLI::App* train = tool.add_subcommand("train", "train networks")->require_subcommand(1);
   nook::tool::add_train_nnao(*train);
   nook::tool::add_train_specular(*train);

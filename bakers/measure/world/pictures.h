@@ -1,0 +1,18 @@
+// What a body darkens, drawn by ray tracing and by the methods beside it.
+#pragma once
+
+#include <filesystem>
+
+#include "bakers/import/skinned_mesh.h"
+#include "sdk/src/character/model.h"
+
+namespace nook::measure {
+
+// pose_0.png, pose_1.png, ... of `count` poses, evenly picked: a floor and a wall at 0.3 m under AO (above)
+// and under a cone of light of 20 degrees (below), by ray tracing, Nook, capsules and blobs. The baselines
+// have the scale that is best in each picture. The directory is created.
+void write_world_pictures(const std::filesystem::path& directory, const bake::SkinnedMesh& mesh,
+                          const CharacterModel& model, std::span<const bake::Pose> poses, std::size_t count,
+                          std::uint32_t rays, std::uint64_t seed);
+
+}  // namespace nook::measure

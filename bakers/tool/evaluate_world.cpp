@@ -1,0 +1,103 @@
+// nook evaluate world: what a character darkens besides itself, against ray tracing and what engines use.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/measure/character/evaluated_poses.h"
+#include "bakers/measure/character/report.h"
+#include "bakers/measure/world/pictures.h"
+#include "bakers/measure/world/report.h"
+#include "bakers/tool/character/clip_names.h"
+#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/evaluation.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "platform/progress_bar.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  EvaluatedFiles files;
+  measure::PoseChoice poses;
+  measure::WorldStudy study;
+  std::filesystem::path images;
+  std::size_t image_count = 3;
+};
+
+Json evaluate(const Options& options) {
+  const measure::BakedCharacter baked = read_evaluated_files(options.files);
+  std::vector<std::string> present;
+  for (const bake::Clip& clip : baked.character.clips) present.push_back(clip.name);
+  require_clips(options.poses.clips, present);
+  const std::optional<bake::Recipe> recipe =
+      naming_file(options.files.model, [&] { return measure::recipe_of(baked); });
+  const measure::EvaluatedPoses measured =
+      measure::choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);
+  measure::WorldStudy study = options.study;
+  study.seed = options.common.seed;
+  platform::ProgressBar bar(options.common.quiet);
+  Json report;
+  report["rows"] = naming_file(options.files.model, [&] {
+    return measure::world_rows(baked.character.mesh, baked.model, measured.poses, study,
+                               [&](std::size_t done, std::size_t total) {
+                                 bar.show("ray tracing", "poses", done, total);
+                                 return !interrupted();
+                               });
+  });
+  if (!options.images.empty())
+    measure::write_world_pictures(options.images, baked.character.mesh, baked.model, measured.poses,
+                                  options.image_count, study.rays, study.seed);
+  report["protocol"] = measured.protocol;
+  report["clips"] = measured.clips;
+  report["casters"] = baked.model.world_casters.size();
+  report["seed"] = options.common.seed;
+  return report;
+}
+
+}  // namespace
+
+void add_evaluate_world(CLI::App& evaluate_command) {
+  CLI::App* command = evaluate_command.add_subcommand(
+      "world",
+      "measure what a baked character darkens besides itself: a floor, a wall at 0.3 m, the contact ring, a "
+      "neighbour and cones of light, by its world casters and by what engines use, against ray tracing.\n"
+      "over_none is the mean squared error over that of no darkening, over_capsules over that of one capsule "
+      "for each bone; low and high are 95 % bounds of a bootstrap over the poses");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  o.poses.most = 48;
+  add_evaluated_files(*command, o.files);
+  command->add_option("--clips", o.poses.clips, "measure only these clips")->delimiter(',');
+  command->add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--points", o.study.points, "points of each surface and pose")
+      ->check(CLI::Range(1, 90000))
+      ->capture_default_str();
+  command->add_option("--rays", o.study.rays, "rays for each point; a cone takes an eighth")
+      ->check(CLI::Range(8, 65536))
+      ->capture_default_str();
+  command->add_option(
+      "--images", o.images,
+      "draw floor and wall by ray tracing, Nook, capsules and blobs: PNG files in this directory");
+  command->add_option("--image-count", o.image_count, "poses to draw")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  add_common_options(*command, o.common);
+  command->callback([options] {
+    run_evaluation(options->common, {named_files(options->files), {}, options->images},
+                   [&] { return evaluate(*options); });
+  });
+}
+
+}  // namespace nook::tool

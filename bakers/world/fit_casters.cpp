@@ -1,0 +1,306 @@
+#include "bakers/world/fit_casters.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bakers/import/skinning.h"
+#include "bakers/world/dual.h"
+#include "bakers/world/initial_casters.h"
+#include "bakers/world/posed_casters.h"
+#include "bakers/world/training_points.h"
+#include "platform/stopwatch.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake {
+namespace {
+
+// Parameters of a caster: two ends, then the logarithms of the radii and of their scale in AO.
+constexpr std::size_t width = Dual::count + 1;
+// The number of sums that are added in their order, so that the result does not depend on the threads.
+constexpr std::size_t chunks = 16;
+constexpr std::size_t block_rows = 128;  // points whose derivatives are multiplied at once
+
+using Parameters = Eigen::VectorXd;
+
+float training_slope() {
+  static const float slope = std::tan(training_cone_radians);
+  return slope;
+}
+
+float covered_share(const Capsule& c, const TrainingPoint& point) {
+  return point.kind == PointKind::cone ? part_coverage_at(c, point.position, point.normal, training_slope())
+                                       : coverage_at(c, point.position, point.normal);
+}
+
+Parameters parameters_of(std::span<const WorldCaster> casters) {
+  Parameters p(Eigen::Index(casters.size() * width));
+  for (std::size_t k = 0; k < casters.size(); ++k) {
+    const Capsule& c = casters[k].capsule;
+    const double values[width] = {double(c.a.x),
+                                  double(c.a.y),
+                                  double(c.a.z),
+                                  double(c.b.x),
+                                  double(c.b.y),
+                                  double(c.b.z),
+                                  std::log(double(c.radius_a)),
+                                  std::log(double(c.radius_b)),
+                                  std::log(double(casters[k].ao_scale))};
+    for (std::size_t i = 0; i < width; ++i) p[Eigen::Index(k * width + i)] = values[i];
+  }
+  return p;
+}
+
+void set_parameters(std::span<WorldCaster> casters, const Parameters& p) {
+  for (std::size_t k = 0; k < casters.size(); ++k) {
+    const auto at = [&](std::size_t i) { return p[Eigen::Index(k * width + i)]; };
+    casters[k].capsule = {{float(at(0)), float(at(1)), float(at(2))},
+                          {float(at(3)), float(at(4)), float(at(5))},
+                          float(std::exp(at(6))),
+                          float(std::exp(at(7)))};
+    casters[k].ao_scale = float(std::exp(at(8)));
+  }
+}
+
+struct Slopes {
+  float value = 0;
+  std::array<float, width> slope{};
+};
+
+// The coverage of one point with its derivatives by the caster's parameters in rest space.
+Slopes coverage_with_slopes(const Capsule& c, const Mat3x4& bone, const TrainingPoint& point) {
+  const Vec3 a = c.a - point.position, b = c.b - point.position;
+  const float values[Dual::count] = {a.x, a.y, a.z, b.x, b.y, b.z, c.radius_a, c.radius_b};
+  Dual lane[Dual::count];
+  for (int i = 0; i < Dual::count; ++i) lane[i] = Dual::parameter(values[i], i);
+  const Vec3 n = point.normal;
+  const world::CapsuleLanes<Dual> lanes{lane[0], lane[1], lane[2], lane[3],
+                                        lane[4], lane[5], lane[6], lane[7]};
+  const Dual f =
+      point.kind == PointKind::cone
+          ? world::part_coverage<Dual>(lanes, Dual(n.x), Dual(n.y), Dual(n.z), Dual(training_slope()))
+          : world::coverage<Dual>(lanes, Dual(n.x), Dual(n.y), Dual(n.z));
+  Slopes r;
+  r.value = f.value;
+  const float* m = bone.m;
+  for (std::size_t end = 0; end < 2; ++end)
+    for (std::size_t i = 0; i < 3; ++i)
+      r.slope[3 * end + i] =
+          m[i] * f.slope[3 * end] + m[4 + i] * f.slope[3 * end + 1] + m[8 + i] * f.slope[3 * end + 2];
+  r.slope[6] = c.radius_a * f.slope[6];
+  r.slope[7] = c.radius_b * f.slope[7];
+  r.slope[8] = point.kind == PointKind::cone ? 0 : r.slope[6] + r.slope[7];
+  return r;
+}
+
+struct Sums {
+  double error = 0;
+  Eigen::MatrixXd gram;  // lower triangle
+  Eigen::VectorXd right;
+};
+
+// The weighted squared error of a range of points, and the normal equations of its linearisation.
+class Objective {
+ public:
+  explicit Objective(const TrainingPoints& set) : set_(set) {}
+
+  double error(std::span<const WorldCaster> casters) const {
+    std::vector<double> part(chunks, 0.0);
+    const PosedSets capsules = posed_all(casters);
+    tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t chunk) {
+      for (std::size_t i = first(chunk); i < first(chunk + 1); ++i) {
+        const TrainingPoint& point = set_.point[i];
+        float open = 1;
+        for (const Capsule& c : capsules.of(point)) open *= 1 - covered_share(c, point);
+        const double e = double(open) - double(point.ao);
+        part[chunk] += double(point.weight) * e * e;
+      }
+    });
+    double sum = 0;
+    for (const double p : part) sum += p;
+    return sum;
+  }
+
+  Sums linearise(std::span<const WorldCaster> casters) const {
+    std::vector<Sums> part(chunks);
+    const PosedSets capsules = posed_all(casters);
+    tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t chunk) {
+      linearise(casters, capsules, first(chunk), first(chunk + 1), part[chunk]);
+    });
+    Sums sums = std::move(part[0]);
+    for (std::size_t c = 1; c < chunks; ++c) {
+      sums.error += part[c].error;
+      sums.gram += part[c].gram;
+      sums.right += part[c].right;
+    }
+    return sums;
+  }
+
+ private:
+  std::size_t first(std::size_t chunk) const { return chunk * set_.point.size() / chunks; }
+
+  // The capsules of every pose.
+  struct PosedSets {
+    std::vector<std::vector<Capsule>> for_ao, for_light;
+    const std::vector<Capsule>& of(const TrainingPoint& point) const {
+      return (point.kind == PointKind::cone ? for_light : for_ao)[point.pose];
+    }
+  };
+
+  PosedSets posed_all(std::span<const WorldCaster> casters) const {
+    PosedSets all;
+    for (const Pose& pose : set_.poses) {
+      all.for_ao.push_back(posed(casters, pose, CasterUse::ao));
+      all.for_light.push_back(posed(casters, pose, CasterUse::light));
+    }
+    return all;
+  }
+
+  void linearise(std::span<const WorldCaster> casters, const PosedSets& capsules, std::size_t begin,
+                 std::size_t end, Sums& sums) const {
+    const auto columns = Eigen::Index(casters.size() * width);
+    sums.gram = Eigen::MatrixXd::Zero(columns, columns);
+    sums.right = Eigen::VectorXd::Zero(columns);
+    Eigen::MatrixXf rows(block_rows, columns), gram(columns, columns);
+    Eigen::VectorXf residual(block_rows);
+    std::vector<Slopes> covered(casters.size());
+    for (std::size_t i = begin; i < end; i += block_rows) {
+      const std::size_t count = std::min(block_rows, end - i);
+      rows.setZero();
+      residual.setZero();
+      for (std::size_t r = 0; r < count; ++r) {
+        const TrainingPoint& point = set_.point[i + r];
+        const Pose& pose = set_.poses[point.pose];
+        float open = 1;
+        for (std::size_t k = 0; k < casters.size(); ++k) {
+          const Mat3x4& bone = pose[casters[k].bone];
+          covered[k] = coverage_with_slopes(capsules.of(point)[k], bone, point);
+          open *= 1 - covered[k].value;
+        }
+        const float weight = std::sqrt(point.weight), e = open - point.ao;
+        sums.error += double(point.weight) * double(e) * double(e);
+        residual[Eigen::Index(r)] = weight * e;
+        for (std::size_t k = 0; k < casters.size(); ++k) {
+          const float others = -weight * open / std::max(1 - covered[k].value, 1e-3f);
+          for (std::size_t s = 0; s < width; ++s)
+            rows(Eigen::Index(r), Eigen::Index(k * width + s)) = others * covered[k].slope[s];
+        }
+      }
+      gram.setZero();
+      gram.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
+      sums.gram.triangularView<Eigen::Lower>() += gram.cast<double>();
+      sums.right -= (rows.transpose() * residual).cast<double>();
+    }
+  }
+
+  const TrainingPoints& set_;
+};
+
+// Overlapping capsules of full radius darken too much: one scale of all radii, and one of those in AO, are
+// where the fit starts.
+void scale_radii(std::vector<WorldCaster>& casters, const Objective& objective) {
+  const auto scaled = [&](float radius, float ao) {
+    std::vector<WorldCaster> out = casters;
+    for (WorldCaster& c : out) {
+      c.capsule.radius_a *= radius;
+      c.capsule.radius_b *= radius;
+      c.ao_scale = ao;
+    }
+    return out;
+  };
+  // The radii in AO are what the errors of AO depend on: with them held the two scales are found one by one.
+  const auto best_of = [&](auto&& candidate) {
+    std::vector<WorldCaster> best;
+    double least = INFINITY;
+    for (int i = 0; i < 9; ++i) {
+      const std::vector<WorldCaster> tried = candidate(0.64f + 0.06f * float(i));
+      const double error = objective.error(tried);
+      if (best.empty() || error < least) {
+        least = error;
+        best = tried;
+      }
+    }
+    return best;
+  };
+  casters = best_of([&](float ao) { return scaled(1, ao); });
+  const float in_ao = casters.front().ao_scale;
+  casters = best_of([&](float radius) { return scaled(radius, in_ao / radius); });
+}
+
+// The inverse variances of the pull towards the start.
+Eigen::VectorXd pull_of(std::size_t casters, const WorldCasterSettings& s) {
+  Eigen::VectorXd pull(Eigen::Index(casters * width));
+  for (std::size_t i = 0; i < casters * width; ++i) {
+    const double deviation = i % width < 6 ? s.deviation_m : s.deviation_radius;
+    pull[Eigen::Index(i)] = s.pull / (deviation * deviation * double(casters * width));
+  }
+  return pull;
+}
+
+}  // namespace
+
+std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<const Pose> poses,
+                                           const WorldCasterSettings& settings, WorldCasterReport* report,
+                                           const CasterProgress& progress) {
+  const platform::Stopwatch watch;
+  const std::vector<float> area = vertex_areas(mesh, mesh.position);
+  std::vector<WorldCaster> casters = initial_casters(mesh, area, settings.casters);
+  const std::size_t total = std::min(settings.poses, poses.size()) + settings.steps;
+  const TrainingPoints set = trace_training_points(mesh, poses, settings, [&](std::size_t done, std::size_t) {
+    return !progress || progress(done, total);
+  });
+  const Objective objective(set);
+  scale_radii(casters, objective);
+  const Parameters start = parameters_of(casters);
+  const Eigen::VectorXd pull = pull_of(casters.size(), settings);
+  const auto pulled = [&](const Parameters& p) {
+    return ((p - start).array().square() * pull.array()).sum();
+  };
+
+  Parameters best = start;
+  double best_error = objective.error(casters);
+  if (report) report->error_initial = best_error;
+  double damping = 1e-2;
+  int stalled = 0;  // steps in a row that gained almost nothing
+  for (std::size_t step = 0; step < settings.steps && stalled < 2; ++step) {
+    if (progress && !progress(total - settings.steps + step, total))
+      throw Failure(NOOK_ERROR_CANCELLED, "cancelled while fitting casters");
+    set_parameters(casters, best);
+    Sums sums = objective.linearise(casters);
+    sums.gram.diagonal() += pull;
+    sums.right -= ((best - start).array() * pull.array()).matrix();
+    const double before = best_error;
+    for (int attempt = 0; attempt < 6 && best_error == before; ++attempt) {
+      Eigen::MatrixXd damped = sums.gram;
+      damped.diagonal() *= 1 + damping;
+      damped.diagonal().array() += 1e-12;
+      const Eigen::VectorXd change = damped.selfadjointView<Eigen::Lower>().ldlt().solve(sums.right);
+      set_parameters(casters, best + change);
+      const double error = objective.error(casters) + pulled(best + change);
+      // What the linearisation promises for this step.
+      const double promised =
+          2 * change.dot(sums.right) - change.dot(sums.gram.selfadjointView<Eigen::Lower>() * change);
+      const double kept = (before - error) / std::max(promised, 1e-12);
+      if (error < before) {
+        best += change;
+        best_error = error;
+      }
+      if (!(kept > 0.25))
+        damping *= 4;
+      else if (kept > 0.7)
+        damping = std::max(damping * 0.3, 1e-6);
+    }
+    stalled = before - best_error < 2e-3 * before ? stalled + 1 : 0;
+  }
+  set_parameters(casters, best);
+  if (report) {
+    report->error_fitted = objective.error(casters);
+    report->seconds = watch.seconds();
+  }
+  return casters;
+}
+
+}  // namespace nook::bake

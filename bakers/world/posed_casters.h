@@ -1,0 +1,57 @@
+// Casters in a pose, and the openness that they leave at a point.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "bakers/import/skinned_mesh.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/core/capsule.h"
+#include "sdk/src/world/cone.h"
+#include "sdk/src/world/coverage.h"
+
+namespace nook::bake {
+
+// The scale of a matrix that is rigid or scales all axes alike.
+inline float scale_of(const Mat3x4& m) {
+  return length({m.m[0], m.m[4], m.m[8]});
+}
+
+// What a caster is evaluated for.
+enum class CasterUse { ao, light };
+
+inline Capsule posed(const WorldCaster& caster, const Pose& pose, CasterUse use) {
+  const Mat3x4& m = pose[caster.bone];
+  const float scale = scale_of(m) * (use == CasterUse::ao ? caster.ao_scale : 1);
+  return {transform_point(m, caster.capsule.a), transform_point(m, caster.capsule.b),
+          scale * caster.capsule.radius_a, scale * caster.capsule.radius_b};
+}
+
+inline std::vector<Capsule> posed(std::span<const WorldCaster> casters, const Pose& pose, CasterUse use) {
+  std::vector<Capsule> capsules;
+  for (const WorldCaster& caster : casters) capsules.push_back(posed(caster, pose, use));
+  return capsules;
+}
+
+inline float coverage_at(const Capsule& c, Vec3 point, Vec3 normal) {
+  const Vec3 a = c.a - point, b = c.b - point;
+  return world::coverage<float>({a.x, a.y, a.z, b.x, b.y, b.z, c.radius_a, c.radius_b}, normal.x, normal.y,
+                                normal.z);
+}
+
+// The share that a capsule hides of one part of a cone.
+inline float part_coverage_at(const Capsule& c, Vec3 point, Vec3 axis, float slope) {
+  const Vec3 a = c.a - point, b = c.b - point;
+  return world::part_coverage<float>({a.x, a.y, a.z, b.x, b.y, b.z, c.radius_a, c.radius_b}, axis.x, axis.y,
+                                     axis.z, slope);
+}
+
+// The product of 1 - coverage over all casters: the AO of the point.
+inline float open_share(std::span<const Capsule> capsules, Vec3 point, Vec3 normal) {
+  float open = 1;
+  for (const Capsule& capsule : capsules) open *= 1 - coverage_at(capsule, point, normal);
+  return open;
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,82 @@
+#include "bakers/world/training_points.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "bakers/import/skinning.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "bakers/raytrace/random.h"
+#include "bakers/world/cone_rays.h"
+#include "bakers/world/surroundings.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake {
+namespace {
+
+// Light between these heights above the horizon.
+constexpr float lowest_light_radians = 0.4f, highest_light_radians = 1.4f;
+
+Vec3 random_light(Random& random) {
+  const float bearing = 2 * std::numbers::pi_v<float> * random.unit();
+  const float up = random.between(lowest_light_radians, highest_light_radians);
+  return {std::cos(up) * std::sin(bearing), std::sin(up), std::cos(up) * std::cos(bearing)};
+}
+
+// Each point of the floor has a light of its own.
+void add_cones(TrainingPoints& set, const RayScene& scene, const SurfacePoints& floor, std::uint32_t pose,
+               std::uint32_t rays, float offset, Random& random, double& none) {
+  const FlushDenormals flush;
+  for (std::size_t i = 0; i < floor.size(); ++i) {
+    const Vec3 light = random_light(random);
+    const float open = open_cone_share(scene, floor.position[i] + offset * floor.normal[i],
+                                       {light, training_cone_radians}, rays, random.unit());
+    set.point.push_back({floor.position[i], light, pose, PointKind::cone, open, floor.weight[i]});
+    none += double(floor.weight[i]) * double(1 - open) * double(1 - open);
+  }
+}
+
+}  // namespace
+
+TrainingPoints trace_training_points(const SkinnedMesh& mesh, std::span<const Pose> poses,
+                                     const WorldCasterSettings& settings, const CasterProgress& progress) {
+  TrainingPoints set;
+  const std::size_t used = std::min(settings.poses, poses.size());
+  for (std::size_t i = 0; i < used; ++i) set.poses.push_back(poses[i * poses.size() / used]);
+  const float offset = ray_origin_offset(mesh.position);
+  std::array<double, point_kinds> none{};
+  for (std::size_t p = 0; p < used; ++p) {
+    if (progress && !progress(p, used))
+      throw Failure(NOOK_ERROR_CANCELLED, "cancelled while tracing casters");
+    PosedBody body{{}, mesh.triangle}, other{{}, mesh.triangle};
+    skin_positions(mesh, set.poses[p], body.position);
+    skin_positions(mesh, set.poses[(p + 1) % used], other.position);
+    Random random(mix_bits(settings.seed) + p);
+    const float wall = 2 * std::numbers::pi_v<float> * random.unit();
+    const float neighbour = 2 * std::numbers::pi_v<float> * random.unit();
+    const SurfacePoints surfaces[] = {
+        floor_points(body.position, settings.floor_points, random.bits()),
+        wall_points(body.position, wall, settings.wall_points, random.bits()),
+        contact_points(body, settings.contact_points, random.bits()),
+        neighbour_points(body.position, other, neighbour, settings.neighbour_points, random.bits())};
+    const RayScene scene(TriangleSoup{body.position, mesh.triangle});
+    for (std::size_t k = 0; k < std::size(surfaces); ++k) {
+      const SurfacePoints& points = surfaces[k];
+      AoSettings rays{settings.rays, random.bits()};
+      rays.origin_offset = offset;
+      const std::vector<float> ao = trace_ao(scene, {points.position, points.normal}, rays);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (ao[i] < 0.01f) continue;
+        set.point.push_back(
+            {points.position[i], points.normal[i], std::uint32_t(p), PointKind(k), ao[i], points.weight[i]});
+        none[k] += double(points.weight[i]) * double(1 - ao[i]) * double(1 - ao[i]);
+      }
+    }
+    add_cones(set, scene, floor_points(body.position, settings.cone_points, random.bits()), std::uint32_t(p),
+              std::max(settings.rays / 8, 1u), offset, random, none[std::size_t(PointKind::cone)]);
+  }
+  for (TrainingPoint& point : set.point)
+    point.weight = float(double(point.weight) / std::max(none[std::size_t(point.kind)], 1e-12));
+  return set;
+}
+
+}  // namespace nook::bake

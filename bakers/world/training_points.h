@@ -1,0 +1,36 @@
+// The traced points that a fit of casters reads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bakers/world/fit_casters.h"
+
+namespace nook::bake {
+
+enum class PointKind : std::uint8_t { floor, wall, contact, neighbour, cone };
+inline constexpr std::size_t point_kinds = 5;
+// The cone of light of a point of that kind is one part as wide as this.
+inline constexpr float training_cone_radians = 0.07f;  // 4 degrees, the half angle
+
+struct TrainingPoint {
+  Vec3 position;
+  Vec3 normal;  // of a cone its axis, towards the light
+  std::uint32_t pose = 0;
+  PointKind kind = PointKind::floor;
+  float ao = 1;      // traced; of a cone its open share
+  float weight = 0;  // of the squared error: the sum of weight * (1 - ao)^2 over each kind is 1
+};
+
+struct TrainingPoints {
+  std::vector<Pose> poses;
+  std::vector<TrainingPoint> point;  // by pose
+};
+
+// Points that the body hides, whose AO is below 0.01, are left out.
+TrainingPoints trace_training_points(const SkinnedMesh& mesh, std::span<const Pose> poses,
+                                     const WorldCasterSettings& settings, const CasterProgress& progress);
+
+}  // namespace nook::bake

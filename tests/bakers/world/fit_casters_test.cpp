@@ -1,0 +1,148 @@
+#include "bakers/world/fit_casters.h"
+
+#include <tbb/task_arena.h>
+
+#include <cmath>
+
+#include "bakers/import/skinning.h"
+#include "bakers/measure/world/report.h"
+#include "bakers/world/dual.h"
+#include "bakers/world/initial_casters.h"
+#include "bakers/world/posed_casters.h"
+#include "sdk/src/core/failure.h"
+#include "tests/bakers/character/bending_tube.h"
+#include "tests/catch.h"
+#include "tests/character/model_sample.h"
+
+using namespace nook;
+using namespace nook::bake;
+
+namespace {
+
+WorldCasterSettings small_settings() {
+  WorldCasterSettings s;
+  s.casters = 4;
+  s.poses = 12;
+  s.steps = 8;
+  return s;
+}
+
+// Distance from a point to the axis of a capsule, less its radius there.
+float outside(Vec3 p, const Capsule& c) {
+  const Vec3 e = c.b - c.a;
+  const float t = std::clamp(dot(p - c.a, e) / std::max(dot(e, e), 1e-12f), 0.0f, 1.0f);
+  return length(p - c.a - t * e) - (c.radius_a + t * (c.radius_b - c.radius_a));
+}
+
+}  // namespace
+
+TEST_CASE("world casters: derivatives are those of finite differences") {
+  test::Numbers numbers(4);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 a = numbers.place(0.5f) + Vec3{0, 0, 1}, b = a + numbers.place(0.5f);
+    const float values[8] = {
+        a.x, a.y, a.z, b.x, b.y, b.z, numbers.between(0.05f, 0.2f), numbers.between(0.05f, 0.2f)};
+    Dual lane[8];
+    for (int k = 0; k < 8; ++k) lane[k] = Dual::parameter(values[k], k);
+    const Dual f =
+        world::coverage<Dual>({lane[0], lane[1], lane[2], lane[3], lane[4], lane[5], lane[6], lane[7]},
+                              Dual(0.0f), Dual(0.0f), Dual(1.0f));
+    for (std::size_t k = 0; k < 8; ++k) {
+      const auto at = [&](double change) {
+        double v[8];
+        for (std::size_t j = 0; j < 8; ++j) v[j] = double(values[j]) + (j == k ? change : 0);
+        return world::coverage<double>({v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]}, 0, 0, 1);
+      };
+      const double h = 1e-5, slope = (at(h) - at(-h)) / (2 * h);
+      // Floats have seven digits, of which differences of near directions lose two; shares change by up to 10
+      // a metre.
+      CHECK(std::abs(double(f.slope[k]) - slope) < 0.02 * (std::abs(slope) + 1));
+    }
+  }
+}
+
+TEST_CASE("world casters: initial capsules lie along the body and cover it") {
+  const SkinnedMesh mesh = bending_tube();
+  const std::vector<float> area = vertex_areas(mesh, mesh.position);
+  for (const std::size_t count : {2u, 4u, 8u}) {
+    const std::vector<WorldCaster> casters = initial_casters(mesh, area, count);
+    REQUIRE(casters.size() == count);
+    for (const Vec3 p : mesh.position) {
+      float nearest = INFINITY;
+      for (const WorldCaster& caster : casters) nearest = std::min(nearest, outside(p, caster.capsule));
+      // A vertex of the tube, of radius 0.1 m, is within half a radius of a capsule.
+      CHECK(nearest < 0.05f);
+    }
+  }
+  CHECK(bone_capsules(mesh, area).size() == 2);
+}
+
+TEST_CASE("world casters: a fit of a tube is close to ray tracing on poses that it has not seen") {
+  const SkinnedMesh mesh = bending_tube();
+  const std::vector<Pose> poses = tube_poses(mesh, 24);
+  std::vector<Pose> seen, unseen;
+  for (std::size_t i = 0; i < poses.size(); ++i) (i % 2 ? unseen : seen).push_back(poses[i]);
+  WorldCasterReport report;
+  const std::vector<WorldCaster> casters = fit_world_casters(mesh, seen, small_settings(), &report);
+  REQUIRE(casters.size() == 4);
+  CHECK(report.error_fitted < 0.5 * report.error_initial);
+  for (const WorldCaster& caster : casters) {
+    CHECK(caster.bone < 2);
+    // The tube's radius is 0.1 m.
+    CHECK((caster.capsule.radius_a > 0.02f && caster.capsule.radius_a < 0.2f));
+    CHECK((caster.capsule.radius_b > 0.02f && caster.capsule.radius_b < 0.2f));
+  }
+  measure::WorldStudy study;
+  study.casters = casters;
+  study.points = 300;
+  study.rays = 256;
+  CharacterModel model;
+  model.spheres.push_back({{0.5f, 0, 0}, 0.1f, 0, 1});
+  const auto rows = measure::world_rows(mesh, model, unseen, study, {});
+  for (const auto& row : rows) {
+    if (row["method"] != "nook") continue;
+    INFO(row.dump());
+    // Half of what is asked of bodies for light, whose parts are coarser than a tube's edge; a tube is a
+    // simple body.
+    CHECK(row["over_none"].get<double>() < (row["surface"] == "cone" ? 0.1 : 0.04));
+  }
+}
+
+TEST_CASE("world casters: the same seed gives the same casters on any number of threads") {
+  const SkinnedMesh mesh = bending_tube();
+  const std::vector<Pose> poses = tube_poses(mesh, 8);
+  WorldCasterSettings settings = small_settings();
+  settings.steps = 3;
+  const auto on = [&](int threads) {
+    std::vector<WorldCaster> casters;
+    tbb::task_arena(threads).execute([&] { casters = fit_world_casters(mesh, poses, settings); });
+    return casters;
+  };
+  const std::vector<WorldCaster> one = on(1), two = on(2);
+  REQUIRE(one.size() == two.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    CHECK((one[i].capsule.a == two[i].capsule.a && one[i].capsule.b == two[i].capsule.b));
+    CHECK(one[i].capsule.radius_a == two[i].capsule.radius_a);
+    CHECK(one[i].ao_scale == two[i].ao_scale);
+  }
+}
+
+TEST_CASE("world casters: a fit can be cancelled at every step") {
+  const SkinnedMesh mesh = bending_tube();
+  const std::vector<Pose> poses = tube_poses(mesh, 4);
+  WorldCasterSettings settings = small_settings();
+  settings.steps = 2;
+  std::size_t calls = 0;
+  fit_world_casters(mesh, poses, settings, nullptr, [&](std::size_t done, std::size_t total) {
+    CHECK(done < total);
+    ++calls;
+    return true;
+  });
+  CHECK(calls >= 5);
+  for (std::size_t stop = 0; stop < calls; ++stop) {
+    std::size_t call = 0;
+    CHECK_THROWS_AS(fit_world_casters(mesh, poses, settings, nullptr,
+                                      [&](std::size_t, std::size_t) { return call++ != stop; }),
+                    Failure);
+  }
+}
