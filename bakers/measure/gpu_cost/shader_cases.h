@@ -63,6 +63,7 @@ std::vector<ShaderCase> nnao_shaders();
 std::vector<ShaderCase> baseline_shaders();
 std::vector<ShaderCase> probe_shaders();
 std::vector<ShaderCase> material_shaders();
+std::vector<ShaderCase> world_shaders();
 
 std::vector<ShaderCase> all_shaders();
 std::vector<PassCase> all_passes();

@@ -16,4 +16,8 @@ inline constexpr double light_lobes = 12;  // of an instance's light
 // The screen-space pass.
 inline constexpr double sides = 2;
 
+// The world pass at a pixel that one body reaches.
+inline constexpr double bodies = 1;
+inline constexpr double casters_of_body = 40;
+
 }  // namespace nook::measure::trips

@@ -1,0 +1,118 @@
+/* Characters darken what a depth buffer shows: the AO of nook_world.h at each pixel, on the GPU.
+ *
+ * After depth, one call darkens the whole screen by the casters of a scene, also by those that the screen
+ * does not show. It takes the frame of the screen pass (nook_nnao.h), the view matrix and the scene. The pass
+ * follows the state contract that was chosen at nook_gl_create, on every tier. */
+#ifndef NOOK_WORLD_GL_H
+#define NOOK_WORLD_GL_H
+
+#include "nook_gl.h"
+#include "nook_nnao.h"
+#include "nook_world.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct nook_world_pass_s* nook_world_pass;
+
+typedef struct nook_world_pass_desc {
+  /* nook_world_pass_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t header_version;
+  /* Must be NULL. */
+  const void* next;
+  /* Pixels; the maximum size of a frame, 1 to 16384. Required. */
+  int32_t max_width, max_height;
+  /* Casters and groups (bodies) that the pass has room for from the start, default 4096; it makes more room
+   * when a frame has more. */
+  uint32_t casters;
+  /* 0. */
+  uint32_t reserved;
+} nook_world_pass_desc;
+
+/* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
+ * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+NOOK_API nook_result nook_world_pass_desc_init(nook_world_pass_desc* desc, size_t size,
+                                               uint32_t header_version);
+
+/* Creates textures and shaders. On failure *out is NULL and no OpenGL object is left.
+ * Context thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED (the size exceeds the textures of this
+ * OpenGL), GL, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_world_pass_create(nook_gl gl, const nook_world_pass_desc* desc,
+                                            nook_world_pass* out);
+
+/* Deletes every OpenGL object of the pass and sets *pass to NULL; *pass may be NULL. The nook_gl may have
+ * been destroyed before, but its OpenGL context must be current; after nook_gl_context_lost none is needed.
+ * Context thread. */
+NOOK_API void nook_world_pass_destroy(nook_world_pass* pass);
+
+typedef struct nook_world_frame_desc {
+  /* nook_world_frame_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t header_version;
+  /* Must be NULL. */
+  const void* next;
+  /* Depth, normals, projection, viewport, strength, layer, target and blend, as nook_nnao_render reads them,
+   * so that the same descriptor serves both; required. radius, max_radius_px and view are not read. With
+   * NOOK_NNAO_LAYER_REPLACE the layer is a mask: where its green channel is 1, such as on characters, its red
+   * channel is the result. A layer texture that holds this pass's result hands it to the screen pass. */
+  const nook_nnao_frame_desc* screen;
+  /* From world space to the view space of screen->projection: column-major, a rotation and a translation.
+   * Required. */
+  float view[16];
+  /* Its instances and occluders cast, as in nook_world_sample; NULL (default): props alone. The poses are
+   * those of the last nook_scene_set_pose. */
+  nook_scene scene;
+  /* Casters besides the scene's, in world space; default none. */
+  const nook_world_capsule* props;
+  uint32_t prop_count;
+  /* AO, 0 to 1, default 1/1024: a body does not reach points from which it takes less, by the bound that
+   * nook_world_sample states. 0: every body reaches every point. */
+  float cutoff_error;
+} nook_world_frame_desc;
+
+/* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
+ * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+NOOK_API nook_result nook_world_frame_desc_init(nook_world_frame_desc* desc, size_t size,
+                                                uint32_t header_version);
+
+/* Draws the AO of a frame; that of sky is exactly 1. The call reads nothing back and never waits for the GPU,
+ * and allocates only where the casters outgrow their room. On failure it leaves no OpenGL error, changes no
+ * state and draws nothing. Context thread, while no other call changes the scene. Errors: INVALID_ARGUMENT
+ * (the message names the field, its value and what is needed), VERSION, OUT_OF_MEMORY, GL (the OpenGL context
+ * was lost). */
+NOOK_API nook_result nook_world_render(nook_world_pass pass, const nook_world_frame_desc* frame);
+
+/* Makes the next nook_world_render query every texture again, as nook_nnao_recheck does. The call makes no
+ * OpenGL call. Context thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_world_recheck(nook_world_pass pass);
+
+typedef struct nook_world_pass_info {
+  /* sizeof(nook_world_pass_info); the caller sets it. */
+  uint32_t struct_size;
+  /* The OpenGL name of the pass's own texture: GL_R8, max_width x max_height, 1 everywhere before the first
+   * frame. Nook owns it; the host reads it. */
+  uint32_t texture;
+  /* For shaders of the host: the table of casters of the last frame, a texture of caster_target (a texture
+   * buffer, or a 2D texture on OpenGL ES), and the number of its groups. */
+  uint32_t caster_texture;
+  uint32_t caster_target;
+  int32_t group_count;
+  /* Casters in the table. */
+  int32_t caster_count;
+  /* The bytes of the pass's texture and table. */
+  uint64_t texture_bytes;
+  /* GLSL to put after the #version line: float nook_world_open(vec3 point, vec3 normal), in view space, with
+   * the uniforms nook_world_casters (a sampler) and nook_world_groups (an int), which the host sets. */
+  const char* glsl;
+} nook_world_pass_info;
+
+/* Describes a pass. The call makes no OpenGL call.
+ * Context thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_world_pass_describe(nook_world_pass pass, nook_world_pass_info* info);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,190 @@
+#include <nook/nook_world_gl.h>
+
+#include <cmath>
+
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/gl/handle.h"
+#include "sdk/src/api/world_casting.h"
+#include "sdk/src/core/descriptors.h"
+#include "sdk/src/gl/nnao/frame_check.h"
+#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/world/world_pass.h"
+
+using namespace nook;
+
+namespace {
+
+// The users of the OpenGL state that the pass touches: it uploads casters and draws.
+unsigned world_users(const gl::Functions& gl) {
+  return gl::screen_creation_users(gl);
+}
+
+}  // namespace
+
+// The OpenGL objects outlive the handle nook_gl, because this object holds a reference to its owner.
+struct nook_world_pass_s : RefCounted {
+  nook_world_pass_s(nook_gl_s* made_by, const nook_world_pass_desc& known) : gl(made_by), desc(known) {
+    gl->device.report_host_errors();
+    gl->guarded(world_users(gl->device.gl), [&] { pass.emplace(gl->device, known); });
+  }
+
+  nook_gl_s* gl;
+  nook_world_pass_desc desc;
+  std::optional<gl::WorldPass> pass;
+};
+
+namespace {
+
+constexpr std::size_t first_desc = offsetof(nook_world_pass_desc, reserved) + sizeof(std::uint32_t);
+constexpr std::size_t first_frame = offsetof(nook_world_frame_desc, cutoff_error) + sizeof(float);
+constexpr std::size_t first_info = offsetof(nook_world_pass_info, glsl) + sizeof(const char*);
+// Of nook_nnao_frame_desc, whose defaults are those of nook_nnao_frame_desc_init.
+constexpr std::size_t first_screen = offsetof(nook_nnao_frame_desc, view) + sizeof(nook_nnao_view);
+
+nook_world_pass_desc default_desc() {
+  nook_world_pass_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.header_version = NOOK_VERSION;
+  desc.casters = 4096;
+  return desc;
+}
+
+nook_world_frame_desc default_frame() {
+  nook_world_frame_desc frame{};
+  frame.struct_size = sizeof frame;
+  frame.header_version = NOOK_VERSION;
+  frame.cutoff_error = SceneSettings{}.cutoff_error;
+  return frame;
+}
+
+nook_world_pass_desc checked(const nook_world_pass_desc* given) {
+  const nook_world_pass_desc desc =
+      read_descriptor(given, "nook_world_pass_desc_init", first_desc, default_desc());
+  constexpr int largest = 16384;
+  if (desc.max_width < 1 || desc.max_height < 1 || desc.max_width > largest || desc.max_height > largest)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.max_width and desc.max_height are out of range (got %d x %d, need 1 x 1 to %d x %d)",
+                  desc.max_width, desc.max_height, largest, largest);
+  constexpr std::uint32_t most = 1u << 20;
+  if (desc.casters < 1 || desc.casters > most)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.casters is out of range (got %u, need 1 to %u)",
+                  desc.casters, most);
+  return desc;
+}
+
+// The frame as the screen pass has it, without what this pass does not read.
+nook_nnao_frame_desc screen_of(const nook_world_frame_desc& frame, const nook_world_pass_desc& pass) {
+  need(frame.screen, "frame.screen");
+  nook_nnao_frame_desc screen{};
+  screen.struct_size = sizeof screen;
+  screen = read_descriptor(frame.screen, "nook_nnao_frame_desc_init", first_screen, screen);
+  screen.radius = 1;
+  screen.max_radius_px = 0;
+  screen.view = NOOK_NNAO_VIEW_AO;
+  nook_nnao_desc sizes{};
+  sizes.max_width = pass.max_width;
+  sizes.max_height = pass.max_height;
+  gl::check_frame(screen, sizes);
+  return screen;
+}
+
+void check_view(const float (&m)[16]) {
+  bool finite = true;
+  for (const float element : m) finite = finite && std::isfinite(element);
+  const Vec3 x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};
+  const auto near = [](float value, float need) { return std::abs(value - need) <= 0.01f; };
+  // 1 %, as for the matrices of poses.
+  if (!finite || !near(dot(x, x), 1) || !near(dot(y, y), 1) || !near(dot(z, z), 1) || !near(dot(x, y), 0) ||
+      !near(dot(y, z), 0) || !near(dot(z, x), 0) || !near(m[3], 0) || !near(m[7], 0) || !near(m[11], 0) ||
+      !near(m[15], 1))
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "frame.view is no rotation with a translation (its first axis is %g %g %g; need a rigid matrix "
+        "from world to view space, column-major)",
+        double(m[0]), double(m[1]), double(m[2]));
+}
+
+// The groups of the scene with their reach.
+struct Reaching {
+  const api::Casting* casting;
+  float cutoff_error;
+};
+
+gl::ReachingGroup reaching_group(const void* user, std::uint32_t index, PosedCaster& room) {
+  const Reaching& reaching = *static_cast<const Reaching*>(user);
+  const world::CasterGroup group = api::Casting::group(reaching.casting, index, room);
+  if (group.casters.empty()) return {};
+  const bool endless = reaching.cutoff_error == 0 || std::isinf(group.strength);
+  return {group.casters, group.centre,
+          endless ? gl::endless_reach : group.radius + std::sqrt(group.strength / reaching.cutoff_error)};
+}
+
+}  // namespace
+
+nook_result nook_world_pass_desc_init(nook_world_pass_desc* desc, size_t size, uint32_t header_version) {
+  return api::enter("nook_world_pass_desc_init",
+                    [&] { init_descriptor(desc, size, header_version, first_desc, default_desc()); });
+}
+
+nook_result nook_world_pass_create(nook_gl gl, const nook_world_pass_desc* desc, nook_world_pass* out) {
+  return api::enter("nook_world_pass_create", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(gl, "gl");
+    gl->device.need_alive();
+    *out = Owned<nook_world_pass_s>::make(gl->device.memory, Ref<nook_gl_s>::share(gl), gl, checked(desc))
+               .detach();
+  });
+}
+
+void nook_world_pass_destroy(nook_world_pass* pass) {
+  if (!pass || !*pass) return;
+  (*pass)->release();
+  *pass = nullptr;
+}
+
+nook_result nook_world_frame_desc_init(nook_world_frame_desc* desc, size_t size, uint32_t header_version) {
+  return api::enter("nook_world_frame_desc_init",
+                    [&] { init_descriptor(desc, size, header_version, first_frame, default_frame()); });
+}
+
+nook_result nook_world_render(nook_world_pass pass, const nook_world_frame_desc* frame) {
+  return api::enter("nook_world_render", [&] {
+    need(pass, "pass");
+    const nook_world_frame_desc known =
+        read_descriptor(frame, "nook_world_frame_desc_init", first_frame, default_frame());
+    const nook_nnao_frame_desc screen = screen_of(known, pass->desc);
+    check_view(known.view);
+    api::check_props("frame", known.props, known.prop_count);
+    if (!(known.cutoff_error >= 0 && known.cutoff_error <= 1))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.cutoff_error is out of range (got %g, need 0 to 1)",
+                    double(known.cutoff_error));
+    const api::Casting casting(known.scene ? &known.scene->scene : nullptr, 0, known.props, known.prop_count);
+    const Reaching reaching{&casting, known.cutoff_error};
+    const gl::ReachingGroups groups{casting.group_count(), casting.caster_count(), &reaching, reaching_group};
+    pass->gl->guarded(world_users(pass->gl->device.gl),
+                      [&] { pass->pass->render(screen, known.view, groups); });
+  });
+}
+
+nook_result nook_world_recheck(nook_world_pass pass) {
+  return api::enter("nook_world_recheck", [&] {
+    need(pass, "pass");
+    pass->pass->recheck();
+  });
+}
+
+nook_result nook_world_pass_describe(nook_world_pass pass, nook_world_pass_info* info) {
+  return api::enter("nook_world_pass_describe", [&] {
+    need(pass, "pass");
+    nook_world_pass_info known{};
+    known.texture = pass->pass->ao_texture();
+    known.caster_texture = pass->pass->table().texture();
+    known.caster_target = gl::TexelTable::target(pass->gl->device);
+    known.group_count = static_cast<std::int32_t>(pass->pass->group_count());
+    known.caster_count = static_cast<std::int32_t>(pass->pass->caster_count());
+    known.texture_bytes = pass->pass->bytes();
+    known.glsl = gl::embedded_text("world/host.glsl");
+    write_info(info, first_info, known);
+  });
+}

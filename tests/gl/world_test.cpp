@@ -1,0 +1,435 @@
+// The world pass: the AO of nook_world_sample at every pixel, the state contract, masks, lifetimes.
+#include <nook/nook_world_gl.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+#include "sdk/src/gl/touched_state.h"
+#include "sdk/src/nnao/evaluate.h"
+#include "tests/gl/nnao_images.h"
+#include "tests/gl/poison.h"
+#include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+constexpr int width = 96, height = 64;
+
+// The pass keeps AO in 8 bits, half a step off at most; as much again for its arithmetic.
+constexpr float bound = 1.0f / 255;
+
+nook_world_pass_desc world_desc(int w = width, int h = height) {
+  nook_world_pass_desc desc;
+  NOOK_OK_OR_FAIL(nook_world_pass_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.max_width = w;
+  desc.max_height = h;
+  desc.casters = 8;  // so that a crowd outgrows it
+  return desc;
+}
+
+// From world space to the view of a camera that is turned about y and stands aside.
+struct View {
+  float matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  Vec3 to_world(Vec3 p) const {
+    const Vec3 d = p - Vec3{matrix[12], matrix[13], matrix[14]};
+    return turn_back(d);
+  }
+  Vec3 turn_back(Vec3 d) const {
+    return {dot(d, {matrix[0], matrix[1], matrix[2]}), dot(d, {matrix[4], matrix[5], matrix[6]}),
+            dot(d, {matrix[8], matrix[9], matrix[10]})};
+  }
+};
+View turned_view() {
+  View view;
+  const float c = std::cos(0.7f), s = std::sin(0.7f);
+  const float m[16] = {c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, 0.4f, -0.2f, 1.5f, 1};
+  std::memcpy(view.matrix, m, sizeof m);
+  return view;
+}
+
+nook_world_capsule prop(const View& view, Vec3 a, float radius_a, Vec3 b, float radius_b) {
+  const Vec3 wa = view.to_world(a), wb = view.to_world(b);
+  return {{wa.x, wa.y, wa.z}, radius_a, {wb.x, wb.y, wb.z}, radius_b};
+}
+
+// Props over the floor of still_life, one of them outside the view.
+std::vector<nook_world_capsule> props(const View& view) {
+  return {prop(view, {-0.2f, -0.5f, -2.2f}, 0.2f, {-0.2f, -0.5f, -2.2f}, 0.2f),
+          prop(view, {0.5f, -0.6f, -3.0f}, 0.1f, {0.4f, 0.4f, -3.2f}, 0.15f),
+          prop(view, {-3.0f, -0.2f, -3.0f}, 0.6f, {-3.0f, 0.8f, -3.0f}, 0.6f)};
+}
+
+struct WorldFixture : NnaoFixture {
+  explicit WorldFixture(platform::Context& made_in, nook_gl_state_mode mode = NOOK_GL_STATE_PRESERVE)
+      : NnaoFixture(made_in, mode) {}
+  ~WorldFixture() { nook_world_pass_destroy(&pass); }
+
+  nook_world_pass made(nook_world_pass_desc desc = world_desc()) {
+    if (!pass) NOOK_OK_OR_FAIL(nook_world_pass_create(gl, &desc, &pass));
+    return pass;
+  }
+  std::vector<float> own(int w = width, int h = height) {
+    nook_world_pass_info info{};
+    info.struct_size = sizeof info;
+    NOOK_OK_OR_FAIL(nook_world_pass_describe(pass, &info));
+    return read_texture(context.gl(), info.texture, w, h);
+  }
+
+  nook_world_pass pass = nullptr;
+};
+
+nook_world_frame_desc world_frame(const nook_nnao_frame_desc& screen, const View& view) {
+  nook_world_frame_desc frame;
+  NOOK_OK_OR_FAIL(nook_world_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+  frame.screen = &screen;
+  std::memcpy(frame.view, view.matrix, sizeof frame.view);
+  return frame;
+}
+
+// What the CPU gives at the pixels of a picture; 1 where there is sky.
+std::vector<float> sampled(const Picture& picture, const View& view, nook_scene scene,
+                           const std::vector<nook_world_capsule>& casters) {
+  std::vector<float> position, normal;
+  for (std::uint32_t y = 0; y < picture.height; ++y)
+    for (std::uint32_t x = 0; x < picture.width; ++x) {
+      const std::size_t i = std::size_t(y) * picture.width + x;
+      const float depth = std::isfinite(picture.depth[i]) ? picture.depth[i] : 1;
+      const Vec3 p =
+          view.to_world(nnao::view_position(picture.rays, float(x) + 0.5f, float(y) + 0.5f, depth));
+      const Vec3 n = view.turn_back(picture.normal[i]);
+      position.insert(position.end(), {p.x, p.y, p.z});
+      normal.insert(normal.end(), {n.x, n.y, n.z});
+    }
+  nook_world_sample_desc desc;
+  NOOK_OK_OR_FAIL(nook_world_sample_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.positions = position.data();
+  desc.normals = normal.data();
+  desc.point_count = std::uint32_t(picture.depth.size());
+  desc.props = casters.data();
+  desc.prop_count = std::uint32_t(casters.size());
+  std::vector<float> ao(picture.depth.size());
+  NOOK_OK_OR_FAIL(nook_world_sample(scene, &desc, ao.data(), nullptr));
+  for (std::size_t i = 0; i < ao.size(); ++i)
+    if (!std::isfinite(picture.depth[i])) ao[i] = 1;
+  return ao;
+}
+
+float darkest(const std::vector<float>& ao) {
+  return *std::min_element(ao.begin(), ao.end());
+}
+
+}  // namespace
+
+TEST_CASE("world: a sphere and a capsule darken as on the CPU, under every projection") {
+  NOOK_NEED_CONTEXT(context);
+  WorldFixture fixture(context);
+  nook_world_pass pass = fixture.made();
+  const View view = turned_view();
+  const std::vector<nook_world_capsule> casters = props(view);
+  for (const Camera& camera : cameras(float(width) / height)) {
+    INFO(camera.name);
+    const Picture picture = look(camera, still_life(), width, height);
+    const nook_nnao_frame_desc screen =
+        frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
+    nook_world_frame_desc frame = world_frame(screen, view);
+    frame.props = casters.data();
+    frame.prop_count = std::uint32_t(casters.size());
+    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+    const std::vector<float> wanted = sampled(picture, view, nullptr, casters);
+    const Difference found = difference(fixture.own(), wanted, bound);
+    INFO("largest " << found.largest << ", mean " << found.mean << ", darkest " << darkest(wanted));
+    // Depth of a camera whose range is wide has few digits far away; a pixel on a caster's surface may flip.
+    CHECK(found.beyond <= 0.01f);
+    CHECK(found.mean < 0.5f * bound);
+    CHECK(darkest(wanted) < 0.7f);
+  }
+}
+
+TEST_CASE("world: normals from depth come close to those of the host") {
+  NOOK_NEED_CONTEXT(context);
+  WorldFixture fixture(context);
+  nook_world_pass pass = fixture.made();
+  const Camera camera = plain_camera(float(width) / height);
+  const Picture picture = look(camera, still_life(), width, height);
+  const View view = turned_view();
+  const std::vector<nook_world_capsule> casters = props(view);
+  const nook_nnao_frame_desc screen =
+      frame_desc(camera, width, height, fixture.depth_of(camera, picture), 0, 1);
+  nook_world_frame_desc frame = world_frame(screen, view);
+  frame.props = casters.data();
+  frame.prop_count = std::uint32_t(casters.size());
+  NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+  // Edges of the balls alone differ.
+  CHECK(difference(fixture.own(), sampled(picture, view, nullptr, casters), 0.05f).beyond < 0.03f);
+}
+
+TEST_CASE("world: the bodies of a scene darken as on the CPU, and outgrow the table") {
+  NOOK_NEED_CONTEXT(context);
+  WorldFixture fixture(context);
+  nook_world_pass pass = fixture.made();
+  Numbers numbers(4);
+  CharacterModel model = sample_model();
+  add_world_casters(model, numbers);
+  nook_character_model loaded = load_model(fixture.host.handle, model);
+  {
+    CrowdOptions options;
+    options.instances = 7;
+    options.offset = {0, -0.3f, -3};
+    options.occluders = true;
+    Crowd crowd(fixture.host.handle, {loaded}, {std::uint32_t(model.bone_count())}, options);
+    for (const std::uint32_t frame_number : {0u, 1u}) {
+      crowd.pose(frame_number);
+      const View view;
+      const Camera camera = plain_camera(float(width) / height);
+      const Picture picture = look(camera, still_life(), width, height);
+      const nook_nnao_frame_desc screen = frame_desc(camera, width, height, fixture.depth_of(camera, picture),
+                                                     fixture.normals_of(picture), 1);
+      nook_world_frame_desc frame = world_frame(screen, view);
+      frame.scene = crowd.scene;
+      frame.cutoff_error = 0;
+      NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+      const std::vector<float> wanted = sampled(picture, view, crowd.scene, {});
+      const Difference found = difference(fixture.own(), wanted, bound);
+      INFO("largest " << found.largest << ", mean " << found.mean << ", darkest " << darkest(wanted));
+      CHECK(found.beyond <= 0.01f);
+      CHECK(darkest(wanted) < 0.7f);
+    }
+  }
+  nook_character_model_destroy(&loaded);
+}
+
+TEST_CASE("world: sky and a frame without casters are exactly open") {
+  NOOK_NEED_CONTEXT(context);
+  WorldFixture fixture(context);
+  nook_world_pass pass = fixture.made();
+  for (const float value : fixture.own()) REQUIRE(value == 1);
+  const Camera camera = plain_camera(float(width) / height);
+  const Picture picture = look(camera, still_life(), width, height);
+  const nook_nnao_frame_desc screen =
+      frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
+  const View view;
+  nook_world_frame_desc frame = world_frame(screen, view);
+  NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+  for (const float value : fixture.own()) REQUIRE(value == 1);
+  const nook_world_capsule everywhere = prop(view, {0, 0, -3}, 2.5f, {0, 0, -4}, 2.5f);
+  frame.props = &everywhere;
+  frame.prop_count = 1;
+  NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+  const std::vector<float> ao = fixture.own();
+  int open_sky = 0;
+  for (std::size_t i = 0; i < ao.size(); ++i)
+    if (!std::isfinite(picture.depth[i])) {
+      REQUIRE(ao[i] == 1);
+      ++open_sky;
+    }
+  CHECK(open_sky > 0);
+  CHECK(darkest(ao) < 0.2f);
+}
+
+TEST_CASE("world: a mask keeps its pixels, and casters multiply") {
+  NOOK_NEED_CONTEXT(context);
+  WorldFixture fixture(context);
+  nook_world_pass pass = fixture.made();
+  const Camera camera = plain_camera(float(width) / height);
+  const Picture picture = look(camera, still_life(), width, height);
+  std::vector<float> mask(std::size_t(2 * width * height), 1.0f);
+  for (int i = 0; i < width * height; ++i) mask[std::size_t(2 * i + 1)] = i % width < width / 2 ? 1 : 0;
+  nook_nnao_frame_desc screen =
+      frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
+  const View view;
+  const std::vector<nook_world_capsule> casters = props(view);
+  const auto drawn = [&](std::size_t first, std::size_t count) {
+    nook_world_frame_desc frame = world_frame(screen, view);
+    frame.props = casters.data() + first;
+    frame.prop_count = std::uint32_t(count);
+    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+    return fixture.own();
+  };
+  const std::vector<float> all = drawn(0, 3), one = drawn(0, 1), two = drawn(1, 1), three = drawn(2, 1);
+  float worst = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    worst = std::max(worst, std::abs(all[i] - one[i] * two[i] * three[i]));
+  // Four roundings to 8 bits.
+  CHECK(worst < 2.5f / 255);
+  screen.layer = NOOK_NNAO_LAYER_REPLACE;
+  screen.layer_texture = fixture.textures.floats(GL_RG8, 2, width, height, mask);
+  const std::vector<float> masked = drawn(0, 3);
+  for (std::size_t i = 0; i < masked.size(); ++i)
+    REQUIRE(masked[i] == (int(i) % width < width / 2 ? 1.0f : all[i]));
+}
+
+TEST_CASE("world: nothing is darkened beyond the stated reach, and by no more than the cut-off within") {
+  NOOK_NEED_CONTEXT(context);
+  WorldFixture fixture(context);
+  nook_world_pass pass = fixture.made();
+  Numbers numbers(4);
+  CharacterModel model = sample_model();
+  add_world_casters(model, numbers);
+  nook_character_model loaded = load_model(fixture.host.handle, model);
+  {
+    CrowdOptions options;
+    options.instances = 1;
+    options.occluders = false;
+    options.offset = {0, 0, -2.2f};
+    Crowd crowd(fixture.host.handle, {loaded}, {std::uint32_t(model.bone_count())}, options);
+    crowd.pose(0);
+    const Camera camera = plain_camera(float(width) / height);
+    const Picture picture = look(camera, still_life(), width, height);
+    const nook_nnao_frame_desc screen =
+        frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
+    const auto drawn = [&](float cutoff) {
+      nook_world_frame_desc frame = world_frame(screen, View());
+      frame.scene = crowd.scene;
+      frame.cutoff_error = cutoff;
+      NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+      return fixture.own();
+    };
+    const std::vector<float> all = drawn(0), cut = drawn(0.05f);
+    int changed = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      // A step of 8 bits for rounding.
+      REQUIRE((cut[i] == all[i] || (cut[i] == 1 && all[i] > 0.95f - 1.0f / 255)));
+      changed += cut[i] != all[i];
+    }
+    CHECK(changed > 0);
+  }
+  nook_character_model_destroy(&loaded);
+}
+
+namespace {
+
+using Check = std::function<void(const char*, Poison&, const std::function<void()>&)>;
+
+void walk(platform::Context& context, nook_gl_state_mode mode, const Check& check) {
+  WorldFixture fixture(context, mode);
+  const Camera camera = plain_camera(float(width) / height);
+  const Picture picture = look(camera, still_life(), width, height);
+  nook_nnao_frame_desc screen =
+      frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
+  const GLuint colour = fixture.textures.floats(GL_RGBA16F, 4, width, height,
+                                                std::vector<float>(std::size_t(width) * height * 4, 1.0f));
+  const View view;
+  const std::vector<nook_world_capsule> casters = props(view);
+  const auto render = [&](bool to_texture, nook_result wanted = NOOK_OK) {
+    nook_nnao_frame_desc of = screen;
+    if (to_texture) {
+      of.target = NOOK_NNAO_TARGET_TEXTURE;
+      of.target_name = wanted == NOOK_OK ? colour : of.depth_texture;
+      of.blend = NOOK_NNAO_MULTIPLY;
+    }
+    nook_world_frame_desc frame = world_frame(of, view);
+    frame.props = casters.data();
+    frame.prop_count = std::uint32_t(casters.size());
+    const nook_result result = nook_world_render(fixture.pass, &frame);
+    INFO(nook_last_message());
+    CHECK(result == wanted);
+  };
+  const unsigned users = gl::screen | (context.is_es() ? unsigned{gl::texel_uploads} : 0u);
+  const std::pair<const char*, std::function<void()>> steps[] = {
+      {"create", [&] { fixture.made(); }},
+      {"texture", [&] { render(true); }},
+      {"first frame", [&] { render(false); }},
+      {"later frame", [&] { render(false); }},
+      {"refused frame", [&] { render(true, NOOK_ERROR_INVALID_ARGUMENT); }},
+      {"destroy", [&] { nook_world_pass_destroy(&fixture.pass); }},
+  };
+  for (const auto& [name, call] : steps) {
+    Poison poison(context, users);
+    check(name, poison, call);
+    CHECK(context.gl().GetError() == GL_NO_ERROR);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("world: PRESERVE puts all state back") {
+  NOOK_NEED_CONTEXT(context);
+  walk(context, NOOK_GL_STATE_PRESERVE,
+       [&](const char* step, Poison& poison, const std::function<void()>& call) {
+         INFO(step);
+         const StateValues touched = poison.touched(), untouched = poison.untouched();
+         call();
+         CHECK(poison.touched() == touched);
+         CHECK(poison.untouched() == untouched);
+       });
+}
+
+TEST_CASE("world: HOST touches nothing beside the list") {
+  NOOK_NEED_CONTEXT(context);
+  walk(context, NOOK_GL_STATE_HOST, [&](const char* step, Poison& poison, const std::function<void()>& call) {
+    INFO(step);
+    const StateValues untouched = poison.untouched();
+    call();
+    CHECK(poison.untouched() == untouched);
+  });
+}
+
+TEST_CASE("world: every refused allocation leaves nothing behind") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
+  const long long bytes = host.bytes;
+  const nook_world_pass_desc desc = world_desc(32, 32);
+  nook_world_pass pass = nullptr;
+  int refusals = 0;
+  for (long n = 0; pass == nullptr && n < 100; ++n) {
+    host.refuse_after = n;
+    const nook_result result = nook_world_pass_create(gl, &desc, &pass);
+    host.refuse_after = -1;
+    if (result == NOOK_OK) break;
+    ++refusals;
+    REQUIRE(result == NOOK_ERROR_OUT_OF_MEMORY);
+    CHECK(host.bytes == bytes);
+  }
+  CHECK(refusals >= 1);
+  nook_world_pass_destroy(&pass);
+  CHECK(host.bytes == bytes);
+  nook_gl_destroy(&gl);
+}
+
+TEST_CASE("world: bad input is refused at once, and draws nothing") {
+  NOOK_NEED_CONTEXT(context);
+  WorldFixture fixture(context);
+  nook_world_pass pass = fixture.made();
+  const Camera camera = plain_camera(float(width) / height);
+  const Picture picture = look(camera, still_life(), width, height);
+  const nook_nnao_frame_desc screen =
+      frame_desc(camera, width, height, fixture.depth_of(camera, picture), 0, 1);
+  const View view;
+  const std::vector<nook_world_capsule> casters = props(view);
+  const auto refused = [&](const char* text, const std::function<void(nook_world_frame_desc&)>& change) {
+    nook_world_frame_desc frame = world_frame(screen, view);
+    frame.props = casters.data();
+    frame.prop_count = std::uint32_t(casters.size());
+    change(frame);
+    CHECK(nook_world_render(pass, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
+    INFO(nook_last_message());
+    CHECK(std::string(nook_last_message()).find(text) != std::string::npos);
+  };
+  refused("frame.screen", [](auto& f) { f.screen = nullptr; });
+  refused("frame.view", [](auto& f) { f.view[0] = NAN; });
+  refused("frame.view", [](auto& f) { f.view[5] = 2; });
+  refused("frame.props is NULL", [](auto& f) { f.props = nullptr; });
+  refused("frame.cutoff_error", [](auto& f) { f.cutoff_error = -1; });
+  nook_world_capsule bad = casters[0];
+  bad.radius_a = 0;
+  refused("frame.props[0] has a radius", [&](auto& f) {
+    f.props = &bad;
+    f.prop_count = 1;
+  });
+  nook_nnao_frame_desc wide = screen;
+  wide.width = 4 * width;
+  refused("frame.width", [&](auto& f) { f.screen = &wide; });
+  CHECK(nook_world_render(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_world_recheck(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  NOOK_OK_OR_FAIL(nook_world_recheck(pass));
+  for (const float value : fixture.own()) REQUIRE(value == 1);
+  nook_world_pass_desc desc = world_desc(0, 4);
+  nook_world_pass none = nullptr;
+  CHECK(nook_world_pass_create(fixture.gl, &desc, &none) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(none == nullptr);
+}
