@@ -280,7 +280,7 @@ std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<co
       const Eigen::VectorXd change = damped.selfadjointView<Eigen::Lower>().ldlt().solve(sums.right);
       set_parameters(casters, best + change);
       const double error = objective.error(casters) + pulled(best + change);
-      // What the linearisation promises for this step.
+      // The gain that the linearisation promises for this step.
       const double promised =
           2 * change.dot(sums.right) - change.dot(sums.gram.selfadjointView<Eigen::Lower>() * change);
       const double kept = (before - error) / std::max(promised, 1e-12);

@@ -15,7 +15,7 @@ namespace nook::bake {
 struct WorldCasterSettings {
   std::size_t casters = 40;  // 1 to 64
   std::size_t poses = 96;    // at most this many of those given, evenly chosen
-  // In each pose.
+  // The numbers in each pose.
   std::size_t floor_points = 128, wall_points = 64, contact_points = 96, neighbour_points = 48,
               cone_points = 96;
   std::uint32_t rays = 256;  // a point; a cone takes an eighth

@@ -138,7 +138,7 @@ bool cut(std::vector<Part>& parts, std::size_t which, std::span<const Vec3> posi
   return true;
 }
 
-// How badly one capsule fills a part: its breadth beyond its thickness, times its area.
+// The misfit of one capsule to a part: its breadth beyond its thickness, times its area.
 double misfit(const Part& part, std::span<const Vec3> position, std::span<const float> area) {
   const Shape shape = shape_of(part, position, area);
   return part.area * double(shape.spread[1] - 0.7f * shape.spread[0]) +

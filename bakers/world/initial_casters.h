@@ -16,8 +16,8 @@ namespace nook::bake {
 std::vector<WorldCaster> bone_capsules(const SkinnedMesh& mesh, std::span<const float> vertex_area);
 
 // Exactly `count` capsules, or as many as the vertices allow: bones with little area join their parents until
-// they fit, then the capsule that covers the most area is cut in two across its longest axis until the count
-// is reached.
+// they fit, then the capsule with the largest misfit is cut in two across its longest axis, as often as it
+// takes.
 std::vector<WorldCaster> initial_casters(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                          std::size_t count);
 

@@ -18,7 +18,7 @@ inline float scale_of(const Mat3x4& m) {
   return length({m.m[0], m.m[4], m.m[8]});
 }
 
-// What a caster is evaluated for.
+// The use that a caster is evaluated for.
 enum class CasterUse { ao, light };
 
 inline Capsule posed(const WorldCaster& caster, const Pose& pose, CasterUse use) {

@@ -1,4 +1,4 @@
-// What a body darkens: points on the floor, on a wall and on another body, by area.
+// The surfaces that a body darkens: points on the floor, on a wall and on another body, by area.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What all casters of a frame leave open at a point. The table holds two texels for each group, its sphere of
+// The openness that all casters of a frame leave at a point. The table holds two texels for each group, its sphere of
 // reach and (first texel, number of casters), then two for each caster: its ends with their radii in AO.
 #include "shaders/core/texels.glsl"
 #include "shaders/world/coverage.glsl"

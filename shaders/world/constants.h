@@ -14,7 +14,7 @@
 // The largest sine of an end's angular radius, just below that of a surface that is touched.
 #define NOOK_LARGEST_SINE 0.9999
 
-// What the horizon cuts off, w1 (1 - t^2) + w2 (1 - t^2)^2 with w = b (c0 + b (c1 + b c2)).
+// The share below the horizon, w1 (1 - t^2) + w2 (1 - t^2)^2 with w = b (c0 + b (c1 + b c2)).
 #define NOOK_HORIZON_10 1.09177
 #define NOOK_HORIZON_11 -1.52723
 #define NOOK_HORIZON_12 0.68546

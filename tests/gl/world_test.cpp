@@ -90,7 +90,7 @@ nook_world_frame_desc world_frame(const nook_nnao_frame_desc& screen, const View
   return frame;
 }
 
-// What the CPU gives at the pixels of a picture; 1 where there is sky.
+// The AO that the CPU gives at the pixels of a picture; 1 where there is sky.
 std::vector<float> sampled(const Picture& picture, const View& view, nook_scene scene,
                            const std::vector<nook_world_capsule>& casters) {
   std::vector<float> position, normal;

@@ -57,7 +57,7 @@ TEST_CASE("coverage: a sphere that the horizon clips is within the error of the 
       sum += error * error;
       ++count;
     }
-  // Of coverage.h.
+  // The error that coverage.h states.
   CHECK(largest < 0.0052 + rounding);
   CHECK(std::sqrt(sum / count) < 0.002);
 }
@@ -82,7 +82,7 @@ TEST_CASE("coverage: capsules above the horizon agree with rays") {
         length(c.b) < 1.05f * c.radius_b)
       continue;
     const double error = double(coverage_of(c)) - traced_coverage(c);
-    // Of the rays.
+    // The noise of the rays.
     CHECK(std::abs(error) < 3e-3);
     sum += error * error;
     ++count;

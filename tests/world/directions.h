@@ -9,8 +9,8 @@
 
 namespace nook::test {
 
-// Whether a ray from the origin meets the capsule, by 600 spheres along it. They are so dense that the
-// silhouette is wrong by less than 1e-4 of a radius for the capsules of these tests.
+// Returns whether a ray from the origin meets the capsule, by 600 spheres along it. They are so dense that
+// the silhouette is wrong by less than 1e-4 of a radius for the capsules of these tests.
 inline bool meets(Vec3 direction, const Capsule& c) {
   constexpr int steps = 600;
   for (int i = 0; i <= steps; ++i) {
@@ -41,7 +41,7 @@ inline world::CapsuleLanes<float> lanes_of(const Capsule& c) {
   return {c.a.x, c.a.y, c.a.z, c.b.x, c.b.y, c.b.z, c.radius_a, c.radius_b};
 }
 
-// At the origin with the normal +z.
+// The coverage of the origin with the normal +z.
 inline float coverage_of(const Capsule& c) {
   return world::coverage<float>(lanes_of(c), 0, 0, 1);
 }

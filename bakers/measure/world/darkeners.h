@@ -30,8 +30,8 @@ class Darkener {
   virtual float cone(Vec3 point, const LightCone& cone) const = 0;
 };
 
-// A method is a family of them, of which each surface takes the one with the least error: its one free scale
-// is picked on the scored poses, in its favour.
+// A method is a family of them, of which each surface takes the one with the smallest error: its one free
+// scale is picked on the scored poses, in its favour.
 struct Method {
   std::string name;
   std::vector<std::unique_ptr<Darkener>> variant;

@@ -23,7 +23,7 @@ using namespace bake;
 constexpr int width_px = 380, height_px = 380;
 constexpr float light_half_angle = 10 * std::numbers::pi_v<float> / 180;
 
-// What each pixel shows.
+// The body, floor or wall that each pixel shows.
 struct View {
   std::vector<Vec3> position, normal;  // of the pixels of floor and wall
   std::vector<std::uint32_t> pixel;    // theirs

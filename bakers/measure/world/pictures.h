@@ -1,4 +1,4 @@
-// What a body darkens, drawn by ray tracing and by the methods beside it.
+// The darkening by a body, drawn by ray tracing and by the methods beside it.
 #pragma once
 
 #include <filesystem>

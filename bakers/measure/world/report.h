@@ -14,7 +14,7 @@
 namespace nook::measure {
 
 struct WorldStudy {
-  // In each pose and on each surface.
+  // The number on each surface in each pose.
   std::size_t points = 1500;
   std::uint32_t rays = 512;  // a point; a cone takes an eighth
   std::uint32_t cone_rays() const { return rays / 8 > 0 ? rays / 8 : 1; }

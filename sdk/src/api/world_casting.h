@@ -1,4 +1,4 @@
-// What casts in a call: the bodies and occluders of a scene, and the host's props.
+// The casters of a call: the bodies and occluders of a scene, and the host's props.
 #pragma once
 
 #include <nook/nook_world.h>
@@ -23,7 +23,7 @@ class Casting {
 
   // Bodies by slot, then occluders by slot, then props; a free slot is a group without casters.
   std::uint32_t group_count() const;
-  // Of all groups.
+  // The number of casters of all groups.
   std::uint32_t caster_count() const;
   // user: a Casting. The strength of an occluder or a prop is infinite, so that it is never left out.
   static world::CasterGroup group(const void* user, std::uint32_t index, PosedCaster& room);

@@ -55,7 +55,7 @@ F part_coverage(const CapsuleLanes<F>& c, F lx, F ly, F lz, F slope) {
   const F one(1.0f), zero(0.0f);
   const F depth_a = fma(c.ax, lx, fma(c.ay, ly, c.az * lz)),
           depth_b = fma(c.bx, lx, fma(c.by, ly, c.bz * lz));
-  // What lies behind the receiver is cut off; the cut is near its plane, where the rest is seen from far
+  // The part behind the receiver is cut off; the cut is near its plane, where the rest is seen from far
   // aside.
   const F deepest = max(depth_a, depth_b);
   const F least = F(0.02f) * deepest;

@@ -77,8 +77,8 @@ HullFactor<F> hull_factor(F su, F sv, F spread) {
           select(less(one, within), beta * inverse_across, b)};
 }
 
-// What the horizon leaves. factor: dot(n, Phi); size2: |Phi|^2; lowest: the height of the lowest part of the
-// capsule's two spheres above the horizon, in their radii, at least 1 where the capsule is above it.
+// The share above the horizon. factor: dot(n, Phi); size2: |Phi|^2; lowest: the height of the lowest part of
+// the capsule's two spheres above the horizon, in their radii, at least 1 where the capsule is above it.
 //
 // The region counts as the disc of the same vector Phi: its sine is sqrt(|Phi|), and t = dot(n, Phi) /
 // |Phi|^(3/2) is the height of its centre in radii. The disc's share above the horizon is |Phi|^(3/2) (t +

@@ -59,15 +59,15 @@ void load_points(const SampleRequest& request, std::uint32_t first, Block& block
   block.radius = 0.5f * length(high - low);
 }
 
-// Whether the casters may take cutoff_error or more from any point of the block. False for NaN.
+// Returns whether the casters may take cutoff_error or more from any point of the block. False for NaN.
 bool reaches(const CasterGroup& group, const Block& block, float cutoff_error) {
   const float gap = length(group.centre - block.centre) - group.radius - block.radius;
   if (gap <= 0) return true;
   return group.strength >= cutoff_error * gap * gap;
 }
 
-// Whether they may stand before the cone of any point of the block. The parts of a cone reach beyond its edge
-// by at most the radius of a part, half of which lies inside.
+// Returns whether they may stand before the cone of any point of the block. The parts of a cone reach beyond
+// its edge by at most the radius of a part, half of which lies inside.
 bool stands_before(const CasterGroup& group, const Block& block, const SampleRequest& request, float wide) {
   const Vec3 d = group.centre - block.centre;
   const float reach = group.radius + block.radius, distance = length(d);

@@ -28,7 +28,7 @@ struct CasterGroups {
 };
 
 struct SampleRequest {
-  const float* positions = nullptr;  // three floats a point
+  const float* positions = nullptr;  // three floats for each point
   const float* normals = nullptr;    // the same; of unit length
   std::uint32_t count = 0;
   std::size_t stride = 3;  // floats from point to point, of both

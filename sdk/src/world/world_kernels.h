@@ -1,6 +1,6 @@
-// What casters leave open at many points, as a table of plain functions, one table for each instruction set.
-// Arrays of points belong to the caller and are padded to a multiple of simd_width; padding holds finite
-// numbers. None allocates, locks or throws.
+// The openness that casters leave at many points, as a table of plain functions, one table for each
+// instruction set. Arrays of points belong to the caller and are padded to a multiple of simd_width; padding
+// holds finite numbers. None allocates, locks or throws.
 #pragma once
 
 #include <cstdint>

@@ -102,8 +102,7 @@ TEST_CASE("world casters: a fit of a tube is close to ray tracing on poses that 
   for (const auto& row : rows) {
     if (row["method"] != "nook") continue;
     INFO(row.dump());
-    // Half of what is asked of bodies for light, whose parts are coarser than a tube's edge; a tube is a
-    // simple body.
+    // A tube is a simple body. Its shadow has edges that the parts of a cone blur.
     CHECK(row["over_none"].get<double>() < (row["surface"] == "cone" ? 0.1 : 0.04));
   }
 }

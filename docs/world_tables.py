@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Bakes characters, runs nook evaluate world on them, and prints the tables of docs/world.md.
+
+    docs/world_tables.py --nook build/bakers/tool/nook [--write] [--keep DIR] CHARACTER.glb ...
+
+Half of the clips are fitted, the others measured. The self-shadow is fitted in a hurry (--steps 100 --rays 4), which the casters do not
+depend on. --keep keeps models and reports, and takes those that are there.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import tempfile
+
+from markdown_table import show, table
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SCRIPT = pathlib.Path(__file__).name
+DOCUMENT = ROOT / "docs/world.md"
+BAKE = ["--split", "half", "--auto-poses", "300", "--samples-per-clip", "8", "--steps", "100", "--rays", "4"]
+EVALUATE = ["--max-poses", "44", "--points", "600"]
+
+
+def surface_of(row):
+    return f"cone {row['cone_degrees']:g}°" if row["surface"] == "cone" else row["surface"]
+
+
+def measure(nook, character, folder):
+    model, report = folder / f"{character.stem}.nook", folder / f"{character.stem}.json"
+    if not model.exists():
+        subprocess.run([nook, "bake", "character", character, "-o", model, *BAKE, "--quiet"], check=True)
+    if not report.exists():
+        subprocess.run([nook, "evaluate", "world", character, model, *EVALUATE, "--report", report, "--quiet"], check=True)
+    return json.loads(report.read_text())["rows"]
+
+
+def tables(rows_by_character):
+    lines, spread = [], {}
+    for name, rows in rows_by_character.items():
+        by_surface = {}
+        for row in rows:
+            by_surface.setdefault(surface_of(row), {})[row["method"]] = row
+        for surface, methods in by_surface.items():
+            own = methods["nook"]
+            others = [f"{methods[m]['over_none']:.3f}" for m in ("capsules", "ellipsoids", "blobs", "proxy spheres")]
+            lines.append([name, surface, f"{own['over_none']:.4f} [{own['over_none_low']:.4f}, {own['over_none_high']:.4f}]",
+                          f"{own['over_capsules']:.2f} [{own['over_capsules_low']:.2f}, {own['over_capsules_high']:.2f}]", *others])
+            spread.setdefault(surface, []).append((own["over_none"], own["over_capsules"]))
+    summary = []
+    for surface, values in spread.items():
+        none, capsules = zip(*values)
+        summary.append([surface, f"{min(none):.4f} to {max(none):.4f}", f"{min(capsules):.2f} to {max(capsules):.2f}"])
+    return {"errors": table(["character", "surface", "over none", "over capsules", "capsules", "ellipsoids", "blobs", "proxy spheres"], lines),
+            "summary": table(["surface", "over none", "over capsules"], summary)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--nook", default=ROOT / "build/bakers/tool/nook")
+    parser.add_argument("--write", action="store_true")
+    parser.add_argument("--keep", type=pathlib.Path)
+    parser.add_argument("characters", nargs="+", type=pathlib.Path)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = options.keep or pathlib.Path(scratch)
+        rows = {character.stem: measure(options.nook, character, folder) for character in options.characters}
+    show(DOCUMENT, SCRIPT, tables(rows), options.write)
+
+
+if __name__ == "__main__":
+    main()
