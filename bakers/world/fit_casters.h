@@ -16,7 +16,7 @@ struct WorldCasterSettings {
   std::size_t casters = 40;  // 1 to 64
   std::size_t poses = 96;    // at most this many of those given, evenly chosen
   // The numbers in each pose.
-  std::size_t floor_points = 128, wall_points = 64, contact_points = 96, neighbour_points = 48,
+  std::size_t floor_points = 256, wall_points = 64, contact_points = 128, neighbour_points = 48,
               cone_points = 96;
   std::uint32_t rays = 256;  // a point; a cone takes an eighth
   std::size_t steps = 16;    // of Gauss-Newton, at most; 0: the initial capsules
@@ -36,10 +36,10 @@ struct WorldCasterReport {
 // Returns false to stop.
 using CasterProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// The casters minimise the sum over floor, wall, contact ring and neighbour of the mean squared error of AO
-// over that of no darkening, and the same of the shadows of small cones of light on the floor, by Levenberg's
-// and Marquardt's method from initial_casters. The same seed gives the same casters on any number of threads.
-// Throws Failure (CANCELLED).
+// The casters minimise a weighted sum over floor, wall, contact ring and neighbour of the mean squared error
+// of AO over that of no darkening, and the same of the shadows of small cones of light on the floor, by
+// Levenberg's and Marquardt's method from initial_casters. The same seed gives the same casters on any number
+// of threads. Throws Failure (CANCELLED).
 std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<const Pose> poses,
                                            const WorldCasterSettings& settings,
                                            WorldCasterReport* report = nullptr,

@@ -74,8 +74,11 @@ TrainingPoints trace_training_points(const SkinnedMesh& mesh, std::span<const Po
     add_cones(set, scene, floor_points(body.position, settings.cone_points, random.bits()), std::uint32_t(p),
               std::max(settings.rays / 8, 1u), offset, random, none[std::size_t(PointKind::cone)]);
   }
+  // The floor near a body is what is seen of it most, and the hardest.
+  constexpr double share[point_kinds] = {2, 1, 1.5, 0.7, 1};
   for (TrainingPoint& point : set.point)
-    point.weight = float(double(point.weight) / std::max(none[std::size_t(point.kind)], 1e-12));
+    point.weight = float(share[std::size_t(point.kind)] * double(point.weight) /
+                         std::max(none[std::size_t(point.kind)], 1e-12));
   return set;
 }
 

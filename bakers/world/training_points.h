@@ -21,7 +21,7 @@ struct TrainingPoint {
   std::uint32_t pose = 0;
   PointKind kind = PointKind::floor;
   float ao = 1;      // traced; of a cone its open share
-  float weight = 0;  // of the squared error: the sum of weight * (1 - ao)^2 over each kind is 1
+  float weight = 0;  // of the squared error: the sum of weight * (1 - ao)^2 over a kind is its share
 };
 
 struct TrainingPoints {

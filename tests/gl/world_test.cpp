@@ -15,6 +15,8 @@
 using namespace nook;
 using namespace nook::test;
 
+extern "C" int nook_world_gl_call_everything(nook_gl gl);
+
 namespace {
 
 constexpr int width = 96, height = 64;
@@ -123,6 +125,12 @@ float darkest(const std::vector<float>& ao) {
 }
 
 }  // namespace
+
+TEST_CASE("world: every function of the pass is called from C") {
+  NOOK_NEED_CONTEXT(context);
+  WorldFixture fixture(context);
+  CHECK(nook_world_gl_call_everything(fixture.gl) == 0);
+}
 
 TEST_CASE("world: a sphere and a capsule darken as on the CPU, under every projection") {
   NOOK_NEED_CONTEXT(context);
@@ -256,7 +264,7 @@ TEST_CASE("world: a mask keeps its pixels, and casters multiply") {
   // Four roundings to 8 bits.
   CHECK(worst < 2.5f / 255);
   screen.layer = NOOK_NNAO_LAYER_REPLACE;
-  screen.layer_texture = fixture.textures.floats(GL_RG8, 2, width, height, mask);
+  screen.layer_texture = fixture.textures.floats(GL_RG32F, 2, width, height, mask);
   const std::vector<float> masked = drawn(0, 3);
   for (std::size_t i = 0; i < masked.size(); ++i)
     REQUIRE(masked[i] == (int(i) % width < width / 2 ? 1.0f : all[i]));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/character/model.h"

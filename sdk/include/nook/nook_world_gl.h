@@ -38,7 +38,7 @@ NOOK_API nook_result nook_world_pass_desc_init(nook_world_pass_desc* desc, size_
 
 /* Creates textures and shaders. On failure *out is NULL and no OpenGL object is left.
  * Context thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED (the size exceeds the textures of this
- * OpenGL), GL, OUT_OF_MEMORY. */
+ * OpenGL, or the casters its tables), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_world_pass_create(nook_gl gl, const nook_world_pass_desc* desc,
                                             nook_world_pass* out);
 

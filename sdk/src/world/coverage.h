@@ -115,8 +115,9 @@ F coverage(const CapsuleLanes<F>& capsule, F nx, F ny, F nz) {
   const F a2 = fma(capsule.ax, capsule.ax, fma(capsule.ay, capsule.ay, capsule.az * capsule.az));
   const F b2 = fma(capsule.bx, capsule.bx, fma(capsule.by, capsule.by, capsule.bz * capsule.bz));
   const F ia = rsqrt(max(a2, tiny)), ib = rsqrt(max(b2, tiny));
-  const F su = min(capsule.radius_a * ia, F(float(NOOK_LARGEST_SINE)));
-  const F sv = min(capsule.radius_b * ib, F(float(NOOK_LARGEST_SINE)));
+  // In this order a NaN stays one.
+  const F su = min(F(float(NOOK_LARGEST_SINE)), capsule.radius_a * ia);
+  const F sv = min(F(float(NOOK_LARGEST_SINE)), capsule.radius_b * ib);
   const F ux = capsule.ax * ia, uy = capsule.ay * ia, uz = capsule.az * ia;
   const F vx = capsule.bx * ib, vy = capsule.by * ib, vz = capsule.bz * ib;
   const F dx = ux - vx, dy = uy - vy, dz = uz - vz;

@@ -46,7 +46,12 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
   stage_ = make_stage("");
   layered_stage_ = make_stage("#define NOOK_LAYERED 1\n");
   own_ = RenderTexture(device, TextureFormat::ao, desc.max_width, desc.max_height, "nook: AO of the world");
-  casters_.reserve(device, GL_RGBA32F, std::uint64_t{desc.casters} * caster_texels, "nook: world casters");
+  const std::uint64_t texels = std::uint64_t{desc.casters} * caster_texels;
+  if (texels > device.max_texels)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "desc.casters is larger than this OpenGL's tables (got %u, need at most %llu)",
+                  desc.casters, static_cast<unsigned long long>(device.max_texels / caster_texels));
+  casters_.reserve(device, GL_RGBA32F, texels, "nook: world casters");
   sampler_ = Object::make(device, Object::Kind::sampler);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     gl.SamplerParameteri(sampler_.name(), filter, GL_NEAREST);
