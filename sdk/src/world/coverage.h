@@ -115,7 +115,7 @@ F coverage(const CapsuleLanes<F>& capsule, F nx, F ny, F nz) {
   const F a2 = fma(capsule.ax, capsule.ax, fma(capsule.ay, capsule.ay, capsule.az * capsule.az));
   const F b2 = fma(capsule.bx, capsule.bx, fma(capsule.by, capsule.by, capsule.bz * capsule.bz));
   const F ia = rsqrt(max(a2, tiny)), ib = rsqrt(max(b2, tiny));
-  // In this order a NaN stays one.
+  // The order of the arguments keeps a NaN.
   const F su = min(F(float(NOOK_LARGEST_SINE)), capsule.radius_a * ia);
   const F sv = min(F(float(NOOK_LARGEST_SINE)), capsule.radius_b * ib);
   const F ux = capsule.ax * ia, uy = capsule.ay * ia, uz = capsule.az * ia;
