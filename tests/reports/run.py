@@ -85,6 +85,7 @@ def characters(run, name, glb, *bake_options):
     run.report(f"evaluate_{name}_clips", "evaluate", "character", glb, model, "--rays", 16, "--samples-per-clip", 4)
     run.report(f"evaluate_{name}_casters", "evaluate", "casters", glb, model, "--rays", 16, "--bearings", 2,
                "--poses", 2)
+    run.report(f"evaluate_{name}_world", "evaluate", "world", glb, model, "--rays", 32, "--points", 60, "--max-poses", 4)
     return model
 
 

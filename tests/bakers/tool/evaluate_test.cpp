@@ -208,3 +208,28 @@ TEST_CASE("a model of another character is refused") {
   }
   CHECK(baked.folder.names() == Names{"hero.glb", "hero.nook"});  // no report of what failed
 }
+
+TEST_CASE("evaluate world has a row for each surface and method, and pictures") {
+  const Baked baked;
+  const std::string images = baked.folder.path("images");
+  const ToolRun run =
+      baked.folder.run({"evaluate", "world", baked.glb, baked.model, "--report", baked.report, "--max-poses",
+                        "2", "--points", "40", "--rays", "16", "--images", images, "--image-count", "1"});
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  const Json report = Json::parse(read_text(baked.report));
+  CHECK(report.at("protocol") == "unseen clips");
+  CHECK(report.at("casters").get<int>() > 0);
+  // Four surfaces and three cones, five methods.
+  REQUIRE(report.at("rows").size() == 35);
+  for (const Json& row : report.at("rows")) {
+    for (const char* key : {"surface", "method", "mse", "mse_none", "bias", "over_none", "over_none_low",
+                            "over_none_high", "over_capsules", "poses", "rays"})
+      CHECK(row.contains(key));
+    CHECK(row.at("poses") == 2);
+    if (row.at("surface") == "cone") CHECK(row.contains("cone_degrees"));
+  }
+  CHECK(!read_text(images + "/pose_0.png").empty());
+  CHECK(baked.folder.run({"evaluate", "world", baked.glb}).exit_code == 2);
+  CHECK(baked.folder.run({"evaluate", "world", baked.glb, baked.model, "--clips", "fly"}).exit_code == 2);
+}
