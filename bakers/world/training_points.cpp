@@ -1,6 +1,7 @@
 #include "bakers/world/training_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "bakers/import/skinning.h"
@@ -22,6 +23,19 @@ Vec3 random_light(Random& random) {
   return {std::cos(up) * std::sin(bearing), std::sin(up), std::cos(up) * std::cos(bearing)};
 }
 
+// The pose turned about the vertical axis, then laid down on its side.
+Pose lying(const Pose& pose, float yaw_radians) {
+  const float c = std::cos(yaw_radians), s = std::sin(yaw_radians);
+  // A turn about y, then x to -y and y to x.
+  const Mat3x4 turn{{0, 1, 0, 0, -c, 0, -s, 0, -s, 0, c, 0}};
+  Pose out;
+  for (const Mat3x4& bone : pose) out.push_back(turn * bone);
+  return out;
+}
+
+// Bodies fall, sleep and climb: of every four poses one lies, so that the floor comes near every part.
+constexpr std::size_t lying_every = 4;
+
 // Each point of the floor has a light of its own.
 void add_cones(TrainingPoints& set, const RayScene& scene, const SurfacePoints& floor, std::uint32_t pose,
                std::uint32_t rays, float offset, Random& random, double& none) {
@@ -41,7 +55,13 @@ TrainingPoints trace_training_points(const SkinnedMesh& mesh, std::span<const Po
                                      const WorldCasterSettings& settings, const CasterProgress& progress) {
   TrainingPoints set;
   const std::size_t used = std::min(settings.poses, poses.size());
-  for (std::size_t i = 0; i < used; ++i) set.poses.push_back(poses[i * poses.size() / used]);
+  for (std::size_t i = 0; i < used; ++i) {
+    const Pose& pose = poses[i * poses.size() / used];
+    Random random(mix_bits(~settings.seed) + i);
+    set.poses.push_back(i % lying_every == lying_every - 1
+                            ? lying(pose, 2 * std::numbers::pi_v<float> * random.unit())
+                            : pose);
+  }
   const float offset = ray_origin_offset(mesh.position);
   std::array<double, point_kinds> none{};
   for (std::size_t p = 0; p < used; ++p) {
