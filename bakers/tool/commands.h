@@ -11,11 +11,13 @@ namespace nook::tool {
 void add_bake_character(CLI::App& bake);
 void add_bake_probe(CLI::App& bake);
 void add_bake_material(CLI::App& bake);
+void add_bake_transfer(CLI::App& bake);
 void add_evaluate_character(CLI::App& evaluate);
 void add_evaluate_casters(CLI::App& evaluate);
 void add_evaluate_nnao(CLI::App& evaluate);
 void add_evaluate_probe(CLI::App& evaluate);
 void add_evaluate_material(CLI::App& evaluate);
+void add_evaluate_transfer(CLI::App& evaluate);
 void add_evaluate_world(CLI::App& evaluate);
 void add_train_nnao(CLI::App& train);
 void add_train_specular(CLI::App& train);

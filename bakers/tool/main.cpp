@@ -14,8 +14,8 @@ namespace {
 
 int run(int argc, char** argv) {
   CLI::App tool(
-      "Bakes ambient occlusion, light probes and materials, measures them against ray tracing, and inspects "
-      ".nook files.\n"
+      "Bakes ambient occlusion, light probes, materials and radiance transfer, measures them against ray "
+      "tracing, and inspects .nook files.\n"
       "Exit codes: 0 done, 2 bad arguments, 3 bad input, 1 anything else.",
       "nook");
   tool.set_version_flag("--version", std::to_string(NOOK_VERSION_MAJOR) + "." +
@@ -28,11 +28,13 @@ int run(int argc, char** argv) {
   nook::tool::add_bake_character(*bake);
   nook::tool::add_bake_probe(*bake);
   nook::tool::add_bake_material(*bake);
+  nook::tool::add_bake_transfer(*bake);
   nook::tool::add_evaluate_character(*evaluate);
   nook::tool::add_evaluate_casters(*evaluate);
   nook::tool::add_evaluate_nnao(*evaluate);
   nook::tool::add_evaluate_probe(*evaluate);
   nook::tool::add_evaluate_material(*evaluate);
+  nook::tool::add_evaluate_transfer(*evaluate);
   nook::tool::add_evaluate_world(*evaluate);
   CLI::App* train = tool.add_subcommand("train", "train networks")->require_subcommand(1);
   nook::tool::add_train_nnao(*train);

@@ -81,6 +81,16 @@ void decode(const TensorTables& tables, const Sample& sample, float* modes) {
   }
 }
 
+// The four texels of the light map around a direction.
+struct LightPlace {
+  Between x, y;
+};
+LightPlace light_place(Vec3 light) {
+  const ParabolicPoint p = to_parabolic(light);
+  return {clamped(0.5f * p.x + 0.5f, MaterialTables::light_side),
+          clamped(0.5f * p.y + 0.5f, MaterialTables::light_side)};
+}
+
 Four light_texel(const MaterialTables& tables, std::uint32_t layer, const Between& x, const Between& y) {
   constexpr std::size_t side = MaterialTables::light_side;
   const auto texel = [&](std::uint32_t column, std::uint32_t row) {
@@ -97,16 +107,30 @@ Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample) {
   if (!(sample.light.z > 0)) return {};
   std::array<float, 3 * max_directions + 3> modes;
   decode(tables.btf, sample, modes.data());
-  const ParabolicPoint p = to_parabolic(sample.light);
-  const Between x = clamped(0.5f * p.x + 0.5f, MaterialTables::light_side);
-  const Between y = clamped(0.5f * p.y + 0.5f, MaterialTables::light_side);
+  const LightPlace place = light_place(sample.light);
   float radiance[3] = {};
   const std::uint32_t light_vec4_count = tables.btf.light_modes / 4;
   for (std::uint32_t channel = 0; channel < 3; ++channel)
     for (std::uint32_t f = 0; f < light_vec4_count; ++f)
-      radiance[channel] += dot(light_texel(tables, channel * light_vec4_count + f, x, y),
+      radiance[channel] += dot(light_texel(tables, channel * light_vec4_count + f, place.x, place.y),
                                {modes[4 * f], modes[4 * f + 1], modes[4 * f + 2], modes[4 * f + 3]});
   return {radiance[0], radiance[1], radiance[2]};
+}
+
+void decode_modes(const MaterialTables& tables, const Sample& sample, std::span<float> modes) {
+  decode(tables.btf, sample, modes.data());
+}
+
+void light_basis_at(const MaterialTables& tables, Vec3 light, std::span<float> basis) {
+  if (!(light.z > 0)) {
+    std::fill(basis.begin(), basis.end(), 0.0f);
+    return;
+  }
+  const LightPlace place = light_place(light);
+  for (std::uint32_t layer = 0; layer < 3 * tables.btf.light_modes / 4; ++layer) {
+    const Four value = light_texel(tables, layer, place.x, place.y);
+    std::copy(value.begin(), value.end(), &basis[4 * std::size_t(layer)]);
+  }
 }
 
 float evaluate_votf(const MaterialTables& tables, const Sample& sample) {

@@ -2,6 +2,8 @@
 // shaders/material.
 #pragma once
 
+#include <span>
+
 #include "sdk/src/core/vec.h"
 #include "sdk/src/material/tables.h"
 
@@ -22,6 +24,11 @@ struct Radiance {
 // Returns the radiance for an irradiance of 1 on a plane that faces the light; it is black for light from
 // below the horizon. Compression may leave it slightly negative.
 Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample);
+// Computes the light modes of the sample's point for its view, light_modes numbers; the light is not read.
+void decode_modes(const MaterialTables& tables, const Sample& sample, std::span<float> modes);
+// Computes the light basis for a light from a direction, 3 x light_modes numbers, channel by channel; it is 0
+// below the horizon. The radiance is its product with the light modes.
+void light_basis_at(const MaterialTables& tables, Vec3 light, std::span<float> basis);
 // Returns the value of the VOTF, a filtered mask or signed distance, or 1 if the material has none.
 float evaluate_votf(const MaterialTables& tables, const Sample& sample);
 // Equation (26), clamped to [0, 1].

@@ -1,0 +1,98 @@
+#include "bakers/job/transfer_bake.h"
+
+#include <nlohmann/json.hpp>
+
+#include "bakers/import/tangents.h"
+#include "platform/peak_memory.h"
+#include "platform/stopwatch.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/transfer/transfer_file.h"
+
+namespace nook::bake {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<Vec3> directions_of(const float* xyz, std::size_t count) {
+  std::vector<Vec3> out(count);
+  for (std::size_t i = 0; i < count; ++i) out[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+  return out;
+}
+
+double mean_share(const nook::transfer::Transfer& transfer) {
+  double sum = 0;
+  for (const std::uint8_t share : transfer.shares) sum += share;
+  return sum / (255.0 * double(transfer.shares.size()));
+}
+
+}  // namespace
+
+TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
+  need(desc.positions, "desc.positions");
+  need(desc.normals, "desc.normals");
+  need(desc.uvs, "desc.uvs");
+  need(desc.indices, "desc.indices");
+  if (desc.index_count % 3)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.index_count is not a multiple of 3 (got %u)",
+                  desc.index_count);
+  TransferTask task;
+  task.settings.lobes = desc.lobes;
+  task.settings.side = desc.ray_side;
+  SurfaceMesh& mesh = task.mesh;
+  const std::size_t count = desc.vertex_count;
+  mesh.position = directions_of(desc.positions, count);
+  mesh.normal = directions_of(desc.normals, count);
+  mesh.uv.resize(count);
+  for (std::size_t v = 0; v < count; ++v) mesh.uv[v] = {desc.uvs[2 * v], desc.uvs[2 * v + 1]};
+  for (std::size_t i = 0; i < desc.index_count; i += 3)
+    mesh.triangle.push_back({desc.indices[i], desc.indices[i + 1], desc.indices[i + 2]});
+  mesh.tangent.assign(count, {{1, 0, 0}, 1});
+  if (desc.tangents) {
+    for (std::size_t v = 0; v < count; ++v) {
+      const float* const t = desc.tangents + 4 * v;
+      if (!(t[3] == 1 || t[3] == -1))
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "the tangent of vertex %zu has a handedness that is neither 1 nor -1 (got %g)", v,
+                      double(t[3]));
+      mesh.tangent[v] = {{t[0], t[1], t[2]}, t[3]};
+    }
+    transfer::check_bake(mesh, task.settings);
+  } else {
+    transfer::check_bake(mesh, task.settings);
+    mesh.tangent = surface_tangents(mesh, task.warnings);
+  }
+  return task;
+}
+
+BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress) {
+  platform::Stopwatch watch;
+  nook::transfer::Transfer transfer = transfer::bake_transfer(
+      task.mesh, task.settings,
+      [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_RAYTRACE, done, total); });
+  const double seconds = watch.seconds();
+  Json recipe;
+  if (!task.source.empty()) recipe["source"] = task.source;
+  recipe["form"] = "separated";
+  recipe["bounces"] = 0;
+  recipe["rays"] = 6 * task.settings.side * task.settings.side;
+  transfer.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
+  BakedFile file;
+  file.model = nook::transfer::write_transfer(transfer);
+  Json report;
+  report["form"] = "separated";
+  report["vertices"] = transfer.vertex_count();
+  report["triangles"] = task.mesh.triangle.size();
+  report["lobes"] = transfer.lobes;
+  report["bounces"] = 0;
+  report["rays"] = recipe["rays"];
+  report["bytes"] = transfer.shares.size();
+  report["file_bytes"] = file.model.size();
+  report["mean_share"] = mean_share(transfer);
+  report["seconds"] = seconds;
+  report["peak_bytes"] = platform::peak_bytes();
+  report["warnings"] = task.warnings;
+  file.report = report.dump(2, ' ', false, Json::error_handler_t::replace);
+  return file;
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,26 @@
+// The bake of radiance transfer, from a mesh to the bytes of a file and its report.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bakers/job/baked_file.h"
+#include "bakers/transfer/bake.h"
+
+namespace nook::bake {
+
+struct TransferTask {
+  SurfaceMesh mesh;
+  transfer::BakeSettings settings;
+  std::string source;                 // the name of the file, if there is one
+  std::vector<std::string> warnings;  // of the import
+};
+
+// Makes the mesh of a descriptor; tangents are made where it has none. Throws INVALID_ARGUMENT with the first
+// fault, also for what transfer::check_bake refuses.
+TransferTask transfer_task_of(const nook_bake_transfer_desc& desc);
+
+// The stage is NOOK_BAKE_STAGE_RAYTRACE and counts vertices. Throws Failure: INVALID_ARGUMENT, CANCELLED.
+BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress);
+
+}  // namespace nook::bake

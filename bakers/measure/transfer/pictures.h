@@ -1,0 +1,42 @@
+// Pictures of a shape in a material under a map: path traced, and from the vectors of each form.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "bakers/images/picture.h"
+#include "bakers/measure/transfer/vector_error.h"
+
+namespace nook::measure {
+
+struct PictureSettings {
+  int width = 480, height = 360;
+  std::uint32_t paths = 256;  // light samples of a pixel of the truth
+  float tiles = 1;            // tiles of the material in one unit of texture coordinates
+  std::uint64_t seed = 1;
+};
+
+struct PictureSource {
+  const bake::SurfaceMesh& mesh;
+  const nook::material::MaterialTables& tables;
+  const VectorMeasure& vectors;
+  std::size_t light = 0;  // of the vectors
+  const bake::Environment& map;
+};
+
+struct PictureError {
+  // Means over the pixels of the shape and RGB of the squared error of linear radiance, divided by the
+  // squared mean luminance of the truth over these pixels. The noise of the truth is taken off.
+  std::array<double, 3> mse{};
+  double noise_floor_mse = 0;  // of the truth, in the same unit
+  bake::Picture sheet;         // truth, then the forms
+};
+
+// The camera looks at the middle of the bounding box from 35 degrees above its horizon. A pixel has one ray
+// through its middle. The truth is the direct light of the map on the material as it is decoded at the
+// pixel, half of the samples by luminance and half cosine-weighted, with multiple importance sampling. The
+// visibility of the VOTF is not applied. Throws Failure(CANCELLED) if progress returns false.
+PictureError measure_pictures(const PictureSource& source, const PictureSettings& settings,
+                              const VectorProgress& progress);
+
+}  // namespace nook::measure

@@ -1,0 +1,63 @@
+// The error of vectors at vertices against sums over 6,144 directions, for baked transfer and simpler forms.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bakers/import/surface_mesh.h"
+#include "bakers/raytrace/environment.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/material/tables.h"
+#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/transfer/lobe_fit.h"
+#include "sdk/src/transfer/response.h"
+#include "sdk/src/transfer/transfer.h"
+
+namespace nook::measure {
+
+// The forms of the per-vertex vectors, from the best.
+enum class TransferForm {
+  separated = 0,  // baked transfer, as the runtime computes it
+  ao = 1,         // the vectors of the open vertex times its ambient occlusion
+  none = 2,       // the vectors of the open vertex
+};
+inline constexpr std::array<const char*, 3> transfer_form_names{"separated", "ao", "none"};
+
+// One light in every representation that is measured.
+struct MeasuredLight {
+  std::string name;
+  bake::Environment map;    // what the truth of pictures samples
+  std::vector<Vec3> cells;  // its means over the 6,144 cells of the truth
+  std::vector<float> amplitudes;
+  nook::transfer::FitQuality quality;
+  double fit_ms = 0;
+};
+MeasuredLight measured_light(std::string name, bake::Environment map, const nook::transfer::LobeFit& fit);
+
+// The vectors of all vertices under one light, 3 x light_modes numbers each.
+struct LightVectors {
+  std::array<std::vector<float>, 3> form;  // by TransferForm
+  double vectors_ms = 0;                   // of the separated form on one thread
+  // Signal to error, dB.
+  std::array<double, 3> se_db{};
+  double se_exact_db = 0;  // of the separated form with integrals by direct sums in place of the response
+};
+
+// Returns false to stop. Worker threads call it, one call at a time.
+using VectorProgress = std::function<bool(std::size_t done, std::size_t total)>;
+
+struct VectorMeasure {
+  std::vector<LightVectors> lights;
+  std::vector<float> ao;  // of each vertex, cosine-weighted visibility
+  std::uint32_t light_modes = 0;
+};
+// Traces the visibility of each vertex again. The lobes of the fits are those of the transfer. Throws
+// Failure(CANCELLED) if progress returns false.
+VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const nook::transfer::Transfer& transfer,
+                              const nook::material::MaterialTables& tables,
+                              std::span<const MeasuredLight> lights, const VectorProgress& progress);
+
+}  // namespace nook::measure

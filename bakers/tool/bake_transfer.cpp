@@ -1,0 +1,97 @@
+// nook bake transfer: the visibility of lobes at the vertices of a static shape.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/job/transfer_bake.h"
+#include "bakers/job/worker_arena.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/distinct_files.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/table.h"
+#include "platform/output_file.h"
+#include "platform/printable.h"
+#include "platform/progress_bar.h"
+#include "sdk/src/transfer/lobes.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::filesystem::path input, output;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::transfer::BakeSettings settings;
+};
+
+bake::TransferTask read_task(const Options& o) {
+  bake::ImportedSurface imported =
+      naming_file(o.input, [&] { return bake::import_surface(o.input, o.linked); });
+  bake::TransferTask task;
+  task.mesh = std::move(imported.mesh);
+  task.settings = o.settings;
+  task.source = o.input.filename().string();
+  task.warnings = std::move(imported.warnings);
+  if (!o.common.quiet)
+    for (const std::string& warning : task.warnings)
+      std::fprintf(stderr, "nook: %s: %s\n", o.input.c_str(), platform::printable_lines(warning).c_str());
+  return task;
+}
+
+void run(const Options& o) {
+  require_distinct_files({{{"the input", o.input}}, {{"-o", o.output}, {"--report", o.common.report}}, {}});
+  platform::OutputFile output(o.output);
+  std::optional<platform::OutputFile> report_file;
+  if (!o.common.report.empty()) report_file.emplace(o.common.report);
+  const bake::TransferTask task = read_task(o);
+  bake::BakedFile file;
+  try {
+    bake::run_with_threads(o.common.threads, [&] {
+      platform::ProgressBar bar(o.common.quiet);
+      file = bake::bake_transfer_file(task, [&](nook_bake_stage, std::size_t done, std::size_t total) {
+        bar.show("ray tracing", "vertices", done, total);
+        return !interrupted();
+      });
+    });
+  } catch (const Failure& failure) {
+    if (failure.code() != NOOK_ERROR_CANCELLED) throw;
+    throw ToolError(exit_other, "stopped; nothing was written");
+  }
+  output.commit(file.model);
+  const Json rows = Json::array({Json::parse(file.report)});
+  if (report_file)
+    report_file->commit(Json{{"rows", rows}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (!o.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+}
+
+}  // namespace
+
+void add_bake_transfer(CLI::App& bake_command) {
+  CLI::App* command = bake_command.add_subcommand(
+      "transfer", "the visibility of a static shape, which lights its materials under any light");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command->add_option("input", o.input, "the shape, .glb or .gltf, with texture coordinates")->required();
+  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  command
+      ->add_option("--lobes", o.settings.lobes,
+                   "lobes that will hold the light; the file has a byte for each lobe and vertex")
+      ->check(CLI::Range(transfer::min_lobes, transfer::max_lobes))
+      ->capture_default_str();
+  command
+      ->add_option("--ray-side", o.settings.side,
+                   "cells along a face of the cube of ray directions; a vertex has 6 times its square")
+      ->check(CLI::Range(8u, bake::transfer::max_ray_side))
+      ->capture_default_str();
+  add_linked_files_option(*command, o.linked);
+  add_common_options(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

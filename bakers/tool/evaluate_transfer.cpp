@@ -1,0 +1,144 @@
+// nook evaluate transfer: baked radiance transfer against direct sums and path tracing, beside simpler forms.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bakers/measure/transfer/pictures.h"
+#include "bakers/measure/transfer/vector_error.h"
+#include "bakers/raytrace/suns.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/evaluation.h"
+#include "bakers/tool/image_folder.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/probe/scene.h"
+#include "bakers/transfer/bake.h"
+#include "platform/progress_bar.h"
+#include "platform/stopwatch.h"
+#include "sdk/src/material/material_file.h"
+#include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/transfer_file.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::filesystem::path mesh, transfer, material, images;
+  std::vector<std::filesystem::path> lights;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  measure::PictureSettings picture;
+  bool without_suns = false, no_pictures = false;
+};
+
+void check_mesh(const Options& o, const bake::SurfaceMesh& mesh, const transfer::Transfer& baked) {
+  if (mesh.position.size() != baked.vertex_count() || bake::transfer::hashes_of(mesh) != baked.hashes)
+    throw ToolError(exit_bad_input, o.transfer.string() + ": was baked from another mesh than " +
+                                        o.mesh.string() + "; bake the transfer again");
+}
+
+Json evaluate(const Options& o) {
+  platform::ProgressBar bar(o.common.quiet);
+  const bake::SurfaceMesh mesh =
+      naming_file(o.mesh, [&] { return bake::import_surface(o.mesh, o.linked); }).mesh;
+  const std::vector<std::byte> bytes = read_file(o.transfer), material_bytes = read_file(o.material);
+  const transfer::Transfer baked = naming_file(o.transfer, [&] { return transfer::read_transfer(bytes); });
+  check_mesh(o, mesh, baked);
+  const material::MaterialTables tables = naming_file(o.material, [&] {
+    return material::make_tables(material::read_material(material_bytes), {}, default_memory());
+  });
+  platform::Stopwatch watch;
+  const transfer::LobeFit fit(baked.lobes);
+  const double factor_ms = watch.seconds() * 1e3;
+  std::vector<measure::MeasuredLight> lights;
+  for (const std::filesystem::path& path : o.lights) {
+    bake::Environment map = read_map(path);
+    if (o.without_suns) map = bake::without_suns(map);
+    lights.push_back(measure::measured_light(path.stem().string(), std::move(map), fit));
+  }
+  const auto progress = [&](const char* label, const char* unit) {
+    return [&bar, label, unit](std::size_t done, std::size_t total) {
+      bar.show(label, unit, done, total);
+      return !interrupted();
+    };
+  };
+  const measure::VectorMeasure vectors =
+      measure::measure_vectors(mesh, baked, tables, lights, progress("summing light", "vertices"));
+  measure::PictureSettings picture = o.picture;
+  picture.seed = o.common.seed;
+  Json rows = Json::array();
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    measure::PictureError error;
+    if (!o.no_pictures) {
+      const measure::PictureSource source{mesh, tables, vectors, l, lights[l].map};
+      error = measure::measure_pictures(source, picture, progress("path tracing", "rows"));
+      if (!o.images.empty()) bake::write_png(o.images / (as_file_name(lights[l].name) + ".png"), error.sheet);
+    }
+    for (std::size_t form = 0; form < 3; ++form) {
+      Json row;
+      row["shape"] = o.mesh.stem().string();
+      row["light"] = lights[l].name;
+      row["form"] = measure::transfer_form_names[form];
+      row["lobes"] = baked.lobes;
+      row["bounces"] = 0;
+      row["bytes"] = form == 0 ? baked.shares.size() : form == 1 ? baked.frames.size() : 0;
+      row["file_bytes"] = form == 0 ? Json(bytes.size()) : Json();
+      row["se_db"] = vectors.lights[l].se_db[form];
+      row["se_exact_db"] = form == 0 ? Json(vectors.lights[l].se_exact_db) : Json();
+      if (!o.no_pictures) {
+        row["mse"] = error.mse[form];
+        row["noise_floor_mse"] = error.noise_floor_mse;
+        row["truth"] = "decoded material, direct light";
+      }
+      row["light_error"] = lights[l].quality.relative_error;
+      row["negative_share"] = lights[l].quality.negative_share;
+      row["ms_fit"] = lights[l].fit_ms;
+      row["ms_vectors"] = form == 0 ? Json(vectors.lights[l].vectors_ms) : Json();
+      rows.push_back(row);
+    }
+  }
+  return {{"rows", rows}, {"ms_factor", factor_ms}, {"without_suns", o.without_suns}};
+}
+
+}  // namespace
+
+void add_evaluate_transfer(CLI::App& evaluate_command) {
+  CLI::App* command = evaluate_command.add_subcommand(
+      "transfer", "measure baked radiance transfer against direct sums and path tracing");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command->add_option("mesh", o.mesh, "the shape, .glb or .gltf")->required();
+  command->add_option("transfer", o.transfer, "the .nook file that was baked from it")->required();
+  command->add_option("--material", o.material, "the .nook file of the material that it wears")->required();
+  command->add_option("--light", o.lights, "latitude-longitude maps, .hdr or .exr")->required();
+  command->add_flag("--without-suns", o.without_suns,
+                    "take suns out of the maps first, as a host does that draws them with shadow maps");
+  command->add_option("--images", o.images, "write a picture of each light, truth and forms side by side");
+  command->add_flag("--no-pictures", o.no_pictures, "measure vectors only");
+  command->add_option("--width", o.picture.width, "pixels of a picture")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str();
+  command->add_option("--height", o.picture.height, "pixels of a picture")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str();
+  command->add_option("--paths", o.picture.paths, "light samples of a pixel of the truth")
+      ->check(CLI::Range(2u, 1u << 20))
+      ->capture_default_str();
+  command->add_option("--tiles", o.picture.tiles, "tiles of the material in one unit of texture coordinates")
+      ->check(CLI::Range(0.01f, 1000.0f))
+      ->capture_default_str();
+  add_linked_files_option(*command, o.linked);
+  add_common_options(*command, o.common);
+  command->callback([options] {
+    CommandFiles files{
+        {{"the mesh", options->mesh}, {"the transfer", options->transfer}, {"--material", options->material}},
+        {},
+        options->images};
+    for (const std::filesystem::path& light : options->lights) files.inputs.push_back({"--light", light});
+    run_evaluation(options->common, files, [&] { return evaluate(*options); });
+  });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,25 @@
+#include <string>
+
+#include "bakers/tool/inspect/describe.h"
+#include "sdk/src/transfer/transfer_file.h"
+
+namespace nook::tool {
+
+Row describe_transfer(std::span<const std::byte> bytes) {
+  const transfer::Transfer transfer = transfer::read_transfer(bytes);
+  double sum = 0;
+  for (const std::uint8_t share : transfer.shares) sum += share;
+  Row row;
+  row["kind"] = "radiance transfer";
+  row["format_version"] = Container(bytes, transfer::transfer_kind).version();
+  row["bytes"] = bytes.size();
+  row["vertices"] = transfer.vertex_count();
+  row["lobes"] = transfer.lobes;
+  row["sharpness"] = transfer::sharpness_of(transfer.lobes);
+  row["share_bytes"] = transfer.shares.size();
+  row["mean_share"] = sum / (255.0 * double(transfer.shares.size()));
+  add_recipe(row, transfer.recipe);
+  return row;
+}
+
+}  // namespace nook::tool

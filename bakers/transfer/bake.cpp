@@ -1,0 +1,184 @@
+#include "bakers/transfer/bake.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <vector>
+
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "bakers/transfer/visible_directions.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/place.h"
+#include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/light_cube.h"
+
+namespace nook::bake::transfer {
+namespace {
+
+using nook::transfer::CubeCells;
+using nook::transfer::Transfer;
+
+// Lobes count down to exp(-reach) of their height, 1e-4: a share has 8 bits.
+constexpr float reach = 9;
+// A lobe with less than this share of itself above a vertex's horizon has the share 0.
+constexpr float dark = 1e-4f;
+
+// The lobes that hold light from each direction, with their value times the direction's solid angle.
+struct LobesOfDirections {
+  std::vector<std::uint32_t> begin;  // of each direction, and one past the end
+  std::vector<std::uint32_t> lobe;
+  std::vector<float> weight;
+  float integral = 0;  // of one lobe
+};
+
+LobesOfDirections lobes_of(const CubeCells& cells, std::uint32_t lobes) {
+  const float sharpness = nook::transfer::sharpness_of(lobes), cap = 1 - reach / sharpness;
+  std::vector<Vec3> axes(lobes);
+  nook::transfer::lobe_axes(axes);
+  LobesOfDirections out;
+  out.integral = gaussian_integral(sharpness);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    out.begin.push_back(std::uint32_t(out.lobe.size()));
+    for (std::uint32_t j = 0; j < lobes; ++j) {
+      if (dot(axes[j], cells.direction[i]) < cap) continue;
+      out.lobe.push_back(j);
+      out.weight.push_back(gaussian_value(axes[j], sharpness, cells.direction[i]) * cells.solid_angle[i]);
+    }
+  }
+  out.begin.push_back(std::uint32_t(out.lobe.size()));
+  return out;
+}
+
+// What one thread keeps between vertices.
+struct Workspace {
+  std::vector<std::uint32_t> visible;
+  std::vector<float> seen, whole;  // of each lobe
+};
+
+void bake_vertex(const RayScene& scene, Vec3 origin, Vec3 normal, const CubeCells& cells,
+                 const LobesOfDirections& lobes, Workspace& work, std::span<std::uint8_t> shares) {
+  const auto gather = [&](std::uint32_t direction, float cosine, std::vector<float>& sums) {
+    for (std::uint32_t k = lobes.begin[direction]; k < lobes.begin[direction + 1]; ++k)
+      sums[lobes.lobe[k]] += cosine * lobes.weight[k];
+  };
+  work.visible.clear();
+  work.seen.assign(shares.size(), 0);
+  work.whole.assign(shares.size(), 0);
+  visible_directions(scene, origin, normal, cells.direction, work.visible);
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    const float cosine = dot(normal, cells.direction[i]);
+    if (cosine > 0) gather(i, cosine, work.whole);
+  }
+  for (const std::uint32_t i : work.visible) gather(i, dot(normal, cells.direction[i]), work.seen);
+  for (std::size_t j = 0; j < shares.size(); ++j)
+    shares[j] = work.whole[j] < dark * lobes.integral
+                    ? std::uint8_t(0)
+                    : std::uint8_t(std::lround(255 * std::min(work.seen[j] / work.whole[j], 1.0f)));
+}
+
+template <class Number>
+void need_unit(Vec3 v, const char* what, Number index) {
+  if (!(std::abs(length(v) - 1) <= 1e-3f))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the %s of vertex %zu has no unit length (got %g %g %g); normalise it", what,
+                  std::size_t(index), double(v.x), double(v.y), double(v.z));
+}
+
+}  // namespace
+
+void check_bake(const SurfaceMesh& mesh, const BakeSettings& settings) {
+  nook::transfer::check_lobes(settings.lobes, NOOK_ERROR_INVALID_ARGUMENT);
+  if (settings.side < 8 || settings.side > max_ray_side)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the side of the cube of rays is out of range (got %u, need 8 to %u)", settings.side,
+                  max_ray_side);
+  const std::size_t count = mesh.position.size();
+  if (count == 0 || count > nook::transfer::max_vertices)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the number of vertices is out of range (got %zu, need 1 to %u)", count,
+                  nook::transfer::max_vertices);
+  if (mesh.normal.size() != count || mesh.tangent.size() != count || mesh.uv.size() != count)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the mesh has %zu positions, %zu normals, %zu tangents and %zu texture coordinates (need as "
+        "many)",
+        count, mesh.normal.size(), mesh.tangent.size(), mesh.uv.size());
+  for (std::size_t v = 0; v < count; ++v) {
+    const Vec3 p = mesh.position[v];
+    if (!is_place(p))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "vertex %zu is out of range (got %g %g %g, need finite metres up to 1e6)", v, double(p.x),
+                    double(p.y), double(p.z));
+    need_unit(mesh.normal[v], "normal", v);
+    need_unit(mesh.tangent[v].direction, "tangent", v);
+    if (!std::isfinite(mesh.uv[v].u) || !std::isfinite(mesh.uv[v].v))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the texture coordinates of vertex %zu are not finite", v);
+  }
+  for (std::size_t t = 0; t < mesh.triangle.size(); ++t)
+    for (const std::uint32_t i : mesh.triangle[t])
+      if (i >= count)
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "triangle %zu names vertex %u (the mesh has %zu vertices)",
+                      t, i, count);
+}
+
+nook::transfer::Frame frame_of(const SurfaceMesh& mesh, std::size_t vertex) {
+  return nook::transfer::orthonormal_frame(mesh.normal[vertex], mesh.tangent[vertex].direction,
+                                           mesh.tangent[vertex].handedness);
+}
+
+nook::transfer::MeshHashes hashes_of(const SurfaceMesh& mesh) {
+  std::vector<float> position, normal, tangent, uv;
+  for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+    const Vec3 p = mesh.position[v], n = mesh.normal[v], t = mesh.tangent[v].direction;
+    position.insert(position.end(), {p.x, p.y, p.z});
+    normal.insert(normal.end(), {n.x, n.y, n.z});
+    tangent.insert(tangent.end(), {t.x, t.y, t.z, mesh.tangent[v].handedness});
+    uv.insert(uv.end(), {mesh.uv[v].u, mesh.uv[v].v});
+  }
+  return {nook::transfer::hash_floats(position), nook::transfer::hash_floats(normal),
+          nook::transfer::hash_floats(tangent), nook::transfer::hash_floats(uv)};
+}
+
+Transfer bake_transfer(const SurfaceMesh& mesh, const BakeSettings& settings, const Progress& progress) {
+  check_bake(mesh, settings);
+  const std::size_t count = mesh.position.size();
+  const CubeCells cells(settings.side);
+  const LobesOfDirections lobes = lobes_of(cells, settings.lobes);
+  const RayScene scene({mesh.position, mesh.triangle});
+  const float offset = ray_origin_offset(mesh.position);
+
+  Transfer transfer;
+  transfer.lobes = settings.lobes;
+  transfer.hashes = hashes_of(mesh);
+  transfer.shares.resize(count * settings.lobes);
+  for (std::size_t v = 0; v < count; ++v) transfer.frames.push_back(pack(frame_of(mesh, v)));
+
+  std::atomic<bool> cancelled{false};
+  std::mutex progress_mutex;
+  std::size_t done = 0;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, 64),
+      [&](const auto& range) {
+        const FlushDenormals flush;
+        Workspace work;
+        for (std::size_t v = range.begin(); v < range.end() && !cancelled; ++v)
+          bake_vertex(scene, mesh.position[v] + mesh.normal[v] * offset, mesh.normal[v], cells, lobes, work,
+                      std::span(transfer.shares).subspan(v * settings.lobes, settings.lobes));
+        if (!progress) return;
+        const std::lock_guard lock(progress_mutex);
+        done += range.size();
+        if (!cancelled && !progress(done, count)) cancelled = true;
+      },
+      tbb::simple_partitioner());
+  if (cancelled)
+    throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu vertices done)", done,
+                  count);
+  return transfer;
+}
+
+}  // namespace nook::bake::transfer

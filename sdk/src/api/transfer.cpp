@@ -1,0 +1,278 @@
+// Baked shapes, materials under lobes, and vectors at vertices.
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/material_handle.h"
+#include "sdk/src/api/transfer_handles.h"
+#include "sdk/src/core/descriptors.h"
+#include "sdk/src/material/check.h"
+#include "sdk/src/material/evaluate.h"
+#include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/transfer_file.h"
+#include "sdk/src/transfer/vectors.h"
+
+using namespace nook;
+using namespace nook::transfer;
+
+namespace {
+
+constexpr std::size_t first_info = offsetof(nook_transfer_info, share_bytes) + sizeof(std::uint64_t);
+constexpr std::size_t first_mesh = offsetof(nook_transfer_mesh, uvs) + sizeof(const float*);
+constexpr std::size_t first_response = offsetof(nook_transfer_response_desc, isa) + sizeof(nook_isa);
+constexpr std::size_t first_response_info =
+    offsetof(nook_transfer_response_info, table_bytes) + sizeof(std::uint64_t);
+constexpr float max_amplitude = 1e22f;
+
+nook_transfer_response_desc default_response() {
+  nook_transfer_response_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.header_version = NOOK_VERSION;
+  desc.lobe_count = 642;
+  return desc;
+}
+
+Response response_of(const nook::material::MaterialTables& tables, std::uint32_t lobes, Memory* memory) {
+  const HemisphereCells cells(sharpness_of(lobes), memory);
+  const std::size_t count = std::size_t(3) * tables.btf.light_modes;
+  Vector<float> values(cells.direction.size() * count, 0.0f, memory);
+  for (std::size_t i = 0; i < cells.direction.size(); ++i)
+    nook::material::light_basis_at(tables, cells.direction[i], std::span(values).subspan(i * count, count));
+  return make_response(lobes, cells, {values, tables.btf.light_modes}, memory);
+}
+
+void check_amplitudes(const float* amplitudes, std::uint32_t got, std::uint32_t lobes) {
+  need(amplitudes, "amplitudes");
+  if (got != lobes)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is not that of the response (got %u, need %u)",
+                  got, lobes);
+  for (std::uint32_t i = 0; i < 3 * lobes; ++i)
+    if (!(std::abs(amplitudes[i]) <= max_amplitude))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "the amplitude of lobe %u is out of range (got %g, need finite numbers up to 1e22)",
+                    i / 3, double(amplitudes[i]));
+}
+
+VectorOutput output_of(float* vectors, std::uint32_t stride, const Response& response) {
+  need(vectors, "vectors");
+  const std::uint32_t floats = 3 * response.light_modes;
+  if (stride != 0 && stride < floats)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "stride_floats is too small (got %u, need 0 or at least %u, the floats of a vector)",
+                  stride, floats);
+  return {vectors, stride == 0 ? floats : stride};
+}
+
+Vec3 unit(const char* name, const float* v, std::uint32_t index) {
+  const Vec3 d{v[0], v[1], v[2]};
+  if (!(std::abs(length(d) - 1) <= 1e-3f))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the %s of vertex %u has no unit length (got %g %g %g)", name,
+                  index, double(d.x), double(d.y), double(d.z));
+  return d;
+}
+
+void need_finite(const float* values, std::size_t count, const char* what) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (!std::isfinite(values[i]))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "number %zu of %s is not finite (got %g)", i, what,
+                    double(values[i]));
+}
+
+}  // namespace
+
+nook_result nook_transfer_load(nook_context context, const void* bytes, size_t size, nook_transfer* out) {
+  return api::enter("nook_transfer_load", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(context, "context");
+    need(bytes, "bytes");
+    const auto shared = Ref<nook_context_s>::share(context);
+    Transfer loaded = read_transfer({static_cast<const std::byte*>(bytes), size}, context->memory());
+    *out = Owned<nook_transfer_s>::make(context->memory(), shared, context, std::move(loaded)).detach();
+    context->log(NOOK_LOG_INFO, "radiance transfer: %u vertices, %u lobes, %zu bytes",
+                 (*out)->transfer.vertex_count(), (*out)->transfer.lobes, size);
+  });
+}
+
+void nook_transfer_destroy(nook_transfer* transfer) {
+  if (!transfer || !*transfer) return;
+  (*transfer)->release();
+  *transfer = nullptr;
+}
+
+nook_result nook_transfer_describe(nook_transfer transfer, nook_transfer_info* info) {
+  return api::enter("nook_transfer_describe", [&] {
+    need(transfer, "transfer");
+    nook_transfer_info known{};
+    known.vertex_count = transfer->transfer.vertex_count();
+    known.lobe_count = transfer->transfer.lobes;
+    known.sharpness = sharpness_of(transfer->transfer.lobes);
+    known.share_bytes = transfer->transfer.shares.size();
+    write_info(info, first_info, known);
+  });
+}
+
+nook_result nook_transfer_read_frames(nook_transfer transfer, float* normals, float* tangents,
+                                      uint32_t vertex_count) {
+  return api::enter("nook_transfer_read_frames", [&] {
+    need(transfer, "transfer");
+    const Transfer& baked = transfer->transfer;
+    if (vertex_count != baked.vertex_count())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "vertex_count is not the transfer's (got %u, need %u)",
+                    vertex_count, baked.vertex_count());
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+      const Frame frame = unpack(baked.frames[v]);
+      const float numbers[7] = {frame.normal.x,  frame.normal.y,  frame.normal.z,  frame.tangent.x,
+                                frame.tangent.y, frame.tangent.z, frame.handedness};
+      if (normals) std::copy_n(numbers, 3, normals + 3 * v);
+      if (tangents) std::copy_n(numbers + 3, 4, tangents + 4 * v);
+    }
+  });
+}
+
+nook_result nook_transfer_check_mesh(nook_transfer transfer, const nook_transfer_mesh* mesh) {
+  return api::enter("nook_transfer_check_mesh", [&] {
+    need(transfer, "transfer");
+    need(mesh, "mesh");
+    if (mesh->struct_size < first_mesh)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "mesh.struct_size is too small (got %u, need at least %zu); set it to sizeof",
+                    mesh->struct_size, first_mesh);
+    const std::size_t count = mesh->vertex_count;
+    const auto values = [&](const float* first, std::size_t each) {
+      return first ? std::span<const float>(first, each * count) : std::span<const float>();
+    };
+    check_same_mesh(transfer->transfer,
+                    {values(mesh->positions, 3), values(mesh->normals, 3), values(mesh->tangents, 4),
+                     values(mesh->uvs, 2), mesh->vertex_count});
+  });
+}
+
+nook_result nook_transfer_response_desc_init(nook_transfer_response_desc* desc, size_t size,
+                                             uint32_t header_version) {
+  return api::enter("nook_transfer_response_desc_init",
+                    [&] { init_descriptor(desc, size, header_version, first_response, default_response()); });
+}
+
+nook_result nook_transfer_response_create(nook_context context, const nook_transfer_response_desc* desc,
+                                          nook_transfer_response* out) {
+  return api::enter("nook_transfer_response_create", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(context, "context");
+    const nook_transfer_response_desc d =
+        read_descriptor(desc, "nook_transfer_response_desc_init", first_response, default_response());
+    need(d.material, "desc.material");
+    check_lobes(d.lobe_count, NOOK_ERROR_INVALID_ARGUMENT);
+    const Isa isa = choose_isa(d.isa);
+    const auto shared = Ref<nook_context_s>::share(context);
+    *out = Owned<nook_transfer_response_s>::make(
+               context->memory(), shared, context, isa,
+               response_of(d.material->tables, d.lobe_count, context->memory()))
+               .detach();
+  });
+}
+
+void nook_transfer_response_destroy(nook_transfer_response* response) {
+  if (!response || !*response) return;
+  (*response)->release();
+  *response = nullptr;
+}
+
+nook_result nook_transfer_response_describe(nook_transfer_response response,
+                                            nook_transfer_response_info* info) {
+  return api::enter("nook_transfer_response_describe", [&] {
+    need(response, "response");
+    nook_transfer_response_info known{};
+    known.lobe_count = response->response.lobes;
+    known.light_modes = response->response.light_modes;
+    known.vector_floats = 3 * known.light_modes;
+    known.table_bytes = response->response.table.size() * sizeof(float);
+    write_info(info, first_response_info, known);
+  });
+}
+
+nook_result nook_transfer_vectors(nook_transfer transfer, nook_transfer_response response,
+                                  const float* amplitudes, uint32_t lobe_count, uint32_t first_vertex,
+                                  uint32_t vertex_count, float* vectors, uint32_t stride_floats) {
+  return api::enter("nook_transfer_vectors", [&] {
+    need(transfer, "transfer");
+    need(response, "response");
+    const Transfer& baked = transfer->transfer;
+    check_amplitudes(amplitudes, lobe_count, response->response.lobes);
+    if (baked.lobes != lobe_count)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "lobe_count is not that of the transfer (got %u, need %u); make the response and the fit "
+                    "with as many",
+                    lobe_count, baked.lobes);
+    if (first_vertex > baked.vertex_count() || vertex_count > baked.vertex_count() - first_vertex)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "vertices are out of range (got %u from %u on, the transfer has %u)", vertex_count,
+                    first_vertex, baked.vertex_count());
+    const VectorOutput output = output_of(vectors, stride_floats, response->response);
+    baked_vectors(response->response, response->isa, {amplitudes, std::size_t(3) * lobe_count}, baked,
+                  first_vertex, vertex_count, output, response->context->parallel(),
+                  response->context->memory());
+  });
+}
+
+nook_result nook_transfer_open_vectors(nook_transfer_response response, const float* amplitudes,
+                                       uint32_t lobe_count, const float* normals, const float* tangents,
+                                       uint32_t vertex_count, float* vectors, uint32_t stride_floats) {
+  return api::enter("nook_transfer_open_vectors", [&] {
+    need(response, "response");
+    check_amplitudes(amplitudes, lobe_count, response->response.lobes);
+    const VectorOutput output = output_of(vectors, stride_floats, response->response);
+    need(normals, "normals");
+    need(tangents, "tangents");
+    Vector<Frame> frames(response->context->memory());
+    frames.reserve(vertex_count);
+    for (std::uint32_t v = 0; v < vertex_count; ++v) {
+      const float* const t = tangents + 4 * std::size_t(v);
+      if (!(t[3] == 1 || t[3] == -1))
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "the tangent of vertex %u has a handedness that is neither 1 nor -1 (got %g)", v,
+                      double(t[3]));
+      frames.push_back(
+          orthonormal_frame(unit("normal", normals + 3 * std::size_t(v), v), unit("tangent", t, v), t[3]));
+    }
+    open_vectors(response->response, response->isa, {amplitudes, std::size_t(3) * lobe_count}, frames, output,
+                 response->context->parallel(), response->context->memory());
+  });
+}
+
+nook_result nook_transfer_shade(nook_material material, const nook_material_sample* samples,
+                                const float* vectors, uint32_t vector_floats, uint32_t count,
+                                float* radiance) {
+  return api::enter("nook_transfer_shade", [&] {
+    need(material, "material");
+    const std::uint32_t modes = material->tables.btf.light_modes;
+    if (vector_floats != 3 * modes)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "vector_floats is not that of the material (got %u, need %u)", vector_floats, 3 * modes);
+    if (count == 0) return;
+    need(samples, "samples");
+    need(vectors, "vectors");
+    need(radiance, "radiance");
+    std::array<float, 3 * nook::material::max_directions + 3> decoded;
+    for (std::size_t i = 0; i < count; ++i) {
+      const nook_material_sample& s = samples[i];
+      const float numbers[] = {s.uv[0], s.uv[1], s.level, s.view[0], s.view[1], s.view[2]};
+      need_finite(numbers, std::size(numbers), "a sample");
+      const float* const vector = vectors + i * vector_floats;
+      need_finite(vector, vector_floats, "a vector");
+      nook::material::Sample sample;
+      sample.u = s.uv[0];
+      sample.v = s.uv[1];
+      sample.level = s.level;
+      sample.view = {s.view[0], s.view[1], s.view[2]};
+      nook::material::decode_modes(material->tables, sample, std::span(decoded).first(modes));
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        float sum = 0;
+        for (std::uint32_t a = 0; a < modes; ++a) sum += decoded[a] * vector[c * modes + a];
+        radiance[3 * i + c] = sum;
+      }
+    }
+  });
+}

@@ -1,0 +1,48 @@
+// The objects behind the public handles of radiance transfer.
+#pragma once
+
+#include <nook/nook_transfer.h>
+
+#include <utility>
+
+#include "sdk/src/api/handles.h"
+#include "sdk/src/core/isa.h"
+#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/transfer/lobe_fit.h"
+#include "sdk/src/transfer/map_suns.h"
+#include "sdk/src/transfer/response.h"
+#include "sdk/src/transfer/transfer.h"
+
+struct nook_transfer_s : nook::RefCounted {
+  nook_transfer_s(nook_context_s* made_by, nook::transfer::Transfer loaded)
+      : context(made_by), transfer(std::move(loaded)) {}
+
+  nook_context_s* context;  // kept alive by this object's owner reference
+  const nook::transfer::Transfer transfer;
+};
+
+struct nook_transfer_light_s : nook::RefCounted {
+  static constexpr std::uint32_t side = 64;
+
+  explicit nook_transfer_light_s(nook::Memory* memory)
+      : cells(side, memory), radiance(memory), suns(memory) {}
+
+  nook::transfer::CubeCells cells;
+  nook::Vector<nook::Vec3> radiance;  // of each cell
+  nook::Vector<nook::transfer::MapSun> suns;
+};
+
+struct nook_transfer_fit_s : nook::RefCounted {
+  nook_transfer_fit_s(nook::Memory* memory, std::uint32_t lobes) : fit(lobes, memory) {}
+
+  const nook::transfer::LobeFit fit;
+};
+
+struct nook_transfer_response_s : nook::RefCounted {
+  nook_transfer_response_s(nook_context_s* made_by, nook::Isa chosen, nook::transfer::Response made)
+      : context(made_by), isa(chosen), response(std::move(made)) {}
+
+  nook_context_s* context;  // kept alive by this object's owner reference
+  const nook::Isa isa;
+  const nook::transfer::Response response;
+};

@@ -1,0 +1,30 @@
+// The check of baked transfer, and of the mesh that it is used with.
+#pragma once
+
+#include <nook/nook.h>
+
+#include <span>
+
+#include "sdk/src/transfer/transfer.h"
+
+namespace nook::transfer {
+
+// Throws Failure(code) if there is no vertex, the number of lobes is out of range, or an array has the wrong
+// length. Every byte is a valid share and part of a valid frame.
+void check_transfer(const Transfer& transfer, nook_result code);
+
+// Throws Failure(code) unless min_lobes <= lobes <= max_lobes.
+void check_lobes(std::uint32_t lobes, nook_result code);
+
+// The hash of one array of floats.
+std::uint64_t hash_floats(std::span<const float> values);
+
+// The arrays of a mesh; an empty one is not compared.
+struct MeshArrays {
+  std::span<const float> position, normal, tangent, uv;
+  std::uint32_t vertex_count = 0;
+};
+// Throws Failure(INVALID_ARGUMENT) that names the first array that differs from the baked mesh.
+void check_same_mesh(const Transfer& transfer, const MeshArrays& mesh);
+
+}  // namespace nook::transfer

@@ -1,0 +1,95 @@
+#include "sdk/src/transfer/map_suns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace nook::transfer {
+namespace {
+
+double luminance(Vec3 rgb) {
+  return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z);
+}
+
+double mean_below(const MapView& map, double limit) {
+  double sum = 0;
+  for (std::uint32_t row = 0; row < map.height; ++row)
+    for (std::uint32_t column = 0; column < map.width; ++column)
+      sum += std::min(luminance(map.texel(std::size_t(row) * map.width + column)), limit) *
+             map_texel(map, column, row).solid_angle;
+  return sum / (4 * std::numbers::pi);
+}
+
+// Each round takes away light that was above the limit; it ends with the suns outside the mean, or with no
+// light at all where all of it is sun.
+double limit_of(const MapView& map) {
+  double limit = sun_ratio * mean_below(map, std::numeric_limits<double>::infinity());
+  for (int round = 0; round < 32; ++round) {
+    const double next = sun_ratio * mean_below(map, limit);
+    if (next > 0.999 * limit) return next;
+    limit = next;
+  }
+  return limit;
+}
+
+Vec3 below_limit(Vec3 rgb, double limit) {
+  const double bright = luminance(rgb);
+  return bright > limit ? rgb * float(limit / bright) : rgb;
+}
+
+// Adds the neighbours of a texel; faces of a cube map count as separate pictures, so that a sun on an edge
+// becomes two.
+template <class Add>
+void neighbours(const MapView& map, std::size_t at, Add&& add) {
+  const std::size_t width = map.width, row = at / width, column = at % width;
+  const bool is_cube = map.layout == MapLayout::cube;
+  const std::size_t top = is_cube ? row / width * width : 0, bottom = is_cube ? top + width : map.height;
+  for (std::size_t r = row > top ? row - 1 : row; r < std::min(row + 2, bottom); ++r)
+    for (const std::size_t c : {column + width - 1, column + width, column + width + 1}) {
+      if (is_cube && (c < width || c >= 2 * width)) continue;
+      add(r * width + c % width);
+    }
+}
+
+}  // namespace
+
+Vector<MapSun> take_suns(const MapView& map, Vector<float>& rgb, Memory* memory) {
+  const double limit = limit_of(map);
+  Vector<std::uint8_t> open(map.texel_count(), std::uint8_t(0), memory);
+  for (std::size_t i = 0; i < open.size(); ++i) open[i] = luminance(map.texel(i)) > limit;
+  Vector<MapSun> suns(memory);
+  Vector<std::size_t> stack(memory);
+  for (std::size_t first = 0; first < open.size(); ++first) {
+    if (!open[first]) continue;
+    MapSun sun;
+    Vec3 direction;
+    stack.assign(1, first);
+    open[first] = 0;
+    while (!stack.empty()) {
+      const std::size_t at = stack.back();
+      stack.pop_back();
+      const MapTexel texel = map_texel(map, std::uint32_t(at % map.width), std::uint32_t(at / map.width));
+      const Vec3 kept = below_limit(map.texel(at), limit), light = map.texel(at) - kept;
+      rgb[3 * at] = kept.x;
+      rgb[3 * at + 1] = kept.y;
+      rgb[3 * at + 2] = kept.z;
+      sun.irradiance += light * float(texel.solid_angle);
+      direction += texel.direction * float(luminance(light) * texel.solid_angle);
+      sun.solid_angle += float(texel.solid_angle);
+      neighbours(map, at, [&](std::size_t next) {
+        if (!open[next]) return;
+        open[next] = 0;
+        stack.push_back(next);
+      });
+    }
+    sun.direction = normalised(direction);
+    suns.push_back(sun);
+  }
+  std::stable_sort(suns.begin(), suns.end(), [](const MapSun& a, const MapSun& b) {
+    return luminance(a.irradiance) > luminance(b.irradiance);
+  });
+  return suns;
+}
+
+}  // namespace nook::transfer

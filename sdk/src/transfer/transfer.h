@@ -1,0 +1,49 @@
+// Baked radiance transfer of a static shape in its separated form, as plain data: for each vertex and lobe
+// the share of the lobe's light that reaches the vertex. The method follows Y.-T. Tsai, Z.-C. Shih:
+// K-Clustered Tensor Approximation, 2012, section 6.3, with the transfer matrix of a vertex replaced by a
+// product.
+//
+// A vertex with the frame F and the visibility V(s) under the light sum_j l_j G_j(s) has, for channel c and
+// light mode a of a material, the vector
+//   r[c, a] = sum_j l_j[c] integral of V G_j phi[c, a](F s)
+//           ~ sum_j l_j[c] v_j P[c, a](F axis_j),   P[c, a](d) = integral of G(d, s) phi[c, a](s),
+// where v_j = integral of V G_j cos+ / integral of G_j cos+ is a byte of this data, and P, the response,
+// belongs to a material alone. The radiance of a pixel is sum_a L_a r[c, a] with the light modes L_a that
+// the material decodes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sdk/src/core/containers.h"
+#include "sdk/src/transfer/frame.h"
+#include "sdk/src/transfer/lobes.h"
+
+namespace nook::transfer {
+
+inline constexpr std::uint32_t max_vertices = 10'000'000;
+
+// XXH64 of the arrays of the baked mesh, little-endian floats, where -0 counts as 0.
+struct MeshHashes {
+  std::uint64_t position = 0;  // 3 floats a vertex
+  std::uint64_t normal = 0;    // 3
+  std::uint64_t tangent = 0;   // 4: the direction and the handedness
+  std::uint64_t uv = 0;        // 2
+  bool operator==(const MeshHashes&) const = default;
+};
+
+struct Transfer {
+  explicit Transfer(Memory* memory = default_memory()) : shares(memory), frames(memory), recipe(memory) {}
+
+  std::uint32_t lobes = 0;
+  MeshHashes hashes;
+  Vector<std::uint8_t> shares;  // vertices x lobes, 255 is open
+  Vector<PackedFrame> frames;   // one for each vertex
+  String recipe;                // settings of the bake, JSON; the runtime does not read it
+
+  std::uint32_t vertex_count() const { return std::uint32_t(frames.size()); }
+  const std::uint8_t* shares_of(std::size_t vertex) const { return shares.data() + vertex * lobes; }
+};
+
+}  // namespace nook::transfer

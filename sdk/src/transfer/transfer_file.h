@@ -1,0 +1,28 @@
+// Baked transfer as .nook files. Version 1 of the kind "TRAN" has the sections
+//   HEAD  u8 form, 0: separated; u8 bounces, 0; u16 lobes; u32 vertices;
+//         u64 hashes of positions, normals, tangents and texture coordinates
+//   SHAR  vertices x lobes, u8
+//   FRAM  vertices x 3 u16, see frame.h
+//   RECP  recipe
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sdk/src/core/container.h"
+#include "sdk/src/core/memory.h"
+#include "sdk/src/transfer/transfer.h"
+
+namespace nook::transfer {
+
+inline constexpr ContainerKind transfer_kind{four_letters("TRAN"), "radiance transfer", 1, 1};
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_transfer finds a fault.
+std::vector<std::byte> write_transfer(const Transfer& transfer);
+
+// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
+// NOOK_ERROR_FILE_VERSION), and allocates in proportion to the file's size.
+Transfer read_transfer(std::span<const std::byte> bytes, Memory* memory = default_memory());
+
+}  // namespace nook::transfer

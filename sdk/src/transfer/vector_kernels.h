@@ -1,0 +1,54 @@
+// The work of vectors at vertices as a plain function for each instruction set. All arrays belong to the
+// caller; nothing allocates, locks or throws.
+#pragma once
+
+#include <cstdint>
+
+#include "sdk/src/core/isa.h"
+
+namespace nook::transfer {
+
+// A light over a response. amplitudes has `padded` lobes of red, green, blue and 0, divided by 255.
+struct LightView {
+  const float* axis_x = nullptr;
+  const float* axis_y = nullptr;
+  const float* axis_z = nullptr;
+  const float* amplitudes = nullptr;
+  std::uint32_t lobes = 0, padded = 0;
+
+  std::uint32_t side = 0;
+  float scale = 0, centre = 0, lowest_z = 0;
+  const std::uint16_t* row_begin = nullptr;
+  const std::uint16_t* row_end = nullptr;
+  const float* table = nullptr;  // side x side x 3 x lanes
+  std::uint32_t light_modes = 0, lanes = 0;
+};
+
+inline constexpr std::uint32_t block_vertices = 2;
+// Nodes of a response, and so the floats of the scratch of a block.
+inline constexpr std::uint32_t max_side = 32;
+inline constexpr std::uint32_t scratch_floats = block_vertices * max_side * max_side * 4;
+
+// Up to block_vertices vertices.
+struct VertexBlock {
+  const std::uint8_t* shares = nullptr;  // of each vertex, `lobes` bytes; null: all 255
+  const float* frames = nullptr;         // the axes x, y and z of each vertex, 9 floats
+  std::uint32_t count = 0;
+  float* vectors = nullptr;  // 3 x light_modes floats of each vertex
+  std::uint64_t stride = 0;  // floats between the vectors of two vertices
+  float* scratch = nullptr;  // scratch_floats, on a 64-byte boundary
+};
+
+struct VectorKernels {
+  Isa isa = Isa::scalar;
+  const char* name = nullptr;
+  // Every lobe adds its light, times its share, to the four nodes around its place in the response's grid;
+  // the sums then weigh the table. A vertex so costs `lobes` mixes of four nodes and one product with the
+  // table, instead of a product with four rows of the table for each lobe.
+  void (*vectors)(const LightView& light, const VertexBlock& block);
+};
+
+// Returns the table of one instruction set, or NULL where the processor or the build lacks it.
+const VectorKernels* vector_kernels(Isa isa);
+
+}  // namespace nook::transfer

@@ -1,0 +1,8 @@
+// The headers of vector_kernels_impl.inl, which is included inside a namespace.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "sdk/src/transfer/vector_kernels.h"
+#include "sdk/src/transfer/vector_kernels_tables.h"

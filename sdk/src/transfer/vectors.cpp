@@ -1,0 +1,96 @@
+#include "sdk/src/transfer/vectors.h"
+
+#include <algorithm>
+
+#include "sdk/src/core/aligned_array.h"
+#include "sdk/src/transfer/vector_kernels.h"
+
+namespace nook::transfer {
+namespace {
+
+// Vertices that one thread takes at a time; even, so that blocks of two are the same whatever the range.
+constexpr std::uint32_t piece = 256;
+
+AlignedArray<float> padded_amplitudes(const Response& response, std::span<const float> amplitudes,
+                                      Memory* memory) {
+  AlignedArray<float> padded(std::size_t(4) * response.padded, memory);
+  for (std::uint32_t j = 0; j < response.lobes; ++j)
+    for (std::uint32_t c = 0; c < 3; ++c) padded[4 * j + c] = amplitudes[3 * j + c] * (1 / 255.0f);
+  return padded;
+}
+
+LightView view_of(const Response& response, const AlignedArray<float>& amplitudes) {
+  LightView view;
+  view.axis_x = response.axis_x.data();
+  view.axis_y = response.axis_y.data();
+  view.axis_z = response.axis_z.data();
+  view.amplitudes = amplitudes.data();
+  view.lobes = response.lobes;
+  view.padded = response.padded;
+  view.side = response.side;
+  view.scale = response.scale;
+  view.centre = response.centre;
+  view.lowest_z = response.lowest_z;
+  view.row_begin = response.row_begin.data();
+  view.row_end = response.row_end.data();
+  view.table = response.table.data();
+  view.light_modes = response.light_modes;
+  view.lanes = response.lanes;
+  return view;
+}
+
+void write_axes(const Frame& frame, float* axes) {
+  const Vec3 y = frame.bitangent();
+  const float values[9] = {frame.tangent.x, frame.tangent.y, frame.tangent.z, y.x, y.y, y.z,
+                           frame.normal.x,  frame.normal.y,  frame.normal.z};
+  std::copy_n(values, 9, axes);
+}
+
+// frame_at(i) gives the frame and shares_at(i) the bytes of vertex i, or null.
+template <class FrameAt, class SharesAt>
+void run(const Response& response, Isa isa, std::span<const float> amplitudes, std::uint32_t count,
+         const VectorOutput& output, const Parallel& parallel, Memory* memory, FrameAt&& frame_at,
+         SharesAt&& shares_at) {
+  const AlignedArray<float> padded = padded_amplitudes(response, amplitudes, memory);
+  const LightView light = view_of(response, padded);
+  const VectorKernels* const kernels = vector_kernels(isa);
+  const auto body = [&](std::uint32_t index) noexcept {
+    alignas(64) float scratch[scratch_floats];
+    float axes[9 * block_vertices];
+    const std::uint32_t end = std::min(count, (index + 1) * piece);
+    for (std::uint32_t i = index * piece; i < end; i += block_vertices) {
+      VertexBlock block;
+      block.count = std::min(end - i, block_vertices);
+      for (std::uint32_t v = 0; v < block.count; ++v) write_axes(frame_at(i + v), axes + 9 * v);
+      block.shares = shares_at(i);
+      block.frames = axes;
+      block.vectors = output.vectors + i * output.stride;
+      block.stride = output.stride;
+      block.scratch = scratch;
+      kernels->vectors(light, block);
+    }
+  };
+  parallel_for(parallel, (count + piece - 1) / piece, body);
+}
+
+}  // namespace
+
+void baked_vectors(const Response& response, Isa isa, std::span<const float> amplitudes,
+                   const Transfer& transfer, std::uint32_t first, std::uint32_t count,
+                   const VectorOutput& output, const Parallel& parallel, Memory* memory) {
+  run(
+      response, isa, amplitudes, count, output, parallel, memory,
+      [&](std::uint32_t i) { return unpack(transfer.frames[first + i]); },
+      [&](std::uint32_t i) { return transfer.shares_of(first + i); });
+}
+
+void open_vectors(const Response& response, Isa isa, std::span<const float> amplitudes,
+                  std::span<const Frame> frames, const VectorOutput& output, const Parallel& parallel,
+                  Memory* memory) {
+  run(
+      response, isa, amplitudes, std::uint32_t(frames.size()), output, parallel, memory,
+      [&](std::uint32_t i) { return frames[i]; },
+      [](std::uint32_t) { return static_cast<const std::uint8_t*>(nullptr); });
+}
+
+}  // namespace nook::transfer
