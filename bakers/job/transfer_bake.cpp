@@ -85,7 +85,6 @@ BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progre
   report["lobes"] = transfer.lobes;
   report["bounces"] = 0;
   report["rays"] = recipe["rays"];
-  report["bytes"] = transfer.shares.size();
   report["file_bytes"] = file.model.size();
   report["mean_share"] = mean_share(transfer);
   report["seconds"] = seconds;

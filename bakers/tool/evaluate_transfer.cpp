@@ -83,7 +83,7 @@ Json evaluate(const Options& o) {
       row["form"] = measure::transfer_form_names[form];
       row["lobes"] = baked.lobes;
       row["bounces"] = 0;
-      row["bytes"] = form == 0 ? baked.shares.size() : form == 1 ? baked.frames.size() : 0;
+      row["bytes"] = form == 0 ? bytes.size() : form == 1 ? baked.frames.size() : 0;
       row["file_bytes"] = form == 0 ? Json(bytes.size()) : Json();
       row["se_db"] = vectors.lights[l].se_db[form];
       row["se_exact_db"] = form == 0 ? Json(vectors.lights[l].se_exact_db) : Json();

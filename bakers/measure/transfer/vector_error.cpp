@@ -25,7 +25,7 @@ using nook::transfer::Frame;
 using nook::transfer::Transfer;
 
 constexpr std::uint32_t truth_side = 32;  // 6,144 directions, as the paper
-constexpr std::uint32_t light_side = 64;  // of the runtime's lights
+constexpr std::uint32_t light_side = 32;  // of the runtime's lights
 constexpr float reach = 12;               // lobes count down to exp(-reach) of their height
 
 // The lobes around each direction.
@@ -98,7 +98,8 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
   for (const nook::transfer::PackedFrame& frame : transfer.frames) frames.push_back(unpack(frame));
 
   const nook::transfer::Response response = response_of(tables, transfer.lobes);
-  const Isa isa = choose_isa(NOOK_ISA_AUTO);
+  // The numbers of the tables are those of AVX2, where the processor has it.
+  const Isa isa = isa_available(Isa::avx2) ? Isa::avx2 : choose_isa(NOOK_ISA_AUTO);
   for (std::size_t l = 0; l < lights.size(); ++l) {
     LightVectors& vectors = measure.lights[l];
     for (std::vector<float>& form : vectors.form) form.resize(count * size);

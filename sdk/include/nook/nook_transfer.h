@@ -53,9 +53,9 @@ typedef struct nook_transfer_info {
   /* Vertices of the baked file, over all primitives in its order. */
   uint32_t vertex_count;
   uint32_t lobe_count;
-  /* The sharpness of every lobe, half their number. */
+  /* The sharpness of every lobe, 0.35 times their number. */
   float sharpness;
-  /* Bytes of shares, vertex_count * lobe_count. */
+  /* Bytes of shares in memory, vertex_count * lobe_count. */
   uint64_t share_bytes;
 } nook_transfer_info;
 

@@ -9,7 +9,7 @@ namespace nook::transfer {
 namespace {
 
 // Nodes along a side, and points of the finer grid between two nodes.
-constexpr std::uint32_t side = 28, parts = 4, fine_side = (side - 1) * parts + 1;
+constexpr std::uint32_t side = 40, parts = 4, fine_side = (side - 1) * parts + 1;
 // Lobes count down to exp(-reach) of their height.
 constexpr float reach = 12;
 // A lobe whose axis lies so far below the horizon that all of its light above is below this share of its

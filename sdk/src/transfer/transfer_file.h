@@ -1,7 +1,9 @@
 // Baked transfer as .nook files. Version 1 of the kind "TRAN" has the sections
 //   HEAD  u8 form, 0: separated; u8 bounces, 0; u16 lobes; u32 vertices;
 //         u64 hashes of positions, normals, tangents and texture coordinates
-//   SHAR  vertices x lobes, u8
+//   CODE  vertices x lobes, 2 bits each, low bits first, every vertex from a whole byte on: 0 is the share 0,
+//         1 is 255, 2 is a byte of SHAR; 3 is refused
+//   SHAR  the shares of code 2, u8
 //   FRAM  vertices x 3 u16, see frame.h
 //   RECP  recipe
 #pragma once
@@ -22,7 +24,7 @@ inline constexpr ContainerKind transfer_kind{four_letters("TRAN"), "radiance tra
 std::vector<std::byte> write_transfer(const Transfer& transfer);
 
 // Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
-// NOOK_ERROR_FILE_VERSION), and allocates in proportion to the file's size.
+// NOOK_ERROR_FILE_VERSION), and allocates up to five times the file's size.
 Transfer read_transfer(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
 }  // namespace nook::transfer

@@ -26,7 +26,7 @@ struct LightView {
 
 inline constexpr std::uint32_t block_vertices = 2;
 // Nodes of a response, and so the floats of the scratch of a block.
-inline constexpr std::uint32_t max_side = 32;
+inline constexpr std::uint32_t max_side = 40;
 inline constexpr std::uint32_t scratch_floats = block_vertices * max_side * max_side * 4;
 
 // Up to block_vertices vertices.
