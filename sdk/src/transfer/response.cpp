@@ -8,13 +8,21 @@
 namespace nook::transfer {
 namespace {
 
-// Nodes along a side, and points of the finer grid between two nodes.
-constexpr std::uint32_t side = 40, parts = 4, fine_side = (side - 1) * parts + 1;
+// Points of a finer grid between two nodes.
+constexpr std::uint32_t parts = 4;
+// Nodes along a side: lobes are narrower the more there are, but light bases need no less than the first.
+constexpr std::uint32_t min_side = 28;
+std::uint32_t side_of(std::uint32_t lobes) {
+  return std::clamp(std::uint32_t(std::lround(1.35 * std::sqrt(double(lobes)))), min_side, max_side);
+}
+std::uint32_t fine_side_of(std::uint32_t side) {
+  return (side - 1) * parts + 1;
+}
 // Lobes count down to exp(-reach) of their height.
 constexpr float reach = 12;
 // A lobe whose axis lies so far below the horizon that all of its light above is below this share of its
 // height has no effect.
-constexpr double lowest_share = 1e-3;
+constexpr double lowest_share = 1e-4;
 
 // The inverse of the map; points beyond the disc of radius sqrt(2) give the direction down.
 Vec3 direction_at(float x, float y) {
@@ -31,7 +39,7 @@ double lowest_axis(double sharpness) {
 
 // values has fine_side x fine_side rows of `count` numbers.
 void sum_response(float sharpness, const HemisphereCells& cells, const LightModes& modes, float radius,
-                  Vector<float>& values) {
+                  std::uint32_t fine_side, Vector<float>& values) {
   const std::size_t count = std::size_t(3) * modes.light_modes;
   const float least_cosine = 1 - reach / sharpness;
   for (std::uint32_t row = 0; row < fine_side; ++row)
@@ -51,7 +59,7 @@ void sum_response(float sharpness, const HemisphereCells& cells, const LightMode
 
 // Solves the normal equations of bilinear mixing along one side, for all numbers of a row of `count` at once:
 // a tridiagonal matrix, by elimination. Sums over the parts between two nodes are its entries.
-void to_nodes(const float* fine, std::size_t fine_step, std::size_t count, float* nodes,
+void to_nodes(std::uint32_t side, const float* fine, std::size_t fine_step, std::size_t count, float* nodes,
               std::size_t node_step) {
   float beside = 0, square = 0;
   for (std::uint32_t k = 1; k < parts; ++k) {
@@ -59,7 +67,7 @@ void to_nodes(const float* fine, std::size_t fine_step, std::size_t count, float
     beside += t * (1 - t);
     square += t * t;
   }
-  float pivot[side];
+  float pivot[max_side];
   for (std::uint32_t i = 0; i < side; ++i) {
     pivot[i] = 1 + (i == 0 || i == side - 1 ? square : 2 * square);
     float* const out = nodes + i * node_step;
@@ -84,6 +92,7 @@ void to_nodes(const float* fine, std::size_t fine_step, std::size_t count, float
 
 // The nodes that mixing in the disc of the map can touch.
 void find_rows(float radius, Response& response) {
+  const std::uint32_t side = response.side;
   const float step = 2 * radius / float(side - 1), limit = radius + 1.5f * step;
   for (std::uint32_t row = 0; row < side; ++row) {
     const float y = step * float(row) - radius;
@@ -116,6 +125,7 @@ Response make_response(std::uint32_t lobes, const HemisphereCells& cells, const 
   response.lobes = lobes;
   response.light_modes = modes.light_modes;
   response.lanes = std::uint32_t(padded_count(modes.light_modes));
+  const std::uint32_t side = side_of(lobes), fine_side = fine_side_of(side);
   response.side = side;
   response.lowest_z = float(lowest_axis(double(sharpness)));
   const float radius = std::sqrt(1 - response.lowest_z);
@@ -125,14 +135,14 @@ Response make_response(std::uint32_t lobes, const HemisphereCells& cells, const 
 
   const std::size_t count = std::size_t(3) * modes.light_modes;
   Vector<float> fine(std::size_t(fine_side) * fine_side * count, 0.0f, memory);
-  sum_response(sharpness, cells, modes, radius, fine);
+  sum_response(sharpness, cells, modes, radius, fine_side, fine);
   Vector<float> rows(std::size_t(fine_side) * side * count, 0.0f, memory),
       nodes(std::size_t(side) * side * count, 0.0f, memory);
   for (std::uint32_t row = 0; row < fine_side; ++row)
-    to_nodes(&fine[std::size_t(row) * fine_side * count], count, count,
+    to_nodes(side, &fine[std::size_t(row) * fine_side * count], count, count,
              &rows[std::size_t(row) * side * count], count);
   for (std::uint32_t column = 0; column < side; ++column)
-    to_nodes(&rows[column * count], std::size_t(side) * count, count, &nodes[column * count],
+    to_nodes(side, &rows[column * count], std::size_t(side) * count, count, &nodes[column * count],
              std::size_t(side) * count);
   response.table = AlignedArray<float>(std::size_t(side) * side * 3 * response.lanes, memory);
   for (std::size_t i = 0; i < std::size_t(side) * side * 3; ++i)

@@ -15,6 +15,9 @@
 
 namespace nook::transfer {
 
+// The largest number of nodes along a side.
+inline constexpr std::uint32_t max_side = 48;
+
 // The directions at which a material's light modes are needed: the upper hemisphere in equal areas.
 struct HemisphereCells {
   HemisphereCells(float sharpness, Memory* memory);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "sdk/src/core/isa.h"
+#include "sdk/src/transfer/response.h"
 
 namespace nook::transfer {
 
@@ -24,9 +25,10 @@ struct LightView {
   std::uint32_t light_modes = 0, lanes = 0;
 };
 
+// The largest number of lobes, rounded up to whole vectors.
+inline constexpr std::uint32_t padded_lobes = (max_lobes + 15) / 16 * 16;
 inline constexpr std::uint32_t block_vertices = 2;
-// Nodes of a response, and so the floats of the scratch of a block.
-inline constexpr std::uint32_t max_side = 40;
+// The floats of the scratch of a block, 72 KiB.
 inline constexpr std::uint32_t scratch_floats = block_vertices * max_side * max_side * 4;
 
 // Up to block_vertices vertices.

@@ -7,97 +7,132 @@ namespace {
 using transfer::LightView;
 using transfer::VertexBlock;
 
-// Places of the lobes of one vector in the grid, and 1 where a lobe has an effect, else 0.
+// The places of all lobes in the grid.
 struct alignas(64) Places {
-  float column[width], row[width], effect[width];
+  float column[transfer::padded_lobes], row[transfer::padded_lobes];
+  float effect[transfer::padded_lobes];        // 1 where a lobe has an effect, else 0
+  std::uint16_t lobe[transfer::padded_lobes];  // those that are not dark
 };
 
-void place_lobes(const LightView& light, const float* frame, std::uint32_t first, Places& places) {
-  const Float x = load(light.axis_x + first), y = load(light.axis_y + first), z = load(light.axis_z + first);
-  const auto along = [&](const float* axis) {
-    return fma(broadcast(axis[0]), x, fma(broadcast(axis[1]), y, broadcast(axis[2]) * z));
-  };
-  const Float up = along(frame + 6);
-  const Float scale = rsqrt(max(broadcast(1.0f) + up, broadcast(1e-3f))) * broadcast(light.scale);
-  const Float low = broadcast(0.0f), high = broadcast(float(light.side - 1) - 1e-3f);
-  const Float centre = broadcast(light.centre);
-  store(places.column, min(max(fma(along(frame), scale, centre), low), high));
-  store(places.row, min(max(fma(along(frame + 3), scale, centre), low), high));
-  store(places.effect, select(less(up, broadcast(light.lowest_z)), broadcast(0.0f), broadcast(1.0f)));
+void place_lobes(const LightView& light, const float* frame, Places& places) {
+  for (std::uint32_t first = 0; first < light.lobes; first += width) {
+    const Float x = load(light.axis_x + first), y = load(light.axis_y + first),
+                z = load(light.axis_z + first);
+    const auto along = [&](const float* axis) {
+      return fma(broadcast(axis[0]), x, fma(broadcast(axis[1]), y, broadcast(axis[2]) * z));
+    };
+    const Float up = along(frame + 6);
+    const Float scale = rsqrt(max(broadcast(1.0f) + up, broadcast(1e-3f))) * broadcast(light.scale);
+    const Float low = broadcast(0.0f), high = broadcast(float(light.side - 1) - 1e-3f);
+    const Float centre = broadcast(light.centre);
+    store(places.column + first, min(max(fma(along(frame), scale, centre), low), high));
+    store(places.row + first, min(max(fma(along(frame + 3), scale, centre), low), high));
+    store(places.effect + first,
+          select(less(up, broadcast(light.lowest_z)), broadcast(0.0f), broadcast(1.0f)));
+  }
 }
 
-bool all_dark(const std::uint8_t* shares, std::uint32_t count) {
-  std::uint32_t any = 0;
-  for (std::uint32_t i = 0; i < count; ++i) any |= shares[i];
-  return any == 0;
+// Lists the lobes that are not dark, without a branch that no processor could predict.
+std::uint32_t list_lobes(const LightView& light, const std::uint8_t* shares, Places& places) {
+  std::uint32_t count = 0;
+  for (std::uint32_t j = 0; j < light.lobes; ++j) {
+    places.lobe[count] = std::uint16_t(j);
+    count += (!shares || shares[j] != 0) && places.effect[j] != 0;
+  }
+  return count;
 }
 
 // Adds the light of all lobes to the nodes of one vertex; a node has red, green, blue and 0.
 void spread(const LightView& light, const std::uint8_t* shares, const float* frame, float* nodes) {
   Places places;
-  for (std::uint32_t first = 0; first < light.lobes; first += width) {
-    const std::uint32_t count = light.lobes - first < width ? light.lobes - first : width;
-    if (shares && all_dark(shares + first, count)) continue;
-    place_lobes(light, frame, first, places);
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const float share = (shares ? float(shares[first + k]) : 255.0f) * places.effect[k];
-      if (share == 0) continue;
-      const auto column = std::uint32_t(places.column[k]), row = std::uint32_t(places.row[k]);
-      const float right = places.column[k] - float(column), below = places.row[k] - float(row);
-      const float* const amplitude = light.amplitudes + 4 * std::size_t(first + k);
-      const float top[2] = {share * (1 - below) * (1 - right), share * (1 - below) * right};
-      const float bottom[2] = {share * below * (1 - right), share * below * right};
-      float* const upper = nodes + 4 * std::size_t(row * light.side + column);
-      float* const lower = upper + 4 * std::size_t(light.side);
-      float sums[16];
-      for (int c = 0; c < 4; ++c) {
-        sums[c] = upper[c] + top[0] * amplitude[c];
-        sums[4 + c] = upper[4 + c] + top[1] * amplitude[c];
-        sums[8 + c] = lower[c] + bottom[0] * amplitude[c];
-        sums[12 + c] = lower[4 + c] + bottom[1] * amplitude[c];
-      }
-      std::memcpy(upper, sums, 32);
-      std::memcpy(lower, sums + 8, 32);
-    }
+  place_lobes(light, frame, places);
+  const std::uint32_t count = list_lobes(light, shares, places);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t j = places.lobe[i];
+    const float share = shares ? float(shares[j]) : 255.0f;
+    const auto column = std::uint32_t(std::int32_t(places.column[j])),
+               row = std::uint32_t(std::int32_t(places.row[j]));
+    const float right = places.column[j] - float(std::int32_t(column));
+    const float below = places.row[j] - float(std::int32_t(row));
+    const Four amplitude = load_four(light.amplitudes + 4 * std::size_t(j)) * Four(share);
+    const Four bottom = amplitude * Four(below), top = amplitude - bottom;
+    float* const upper = nodes + 4 * std::size_t(row * light.side + column);
+    float* const lower = upper + 4 * std::size_t(light.side);
+    const Four top_right = top * Four(right), bottom_right = bottom * Four(right);
+    store(upper, load_four(upper) + (top - top_right));
+    store(upper + 4, load_four(upper + 4) + top_right);
+    store(lower, load_four(lower) + (bottom - bottom_right));
+    store(lower + 4, load_four(lower + 4) + bottom_right);
   }
 }
 
-// Weighs `Vectors` vectors of the table's lanes, from lane `first` on, with the nodes of Vertices vertices.
-template <std::uint32_t Vertices, std::uint32_t Vectors>
-void weigh(const LightView& light, const float* nodes, std::uint32_t node_floats, std::uint32_t first,
-           const VertexBlock& block) {
-  Float sums[Vertices][3][Vectors];
-  for (auto& vertex : sums)
-    for (auto& channel : vertex)
-      for (Float& sum : channel) sum = broadcast(0.0f);
-  for (std::uint32_t row = 0; row < light.side; ++row)
-    for (std::uint32_t column = light.row_begin[row]; column < light.row_end[row]; ++column) {
-      const std::size_t node = std::size_t(row) * light.side + column;
-      const float* const table = light.table + node * 3 * light.lanes + first;
-      for (std::uint32_t c = 0; c < 3; ++c)
-        for (std::uint32_t k = 0; k < Vectors; ++k) {
-          const Float response = load(table + std::size_t(c) * light.lanes + k * width);
-          for (std::uint32_t v = 0; v < Vertices; ++v)
-            sums[v][c][k] = fma(broadcast(nodes[v * node_floats + 4 * node + c]), response, sums[v][c][k]);
-        }
-    }
-  const std::uint32_t used =
-      light.light_modes - first < Vectors * width ? light.light_modes - first : Vectors * width;
-  for (std::uint32_t v = 0; v < Vertices; ++v)
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      alignas(64) float lanes[Vectors * width];
-      for (std::uint32_t k = 0; k < Vectors; ++k) store(lanes + k * width, sums[v][c][k]);
-      std::memcpy(block.vectors + v * block.stride + std::size_t(c) * light.light_modes + first, lanes,
-                  used * sizeof(float));
-    }
+// Vectors of the table that are weighed at once: with two vertices and three channels, 12 sums fit into 16
+// registers.
+inline constexpr std::uint32_t group = width >= 16 ? 1 : 2;
+
+template <std::uint32_t Vertices>
+struct Sums {
+  Float of[Vertices][3][group];
+};
+
+// Adds one row of the table, weighed with the nodes of Vertices vertices, for the lanes from `first` on.
+template <std::uint32_t Vertices>
+void weigh_row(const LightView& light, const float* nodes, std::uint32_t node_floats, std::uint32_t row,
+               std::uint32_t first, Sums<Vertices>& out) {
+  Sums<Vertices> sums = out;
+  for (std::uint32_t column = light.row_begin[row]; column < light.row_end[row]; ++column) {
+    const std::size_t node = std::size_t(row) * light.side + column;
+    const float* const table = light.table + node * 3 * light.lanes + first;
+    for (std::uint32_t c = 0; c < 3; ++c)
+      for (std::uint32_t k = 0; k < group; ++k) {
+        const Float response = load(table + std::size_t(c) * light.lanes + k * width);
+        for (std::uint32_t v = 0; v < Vertices; ++v)
+          sums.of[v][c][k] =
+              fma(broadcast(nodes[v * node_floats + 4 * node + c]), response, sums.of[v][c][k]);
+      }
+  }
+  out = sums;
 }
 
 template <std::uint32_t Vertices>
-void weigh_all(const LightView& light, const float* nodes, std::uint32_t node_floats,
-               const VertexBlock& block) {
-  constexpr std::uint32_t vectors = width >= 16 ? 1 : 2;
-  for (std::uint32_t first = 0; first < light.light_modes; first += vectors * width)
-    weigh<Vertices, vectors>(light, nodes, node_floats, first, block);
+void clear(Sums<Vertices>& sums) {
+  for (auto& vertex : sums.of)
+    for (auto& channel : vertex)
+      for (Float& sum : channel) sum = broadcast(0.0f);
+}
+
+template <std::uint32_t Vertices>
+void write(const LightView& light, const Sums<Vertices>& sums, std::uint32_t first, const VertexBlock& block,
+           std::uint32_t first_vertex) {
+  const std::uint32_t rest = light.light_modes - first, used = rest < group * width ? rest : group * width;
+  for (std::uint32_t v = 0; v < Vertices; ++v)
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      alignas(64) float lanes[group * width];
+      for (std::uint32_t k = 0; k < group; ++k) store(lanes + k * width, sums.of[v][c][k]);
+      std::memcpy(block.vectors + (first_vertex + v) * block.stride + std::size_t(c) * light.light_modes + first,
+                  lanes, used * sizeof(float));
+    }
+}
+
+// Row by row over all vertices of the block, so that a row of the table is read from the second-level cache
+// once.
+void weigh(const LightView& light, const VertexBlock& block, std::uint32_t node_floats) {
+  const std::uint32_t pairs = block.count / 2, single = block.count % 2;
+  for (std::uint32_t first = 0; first < light.light_modes; first += group * width) {
+    Sums<2> sums[transfer::block_vertices / 2];
+    Sums<1> last;
+    for (std::uint32_t p = 0; p < pairs; ++p) clear(sums[p]);
+    clear(last);
+    const float* const odd = block.scratch + 2 * std::size_t(pairs) * node_floats;
+    for (std::uint32_t row = 0; row < light.side; ++row) {
+      for (std::uint32_t p = 0; p < pairs; ++p)
+        weigh_row<2>(light, block.scratch + 2 * std::size_t(p) * node_floats, node_floats, row, first,
+                     sums[p]);
+      if (single) weigh_row<1>(light, odd, node_floats, row, first, last);
+    }
+    for (std::uint32_t p = 0; p < pairs; ++p) write(light, sums[p], first, block, 2 * p);
+    if (single) write(light, last, first, block, 2 * pairs);
+  }
 }
 
 void vectors(const LightView& light, const VertexBlock& block) {
@@ -106,10 +141,7 @@ void vectors(const LightView& light, const VertexBlock& block) {
   for (std::uint32_t v = 0; v < block.count; ++v)
     spread(light, block.shares ? block.shares + std::size_t(v) * light.lobes : nullptr,
            block.frames + 9 * std::size_t(v), block.scratch + std::size_t(v) * node_floats);
-  if (block.count == 2)
-    weigh_all<2>(light, block.scratch, node_floats, block);
-  else
-    weigh_all<1>(light, block.scratch, node_floats, block);
+  weigh(light, block, node_floats);
 }
 
 constexpr transfer::VectorKernels vector_table{isa, isa_name(isa), vectors};

@@ -8,7 +8,7 @@
 namespace nook::transfer {
 namespace {
 
-// Vertices that one thread takes at a time; even, so that blocks of two are the same whatever the range.
+// Vertices that one thread takes at a time, whole blocks.
 constexpr std::uint32_t piece = 256;
 
 AlignedArray<float> padded_amplitudes(const Response& response, std::span<const float> amplitudes,

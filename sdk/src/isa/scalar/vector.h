@@ -24,4 +24,30 @@ inline void store(float* p, Float a) {
   *p = a;
 }
 
+struct Four {
+  float v[4];
+  Four() = default;
+  explicit Four(float a) : v{a, a, a, a} {}
+};
+inline Four load_four(const float* p) {
+  Four a;
+  for (int i = 0; i < 4; ++i) a.v[i] = p[i];
+  return a;
+}
+inline void store(float* p, const Four& a) {
+  for (int i = 0; i < 4; ++i) p[i] = a.v[i];
+}
+inline Four operator+(Four a, const Four& b) {
+  for (int i = 0; i < 4; ++i) a.v[i] += b.v[i];
+  return a;
+}
+inline Four operator-(Four a, const Four& b) {
+  for (int i = 0; i < 4; ++i) a.v[i] -= b.v[i];
+  return a;
+}
+inline Four operator*(Four a, const Four& b) {
+  for (int i = 0; i < 4; ++i) a.v[i] *= b.v[i];
+  return a;
+}
+
 }  // namespace nook::isa_scalar
