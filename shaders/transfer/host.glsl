@@ -1,0 +1,40 @@
+// The functions of a host's shaders for radiance transfer. sdk/src/gl/transfer/transfer_texture.cpp defines
+// NOOK_LIGHT_VEC4_COUNT before this text, where the material's text has not done so. Vertex v has the texels
+// 3 NOOK_LIGHT_VEC4_COUNT v and following: its light modes of red, then of green, then of blue.
+#include "shaders/core/texels.glsl"
+
+uniform NOOK_TEXELS nook_transfer_texels;
+
+// Fetches the vectors of a vertex; gl_VertexID is its number where the host draws with the baked order.
+void nook_transfer_vectors(int vertex, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
+  int first = vertex * 3 * NOOK_LIGHT_VEC4_COUNT;
+  for (int i = 0; i < 3 * NOOK_LIGHT_VEC4_COUNT; ++i) vectors[i] = nook_texel(nook_transfer_texels, first + i);
+}
+
+// The same in a fragment shader, for materials with more light modes than varyings have room for: mixes the
+// vectors of a triangle's three vertices.
+void nook_transfer_mix(ivec3 vertices, vec3 weights, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
+  ivec3 first = vertices * (3 * NOOK_LIGHT_VEC4_COUNT);
+  for (int i = 0; i < 3 * NOOK_LIGHT_VEC4_COUNT; ++i)
+    vectors[i] = weights.x * nook_texel(nook_transfer_texels, first.x + i) +
+                 weights.y * nook_texel(nook_transfer_texels, first.y + i) +
+                 weights.z * nook_texel(nook_transfer_texels, first.z + i);
+}
+
+// Turns a direction to the tangent space of a pixel, from the interpolated normal and tangent. The bake has
+// the same frame: y points along growing v.
+vec3 nook_transfer_tangent_space(vec3 normal, vec4 tangent, vec3 direction) {
+  vec3 z = normalize(normal);
+  vec3 x = normalize(tangent.xyz - z * dot(z, tangent.xyz));
+  vec3 y = (tangent.w < 0.0 ? -1.0 : 1.0) * cross(z, x);
+  return vec3(dot(x, direction), dot(y, direction), dot(z, direction));
+}
+
+// Returns the radiance towards the view from the light modes of nook_material_decode.
+vec3 nook_transfer_radiance(vec4 modes[NOOK_LIGHT_VEC4_COUNT], vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
+  vec3 radiance = vec3(0.0);
+  for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a)
+    radiance += vec3(dot(modes[a], vectors[a]), dot(modes[a], vectors[a + NOOK_LIGHT_VEC4_COUNT]),
+                     dot(modes[a], vectors[a + 2 * NOOK_LIGHT_VEC4_COUNT]));
+  return radiance;
+}

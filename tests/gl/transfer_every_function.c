@@ -1,0 +1,70 @@
+/* Every function of nook_gl_transfer.h, called from C in the order a host would; returns the number of failed
+ * expectations and prints each. The OpenGL context is current. */
+#include <nook/nook_gl_transfer.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int nook_transfer_call_everything(const void* material_bytes, size_t material_size, nook_gl_proc_fn get_proc,
+                                  void* user);
+
+static int failures;
+static void expect(int condition, const char* what, int line) {
+  if (condition) return;
+  ++failures;
+  printf("transfer_every_function.c:%d: %s: %s\n", line, what, nook_last_message());
+}
+#define EXPECT(condition) expect((condition), #condition, __LINE__)
+#define EXPECT_OK(call) expect((call) == NOOK_OK, #call, __LINE__)
+
+enum { VERTICES = 3 };
+
+int nook_transfer_call_everything(const void* material_bytes, size_t material_size, nook_gl_proc_fn get_proc,
+                                  void* user) {
+  nook_context_desc context_desc;
+  nook_gl_desc gl_desc;
+  nook_transfer_response_desc desc;
+  nook_transfer_response_info info;
+  nook_gl_transfer_info uploaded;
+  nook_context context = NULL;
+  nook_gl gl = NULL;
+  nook_material material = NULL;
+  nook_transfer_response response = NULL;
+  nook_gl_transfer on_gpu = NULL;
+  float* vectors;
+  uint64_t count;
+
+  failures = 0;
+  EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  EXPECT_OK(nook_context_create(&context_desc, &context));
+  EXPECT_OK(nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION));
+  gl_desc.get_proc = get_proc;
+  gl_desc.get_proc_user = user;
+  EXPECT_OK(nook_gl_create(context, &gl_desc, &gl));
+  EXPECT_OK(nook_material_load(context, material_bytes, material_size, &material));
+  EXPECT_OK(nook_transfer_response_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.material = material;
+  desc.lobe_count = 12;
+  EXPECT_OK(nook_transfer_response_create(context, &desc, &response));
+  memset(&info, 0, sizeof info);
+  info.struct_size = sizeof info;
+  EXPECT_OK(nook_transfer_response_describe(response, &info));
+  EXPECT_OK(nook_gl_transfer_create(gl, response, VERTICES, &on_gpu));
+  nook_transfer_response_destroy(&response);
+  nook_material_destroy(&material);
+  count = (uint64_t)VERTICES * info.vector_floats;
+  vectors = calloc((size_t)count, sizeof *vectors);
+  EXPECT_OK(nook_gl_transfer_update(on_gpu, vectors, count));
+  EXPECT(nook_gl_transfer_update(on_gpu, vectors, count - 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  free(vectors);
+  memset(&uploaded, 0, sizeof uploaded);
+  uploaded.struct_size = sizeof uploaded;
+  EXPECT_OK(nook_gl_transfer_describe(on_gpu, &uploaded));
+  EXPECT(uploaded.texture != 0 && uploaded.bytes >= count * sizeof(float));
+  EXPECT(strstr(uploaded.glsl, "nook_transfer_radiance") != NULL);
+  nook_gl_destroy(&gl);
+  nook_context_destroy(&context);
+  nook_gl_transfer_destroy(&on_gpu);
+  EXPECT(!on_gpu);
+  return failures;
+}

@@ -1,0 +1,209 @@
+// Radiance transfer in shaders: the GLSL against the CPU, and the contract of the C functions.
+#include <nook/nook_gl_transfer.h>
+
+#include <cmath>
+
+#include "platform/program.h"
+#include "sdk/src/material/material_file.h"
+#include "sdk/src/material/parabolic.h"
+#include "tests/gl/material_decoder.h"
+#include "tests/gl/test_context.h"
+#include "tests/material/material_sample.h"
+
+using namespace nook;
+using namespace nook::test;
+
+extern "C" int nook_transfer_call_everything(const void* material_bytes, std::size_t material_size,
+                                             nook_gl_proc_fn get_proc, void* user);
+
+namespace {
+
+constexpr int count = 64;  // vertices, one pixel each
+
+// Each vertex is a point on a pixel of its own.
+const char vertex_text[] =
+    "out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT];\n"
+    "flat out ivec3 corners;\n"
+    "void main() {\n"
+    "  nook_transfer_vectors(gl_VertexID, vectors);\n"
+    "  corners = ivec3(gl_VertexID, (gl_VertexID + 1) % 64, (gl_VertexID + 5) % 64);\n"
+    "  gl_Position = vec4((float(gl_VertexID) + 0.5) / 32.0 - 1.0, 0.0, 0.0, 1.0);\n"
+    "  gl_PointSize = 1.0;\n"
+    "}\n";
+const char fragment_text[] =
+    "in vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT];\n"
+    "flat in ivec3 corners;\n"
+    "uniform highp sampler2D views;\n"
+    "layout(location = 0) out vec4 value; layout(location = 1) out vec4 mixed;\n"
+    "void main() {\n"
+    // The direction in tangent space goes through a frame that is the unit matrix.
+    "  vec3 given = texelFetch(views, ivec2(gl_FragCoord.xy), 0).xyz;\n"
+    "  vec3 view = nook_transfer_tangent_space(vec3(0.0, 0.0, 2.0), vec4(3.0, 0.0, 1.0, 1.0), given);\n"
+    "  vec4 modes[NOOK_LIGHT_VEC4_COUNT];\n"
+    "  nook_material_decode(vec2(0.3, 0.6), vec2(0.0), vec2(0.0), view, modes);\n"
+    "  value = vec4(nook_transfer_radiance(modes, vectors), 1.0);\n"
+    "  vec4 between[3 * NOOK_LIGHT_VEC4_COUNT];\n"
+    "  nook_transfer_mix(corners, vec3(0.5, 0.3, 0.2), between);\n"
+    "  mixed = vec4(nook_transfer_radiance(modes, between), 1.0);\n"
+    "}\n";
+
+nook_transfer_response make_response(nook_context context, nook_material material) {
+  nook_transfer_response_desc desc;
+  NOOK_OK_OR_FAIL(nook_transfer_response_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.material = material;
+  desc.lobe_count = 42;
+  nook_transfer_response response = nullptr;
+  NOOK_OK_OR_FAIL(nook_transfer_response_create(context, &desc, &response));
+  return response;
+}
+
+std::vector<nook_material_sample> views_of(const nook_material_info& info) {
+  material::test::Numbers numbers(5);
+  const std::uint32_t side =
+      info.btf.view_map_side ? 256 / info.btf.view_map_side * info.btf.view_map_side : 256;
+  std::vector<nook_material_sample> samples(count);
+  for (nook_material_sample& s : samples) {
+    s = {{0.3f, 0.6f}, 0, {}, {0, 0, 1}};
+    material::ParabolicPoint p;
+    do {
+      p.x = (float(numbers.below(side)) + 0.5f) / float(side) * 2 - 1;
+      p.y = (float(numbers.below(side)) + 0.5f) / float(side) * 2 - 1;
+    } while (p.x * p.x + p.y * p.y >= 0.9f);
+    const Vec3 view = material::from_parabolic(p);
+    s.view[0] = view.x;
+    s.view[1] = view.y;
+    s.view[2] = view.z;
+  }
+  return samples;
+}
+
+struct Drawn {
+  std::vector<float> value, mixed;  // RGBA of each vertex
+};
+
+Drawn draw(const GladGLContext& gl, nook_gl_material material, nook_gl_transfer transfer,
+           const std::vector<nook_material_sample>& samples) {
+  nook_gl_transfer_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_gl_transfer_describe(transfer, &info));
+  const nook_gl_material_info decoder = info_of(material);
+  const GLuint program = platform::link_program(gl, {glsl_header(gl), info.glsl, vertex_text},
+                                                {glsl_header(gl), decoder.glsl, info.glsl, fragment_text});
+  gl.UseProgram(program);
+  GLint unit = 0;
+  for (std::uint32_t i = 0; i < decoder.texture_count; ++i) {
+    nook_gl_material_texture texture{};
+    texture.struct_size = sizeof texture;
+    NOOK_OK_OR_FAIL(nook_gl_material_describe_texture(material, i, &texture));
+    gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
+    gl.BindTexture(texture.target, texture.texture);
+    gl.Uniform1i(gl.GetUniformLocation(program, texture.uniform), unit++);
+  }
+  const GLenum target = is_es(gl) ? GL_TEXTURE_2D : GL_TEXTURE_BUFFER;
+  gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
+  gl.BindTexture(target, info.texture);
+  gl.Uniform1i(gl.GetUniformLocation(program, "nook_transfer_texels"), unit++);
+  Textures images(gl);
+  std::vector<float> views;
+  for (const nook_material_sample& s : samples) views.insert(views.end(), {s.view[0], s.view[1], s.view[2]});
+  const GLuint given = images.floats(GL_RGB32F, 3, count, 1, views);
+  const GLuint value = images.floats(GL_RGBA32F, 4, count, 1, {}),
+               mixed = images.floats(GL_RGBA32F, 4, count, 1, {});
+  gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
+  gl.BindTexture(GL_TEXTURE_2D, given);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.Uniform1i(gl.GetUniformLocation(program, "views"), unit++);
+  GLuint framebuffer = 0, vertex_array = 0;
+  gl.GenFramebuffers(1, &framebuffer);
+  gl.GenVertexArrays(1, &vertex_array);
+  gl.BindVertexArray(vertex_array);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, value, 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, mixed, 0);
+  const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl.DrawBuffers(2, buffers);
+  gl.Viewport(0, 0, count, 1);
+  gl.DrawArrays(GL_POINTS, 0, count);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl.DeleteFramebuffers(1, &framebuffer);
+  gl.BindVertexArray(0);
+  gl.DeleteVertexArrays(1, &vertex_array);
+  gl.UseProgram(0);
+  for (; unit > 0; --unit) {
+    gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit - 1));
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, 0);
+    if (!is_es(gl)) gl.BindTexture(GL_TEXTURE_BUFFER, 0);
+  }
+  gl.DeleteProgram(program);
+  return {read_texture(gl, value, count, 1, 4), read_texture(gl, mixed, count, 1, 4)};
+}
+
+}  // namespace
+
+TEST_CASE("transfer: a C program calls every function of nook_gl_transfer.h") {
+  NOOK_NEED_CONTEXT(context);
+  const std::vector<std::byte> bytes = material::write_material(material::test::sample_material(2));
+  CHECK(nook_transfer_call_everything(bytes.data(), bytes.size(), platform::Context::loader, &context) == 0);
+}
+
+TEST_CASE("transfer: the GLSL agrees with the CPU reference to 1/255") {
+  NOOK_NEED_CONTEXT(context);
+  MaterialFixture fixture(context);
+  material::test::SampleSize size;
+  size.width = size.height = 8;
+  size.rank_light = 6;
+  const nook_material material = fixture.load(material::test::sample_material(4, size));
+  const nook_transfer_response response = make_response(fixture.host.handle, material);
+  nook_transfer_response_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_transfer_response_describe(response, &info));
+  nook_gl_transfer transfer = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_transfer_create(fixture.gl, response, count, &transfer));
+
+  // Vectors whose radiances are near 1.
+  material::test::Numbers numbers(9);
+  std::vector<float> vectors(std::size_t(count) * info.vector_floats);
+  for (float& number : vectors) number = numbers.between(-0.3f, 0.3f);
+  NOOK_OK_OR_FAIL(nook_gl_transfer_update(transfer, vectors.data(), vectors.size()));
+  const std::vector<nook_material_sample> samples = views_of(info_of(material));
+  const Drawn drawn = draw(context.gl(), fixture.upload(material), transfer, samples);
+
+  std::vector<float> between(vectors.size()), wanted(3 * count), wanted_mixed(3 * count);
+  for (int v = 0; v < count; ++v)
+    for (std::uint32_t i = 0; i < info.vector_floats; ++i) {
+      const auto of = [&](int vertex) {
+        return vectors[std::size_t(vertex % count) * info.vector_floats + i];
+      };
+      between[std::size_t(v) * info.vector_floats + i] = 0.5f * of(v) + 0.3f * of(v + 1) + 0.2f * of(v + 5);
+    }
+  NOOK_OK_OR_FAIL(nook_transfer_shade(material, samples.data(), vectors.data(), info.vector_floats, count,
+                                      wanted.data()));
+  NOOK_OK_OR_FAIL(nook_transfer_shade(material, samples.data(), between.data(), info.vector_floats, count,
+                                      wanted_mixed.data()));
+  float brightest = 0;
+  for (std::size_t v = 0; v < count; ++v)
+    for (std::size_t c = 0; c < 3; ++c) {
+      INFO("vertex " << v << ", channel " << c);
+      CHECK(std::abs(drawn.value[4 * v + c] - wanted[3 * v + c]) <= 1.0f / 255);
+      CHECK(std::abs(drawn.mixed[4 * v + c] - wanted_mixed[3 * v + c]) <= 1.0f / 255);
+      brightest = std::max(brightest, std::abs(wanted[3 * v + c]));
+    }
+  CHECK(brightest > 0.1f);
+  nook_gl_transfer_destroy(&transfer);
+  nook_transfer_response other = response;
+  nook_transfer_response_destroy(&other);
+}
+
+TEST_CASE("transfer: vectors that do not fit are refused") {
+  NOOK_NEED_CONTEXT(context);
+  MaterialFixture fixture(context);
+  const nook_material material = fixture.load(material::test::sample_material(4));
+  nook_transfer_response response = make_response(fixture.host.handle, material);
+  nook_gl_transfer transfer = nullptr;
+  CHECK(nook_gl_transfer_create(fixture.gl, response, 0, &transfer) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_transfer_create(nullptr, response, 4, &transfer) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_transfer_create(fixture.gl, nullptr, 4, &transfer) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(transfer == nullptr);
+  nook_transfer_response_destroy(&response);
+}

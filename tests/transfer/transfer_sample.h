@@ -1,0 +1,32 @@
+// Baked transfer of made numbers, for tests of what reads it.
+#pragma once
+
+#include <cstdint>
+
+#include "sdk/src/transfer/transfer.h"
+
+namespace nook::transfer::test {
+
+// Shares are dark, open and partly open in turn; normals lie on a spiral.
+inline Transfer sample_transfer(std::uint32_t vertices = 5, std::uint32_t lobes = 19) {
+  Transfer transfer;
+  transfer.lobes = lobes;
+  transfer.hashes = {11, 22, 33, 44};
+  std::uint32_t state = 7;
+  for (std::uint32_t i = 0; i < vertices * lobes; ++i) {
+    state = state * 1664525u + 1013904223u;
+    const std::uint32_t kind = state >> 30;
+    transfer.shares.push_back(kind == 0   ? std::uint8_t(0)
+                              : kind == 1 ? std::uint8_t(255)
+                                          : std::uint8_t(state >> 16));
+  }
+  std::vector<Vec3> axes(vertices + 2);
+  lobe_axes(axes);
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    transfer.frames.push_back(
+        pack(orthonormal_frame(axes[v + 1], {0.3f, 1, 0.2f}, v % 3 == 0 ? -1.0f : 1.0f)));
+  transfer.recipe = "{\"form\":\"separated\"}";
+  return transfer;
+}
+
+}  // namespace nook::transfer::test
