@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <numbers>
 
@@ -45,7 +46,9 @@ std::string json_of(const Shape& shape, std::size_t size) {
   const std::string count = std::to_string(shape.position.size()),
                     indices = std::to_string(3 * shape.triangle.size());
   const auto triple = [](Vec3 v) {
-    return "[" + std::to_string(v.x) + "," + std::to_string(v.y) + "," + std::to_string(v.z) + "]";
+    char text[80];
+    std::snprintf(text, sizeof text, "[%.9g,%.9g,%.9g]", double(v.x), double(v.y), double(v.z));
+    return std::string(text);
   };
   const std::size_t vertex = shape.position.size();
   const auto view = [](std::size_t offset, std::size_t bytes) {
@@ -98,8 +101,7 @@ Shape ball(Vec3 centre, float radius_m, std::uint32_t around) {
   return shape;
 }
 
-Shape knot_over_plane() {
-  constexpr std::uint32_t along = 240, around = 16;
+Shape knot_over_plane(std::uint32_t along, std::uint32_t around, std::uint32_t across) {
   constexpr float tube = 0.085f;
   Shape shape;
   for (std::uint32_t k = 0; k < around; ++k)
@@ -114,7 +116,7 @@ Shape knot_over_plane() {
       shape.uv.push_back({24 * float(i) / float(along - 1), 3 * float(k) / float(around - 1)});
     }
   add_grid(shape, 0, along, around);
-  append(shape, plane(1.6f, 40, 9));
+  append(shape, plane(1.6f, across, 9));
   return shape;
 }
 

@@ -25,8 +25,9 @@ Shape plane(float side_m, std::uint32_t across, float tiles, float y = 0);
 Shape ball(Vec3 centre, float radius_m, std::uint32_t around);
 
 // A tube of radius 0.085 around the (2, 3) torus knot whose radius is 0.3 (1 + 0.45 cos 3a) and whose height
-// is 0.25 + 0.135 sin 3a, 240 x 16 vertices with seams, over a plane of 40 x 40 vertices.
-Shape knot_over_plane();
+// is 0.25 + 0.135 sin 3a, over a plane. The tube has along x around vertices with seams, and the plane has
+// across x across: 5,440 in all by default.
+Shape knot_over_plane(std::uint32_t along = 240, std::uint32_t around = 16, std::uint32_t across = 40);
 
 // Cloth that hangs over a ball: a square of 96 x 96 vertices, flat on top of the ball, in waves where it
 // falls, over a plane.

@@ -42,7 +42,7 @@ Camera camera_of(const bake::SurfaceMesh& mesh, const PictureSettings& settings)
                   std::cos(elevation) * std::cos(azimuth)};
   Camera camera;
   const float half = std::tan(0.5f * field_of_view_deg * pi / 180);
-  camera.eye = middle + away * (0.85f * radius / std::sin(0.5f * field_of_view_deg * pi / 180));
+  camera.eye = middle + away * (0.95f * radius / std::sin(0.5f * field_of_view_deg * pi / 180));
   camera.forward = -away;
   camera.right = normalised(cross(camera.forward, {0, 1, 0}));
   camera.up = cross(camera.right, camera.forward);
