@@ -64,7 +64,7 @@ def of_form(report, form, key):
 def vectors_table(bench):
     rows = []
     for shape, lobes in CASES:
-        report = bench.evaluate(shape, lobes, "pictures", "--images", str(bench.out), "--paths", "128")
+        report = bench.evaluate(shape, lobes, "pictures", "--images", str(bench.out), "--paths", "128", "--width", "320", "--height", "240")
         mib = f"{report['rows'][0]['file_bytes'] / 2**20:.2f}"
         for label, form, key in [("separated, exact integrals", "separated", "se_exact_db"),
                                  ("separated", "separated", "se_db"), ("ao", "ao", "se_db"), ("none", "none", "se_db")]:

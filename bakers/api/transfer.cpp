@@ -43,6 +43,8 @@ nook_result nook_bake_transfer_start(const nook_bake_transfer_desc* desc, nook_b
     if (d.threads > most_threads)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.threads is out of range (got %u, need at most %u)",
                     d.threads, most_threads);
+    if (d.reserved != 0)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", d.reserved);
     auto task = std::make_shared<TransferTask>(transfer_task_of(d));
     auto bake = [task](const StageReport& report) { return bake_transfer_file(*task, report); };
     *out = new nook_bake_job_s{BakeJob(std::move(bake), d.threads, listener_of(d.progress, d.progress_user))};

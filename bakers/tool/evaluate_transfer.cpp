@@ -5,14 +5,12 @@
 
 #include "bakers/measure/transfer/pictures.h"
 #include "bakers/measure/transfer/vector_error.h"
-#include "bakers/raytrace/suns.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/image_folder.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/transfer/bake.h"
 #include "platform/progress_bar.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/material/material_file.h"
@@ -34,7 +32,7 @@ struct Options {
 };
 
 void check_mesh(const Options& o, const bake::SurfaceMesh& mesh, const transfer::Transfer& baked) {
-  if (mesh.position.size() != baked.vertex_count() || bake::transfer::hashes_of(mesh) != baked.hashes)
+  if (!measure::is_baked_mesh(mesh, baked))
     throw ToolError(exit_bad_input, o.transfer.string() + ": was baked from another mesh than " +
                                         o.mesh.string() + "; bake the transfer again");
 }
@@ -54,9 +52,7 @@ Json evaluate(const Options& o) {
   const double factor_ms = watch.seconds() * 1e3;
   std::vector<measure::MeasuredLight> lights;
   for (const std::filesystem::path& path : o.lights) {
-    bake::Environment map = read_map(path);
-    if (o.without_suns) map = bake::without_suns(map);
-    lights.push_back(measure::measured_light(path.stem().string(), std::move(map), fit));
+    lights.push_back(measure::measured_light(path.stem().string(), read_map(path), fit, o.without_suns));
   }
   const auto progress = [&](const char* label, const char* unit) {
     return [&bar, label, unit](std::size_t done, std::size_t total) {

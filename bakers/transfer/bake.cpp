@@ -54,7 +54,7 @@ LobesOfDirections lobes_of(const CubeCells& cells, std::uint32_t lobes) {
   return out;
 }
 
-// What one thread keeps between vertices.
+// The memory that one thread reuses for all its vertices.
 struct Workspace {
   std::vector<std::uint32_t> visible;
   std::vector<float> seen, whole;  // of each lobe

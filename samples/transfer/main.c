@@ -58,7 +58,7 @@ typedef struct App {
   uint32_t vector_floats;
   float* amplitudes; /* lobes x RGB */
   float* vectors;    /* vertices x vector_floats */
-  float* tangents;   /* 4 floats a vertex, as the file has them */
+  float* tangents;   /* 4 floats for each vertex, as the file has them */
   float* normals;
 } App;
 

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 typedef struct Shape {
-  float* position; /* 3 floats a vertex */
+  float* position; /* 3 floats for each vertex */
   float* normal;   /* 3 */
   float* uv;       /* 2, in tiles of the material */
   uint32_t* index; /* triangles, counter-clockwise from outside */

@@ -4,10 +4,12 @@
 #include <nook/nook_gl.h>
 #include <nook/nook_gl_material.h>
 #include <nook/nook_gl_probe.h>
+#include <nook/nook_gl_transfer.h>
 #include <nook/nook_nnao.h>
 #include <nook/nook_nnao_recording.h>
 #include <nook/nook_pose.h>
 #include <nook/nook_probe.h>
+#include <nook/nook_transfer.h>
 #include <nook/nook_vertices.h>
 
 #include <cstddef>
@@ -550,6 +552,68 @@ NOOK_AT(nook_probe_surface, tangent, 24);
 NOOK_AT(nook_probe_surface, alpha_x, 36);
 NOOK_AT(nook_probe_surface, alpha_y, 40);
 NOOK_AT(nook_probe_surface, reflectance, 44);
+
+NOOK_SIZE(nook_transfer_info, 24);
+NOOK_AT(nook_transfer_info, vertex_count, 4);
+NOOK_AT(nook_transfer_info, lobe_count, 8);
+NOOK_AT(nook_transfer_info, sharpness, 12);
+NOOK_AT(nook_transfer_info, share_bytes, 16);
+
+NOOK_SIZE(nook_transfer_mesh, 40);
+NOOK_AT(nook_transfer_mesh, vertex_count, 4);
+NOOK_AT(nook_transfer_mesh, positions, 8);
+NOOK_AT(nook_transfer_mesh, normals, 16);
+NOOK_AT(nook_transfer_mesh, tangents, 24);
+NOOK_AT(nook_transfer_mesh, uvs, 32);
+
+NOOK_SIZE(nook_transfer_map_desc, 40);
+NOOK_AT(nook_transfer_map_desc, next, 8);
+NOOK_AT(nook_transfer_map_desc, rgb, 16);
+NOOK_AT(nook_transfer_map_desc, width, 24);
+NOOK_AT(nook_transfer_map_desc, height, 28);
+NOOK_AT(nook_transfer_map_desc, layout, 32);
+NOOK_AT(nook_transfer_map_desc, split_suns, 36);
+
+NOOK_SIZE(nook_transfer_sun, 28);
+NOOK_AT(nook_transfer_sun, direction, 0);
+NOOK_AT(nook_transfer_sun, irradiance, 12);
+NOOK_AT(nook_transfer_sun, solid_angle, 24);
+
+NOOK_SIZE(nook_transfer_fit_quality, 12);
+NOOK_AT(nook_transfer_fit_quality, relative_error, 4);
+NOOK_AT(nook_transfer_fit_quality, negative_share, 8);
+
+NOOK_SIZE(nook_transfer_response_desc, 32);
+NOOK_AT(nook_transfer_response_desc, next, 8);
+NOOK_AT(nook_transfer_response_desc, material, 16);
+NOOK_AT(nook_transfer_response_desc, lobe_count, 24);
+NOOK_AT(nook_transfer_response_desc, isa, 28);
+
+NOOK_SIZE(nook_transfer_response_info, 24);
+NOOK_AT(nook_transfer_response_info, lobe_count, 4);
+NOOK_AT(nook_transfer_response_info, light_modes, 8);
+NOOK_AT(nook_transfer_response_info, vector_floats, 12);
+NOOK_AT(nook_transfer_response_info, table_bytes, 16);
+
+NOOK_SIZE(nook_gl_transfer_info, 24);
+NOOK_AT(nook_gl_transfer_info, texture, 4);
+NOOK_AT(nook_gl_transfer_info, bytes, 8);
+NOOK_AT(nook_gl_transfer_info, glsl, 16);
+
+NOOK_SIZE(nook_bake_transfer_desc, 96);
+NOOK_AT(nook_bake_transfer_desc, positions, 16);
+NOOK_AT(nook_bake_transfer_desc, normals, 24);
+NOOK_AT(nook_bake_transfer_desc, tangents, 32);
+NOOK_AT(nook_bake_transfer_desc, uvs, 40);
+NOOK_AT(nook_bake_transfer_desc, indices, 48);
+NOOK_AT(nook_bake_transfer_desc, vertex_count, 56);
+NOOK_AT(nook_bake_transfer_desc, index_count, 60);
+NOOK_AT(nook_bake_transfer_desc, lobes, 64);
+NOOK_AT(nook_bake_transfer_desc, ray_side, 68);
+NOOK_AT(nook_bake_transfer_desc, threads, 72);
+NOOK_AT(nook_bake_transfer_desc, reserved, 76);
+NOOK_AT(nook_bake_transfer_desc, progress, 80);
+NOOK_AT(nook_bake_transfer_desc, progress_user, 88);
 
 #include "tests/abi/host.h"
 

@@ -51,7 +51,7 @@ Camera camera_of(const bake::SurfaceMesh& mesh, const PictureSettings& settings)
   return camera;
 }
 
-// What a pixel sees.
+// The surface that a pixel shows.
 struct PixelHit {
   bool is_hit = false;
   std::array<std::uint32_t, 3> vertex{};

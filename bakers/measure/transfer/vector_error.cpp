@@ -10,6 +10,8 @@
 
 #include "bakers/measure/transfer/lit_material.h"
 #include "bakers/raytrace/ambient_occlusion.h"
+#include "bakers/raytrace/suns.h"
+#include "bakers/transfer/bake.h"
 #include "bakers/transfer/visible_directions.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
@@ -71,7 +73,14 @@ double decibels(std::span<const float> truth, std::span<const float> other) {
 
 }  // namespace
 
-MeasuredLight measured_light(std::string name, bake::Environment map, const nook::transfer::LobeFit& fit) {
+bool is_baked_mesh(const bake::SurfaceMesh& mesh, const Transfer& transfer) {
+  return mesh.position.size() == transfer.vertex_count() &&
+         bake::transfer::hashes_of(mesh) == transfer.hashes;
+}
+
+MeasuredLight measured_light(std::string name, bake::Environment map, const nook::transfer::LobeFit& fit,
+                             bool without_suns) {
+  if (without_suns) map = bake::without_suns(map);
   using namespace nook::transfer;
   const MapView view{MapLayout::latlong, map.width(), map.height(), map.rgb()};
   const CubeCells fine(light_side), coarse(truth_side);

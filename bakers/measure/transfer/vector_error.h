@@ -35,7 +35,12 @@ struct MeasuredLight {
   nook::transfer::FitQuality quality;
   double fit_ms = 0;
 };
-MeasuredLight measured_light(std::string name, bake::Environment map, const nook::transfer::LobeFit& fit);
+// without_suns: the suns of the map are taken out first (bakers/raytrace/suns.h).
+MeasuredLight measured_light(std::string name, bake::Environment map, const nook::transfer::LobeFit& fit,
+                             bool without_suns = false);
+
+// Returns whether transfer was baked from this mesh.
+bool is_baked_mesh(const bake::SurfaceMesh& mesh, const nook::transfer::Transfer& transfer);
 
 // The vectors of all vertices under one light, 3 x light_modes numbers each.
 struct LightVectors {

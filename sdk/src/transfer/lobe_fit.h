@@ -35,7 +35,7 @@ class LobeFit {
   Vector<double> factor_;  // rows of L with G = L L^T, row i has i + 1 numbers
 };
 
-// How lobes hold a light.
+// The quality of a fit.
 struct FitQuality {
   double relative_error = 0;  // root of the integral of (R - L)^2 over that of L^2
   double negative_share = 0;  // integral of max(-R, 0) over that of |R|, mean over channels by luminance

@@ -26,7 +26,7 @@ inline constexpr std::uint32_t max_vertices = 10'000'000;
 
 // XXH64 of the arrays of the baked mesh, little-endian floats, where -0 counts as 0.
 struct MeshHashes {
-  std::uint64_t position = 0;  // 3 floats a vertex
+  std::uint64_t position = 0;  // 3 floats for each vertex
   std::uint64_t normal = 0;    // 3
   std::uint64_t tangent = 0;   // 4: the direction and the handedness
   std::uint64_t uv = 0;        // 2

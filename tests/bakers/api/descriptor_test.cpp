@@ -70,6 +70,22 @@ TEST_CASE("descriptors of every release are read, and what a newer one adds is r
     nook_bake_job_destroy(&job);
     return result;
   });
+
+  const std::uint32_t triangle[3] = {0, 0, 0};
+  nook_bake_transfer_desc transfer_desc;
+  REQUIRE(nook_bake_transfer_desc_init(&transfer_desc, sizeof transfer_desc, NOOK_VERSION) == NOOK_OK);
+  transfer_desc.positions = at;
+  transfer_desc.normals = up;
+  transfer_desc.uvs = at;
+  transfer_desc.indices = triangle;
+  transfer_desc.vertex_count = 1;
+  transfer_desc.index_count = 3;
+  check_use(transfer_desc, 96, [](const nook_bake_transfer_desc* desc) {
+    nook_bake_job job = nullptr;
+    const nook_result result = nook_bake_transfer_start(desc, &job);
+    nook_bake_job_destroy(&job);
+    return result;
+  });
 }
 
 TEST_CASE("answers are cut to the caller's struct") {

@@ -189,6 +189,31 @@ static int call_material_functions(void) {
   return wrong + (job != NULL || calls == 0);
 }
 
+static int call_transfer_functions(void) {
+  const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, normals[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
+  const float uvs[6] = {0, 0, 1, 0, 0, 1};
+  const uint32_t indices[3] = {0, 1, 2};
+  nook_bake_transfer_desc desc;
+  nook_bake_job job = NULL;
+  const void* bytes = NULL;
+  size_t size = 0;
+  int calls = 0, wrong = nook_bake_transfer_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  desc.positions = positions;
+  desc.normals = normals;
+  desc.uvs = uvs;
+  desc.indices = indices;
+  desc.vertex_count = desc.index_count = 3;
+  desc.lobes = 12;
+  desc.ray_side = 8;
+  desc.progress = keep_going;
+  desc.progress_user = &calls;
+  wrong += nook_bake_transfer_start(&desc, &job) != NOOK_OK;
+  wrong += nook_bake_job_wait(job) != NOOK_OK;
+  wrong += nook_bake_job_model(job, &bytes, &size) != NOOK_OK || size < 100;
+  nook_bake_job_destroy(&job);
+  return wrong + (job != NULL || calls == 0);
+}
+
 int call_every_function(void) {
   tube t;
   nook_bake_mesh_desc desc;
@@ -207,6 +232,7 @@ int call_every_function(void) {
   wrong += call_trace_functions(&t);
   wrong += call_irradiance_functions(&t);
   wrong += call_material_functions();
+  wrong += call_transfer_functions();
   nook_bake_character_destroy(&character);
   return wrong + (character != NULL);
 }

@@ -1,0 +1,128 @@
+// Jobs of radiance transfer, and their files in the runtime.
+#include <nook/nook_bake.h>
+#include <nook/nook_transfer.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/bakers/api/handles.h"
+#include "tests/catch.h"
+#include "tests/transfer/shapes.h"
+
+namespace {
+
+using nook::transfer::test::Shape;
+
+nook_bake_transfer_desc desc_of(const Shape& shape) {
+  nook_bake_transfer_desc desc;
+  REQUIRE(nook_bake_transfer_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  CHECK(desc.lobes == 642);
+  CHECK(desc.ray_side == 32);
+  desc.positions = &shape.position[0].x;
+  desc.normals = &shape.normal[0].x;
+  desc.uvs = shape.uv[0].data();
+  desc.indices = shape.triangle[0].data();
+  desc.vertex_count = std::uint32_t(shape.position.size());
+  desc.index_count = std::uint32_t(3 * shape.triangle.size());
+  desc.lobes = 42;
+  desc.ray_side = 16;
+  return desc;
+}
+
+std::string bytes_of(const nook_bake_transfer_desc& desc) {
+  nook_bake_job job = nullptr;
+  REQUIRE(nook_bake_transfer_start(&desc, &job) == NOOK_OK);
+  REQUIRE(nook_bake_job_wait(job) == NOOK_OK);
+  const void* bytes = nullptr;
+  std::size_t size = 0;
+  REQUIRE(nook_bake_job_model(job, &bytes, &size) == NOOK_OK);
+  std::string out(static_cast<const char*>(bytes), size);
+  nook_bake_job_destroy(&job);
+  return out;
+}
+
+bool refused(const nook_bake_transfer_desc& desc, const char* text) {
+  nook_bake_job job = nullptr;
+  const nook_result result = nook_bake_transfer_start(&desc, &job);
+  INFO(nook_bake_last_message());
+  CHECK(job == nullptr);
+  nook_bake_job_destroy(&job);
+  return result == NOOK_ERROR_INVALID_ARGUMENT &&
+         std::string(nook_bake_last_message()).find(text) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a job bakes a file that the runtime loads and knows by its mesh") {
+  const Shape shape = nook::transfer::test::plane(1, 4, 2);
+  nook_bake_transfer_desc desc = desc_of(shape);
+  const std::string bytes = bytes_of(desc);
+  nook_context_desc context_desc;
+  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  nook_context context = nullptr;
+  REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
+  nook_transfer transfer = nullptr;
+  REQUIRE(nook_transfer_load(context, bytes.data(), bytes.size(), &transfer) == NOOK_OK);
+  nook_transfer_mesh mesh{};
+  mesh.struct_size = sizeof mesh;
+  mesh.vertex_count = desc.vertex_count;
+  mesh.positions = desc.positions;
+  mesh.normals = desc.normals;
+  mesh.uvs = desc.uvs;
+  CHECK(nook_transfer_check_mesh(transfer, &mesh) == NOOK_OK);
+  Shape moved = shape;
+  moved.uv[3][1] += 0.25f;
+  mesh.uvs = moved.uv[0].data();
+  CHECK(nook_transfer_check_mesh(transfer, &mesh) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(std::string(nook_last_message()).find("texture coordinates") != std::string::npos);
+  std::vector<float> tangents(4 * desc.vertex_count);
+  REQUIRE(nook_transfer_read_frames(transfer, nullptr, tangents.data(), desc.vertex_count) == NOOK_OK);
+  // u grows along +x, v along -z, and cross(+y, +x) is -z.
+  for (std::size_t v = 0; v < desc.vertex_count; ++v) {
+    CHECK(tangents[4 * v] > 0.9999f);
+    CHECK(tangents[4 * v + 3] == 1);
+  }
+  nook_transfer_destroy(&transfer);
+  nook_context_destroy(&context);
+
+  desc.threads = 1;
+  CHECK(bytes_of(desc) == bytes);
+}
+
+TEST_CASE("jobs of radiance transfer refuse what cannot be baked") {
+  const Shape shape = nook::transfer::test::plane(1, 4, 2);
+  const nook_bake_transfer_desc good = desc_of(shape);
+  nook_bake_transfer_desc desc = good;
+  desc.uvs = nullptr;
+  CHECK(refused(desc, "desc.uvs is NULL"));
+  desc = good;
+  desc.index_count -= 1;
+  CHECK(refused(desc, "multiple of 3"));
+  desc = good;
+  desc.lobes = 5000;
+  CHECK(refused(desc, "lobes"));
+  desc = good;
+  desc.vertex_count = 0;
+  CHECK(refused(desc, "vertices"));
+  desc = good;
+  desc.reserved = 1;
+  CHECK(refused(desc, "desc.reserved"));
+  Shape bad = shape;
+  bad.position[2].y = NAN;
+  CHECK(refused(desc_of(bad), "vertex 2"));
+  std::vector<float> tangents(4 * good.vertex_count, 0.0f);
+  desc = good;
+  desc.tangents = tangents.data();
+  CHECK(refused(desc, "handedness"));
+}
+
+TEST_CASE("a job of radiance transfer can be cancelled by its progress") {
+  const Shape shape = nook::transfer::test::knot_over_plane();
+  nook_bake_transfer_desc desc = desc_of(shape);
+  desc.progress = [](void*, const nook_bake_progress*) { return std::int32_t(0); };
+  nook_bake_job job = nullptr;
+  REQUIRE(nook_bake_transfer_start(&desc, &job) == NOOK_OK);
+  CHECK(nook_bake_job_wait(job) == NOOK_ERROR_CANCELLED);
+  nook_bake_job_destroy(&job);
+}
