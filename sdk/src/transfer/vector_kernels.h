@@ -25,8 +25,6 @@ struct LightView {
   std::uint32_t light_modes = 0, lanes = 0;
 };
 
-// The largest number of lobes, rounded up to whole vectors.
-inline constexpr std::uint32_t padded_lobes = (max_lobes + 15) / 16 * 16;
 inline constexpr std::uint32_t block_vertices = 2;
 // The floats of the scratch of a block, 72 KiB.
 inline constexpr std::uint32_t scratch_floats = block_vertices * max_side * max_side * 4;

@@ -7,17 +7,19 @@ namespace {
 using transfer::LightView;
 using transfer::VertexBlock;
 
-// The places of all lobes in the grid.
+// The places of some lobes in the grid; few enough to stay in the first-level cache beside the grid.
+inline constexpr std::uint32_t chunk = 64;
 struct alignas(64) Places {
-  float column[transfer::padded_lobes], row[transfer::padded_lobes];
-  float effect[transfer::padded_lobes];        // 1 where a lobe has an effect, else 0
-  std::uint16_t lobe[transfer::padded_lobes];  // those that are not dark
+  float column[chunk], row[chunk];
+  float effect[chunk];        // 1 where a lobe has an effect, else 0
+  std::uint32_t lobe[chunk];  // those that are not dark, counted from the first of the chunk
 };
 
-void place_lobes(const LightView& light, const float* frame, Places& places) {
-  for (std::uint32_t first = 0; first < light.lobes; first += width) {
-    const Float x = load(light.axis_x + first), y = load(light.axis_y + first),
-                z = load(light.axis_z + first);
+void place_lobes(const LightView& light, const float* frame, std::uint32_t first, std::uint32_t count,
+                 Places& places) {
+  for (std::uint32_t i = 0; i < count; i += width) {
+    const std::uint32_t j = first + i;
+    const Float x = load(light.axis_x + j), y = load(light.axis_y + j), z = load(light.axis_z + j);
     const auto along = [&](const float* axis) {
       return fma(broadcast(axis[0]), x, fma(broadcast(axis[1]), y, broadcast(axis[2]) * z));
     };
@@ -25,28 +27,25 @@ void place_lobes(const LightView& light, const float* frame, Places& places) {
     const Float scale = rsqrt(max(broadcast(1.0f) + up, broadcast(1e-3f))) * broadcast(light.scale);
     const Float low = broadcast(0.0f), high = broadcast(float(light.side - 1) - 1e-3f);
     const Float centre = broadcast(light.centre);
-    store(places.column + first, min(max(fma(along(frame), scale, centre), low), high));
-    store(places.row + first, min(max(fma(along(frame + 3), scale, centre), low), high));
-    store(places.effect + first,
-          select(less(up, broadcast(light.lowest_z)), broadcast(0.0f), broadcast(1.0f)));
+    store(places.column + i, min(max(fma(along(frame), scale, centre), low), high));
+    store(places.row + i, min(max(fma(along(frame + 3), scale, centre), low), high));
+    store(places.effect + i, select(less(up, broadcast(light.lowest_z)), broadcast(0.0f), broadcast(1.0f)));
   }
 }
 
-// Lists the lobes that are not dark, without a branch that no processor could predict.
-std::uint32_t list_lobes(const LightView& light, const std::uint8_t* shares, Places& places) {
+// Lists the lobes of a chunk that are not dark, without a branch that no processor could predict.
+std::uint32_t list_lobes(const std::uint8_t* shares, std::uint32_t chunk_lobes, Places& places) {
   std::uint32_t count = 0;
-  for (std::uint32_t j = 0; j < light.lobes; ++j) {
-    places.lobe[count] = std::uint16_t(j);
-    count += (!shares || shares[j] != 0) && places.effect[j] != 0;
+  for (std::uint32_t i = 0; i < chunk_lobes; ++i) {
+    places.lobe[count] = i;
+    count += (!shares || shares[i] != 0) && places.effect[i] != 0;
   }
   return count;
 }
 
-// Adds the light of all lobes to the nodes of one vertex; a node has red, green, blue and 0.
-void spread(const LightView& light, const std::uint8_t* shares, const float* frame, float* nodes) {
-  Places places;
-  place_lobes(light, frame, places);
-  const std::uint32_t count = list_lobes(light, shares, places);
+// Adds the light of lobes to the nodes of one vertex; a node has red, green, blue and 0.
+void add_lobes(const LightView& light, const Places& places, std::uint32_t count, std::uint32_t first,
+               const std::uint8_t* shares, float* nodes) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t j = places.lobe[i];
     const float share = shares ? float(shares[j]) : 255.0f;
@@ -54,7 +53,7 @@ void spread(const LightView& light, const std::uint8_t* shares, const float* fra
                row = std::uint32_t(std::int32_t(places.row[j]));
     const float right = places.column[j] - float(std::int32_t(column));
     const float below = places.row[j] - float(std::int32_t(row));
-    const Four amplitude = load_four(light.amplitudes + 4 * std::size_t(j)) * Four(share);
+    const Four amplitude = load_four(light.amplitudes + 4 * std::size_t(first + j)) * Four(share);
     const Four bottom = amplitude * Four(below), top = amplitude - bottom;
     float* const upper = nodes + 4 * std::size_t(row * light.side + column);
     float* const lower = upper + 4 * std::size_t(light.side);
@@ -63,6 +62,16 @@ void spread(const LightView& light, const std::uint8_t* shares, const float* fra
     store(upper + 4, load_four(upper + 4) + top_right);
     store(lower, load_four(lower) + (bottom - bottom_right));
     store(lower + 4, load_four(lower + 4) + bottom_right);
+  }
+}
+
+void spread(const LightView& light, const std::uint8_t* shares, const float* frame, float* nodes) {
+  Places places;
+  for (std::uint32_t first = 0; first < light.lobes; first += chunk) {
+    const std::uint32_t rest = light.lobes - first, lobes = rest < chunk ? rest : chunk;
+    const std::uint8_t* const some = shares ? shares + first : nullptr;
+    place_lobes(light, frame, first, lobes, places);
+    add_lobes(light, places, list_lobes(some, lobes, places), first, some, nodes);
   }
 }
 
