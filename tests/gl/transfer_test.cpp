@@ -89,6 +89,13 @@ Drawn draw(const GladGLContext& gl, nook_gl_material material, nook_gl_transfer 
   const nook_gl_material_info decoder = info_of(material);
   const GLuint program = platform::link_program(gl, {glsl_header(gl), info.glsl, vertex_text},
                                                 {glsl_header(gl), decoder.glsl, info.glsl, fragment_text});
+  // Making textures binds them to the active unit.
+  Textures images(gl);
+  std::vector<float> views;
+  for (const nook_material_sample& s : samples) views.insert(views.end(), {s.view[0], s.view[1], s.view[2]});
+  const GLuint given = images.floats(GL_RGB32F, 3, count, 1, views);
+  const GLuint value = images.floats(GL_RGBA32F, 4, count, 1, {}),
+               mixed = images.floats(GL_RGBA32F, 4, count, 1, {});
   gl.UseProgram(program);
   GLint unit = 0;
   for (std::uint32_t i = 0; i < decoder.texture_count; ++i) {
@@ -103,12 +110,6 @@ Drawn draw(const GladGLContext& gl, nook_gl_material material, nook_gl_transfer 
   gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
   gl.BindTexture(target, info.texture);
   gl.Uniform1i(gl.GetUniformLocation(program, "nook_transfer_texels"), unit++);
-  Textures images(gl);
-  std::vector<float> views;
-  for (const nook_material_sample& s : samples) views.insert(views.end(), {s.view[0], s.view[1], s.view[2]});
-  const GLuint given = images.floats(GL_RGB32F, 3, count, 1, views);
-  const GLuint value = images.floats(GL_RGBA32F, 4, count, 1, {}),
-               mixed = images.floats(GL_RGBA32F, 4, count, 1, {});
   gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
   gl.BindTexture(GL_TEXTURE_2D, given);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
