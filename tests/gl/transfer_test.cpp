@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "platform/program.h"
+#include "sdk/src/gl/touched_state.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/material/parabolic.h"
 #include "tests/gl/material_decoder.h"
+#include "tests/gl/poison.h"
 #include "tests/gl/test_context.h"
 #include "tests/material/material_sample.h"
 
@@ -207,4 +209,29 @@ TEST_CASE("transfer: vectors that do not fit are refused") {
   CHECK(nook_gl_transfer_create(fixture.gl, nullptr, 4, &transfer) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(transfer == nullptr);
   nook_transfer_response_destroy(&response);
+}
+
+TEST_CASE("transfer: uploading vectors keeps the promises on OpenGL state") {
+  NOOK_NEED_CONTEXT(context);
+  for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_DEFAULTS}) {
+    MaterialFixture fixture(context, mode);
+    const nook_material material = fixture.load(material::test::sample_material(4));
+    nook_transfer_response response = make_response(fixture.host.handle, material);
+    nook_transfer_response_info info{};
+    info.struct_size = sizeof info;
+    NOOK_OK_OR_FAIL(nook_transfer_response_describe(response, &info));
+    const std::vector<float> vectors(std::size_t(3) * info.vector_floats, 0.5f);
+    nook_gl_transfer transfer = nullptr;
+    {
+      Poison poison(context, is_es(context.gl()) ? gl::probes | gl::texel_uploads : unsigned{gl::probes});
+      const StateValues touched = poison.touched(), untouched = poison.untouched();
+      NOOK_OK_OR_FAIL(nook_gl_transfer_create(fixture.gl, response, 3, &transfer));
+      NOOK_OK_OR_FAIL(nook_gl_transfer_update(transfer, vectors.data(), vectors.size()));
+      CHECK(poison.untouched() == untouched);
+      if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);
+      if (mode == NOOK_GL_STATE_DEFAULTS) CHECK(poison.touched() == poison.defaults());
+    }
+    nook_gl_transfer_destroy(&transfer);
+    nook_transfer_response_destroy(&response);
+  }
 }
