@@ -89,7 +89,7 @@ std::uint64_t WorldPass::bytes() const {
 }
 
 void WorldPass::check(const nook_nnao_frame_desc& frame) {
-  const HostImages images = images_of(frame);
+  const HostImages images = images_of(frame, false);
   if (checked_ == images) return;
   checked_.reset();
   check_images(device_, images, own_.texture());
@@ -163,7 +163,7 @@ void WorldPass::render(const nook_nnao_frame_desc& frame, const float* view, con
   bind(NOOK_UNIT_LAYER, layered ? frame.layer_texture : 0);
   casters_.bind(device_);
 
-  const FrameConstants constants = frame_constants(frame, plain_pass());
+  const FrameConstants constants = frame_constants(frame, plain_pass(), 0);
   gl.UseProgram(stage.program.name());
   gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
   gl.Uniform1i(stage.groups, static_cast<GLint>(groups_));
