@@ -12,11 +12,9 @@
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/vector_kernels.h"
 
 namespace nook::transfer {
-
-// The largest number of nodes along a side.
-inline constexpr std::uint32_t max_side = 48;
 
 // The directions at which a material's light modes are needed: the upper hemisphere in equal areas.
 struct HemisphereCells {

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "sdk/src/core/isa.h"
-#include "sdk/src/transfer/response.h"
 
 namespace nook::transfer {
 
@@ -24,6 +23,9 @@ struct LightView {
   const float* table = nullptr;  // side x side x 3 x lanes
   std::uint32_t light_modes = 0, lanes = 0;
 };
+
+// The largest number of nodes along a side of a response.
+inline constexpr std::uint32_t max_side = 48;
 
 inline constexpr std::uint32_t block_vertices = 2;
 // The floats of the scratch of a block, 72 KiB.
