@@ -8,51 +8,46 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/nnao/specular_fit.h"
+#include "bakers/job/specular_training.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/distinct_files.h"
 #include "bakers/tool/interrupt.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
-#include "sdk/src/nnao/network_file.h"
 
 namespace nook::tool {
 namespace {
 
-using namespace nook::bake::nnao;
 using Json = nlohmann::ordered_json;
 
 struct Options {
   CommonOptions common;
   std::string output;
-  SpecularFitSettings fit;
+  bake::nnao::SpecularFitSettings fit;
 };
 
 void run_in_arena(const Options& options) {
   platform::OutputFile output(options.output);
   std::optional<platform::OutputFile> report_file;
   if (!options.common.report.empty()) report_file.emplace(options.common.report);
-  const nook::nnao::Network network = nook::nnao::read_network(nook::nnao::default_network_file());
   platform::ProgressBar bar(options.common.quiet);
-  const SpecularSamples samples =
-      trace_specular_samples(network, options.fit, [&](std::size_t done, std::size_t total) {
+  const bake::SpecularTraining trained =
+      bake::train_specular(options.fit, [&](std::size_t done, std::size_t total) {
         bar.show("ray tracing", "scenes", done, total);
         return !interrupted();
       });
-  const nook::nnao::SpecularNumbers numbers = fit_specular(samples.training, options.fit);
-  const SpecularError error = specular_error(samples.validation, numbers);
-  output.commit(specular_header(numbers, options.fit));
+  output.commit(trained.header);
   if (report_file) {
-    const Json report = {{"training_points", samples.training.size()},
-                         {"validation_points", samples.validation.size()},
-                         {"mse", error.fitted},
-                         {"mse_lagarde", error.lagarde}};
+    const Json report = {{"training_points", trained.training_points},
+                         {"validation_points", trained.validation_points},
+                         {"mse", trained.error.fitted},
+                         {"mse_lagarde", trained.error.lagarde}};
     report_file->commit(report.dump(2) + "\n");
   }
   if (!options.common.quiet)
-    std::printf("mse %.5f, by Lagarde's form of the same AO %.5f, ratio %.3f\n", error.fitted, error.lagarde,
-                error.fitted / error.lagarde);
+    std::printf("mse %.5f, by Lagarde's form of the same AO %.5f, ratio %.3f\n", trained.error.fitted,
+                trained.error.lagarde, trained.error.fitted / trained.error.lagarde);
 }
 
 void run(Options& options) {

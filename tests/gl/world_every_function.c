@@ -1,10 +1,10 @@
-/* Every function of nook_world_gl.h, called from C; returns the number of failed expectations and prints
+/* Every function of nook_gl_world.h, called from C; returns the number of failed expectations and prints
  * each. The OpenGL context is current. */
-#include <nook/nook_world_gl.h>
+#include <nook/nook_gl_world.h>
 #include <stdio.h>
 #include <string.h>
 
-int nook_world_gl_call_everything(nook_gl gl);
+int nook_gl_world_call_everything(nook_gl gl);
 
 static int failures;
 static void expect(int condition, const char* what, int line) {
@@ -14,7 +14,7 @@ static void expect(int condition, const char* what, int line) {
 }
 #define EXPECT(condition) expect((condition), #condition, __LINE__)
 
-int nook_world_gl_call_everything(nook_gl gl) {
+int nook_gl_world_call_everything(nook_gl gl) {
   nook_world_pass_desc desc;
   nook_world_frame_desc frame;
   nook_world_pass_info info;

@@ -1,5 +1,5 @@
 // The world pass: the AO of nook_world_sample at every pixel, the state contract, masks, lifetimes.
-#include <nook/nook_world_gl.h>
+#include <nook/nook_gl_world.h>
 
 #include <cmath>
 #include <cstring>
@@ -15,7 +15,7 @@
 using namespace nook;
 using namespace nook::test;
 
-extern "C" int nook_world_gl_call_everything(nook_gl gl);
+extern "C" int nook_gl_world_call_everything(nook_gl gl);
 
 namespace {
 
@@ -129,7 +129,7 @@ float darkest(const std::vector<float>& ao) {
 TEST_CASE("world: every function of the pass is called from C") {
   NOOK_NEED_CONTEXT(context);
   WorldFixture fixture(context);
-  CHECK(nook_world_gl_call_everything(fixture.gl) == 0);
+  CHECK(nook_gl_world_call_everything(fixture.gl) == 0);
 }
 
 TEST_CASE("world: a sphere and a capsule darken as on the CPU, under every projection") {

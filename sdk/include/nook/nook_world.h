@@ -12,7 +12,7 @@
  * what the casters leave open counts, and the light's open share is the mean over the parts. Casters that
  * cover different parts thus add, and those that cover one part whole darken it once.
  *
- * nook_world_gl.h darkens what a depth buffer shows. */
+ * nook_gl_world.h darkens what a depth buffer shows. */
 #ifndef NOOK_WORLD_H
 #define NOOK_WORLD_H
 

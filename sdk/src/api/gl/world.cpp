@@ -1,4 +1,4 @@
-#include <nook/nook_world_gl.h>
+#include <nook/nook_gl_world.h>
 
 #include <cmath>
 

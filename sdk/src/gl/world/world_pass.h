@@ -1,7 +1,7 @@
 // Casters darken what a depth buffer shows: one draw over the viewport.
 #pragma once
 
-#include <nook/nook_world_gl.h>
+#include <nook/nook_gl_world.h>
 
 #include <optional>
 #include <span>

@@ -3,8 +3,8 @@
  * After depth, one call darkens the whole screen by the casters of a scene, also by those that the screen
  * does not show. It takes the frame of the screen pass (nook_nnao.h), the view matrix and the scene. The pass
  * follows the state contract that was chosen at nook_gl_create, on every tier. */
-#ifndef NOOK_WORLD_GL_H
-#define NOOK_WORLD_GL_H
+#ifndef NOOK_GL_WORLD_H
+#define NOOK_GL_WORLD_H
 
 #include "nook_gl.h"
 #include "nook_nnao.h"
