@@ -118,8 +118,9 @@ void write(const LightView& light, const Sums<Vertices>& sums, std::uint32_t fir
     for (std::uint32_t c = 0; c < 3; ++c) {
       alignas(64) float lanes[group * width];
       for (std::uint32_t k = 0; k < group; ++k) store(lanes + k * width, sums.of[v][c][k]);
-      std::memcpy(block.vectors + (first_vertex + v) * block.stride + std::size_t(c) * light.light_modes + first,
-                  lanes, used * sizeof(float));
+      std::memcpy(
+          block.vectors + (first_vertex + v) * block.stride + std::size_t(c) * light.light_modes + first,
+          lanes, used * sizeof(float));
     }
 }
 
