@@ -14,6 +14,7 @@
 #include "bakers/measure/nnao/oracle_pass.h"
 #include "bakers/measure/nnao/report.h"
 #include "bakers/measure/nnao/scene_views.h"
+#include "bakers/measure/nnao/sequence_comparison.h"
 #include "bakers/measure/nnao/sheet.h"
 #include "bakers/measure/nnao/tuning.h"
 #include "bakers/tool/commands.h"
@@ -25,6 +26,7 @@
 #include "bakers/tool/nnao/views_file.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
+#include "sdk/src/core/failure.h"
 #include "sdk/src/nnao/network_file.h"
 
 namespace nook::tool {
@@ -46,7 +48,8 @@ struct Options {
   std::vector<std::string> methods;  // empty: all
   std::vector<std::string> ratios;   // METHOD:TAPS,METHOD:TAPS
   bool raw = true;
-  bool bent = false;  // bent normals and specular occlusion in place of AO
+  bool bent = false;      // bent normals and specular occlusion in place of AO
+  bool temporal = false;  // means over frames in place of single ones
   std::uint32_t placed_cameras = 3;
   float max_radius_px = 0;
   std::string tune;  // a baseline's name, or all; empty: no tuning
@@ -307,6 +310,38 @@ Json evaluate_bent(Options& options) {
   return report;
 }
 
+// Means over the frames of a moving camera in place of single frames.
+Json evaluate_temporal(Options& options) {
+  const Work work = read_work(options);
+  options.truth.path.frames = sequence_frames;
+  std::optional<platform::OutputFile> markdown;
+  if (!options.markdown.empty()) markdown.emplace(options.markdown);
+  if (!options.references.empty()) std::filesystem::create_directories(options.references);
+  const auto context = make_context();
+  AoRequest request;
+  request.max_radius_px =
+      options.max_radius_px > 0 ? options.max_radius_px : 0.5f * float(options.truth.height);
+  std::vector<SequenceView> measured;
+  // Scene by scene: the frames of all take a gigabyte.
+  for (const SceneRequest& scene : work.scenes) {
+    const std::vector<MeasuredView> views = traced_views(scene, options);
+    platform::ProgressBar bar(options.common.quiet);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      bar.show(scene.name + ", measuring", "views", v, views.size());
+      if (interrupted()) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while measuring");
+      measured.push_back(measure_sequence(*context, views[v], request));
+    }
+    bar.show(scene.name + ", measuring", "views", views.size(), views.size());
+  }
+  Json report = sequence_report(measured, options.common.seed);
+  if (markdown) markdown->commit(sequence_markdown(report));
+  report["step_px"] = options.truth.path.step_px;
+  report["rays"] = options.truth.rays;
+  report["opengl"] = context->version();
+  report["seed"] = options.common.seed;
+  return report;
+}
+
 Json tune(const Options& options) {
   platform::ProgressBar bar(options.common.quiet);
   const std::vector<MeasuredView> views =
@@ -362,6 +397,11 @@ void run(Options& options) {
       (!options.markdown.empty() || !options.scenes.cameras.empty() || !options.scenes.radii.empty()))
     throw ToolError(exit_bad_arguments,
                     "evaluate nnao: --frame: --markdown, --camera and --radius are of scenes alone");
+  if (options.temporal && (!has_scenes || options.bent || !options.methods.empty() ||
+                           !options.network.empty() || !options.images.empty() || !options.ratios.empty()))
+    throw ToolError(exit_bad_arguments,
+                    "evaluate nnao: --temporal: it needs scenes, and has no --bent-normals, --methods, "
+                    "--network, --images and --ratio");
   if (!options.views.empty() && !options.scenes.files.empty())
     throw ToolError(exit_bad_arguments, "evaluate nnao: --views: its scenes take the place of files");
   options.truth.seed = options.common.seed;
@@ -372,6 +412,7 @@ void run(Options& options) {
   run_evaluation(options.common, files, [&] {
     if (!options.frames.empty()) return replay(options);
     if (!options.tune.empty()) return tune(options);
+    if (options.temporal) return evaluate_temporal(options);
     return options.bent ? evaluate_bent(options) : evaluate(options);
   });
 }
@@ -457,6 +498,14 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
       ->type_name("RATIO");
   command->add_flag("--bent-normals", o.bent,
                     "measure bent normals and specular occlusion in place of AO, at every 16th pixel");
+  command->add_flag("--temporal", o.temporal,
+                    "measure means over the frames of a moving camera in place of single frames");
+  command
+      ->add_option("--path-step", o.truth.path.step_px,
+                   "with --temporal: pixels by which surfaces at the median depth move in a frame; 0: the "
+                   "camera stands still")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
   command->add_flag("!--no-raw", o.raw, "measure each method with its blur alone");
   command->add_option("--network", o.network,
                       "a file of `nook train nnao`, such as the paper's form, measured as well");

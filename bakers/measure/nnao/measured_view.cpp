@@ -22,6 +22,7 @@ MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene, 
   if (settings.bent_stride > 0)
     measured.bent = trace_bent_truth(rays, measured.view, settings.radius, settings.rays, settings.seed,
                                      settings.bent_stride);
+  measured.path = trace_path(rays, measured.view, settings.path);
   return measured;
 }
 

@@ -19,6 +19,8 @@ struct MeasuredView {
   std::vector<float> truth;
   double noise = 0;             // expected squared error of the truth
   std::vector<BentTruth> bent;  // if the settings want it
+  // The frames before the view, the oldest first, if the settings want a path.
+  std::vector<bake::nnao::TracedView> path;
 };
 
 MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene,

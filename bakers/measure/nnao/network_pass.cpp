@@ -53,6 +53,7 @@ NetworkPass::NetworkPass(const NookGl& gl, int width, int height, const NetworkF
   desc.blur = form.blur;
   desc.blur_sharpness = blur_sharpness;
   desc.bent_normals = form.bent;
+  desc.temporal_frames = form.temporal_frames;
   desc.path = NOOK_NNAO_PATH_FRAGMENT;  // as the baselines, so that times compare
   desc.network = network.empty() ? nullptr : network.data();
   desc.network_size = network.size();
@@ -65,7 +66,8 @@ NetworkPass::~NetworkPass() {
   nook_nnao_destroy(&pass_);
 }
 
-GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blurred) {
+GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blurred,
+                         const std::optional<Mat3x4>& earlier_from_view) {
   nook_nnao_frame_desc frame;
   succeed(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
   frame.width = view.width;
@@ -77,6 +79,8 @@ GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blu
   frame.radius = request.radius;
   frame.max_radius_px = request.max_radius_px;
   frame.view = blurred ? NOOK_NNAO_VIEW_BLURRED : NOOK_NNAO_VIEW_RAW;
+  frame.reset = !earlier_from_view;
+  if (earlier_from_view) std::ranges::copy(earlier_from_view->m, frame.earlier_from_view);
   succeed(nook_nnao_render(pass_, &frame));
   return info_.texture;
 }

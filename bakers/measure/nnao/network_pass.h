@@ -4,6 +4,7 @@
 #include <nook/nook_nnao.h>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "bakers/measure/nnao/baseline_pass.h"
@@ -32,6 +33,7 @@ struct NetworkForm {
   bool half_resolution = false;
   int blur = 1;       // how often the filter runs
   bool bent = false;  // with bent normals
+  int temporal_frames = 0;
 };
 
 class NetworkPass {
@@ -43,8 +45,10 @@ class NetworkPass {
   NetworkPass(const NetworkPass&) = delete;
   NetworkPass& operator=(const NetworkPass&) = delete;
 
-  // Returns the pass's texture: R8, or RGBA8 with bent normals.
-  GLuint draw(const GpuView& view, const AoRequest& request, bool blurred);
+  // Returns the pass's texture: R8, or RGBA8 with bent normals. earlier_from_view: see nook_nnao_frame_desc;
+  // none: a cut. Both matter with temporal_frames alone.
+  GLuint draw(const GpuView& view, const AoRequest& request, bool blurred,
+              const std::optional<Mat3x4>& earlier_from_view = {});
   bool horizon_form() const { return info_.horizon_form != 0; }
 
   // Texture fetches for each pixel of all stages.

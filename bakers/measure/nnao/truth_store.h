@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "bakers/measure/nnao/camera_path.h"
 #include "bakers/measure/nnao/traced_truth.h"
 
 namespace nook::measure {
@@ -17,6 +18,7 @@ struct TruthSettings {
   // > 0: bent normals and reflections are traced as well, at every so manyth pixel of both axes. They are not
   // kept.
   std::uint32_t bent_stride = 0;
+  PathSettings path;  // to the view
 };
 
 struct Truth {
