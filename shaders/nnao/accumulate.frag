@@ -16,6 +16,7 @@ out vec4 nook_out;
 #define nook_max_frames nook_earlier[NOOK_EARLIER_SIZE].z    // of the mean; 1: the history is not used
 #define nook_has_motion (nook_earlier[NOOK_EARLIER_SIZE].w != 0.0)
 #define nook_motion_scale nook_earlier[NOOK_EARLIER_MOTION].xy  // texels of the surface for a unit of the texture
+#define nook_noise_reach nook_earlier[NOOK_EARLIER_MOTION].z    // how far the taps' noise takes AO from its mean
 
 // AO in [0, 1] as the nearest 255th, which the filter reads, and what is left of it. 8 bits alone would keep a
 // mean of many frames from moving.
@@ -39,7 +40,8 @@ float nook_flat_step(float depth, float before, float after) {
 }
 
 // The bounds of what the AO of earlier frames can have been: the mean of the texels that the edges connect, and
-// twice their deviation to either side, at least 0.06. Things that moved leave no trail.
+// twice their deviation to either side, at least 0.06; but no farther from the texel itself than the noise of the
+// taps, so that lines stay. Things that moved leave no trail.
 vec2 nook_likely_range(ivec2 texel, vec2 centre) {
   ivec2 low = max(texel - 1, ivec2(0)), high = min(texel + 1, nook_surface_size - 1);
   uint bits = uint(255.0 * centre.g + 0.5);
@@ -49,7 +51,8 @@ vec2 nook_likely_range(ivec2 texel, vec2 centre) {
   float sum = 1.0 + dot(weights, vec4(1.0));
   float mean = (centre.r + dot(weights, around)) / sum;
   float deviation = sqrt(max((centre.r * centre.r + dot(weights, around * around)) / sum - mean * mean, 0.0));
-  return mean + vec2(-1.0, 1.0) * max(2.0 * deviation, 0.06);
+  float reach = max(2.0 * deviation, 0.06);
+  return vec2(max(mean - reach, centre.r - nook_noise_reach), min(mean + reach, centre.r + nook_noise_reach));
 }
 
 // Returns the mean AO of earlier frames and their number, which is 0 where the surface was not seen.

@@ -112,7 +112,7 @@ TEST_CASE("nnao: a mean over frames is the reference's, for still and for moving
       for (std::uint32_t y = 0; y < picture.height; ++y)
         for (std::uint32_t x = 0; x < picture.width; ++x) {
           const nnao::MeanAo texel = nnao::accumulated(
-              {picture.view(), raw.ao, raw.edges, {}, radius / sharpness}, history, x, y, f == 0 ? 1 : 8);
+              {picture.view(), raw.ao, raw.edges, {}, 9, radius / sharpness}, history, x, y, f == 0 ? 1 : 8);
           mean.push_back(texel.ao);
           count.push_back(texel.frames);
         }

@@ -32,7 +32,8 @@ struct Range {
   float low = 0, high = 1;
 };
 
-// The mean of the pixels that the edges connect, and twice their deviation to either side.
+// The mean of the pixels that the edges connect, and twice their deviation to either side, but near the
+// pixel's own AO.
 Range likely_range(const PresentAo& present, int x, int y) {
   const View& view = present.view;
   const std::size_t own = view.at(std::uint32_t(x), std::uint32_t(y));
@@ -51,7 +52,8 @@ Range likely_range(const PresentAo& present, int x, int y) {
   }
   const float mean = sum / total, deviation = std::sqrt(std::max(squares / total - mean * mean, 0.0f));
   const float reach = std::max(2 * deviation, 0.06f);
-  return {mean - reach, mean + reach};
+  const float noise = noise_reach(present.taps), centre = present.ao[own];
+  return {std::max(mean - reach, centre - noise), std::min(mean + reach, centre + noise)};
 }
 
 // A place in the earlier image, in pixels whose centres are whole numbers.

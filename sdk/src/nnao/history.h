@@ -26,11 +26,18 @@ struct PresentAo {
   std::span<const float> ao;            // before the filter
   std::span<const std::uint8_t> edges;  // packed_edges
   std::span<const float> motion;        // two numbers for each pixel, in pixels; empty: none
-  float tolerance = 0.03f;              // metres; nook_nnao_desc: radius / blur_sharpness
+  std::uint32_t taps = default_taps;
+  float tolerance = 0.03f;  // metres; nook_nnao_desc: radius / blur_sharpness
 };
 
 // Returns the noise of a pixel in a frame, see frame_noise_step.
 TapNoise noise_of_frame(TapNoise noise, std::uint32_t frame);
+
+// How far the noise of the taps takes AO from its mean, and so how far from a pixel's AO the mean of earlier
+// frames may lie. Wider bounds flicker less and lose dark lines of a pixel.
+constexpr float noise_reach(std::uint32_t taps) {
+  return taps < 16 ? 0.2f : taps < 32 ? 0.12f : 0.08f;
+}
 
 struct MeanAo {
   float ao = 1, frames = 0;

@@ -137,8 +137,8 @@ TEST_CASE("the embedded network is good on scenes that it never saw") {
   for (const std::uint32_t taps : {16u, 64u}) {
     const ValidationRow row = validate(network, data, taps);
     INFO(taps << " taps: " << row.mse << ", blurred " << row.mse_blurred << ", constant " << constant);
-    // Full validation leaves 0.16 of the variance, and 0.24 of it before the blur with 16 taps; 2,000 points of
-    // 8 scenes scatter by a third of that.
+    // Full validation leaves 0.16 of the variance, and 0.24 of it before the blur with 16 taps; 2,000 points
+    // of 8 scenes scatter by a third of that.
     CHECK(row.mse_blurred < 0.21 * constant);
     CHECK(row.mse < 0.37 * constant);
   }

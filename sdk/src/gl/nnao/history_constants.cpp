@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sdk/src/nnao/history.h"
+
 namespace nook::gl {
 namespace {
 
@@ -31,7 +33,8 @@ HistoryConstants history_constants(const nook_nnao_frame_desc& frame, const nook
   set(NOOK_EARLIER_SIZE, {float(earlier.width - 1), float(earlier.height - 1),
                           cut ? 1.0f : float(pass.temporal_frames), frame.motion_texture ? 1.0f : 0.0f});
   const float per_pixel = pass.half_resolution ? 0.5f : 1.0f;
-  set(NOOK_EARLIER_MOTION, {per_pixel * frame.motion_scale[0], per_pixel * frame.motion_scale[1], 0, 0});
+  set(NOOK_EARLIER_MOTION, {per_pixel * frame.motion_scale[0], per_pixel * frame.motion_scale[1],
+                            nnao::noise_reach(std::uint32_t(pass.taps)), 0});
   return values;
 }
 
