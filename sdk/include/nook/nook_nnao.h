@@ -84,8 +84,8 @@ typedef struct nook_nnao_desc {
    * NOOK_NNAO_WRITE writes (n + 1) / 2 of the bent normal n into red, green and blue, in view space and of
    * unit length, and AO into alpha. Not with a network of the paper's form. Default 0. */
   int32_t bent_normals;
-  /* 2 to 64: the pass keeps a mean of AO over at most so many frames, so that fewer taps suffice and nothing
-   * flickers; 4 to 8 are a good start: more are calmer and follow changes later. It follows surfaces by nook_nnao_frame_desc.earlier_from_view and
+  /* 2 to 64: the pass keeps a mean of AO over at most so many frames, which flickers less; 4 to 8 are a good
+   * start, and more follow changes later. It follows surfaces by nook_nnao_frame_desc.earlier_from_view and
    * motion_texture, and begins anew where a surface was not seen before. 0 (default): each frame stands
    * alone. Not with bent_normals. */
   int32_t temporal_frames;
