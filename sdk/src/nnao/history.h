@@ -33,8 +33,8 @@ struct PresentAo {
 // Returns the noise of a pixel in a frame, see frame_noise_step.
 TapNoise noise_of_frame(TapNoise noise, std::uint32_t frame);
 
-// The distance that the noise of the taps takes AO from its mean, and so from a pixel's AO the mean of
-// earlier frames may lie. Wider bounds flicker less and lose dark lines of a pixel.
+// The noise of the taps takes AO about so far from its mean. The mean of earlier frames may lie no farther
+// from a pixel's AO. Wider bounds flicker less and lose dark lines of a pixel.
 constexpr float noise_reach(std::uint32_t taps) {
   return taps < 16 ? 0.2f : taps < 32 ? 0.12f : 0.08f;
 }
