@@ -63,12 +63,66 @@ void main() {
 }
 )";
 
+// The same under radiance transfer, with the vectors of the vertices as varyings, or fetched for each pixel.
+constexpr char transferred[] = R"(#include "shaders/material/host.glsl"
+#include "shaders/transfer/host.glsl"
+in vec2 uv;
+in vec3 view;
+in vec3 normal;
+in vec4 tangent;
+in vec4 vectors_0;
+in vec4 vectors_1;
+in vec4 vectors_2;
+in vec4 vectors_3;
+in vec4 vectors_4;
+in vec4 vectors_5;
+in vec4 vectors_6;
+in vec4 vectors_7;
+in vec4 vectors_8;
+in vec4 vectors_9;
+in vec4 vectors_10;
+in vec4 vectors_11;
+out vec4 colour;
+void main() {
+  vec2 dx = dFdx(uv), dy = dFdy(uv);
+  vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+  nook_material_decode(uv, dx, dy, nook_transfer_tangent_space(normal, tangent, view), modes);
+  vec4 vectors[12] = vec4[12](vectors_0, vectors_1, vectors_2, vectors_3, vectors_4, vectors_5, vectors_6, vectors_7,
+                              vectors_8, vectors_9, vectors_10, vectors_11);
+  colour = vec4(nook_transfer_radiance(modes, vectors), 1.0);
+}
+)";
+constexpr char transferred_mix[] = R"(#include "shaders/material/host.glsl"
+#include "shaders/transfer/host.glsl"
+in vec2 uv;
+in vec3 view;
+in vec3 normal;
+in vec4 tangent;
+in vec3 weights;
+in vec3 vertices;  // whole numbers
+out vec4 colour;
+void main() {
+  vec2 dx = dFdx(uv), dy = dFdy(uv);
+  vec4 modes[NOOK_LIGHT_VEC4_COUNT], vectors[3 * NOOK_LIGHT_VEC4_COUNT];
+  nook_material_decode(uv, dx, dy, nook_transfer_tangent_space(normal, tangent, view), modes);
+  nook_transfer_mix(ivec3(vertices), weights, vectors);
+  colour = vec4(nook_transfer_radiance(modes, vectors), 1.0);
+}
+)";
+
 }  // namespace
 
 std::vector<ShaderCase> material_shaders() {
   std::vector<ShaderCase> shaders;
   for (const Size& size : sizes) {
     shaders.push_back(host_shader(declarations(size) + decode, std::string("material, ") + size.name));
+    const bool is_k_cta = size.clusters > 1;
+    if (is_k_cta && size.light_modes <= 16) {
+      shaders.push_back(
+          host_shader(declarations(size) + transferred, std::string("radiance transfer, ") + size.name));
+      shaders.push_back(host_shader(declarations(size) + transferred_mix,
+                                    std::string("radiance transfer, vectors fetched, ") + size.name));
+    }
     if (size.loop_on_vega10) shaders.back().other_families = {{"vega10", {*size.loop_on_vega10}}};
   }
   return shaders;
