@@ -50,7 +50,9 @@ float trace_specular_visibility(const RayScene& scene, const GlossyPoint& point,
     if (light.z <= 0) continue;
     const double weight = double(towards_viewer / (towards_viewer + hidden_slopes(light.z, alpha)));
     all += weight;
-    if (!(scene.nearest(origin, to_world(frame, light)).distance <= point.radius)) open += weight;
+    const float distance = scene.nearest(origin, to_world(frame, light)).distance;
+    const bool hidden = std::isfinite(distance) && distance <= point.radius;
+    if (!hidden) open += weight;
   }
   return all > 0 ? float(open / all) : 1;
 }
