@@ -22,7 +22,7 @@ nook_nnao_recording_desc default_desc() {
   desc.struct_size = sizeof desc;
   desc.header_version = NOOK_VERSION;
   desc.normal_scale = frame.normal_scale;
-  std::ranges::copy(frame.normal_matrix, desc.normal_matrix);
+  std::copy(std::begin(frame.normal_matrix), std::end(frame.normal_matrix), desc.normal_matrix);
   desc.intensity = frame.intensity;
   desc.power = frame.power;
   desc.taps = pass.taps;
@@ -76,8 +76,8 @@ Recording recording_of(const nook_nnao_recording_desc& desc, Memory* memory) {
   frame.sky_depth = desc.sky_depth;
   frame.normal_scale = desc.normal_scale;
   frame.normal_bias = desc.normal_bias;
-  std::ranges::copy(desc.normal_matrix, frame.normal_matrix);
-  std::ranges::copy(desc.projection, frame.projection);
+  std::copy(std::begin(desc.normal_matrix), std::end(desc.normal_matrix), frame.normal_matrix);
+  std::copy(std::begin(desc.projection), std::end(desc.projection), frame.projection);
   frame.radius = desc.radius;
   frame.max_radius_px = desc.max_radius_px;
   frame.intensity = desc.intensity;
@@ -114,8 +114,8 @@ nook_nnao_recording_desc desc_of(const Recording& recording) {
   desc.sky_depth = frame.sky_depth;
   desc.normal_scale = frame.normal_scale;
   desc.normal_bias = frame.normal_bias;
-  std::ranges::copy(frame.normal_matrix, desc.normal_matrix);
-  std::ranges::copy(frame.projection, desc.projection);
+  std::copy(std::begin(frame.normal_matrix), std::end(frame.normal_matrix), desc.normal_matrix);
+  std::copy(std::begin(frame.projection), std::end(frame.projection), desc.projection);
   desc.radius = frame.radius;
   desc.max_radius_px = frame.max_radius_px;
   desc.intensity = frame.intensity;

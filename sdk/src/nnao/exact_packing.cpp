@@ -50,7 +50,7 @@ float unpacked(std::uint32_t bits, ExactPacking packing) {
 }
 
 bool holds(ExactPacking packing, std::span<const float> values) {
-  return std::ranges::all_of(values, [&](float value) {
+  return std::all_of(values.begin(), values.end(), [&](float value) {
     return bit_cast<std::uint32_t>(unpacked(packed(value, packing), packing)) ==
            bit_cast<std::uint32_t>(value);
   });

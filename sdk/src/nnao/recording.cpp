@@ -102,7 +102,8 @@ void check_recording(const Recording& recording) {
   if (recording.frame.layer != 0 || !recording.layer.empty())
     check_image("layer_texels", recording.layer, 2 * recording.pixels());
   if (!recording.ao.empty()) check_image("ao", recording.ao, recording.pixels());
-  const auto bad = std::ranges::find_if(recording.ao, [](float ao) { return !(ao >= 0 && ao <= 1); });
+  const auto bad =
+      std::find_if(recording.ao.begin(), recording.ao.end(), [](float ao) { return !(ao >= 0 && ao <= 1); });
   if (bad != recording.ao.end())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "ao is out of range (got %g at pixel %zu, need 0 to 1)",
                   double(*bad), std::size_t(bad - recording.ao.begin()));
@@ -115,7 +116,7 @@ void check_recording(const Recording& recording) {
 RecordedNetwork recorded_network(const Recording& recording) {
   RecordedNetwork network;
   const std::span<const std::byte> own = default_network_file();
-  network.embedded = std::ranges::equal(recording.network, own);
+  network.embedded = std::equal(recording.network.begin(), recording.network.end(), own.begin(), own.end());
   network.readable = network.embedded;
   if (network.embedded || recording.network.empty()) return network;
   try {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/nnao/texel_reader.h"
@@ -44,8 +45,8 @@ nnao::RecordedFrame settings_of(const nook_nnao_frame_desc& frame) {
   recorded.sky_depth = frame.sky_depth;
   recorded.normal_scale = frame.normal_scale;
   recorded.normal_bias = frame.normal_bias;
-  std::ranges::copy(frame.normal_matrix, recorded.normal_matrix);
-  std::ranges::copy(frame.projection, recorded.projection);
+  std::copy(std::begin(frame.normal_matrix), std::end(frame.normal_matrix), recorded.normal_matrix);
+  std::copy(std::begin(frame.projection), std::end(frame.projection), recorded.projection);
   recorded.radius = frame.radius;
   recorded.max_radius_px = frame.max_radius_px;
   recorded.intensity = frame.intensity;

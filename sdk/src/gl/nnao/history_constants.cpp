@@ -25,7 +25,7 @@ HistoryConstants history_constants(const nook_nnao_frame_desc& frame, const nook
   HistoryConstants values{};
   std::copy_n(frame.earlier_from_view, 12, values.begin());
   const auto set = [&](int index, std::array<float, 4> four) {
-    std::ranges::copy(four, values.begin() + std::ptrdiff_t(4 * index));
+    std::copy(four.begin(), four.end(), values.begin() + std::ptrdiff_t(4 * index));
   };
   const float* rays = row(earlier.constants, NOOK_FRAME_SURFACE_RAYS);
   set(NOOK_EARLIER_RAYS, {rays[0], rays[1], rays[2], rays[3]});
