@@ -55,7 +55,7 @@ TEST_CASE("a ball over a plane hides the exact cap of each lobe") {
   const Vec3 centre{0.3f, 0.8f, 0.2f};
   constexpr float radius = 0.35f;
   shapes::Shape shape = shapes::plane(1, 3, 1);
-  shapes::append(shape, shapes::ball(centre, radius, 256));
+  shapes::append(shape, shapes::ball(centre, radius, 96));
   constexpr std::uint32_t lobes = 162;
   const Transfer baked = bake::transfer::bake_transfer(mesh_of(shape), {lobes, 96});
   const Vec3 towards = normalised(centre);
