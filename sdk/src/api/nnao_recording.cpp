@@ -70,20 +70,7 @@ Recording recording_of(const nook_nnao_recording_desc& desc, Memory* memory) {
   recording.width = std::uint32_t(desc.width);
   recording.height = std::uint32_t(desc.height);
   recording.library_version = desc.library_version ? desc.library_version : std::uint32_t{NOOK_VERSION};
-  nnao::RecordedFrame& frame = recording.frame;
-  frame.depth_kind = desc.depth_kind;
-  frame.clip = desc.clip;
-  frame.sky_depth = desc.sky_depth;
-  frame.normal_scale = desc.normal_scale;
-  frame.normal_bias = desc.normal_bias;
-  std::copy(std::begin(desc.normal_matrix), std::end(desc.normal_matrix), frame.normal_matrix);
-  std::copy(std::begin(desc.projection), std::end(desc.projection), frame.projection);
-  frame.radius = desc.radius;
-  frame.max_radius_px = desc.max_radius_px;
-  frame.intensity = desc.intensity;
-  frame.power = desc.power;
-  frame.layer = desc.layer;
-  frame.view = desc.view;
+  nnao::copy_frame_settings(desc, recording.frame);
   recording.pass = {desc.taps, desc.half_resolution, desc.blur, desc.blur_sharpness, desc.path};
   copy_image(recording.depth, desc.depth, recording.pixels());
   copy_image(recording.normals, desc.normals, 3 * recording.pixels());
@@ -104,24 +91,11 @@ const float* image_of(const Vector<float>& image) {
 
 nook_nnao_recording_desc desc_of(const Recording& recording) {
   nook_nnao_recording_desc desc = default_desc();
-  const nnao::RecordedFrame& frame = recording.frame;
   const nnao::RecordedPass& pass = recording.pass;
   desc.width = std::int32_t(recording.width);
   desc.height = std::int32_t(recording.height);
   desc.library_version = recording.library_version;
-  desc.depth_kind = frame.depth_kind;
-  desc.clip = frame.clip;
-  desc.sky_depth = frame.sky_depth;
-  desc.normal_scale = frame.normal_scale;
-  desc.normal_bias = frame.normal_bias;
-  std::copy(std::begin(frame.normal_matrix), std::end(frame.normal_matrix), desc.normal_matrix);
-  std::copy(std::begin(frame.projection), std::end(frame.projection), desc.projection);
-  desc.radius = frame.radius;
-  desc.max_radius_px = frame.max_radius_px;
-  desc.intensity = frame.intensity;
-  desc.power = frame.power;
-  desc.layer = frame.layer;
-  desc.view = frame.view;
+  nnao::copy_frame_settings(recording.frame, desc);
   desc.taps = pass.taps;
   desc.half_resolution = pass.half_resolution;
   desc.blur = pass.blur;

@@ -82,9 +82,6 @@ Centre centre_of(const View& view, Vec3 normal, const Sampling& sampling, std::u
   return centre;
 }
 
-// The sky is a surface far beyond any radius; the square of this depth is still a float.
-constexpr float sky_depth = 1e15f;
-
 Vec3 texel_position(const View& view, TappedTexel texel) {
   return view_position(view.rays, float(texel.x) + 0.5f, float(texel.y) + 0.5f,
                        texel.surface ? view.depth[view.at(texel.x, texel.y)] : sky_depth);

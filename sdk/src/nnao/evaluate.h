@@ -50,6 +50,16 @@ struct View {
   std::size_t at(std::uint32_t x, std::uint32_t y) const { return std::size_t(y) * width + x; }
 };
 
+// The sky is a surface far beyond any radius; the square of this depth, metres, is still a float.
+inline constexpr float sky_depth = 1e15f;
+
+// Returns the depth of the nearest pixel on the screen.
+inline float depth_near(const View& view, int x, int y) {
+  const auto column = std::uint32_t(std::clamp(x, 0, int(view.width) - 1)),
+             row = std::uint32_t(std::clamp(y, 0, int(view.height) - 1));
+  return view.has_surface(column, row) ? view.depth[view.at(column, row)] : sky_depth;
+}
+
 struct Sampling {
   float radius = 1;                   // metres
   float max_radius_px = 256;          // a radius that covers more pixels shrinks

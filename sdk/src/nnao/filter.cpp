@@ -6,15 +6,6 @@
 namespace nook::nnao {
 namespace {
 
-// The sky lies far beyond any radius.
-constexpr float sky_depth = 1e15f;
-
-float depth_near(const View& view, int x, int y) {
-  const auto column = std::uint32_t(std::clamp(x, 0, int(view.width) - 1)),
-             row = std::uint32_t(std::clamp(y, 0, int(view.height) - 1));
-  return view.has_surface(column, row) ? view.depth[view.at(column, row)] : sky_depth;
-}
-
 // Weights the slope of each side by the inverse of its square.
 float axis_slope(const Neighbours& neighbours, std::size_t first) {
   const float a = neighbours.slope[first], b = neighbours.slope[first + 1];

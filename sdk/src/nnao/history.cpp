@@ -10,15 +10,6 @@ float wrapped(float x) {
   return x - std::floor(x);
 }
 
-// A surface far beyond any radius stands for the sky.
-constexpr float sky_depth = 1e15f;
-
-float depth_near(const View& view, int x, int y) {
-  const auto column = std::uint32_t(std::clamp(x, 0, int(view.width) - 1)),
-             row = std::uint32_t(std::clamp(y, 0, int(view.height) - 1));
-  return view.has_surface(column, row) ? view.depth[view.at(column, row)] : sky_depth;
-}
-
 // The change of depth to the neighbours along both axes, each on the flatter side.
 float flat_steps(const View& view, int x, int y, float depth) {
   const auto step = [&](int aside, int up) {

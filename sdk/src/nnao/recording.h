@@ -3,8 +3,10 @@
 // nook_nnao_desc.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -30,6 +32,25 @@ struct RecordedFrame {
   float intensity = 1, power = 1;
   std::int32_t layer = 0, view = 0;
 };
+
+// Copies the settings of a frame between this structure and those of the C interface, which have the same
+// members.
+template <class From, class To>
+void copy_frame_settings(const From& from, To& to) {
+  to.depth_kind = from.depth_kind;
+  to.clip = from.clip;
+  to.sky_depth = from.sky_depth;
+  to.normal_scale = from.normal_scale;
+  to.normal_bias = from.normal_bias;
+  std::copy(std::begin(from.normal_matrix), std::end(from.normal_matrix), to.normal_matrix);
+  std::copy(std::begin(from.projection), std::end(from.projection), to.projection);
+  to.radius = from.radius;
+  to.max_radius_px = from.max_radius_px;
+  to.intensity = from.intensity;
+  to.power = from.power;
+  to.layer = from.layer;
+  to.view = from.view;
+}
 
 struct RecordedPass {
   std::int32_t taps = default_taps;

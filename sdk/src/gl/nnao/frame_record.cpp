@@ -38,24 +38,6 @@ nook_nnao_frame_desc own_target(nook_nnao_frame_desc frame) {
   return frame;
 }
 
-nnao::RecordedFrame settings_of(const nook_nnao_frame_desc& frame) {
-  nnao::RecordedFrame recorded;
-  recorded.depth_kind = frame.depth_kind;
-  recorded.clip = frame.clip;
-  recorded.sky_depth = frame.sky_depth;
-  recorded.normal_scale = frame.normal_scale;
-  recorded.normal_bias = frame.normal_bias;
-  std::copy(std::begin(frame.normal_matrix), std::end(frame.normal_matrix), recorded.normal_matrix);
-  std::copy(std::begin(frame.projection), std::end(frame.projection), recorded.projection);
-  recorded.radius = frame.radius;
-  recorded.max_radius_px = frame.max_radius_px;
-  recorded.intensity = frame.intensity;
-  recorded.power = frame.power;
-  recorded.layer = frame.layer;
-  recorded.view = frame.view;
-  return recorded;
-}
-
 // AO is in red, or in alpha beside bent normals.
 Vector<float> ao_of(TexelReader& reader, const NnaoPass& pass, const nook_nnao_desc& made_with,
                     const Viewport& viewport) {
@@ -86,7 +68,7 @@ nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_des
   recording.width = std::uint32_t(viewport.width);
   recording.height = std::uint32_t(viewport.height);
   recording.library_version = NOOK_VERSION;
-  recording.frame = settings_of(drawn);
+  nnao::copy_frame_settings(drawn, recording.frame);
   recording.pass = {made_with.taps, made_with.half_resolution, made_with.blur, made_with.blur_sharpness,
                     pass.path()};
   recording.network.assign(network.begin(), network.end());

@@ -163,6 +163,18 @@ void check_framebuffer(const Device& device, const HostImages& images) {
   check_apart(images, attached_texture(gl, GL_DEPTH_ATTACHMENT), "attached to frame.target_name");
 }
 
+void check_renderable(const Functions& gl, std::uint32_t texture, std::uint32_t framebuffer) {
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  const GLenum status = gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+  gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.target_name cannot be drawn into (got %u with the framebuffer status 0x%04x, need a "
+                  "colour format that OpenGL renders to)",
+                  texture, status);
+}
+
 void check_target_texture(const Device& device, const HostImages& images, std::uint32_t own_texture) {
   if (images.target_name == own_texture)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -191,7 +203,8 @@ HostImages images_of(const nook_nnao_frame_desc& frame, bool temporal) {
   return images;
 }
 
-void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture) {
+void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
+                  std::uint32_t target_framebuffer) {
   const Functions& gl = device.gl;
   check_apart(images, own_texture, "the pass's own texture");
   bind_checked(device, images, images.depth, "depth_texture");
@@ -208,7 +221,10 @@ void check_images(const Device& device, const HostImages& images, std::uint32_t 
     bind_checked(device, images, images.motion, "motion_texture");
     check_motion(gl);
   }
-  if (images.target == NOOK_NNAO_TARGET_TEXTURE) check_target_texture(device, images, own_texture);
+  if (images.target == NOOK_NNAO_TARGET_TEXTURE) {
+    check_target_texture(device, images, own_texture);
+    check_renderable(gl, images.target_name, target_framebuffer);
+  }
   if (images.target == NOOK_NNAO_TARGET_FRAMEBUFFER) check_framebuffer(device, images);
 }
 

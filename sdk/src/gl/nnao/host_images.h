@@ -21,8 +21,10 @@ struct HostImages {
 HostImages images_of(const nook_nnao_frame_desc& frame, bool temporal);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless every image exists and has a suitable size and format,
-// and no input is the target. own_texture is that of the pass. Binds 2D textures to unit 0 and the draw
-// framebuffer; leaves no OpenGL error.
-void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture);
+// and no input is the target. own_texture is that of the pass, and target_framebuffer one without
+// attachments, which a target texture is tried in. Binds 2D textures to unit 0 and the draw framebuffer;
+// leaves no OpenGL error.
+void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
+                  std::uint32_t target_framebuffer);
 
 }  // namespace nook::gl

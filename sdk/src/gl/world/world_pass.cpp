@@ -92,20 +92,7 @@ void WorldPass::check(const nook_nnao_frame_desc& frame) {
   const HostImages images = images_of(frame, false);
   if (checked_ == images) return;
   checked_.reset();
-  check_images(device_, images, own_.texture());
-  if (images.target == NOOK_NNAO_TARGET_TEXTURE) {
-    const Functions& gl = device_.gl;
-    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target_framebuffer_.name());
-    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, images.target_name, 0);
-    const GLenum status = gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
-    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
-    if (status != GL_FRAMEBUFFER_COMPLETE)
-      throw Failure(
-          NOOK_ERROR_INVALID_ARGUMENT,
-          "frame.target_name cannot be drawn into (got %u with the framebuffer status 0x%04x, need a "
-          "colour format that OpenGL renders to)",
-          images.target_name, status);
-  }
+  check_images(device_, images, own_.texture(), target_framebuffer_.name());
   checked_ = images;
 }
 
