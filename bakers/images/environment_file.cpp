@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bakers/images/exr_head.h"
 #include "bakers/images/image_size.h"
 #include "sdk/src/core/failure.h"
 
@@ -53,6 +54,7 @@ void check_radiance(const std::vector<float>& rgb) {
 }  // namespace
 
 Environment read_environment(const std::filesystem::path& path) {
+  check_exr_head("the map", path);
   const auto image = OIIO::ImageInput::open(path.string());
   if (!image) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be read as an image (%s)", OIIO::geterror().c_str());
   const OIIO::ImageSpec spec = image->spec();

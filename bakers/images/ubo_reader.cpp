@@ -10,6 +10,7 @@
 #include <mutex>
 #include <set>
 
+#include "bakers/images/exr_head.h"
 #include "bakers/images/image_size.h"
 #include "bakers/images/ubo_names.h"
 #include "sdk/src/core/failure.h"
@@ -62,7 +63,9 @@ struct Region {
 // One image of the set, whose head is read when it is opened.
 class UboImage {
  public:
-  explicit UboImage(const fs::path& path) : path_(path), input_(OIIO::ImageInput::open(path.string())) {
+  explicit UboImage(const fs::path& path) : path_(path) {
+    check_exr_head(path.c_str(), path);
+    input_ = OIIO::ImageInput::open(path.string());
     if (!input_) fail(OIIO::geterror());
     const OIIO::ImageSpec& spec = input_->spec();
     if (spec.nchannels < 1 || spec.depth > 1) fail("it is no flat image");

@@ -141,3 +141,20 @@ TEST_CASE("a map whose head says more than its file holds is refused before memo
   }
   CHECK(message.find("16384 x 8192 texels, too many for its") != std::string::npos);
 }
+
+TEST_CASE("an EXR file whose head has an attribute longer than the file is refused before memory is taken") {
+  const Folder folder;
+  std::ifstream file(folder.write("whole.exr", 8, 4, 3, OIIO::TypeDesc::FLOAT, values_of(3)),
+                     std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  // A string of 2 GB, before the attributes that the file has behind its 8 bytes of magic and version.
+  const std::string attribute("owner\0string\0\xf0\xff\xff\x7f", 17);
+  const std::string damaged = whole.substr(0, 8) + attribute + whole.substr(8);
+  CHECK(failure_of(folder.write_text("long.exr", damaged))
+            .find("its attribute \"owner\" says 2147483632 bytes") != std::string::npos);
+  // The same attribute with the bytes that it says it has passes; the table of rows is then at another place,
+  // which the reader may refuse.
+  const std::string sound =
+      whole.substr(0, 8) + std::string("owner\0string\0\x04\0\0\0nook", 21) + whole.substr(8);
+  CHECK(failure_of(folder.write_text("sound.exr", sound)).find("owner") == std::string::npos);
+}

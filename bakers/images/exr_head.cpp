@@ -1,0 +1,63 @@
+#include "bakers/images/exr_head.h"
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake {
+namespace {
+
+constexpr std::uint32_t exr_magic = 20000630;
+constexpr std::uint32_t is_multipart = 0x1000;  // of the version field
+constexpr std::size_t max_name_length = 255;    // of an attribute and of its type, bytes
+
+// Little endian, as all numbers of the format; 0 beyond the end of the file.
+std::uint32_t read_u32(std::istream& file) {
+  unsigned char bytes[4] = {};
+  file.read(reinterpret_cast<char*>(bytes), 4);
+  return file ? std::uint32_t(bytes[0]) | std::uint32_t(bytes[1]) << 8 | std::uint32_t(bytes[2]) << 16 |
+                    std::uint32_t(bytes[3]) << 24
+              : 0;
+}
+
+// Reads up to a zero byte. A longer name than the format allows is cut there: the reader refuses it.
+std::string read_name(std::istream& file) {
+  std::string name;
+  for (char c = 0; name.size() <= max_name_length && file.get(c) && c != 0;) name.push_back(c);
+  return name;
+}
+
+// Moves behind one attribute, whose name is read.
+void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t file_bytes,
+                    const char* what) {
+  read_name(file);  // its type
+  const std::uint32_t size = read_u32(file);
+  if (!file) return;
+  const auto at = std::uintmax_t(file.tellg());
+  if (size > file_bytes - at)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%.250s is a damaged EXR file: its attribute \"%.60s\" says %u bytes, and %ju follow", what,
+                  name.c_str(), size, file_bytes - at);
+  file.seekg(std::streamoff(size), std::ios::cur);
+}
+
+}  // namespace
+
+void check_exr_head(const char* what, const std::filesystem::path& path) {
+  std::error_code unknown;
+  const std::uintmax_t file_bytes = std::filesystem::file_size(path, unknown);
+  std::ifstream file(path, std::ios::binary);
+  if (unknown || read_u32(file) != exr_magic) return;
+  const std::uint32_t version = read_u32(file);
+  // An empty name ends a head; where a file has several parts, an empty head ends the list.
+  for (bool head_is_empty = true; file;) {
+    const std::string name = read_name(file);
+    if (!file || (name.empty() && (head_is_empty || (version & is_multipart) == 0))) return;
+    head_is_empty = name.empty();
+    if (!head_is_empty) skip_attribute(file, name, file_bytes, what);
+  }
+}
+
+}  // namespace nook::bake
