@@ -7,8 +7,8 @@ install(TARGETS nook EXPORT nook_targets
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-# nook_bake.h comes with the library of the bakers.
-set(nook_absent_headers PATTERN nook_bake.h EXCLUDE)
+# Headers of the bakers come with the library of the bakers.
+set(nook_absent_headers PATTERN "nook_bake*.h" EXCLUDE)
 if(NOT NOOK_GL)
   list(APPEND nook_absent_headers PATTERN "nook_gl*.h" EXCLUDE PATTERN nook_nnao.h EXCLUDE PATTERN nook_gl_world.h EXCLUDE)
 endif()

@@ -1,5 +1,5 @@
 // Characters: import, creation from memory, and all queries.
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-// The import of characters with a choice that nook_bake.h has no argument for, for the tool.
+// The import of characters with a choice that nook_bake_character.h has no argument for, for the tool.
 #pragma once
 
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
 
 #include "bakers/import/linked_files.h"
 

@@ -1,5 +1,5 @@
 // Path-traced irradiance of a scene.
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_trace.h>
 
 #include <cmath>
 

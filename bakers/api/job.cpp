@@ -1,5 +1,5 @@
 // Bake jobs: the conversion of a descriptor to a recipe, and the life of a job.
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
 
 #include "bakers/api/entry.h"
 #include "bakers/api/handles.h"

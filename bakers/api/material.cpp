@@ -1,5 +1,5 @@
 // The start of material jobs; job.cpp has the other functions of jobs.
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_material.h>
 
 #include "bakers/api/entry.h"
 #include "bakers/api/handles.h"

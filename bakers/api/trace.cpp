@@ -1,5 +1,5 @@
 // Ray-traced ambient occlusion of a scene.
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_trace.h>
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // The start of jobs of radiance transfer; job.cpp has the other functions of jobs.
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_transfer.h>
 
 #include "bakers/api/entry.h"
 #include "bakers/api/handles.h"

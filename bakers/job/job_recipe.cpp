@@ -15,7 +15,7 @@ constexpr std::uint32_t most_spheres = 1024, most_key_points = 4096, most_rays =
 
 [[noreturn]] void unknown(const char* name, int value) {
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                "%s has an unknown value (got %d); use a constant of nook_bake.h", name, value);
+                "%s has an unknown value (got %d); use a constant of nook_bake_character.h", name, value);
 }
 
 void at_most(const char* name, std::uint32_t value, std::uint32_t most) {

@@ -1,7 +1,7 @@
 // The recipe of a job's descriptor, with the preset's values filled in.
 #pragma once
 
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
 
 #include "bakers/character/recipe.h"
 

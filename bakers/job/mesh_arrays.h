@@ -1,7 +1,7 @@
 // Makes a character from a host's arrays.
 #pragma once
 
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
 
 #include "bakers/import/gltf.h"
 

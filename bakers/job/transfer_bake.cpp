@@ -1,5 +1,6 @@
 #include "bakers/job/transfer_bake.h"
 
+#include <nook/nook_bake_transfer.h>
 #include <nlohmann/json.hpp>
 
 #include "bakers/import/tangents.h"

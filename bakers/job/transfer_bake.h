@@ -1,6 +1,7 @@
 // The bake of radiance transfer, from a mesh to the bytes of a file and its report.
 #pragma once
 
+#include <nook/nook_bake_transfer.h>
 #include <string>
 #include <vector>
 

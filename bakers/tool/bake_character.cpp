@@ -1,5 +1,6 @@
-// nook bake character: a thin user of nook_bake.h, but for the choice of the files that a glTF file may name.
-#include <nook/nook_bake.h>
+// nook bake character: a thin user of nook_bake_character.h, but for the choice of the files that a glTF file
+// may name.
+#include <nook/nook_bake_character.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -2,7 +2,7 @@
 // model.
 #pragma once
 
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
 
 #include <cstdint>
 #include <filesystem>

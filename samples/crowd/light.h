@@ -1,7 +1,7 @@
 // A light of the crowd: the lobes of a probe, and the environment that the lobes stand for.
 #pragma once
 
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_trace.h>
 #include <nook/nook_probe.h>
 
 #include <filesystem>

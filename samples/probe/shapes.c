@@ -1,7 +1,7 @@
 #include "samples/probe/shapes.h"
 
 #include <math.h>
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
 #include <nook/nook_character.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
  * `nook bake material --meso fiber -o MATERIAL.nook` makes a material. The map is a sky with a window of
  * bright cloud, made here. An engine needs the marked regions. */
 #include <math.h>
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_transfer.h>
 #include <nook/nook_gl_transfer.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,7 +5,8 @@
 //   web_data CHARACTER.glb CHARACTER.nook FOLDER
 //
 // FOLDER/character.json names arrays in FOLDER/character.bin: type, offset in bytes, length.
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
+#include <nook/nook_bake_trace.h>
 #include <nook/nook_character.h>
 
 #include <algorithm>

@@ -1,5 +1,8 @@
 // Sizes and offsets of the public structs on 64-bit systems: what a host was compiled with stays true.
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
+#include <nook/nook_bake_material.h>
+#include <nook/nook_bake_trace.h>
+#include <nook/nook_bake_transfer.h>
 #include <nook/nook_character.h>
 #include <nook/nook_gl.h>
 #include <nook/nook_gl_material.h>

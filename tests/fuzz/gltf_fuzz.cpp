@@ -1,7 +1,7 @@
 // Imports bytes as a rigged character through the C ABI and queries everything that can be read from it, and
 // as a static scene: nothing may crash, and every number in the answers is finite, whatever the bytes. Built
 // for libFuzzer with clang; elsewhere gltf_fuzz_replay.cpp drives it.
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
 
 #include <cmath>
 #include <cstdint>

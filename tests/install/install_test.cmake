@@ -31,9 +31,10 @@ foreach(file share/doc/nook/LICENSE share/doc/nook/NOTICE include/nook/nook.h in
     message(FATAL_ERROR "${file} is not installed")
   endif()
 endforeach()
-# The library of the bakers is not there, and neither is its header. OpenGL's headers are there with its half of the library.
-if(EXISTS "${prefix}/include/nook/nook_bake.h")
-  message(FATAL_ERROR "nook_bake.h is installed without its library")
+# The library of the bakers is not there, and neither are its headers. OpenGL's headers are there with its half of the library.
+file(GLOB bake_headers "${prefix}/include/nook/nook_bake*.h")
+if(bake_headers)
+  message(FATAL_ERROR "headers of the bakers are installed without their library: ${bake_headers}")
 endif()
 file(GLOB gl_headers "${prefix}/include/nook/nook_gl*.h" "${prefix}/include/nook/nook_nnao.h")
 list(LENGTH gl_headers gl_header_count)

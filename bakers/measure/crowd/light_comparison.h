@@ -1,6 +1,8 @@
 // The crowd under a light against path tracing: AO alone, AO times the probe, and the occlusion of each lobe.
 #pragma once
 
+#include <nook/nook_bake_trace.h>
+
 #include "bakers/measure/crowd/ao_comparison.h"
 
 namespace nook::measure::crowd {

@@ -1,5 +1,6 @@
 #include "bakers/measure/crowd/truth.h"
 
+#include <nook/nook_bake_trace.h>
 #include <algorithm>
 #include <cmath>
 

@@ -4,7 +4,7 @@
 //
 // With --path traced and --show ao the picture has ray-traced AO at the vertices. nook_vtk.cpp is all that a
 // VTK program needs. The model is not read: this host has the AO of the screen only.
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_trace.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>

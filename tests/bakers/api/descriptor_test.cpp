@@ -1,5 +1,8 @@
-// The structs of nook_bake.h as callers of older and newer headers pass them.
-#include <nook/nook_bake.h>
+// The structs of the bakers' headers as callers of older and newer headers pass them.
+#include <nook/nook_bake_character.h>
+#include <nook/nook_bake_material.h>
+#include <nook/nook_bake_trace.h>
+#include <nook/nook_bake_transfer.h>
 
 #include "tests/abi/growing_struct.h"
 #include "tests/bakers/api/handles.h"

@@ -1,7 +1,7 @@
 // Handles that release themselves, and the message a failing call leaves.
 #pragma once
 
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
 
 #include <memory>
 #include <string>

@@ -1,5 +1,5 @@
 // Jobs of radiance transfer, and their files in the runtime.
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_transfer.h>
 #include <nook/nook_transfer.h>
 
 #include <cmath>

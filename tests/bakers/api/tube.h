@@ -3,7 +3,10 @@
 #ifndef NOOK_TESTS_TUBE_H
 #define NOOK_TESTS_TUBE_H
 
-#include <nook/nook_bake.h>
+#include <nook/nook_bake_character.h>
+#include <nook/nook_bake_material.h>
+#include <nook/nook_bake_trace.h>
+#include <nook/nook_bake_transfer.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -27,8 +30,8 @@ void make_tube(tube* out);
 /* A descriptor that points into the tube. */
 nook_bake_mesh_desc describe_tube(const tube* t);
 
-/* Calls every function of nook_bake.h once, from C. Returns the number of calls that did not do what they
- * should. */
+/* Calls every function of the headers nook_bake*.h once, from C. Returns the number of calls that did not do
+ * what they should. */
 int call_every_function(void);
 
 #ifdef __cplusplus

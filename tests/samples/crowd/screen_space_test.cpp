@@ -1,5 +1,6 @@
 // Where screen-space AO darkens the crowd's pictures: on the floor near feet, and nowhere else.
 #include <OpenImageIO/imageio.h>
+#include <nook/nook_bake_trace.h>
 #include <sys/wait.h>
 
 #include <cmath>
