@@ -1,0 +1,72 @@
+// C++17 wrappers, the part that all share: failed calls throw nook::Error, and handles destroy their objects.
+// The wrappers are header-only, so that no C++ type crosses the library's boundary. The C headers document
+// every function, its thread contract included.
+#ifndef NOOK_HANDLE_HPP
+#define NOOK_HANDLE_HPP
+
+#include <stdexcept>
+#include <utility>
+
+#include "nook.h"
+
+namespace nook {
+// The inline namespace keeps these names apart from the library's own names at link time. Callers write
+// nook::Scene.
+inline namespace wrapper {
+
+// A failed call: what() is the message of nook_last_message().
+class Error : public std::runtime_error {
+ public:
+  explicit Error(nook_result result) : std::runtime_error(nook_last_message()), result_(result) {}
+  nook_result result() const noexcept { return result_; }
+
+ private:
+  nook_result result_;
+};
+
+// Throws Error unless the call succeeded.
+inline void check(nook_result result) {
+  if (result != NOOK_OK) throw Error(result);
+}
+
+// Owns one handle; the C functions take get().
+template <class Handle, void (*destroy)(Handle*)>
+class Unique {
+ public:
+  Unique() = default;
+  explicit Unique(Handle handle) noexcept : handle_(handle) {}
+  Unique(Unique&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+  Unique& operator=(Unique&& other) noexcept {
+    std::swap(handle_, other.handle_);
+    return *this;
+  }
+  ~Unique() { destroy(&handle_); }
+
+  Handle get() const noexcept { return handle_; }
+  explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+ private:
+  Handle handle_ = nullptr;
+};
+
+inline nook_context_desc context_desc() {
+  nook_context_desc desc;
+  check(nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+class Context : public Unique<nook_context, nook_context_destroy> {
+ public:
+  explicit Context(const nook_context_desc& desc = context_desc()) : Unique(create(desc)) {}
+
+ private:
+  static nook_context create(const nook_context_desc& desc) {
+    nook_context handle = nullptr;
+    check(nook_context_create(&desc, &handle));
+    return handle;
+  }
+};
+
+}  // namespace wrapper
+}  // namespace nook
+#endif

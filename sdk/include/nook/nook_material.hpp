@@ -1,0 +1,39 @@
+// C++17 wrappers of materials: nook_material.h.
+#ifndef NOOK_MATERIAL_HPP
+#define NOOK_MATERIAL_HPP
+
+#include <cstddef>
+#include <cstdint>
+
+#include "nook_handle.hpp"
+#include "nook_material.h"
+
+namespace nook {
+inline namespace wrapper {
+
+class Material : public Unique<nook_material, nook_material_destroy> {
+ public:
+  Material(const Context& context, const void* bytes, std::size_t size)
+      : Unique(load(context, bytes, size)) {}
+
+  nook_material_info info() const {
+    nook_material_info info{};
+    info.struct_size = sizeof info;
+    check(nook_material_describe(get(), &info));
+    return info;
+  }
+  void evaluate(const nook_material_sample* samples, std::uint32_t count, nook_material_value* values) const {
+    check(nook_material_evaluate(get(), samples, count, values));
+  }
+
+ private:
+  static nook_material load(const Context& context, const void* bytes, std::size_t size) {
+    nook_material handle = nullptr;
+    check(nook_material_load(context.get(), bytes, size, &handle));
+    return handle;
+  }
+};
+
+}  // namespace wrapper
+}  // namespace nook
+#endif
