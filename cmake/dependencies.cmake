@@ -11,6 +11,7 @@ if(NOOK_BAKERS)
   # By pkg-config: the CMake package of Debian's OpenImageIO requires tools and headers that it does not need.
   pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
   find_package(CLI11 REQUIRED)
+  find_package(meshoptimizer REQUIRED)
 endif()
 if(NOOK_BAKERS OR NOOK_SAMPLES OR NOOK_TESTS)
   find_package(Threads REQUIRED)

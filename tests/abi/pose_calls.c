@@ -54,6 +54,8 @@ static void match_rest_vertices(nook_character_model model) {
   EXPECT(unmatched == 0);
   EXPECT_OK(nook_character_model_remap(model, &found, 1, &remapped));
   nook_character_model_destroy(&remapped);
+  EXPECT_OK(nook_character_model_resample(model, &match, &remapped));
+  nook_character_model_destroy(&remapped);
 }
 
 int nook_call_every_pose_function(const void* bytes, size_t size) {

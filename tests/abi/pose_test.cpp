@@ -177,6 +177,32 @@ TEST_CASE("a remapped model gives the same AO in the host's order") {
   for (std::size_t i = 0; i < ao.size(); ++i) CHECK(ao[i] == stage.ao[order[i]]);
 }
 
+TEST_CASE("a mesh that cannot be resampled is refused, and the message names what is wrong") {
+  Stage stage;
+  const std::vector<float> positions = rest_positions(stage.model);
+  nook_vertex_match mesh{};
+  mesh.struct_size = sizeof mesh;
+  mesh.vertex_count = 2;
+  mesh.positions = positions.data();
+  mesh.primitive = NOOK_ALL_PRIMITIVES;
+  mesh.in_rest_space = 1;
+  nook_character_model model = nullptr;
+  const auto refused = [&](auto&& spoil, const char* part) {
+    nook_vertex_match spoiled = mesh;
+    spoil(spoiled);
+    CHECK(nook_character_model_resample(stage.model, &spoiled, &model) == NOOK_ERROR_INVALID_ARGUMENT);
+    INFO(nook_last_message());
+    CHECK(last_mentions(part));
+    CHECK(model == nullptr);
+  };
+  const float far_away[6] = {0, 0, 0, 0, 1e4f, 0}, not_finite[6] = {0, 0, 0, 0, NAN, 0};
+  refused([](nook_vertex_match& m) { m.vertex_count = 0; }, "mesh.vertex_count");
+  refused([](nook_vertex_match& m) { m.positions = nullptr; }, "mesh.positions");
+  refused([&](nook_vertex_match& m) { m.positions = not_finite; }, "mesh.positions[1]");
+  refused([&](nook_vertex_match& m) { m.positions = far_away; }, "vertex 1 of mesh is too far");
+  refused([](nook_vertex_match& m) { m.primitive = 99; }, "mesh.primitive");
+}
+
 TEST_CASE("setting a pose from a host's transforms allocates nothing") {
   Stage stage;
   const nook_pose_desc desc = pose_desc(stage);
@@ -214,6 +240,8 @@ TEST_CASE("each allocation of the functions of poses refused in turn is one clea
     const std::uint32_t order[2] = {1, 0};
     nook_character_model remapped = nullptr;
     if (first == NOOK_OK) first = nook_character_model_remap(stage.model, order, 2, &remapped);
+    nook_character_model_destroy(&remapped);
+    if (first == NOOK_OK) first = nook_character_model_resample(stage.model, &match, &remapped);
     nook_character_model_destroy(&remapped);
     return first;
   };

@@ -115,10 +115,8 @@ std::vector<float> predict_ao(const CharacterModel& model, std::span<const Mat3x
   return ao;
 }
 
-CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterModel& model,
-                                       std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
-                                       const Progress& progress) {
-  AoTargets targets = trace_character_ao(mesh, poses, rays, seed, progress);
+CharacterEvaluation score_character(const SkinnedMesh& mesh, const CharacterModel& model,
+                                    std::span<const Pose> poses, AoTargets targets) {
   const FitState state = state_of_model(model);
   const std::vector<float> shadows = shadows_of(state, poses);
   const std::size_t padded = state.structure.padded_count(), vertices = mesh.vertex_count();
@@ -143,12 +141,10 @@ CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterM
   });
   CharacterEvaluation result;
   result.poses = poses.size();
-  result.rays = rays;
   result.visible_share = double(best.visible_count) / double(vertices * poses.size());
   result.model = columns_of(model_sums, best.visible_count, area, hands);
   result.static_bake = columns_of(static_sums, best.visible_count, area, hands);
   result.oracle = columns_of(oracle_sums, best.visible_count, area, hands);
-  result.noise_floor_mse = measure_noise_floor(mesh, poses, targets, rays, seed);
   result.vertex_rms.resize(vertices);
   tbb::parallel_for(std::size_t(0), vertices, [&](std::size_t i) {
     double sum = 0;
@@ -159,6 +155,16 @@ CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterM
     result.vertex_rms[i] = float(std::sqrt(sum / double(poses.size())));
   });
   result.truth = std::move(targets);
+  return result;
+}
+
+CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterModel& model,
+                                       std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
+                                       const Progress& progress) {
+  CharacterEvaluation result =
+      score_character(mesh, model, poses, trace_character_ao(mesh, poses, rays, seed, progress));
+  result.rays = rays;
+  result.noise_floor_mse = measure_noise_floor(mesh, poses, result.truth, rays, seed);
   return result;
 }
 

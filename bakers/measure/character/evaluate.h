@@ -39,6 +39,10 @@ struct CharacterEvaluation {
 // The prediction of a model for one pose, by the scalar reference: a value a welded vertex, clamped.
 std::vector<float> predict_ao(const CharacterModel& model, std::span<const Mat3x4> bones);
 
+// The error against targets that are given, a row for each pose; rays and noise_floor_mse stay 0.
+CharacterEvaluation score_character(const SkinnedMesh& mesh, const CharacterModel& model,
+                                    std::span<const Pose> poses, AoTargets targets);
+
 // Targets are traced with rays for each vertex under another seed than the fit's.
 CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,

@@ -10,13 +10,6 @@ namespace {
 
 using namespace bake;
 
-void thin_out(std::vector<Pose>& poses, std::size_t most) {
-  if (most == 0 || poses.size() <= most) return;
-  std::vector<Pose> kept;
-  for (std::size_t i = 0; i < most; ++i) kept.push_back(std::move(poses[i * poses.size() / most]));
-  poses = std::move(kept);
-}
-
 std::vector<std::size_t> named_clips(const ImportedCharacter& character,
                                      const std::vector<std::string>& names) {
   std::vector<std::size_t> clips;

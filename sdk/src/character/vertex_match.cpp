@@ -2,65 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-
-#include "sdk/src/core/affine.h"
 
 namespace nook {
 namespace {
-
-// A vertex of the model that a host's vertex can be, in the host's space.
-struct Candidate {
-  Vec3 position;
-  Vec3 normal;
-  std::uint32_t file_vertex = 0;
-};
-
-// Normals go to the space of a mesh by the transpose of the matrix that brings its positions to rest space.
-Vec3 normal_in_mesh(const Mat3x4& rest_from_mesh, Vec3 n) {
-  const float* m = rest_from_mesh.m;
-  return normalised({m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z,
-                     m[2] * n.x + m[6] * n.y + m[10] * n.z});
-}
-
-using Candidates = Vector<Candidate>;
-
-void add_primitive(const CharacterModel& model, std::size_t primitive, bool in_rest_space, Candidates& out) {
-  const PrimitiveRange& range = model.primitives[primitive];
-  const Mat3x4& rest_from_mesh = model.bind.rest_from_mesh[model.bind.primitive_space[primitive]];
-  const Affine mesh_from_rest = inverse(to_double(rest_from_mesh));
-  for (std::uint32_t v = range.first_vertex; v < range.first_vertex + range.vertex_count; ++v) {
-    const std::uint32_t welded = model.file_to_welded[v];
-    Candidate candidate{model.rest.position[welded], model.rest.normal[welded], v};
-    if (!in_rest_space) {
-      candidate.position = transform(mesh_from_rest, candidate.position);
-      candidate.normal = normal_in_mesh(rest_from_mesh, candidate.normal);
-    }
-    out.push_back(candidate);
-  }
-}
-
-// Metres in rest space.
-float diagonal_of(const RestSurface& rest) {
-  Vec3 low = rest.position[0], high = low;
-  for (const Vec3 p : rest.position) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return length(high - low);
-}
-
-// The largest length that a metre of rest space has in the spaces of the given primitives.
-double largest_unit(const CharacterModel& model, const HostVertices& host) {
-  if (host.in_rest_space) return 1;
-  double largest = 0;
-  for (std::size_t p = 0; p < model.primitives.size(); ++p)
-    if (host.primitive < 0 || static_cast<std::size_t>(host.primitive) == p) {
-      const Mat3x4& matrix = model.bind.rest_from_mesh[model.bind.primitive_space[p]];
-      largest = std::max(largest, 1 / std::cbrt(std::abs(determinant(to_double(matrix)))));
-    }
-  return largest;
-}
 
 // Candidates in the order of their x, so that those near a position are in a short range.
 class Finder {
@@ -102,48 +46,16 @@ class Finder {
   float distance_ = 0;
 };
 
-// Primitives of the remapped model, with their spaces: runs of vertices of the same space.
-void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
-                    CharacterModel& out) {
-  out.primitives.clear();
-  out.bind.primitive_space.clear();
-  for (std::uint32_t i = 0; i < file_vertices.size(); ++i) {
-    const std::uint16_t space = model.bind.empty() ? std::uint16_t{0} : space_of(model, file_vertices[i]);
-    if (i == 0 || (!model.bind.empty() && out.bind.primitive_space.back() != space)) {
-      out.primitives.push_back({i, 0});
-      if (!model.bind.empty()) out.bind.primitive_space.push_back(space);
-    }
-    ++out.primitives.back().vertex_count;
-  }
-}
-
 }  // namespace
-
-std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex) {
-  const auto after =
-      std::upper_bound(model.primitives.begin(), model.primitives.end(), file_vertex,
-                       [](std::uint32_t vertex, const PrimitiveRange& p) { return vertex < p.first_vertex; });
-  return model.bind.primitive_space[static_cast<std::size_t>(after - model.primitives.begin()) - 1];
-}
-
-Vec3 StridedPoints::operator[](std::size_t index) const {
-  Vec3 out;
-  std::memcpy(&out, reinterpret_cast<const unsigned char*>(first) + index * stride, sizeof out);
-  return out;
-}
 
 std::uint32_t match_vertices(const CharacterModel& model, const HostVertices& host,
                              std::span<std::uint32_t> file_vertices, Memory* memory) {
-  Candidates candidates(memory);
-  for (std::size_t p = 0; p < model.primitives.size(); ++p)
-    if (host.primitive < 0 || static_cast<std::size_t>(host.primitive) == p)
-      add_primitive(model, p, host.in_rest_space, candidates);
+  Candidates candidates = candidates_of(model, host, memory);
   if (candidates.empty()) {
     std::fill(file_vertices.begin(), file_vertices.end(), no_vertex);
     return host.count;
   }
-  const Finder finder(std::move(candidates), host.tolerance * diagonal_of(model.rest) *
-                                                 static_cast<float>(largest_unit(model, host)));
+  const Finder finder(std::move(candidates), tolerance_of(model, host));
   std::uint32_t unmatched = 0;
   for (std::uint32_t i = 0; i < host.count; ++i) {
     const Vec3 normal = host.normal.first ? normalised(host.normal[i]) : Vec3{};

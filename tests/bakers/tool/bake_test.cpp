@@ -221,3 +221,25 @@ TEST_CASE("help names the options and exits with 0") {
     CHECK(has(run.out, option));
   CHECK(folder.run({"--version"}).out == "0.2.0\n");
 }
+
+TEST_CASE("bake lod: a model for another mesh of the same rig, and an error for another skeleton") {
+  const TestFolder folder;
+  write_text(folder.path("tube.glb"), glb_tube({"bend"}));
+  const ToolRun full =
+      folder.run({"bake", "character", folder.path("tube.glb"), "-o", folder.path("full.nook"), "--preset",
+                  "draft", "--steps", "20", "--rays", "8", "--auto-poses", "8", "--quiet"});
+  INFO(full.error);
+  REQUIRE(full.exit_code == 0);
+  const ToolRun lod = folder.run({"bake", "lod", folder.path("full.nook"), folder.path("tube.glb"), "-o",
+                                  folder.path("lod.nook"), "--auto-poses", "8", "--rays", "8"});
+  INFO(lod.error);
+  REQUIRE(lod.exit_code == 0);
+  CHECK(lod.out.find("vertices_full") != std::string::npos);
+  CHECK(folder.run({"inspect", folder.path("lod.nook")}).exit_code == 0);
+
+  const ToolRun no_model = folder.run(
+      {"bake", "lod", folder.path("tube.glb"), folder.path("tube.glb"), "-o", folder.path("other.nook")});
+  CHECK(no_model.exit_code != 0);
+  CHECK(no_model.error.find("tube.glb") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder.path("other.nook")));
+}

@@ -1,0 +1,96 @@
+// nook bake lod: the model of a mesh of less detail, from the bake of the full mesh.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/job/lod_bake.h"
+#include "bakers/job/worker_arena.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/distinct_files.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/table.h"
+#include "platform/output_file.h"
+#include "platform/printable.h"
+#include "platform/progress_bar.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::filesystem::path model, input, output;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::LodTask task;
+};
+
+bake::BakedFile bake(const Options& o, const std::vector<std::byte>& model,
+                     const bake::ImportedCharacter& lod) {
+  platform::ProgressBar bar(o.common.quiet);
+  return bake::bake_lod_file(lod, model, o.task, [&](nook_bake_stage, std::size_t done, std::size_t total) {
+    bar.show("ray tracing", "poses", done, total);
+    return !interrupted();
+  });
+}
+
+void run(Options o) {
+  require_distinct_files({{{"the model", o.model}, {"the mesh", o.input}},
+                          {{"-o", o.output}, {"--report", o.common.report}},
+                          {}});
+  platform::OutputFile output(o.output);
+  std::optional<platform::OutputFile> report_file;
+  if (!o.common.report.empty()) report_file.emplace(o.common.report);
+  o.task.seed = o.common.seed;
+  const std::vector<std::byte> model = read_file(o.model);
+  const bake::ImportedCharacter lod =
+      naming_file(o.input, [&] { return bake::import_gltf(o.input, o.linked); });
+  if (!o.common.quiet)
+    for (const std::string& warning : lod.warnings)
+      std::fprintf(stderr, "%s: %s\n", platform::printable(o.input.string()).c_str(),
+                   platform::printable_lines(warning).c_str());
+  bake::BakedFile file;
+  try {
+    bake::run_with_threads(o.common.threads,
+                           [&] { file = naming_file(o.model, [&] { return bake(o, model, lod); }); });
+  } catch (const ToolError&) {
+    if (interrupted()) throw ToolError(exit_other, "stopped; nothing was written");
+    throw;
+  }
+  output.commit(file.model);
+  const Json rows = Json::array({Json::parse(file.report)});
+  if (report_file) report_file->commit(Json{{"rows", rows}}.dump(2) + "\n");
+  if (!o.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+}
+
+}  // namespace
+
+void add_bake_lod(CLI::App& bake_command) {
+  CLI::App* command = bake_command.add_subcommand(
+      "lod",
+      "the model of another mesh of a baked character, such as a level of detail: the mesh keeps the "
+      "character's spheres, key points and casters, and its vertices are fitted to its own shape in seconds");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command->add_option("model", o.model, "the baked full mesh, .nook")->required();
+  command->add_option("mesh", o.input, "the other mesh with the same skeleton, .glb or .gltf")->required();
+  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  command->add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
+      ->check(CLI::Range(8, 100000))
+      ->capture_default_str();
+  command->add_option("--samples-per-clip", o.task.samples_per_clip, "poses of each clip of the mesh's file")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--rays", o.task.rays, "rays for each vertex and pose")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  add_linked_files_option(*command, o.linked);
+  add_common_options(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,125 @@
+// nook evaluate lods: the AO of meshes of less detail from the bake of the full mesh.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/character/pose_sets.h"
+#include "bakers/measure/character/lods.h"
+#include "bakers/measure/character/report.h"
+#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/evaluation.h"
+#include "bakers/tool/interrupt.h"
+#include "platform/progress_bar.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::tool {
+namespace {
+
+using namespace measure;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  EvaluatedFiles files;
+  PoseChoice poses;
+  std::vector<double> shares{0.5, 0.25, 0.1};
+  std::uint32_t rays = 256;
+  std::size_t training_poses = 300;
+};
+
+Json row_of(double share, const bake::LodRow& lod, const bake::ErrorColumns& full) {
+  const auto ratio = [](double error, double baseline) { return baseline > 0 ? error / baseline : 0; };
+  Json row;
+  row["share"] = share;
+  row["triangles"] = lod.triangles;
+  row["vertices"] = lod.vertices;
+  const auto add = [&](const std::string& form, const bake::ErrorColumns& error) {
+    row["mse_visible" + form] = error.mse_visible;
+    row["mse" + form] = error.mse;
+    row["ratio_to_full_visible" + form] = ratio(error.mse_visible, full.mse_visible);
+  };
+  add("_refitted", lod.refitted.model);
+  add("_resampled", lod.resampled.model);
+  add("_nearest", lod.nearest.model);
+  row["mse_visible_static"] = lod.refitted.static_bake.mse_visible;
+  return row;
+}
+
+Json evaluate(const Options& options) {
+  const BakedCharacter baked = read_evaluated_files(options.files);
+  const std::optional<bake::Recipe> recipe = recipe_of(baked);
+  if (!recipe)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the model holds no recipe of its training poses; bake it again");
+  std::vector<bake::Pose> training = bake::recipe_poses(baked.character, *recipe);
+  bake::thin_out(training, options.training_poses);
+  const EvaluatedPoses measured = choose_poses(baked.character, &*recipe, options.poses);
+  const std::uint64_t seed = evaluation_ray_seed(options.common.seed);
+  platform::ProgressBar bar(options.common.quiet);
+  const auto progress = [&](std::size_t done, std::size_t total) {
+    bar.show("ray tracing", "poses", done, total);
+    return !interrupted();
+  };
+  const bake::SkinnedMesh& mesh = baked.character.mesh;
+  const bake::ErrorColumns full =
+      bake::evaluate_character(mesh, baked.model, measured.poses, options.rays, seed, progress).model;
+  Json report;
+  report["character"] = options.files.character.stem().string();
+  report["protocol"] = measured.protocol;
+  report["poses"] = measured.poses.size();
+  report["rays"] = options.rays;
+  report["triangles"] = mesh.triangle.size();
+  report["vertices"] = mesh.vertex_count();
+  report["mse_visible"] = full.mse_visible;
+  report["mse"] = full.mse;
+  report["mse_area"] = full.mse_area;
+  report["rows"] = Json::array();
+  for (const double share : options.shares)
+    report["rows"].push_back(row_of(
+        share,
+        bake::measure_lod(bake::simplified(mesh, share), baked.model, training,
+                          {options.rays, options.common.seed}, measured.poses, options.rays, seed, progress),
+        full));
+  report["seed"] = options.common.seed;
+  return report;
+}
+
+}  // namespace
+
+void add_evaluate_lods(CLI::App& evaluate_command) {
+  CLI::App* command = evaluate_command.add_subcommand(
+      "lods",
+      "measure the AO of meshes with fewer triangles, made from the character by meshoptimizer, that take "
+      "their weights from the bake of the full mesh (nook_character_model_resample), against ray tracing of "
+      "those meshes. refitted: the vertices are fitted to ray tracing of their own mesh, as nook bake lod "
+      "does; resampled: they lie between baked vertices (nook_character_model_resample); nearest: each takes "
+      "the AO of the baked vertex at its place");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  o.poses.samples_per_clip = 4;
+  add_evaluated_files(*command, o.files);
+  command->add_option("--shares", o.shares, "shares of the triangles")
+      ->delimiter(',')
+      ->check(CLI::Range(0.001, 1.0))
+      ->capture_default_str();
+  command->add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+      ->check(CLI::Range(1, 10000000));
+  command->add_option("--training-poses", o.training_poses, "poses that the refitted form is fitted to")
+      ->check(CLI::Range(8, 100000))
+      ->capture_default_str();
+  command->add_option("--rays", o.rays, "rays for each vertex and pose")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  add_common_options(*command, o.common);
+  command->callback([options] {
+    run_evaluation(options->common, {named_files(options->files), {}, {}},
+                   [&] { return evaluate(*options); });
+  });
+}
+
+}  // namespace nook::tool
