@@ -17,4 +17,5 @@ cp -R "$folder/source/files/." "$folder/html/files"
 # The page of the browser sample, where it was built.
 [ ! -e build-web/site/index.html ] || cp -R build-web/site "$folder/html/live"
 "$python" docs/site/check.py "$folder/html"
+"$python" docs/site/check_search.py "$folder/html"
 echo "open $folder/html/index.html"
