@@ -43,7 +43,7 @@ std::vector<float> ao_beside_another(const std::vector<char>& file) {
   nook::Scene scene(context);
   const nook_instance_id left = scene.add_instance(hero), right = scene.add_instance(hero);
   scene.link(left, right);                                           // the right body darkens the left one
-  scene.set_pose(left, Standing(hero, 0.0f));                        // in each frame: the matrices of your skinning
+  scene.set_pose(left, Standing(hero, 0.0f));                        // in each frame: your skinning's matrices
   scene.set_pose(right, Standing(hero, 0.6f));                       // the same body, 0.6 m to the side
   scene.update();
   std::vector<float> ao(hero.info().file_vertex_count);              // 1 is open, 0 is fully occluded
