@@ -31,7 +31,7 @@ TREE = [("Use it", ["readme", "start", "concepts", "install", "conventions", "po
 
 # Pages whose own title is too general at the side.
 TITLES = {"readme": "In five minutes <readme>", "guide/README": "Overview <guide/README>", "api/README": "Headers <api/README>",
-          "history": "History <history>"}
+          "history": "History <history>", "samples/overview": "Overview <samples/overview>"}
 
 
 def places():
@@ -40,7 +40,8 @@ def places():
     found.update({ROOT / name: place for name, place in OUTSIDE.items() if (ROOT / name).exists()})
     for page in sorted((ROOT / "samples").rglob("README.md")):
         if "node_modules" not in page.parts:
-            found[page] = "samples/" + page.parent.relative_to(ROOT / "samples").as_posix().replace("/", "_") + ".md"
+            folder = page.parent.relative_to(ROOT / "samples").as_posix().replace("/", "_")
+            found[page] = f"samples/{'overview' if folder == '.' else folder}.md"
     return found
 
 
@@ -83,7 +84,7 @@ def plain(words):
 
 
 def tree(pages):
-    samples = sorted(p[:-3] for p in pages.values() if p.startswith("samples/"))
+    samples = sorted((p[:-3] for p in pages.values() if p.startswith("samples/")), key=lambda p: (p != "samples/overview", p))
     listed = {name for _, names in TREE for name in names}
     out = []
     for title, names in TREE:
