@@ -65,6 +65,9 @@ def message(argument):
 def messages_of(path):
     text = strip_comments(path.read_text(encoding="utf-8"))
     arguments = [argument_text(text, call.end()) for call in CALL.finditer(text)]
+    # Warnings of the import with numbers in them; elsewhere snprintf writes other things.
+    if "import" in path.parts:
+        arguments += [argument_text(text, call.end()) for call in re.finditer(r"\bsnprintf\s*\(", text)]
     arguments += [text[found.end():text.index(";", found.end())] for found in ASSIGNED.finditer(text)]
     # Importers return the end of a message.
     arguments += [text[found.end():text.index(";", found.end())] for found in re.finditer(r"\breturn\s+(?=\"[^\"]* [^\"]* )", text)]
@@ -102,8 +105,22 @@ def page(found):
     return "\n".join(out)
 
 
+def unknown_quotes(found):
+    """Texts of several words that the symptoms of the troubleshooting page quote, and that no message has."""
+    all_messages = " ".join(m for room in found.values() for m in room)
+    rows = re.findall(r"^\| ([^|]*) \|", (ROOT / "docs/troubleshooting.md").read_text(encoding="utf-8"), re.M)
+    quotes = [q for row in rows for q in re.findall(r"`([^`]+)`", row)]
+    quotes += [q for row in rows for q in re.findall(r"\*([^*]+)\*", re.sub(r"`[^`]*`", "", row))]
+    quotes = [q for q in quotes if " " in q]
+    return [q for q in quotes if not all(part.strip() in all_messages for part in q.split("…"))]
+
+
 def main():
-    text = page(collect())
+    found = collect()
+    text, unknown = page(found), unknown_quotes(found)
+    if unknown:
+        print("docs/troubleshooting.md quotes messages that are not there:\n  " + "\n  ".join(unknown))
+        return 1
     if "--check" in sys.argv[1:]:
         if not PAGE.exists() or PAGE.read_text(encoding="utf-8") != text:
             print("docs/messages.md is not what the sources give; run python3 docs/generate_messages.py")
