@@ -2,7 +2,8 @@
 """Every link of every Markdown page leads to a file, and to a heading where it names one; every page of docs/ can be reached.
 
 Pictures need a text in place of the picture. Pages in which something can be seen, the guides and concepts, need a picture.
-Links to the web are not followed.
+Links to the web are not followed. Comments and messages of sources name documents by their path from the root, such as
+docs/poses.md; these are there too.
 """
 import pathlib
 import re
@@ -34,19 +35,29 @@ def anchors(path):
     return {a + (f"-{i}" if i else "") for a, count in found.items() for i in range(count + 1)}
 
 
-def tracked_pages():
+def files(*endings):
+    """The files of the repository with these endings; without git, those of its folders."""
     try:
-        names = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z", "--cached", "--others", "--exclude-standard", "*.md"],
-                               check=True, capture_output=True, text=True).stdout.split("\0")
-        return [ROOT / name for name in names if name and (ROOT / name).exists()]
+        names = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z", "--cached", "--others", "--exclude-standard",
+                                *(f"*.{e}" for e in endings)], check=True, capture_output=True, text=True).stdout.split("\0")
+        return sorted(ROOT / name for name in names if name and (ROOT / name).exists())
     except (OSError, subprocess.CalledProcessError):
-        folders = ("docs", "samples", "packaging", "tests")
-        return sorted([*ROOT.glob("*.md"), *(p for f in folders for p in (ROOT / f).rglob("*.md") if "node_modules" not in p.parts)])
+        folders = ("sdk", "bakers", "shaders", "platform", "docs", "samples", "packaging", "tests", "cmake")
+        found = [*ROOT.iterdir(), *(p for f in folders for p in (ROOT / f).rglob("*") if "node_modules" not in p.parts)]
+        return sorted(p for p in found if p.suffix[1:] in endings)
+
+
+def named_documents():
+    """Documents that sources name and that are not there."""
+    for path in files("h", "hpp", "cpp", "c", "inl", "glsl", "cmake", "txt", "py", "sh"):
+        for name in re.findall(r"(?<![\w/])docs/[\w/]+\.(?:md|py|sh|png)\b", path.read_text(encoding="utf-8", errors="replace")):
+            if not (ROOT / name).exists():
+                yield f"{path.relative_to(ROOT)} names {name}, which is not there"
 
 
 def main():
     faults, graph = [], {}
-    pages = tracked_pages()
+    pages = files("md")
     for page in pages:
         name, text = page.relative_to(ROOT), page.read_text(encoding="utf-8")
         graph[page] = set()
@@ -74,6 +85,7 @@ def main():
                 front.append(to)
     faults += [f"{p.relative_to(ROOT)}: README.md does not lead there" for p in pages
                if p not in reached and p.relative_to(ROOT).parts[0] == "docs"]
+    faults += named_documents()
     print("\n".join(faults) if faults else f"{len(pages)} pages, {sum(map(len, graph.values()))} links")
     return 1 if faults else 0
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compiles the fenced blocks of C, C++ and GLSL in the documents.
+"""Compiles the fenced blocks of C, C++, GLSL and JavaScript in the documents.
 
   snippets_test.py C_COMPILER CXX_COMPILER
 
@@ -76,6 +76,11 @@ def main():
         languages.append(("glsl", [validator], glsl_text, ".frag"))
     else:
         print("SKIPPED: the blocks of GLSL, which glslangValidator compiles (Debian: glslang-tools)")
+    node = shutil.which("node")
+    if node:
+        languages.append(("js", [node, "--check"], lambda page, found: "\n".join(found), ".mjs"))
+    else:
+        print("SKIPPED: the blocks of JavaScript, whose grammar node checks")
     failed = count = 0
     for language, command, text_of, suffix in languages:
         for page in PAGES:
