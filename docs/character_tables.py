@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Bakes three bodies by both splits of their clips, measures them beside the baselines, and prints the tables of
-docs/character.md and README.md.
+docs/character.md and docs/evidence.md.
 
     docs/character_tables.py --out out/character_tables [--write]
 
@@ -101,7 +101,7 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     results = [(body, split, *measure(options, body, split)) for body in BODIES for split in SPLITS]
     script = pathlib.Path(__file__).name
-    show(ROOT / "README.md", script, {"summary": summary(results)}, options.write)
+    show(ROOT / "docs/evidence.md", script, {"summary": summary(results)}, options.write)
     tables = {"errors": errors(results), "sizes": sizes(results)}
     if not options.without_baselines:
         tables["baselines"] = baselines(results)

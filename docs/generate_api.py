@@ -153,6 +153,16 @@ def page(name, blocks, places):
     return re.sub(r"\n{3,}", "\n\n", "\n".join(out)) + "\n"
 
 
+def index(parsed):
+    """The page that lists the headers, each with the first sentence of its comment."""
+    out = ["# Reference", "", "One page for each C header, made by `docs/generate_api.py` from the headers' comments.",
+           "`nook/nook.hpp` has the same functions as C++ classes, with the same names.", "", "| header | subject |", "|---|---|"]
+    for name, blocks in parsed.items():
+        sentence = re.split(r"(?<=[\w)])[.:](?:\s|$)", " ".join(" ".join(blocks[0]).split()))[0]
+        out.append(f"| [{name}.h]({name}.md) | {escape(sentence)} |")
+    return "\n".join(out) + "\n"
+
+
 def main():
     parsed = {header.stem: parse(header.read_text(encoding="utf-8")) for header in HEADERS}
     places = {}
@@ -162,6 +172,8 @@ def main():
             for word in item.names + constants:
                 places.setdefault(word, (name, item.anchor()))
     pages = {PAGES / f"{name}.md": page(name, blocks, places) for name, blocks in parsed.items()}
+
+    pages[PAGES / "README.md"] = index(parsed)
 
     if "--check" in sys.argv[1:]:
         found = {path: path.read_text(encoding="utf-8") for path in PAGES.glob("*.md")}

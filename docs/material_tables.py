@@ -167,7 +167,7 @@ def main():
          {"methods": methods_table({**methods, "weave": weave}), "unseen views": unseen_table(methods, 100, 37),
           "view maps": maps_table(maps), "view ranks": sweep_table(sweep), "thresholds": thresholds_table(thresholds),
           "first clusters": seeding_table(seeding)}, options.write)
-    show(ROOT / "README.md", pathlib.Path(__file__).name, {"materials": summary_table(methods)}, options.write)
+    show(ROOT / "docs/evidence.md", pathlib.Path(__file__).name, {"materials": summary_table(methods)}, options.write)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-// The check of an EXR file's head before a library reads it: OpenEXR takes the memory that an attribute says
-// it fills, up to 2 GB, before it looks whether the file has as much.
+// The check of an EXR file's head before a library reads it: OpenEXR takes the memory that an attribute
+// claims, up to 2 GB, before it looks whether the file has as much.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@ namespace nook::bake {
 
 // Throws Failure(NOOK_ERROR_BAD_FILE) where `path` begins like an EXR file and an attribute of its heads is
 // longer than what follows in the file; `what` begins the message. A file of another kind, or one that cannot
-// be opened, passes: its reader says what is wrong with it.
+// be opened, passes: its reader names the fault.
 void check_exr_head(const char* what, const std::filesystem::path& path);
 
 }  // namespace nook::bake

@@ -23,7 +23,7 @@ ROOT = HERE.parents[1]
 C_LIKE = {".h", ".hpp", ".c", ".cpp", ".inl", ".glsl", ".vert", ".frag", ".comp", ".in"}
 HASH = {".cmake", ".sh", ".txt"}
 FOLDERS = ["sdk/include", "sdk/src", "shaders", "bakers", "platform", "samples", "tests", "docs", "cmake"]
-FILES_AT_ROOT = ["README.md", "CMakeLists.txt"]
+FILES_AT_ROOT = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "SECURITY.md", "CMakeLists.txt"]
 COMMENT_OR_STRING = re.compile(
     r"""//(?P<line>[^\n]*)|/\*(?P<block>.*?)\*/|"(?P<string>(?:[^"\\\n]|\\.)*)"|'(?:[^'\\\n]|\\.)*'""", re.S)
 

@@ -152,7 +152,7 @@ TEST_CASE("an EXR file whose head has an attribute longer than the file is refus
   const std::string damaged = whole.substr(0, 8) + attribute + whole.substr(8);
   CHECK(failure_of(folder.write_text("long.exr", damaged))
             .find("its attribute \"owner\" says 2147483632 bytes") != std::string::npos);
-  // The same attribute with the bytes that it says it has passes; the table of rows is then at another place,
+  // The same attribute with the bytes that it claims passes; the table of rows is then at another place,
   // which the reader may refuse.
   const std::string sound =
       whole.substr(0, 8) + std::string("owner\0string\0\x04\0\0\0nook", 21) + whole.substr(8);

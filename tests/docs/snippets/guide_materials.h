@@ -1,0 +1,2 @@
+extern nook_material material;
+extern nook_gl_material uploaded;

@@ -1,0 +1,3 @@
+extern nook_probe probe;
+extern nook_gl_probe uploaded;
+extern nook_probe_info info;

@@ -1,0 +1,18 @@
+// The sizes of a material, as sdk/src/gl/material/source.cpp writes them.
+#define NOOK_LIGHT_VEC4_COUNT 4
+#define NOOK_BTF_TERMS 3
+#define NOOK_BTF_VIEW_VEC4_COUNT 1
+#define NOOK_BTF_CLUSTERS 20
+#define NOOK_BTF_SIDE 256
+#define NOOK_BTF_TEXELS vec2(96.0, 96.0)
+#define NOOK_VOTF_TERMS 3
+#define NOOK_VOTF_VIEW_VEC4_COUNT 1
+#define NOOK_VOTF_CLUSTERS 20
+#define NOOK_VOTF_SIDE 256
+#define NOOK_VOTF_TEXELS vec2(96.0, 96.0)
+uniform sampler2DArray nook_btf_coefficients, nook_votf_coefficients, nook_light_map;
+uniform usampler2DArray nook_btf_membership, nook_votf_membership;
+uniform vec2 nook_visibility_mapping;
+vec4 nook_btf_mode(int layer, vec2 uv, float level);
+vec4 nook_votf_mode(int layer, vec2 uv, float level);
+#include "shaders/material/host.glsl"
