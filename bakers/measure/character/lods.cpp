@@ -6,6 +6,7 @@
 
 #include "bakers/import/skinning.h"
 #include "sdk/src/character/vertex_resample.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {
@@ -85,6 +86,8 @@ LodMesh simplified(const SkinnedMesh& mesh, double share) {
 LodRow measure_lod(const LodMesh& lod, const CharacterModel& model, std::span<const Pose> training,
                    const RefitSettings& refit, std::span<const Pose> measured, std::uint32_t rays,
                    std::uint64_t seed, const Progress& progress) {
+  if (model.rest.position.empty() || model.bind.empty())
+    throw Failure(NOOK_ERROR_BAD_FILE, "the model has no rest positions; bake it again");
   LodRow row;
   row.triangles = lod.mesh.triangle.size();
   row.vertices = lod.mesh.vertex_count();

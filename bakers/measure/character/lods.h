@@ -27,7 +27,7 @@ struct LodRow {
 };
 
 // Truth is traced on the mesh of less detail, with its own normals. The refitted form is fitted to the
-// training poses.
+// training poses. Throws Failure: BAD_FILE (a model without rest positions), CANCELLED.
 LodRow measure_lod(const LodMesh& lod, const CharacterModel& model, std::span<const Pose> training,
                    const RefitSettings& refit, std::span<const Pose> measured, std::uint32_t rays,
                    std::uint64_t seed, const Progress& progress = {});
