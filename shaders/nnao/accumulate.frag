@@ -71,7 +71,7 @@ vec2 nook_earlier_ao(ivec2 texel, float depth) {
   if (!(all(greaterThan(place, vec2(-1.0))) && all(lessThan(place, nook_earlier_last + 1.0)))) return vec2(0.0);
   float slope = nook_flat_step(depth, nook_depth_near(texel - ivec2(1, 0)), nook_depth_near(texel + ivec2(1, 0))) +
                 nook_flat_step(depth, nook_depth_near(texel - ivec2(0, 1)), nook_depth_near(texel + ivec2(0, 1)));
-  float tolerance = slope + 2.0 / nook_edge_tolerance + 0.002 * depth;
+  float tolerance = slope + 2.0 * nook_extent(depth) / nook_edge_scale(depth) + 0.002 * depth;
   vec2 base = floor(place), share = place - base;
   vec2 sums = vec2(0.0);
   float total = 0.0;

@@ -405,7 +405,7 @@ NOOK_AT(nook_nnao_desc, network_size, 56);
 NOOK_AT(nook_nnao_desc, bent_normals, 64);
 NOOK_AT(nook_nnao_desc, temporal_frames, 68);
 
-NOOK_SIZE(nook_nnao_recording_desc, 272);
+NOOK_SIZE(nook_nnao_recording_desc, 280);
 NOOK_AT(nook_nnao_recording_desc, struct_size, 0);
 NOOK_AT(nook_nnao_recording_desc, header_version, 4);
 NOOK_AT(nook_nnao_recording_desc, next, 8);
@@ -440,8 +440,9 @@ NOOK_AT(nook_nnao_recording_desc, vendor, 240);
 NOOK_AT(nook_nnao_recording_desc, renderer, 248);
 NOOK_AT(nook_nnao_recording_desc, driver_version, 256);
 NOOK_AT(nook_nnao_recording_desc, note, 264);
+NOOK_AT(nook_nnao_recording_desc, radius_kind, 272);
 
-NOOK_SIZE(nook_nnao_frame_desc, 272);
+NOOK_SIZE(nook_nnao_frame_desc, 296);
 NOOK_AT(nook_nnao_frame_desc, width, 16);
 NOOK_AT(nook_nnao_frame_desc, height, 20);
 NOOK_AT(nook_nnao_frame_desc, viewport, 24);
@@ -468,6 +469,11 @@ NOOK_AT(nook_nnao_frame_desc, earlier_from_view, 208);
 NOOK_AT(nook_nnao_frame_desc, motion_texture, 256);
 NOOK_AT(nook_nnao_frame_desc, motion_scale, 260);
 NOOK_AT(nook_nnao_frame_desc, reset, 268);
+NOOK_AT(nook_nnao_frame_desc, radius_kind, 272);
+NOOK_AT(nook_nnao_frame_desc, scene_size, 276);
+NOOK_AT(nook_nnao_frame_desc, depth_log_scale, 280);
+NOOK_AT(nook_nnao_frame_desc, depth_log_near, 284);
+NOOK_AT(nook_nnao_frame_desc, depth_log_far, 288);
 
 NOOK_SIZE(nook_nnao_info, 40);
 NOOK_AT(nook_nnao_info, texture, 4);

@@ -139,9 +139,28 @@ enum {
    * copy of it in the red channel of a 32-bit float texture. */
   NOOK_NNAO_DEPTH_HARDWARE = 0,
   /* -z of view space in metres, in the red channel of a float texture. */
-  NOOK_NNAO_DEPTH_LINEAR = 1
+  NOOK_NNAO_DEPTH_LINEAR = 1,
+  /* A shader of the host wrote log2(1 + C (w - n)) / log2(1 + C (f - n)) to gl_FragDepth, or to the red
+   * channel of a 32-bit float texture. w is -z of view space, which is clip w where projection[11] is -1. C, n
+   * and f are depth_log_scale, depth_log_near and depth_log_far; values of 1 and more are sky. Only with a
+   * perspective. The pass inverts it: w = n + (exp2(stored log2(1 + C (f - n))) - 1) / C. three.js and Godot's
+   * recipes have C = 1 and n = 0, Cesium has C = 1 and its near plane. */
+  NOOK_NNAO_DEPTH_LOGARITHMIC = 2
 };
 typedef int32_t nook_nnao_depth_kind;
+
+/* The measure of the radius. */
+enum {
+  /* Metres, or the unit of length that projection, linear depth and sky_depth have: AO depends on their
+   * ratios alone. */
+  NOOK_NNAO_RADIUS_METRES = 0,
+  /* A share of the viewport's height, up to 1: the radius covers the same number of pixels at each depth. The
+   * edges of the filter follow it. */
+  NOOK_NNAO_RADIUS_SCREEN = 1,
+  /* A share of nook_nnao_frame_desc.scene_size, up to 1. */
+  NOOK_NNAO_RADIUS_SCENE = 2
+};
+typedef int32_t nook_nnao_radius_kind;
 
 /* The depth range of clip space. */
 enum {
@@ -238,10 +257,10 @@ typedef struct nook_nnao_frame_desc {
   float projection[16];
   /* Only hardware depth uses it. Default NOOK_NNAO_CLIP_NEGATIVE_ONE_TO_ONE. */
   nook_nnao_clip clip;
-  /* Metres, > 0; required. Geometry beyond this distance does not occlude. */
+  /* > 0, in metres or as radius_kind says; required. Geometry beyond this distance does not occlude. */
   float radius;
   /* Pixels: the maximum that the radius covers on the screen; near the camera the radius shrinks. 0
-   * (default): a quarter of the viewport's height. */
+   * (default): a quarter of the viewport's height, and no maximum with NOOK_NNAO_RADIUS_SCREEN. */
   float max_radius_px;
   /* AO becomes max(0, 1 - intensity * (1 - AO)) ^ power. intensity is in [0, 16] and power in (0, 16]; both
    * default to 1. */
@@ -273,6 +292,14 @@ typedef struct nook_nnao_frame_desc {
   /* 1: a cut: nothing of earlier frames is used. Changes of the viewport's size and of the kind of projection
    * are cuts as well. Default 0. */
   int32_t reset;
+  /* Default NOOK_NNAO_RADIUS_METRES. */
+  nook_nnao_radius_kind radius_kind;
+  /* Metres, > 0: a length of the scene, such as the diagonal of its bounding box. NOOK_NNAO_RADIUS_SCENE
+   * needs it; nothing else reads it. */
+  float scene_size;
+  /* Of logarithmic depth, see NOOK_NNAO_DEPTH_LOGARITHMIC. C in 1 / metres, > 0, default 1; n in metres, 0 or
+   * more, default 0; f in metres, > n, required. */
+  float depth_log_scale, depth_log_near, depth_log_far;
 } nook_nnao_frame_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
@@ -348,7 +375,8 @@ NOOK_API nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* t
 
 /* Records a frame: draws its AO into the pass's own texture, and reads that back with the depth, the normals
  * and the layer of the frame. Blend, target and target_name have no effect: no target of the host is written.
- * NOOK_NNAO_VIEW_NORMALS records the result. note is a remark for whoever opens the file, or NULL. The call
+ * NOOK_NNAO_VIEW_NORMALS records the result. Logarithmic depth is recorded as the linear depth
+ * that follows from it, and a share of the scene as metres. note is a remark for whoever opens the file, or NULL. The call
  * may stand before nook_nnao_render of the same frame or after it. It WAITS FOR THE GPU, allocates, and makes
  * a program: it is meant for reports of errors and for measurements. On failure *out is NULL.
  * Context thread. Errors: INVALID_ARGUMENT (as nook_nnao_render; also, the note is longer than 1000 bytes or

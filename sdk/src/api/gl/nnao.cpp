@@ -66,6 +66,7 @@ nook_nnao_frame_desc default_frame() {
   frame.intensity = frame.power = 1;
   frame.earlier_from_view[0] = frame.earlier_from_view[5] = frame.earlier_from_view[10] = 1;
   frame.motion_scale[0] = frame.motion_scale[1] = 1;
+  frame.depth_log_scale = 1;
   return frame;
 }
 constexpr std::size_t first_frame = offsetof(nook_nnao_frame_desc, view) + sizeof(nook_nnao_view);

@@ -71,7 +71,10 @@ void check_depth(const Functions& gl, const HostImages& images) {
     if (!red_float)
       refuse_format(gl, "depth_texture", "red in floats, such as GL_R32F, for NOOK_NNAO_DEPTH_LINEAR");
   } else if (!depth_format && !(red_float && red_bits >= 32)) {
-    refuse_format(gl, "depth_texture", "a depth format or GL_R32F for NOOK_NNAO_DEPTH_HARDWARE");
+    refuse_format(gl, "depth_texture",
+                  images.depth_kind == NOOK_NNAO_DEPTH_HARDWARE
+                      ? "a depth format or GL_R32F for NOOK_NNAO_DEPTH_HARDWARE"
+                      : "a depth format or GL_R32F for NOOK_NNAO_DEPTH_LOGARITHMIC");
   }
   if (!depth_format || !gl.can.stencil_textures) return;
   GLint mode = GL_DEPTH_COMPONENT;
