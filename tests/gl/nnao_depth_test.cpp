@@ -44,8 +44,8 @@ TEST_CASE("nnao: logarithmic depth gives the AO of linear depth") {
         const GLuint normals = fixture.normals_of(picture);
         nook_nnao pass = fixture.pass_of(9, half, 1, nullptr);
         nook_nnao_frame_desc frame =
-            frame_desc(camera, width, height, fixture.textures.floats(GL_R32F, 1, width, height, picture.depth),
-                       normals, 0.5f);
+            frame_desc(camera, width, height,
+                       fixture.textures.floats(GL_R32F, 1, width, height, picture.depth), normals, 0.5f);
         frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
         NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
         const std::vector<float> wanted = own_ao(context.gl(), pass, width, height);
@@ -58,8 +58,8 @@ TEST_CASE("nnao: logarithmic depth gives the AO of linear depth") {
           NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
           const std::vector<float> found = own_ao(context.gl(), pass, width, height);
           const Difference d = difference(found, wanted, bound);
-          INFO(camera.name << ", " << logarithm.name << ", half " << half << ", format " << format << ": largest "
-                           << d.largest << ", beyond " << d.beyond);
+          INFO(camera.name << ", " << logarithm.name << ", half " << half << ", format " << format
+                           << ": largest " << d.largest << ", beyond " << d.beyond);
           // A 32-bit float of the logarithm keeps a depth of some metres to 1e-6 of it, which moves taps and
           // edges of a few pixels more than those on borders.
           CHECK(d.beyond <= 5 * flipped);

@@ -59,13 +59,15 @@ TEST_CASE("nnao: a radius as a share of the screen is the reference's at each de
         // A limit in pixels holds here as well.
         frame.max_radius_px = 7;
         const std::vector<float> limited = fixture.draw(fixture.pass_of(16, 0, 1, &network), frame);
-        nnao::evaluate(network, picture.view(), {nnao::endless_radius, std::min(share * height, 7.0f), 16}, wanted);
+        nnao::evaluate(network, picture.view(), {nnao::endless_radius, std::min(share * height, 7.0f), 16},
+                       wanted);
         CHECK(difference(limited, wanted, bound).beyond <= flipped);
       }
   }
 }
 
-TEST_CASE("nnao: a radius as a share of the screen sees no difference between a scene and a larger one far away") {
+TEST_CASE(
+    "nnao: a radius as a share of the screen sees no difference between a scene and a larger one far away") {
   NOOK_NEED_CONTEXT(context);
   Fixture fixture(context);
   const Camera camera = plain_camera(float(width) / height);
@@ -129,8 +131,8 @@ TEST_CASE("nnao: a share of the scene is the radius in metres that follows from 
 TEST_CASE("nnao: the edges of a radius in pixels are those of its metres at each depth") {
   NOOK_NEED_CONTEXT(context);
   Fixture fixture(context);
-  // The orthographic projection has the same number of pixels for a metre at each depth, so that both kinds of
-  // radius are one frame.
+  // The orthographic projection has the same number of pixels for a metre at each depth, so that both kinds
+  // of radius are one frame.
   const Camera camera = cameras(float(width) / height)[6];
   const Picture picture = look(camera, still_life(), width, height);
   const float px_per_metre = std::abs(nnao::pixel_scale(picture.rays, 1).y);

@@ -272,8 +272,8 @@ TEST_CASE("logarithmic depth gives the distance, and 1 is no surface") {
             depth_decode({lens.projection, DepthKind::logarithmic, ClipRange::negative_one_to_one, 0,
                           float(scale), float(near_m), float(far_m)});
         INFO(scale << " " << near_m << " " << far_m);
-        // The stored value is rounded to 2^-25, times the natural logarithm of the range, of which 1 + C w has
-        // that share as its error. exp2 has some steps of 1.2e-7 more.
+        // The stored value is rounded to 2^-25, times the natural logarithm of the range, of which 1 + C w
+        // has that share as its error. exp2 has some steps of 1.2e-7 more.
         const double step = std::log(1 + scale * far_m) * 6e-8 + 5e-7;
         for (const double depth : {0.25, 1.0, 3.0, 9.0}) {
           const auto stored =

@@ -141,10 +141,10 @@ enum {
   /* -z of view space in metres, in the red channel of a float texture. */
   NOOK_NNAO_DEPTH_LINEAR = 1,
   /* A shader of the host wrote log2(1 + C (w - n)) / log2(1 + C (f - n)) to gl_FragDepth, or to the red
-   * channel of a 32-bit float texture. w is -z of view space, which is clip w where projection[11] is -1. C, n
-   * and f are depth_log_scale, depth_log_near and depth_log_far; values of 1 and more are sky. Only with a
-   * perspective. The pass inverts it: w = n + (exp2(stored log2(1 + C (f - n))) - 1) / C. three.js and Godot's
-   * recipes have C = 1 and n = 0, Cesium has C = 1 and its near plane. */
+   * channel of a 32-bit float texture. w is -z of view space, which is clip w where projection[11] is -1. C,
+   * n and f are depth_log_scale, depth_log_near and depth_log_far; values of 1 and more are sky. Only with a
+   * perspective. The pass inverts it: w = n + (exp2(stored log2(1 + C (f - n))) - 1) / C. three.js has
+   * C = 1 and n = 0, Cesium has C = 1 and its near plane. */
   NOOK_NNAO_DEPTH_LOGARITHMIC = 2
 };
 typedef int32_t nook_nnao_depth_kind;
@@ -376,11 +376,11 @@ NOOK_API nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* t
 /* Records a frame: draws its AO into the pass's own texture, and reads that back with the depth, the normals
  * and the layer of the frame. Blend, target and target_name have no effect: no target of the host is written.
  * NOOK_NNAO_VIEW_NORMALS records the result. Logarithmic depth is recorded as the linear depth
- * that follows from it, and a share of the scene as metres. note is a remark for whoever opens the file, or NULL. The call
- * may stand before nook_nnao_render of the same frame or after it. It WAITS FOR THE GPU, allocates, and makes
- * a program: it is meant for reports of errors and for measurements. On failure *out is NULL.
- * Context thread. Errors: INVALID_ARGUMENT (as nook_nnao_render; also, the note is longer than 1000 bytes or
- * has control characters), VERSION, GL, OUT_OF_MEMORY. */
+ * that follows from it, and a share of the scene as metres. note is a remark for whoever opens the file, or
+ * NULL. The call may stand before nook_nnao_render of the same frame or after it. It WAITS FOR THE GPU,
+ * allocates, and makes a program: it is meant for reports of errors and for measurements. On failure *out is
+ * NULL. Context thread. Errors: INVALID_ARGUMENT (as nook_nnao_render; also, the note is longer than 1000
+ * bytes or has control characters), VERSION, GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_record(nook_nnao pass, const nook_nnao_frame_desc* frame, const char* note,
                                       nook_nnao_recording* out);
 

@@ -24,8 +24,8 @@ bool is_perspective(const float (&projection)[16]);
 // As screen_rays, for a matrix that may be multiplied by any factor above 0.
 ScreenRays projection_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height);
 
-// Depth = (x + y s) / (z + w s), where s is the stored value, or exp2(log_rate * stored) if log_rate is not 0,
-// and the stored value of the far plane.
+// Depth = (x + y s) / (z + w s), where s is the stored value, or exp2(log_rate * stored) if log_rate is not
+// 0, and the stored value of the far plane.
 struct DepthDecode {
   float x = 0, y = 1, z = 1, w = 0;
   float log_rate = 0;

@@ -143,9 +143,9 @@ std::vector<float> view_depths(const Recording& recording) {
 std::vector<Vec3> view_normals(const Recording& recording, std::span<const float> depths) {
   const View view = view_of(recording, depths);
   const bool in_pixels = recording.frame.radius_kind != 0;
-  const FrameRadius radius = frame_radius({RadiusKind(recording.frame.radius_kind), recording.frame.radius, 0,
-                                           recording.frame.max_radius_px},
-                                          float(recording.height));
+  const FrameRadius radius = frame_radius(
+      {RadiusKind(recording.frame.radius_kind), recording.frame.radius, 0, recording.frame.max_radius_px},
+      float(recording.height));
   std::vector<Vec3> normals(recording.pixels(), Vec3{0, 0, 1});
   for (std::uint32_t y = 0; y < recording.height; ++y)
     for (std::uint32_t x = 0; x < recording.width; ++x) {

@@ -45,9 +45,9 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
   const nnao::ScreenRays screen =
       nnao::projection_rays(frame.projection, std::uint32_t(viewport.width), std::uint32_t(viewport.height));
   const bool perspective = nnao::is_perspective(frame.projection);
-  const nnao::DepthDecode decode = nnao::depth_decode(
-      {frame.projection, nnao::DepthKind(frame.depth_kind), nnao::ClipRange(frame.clip), frame.sky_depth,
-       frame.depth_log_scale, frame.depth_log_near, frame.depth_log_far});
+  const nnao::DepthDecode decode =
+      nnao::depth_decode({frame.projection, nnao::DepthKind(frame.depth_kind), nnao::ClipRange(frame.clip),
+                          frame.sky_depth, frame.depth_log_scale, frame.depth_log_near, frame.depth_log_far});
   const nnao::FrameRadius radius = nnao::frame_radius(
       {nnao::RadiusKind(frame.radius_kind), frame.radius, frame.scene_size, frame.max_radius_px},
       float(viewport.height));

@@ -38,17 +38,17 @@ nook_nnao_frame_desc own_target(nook_nnao_frame_desc frame) {
   return frame;
 }
 
-// What a recording holds in place of kinds that follow from others: linear depth for logarithmic depth, metres
-// for a share of the scene.
+// What a recording holds in place of kinds that follow from others: linear depth for logarithmic depth,
+// metres for a share of the scene.
 void simplify(nnao::Recording& recording, const nook_nnao_frame_desc& frame) {
   if (frame.radius_kind == NOOK_NNAO_RADIUS_SCENE) {
     recording.frame.radius = frame.radius * frame.scene_size;
     recording.frame.radius_kind = NOOK_NNAO_RADIUS_METRES;
   }
   if (frame.depth_kind != NOOK_NNAO_DEPTH_LOGARITHMIC) return;
-  const nnao::DepthDecode decode = nnao::depth_decode(
-      {frame.projection, nnao::DepthKind::logarithmic, nnao::ClipRange(frame.clip), frame.sky_depth,
-       frame.depth_log_scale, frame.depth_log_near, frame.depth_log_far});
+  const nnao::DepthDecode decode =
+      nnao::depth_decode({frame.projection, nnao::DepthKind::logarithmic, nnao::ClipRange(frame.clip),
+                          frame.sky_depth, frame.depth_log_scale, frame.depth_log_near, frame.depth_log_far});
   for (float& depth : recording.depth) depth = nnao::view_depth(decode, true, depth);
   recording.frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
   recording.frame.sky_depth = 0;
