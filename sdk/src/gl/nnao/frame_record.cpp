@@ -38,7 +38,7 @@ nook_nnao_frame_desc own_target(nook_nnao_frame_desc frame) {
   return frame;
 }
 
-// What a recording holds in place of kinds that follow from others: linear depth for logarithmic depth,
+// Puts simpler kinds in place of those that follow from them: linear depth for logarithmic depth,
 // metres for a share of the scene.
 void simplify(nnao::Recording& recording, const nook_nnao_frame_desc& frame) {
   if (frame.radius_kind == NOOK_NNAO_RADIUS_SCENE) {
