@@ -378,9 +378,10 @@ NOOK_API nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* t
  * NOOK_NNAO_VIEW_NORMALS records the result. Logarithmic depth is recorded as the linear depth
  * that follows from it, and a share of the scene as metres. note is a remark for whoever opens the file, or
  * NULL. The call may stand before nook_nnao_render of the same frame or after it. It WAITS FOR THE GPU,
- * allocates, and makes a program: it is meant for reports of errors and for measurements. On failure *out is
- * NULL. Context thread. Errors: INVALID_ARGUMENT (as nook_nnao_render; also, the note is longer than 1000
- * bytes or has control characters), VERSION, GL, OUT_OF_MEMORY. */
+ * allocates, and makes a program: it is meant for reports of errors and for measurements. It is not for passes
+ * with depth_samples or layers. On failure *out is NULL.
+ * Context thread. Errors: INVALID_ARGUMENT (as nook_nnao_render; also, the note is longer than 1000 bytes or
+ * has control characters), VERSION, GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_record(nook_nnao pass, const nook_nnao_frame_desc* frame, const char* note,
                                       nook_nnao_recording* out);
 
