@@ -14,6 +14,7 @@ uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_spread nook_frame[NOOK_FRAME_SPREAD].xy  // the screen's extent at a depth is x depth + y: perspective (1, 0), orthographic (0, 1)
 #define nook_edges_per_metre nook_frame[NOOK_FRAME_SPREAD].z  // the inverse of the change of depth that is an edge
 #define nook_edges_per_extent nook_frame[NOOK_FRAME_INPUT].y  // the same for radii in pixels, relative to the extent
+#define nook_array_layer int(nook_frame[NOOK_FRAME_INPUT].z)  // of the host's texture arrays
 #define nook_log_rate nook_frame[NOOK_FRAME_INPUT].x  // not 0: depth is logarithmic, s = exp2(nook_log_rate stored)
 #define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // values of AO that differ by twice its inverse are not averaged
 #define nook_radius nook_frame[NOOK_FRAME_RADIUS].x         // metres

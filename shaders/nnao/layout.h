@@ -39,6 +39,11 @@
 #define NOOK_EARLIER_MOTION 5
 #define NOOK_EARLIER_VEC4S 6
 
+// The values of nook_nnao_sample.
+#define NOOK_SAMPLE_MEDIAN 0
+#define NOOK_SAMPLE_FIRST 1
+#define NOOK_SAMPLE_NEAREST 2
+
 // The noise of the taps repeats after so many pixels along each axis. The filter averages as many.
 #define NOOK_NOISE_SIZE 3
 #define NOOK_NOISE_COUNT 9

@@ -388,7 +388,7 @@ NOOK_AT(nook_gl_material_texture, target, 4);
 NOOK_AT(nook_gl_material_texture, texture, 8);
 NOOK_AT(nook_gl_material_texture, uniform, 16);
 
-NOOK_SIZE(nook_nnao_desc, 72);
+NOOK_SIZE(nook_nnao_desc, 88);
 NOOK_AT(nook_nnao_desc, struct_size, 0);
 NOOK_AT(nook_nnao_desc, header_version, 4);
 NOOK_AT(nook_nnao_desc, next, 8);
@@ -404,6 +404,9 @@ NOOK_AT(nook_nnao_desc, network, 48);
 NOOK_AT(nook_nnao_desc, network_size, 56);
 NOOK_AT(nook_nnao_desc, bent_normals, 64);
 NOOK_AT(nook_nnao_desc, temporal_frames, 68);
+NOOK_AT(nook_nnao_desc, depth_samples, 72);
+NOOK_AT(nook_nnao_desc, depth_sample, 76);
+NOOK_AT(nook_nnao_desc, layers, 80);
 
 NOOK_SIZE(nook_nnao_recording_desc, 280);
 NOOK_AT(nook_nnao_recording_desc, struct_size, 0);
@@ -442,7 +445,7 @@ NOOK_AT(nook_nnao_recording_desc, driver_version, 256);
 NOOK_AT(nook_nnao_recording_desc, note, 264);
 NOOK_AT(nook_nnao_recording_desc, radius_kind, 272);
 
-NOOK_SIZE(nook_nnao_frame_desc, 296);
+NOOK_SIZE(nook_nnao_frame_desc, 320);
 NOOK_AT(nook_nnao_frame_desc, width, 16);
 NOOK_AT(nook_nnao_frame_desc, height, 20);
 NOOK_AT(nook_nnao_frame_desc, viewport, 24);
@@ -474,6 +477,9 @@ NOOK_AT(nook_nnao_frame_desc, scene_size, 276);
 NOOK_AT(nook_nnao_frame_desc, depth_log_scale, 280);
 NOOK_AT(nook_nnao_frame_desc, depth_log_near, 284);
 NOOK_AT(nook_nnao_frame_desc, depth_log_far, 288);
+NOOK_AT(nook_nnao_frame_desc, layer_projections, 296);
+NOOK_AT(nook_nnao_frame_desc, layer_normal_matrices, 304);
+NOOK_AT(nook_nnao_frame_desc, layer_earlier_from_view, 312);
 
 NOOK_SIZE(nook_nnao_info, 40);
 NOOK_AT(nook_nnao_info, texture, 4);

@@ -27,27 +27,32 @@ struct InfoLog {
                 log.text);
 }
 
-const char* version_line(const Functions& gl, GLenum stage) {
+const char* version_line(const Functions& gl, GLenum stage, bool sample_textures) {
   const bool compute = stage == GL_COMPUTE_SHADER;
   if (gl.profile == Profile::desktop) return compute ? "#version 430 core\n" : "#version 330 core\n";
-  return compute ? "#version 310 es\n" : "#version 300 es\n";
+  return compute || sample_textures ? "#version 310 es\n" : "#version 300 es\n";
 }
 
 // Every number is computed in full precision, as desktop OpenGL does: sums over taps and spheres, and depths,
 // need it.
-const char* precision_lines(const Functions& gl, GLenum stage) {
+const char* precision_lines(const Functions& gl, GLenum stage, bool sample_textures) {
   if (gl.profile == Profile::desktop) return "";
   if (stage == GL_COMPUTE_SHADER)
     return "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-           "precision highp usampler2D;\nprecision highp image2D;\n";
+           "precision highp usampler2D;\nprecision highp sampler2DArray;\nprecision highp image2D;\n";
+  if (sample_textures)
+    return "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+           "precision highp usampler2D;\nprecision highp sampler2DMS;\n";
   return "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-         "precision highp usampler2D;\n";
+         "precision highp usampler2D;\nprecision highp sampler2DArray;\n";
 }
 
-Object compile(Device& device, GLenum stage, const char* path, const char* defines) {
+Object compile(Device& device, GLenum stage, const char* path, const char* defines,
+               bool sample_textures = false) {
   const Functions& gl = device.gl;
   Object shader(device, Object::Kind::shader, gl.CreateShader(stage));
-  const char* parts[] = {version_line(gl, stage), precision_lines(gl, stage), defines, "#line 1\n",
+  const char* parts[] = {version_line(gl, stage, sample_textures),
+                         precision_lines(gl, stage, sample_textures), defines, "#line 1\n",
                          embedded_text(path)};
   gl.ShaderSource(shader.name(), GLsizei(std::size(parts)), parts, nullptr);
   gl.CompileShader(shader.name());
@@ -94,9 +99,10 @@ Object feedback_program(Device& device, const char* path, const char* defines, c
   return link(device, {vertex.name(), fragment.name()}, path, varying);
 }
 
-Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines) {
-  const Object vertex = compile(device, GL_VERTEX_SHADER, vertex_path, "");
-  const Object fragment = compile(device, GL_FRAGMENT_SHADER, fragment_path, defines);
+Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines,
+                    bool sample_textures) {
+  const Object vertex = compile(device, GL_VERTEX_SHADER, vertex_path, "", sample_textures);
+  const Object fragment = compile(device, GL_FRAGMENT_SHADER, fragment_path, defines, sample_textures);
   return link(device, {vertex.name(), fragment.name()}, fragment_path, nullptr);
 }
 

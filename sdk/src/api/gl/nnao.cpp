@@ -8,6 +8,7 @@
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/gl/nnao/frame_check.h"
 #include "sdk/src/gl/nnao/frame_record.h"
+#include "sdk/src/gl/nnao/host_images.h"
 #include "sdk/src/gl/nnao/pass.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/taps.h"
@@ -24,12 +25,21 @@ struct nook_nnao_s : RefCounted {
     }
     desc.network = nullptr;
     gl->device.report_host_errors();
-    gl->guarded(gl::screen_creation_users(gl->device.gl), [&] { pass.emplace(gl->device, known, network); });
+    gl::check_images_of(gl->device.gl, known);
+    gl->guarded(gl::screen_creation_users(gl->device.gl) | image_users(),
+                [&] { pass.emplace(gl->device, known, network); });
   }
 
   // Returns the users of the OpenGL state that a frame touches.
   unsigned users() const {
-    return pass->path() == NOOK_NNAO_PATH_COMPUTE ? gl::screen | gl::screen_compute : gl::screen;
+    return image_users() |
+           (pass->path() == NOOK_NNAO_PATH_COMPUTE ? gl::screen | gl::screen_compute : gl::screen);
+  }
+
+  // Those of the host's images.
+  unsigned image_users() const {
+    return (desc.layers ? unsigned{gl::screen_layers} : 0u) |
+           (desc.depth_samples ? unsigned{gl::screen_samples} : 0u);
   }
 
   // Returns the file of the network.
@@ -108,6 +118,21 @@ nook_nnao_desc checked(const nook_nnao_desc* given) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.temporal_frames does not go with desc.bent_normals (got %d and 1); use one of them",
                   desc.temporal_frames);
+  if (desc.depth_samples < 0 || desc.depth_samples > 16)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.depth_samples is out of range (got %d, need 0 to 16)",
+                  desc.depth_samples);
+  if (desc.depth_sample < NOOK_NNAO_SAMPLE_MEDIAN || desc.depth_sample > NOOK_NNAO_SAMPLE_NEAREST)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.depth_sample is unknown (got %d, need 0 to %d)",
+                  desc.depth_sample, NOOK_NNAO_SAMPLE_NEAREST);
+  if (desc.layers < 0 || desc.layers > gl::max_layers)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.layers is out of range (got %d, need 0 to %d)",
+                  desc.layers, gl::max_layers);
+  if (desc.layers != 0 && desc.depth_samples != 0)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.layers does not go with desc.depth_samples (got %d and %d); resolve depth to an array "
+        "without samples",
+        desc.layers, desc.depth_samples);
   if (!desc.network && desc.network_size != 0)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
@@ -245,6 +270,12 @@ nook_result nook_nnao_record(nook_nnao pass, const nook_nnao_frame_desc* frame, 
     const nook_nnao_frame_desc known =
         read_descriptor(frame, "nook_nnao_frame_desc_init", first_frame, default_frame());
     gl::check_frame(known, pass->desc);
+    if (pass->desc.layers != 0 || pass->desc.depth_samples != 0)
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "the pass reads texture arrays or samples (desc.layers %d, desc.depth_samples %d; need 0); "
+          "record one view with a pass of 2D textures",
+          pass->desc.layers, pass->desc.depth_samples);
     gl::Device& device = pass->gl->device;
     std::optional<nnao::Recording> recorded;
     device.need_alive();

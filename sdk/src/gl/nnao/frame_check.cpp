@@ -109,15 +109,34 @@ void check_motion(const nook_nnao_frame_desc& frame) {
                   frame.reset);
 }
 
+void check_matrices(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
+  check_normals(frame);
+  if (pass.temporal_frames) check_motion(frame);
+  nnao::check_projection(frame.projection, nnao::DepthKind(frame.depth_kind));
+}
+
 }  // namespace
 
 void check_frame(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
   check_size(frame, pass);
   check_kinds(frame);
   check_numbers(frame);
-  check_normals(frame);
-  if (pass.temporal_frames) check_motion(frame);
-  nnao::check_projection(frame.projection, nnao::DepthKind(frame.depth_kind));
+  if (pass.layers == 0) {
+    check_matrices(frame, pass);
+    return;
+  }
+  if (frame.target == NOOK_NNAO_TARGET_FRAMEBUFFER)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.target %d does not go with desc.layers %d; give a texture array by "
+                  "NOOK_NNAO_TARGET_TEXTURE",
+                  frame.target, pass.layers);
+  for (int layer = 0; layer < pass.layers; ++layer) {
+    try {
+      check_matrices(layer_frame(frame, layer), pass);
+    } catch (const Failure& failure) {
+      throw Failure(failure.code(), "layer %d: %s", layer, failure.what());
+    }
+  }
 }
 
 }  // namespace nook::gl

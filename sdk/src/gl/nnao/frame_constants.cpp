@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "sdk/src/nnao/filter.h"
 #include "sdk/src/nnao/frame_radius.h"
@@ -27,8 +28,19 @@ Viewport viewport_of(const nook_nnao_frame_desc& frame) {
   return {v[0], v[1], v[2], v[3]};
 }
 
+nook_nnao_frame_desc layer_frame(const nook_nnao_frame_desc& frame, int layer) {
+  nook_nnao_frame_desc one = frame;
+  const auto put = [&](const float* given, auto& numbers) {
+    if (given) std::copy_n(given + std::size_t(layer) * std::size(numbers), std::size(numbers), numbers);
+  };
+  put(frame.layer_projections, one.projection);
+  put(frame.layer_normal_matrices, one.normal_matrix);
+  put(frame.layer_earlier_from_view, one.earlier_from_view);
+  return one;
+}
+
 FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass,
-                               std::uint32_t count) {
+                               std::uint32_t count, int layer) {
   FrameConstants constants;
   const auto set = [&](int row, float x, float y, float z, float w) {
     const std::array values{x, y, z, w};
@@ -72,7 +84,8 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
       float(viewport.height));
   set(NOOK_FRAME_SURFACE, float(surface_width - 1), float(surface_height - 1), float(surface_width),
       float(surface_height));
-  set(NOOK_FRAME_INPUT, decode.log_rate, radius.in_pixels ? pass.blur_sharpness / radius_extent : 0, 0, 0);
+  set(NOOK_FRAME_INPUT, decode.log_rate, radius.in_pixels ? pass.blur_sharpness / radius_extent : 0,
+      float(layer), 0);
   const nnao::TapNoise shift = nnao::frame_noise_step(count);
   const float last[] = {shift.rotation, shift.offset, float(filters)};
   for (int column = 0; column < 3; ++column)

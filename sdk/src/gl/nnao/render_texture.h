@@ -24,12 +24,20 @@ class RenderTexture {
   // Binds unit 0, the draw framebuffer and the pixel unpack buffer. The contents are undefined. Throws
   // Failure.
   RenderTexture(Device& device, TextureFormat format, int width, int height, const char* label);
+  // A texture array; the framebuffer has its last layer. Binds unit 1 in place of unit 0.
+  RenderTexture(Device& device, TextureFormat format, int width, int height, int layers, const char* label);
 
   GLuint texture() const { return texture_.name(); }
   GLuint framebuffer() const { return framebuffer_.name(); }
 
  private:
+  void begin(Device& device, TextureFormat format, GLenum target, GLuint unit);
+  void end(Device& device, const char* label);
+
   Object texture_, framebuffer_;
 };
+
+// Attaches a layer to the draw framebuffer that is bound.
+void attach_layer(const Functions& gl, GLuint texture, int layer);
 
 }  // namespace nook::gl

@@ -89,7 +89,7 @@ std::uint64_t WorldPass::bytes() const {
 }
 
 void WorldPass::check(const nook_nnao_frame_desc& frame) {
-  const HostImages images = images_of(frame, false);
+  const HostImages images = images_of(frame, plain_pass());
   if (checked_ == images) return;
   checked_.reset();
   check_images(device_, images, own_.texture(), target_framebuffer_.name());
