@@ -1,9 +1,9 @@
 #include <cstdio>
-#include <cstring>
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/nnao/network_constants.h"
 #include "sdk/src/gl/nnao/pass.h"
+#include "sdk/src/gl/nnao/pass_defines.h"
 #include "sdk/src/gl/nnao/path.h"
 #include "sdk/src/gl/program.h"
 #include "sdk/src/gl/state_guard.h"
@@ -141,18 +141,9 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
 void NnaoPass::make_programs(const nnao::Network& network) {
   const bool horizon = network.form == nnao::NetworkForm::horizon;
   const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
-  char defines[280], layered[320];
-  std::snprintf(
-      defines, sizeof defines,
-      "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_DIRECTIONS %u\n#define NOOK_STEPS %u\n"
-      "#define NOOK_BENT_NORMALS %d\n#define NOOK_TEMPORAL %d\n",
-      half(), horizon, grid.directions, grid.steps, desc_.bent_normals, temporal());
-  const std::size_t used = std::strlen(defines);
-  if (desc_.layers > 0) std::snprintf(defines + used, sizeof defines - used, "#define NOOK_LAYERS 1\n");
-  if (desc_.depth_samples > 0)
-    std::snprintf(defines + used, sizeof defines - used,
-                  "#define NOOK_SAMPLES %d\n#define NOOK_SAMPLE_RULE %d\n", desc_.depth_samples,
-                  desc_.depth_sample);
+  const PassDefines given = pass_defines(desc_, horizon, grid);
+  const char* const defines = given.text;
+  char layered[sizeof given.text + 32];
   std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
   const auto drawn = [&](const char* path, const char* text) {
     return make_stage(draw_program(device_, "nnao/screen.vert", path, text, desc_.depth_samples > 0));
