@@ -17,7 +17,7 @@
  * The shaders are GLSL 4.50 for Vulkan (`glslangValidator -V`, from which SPIRV-Cross makes HLSL or MSL), and
  * of OpenGL 4.5 as well. Set 0 has, by binding: 0 a uniform buffer with nook_nnao_frame_values.constants; 1 a
  * uniform buffer with nook_nnao_stages_info.network, in the stage "occlusion" alone; from 2 on the input
- * images with any sampler, because the shaders read texels. Location 0 is the output.
+ * images, with a sampler that does not filter: the shaders read texels. Location 0 is the output.
  *
  * Row 0 of every image is where clip y is -1: in Vulkan its first row, with the projection as Vulkan takes
  * it. Direct3D's first row is where clip y is 1: there the second row of the projection (numbers 1, 5, 9 and

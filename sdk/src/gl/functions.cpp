@@ -148,11 +148,14 @@ void load_desktop_options(Functions& gl, const Loader& loader) {
     loader.optional(gl.GetFloati_v, "glGetFloati_v");
     loader.optional(gl.ViewportIndexedf, "glViewportIndexedf");
   }
-  if (gl.version >= 43) loader.optional(gl.ObjectLabel, "glObjectLabel");
+  if (gl.version < 43) return;
+  loader.optional(gl.ObjectLabel, "glObjectLabel");
+  loader.optional(gl.InvalidateFramebuffer, "glInvalidateFramebuffer");
 }
 
 void load_es_options(Functions& gl, const Loader& loader) {
   load_feedback_objects(gl, loader);
+  loader.optional(gl.InvalidateFramebuffer, "glInvalidateFramebuffer");
   if (gl.profile == Profile::webgl) {
     loader.optional(gl.GetBufferSubData, "glGetBufferSubData");
     gl.can.buffer_reads = gl.GetBufferSubData != nullptr;

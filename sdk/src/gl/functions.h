@@ -137,6 +137,7 @@ namespace nook::gl {
   X(FenceSync)                        \
   X(GenTransformFeedbacks)            \
   X(GetFloati_v)                      \
+  X(InvalidateFramebuffer)            \
   X(ObjectLabel)                      \
   X(ViewportIndexedf)
 

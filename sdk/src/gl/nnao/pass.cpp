@@ -16,6 +16,14 @@ constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE
 
 }  // namespace
 
+bool replaces_target(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
+  const Viewport viewport = viewport_of(frame);
+  const bool own = frame.target == NOOK_NNAO_TARGET_OWN;
+  const int width = own ? pass.max_width : frame.width, height = own ? pass.max_height : frame.height;
+  return frame.blend == NOOK_NNAO_WRITE && frame.target != NOOK_NNAO_TARGET_FRAMEBUFFER &&
+         viewport.width == width && viewport.height == height;
+}
+
 void NnaoPass::check(const nook_nnao_frame_desc& frame) {
   const HostImages images = images_of(frame, desc_);
   if (checked_ == images) return;
@@ -53,9 +61,10 @@ void NnaoPass::set_frame(const Stage& stage, const FrameConstants& constants) co
 }
 
 void NnaoPass::draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
-                    const Viewport& viewport) const {
+                    const Viewport& viewport, bool discards) const {
   const Functions& gl = device_.gl;
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  if (discards) discard_colours(gl);
   set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
   set_frame(stage, constants);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
@@ -111,7 +120,7 @@ void NnaoPass::draw_output(const Stage& stage, const nook_nnao_frame_desc& frame
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, frame.target_name, 0);
   }
-  draw(stage, constants, framebuffer, viewport_of(frame));
+  draw(stage, constants, framebuffer, viewport_of(frame), replaces_target(frame, desc_));
   // If it stayed attached, a texture that the host deletes would live on.
   if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
 }

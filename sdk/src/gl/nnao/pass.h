@@ -35,6 +35,10 @@ constexpr int drawn_filters(const nook_nnao_desc& desc) {
   return desc.half_resolution || desc.blur == 0 ? desc.blur : desc.blur - 1;
 }
 
+// Returns whether the frame writes every texel of a target that is no framebuffer of the host: its old
+// contents are not needed then.
+bool replaces_target(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass);
+
 // Every call may change any of the touched state; the caller holds a StateGuard.
 class NnaoPass {
  public:
@@ -68,8 +72,9 @@ class NnaoPass {
   void bind_host(GLuint unit, GLuint texture) const;
   void bind_normals(GLuint texture) const;
   void set_frame(const Stage& stage, const FrameConstants& constants) const;
-  void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
-            const Viewport& viewport) const;
+  // discards: nothing outside the viewport is needed afterwards.
+  void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer, const Viewport& viewport,
+            bool discards = true) const;
   void run_network(const FrameConstants& constants, const Viewport& surface) const;
   // What passes with temporal_frames keep of a layer, and what all layers of others share.
   struct LayerTextures {

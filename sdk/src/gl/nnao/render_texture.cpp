@@ -95,6 +95,11 @@ RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, in
   end(device, label);
 }
 
+void discard_colours(const Functions& gl) {
+  const GLenum colours = GL_COLOR_ATTACHMENT0;
+  if (gl.InvalidateFramebuffer) gl.InvalidateFramebuffer(GL_DRAW_FRAMEBUFFER, 1, &colours);
+}
+
 void attach_layer(const Functions& gl, GLuint texture, int layer) {
   gl.FramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture, 0, layer);
 }

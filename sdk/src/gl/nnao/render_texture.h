@@ -37,6 +37,10 @@ class RenderTexture {
   Object texture_, framebuffer_;
 };
 
+// Tells OpenGL that the colours of the draw framebuffer that is bound are not needed, so that a GPU with
+// tiles does not load them. Does nothing where OpenGL has no such function.
+void discard_colours(const Functions& gl);
+
 // Attaches a layer to the draw framebuffer that is bound.
 void attach_layer(const Functions& gl, GLuint texture, int layer);
 
