@@ -2,7 +2,7 @@
 // viewport, with (0, 0) at its lower left corner. The surface is the viewport at the resolution at which AO is
 // computed: itself, or every second pixel of every second row.
 #include "shaders/nnao/layout.h"
-uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
+uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 
 #define nook_screen_rays nook_frame[NOOK_FRAME_SCREEN_RAYS]   // x_scale, x_offset, y_scale, y_offset, from pixels of the screen
 #define nook_surface_rays nook_frame[NOOK_FRAME_SURFACE_RAYS]  // from texels of the surface

@@ -36,7 +36,7 @@ constexpr ShaderImage shader_images[] = {
 
 constexpr std::string_view blocks =
     "layout(NOOK_SET binding = 0, std140) uniform nook_frame_block {\n"
-    "  vec4 nook_frame[NOOK_FRAME_VEC4S];\n"
+    "  highp vec4 nook_frame[NOOK_FRAME_VEC4S];\n"
     "  vec4 nook_earlier[NOOK_EARLIER_VEC4S];\n"
     "};\n";
 constexpr std::string_view network_block =
@@ -73,7 +73,7 @@ void append_sampler(String& out, std::string_view line, std::span<const std::str
 
 // Turns one line of the pass's shaders into the form for hosts. Default uniforms become members of blocks.
 void append_line(String& out, std::string_view line, std::span<const std::string_view> samplers) {
-  if (begins_with(line, "uniform vec4 nook_frame["))
+  if (begins_with(line, "uniform highp vec4 nook_frame["))
     out.append(blocks);
   else if (begins_with(line, "uniform vec4 nook_network["))
     out.append(network_block);
