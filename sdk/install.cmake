@@ -10,7 +10,7 @@ install(TARGETS nook EXPORT nook_targets
 # Headers of the bakers come with the library of the bakers.
 set(nook_absent_headers PATTERN "nook_bake*.h" EXCLUDE)
 if(NOT NOOK_GL)
-  list(APPEND nook_absent_headers PATTERN "nook_gl*" EXCLUDE PATTERN "nook_nnao.h*" EXCLUDE)
+  list(APPEND nook_absent_headers PATTERN "nook_gl*" EXCLUDE PATTERN "nook_nnao.h*" EXCLUDE PATTERN "nook_nnao_stages*" EXCLUDE)
 endif()
 install(DIRECTORY include/nook DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp" ${nook_absent_headers})

@@ -2,11 +2,12 @@
 // earlier frame, by the cameras and by motion vectors of the host, and takes the AO of those of the four texels
 // around that place that show the same surface. sdk/src/nnao/history.h has the same on the CPU.
 #include "shaders/nnao/depth.glsl"
+#include "shaders/nnao/host_images.glsl"
 
 uniform sampler2D nook_ao;              // AO and edges of this frame
 uniform sampler2D nook_history;         // AO (see below), edges, the rest of AO, frames in the mean
 uniform usampler2D nook_history_depth;  // as nook_depth, of the earlier frame
-uniform sampler2D nook_motion;          // the host's
+uniform NOOK_HOST_IMAGE nook_motion;          // the host's
 uniform vec4 nook_earlier[NOOK_EARLIER_VEC4S];
 
 out vec4 nook_out;
@@ -65,13 +66,13 @@ vec2 nook_earlier_ao(ivec2 texel, float depth) {
 #else
     ivec2 pixel = texel;
 #endif
-    place = vec2(texel) - nook_motion_scale * texelFetch(nook_motion, pixel + nook_origin, 0).rg;
+    place = vec2(texel) - nook_motion_scale * nook_host_texel(nook_motion, pixel).rg;
   }
   // Also false where it is not a number.
   if (!(all(greaterThan(place, vec2(-1.0))) && all(lessThan(place, nook_earlier_last + 1.0)))) return vec2(0.0);
   float slope = nook_flat_step(depth, nook_depth_near(texel - ivec2(1, 0)), nook_depth_near(texel + ivec2(1, 0))) +
                 nook_flat_step(depth, nook_depth_near(texel - ivec2(0, 1)), nook_depth_near(texel + ivec2(0, 1)));
-  float tolerance = slope + 2.0 / nook_edge_tolerance + 0.002 * depth;
+  float tolerance = slope + 2.0 * nook_extent(depth) / nook_edge_scale(depth) + 0.002 * depth;
   vec2 base = floor(place), share = place - base;
   vec2 sums = vec2(0.0);
   float total = 0.0;

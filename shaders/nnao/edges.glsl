@@ -20,7 +20,7 @@ nook_neighbours nook_neighbours_of(ivec2 texel, float depth) {
   found.slope = mix(found.slope.yxwz, found.slope, greaterThan(inside, vec4(0.0)));
   // An edge is where depth departs from the neighbour's and from the line through both sides as well.
   vec4 bend = 0.5 * abs(found.slope.xxzz - found.slope.yyww);
-  vec4 off = min(abs(found.slope), bend) * (nook_extent(depth) * nook_edge_tolerance);
+  vec4 off = min(abs(found.slope), bend) * nook_edge_scale(depth);
   found.connected = min(clamp(1.25 - off, 0.0, 1.0), inside);
   return found;
 }

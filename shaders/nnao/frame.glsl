@@ -2,17 +2,20 @@
 // viewport, with (0, 0) at its lower left corner. The surface is the viewport at the resolution at which AO is
 // computed: itself, or every second pixel of every second row.
 #include "shaders/nnao/layout.h"
-uniform vec4 nook_frame[NOOK_FRAME_VEC4S];
+uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 
 #define nook_screen_rays nook_frame[NOOK_FRAME_SCREEN_RAYS]   // x_scale, x_offset, y_scale, y_offset, from pixels of the screen
 #define nook_surface_rays nook_frame[NOOK_FRAME_SURFACE_RAYS]  // from texels of the surface
-#define nook_depth_decode nook_frame[NOOK_FRAME_DEPTH_DECODE]  // depth = (x + y stored) / (z + w stored)
+#define nook_depth_decode nook_frame[NOOK_FRAME_DEPTH_DECODE]  // depth = (x + y s) / (z + w s), s: the stored value, or as nook_log_rate says
 #define nook_far_stored nook_frame[NOOK_FRAME_FAR].x  // the stored value of the far plane
 #define nook_far_sign nook_frame[NOOK_FRAME_FAR].y    // 1: stored values grow with the distance; -1: they fall
 #define nook_min_depth nook_frame[NOOK_FRAME_FAR].z
 #define nook_writes_bent_normals (nook_frame[NOOK_FRAME_FAR].w != 0.0)
 #define nook_spread nook_frame[NOOK_FRAME_SPREAD].xy  // the screen's extent at a depth is x depth + y: perspective (1, 0), orthographic (0, 1)
-#define nook_edge_tolerance nook_frame[NOOK_FRAME_SPREAD].z  // 1 / metres
+#define nook_edges_per_metre nook_frame[NOOK_FRAME_SPREAD].z  // the inverse of the change of depth that is an edge
+#define nook_edges_per_extent nook_frame[NOOK_FRAME_INPUT].y  // the same for radii in pixels, relative to the extent
+#define nook_array_layer int(nook_frame[NOOK_FRAME_INPUT].z)  // of the host's texture arrays
+#define nook_log_rate nook_frame[NOOK_FRAME_INPUT].x  // not 0: depth is logarithmic, s = exp2(nook_log_rate stored)
 #define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // values of AO that differ by twice its inverse are not averaged
 #define nook_radius nook_frame[NOOK_FRAME_RADIUS].x         // metres
 #define nook_max_radius_px nook_frame[NOOK_FRAME_RADIUS].y  // texels of the surface
@@ -41,6 +44,11 @@ bool nook_inside(ivec2 texel, ivec2 size) {
 // Returns the extent at a depth: view space x, y are the ray of a pixel times this.
 float nook_extent(float depth) {
   return nook_spread.x * depth + nook_spread.y;
+}
+
+// Returns the extent at a depth over the change of depth that is an edge there.
+float nook_edge_scale(float depth) {
+  return nook_extent(depth) * nook_edges_per_metre + nook_edges_per_extent;
 }
 
 // Returns the view-space position of the centre of a pixel at a depth.

@@ -29,7 +29,8 @@
 #define NOOK_FRAME_VIEWPORT 7
 #define NOOK_FRAME_SURFACE 8
 #define NOOK_FRAME_NORMAL_MATRIX 9
-#define NOOK_FRAME_VEC4S 12
+#define NOOK_FRAME_INPUT 12
+#define NOOK_FRAME_VEC4S 13
 
 // vec4 of the uniform array nook_earlier: the rows of the matrix to the earlier frame's view space, then
 // these.
@@ -37,6 +38,11 @@
 #define NOOK_EARLIER_SIZE 4
 #define NOOK_EARLIER_MOTION 5
 #define NOOK_EARLIER_VEC4S 6
+
+// The values of nook_nnao_sample.
+#define NOOK_SAMPLE_MEDIAN 0
+#define NOOK_SAMPLE_FIRST 1
+#define NOOK_SAMPLE_NEAREST 2
 
 // The noise of the taps repeats after so many pixels along each axis. The filter averages as many.
 #define NOOK_NOISE_SIZE 3

@@ -1,7 +1,8 @@
 // The normal of a texel of the surface: that of the host, or one that follows from the depths around it.
 #include "shaders/nnao/edges.glsl"
+#include "shaders/nnao/host_images.glsl"
 
-uniform sampler2D nook_host_normal;
+uniform NOOK_HOST_IMAGE nook_host_normal;
 
 // Returns the slope along one axis from those of both sides, each weighted by the inverse of its square: past a
 // silhouette depth changes more steeply than on the texel's own surface. On a wire both sides balance, so that
@@ -24,7 +25,7 @@ vec3 nook_texel_normal(ivec2 texel, nook_neighbours around) {
 #else
     ivec2 pixel = texel;
 #endif
-    vec3 stored = texelFetch(nook_host_normal, pixel + nook_origin, 0).xyz;
+    vec3 stored = nook_host_texel(nook_host_normal, pixel).xyz;
     vec3 n = nook_normal_matrix * (stored * nook_normal_scale + nook_normal_bias);
     float size = length(n);
     // A size outside these bounds means that nothing, or no normal, was drawn here.

@@ -1,5 +1,5 @@
 // Computes the output from the AO of the surface: the filter or the upsample, strength, the layer.
-#include "shaders/nnao/frame.glsl"
+#include "shaders/nnao/host_images.glsl"
 #if NOOK_HALF
 #include "shaders/nnao/host_depth.glsl"
 #include "shaders/nnao/upsample.glsl"
@@ -11,7 +11,7 @@
 #endif
 
 #ifdef NOOK_LAYERED
-uniform sampler2D nook_layer;
+uniform NOOK_HOST_IMAGE nook_layer;
 #endif
 
 out vec4 nook_out;
@@ -35,7 +35,7 @@ float nook_strengthened(float ao) {
 #ifdef NOOK_LAYERED
 // The modes of nook_nnao_layer.
 float nook_combined(float ao, ivec2 pixel) {
-  vec2 layer = texelFetch(nook_layer, pixel + nook_origin, 0).rg;
+  vec2 layer = nook_host_texel(nook_layer, pixel).rg;
   if (nook_layer_mode == 3) return mix(ao, layer.r, layer.g);
   float smaller = min(ao, layer.r);
   return nook_layer_mode == 1 ? smaller : layer.r > 0.0 ? smaller / layer.r : 1.0;

@@ -22,7 +22,7 @@ vec4 nook_upsampled(ivec2 pixel, float depth) {
   vec2 slope = vec2(nook_smaller(rise.y - rise.x, rise.w - rise.z), nook_smaller(rise.z - rise.x, rise.w - rise.y));
   vec2 place = 0.5 * vec2(pixel - 2 * low);  // from the lower left texel, in texels
   vec4 plane = vec4(0.0, slope.x, slope.y, slope.x + slope.y) - dot(slope, place);
-  vec4 off = (rise - plane) * (nook_extent(depth) * nook_edge_tolerance);
+  vec4 off = (rise - plane) * nook_edge_scale(depth);
   vec4 lerp = vec4(1.0 - place.x, place.x, 1.0 - place.x, place.x) * vec4(1.0 - place.y, 1.0 - place.y, place.y, place.y);
   vec4 weights = (lerp + 1.0e-3) / (1.0e-3 + off * off);
   weights *= vec4(notEqual(depths, vec4(nook_no_surface)));

@@ -10,6 +10,7 @@
 #include <nook/nook_gl_transfer.h>
 #include <nook/nook_nnao.h>
 #include <nook/nook_nnao_recording.h>
+#include <nook/nook_nnao_stages.h>
 #include <nook/nook_pose.h>
 #include <nook/nook_probe.h>
 #include <nook/nook_transfer.h>
@@ -391,7 +392,7 @@ NOOK_AT(nook_gl_material_texture, target, 4);
 NOOK_AT(nook_gl_material_texture, texture, 8);
 NOOK_AT(nook_gl_material_texture, uniform, 16);
 
-NOOK_SIZE(nook_nnao_desc, 72);
+NOOK_SIZE(nook_nnao_desc, 88);
 NOOK_AT(nook_nnao_desc, struct_size, 0);
 NOOK_AT(nook_nnao_desc, header_version, 4);
 NOOK_AT(nook_nnao_desc, next, 8);
@@ -407,8 +408,11 @@ NOOK_AT(nook_nnao_desc, network, 48);
 NOOK_AT(nook_nnao_desc, network_size, 56);
 NOOK_AT(nook_nnao_desc, bent_normals, 64);
 NOOK_AT(nook_nnao_desc, temporal_frames, 68);
+NOOK_AT(nook_nnao_desc, depth_samples, 72);
+NOOK_AT(nook_nnao_desc, depth_sample, 76);
+NOOK_AT(nook_nnao_desc, layers, 80);
 
-NOOK_SIZE(nook_nnao_recording_desc, 272);
+NOOK_SIZE(nook_nnao_recording_desc, 280);
 NOOK_AT(nook_nnao_recording_desc, struct_size, 0);
 NOOK_AT(nook_nnao_recording_desc, header_version, 4);
 NOOK_AT(nook_nnao_recording_desc, next, 8);
@@ -443,8 +447,9 @@ NOOK_AT(nook_nnao_recording_desc, vendor, 240);
 NOOK_AT(nook_nnao_recording_desc, renderer, 248);
 NOOK_AT(nook_nnao_recording_desc, driver_version, 256);
 NOOK_AT(nook_nnao_recording_desc, note, 264);
+NOOK_AT(nook_nnao_recording_desc, radius_kind, 272);
 
-NOOK_SIZE(nook_nnao_frame_desc, 272);
+NOOK_SIZE(nook_nnao_frame_desc, 320);
 NOOK_AT(nook_nnao_frame_desc, width, 16);
 NOOK_AT(nook_nnao_frame_desc, height, 20);
 NOOK_AT(nook_nnao_frame_desc, viewport, 24);
@@ -471,6 +476,14 @@ NOOK_AT(nook_nnao_frame_desc, earlier_from_view, 208);
 NOOK_AT(nook_nnao_frame_desc, motion_texture, 256);
 NOOK_AT(nook_nnao_frame_desc, motion_scale, 260);
 NOOK_AT(nook_nnao_frame_desc, reset, 268);
+NOOK_AT(nook_nnao_frame_desc, radius_kind, 272);
+NOOK_AT(nook_nnao_frame_desc, scene_size, 276);
+NOOK_AT(nook_nnao_frame_desc, depth_log_scale, 280);
+NOOK_AT(nook_nnao_frame_desc, depth_log_near, 284);
+NOOK_AT(nook_nnao_frame_desc, depth_log_far, 288);
+NOOK_AT(nook_nnao_frame_desc, layer_projections, 296);
+NOOK_AT(nook_nnao_frame_desc, layer_normal_matrices, 304);
+NOOK_AT(nook_nnao_frame_desc, layer_earlier_from_view, 312);
 
 NOOK_SIZE(nook_nnao_info, 40);
 NOOK_AT(nook_nnao_info, texture, 4);
@@ -480,6 +493,30 @@ NOOK_AT(nook_nnao_info, horizon_form, 20);
 NOOK_AT(nook_nnao_info, path, 24);
 NOOK_AT(nook_nnao_info, bent_normals, 28);
 NOOK_AT(nook_nnao_info, glsl, 32);
+
+NOOK_SIZE(nook_nnao_stages_info, 32);
+NOOK_AT(nook_nnao_stages_info, stage_count, 4);
+NOOK_AT(nook_nnao_stages_info, vertex_shader, 8);
+NOOK_AT(nook_nnao_stages_info, network, 16);
+NOOK_AT(nook_nnao_stages_info, network_bytes, 24);
+
+NOOK_SIZE(nook_nnao_image_info, 16);
+NOOK_AT(nook_nnao_image_info, format, 4);
+NOOK_AT(nook_nnao_image_info, width, 8);
+
+NOOK_SIZE(nook_nnao_stage_info, 64);
+NOOK_AT(nook_nnao_stage_info, output, 4);
+NOOK_AT(nook_nnao_stage_info, name, 8);
+NOOK_AT(nook_nnao_stage_info, fragment_shader, 16);
+NOOK_AT(nook_nnao_stage_info, draws_viewport, 24);
+NOOK_AT(nook_nnao_stage_info, reads_network, 28);
+NOOK_AT(nook_nnao_stage_info, input_count, 32);
+NOOK_AT(nook_nnao_stage_info, inputs, 36);
+
+NOOK_SIZE(nook_nnao_frame_values, 332);
+NOOK_AT(nook_nnao_frame_values, surface_width, 4);
+NOOK_AT(nook_nnao_frame_values, viewport, 12);
+NOOK_AT(nook_nnao_frame_values, constants, 28);
 
 NOOK_SIZE(nook_nnao_timings, 28);
 NOOK_AT(nook_nnao_timings, valid, 4);

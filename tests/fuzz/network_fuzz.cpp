@@ -86,7 +86,11 @@ nook_nnao_frame_desc frame_of(Script& script) {
   }
   if (settings & 8) frame.view = nook_nnao_view(script.below(5));
   if (settings & 16) {
-    frame.depth_kind = nook_nnao_depth_kind(script.below(3));
+    frame.depth_kind = nook_nnao_depth_kind(script.below(4));
+    frame.radius_kind = nook_nnao_radius_kind(script.below(4));
+    for (float* number :
+         {&frame.scene_size, &frame.depth_log_scale, &frame.depth_log_near, &frame.depth_log_far})
+      *number = script.number();
     frame.sky_depth = script.number();
     frame.clip = nook_nnao_clip(script.below(3));
   }

@@ -85,6 +85,7 @@ void replay(nook_gl gl, const nook_nnao_recording_desc& recorded) {
   std::copy_n(recorded.projection, 16, frame.projection);
   frame.clip = recorded.clip;
   frame.radius = recorded.radius;
+  frame.radius_kind = recorded.radius_kind;
   frame.max_radius_px = recorded.max_radius_px;
   frame.intensity = recorded.intensity;
   frame.power = recorded.power;
@@ -110,7 +111,10 @@ void change(nook_context context, nook_nnao_recording recording, Script& script)
   if (choice & 16) desc.blur_sharpness = script.number();
   if (choice & 32) desc.depth_kind = std::int32_t(script.below(3));
   if (choice & 64) desc.layer = std::int32_t(script.below(5));
-  if (choice & 128) desc.normals = nullptr;
+  if (choice & 128) {
+    desc.normals = nullptr;
+    desc.radius_kind = std::int32_t(script.below(3));
+  }
   nook_nnao_recording other = nullptr;
   if (!ok(nook_nnao_recording_create(context, &desc, &other))) {
     require(other == nullptr);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "platform/program.h"
 #include "tests/catch.h"
 #include "tests/gl/test_context.h"
 
@@ -49,45 +50,119 @@ std::vector<unsigned char> normalised_bytes(const std::vector<float>& data, doub
 
 }  // namespace
 
-GLuint Textures::make(GLint internal_format, GLenum format, GLenum type, int width, int height,
+GLuint Textures::make(GLint internal_format, GLenum format, GLenum type, int width, int height, int layers,
                       const void* data) {
+  const GLenum target = layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
   GLuint name = 0;
   gl_.GenTextures(1, &name);
   names_.push_back(name);
-  gl_.BindTexture(GL_TEXTURE_2D, name);
+  gl_.BindTexture(target, name);
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   // Left without a complete set of mipmaps, as the host's may be: the pass reads through samplers of its own.
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, internal_format, width, height, 0, format, type, data);
+  if (layers > 0)
+    gl_.TexImage3D(target, 0, internal_format, width, height, layers, 0, format, type, data);
+  else
+    gl_.TexImage2D(target, 0, internal_format, width, height, 0, format, type, data);
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  gl_.BindTexture(GL_TEXTURE_2D, 0);
+  gl_.BindTexture(target, 0);
   return name;
 }
 
-GLuint Textures::floats(GLint internal_format, int channels, int width, int height,
+GLuint Textures::floats(GLint internal_format, int channels, int width, int height, int layers,
                         const std::vector<float>& data) {
   const void* const floats = data.empty() ? nullptr : data.data();
   if (!is_es(gl_)) {
     const bool depth = internal_format == GL_DEPTH_COMPONENT32F || internal_format == GL_DEPTH_COMPONENT24 ||
                        internal_format == GL_DEPTH_COMPONENT16;
     return make(internal_format, depth ? GL_DEPTH_COMPONENT : colour_formats[channels - 1], GL_FLOAT, width,
-                height, floats);
+                height, layers, floats);
   }
   const Upload upload = upload_on_es(internal_format, channels);
   if (upload.type == GL_FLOAT || !floats)
-    return make(upload.internal_format, upload.format, upload.type, width, height, floats);
+    return make(upload.internal_format, upload.format, upload.type, width, height, layers, floats);
   const std::vector<unsigned char> bytes = upload.type == GL_UNSIGNED_BYTE
                                                ? normalised_bytes<std::uint8_t>(data, 255)
                                                : normalised_bytes<std::uint32_t>(data, 4294967295.0);
-  return make(upload.internal_format, upload.format, upload.type, width, height, bytes.data());
+  return make(upload.internal_format, upload.format, upload.type, width, height, layers, bytes.data());
 }
 
-std::vector<float> read_texture(const GladGLContext& gl, GLuint texture, int width, int height,
-                                int channels) {
+GLuint Textures::array(GLint internal_format, int channels, int width, int height,
+                       const std::vector<std::vector<float>>& images) {
+  std::vector<float> data;
+  for (const std::vector<float>& image : images) data.insert(data.end(), image.begin(), image.end());
+  return floats(internal_format, channels, width, height, int(images.size()), data);
+}
+
+GLuint Textures::depth_samples(int width, int height, const std::vector<std::vector<float>>& images) {
+  const bool es = is_es(gl_);
+  const auto samples = GLsizei(images.size());
+  const char* const header = es ? "#version 310 es\nprecision highp float; precision highp int;\n"
+                                  "precision highp sampler2D;\n"
+                                : "#version 330 core\n";
+  const platform::Program program(
+      gl_,
+      {header,
+       "void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0, 1); }"},
+      {header,
+       "uniform sampler2D image; void main() { gl_FragDepth = texelFetch(image, ivec2(gl_FragCoord.xy), "
+       "0).r; }"});
+  GLuint name = 0, framebuffer = 0, vertices = 0;
+  gl_.GenTextures(1, &name);
+  names_.push_back(name);
+  gl_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, name);
+  if (es)
+    gl_.TexStorage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_DEPTH_COMPONENT32F, width, height,
+                                GL_TRUE);
+  else
+    gl_.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_DEPTH_COMPONENT32F, width, height,
+                              GL_TRUE);
+  gl_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
+  gl_.GenFramebuffers(1, &framebuffer);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D_MULTISAMPLE, name, 0);
+  const GLenum nothing = GL_NONE;
+  gl_.DrawBuffers(1, &nothing);
+  gl_.ReadBuffer(GL_NONE);
+  REQUIRE(gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+  gl_.GenVertexArrays(1, &vertices);
+  gl_.BindVertexArray(vertices);
+  program.use();
+  gl_.Viewport(0, 0, width, height);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_ALWAYS);
+  gl_.Enable(GL_SAMPLE_MASK);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  for (GLsizei sample = 0; sample < samples; ++sample) {
+    const GLuint image = floats(GL_R32F, 1, width, height, images[std::size_t(sample)]);
+    gl_.BindTexture(GL_TEXTURE_2D, image);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl_.SampleMaski(0, GLbitfield(1) << sample);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  gl_.SampleMaski(0, ~GLbitfield(0));
+  gl_.Disable(GL_SAMPLE_MASK);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LESS);
+  gl_.BindTexture(GL_TEXTURE_2D, 0);
+  gl_.UseProgram(0);
+  gl_.BindVertexArray(0);
+  gl_.DeleteVertexArrays(1, &vertices);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl_.DeleteFramebuffers(1, &framebuffer);
+  return name;
+}
+
+std::vector<float> read_texture(const GladGLContext& gl, GLuint texture, int width, int height, int channels,
+                                int layer) {
   const std::size_t count = std::size_t(width) * std::size_t(height);
   GLuint framebuffer = 0;
   gl.GenFramebuffers(1, &framebuffer);
   gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  gl.FramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  if (layer < 0)
+    gl.FramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  else
+    gl.FramebufferTextureLayer(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture, 0, layer);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   std::vector<float> out(count * std::size_t(channels));
   if (is_es(gl)) {

@@ -20,18 +20,33 @@ class Textures {
   Textures& operator=(const Textures&) = delete;
 
   // data may be null.
-  GLuint make(GLint internal_format, GLenum format, GLenum type, int width, int height, const void* data);
+  GLuint make(GLint internal_format, GLenum format, GLenum type, int width, int height, const void* data) {
+    return make(internal_format, format, type, width, height, 0, data);
+  }
   // An empty vector leaves the texels undefined. A format that OpenGL ES lacks, GL_RGB16, is GL_RGB32F there.
-  GLuint floats(GLint internal_format, int channels, int width, int height, const std::vector<float>& data);
+  GLuint floats(GLint internal_format, int channels, int width, int height, const std::vector<float>& data) {
+    return floats(internal_format, channels, width, height, 0, data);
+  }
+  // A texture array of the images one after the other.
+  GLuint array(GLint internal_format, int channels, int width, int height,
+               const std::vector<std::vector<float>>& images);
+  // A multisample texture of GL_DEPTH_COMPONENT32F: an image for each sample. It draws, and leaves the
+  // state at its defaults but for the viewport.
+  GLuint depth_samples(int width, int height, const std::vector<std::vector<float>>& images);
 
  private:
+  // layers 0: a 2D texture.
+  GLuint make(GLint internal_format, GLenum format, GLenum type, int width, int height, int layers,
+              const void* data);
+  GLuint floats(GLint internal_format, int channels, int width, int height, int layers,
+                const std::vector<float>& data);
   const GladGLContext& gl_;
   std::vector<GLuint> names_;
 };
 
-// The first channels of level 0, of a format that can be drawn into.
+// The first channels of level 0, of a format that can be drawn into. layer: of a texture array.
 std::vector<float> read_texture(const GladGLContext& gl, GLuint texture, int width, int height,
-                                int channels = 1);
+                                int channels = 1, int layer = -1);
 std::vector<unsigned char> read_buffer(const GladGLContext& gl, GLuint buffer, std::size_t offset,
                                        std::size_t bytes);
 

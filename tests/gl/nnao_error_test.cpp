@@ -29,7 +29,7 @@ struct Case {
 
 // Sizes and formats of textures, which OpenGL ES 3.0 does not tell.
 bool needs_texture_sizes(const Case& bad) {
-  for (const char* part : {"has another size", "has a format", "need red"})
+  for (const char* part : {"has another size", "has a format", "need red", "a depth format"})
     if (std::strstr(bad.message, part)) return true;
   return false;
 }
@@ -72,6 +72,10 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
   const GLuint own = info_of(pass).texture;
 
   using Frame = nook_nnao_frame_desc;
+  const auto logarithmic = [](Frame& f) {
+    f.depth_kind = NOOK_NNAO_DEPTH_LOGARITHMIC;
+    f.depth_log_far = 100;
+  };
   const auto to = [](Frame& f, nook_nnao_target target, GLuint name) {
     f.target = target;
     f.target_name = name;
@@ -98,7 +102,30 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
        "frame.depth_texture has a format that does not fit (got 0x8229, need a depth format or GL_R32F"},
       {[&](Frame& f) { f.depth_texture = half_float; }, "frame.depth_texture has a format that does not fit"},
       {[&](Frame& f) { f.depth_kind = NOOK_NNAO_DEPTH_LINEAR; }, "need red in floats, such as GL_R32F"},
-      {[&](Frame& f) { f.depth_kind = 2; }, "frame.depth_kind is unknown (got 2"},
+      {[&](Frame& f) { f.depth_kind = 3; }, "frame.depth_kind is unknown (got 3"},
+      {[&](Frame& f) { f.depth_kind = NOOK_NNAO_DEPTH_LOGARITHMIC; },
+       "frame.depth_log_far is out of range (got 0, need more metres than depth_log_near)"},
+      {[&](Frame& f) { logarithmic(f), f.depth_log_near = 100; },
+       "frame.depth_log_far is out of range (got 100"},
+      {[&](Frame& f) { logarithmic(f), f.depth_log_far = infinity; }, "frame.depth_log_far"},
+      {[&](Frame& f) { logarithmic(f), f.depth_log_near = -1; },
+       "frame.depth_log_near is out of range (got -1"},
+      {[&](Frame& f) { logarithmic(f), f.depth_log_scale = 0; },
+       "frame.depth_log_scale is out of range (got 0"},
+      {[&](Frame& f) { logarithmic(f), f.depth_log_scale = not_a_number; }, "frame.depth_log_scale"},
+      {[&](Frame& f) { logarithmic(f), f.projection[11] = 0, f.projection[15] = 1; },
+       "frame.depth_kind 2 needs a perspective"},
+      {[&](Frame& f) { logarithmic(f), f.depth_texture = half_float; },
+       "a depth format or GL_R32F for NOOK_NNAO_DEPTH_LOGARITHMIC"},
+      {[&](Frame& f) { f.radius_kind = 3; }, "frame.radius_kind is unknown (got 3, need 0 to 2)"},
+      {[&](Frame& f) { f.radius_kind = NOOK_NNAO_RADIUS_SCREEN, f.radius = 1.5f; },
+       "frame.radius is out of range (got 1.5, need a share of the screen, more than 0 up to 1)"},
+      {[&](Frame& f) { f.radius_kind = NOOK_NNAO_RADIUS_SCENE; },
+       "frame.scene_size is out of range (got 0, need more than 0 metres)"},
+      {[&](Frame& f) { f.radius_kind = NOOK_NNAO_RADIUS_SCENE, f.scene_size = infinity; },
+       "frame.scene_size"},
+      {[&](Frame& f) { f.radius_kind = NOOK_NNAO_RADIUS_SCENE, f.scene_size = 5, f.radius = 0; },
+       "need a share of the scene"},
       {[&](Frame& f) { f.clip = -1; }, "frame.clip is unknown"},
       {[&](Frame& f) { f.normal_texture = integer; }, "frame.normal_texture has a format that does not fit"},
       {[&](Frame& f) { f.normal_texture = byte; }, "frame.normal_texture has a format that does not fit"},

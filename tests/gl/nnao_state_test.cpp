@@ -191,6 +191,40 @@ TEST_CASE("nnao: no parameter of the host's textures and samplers changes") {
   nook_nnao_destroy(&pass);
 }
 
+TEST_CASE("nnao: a target is discarded only where a frame writes all of it") {
+  NOOK_NEED_CONTEXT(context);
+  Stage stage(context, NOOK_GL_STATE_HOST);
+  Trace trace(context);
+  nook_gl gl = create_gl(stage.fixture.host.handle, Trace::loader, &trace, 0, NOOK_GL_STATE_HOST);
+  nook_nnao_desc desc = pass_desc(width, height);
+  desc.path = NOOK_NNAO_PATH_FRAGMENT;
+  nook_nnao pass = create_pass(gl, desc);
+  const auto discards = [&](const nook_nnao_frame_desc& frame) {
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+    trace.reset();
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+    // Depth and AO.
+    return trace.calls("glInvalidateFramebuffer") - 2;
+  };
+  if (context.is_es() || version_of(context) >= 43) {
+    nook_nnao_frame_desc frame = stage.frame();
+    CHECK(discards(frame) == 1);
+    frame.target = NOOK_NNAO_TARGET_TEXTURE;
+    frame.target_name = stage.colour;
+    CHECK(discards(frame) == 1);
+    frame.viewport[2] = width - 1;
+    frame.viewport[3] = height;
+    CHECK(discards(frame) == 0);
+    CHECK(discards(stage.multiplied(NOOK_NNAO_TARGET_TEXTURE, stage.colour)) == 0);
+    frame = stage.frame();
+    frame.target = NOOK_NNAO_TARGET_FRAMEBUFFER;
+    frame.target_name = stage.framebuffer;
+    CHECK(discards(frame) == 0);
+  }
+  nook_nnao_destroy(&pass);
+  nook_gl_destroy(&gl);
+}
+
 TEST_CASE("nnao: a frame allocates nothing, reads nothing back and queries OpenGL only with PRESERVE") {
   NOOK_NEED_CONTEXT(context);
   const nook_nnao_path best = paths_of(context).back();
@@ -227,6 +261,10 @@ TEST_CASE("nnao: a frame allocates nothing, reads nothing back and queries OpenG
     // Depth, AO, at half resolution the filter, resolve.
     CHECK(trace.calls("glDrawArrays") == 6 * ((half ? 4 : 3) - dispatches));
     CHECK(trace.calls("glDispatchCompute") == 6 * dispatches);
+    // Every draw into a texture of the pass, but of the results the first alone: the others have a viewport
+    // that is a part of the target.
+    const bool discards = context.is_es() || version_of(context) >= 43;
+    CHECK(trace.calls("glInvalidateFramebuffer") == (discards ? 6 * ((half ? 3 : 2) - dispatches) + 1 : 0));
     // Before the dispatch and after it.
     CHECK(trace.calls("glMemoryBarrier") == 12 * dispatches);
     for (const char* forbidden : {"glGen", "glTexImage", "glBufferData", "glGetBufferSubData", "glGetError",

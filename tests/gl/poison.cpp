@@ -11,8 +11,8 @@ namespace nook::test {
 
 struct Poison::Objects {
   GLuint buffers[4] = {};
-  GLuint texture = 0, other_texture = 0, texture_2d = 0, texture_array = 0, sampler = 0, framebuffer = 0,
-         renderbuffer = 0, vertex_array = 0, program = 0;
+  GLuint texture = 0, other_texture = 0, texture_2d = 0, texture_array = 0, sample_texture = 0, sampler = 0,
+         framebuffer = 0, renderbuffer = 0, vertex_array = 0, program = 0;
   GLuint feedback = 0;
 };
 
@@ -50,6 +50,7 @@ struct Has {
   }
   bool images() const { return from(42, 31); }
   bool storage() const { return from(43, 31); }
+  bool sample_textures() const { return from(32, 31); }
   bool indexed_draw_buffers() const { return from(33, 32); }
   bool query_buffers() const { return desktop && version >= 44; }
   bool clip_control(const GladGLContext& gl) const { return desktop && gl.ClipControl; }
@@ -105,6 +106,16 @@ struct Readers {
     return has.desktop ? of_unit(gl::filter_unit, GL_TEXTURE_BINDING_BUFFER) : Values{0};
   }
   Values texture_2d_array() const { return of_unit(0, GL_TEXTURE_BINDING_2D_ARRAY); }
+  Values layer_textures() const {
+    Values values;
+    for (const int unit : gl::layer_units)
+      values.push_back(of_unit(GLuint(unit), GL_TEXTURE_BINDING_2D_ARRAY)[0]);
+    return values;
+  }
+  Values sample_texture() const {
+    return has.sample_textures() ? of_unit(gl::host_depth_unit, GL_TEXTURE_BINDING_2D_MULTISAMPLE)
+                                 : Values{0};
+  }
   Values image_unit() const { return image_unit_of(gl::image_unit_index); }
   Values image_unit_of(GLuint unit) const {
     Values values;
@@ -247,6 +258,15 @@ Poison::Poison(platform::Context& context, unsigned users)
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, o.texture_array);
   // OpenGL ES binds immutable textures alone as images.
   if (!has.desktop) gl.TexStorage3D(GL_TEXTURE_2D_ARRAY, 2, GL_RGBA16F, 4, 4, 4);
+  for (const int unit : gl::layer_units) {
+    gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, o.texture_array);
+  }
+  if (has.sample_textures()) {
+    gl.GenTextures(1, &o.sample_texture);
+    gl.ActiveTexture(GL_TEXTURE0 + gl::host_depth_unit);
+    gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, o.sample_texture);
+  }
   gl.ActiveTexture(GL_TEXTURE5);
   if (has.images())
     for (const GLuint unit : {GLuint{gl::image_unit_index}, GLuint{gl::image_unit_index} + 1})
@@ -305,6 +325,7 @@ void Poison::reset_touched() {
     gl.BindTexture(GL_TEXTURE_2D, 0);
     if (has.desktop) gl.BindTexture(GL_TEXTURE_BUFFER, 0);
     gl.BindTexture(GL_TEXTURE_2D_ARRAY, 0);
+    if (has.sample_textures()) gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
     gl.BindSampler(unit, 0);
   }
   for (const GLenum name : pixel_store_of(has)) gl.PixelStorei(name, name == GL_UNPACK_ALIGNMENT ? 4 : 0);
@@ -360,6 +381,7 @@ Poison::~Poison() {
   gl.DeleteTextures(1, &o.other_texture);
   gl.DeleteTextures(1, &o.texture_2d);
   gl.DeleteTextures(1, &o.texture_array);
+  if (o.sample_texture) gl.DeleteTextures(1, &o.sample_texture);
   gl.DeleteSamplers(1, &o.sampler);
   gl.DeleteFramebuffers(1, &o.framebuffer);
   gl.DeleteRenderbuffers(1, &o.renderbuffer);

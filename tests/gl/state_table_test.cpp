@@ -21,7 +21,9 @@ std::string names_of(unsigned users) {
                                                   {nook::gl::outputs, "output"},
                                                   {nook::gl::outputs_compute, "output with a stride"},
                                                   {nook::gl::texel_uploads, "tables on OpenGL ES"},
-                                                  {nook::gl::screen_reads, "nook_nnao_record"}};
+                                                  {nook::gl::screen_reads, "nook_nnao_record"},
+                                                  {nook::gl::screen_layers, "nnao with layers"},
+                                                  {nook::gl::screen_samples, "nnao with depth_samples"}};
   std::string names;
   for (const auto& [user, name] : all)
     if (users & user) names += (names.empty() ? "" : ", ") + std::string(name);

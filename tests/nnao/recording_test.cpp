@@ -263,6 +263,43 @@ TEST_CASE("stored depth gives the distance under every projection, and the far p
     CHECK(std::isinf(view_depth(linear, true, none)));
 }
 
+TEST_CASE("logarithmic depth gives the distance, and 1 is no surface") {
+  const Lens lens(true, 0.1f, 10, false, ClipRange::negative_one_to_one);
+  for (const double scale : {0.01, 1.0, 1000.0})
+    for (const double near_m : {0.0, 0.2})
+      for (const double far_m : {10.0, 1e9}) {
+        const DepthDecode decode =
+            depth_decode({lens.projection, DepthKind::logarithmic, ClipRange::negative_one_to_one, 0,
+                          float(scale), float(near_m), float(far_m)});
+        INFO(scale << " " << near_m << " " << far_m);
+        // The stored value is rounded to 2^-25, times the natural logarithm of the range, of which 1 + C w
+        // has that share as its error. exp2 has some steps of 1.2e-7 more.
+        const double step = std::log(1 + scale * far_m) * 6e-8 + 5e-7;
+        for (const double depth : {0.25, 1.0, 3.0, 9.0}) {
+          const auto stored =
+              float(std::log2(1 + scale * (depth - near_m)) / std::log2(1 + scale * (far_m - near_m)));
+          CHECK(std::abs(view_depth(decode, true, stored) - depth) < step * (depth + 1 / scale));
+        }
+        CHECK(std::isinf(view_depth(decode, true, 1.0f)));
+        CHECK(std::isinf(view_depth(decode, true, nan_number)));
+      }
+}
+
+TEST_CASE("a recording of the first format version has its radius in metres") {
+  Recording recording = sample_recording();
+  recording.frame.radius_kind = 1;
+  CHECK(read_recording(write_recording(recording)).frame.radius_kind == 1);
+  recording.frame.radius = 1.5f;
+  CHECK_THROWS_AS(write_recording(recording), Failure);
+  recording = sample_recording();
+  std::vector<std::byte> bytes = write_recording(recording);
+  // The head is the first section, and its size stands at byte 56; version 1 ends one byte earlier.
+  bytes[8] = std::byte{1};
+  bytes[56] = std::byte(std::to_integer<int>(bytes[56]) - 1);
+  repair_checksum(bytes);
+  CHECK(read_recording(bytes).frame.radius == recording.frame.radius);
+}
+
 TEST_CASE("normals of a recording are the host's in view space, and those of depth where it has none") {
   // A plane that faces the viewer at 2 m: every normal is +z.
   Recording recording = sample_recording(6, 5, false);

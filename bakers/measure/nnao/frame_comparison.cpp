@@ -108,7 +108,7 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& record
   for (const Preset& preset : presets)
     add_library(preset.name, settings_of(preset.preset, recording.pass.blur_sharpness), {}, "embedded");
   std::vector<std::pair<Oracle, FrameRow>> oracles;
-  if (replay.has_perspective()) {
+  if (replay.has_baselines()) {
     for (const BaselineMethod& method : baseline_methods())
       if (is_wanted(methods, baseline_name(method.baseline), method.taps)) {
         FrameRow row;

@@ -41,6 +41,7 @@ nook_nnao_frame_desc frame_of(const nook::nnao::Recording& recording) {
   std::ranges::copy(recorded.projection, frame.projection);
   frame.clip = recorded.clip;
   frame.radius = recorded.radius;
+  frame.radius_kind = recorded.radius_kind;
   frame.max_radius_px = recorded.max_radius_px;
   frame.intensity = recorded.intensity;
   frame.power = recorded.power;

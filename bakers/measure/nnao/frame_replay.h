@@ -21,8 +21,8 @@ class FrameReplay {
   // The recording must outlive this object.
   FrameReplay(const GladGLContext& gl, const NookGl& nook, const nook::nnao::Recording& recording);
 
-  // The baselines and the oracle know perspectives alone.
-  bool has_perspective() const { return !view_.camera.rays.orthographic; }
+  // The baselines and the oracle know perspectives and radii in metres alone.
+  bool has_baselines() const { return !view_.camera.rays.orthographic && recording_.frame.radius_kind == 0; }
   const bake::nnao::TracedView& view() const { return view_; }
 
   // Returns the AO of the library's pass in the pixels of the recording. network empty: the embedded one.

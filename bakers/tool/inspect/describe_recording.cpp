@@ -107,6 +107,7 @@ Row describe_recording(std::span<const std::byte> bytes) {
   row["ao_packing"] = packing_name(recording.ao);
   row["ao_mean"] = recording.ao.empty() ? Row() : Row(mean_of(recording.ao));
   row["radius"] = frame.radius;
+  row["radius_kind"] = frame.radius_kind == 0 ? "metres" : "share of the height";
   row["max_radius_px"] = frame.max_radius_px;
   row["intensity"] = frame.intensity;
   row["power"] = frame.power;

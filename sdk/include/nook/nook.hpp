@@ -15,6 +15,7 @@
 #include "nook_gl_probe.hpp"
 #include "nook_gl_transfer.hpp"
 #include "nook_nnao.hpp"
+#include "nook_nnao_stages.hpp"
 #endif
 
 #endif

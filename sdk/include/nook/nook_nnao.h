@@ -51,6 +51,17 @@ enum {
 };
 typedef int32_t nook_nnao_path;
 
+/* The sample of a multisampled depth texture whose depth is that of the pixel. */
+enum {
+  /* The median of the depths, of two the nearer one: a surface that covers most of the pixel. */
+  NOOK_NNAO_SAMPLE_MEDIAN = 0,
+  /* Sample 0. */
+  NOOK_NNAO_SAMPLE_FIRST = 1,
+  /* The nearest one. */
+  NOOK_NNAO_SAMPLE_NEAREST = 2
+};
+typedef int32_t nook_nnao_sample;
+
 typedef struct nook_nnao_desc {
   /* nook_nnao_desc_init sets these two. */
   uint32_t struct_size;
@@ -89,6 +100,16 @@ typedef struct nook_nnao_desc {
    * motion_texture, and begins anew where a surface was not seen before. 0 (default): each frame stands
    * alone. Not with bent_normals. */
   int32_t temporal_frames;
+  /* 1 to 16: the depth textures are of GL_TEXTURE_2D_MULTISAMPLE with so many samples, which needs OpenGL 3.3
+   * or OpenGL ES 3.1. Normals, motion, layer and target stay single-sampled. 0 (default): 2D textures. Not
+   * with layers. */
+  int32_t depth_samples;
+  /* Default NOOK_NNAO_SAMPLE_MEDIAN, the rule of least error (docs/nnao.md). */
+  nook_nnao_sample depth_sample;
+  /* 1 to 8: depth, normals, motion, layer and target are of GL_TEXTURE_2D_ARRAY with at least so many layers,
+   * such as two eyes. nook_nnao_render draws them all, layer by layer with the same textures of the pass; its
+   * own texture is an array of as many layers. 0 (default): 2D textures. */
+  int32_t layers;
 } nook_nnao_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
@@ -114,17 +135,18 @@ NOOK_API nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_p
 
 /* Computes the texture memory of a pass with this descriptor: 7 bytes for each pixel, or 3 at half
  * resolution, which at 3840 x 2160 is 58 MB and 25 MB. A blur of 2 at full resolution takes 2 more bytes.
- * With bent normals it is 12 bytes or 7, 100 MB and 58 MB, and 4 more with a blur of 2 at full resolution.
- * temporal_frames take 12 more bytes, or 3 at half resolution. A
- * network of the paper's form takes 4 more bytes for each pixel, or 1, and its filters 62 kB. The call makes
- * no OpenGL call.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION. */
+ * Each of nook_nnao_desc.layers beyond the first takes the bytes of the pass's own texture, 1 or 4, and those
+ * of temporal_frames. With bent normals it is 12 bytes or 7, 100 MB and 58 MB, and 4 more with a blur of 2 at
+ * full resolution. temporal_frames take 12 more bytes, or 3 at half resolution. A network of the paper's form
+ * takes 4 more bytes for each pixel, or 1, and its filters 62 kB. The call makes no OpenGL call. Any thread.
+ * Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION. */
 NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes);
 
 /* Creates textures and shaders; the caller may free the network's bytes afterwards. On failure *out is NULL
  * and no OpenGL object is left.
  * Context thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED (the size exceeds the textures of this
- * OpenGL, or this OpenGL lacks the path), BAD_FILE, FILE_VERSION, GL, OUT_OF_MEMORY. */
+ * OpenGL, or this OpenGL lacks the path or multisample textures), BAD_FILE, FILE_VERSION, GL, OUT_OF_MEMORY.
+ */
 NOOK_API nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, nook_nnao* out);
 
 /* Deletes every OpenGL object of the pass and sets *pass to NULL; *pass may be NULL. The nook_gl may have
@@ -139,9 +161,28 @@ enum {
    * copy of it in the red channel of a 32-bit float texture. */
   NOOK_NNAO_DEPTH_HARDWARE = 0,
   /* -z of view space in metres, in the red channel of a float texture. */
-  NOOK_NNAO_DEPTH_LINEAR = 1
+  NOOK_NNAO_DEPTH_LINEAR = 1,
+  /* A shader of the host wrote log2(1 + C (w - n)) / log2(1 + C (f - n)) to gl_FragDepth, or to the red
+   * channel of a 32-bit float texture. w is -z of view space, which is clip w where projection[11] is -1. C,
+   * n and f are depth_log_scale, depth_log_near and depth_log_far; values of 1 and more are sky. Only with a
+   * perspective. The pass inverts it: w = n + (exp2(stored log2(1 + C (f - n))) - 1) / C. three.js has
+   * C = 1 and n = 0, Cesium has C = 1 and its near plane. */
+  NOOK_NNAO_DEPTH_LOGARITHMIC = 2
 };
 typedef int32_t nook_nnao_depth_kind;
+
+/* The measure of the radius. */
+enum {
+  /* Metres, or the unit of length that projection, linear depth and sky_depth have: AO depends on their
+   * ratios alone. */
+  NOOK_NNAO_RADIUS_METRES = 0,
+  /* A share of the viewport's height, up to 1: the radius covers the same number of pixels at each depth. The
+   * edges of the filter follow it. */
+  NOOK_NNAO_RADIUS_SCREEN = 1,
+  /* A share of nook_nnao_frame_desc.scene_size, up to 1. */
+  NOOK_NNAO_RADIUS_SCENE = 2
+};
+typedef int32_t nook_nnao_radius_kind;
 
 /* The depth range of clip space. */
 enum {
@@ -171,10 +212,10 @@ typedef int32_t nook_nnao_layer;
 enum {
   /* The pass's own texture: AO in red, or the bent normal and AO; see nook_nnao_info. */
   NOOK_NNAO_TARGET_OWN = 0,
-  /* Level 0 of a 2D texture of the host. */
+  /* Level 0 of a 2D texture of the host, or of a texture array for passes with layers. */
   NOOK_NNAO_TARGET_TEXTURE = 1,
   /* The first draw buffer of a framebuffer of the host; framebuffer 0 is the window. The contents of further
-   * draw buffers become undefined. */
+   * draw buffers become undefined. Not for passes with layers. */
   NOOK_NNAO_TARGET_FRAMEBUFFER = 2
 };
 typedef int32_t nook_nnao_target;
@@ -202,11 +243,11 @@ enum {
 };
 typedef int32_t nook_nnao_view;
 
-/* One frame. Textures are 2D and single-sampled; level 0 with width x height texels is read. The pass reads
- * them through its own samplers: it changes none of their parameters, and their filter, wrap and compare
- * modes do not matter. The pass queries the size and format of textures and targets when a name, kind or size
- * here differs from that of the last call. If the host creates a texture anew under its old name, it must
- * call nook_nnao_recheck. */
+/* One frame. Textures are 2D and single-sampled, unless nook_nnao_desc has depth_samples or layers; level 0
+ * with width x height texels is read. The pass reads them through its own samplers: it changes none of their
+ * parameters, and their filter, wrap and compare modes do not matter. The pass queries the size and format of
+ * textures and targets when a name, kind or size here differs from that of the last call. If the host creates
+ * a texture anew under its old name, it must call nook_nnao_recheck. */
 typedef struct nook_nnao_frame_desc {
   /* nook_nnao_frame_desc_init sets these two. */
   uint32_t struct_size;
@@ -238,10 +279,10 @@ typedef struct nook_nnao_frame_desc {
   float projection[16];
   /* Only hardware depth uses it. Default NOOK_NNAO_CLIP_NEGATIVE_ONE_TO_ONE. */
   nook_nnao_clip clip;
-  /* Metres, > 0; required. Geometry beyond this distance does not occlude. */
+  /* > 0, in metres or as radius_kind says; required. Geometry beyond this distance does not occlude. */
   float radius;
   /* Pixels: the maximum that the radius covers on the screen; near the camera the radius shrinks. 0
-   * (default): a quarter of the viewport's height. */
+   * (default): a quarter of the viewport's height, and no maximum with NOOK_NNAO_RADIUS_SCREEN. */
   float max_radius_px;
   /* AO becomes max(0, 1 - intensity * (1 - AO)) ^ power. intensity is in [0, 16] and power in (0, 16]; both
    * default to 1. */
@@ -273,6 +314,20 @@ typedef struct nook_nnao_frame_desc {
   /* 1: a cut: nothing of earlier frames is used. Changes of the viewport's size and of the kind of projection
    * are cuts as well. Default 0. */
   int32_t reset;
+  /* Default NOOK_NNAO_RADIUS_METRES. */
+  nook_nnao_radius_kind radius_kind;
+  /* Metres, > 0: a length of the scene, such as the diagonal of its bounding box. NOOK_NNAO_RADIUS_SCENE
+   * needs it; nothing else reads it. */
+  float scene_size;
+  /* Of logarithmic depth, see NOOK_NNAO_DEPTH_LOGARITHMIC. C in 1 / metres, > 0, default 1; n in metres, 0 or
+   * more, default 0; f in metres, > n, required. */
+  float depth_log_scale, depth_log_near, depth_log_far;
+  /* For passes with layers; others do not read them. 16, 9 and 12 numbers for each layer, in place of
+   * projection, normal_matrix and earlier_from_view. NULL (default): the frame's own matrix for all layers.
+   */
+  const float* layer_projections;
+  const float* layer_normal_matrices;
+  const float* layer_earlier_from_view;
 } nook_nnao_frame_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
@@ -295,10 +350,10 @@ NOOK_API nook_result nook_nnao_recheck(nook_nnao pass);
 typedef struct nook_nnao_info {
   /* sizeof(nook_nnao_info); the caller sets it. */
   uint32_t struct_size;
-  /* The OpenGL name of the pass's own texture: GL_R8, or GL_RGBA8 with bent normals, max_width x max_height,
-   * the AO of pixel (x, y) in texel (x, y), in red or in alpha. Nook owns it: the host reads it, and never
-   * writes or deletes it. AO is 1 everywhere before the first frame. Later frames write only their viewport;
-   * frames with another target leave it undefined. */
+  /* The OpenGL name of the pass's own texture, an array for passes with layers: GL_R8, or GL_RGBA8 with bent
+   * normals, max_width x max_height, the AO of pixel (x, y) in texel (x, y), in red or in alpha. Nook owns
+   * it: the host reads it, and never writes or deletes it. AO is 1 everywhere before the first frame. Later
+   * frames write only their viewport; frames with another target leave it undefined. */
   uint32_t texture;
   /* The memory of all textures of the pass. */
   uint64_t texture_bytes;
@@ -325,7 +380,8 @@ typedef struct nook_nnao_info {
  * Context thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info);
 
-/* The time that the GPU took for each stage of the newest finished frame, in milliseconds. */
+/* The time that the GPU took for each stage of the newest finished frame, in milliseconds; with
+ * nook_nnao_desc.layers, for the last layer. */
 typedef struct nook_nnao_timings {
   /* sizeof(nook_nnao_timings); the caller sets it. */
   uint32_t struct_size;
@@ -348,11 +404,13 @@ NOOK_API nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* t
 
 /* Records a frame: draws its AO into the pass's own texture, and reads that back with the depth, the normals
  * and the layer of the frame. Blend, target and target_name have no effect: no target of the host is written.
- * NOOK_NNAO_VIEW_NORMALS records the result. note is a remark for whoever opens the file, or NULL. The call
- * may stand before nook_nnao_render of the same frame or after it. It WAITS FOR THE GPU, allocates, and makes
- * a program: it is meant for reports of errors and for measurements. On failure *out is NULL.
- * Context thread. Errors: INVALID_ARGUMENT (as nook_nnao_render; also, the note is longer than 1000 bytes or
- * has control characters), VERSION, GL, OUT_OF_MEMORY. */
+ * NOOK_NNAO_VIEW_NORMALS records the result. Logarithmic depth is recorded as the linear depth
+ * that follows from it, and a share of the scene as metres. note is a remark for whoever opens the file, or
+ * NULL. The call may stand before nook_nnao_render of the same frame or after it. It WAITS FOR THE GPU,
+ * allocates, and makes a program: it is meant for reports of errors and for measurements. It is not for
+ * passes with depth_samples or layers. On failure *out is NULL. Context thread. Errors: INVALID_ARGUMENT (as
+ * nook_nnao_render; also, the note is longer than 1000 bytes or has control characters), VERSION, GL,
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_record(nook_nnao pass, const nook_nnao_frame_desc* frame, const char* note,
                                       nook_nnao_recording* out);
 

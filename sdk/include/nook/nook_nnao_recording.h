@@ -81,6 +81,8 @@ typedef struct nook_nnao_recording_desc {
   const char* renderer;
   const char* driver_version;
   const char* note;
+  /* 0 (default): radius is in metres; 1: it is a share of the height. */
+  int32_t radius_kind;
 } nook_nnao_recording_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does.

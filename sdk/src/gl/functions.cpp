@@ -134,7 +134,7 @@ void load_feedback_objects(Functions& gl, const Loader& loader) {
 void load_desktop_options(Functions& gl, const Loader& loader) {
   gl.can.texture_buffers = gl.can.maps = gl.can.buffer_reads = true;
   gl.can.indexed_feedback = gl.can.norm16_targets = gl.can.desktop_raster = true;
-  gl.can.texture_sizes = gl.can.indexed_draw_buffers = true;
+  gl.can.texture_sizes = gl.can.indexed_draw_buffers = gl.can.sample_textures = true;
   gl.can.timestamps = load_fences(gl, loader);
   if (gl.version >= 40) {
     load_feedback_objects(gl, loader);
@@ -148,11 +148,14 @@ void load_desktop_options(Functions& gl, const Loader& loader) {
     loader.optional(gl.GetFloati_v, "glGetFloati_v");
     loader.optional(gl.ViewportIndexedf, "glViewportIndexedf");
   }
-  if (gl.version >= 43) loader.optional(gl.ObjectLabel, "glObjectLabel");
+  if (gl.version < 43) return;
+  loader.optional(gl.ObjectLabel, "glObjectLabel");
+  loader.optional(gl.InvalidateFramebuffer, "glInvalidateFramebuffer");
 }
 
 void load_es_options(Functions& gl, const Loader& loader) {
   load_feedback_objects(gl, loader);
+  loader.optional(gl.InvalidateFramebuffer, "glInvalidateFramebuffer");
   if (gl.profile == Profile::webgl) {
     loader.optional(gl.GetBufferSubData, "glGetBufferSubData");
     gl.can.buffer_reads = gl.GetBufferSubData != nullptr;
@@ -162,7 +165,7 @@ void load_es_options(Functions& gl, const Loader& loader) {
   if (gl.version >= 31) {
     loader.optional(gl.GetTexLevelParameteriv, "glGetTexLevelParameteriv");
     gl.can.texture_sizes = gl.GetTexLevelParameteriv != nullptr;
-    gl.can.stencil_textures = true;
+    gl.can.stencil_textures = gl.can.sample_textures = true;
   }
   if (gl.version >= 32) {
     loader.optional(gl.ColorMaski, "glColorMaski");

@@ -50,6 +50,7 @@ namespace nook::gl {
   X(EndTransformFeedback)                \
   X(FramebufferRenderbuffer)             \
   X(FramebufferTexture2D)                \
+  X(FramebufferTextureLayer)             \
   X(GenBuffers)                          \
   X(GenFramebuffers)                     \
   X(GenQueries)                          \
@@ -136,6 +137,7 @@ namespace nook::gl {
   X(FenceSync)                        \
   X(GenTransformFeedbacks)            \
   X(GetFloati_v)                      \
+  X(InvalidateFramebuffer)            \
   X(ObjectLabel)                      \
   X(ViewportIndexedf)
 
@@ -162,6 +164,7 @@ struct Abilities {
   bool norm16_targets = false;    // GL_RG16 can be drawn into
   bool r8_images = false;         // compute shaders write GL_R8
   bool texture_sizes = false;     // glGetTexLevelParameteriv
+  bool sample_textures = false;   // GL_TEXTURE_2D_MULTISAMPLE
   bool timestamps = false;        // glQueryCounter, and fences that tell when its answers are there
   bool indexed_draw_buffers = false;  // blending and colour mask exist once for each draw buffer
   bool indexed_viewports = false;     // viewport and scissor test exist once for each index

@@ -27,27 +27,39 @@ struct InfoLog {
                 log.text);
 }
 
-const char* version_line(const Functions& gl, GLenum stage) {
+const char* version_line(const Functions& gl, GLenum stage, DrawNeeds needs) {
   const bool compute = stage == GL_COMPUTE_SHADER;
   if (gl.profile == Profile::desktop) return compute ? "#version 430 core\n" : "#version 330 core\n";
-  return compute ? "#version 310 es\n" : "#version 300 es\n";
+  return compute || needs.sample_textures ? "#version 310 es\n" : "#version 300 es\n";
 }
 
-// Every number is computed in full precision, as desktop OpenGL does: sums over taps and spheres, and depths,
-// need it.
-const char* precision_lines(const Functions& gl, GLenum stage) {
+// Every number is computed in full precision, as desktop OpenGL does, unless a stage was measured to need
+// less: sums over taps and spheres, and depths, need it.
+const char* float_precision(const Functions& gl, DrawNeeds needs) {
+  if (gl.profile == Profile::desktop) return "";
+  return needs.medium_precision ? "precision mediump float;\n" : "precision highp float;\n";
+}
+
+const char* precision_lines(const Functions& gl, GLenum stage, DrawNeeds needs) {
   if (gl.profile == Profile::desktop) return "";
   if (stage == GL_COMPUTE_SHADER)
-    return "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-           "precision highp usampler2D;\nprecision highp image2D;\n";
-  return "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-         "precision highp usampler2D;\n";
+    return "precision highp int;\nprecision highp sampler2D;\nprecision highp usampler2D;\n"
+           "precision highp sampler2DArray;\nprecision highp image2D;\n";
+  if (needs.sample_textures)
+    return "precision highp int;\nprecision highp sampler2D;\nprecision highp usampler2D;\n"
+           "precision highp sampler2DMS;\n";
+  return "precision highp int;\nprecision highp sampler2D;\nprecision highp usampler2D;\n"
+         "precision highp sampler2DArray;\n";
 }
 
-Object compile(Device& device, GLenum stage, const char* path, const char* defines) {
+Object compile(Device& device, GLenum stage, const char* path, const char* defines, DrawNeeds needs = {}) {
   const Functions& gl = device.gl;
   Object shader(device, Object::Kind::shader, gl.CreateShader(stage));
-  const char* parts[] = {version_line(gl, stage), precision_lines(gl, stage), defines, "#line 1\n",
+  const char* parts[] = {version_line(gl, stage, needs),
+                         float_precision(gl, needs),
+                         precision_lines(gl, stage, needs),
+                         defines,
+                         "#line 1\n",
                          embedded_text(path)};
   gl.ShaderSource(shader.name(), GLsizei(std::size(parts)), parts, nullptr);
   gl.CompileShader(shader.name());
@@ -94,9 +106,11 @@ Object feedback_program(Device& device, const char* path, const char* defines, c
   return link(device, {vertex.name(), fragment.name()}, path, varying);
 }
 
-Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines) {
-  const Object vertex = compile(device, GL_VERTEX_SHADER, vertex_path, "");
-  const Object fragment = compile(device, GL_FRAGMENT_SHADER, fragment_path, defines);
+Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines,
+                    DrawNeeds needs) {
+  const Object vertex =
+      compile(device, GL_VERTEX_SHADER, vertex_path, "", {.sample_textures = needs.sample_textures});
+  const Object fragment = compile(device, GL_FRAGMENT_SHADER, fragment_path, defines, needs);
   return link(device, {vertex.name(), fragment.name()}, fragment_path, nullptr);
 }
 

@@ -14,8 +14,15 @@ const char* embedded_text(const char* path);
 Object compute_program(Device& device, const char* path, const char* defines);
 // Links a single vertex shader whose output `varying` is captured.
 Object feedback_program(Device& device, const char* path, const char* defines, const char* varying);
+// What the shaders of a draw need of OpenGL ES.
+struct DrawNeeds {
+  bool sample_textures = false;   // multisample textures, which OpenGL ES 3.0 lacks
+  bool medium_precision = false;  // floats of the fragment shader have it unless they say otherwise
+};
+
 // Links a vertex and a fragment shader.
-Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines);
+Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines,
+                    DrawNeeds needs = {});
 
 GLint uniform_location(const Device& device, const Object& program, const char* name);
 

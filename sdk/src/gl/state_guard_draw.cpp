@@ -94,6 +94,32 @@ void restore_texture_2d(const Functions& gl, const SavedState& s) {
   for_units(gl, s, [&](GLuint unit) { gl.BindTexture(GL_TEXTURE_2D, s.texture_2d[unit]); });
 }
 
+void query_layer_textures(const Functions& gl, SavedState& s) {
+  for (std::size_t i = 0; i < std::size(layer_units); ++i) {
+    gl.ActiveTexture(GL_TEXTURE0 + layer_units[i]);
+    s.layer_textures[i] = integer(gl, GL_TEXTURE_BINDING_2D_ARRAY);
+  }
+  gl.ActiveTexture(s.active_texture);
+}
+void restore_layer_textures(const Functions& gl, const SavedState& s) {
+  for (std::size_t i = 0; i < std::size(layer_units); ++i) {
+    gl.ActiveTexture(GL_TEXTURE0 + layer_units[i]);
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, s.layer_textures[i]);
+  }
+  gl.ActiveTexture(s.active_texture);
+}
+
+void query_sample_texture(const Functions& gl, SavedState& s) {
+  gl.ActiveTexture(GL_TEXTURE0 + host_depth_unit);
+  s.sample_texture = integer(gl, GL_TEXTURE_BINDING_2D_MULTISAMPLE);
+  gl.ActiveTexture(s.active_texture);
+}
+void restore_sample_texture(const Functions& gl, const SavedState& s) {
+  gl.ActiveTexture(GL_TEXTURE0 + host_depth_unit);
+  gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, s.sample_texture);
+  gl.ActiveTexture(s.active_texture);
+}
+
 void query_samplers(const Functions& gl, SavedState& s) {
   for_units(gl, s, [&](GLuint unit) { s.samplers[unit] = integer(gl, GL_SAMPLER_BINDING); });
 }

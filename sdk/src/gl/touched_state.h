@@ -9,7 +9,8 @@ namespace nook::gl {
 
 // The users of an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload
 // of probes and materials, the screen-space pass if its network is a compute shader, the writing of AO to
-// buffers and textures of the host, and the recording of frames. OpenGL ES has tables of texels in 2D
+// buffers and textures of the host, the recording of frames, and the screen-space pass with
+// nook_nnao_desc.layers and depth_samples. OpenGL ES has tables of texels in 2D
 // textures, whose upload is another user.
 enum : unsigned {
   tier_33 = 1,
@@ -23,6 +24,8 @@ enum : unsigned {
   outputs_compute = 256,
   texel_uploads = 512,
   screen_reads = 1024,
+  screen_layers = 2048,
+  screen_samples = 4096,
   characters = tier_33 | tier_43,
   everyone = characters | screen,
   draws = tier_33 | screen,
@@ -47,6 +50,10 @@ enum : unsigned {
     "so that no parameter of a texture counts; default 0")                                                   \
   X(filter_texture, screen, "GL_TEXTURE_BINDING_BUFFER of unit 2, not on OpenGL ES",                         \
     "filters of the paper's network; default 0")                                                             \
+  X(layer_textures, screen_layers, "GL_TEXTURE_BINDING_2D_ARRAY of units 1, 3 and 4",                        \
+    "the host's arrays; default 0")                                                                          \
+  X(sample_texture, screen_samples, "GL_TEXTURE_BINDING_2D_MULTISAMPLE of unit 1",                           \
+    "the host's depth; default 0")                                                                           \
   X(image_unit, screen_compute, "GL_IMAGE_BINDING_NAME, LEVEL, LAYERED, LAYER, ACCESS, FORMAT of unit 0",    \
     "what a compute shader writes; default 0, GL_READ_ONLY, GL_R8 (OpenGL ES: GL_R32UI)")                    \
   X(texture_2d_array, materials, "GL_TEXTURE_BINDING_2D_ARRAY of unit 0", "uploads; default 0")              \
@@ -100,6 +107,9 @@ enum : unsigned {
 
 inline constexpr int storage_binding_count = NOOK_BINDING_COUNT;
 inline constexpr int texture_unit_count = NOOK_UNIT_COUNT;  // of the screen-space pass
+inline constexpr int host_depth_unit = NOOK_UNIT_HOST_DEPTH;
+// The units that the pass with layers binds arrays to.
+inline constexpr int layer_units[] = {NOOK_UNIT_HOST_DEPTH, NOOK_UNIT_LAYER, NOOK_UNIT_MOTION};
 inline constexpr int filter_unit = NOOK_UNIT_FILTERS;
 inline constexpr int image_unit_index = NOOK_IMAGE_UNIT;
 

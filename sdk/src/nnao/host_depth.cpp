@@ -36,6 +36,14 @@ DepthDecode depth_decode(const DepthSource& source) {
     if (source.sky_depth > 0) decode.far_stored = source.sky_depth;
     return decode;
   }
+  if (source.kind == DepthKind::logarithmic) {
+    const double per_metre = source.log_scale, near = source.log_near;
+    decode.log_rate = float(std::log2(1 + per_metre * (source.log_far - near)));
+    decode.x = float(near - 1 / per_metre);
+    decode.y = float(1 / per_metre);
+    decode.far_stored = 1;
+    return decode;
+  }
   const auto& m = source.projection;
   const double m10 = m[10] * factor(m), m14 = m[14] * factor(m);
   // ndc = scale stored + offset.
@@ -61,6 +69,7 @@ DepthDecode depth_decode(const DepthSource& source) {
 float view_depth(const DepthDecode& decode, bool perspective, float stored) {
   constexpr float none = std::numeric_limits<float>::infinity();
   if ((stored - decode.far_stored) * decode.far_sign >= 0) return none;
+  if (decode.log_rate != 0) stored = std::exp2(decode.log_rate * stored);
   const float depth = (decode.x + decode.y * stored) / (decode.z + decode.w * stored);
   // Comparisons with NaN are false.
   return depth > min_surface_depth(perspective) && depth < no_surface ? depth : none;
@@ -92,6 +101,11 @@ void check_projection(const float (&m)[16], DepthKind kind) {
           NOOK_ERROR_INVALID_ARGUMENT,
           "frame.projection[%d] is %g, need 0; give the projection alone, not multiplied by a view matrix", i,
           double(m[i]));
+  if (kind == DepthKind::logarithmic && !perspective)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.depth_kind %d needs a perspective (got frame.projection[11] %g, need less than 0); "
+                  "give the depth that OpenGL wrote",
+                  int(kind), double(m[11]));
   if (!hardware) return;
   for (const int i : {2, 6})
     if (!zero(i))

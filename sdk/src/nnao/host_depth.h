@@ -7,7 +7,7 @@
 namespace nook::nnao {
 
 // The values are those of nook_nnao_depth_kind and nook_nnao_clip.
-enum class DepthKind { hardware = 0, linear = 1 };
+enum class DepthKind { hardware = 0, linear = 1, logarithmic = 2 };
 enum class ClipRange { negative_one_to_one = 0, zero_to_one = 1 };
 
 struct DepthSource {
@@ -15,6 +15,8 @@ struct DepthSource {
   DepthKind kind = DepthKind::hardware;
   ClipRange clip = ClipRange::negative_one_to_one;
   float sky_depth = 0;  // metres, of linear depth: this depth and greater ones are sky; 0: no depth is
+  // Of logarithmic depth, as the C interface defines it: C, n, f.
+  float log_scale = 1, log_near = 0, log_far = 0;
 };
 
 bool is_perspective(const float (&projection)[16]);
@@ -22,9 +24,11 @@ bool is_perspective(const float (&projection)[16]);
 // As screen_rays, for a matrix that may be multiplied by any factor above 0.
 ScreenRays projection_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height);
 
-// Depth = (x + y stored) / (z + w stored), and the stored value of the far plane.
+// Depth = (x + y s) / (z + w s), where s is the stored value, or exp2(log_rate * stored) if log_rate is not
+// 0, and the stored value of the far plane.
 struct DepthDecode {
   float x = 0, y = 1, z = 1, w = 0;
+  float log_rate = 0;
   float far_stored = 1e30f;  // values from here on are no surface
   float far_sign = 1;        // 1: stored values grow with the distance; -1: they fall
 };

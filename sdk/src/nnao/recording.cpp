@@ -5,6 +5,7 @@
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/nnao/filter.h"
+#include "sdk/src/nnao/frame_radius.h"
 #include "sdk/src/nnao/network_file.h"
 
 namespace nook::nnao {
@@ -26,7 +27,10 @@ void check_frame(const RecordedFrame& frame) {
   check_choice("clip", frame.clip, std::int32_t(ClipRange::zero_to_one));
   check_choice("layer", frame.layer, last_recorded_layer);
   check_choice("view", frame.view, last_recorded_view);
-  check_number("radius", frame.radius, frame.radius > 0, "more than 0 metres");
+  check_choice("radius_kind", frame.radius_kind, last_recorded_radius_kind);
+  const bool share = frame.radius_kind != 0;
+  check_number("radius", frame.radius, frame.radius > 0 && (!share || frame.radius <= 1),
+               share ? "a share of the screen, more than 0 up to 1" : "more than 0 metres");
   check_number("max_radius_px", frame.max_radius_px, frame.max_radius_px == 0 || frame.max_radius_px >= 1,
                "at least 1 pixel, or 0 for the default");
   check_number("intensity", frame.intensity, frame.intensity >= 0 && frame.intensity <= 16, "0 to 16");
@@ -138,13 +142,19 @@ std::vector<float> view_depths(const Recording& recording) {
 
 std::vector<Vec3> view_normals(const Recording& recording, std::span<const float> depths) {
   const View view = view_of(recording, depths);
-  const float tolerance = recording.frame.radius / recording.pass.blur_sharpness;  // metres
+  const bool in_pixels = recording.frame.radius_kind != 0;
+  const FrameRadius radius = frame_radius(
+      {RadiusKind(recording.frame.radius_kind), recording.frame.radius, 0, recording.frame.max_radius_px},
+      float(recording.height));
   std::vector<Vec3> normals(recording.pixels(), Vec3{0, 0, 1});
   for (std::uint32_t y = 0; y < recording.height; ++y)
     for (std::uint32_t x = 0; x < recording.width; ++x) {
       const std::size_t pixel = view.at(x, y);
       if (!view.has_surface(x, y)) continue;
       const Vec3 given = recording.normals.empty() ? Vec3{} : host_normal(recording, pixel);
+      const float metres = in_pixels ? radius.max_px / std::abs(pixel_scale(view.rays, depths[pixel]).y)
+                                     : recording.frame.radius;
+      const float tolerance = metres / recording.pass.blur_sharpness;
       normals[pixel] =
           dot(given, given) > 0 ? given : rebuilt_normal(view, x, y, neighbours_of(view, x, y, tolerance));
     }

@@ -17,7 +17,8 @@
 namespace nook::nnao {
 
 // The values of nook_nnao_layer and nook_nnao_view that a recording can have.
-inline constexpr std::int32_t last_recorded_layer = 3, last_recorded_view = 2, last_recorded_path = 2;
+inline constexpr std::int32_t last_recorded_layer = 3, last_recorded_view = 2, last_recorded_path = 2,
+                              last_recorded_radius_kind = 1;
 inline constexpr std::uint32_t max_recorded_size_px = 16384;
 inline constexpr std::size_t max_recorded_text = 1000;  // bytes
 
@@ -27,10 +28,11 @@ struct RecordedFrame {
   float normal_scale = 1, normal_bias = 0;
   float normal_matrix[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   float projection[16] = {};
-  float radius = 0;         // metres
+  float radius = 0;         // metres, or a share of the height
   float max_radius_px = 0;  // 0: a quarter of the height
   float intensity = 1, power = 1;
   std::int32_t layer = 0, view = 0;
+  std::int32_t radius_kind = 0;  // 0: metres; 1: a share of the height
 };
 
 // Copies the settings of a frame between this structure and those of the C interface, which have the same
@@ -50,6 +52,7 @@ void copy_frame_settings(const From& from, To& to) {
   to.power = from.power;
   to.layer = from.layer;
   to.view = from.view;
+  to.radius_kind = from.radius_kind;
 }
 
 struct RecordedPass {

@@ -28,7 +28,7 @@ void visit_texts(Recorded& recording, Visit&& visit) {
   visit(recording.note);
 }
 
-void read_head(ByteReader in, Recording& recording) {
+void read_head(ByteReader in, std::uint32_t version, Recording& recording) {
   recording.library_version = in.u32();
   recording.width = in.u32();
   recording.height = in.u32();
@@ -36,6 +36,7 @@ void read_head(ByteReader in, Recording& recording) {
   for (std::int32_t* choice : {&frame.depth_kind, &frame.clip, &frame.layer, &frame.view})
     *choice = std::int32_t(in.u8());
   visit_numbers(frame, [&](float& value) { value = in.f32(); });
+  if (version > 1) frame.radius_kind = std::int32_t(in.u8());
   in.check_end();
   const std::uint32_t most = max_recorded_size_px;
   if (recording.width < 1 || recording.height < 1 || recording.width > most || recording.height > most)
@@ -71,6 +72,7 @@ std::vector<std::byte> write_recording(const Recording& recording) {
   for (const std::int32_t choice : {frame.depth_kind, frame.clip, frame.layer, frame.view})
     head.u8(std::uint32_t(choice));
   visit_numbers(frame, [&](float value) { head.f32(value); });
+  head.u8(std::uint32_t(frame.radius_kind));
   sections.push_back({four_letters("HEAD"), head.bytes()});
   settings.u32(std::uint32_t(pass.taps));
   for (const std::int32_t choice : {pass.half_resolution, pass.blur, pass.path})
@@ -100,7 +102,7 @@ std::vector<std::byte> write_recording(const Recording& recording) {
 Recording read_recording(std::span<const std::byte> bytes, Memory* memory) {
   const Container file(bytes, recording_kind);
   Recording recording(memory);
-  read_head(file.section("HEAD"), recording);
+  read_head(file.section("HEAD"), file.version(), recording);
   read_pass(file.section("PASS"), recording.pass);
   const auto pixels = std::uint32_t(recording.pixels());
   read_exact(file.section("DPTH"), pixels, recording.depth);

@@ -79,6 +79,7 @@ nook_nnao_frame_desc screen_of(const nook_world_frame_desc& frame, const nook_wo
   screen.struct_size = sizeof screen;
   screen = read_descriptor(frame.screen, "nook_nnao_frame_desc_init", first_screen, screen);
   screen.radius = 1;
+  screen.radius_kind = NOOK_NNAO_RADIUS_METRES;
   screen.max_radius_px = 0;
   screen.view = NOOK_NNAO_VIEW_AO;
   nook_nnao_desc sizes{};

@@ -37,17 +37,39 @@ void check_size(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
         v.y, v.width, v.height, frame.width, frame.height);
 }
 
+void check_radius(const nook_nnao_frame_desc& frame) {
+  if (frame.radius_kind == NOOK_NNAO_RADIUS_METRES) {
+    check_range("radius", frame.radius, frame.radius > 0, "more than 0 metres");
+    return;
+  }
+  check_range("radius", frame.radius, frame.radius > 0 && frame.radius <= 1,
+              frame.radius_kind == NOOK_NNAO_RADIUS_SCREEN ? "a share of the screen, more than 0 up to 1"
+                                                           : "a share of the scene, more than 0 up to 1");
+  if (frame.radius_kind == NOOK_NNAO_RADIUS_SCENE)
+    check_range("scene_size", frame.scene_size, frame.scene_size * frame.radius > 0, "more than 0 metres");
+}
+
+void check_logarithm(const nook_nnao_frame_desc& frame) {
+  if (frame.depth_kind != NOOK_NNAO_DEPTH_LOGARITHMIC) return;
+  check_range("depth_log_scale", frame.depth_log_scale, frame.depth_log_scale > 0, "more than 0 per metre");
+  check_range("depth_log_near", frame.depth_log_near, frame.depth_log_near >= 0, "0 or more metres");
+  check_range("depth_log_far", frame.depth_log_far, frame.depth_log_far > frame.depth_log_near,
+              "more metres than depth_log_near");
+}
+
 void check_numbers(const nook_nnao_frame_desc& frame) {
-  check_range("radius", frame.radius, frame.radius > 0, "more than 0 metres");
+  check_radius(frame);
   check_range("max_radius_px", frame.max_radius_px, frame.max_radius_px == 0 || frame.max_radius_px >= 1,
               "at least 1 pixel, or 0 for the default");
   check_range("intensity", frame.intensity, frame.intensity >= 0 && frame.intensity <= 16, "0 to 16");
   check_range("power", frame.power, frame.power > 0 && frame.power <= 16, "more than 0, up to 16");
   check_range("sky_depth", frame.sky_depth, frame.sky_depth >= 0, "0 or more metres");
+  check_logarithm(frame);
 }
 
 void check_kinds(const nook_nnao_frame_desc& frame) {
-  check_kind("depth_kind", frame.depth_kind, NOOK_NNAO_DEPTH_LINEAR);
+  check_kind("depth_kind", frame.depth_kind, NOOK_NNAO_DEPTH_LOGARITHMIC);
+  check_kind("radius_kind", frame.radius_kind, NOOK_NNAO_RADIUS_SCENE);
   check_kind("clip", frame.clip, NOOK_NNAO_CLIP_ZERO_TO_ONE);
   check_kind("layer", frame.layer, NOOK_NNAO_LAYER_REPLACE);
   check_kind("target", frame.target, NOOK_NNAO_TARGET_FRAMEBUFFER);
@@ -87,15 +109,34 @@ void check_motion(const nook_nnao_frame_desc& frame) {
                   frame.reset);
 }
 
+void check_matrices(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
+  check_normals(frame);
+  if (pass.temporal_frames) check_motion(frame);
+  nnao::check_projection(frame.projection, nnao::DepthKind(frame.depth_kind));
+}
+
 }  // namespace
 
 void check_frame(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
   check_size(frame, pass);
   check_kinds(frame);
   check_numbers(frame);
-  check_normals(frame);
-  if (pass.temporal_frames) check_motion(frame);
-  nnao::check_projection(frame.projection, nnao::DepthKind(frame.depth_kind));
+  if (pass.layers == 0) {
+    check_matrices(frame, pass);
+    return;
+  }
+  if (frame.target == NOOK_NNAO_TARGET_FRAMEBUFFER)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.target %d does not go with desc.layers %d; give a texture array by "
+                  "NOOK_NNAO_TARGET_TEXTURE",
+                  frame.target, pass.layers);
+  for (int layer = 0; layer < pass.layers; ++layer) {
+    try {
+      check_matrices(layer_frame(frame, layer), pass);
+    } catch (const Failure& failure) {
+      throw Failure(failure.code(), "layer %d: %s", layer, failure.what());
+    }
+  }
 }
 
 }  // namespace nook::gl

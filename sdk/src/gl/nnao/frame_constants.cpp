@@ -1,8 +1,11 @@
 #include "sdk/src/gl/nnao/frame_constants.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "sdk/src/nnao/filter.h"
+#include "sdk/src/nnao/frame_radius.h"
 #include "sdk/src/nnao/host_depth.h"
 
 namespace nook::gl {
@@ -25,8 +28,19 @@ Viewport viewport_of(const nook_nnao_frame_desc& frame) {
   return {v[0], v[1], v[2], v[3]};
 }
 
+nook_nnao_frame_desc layer_frame(const nook_nnao_frame_desc& frame, int layer) {
+  nook_nnao_frame_desc one = frame;
+  const auto put = [&](const float* given, auto& numbers) {
+    if (given) std::copy_n(given + std::size_t(layer) * std::size(numbers), std::size(numbers), numbers);
+  };
+  put(frame.layer_projections, one.projection);
+  put(frame.layer_normal_matrices, one.normal_matrix);
+  put(frame.layer_earlier_from_view, one.earlier_from_view);
+  return one;
+}
+
 FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass,
-                               std::uint32_t count) {
+                               std::uint32_t count, int layer) {
   FrameConstants constants;
   const auto set = [&](int row, float x, float y, float z, float w) {
     const std::array values{x, y, z, w};
@@ -43,9 +57,14 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
   const nnao::ScreenRays screen =
       nnao::projection_rays(frame.projection, std::uint32_t(viewport.width), std::uint32_t(viewport.height));
   const bool perspective = nnao::is_perspective(frame.projection);
-  const nnao::DepthDecode decode = nnao::depth_decode(
-      {frame.projection, nnao::DepthKind(frame.depth_kind), nnao::ClipRange(frame.clip), frame.sky_depth});
-  const float max_radius_px = frame.max_radius_px > 0 ? frame.max_radius_px : 0.25f * float(viewport.height);
+  const nnao::DepthDecode decode =
+      nnao::depth_decode({frame.projection, nnao::DepthKind(frame.depth_kind), nnao::ClipRange(frame.clip),
+                          frame.sky_depth, frame.depth_log_scale, frame.depth_log_near, frame.depth_log_far});
+  const nnao::FrameRadius radius = nnao::frame_radius(
+      {nnao::RadiusKind(frame.radius_kind), frame.radius, frame.scene_size, frame.max_radius_px},
+      float(viewport.height));
+  // The extent of the radius in pixels at a depth is this times the extent at that depth.
+  const float radius_extent = radius.max_px * std::abs(screen.y_scale);
   const int surface_width = surface_length(viewport.width, half),
             surface_height = surface_length(viewport.height, half);
   const float* n = frame.normal_matrix;
@@ -54,9 +73,10 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
   set(NOOK_FRAME_DEPTH_DECODE, decode.x, decode.y, decode.z, decode.w);
   set(NOOK_FRAME_FAR, decode.far_stored, decode.far_sign, nnao::min_surface_depth(perspective),
       pass.bent_normals && frame.blend == NOOK_NNAO_WRITE);
-  set(NOOK_FRAME_SPREAD, perspective, !perspective, pass.blur_sharpness / frame.radius,
+  set(NOOK_FRAME_SPREAD, perspective, !perspective,
+      radius.in_pixels ? 0 : pass.blur_sharpness / radius.metres,
       nnao::filter_range_sharpness(std::uint32_t(pass.taps)));
-  set(NOOK_FRAME_RADIUS, frame.radius, std::max(half ? 0.5f * max_radius_px : max_radius_px, 1.0f),
+  set(NOOK_FRAME_RADIUS, radius.metres, std::max(half ? 0.5f * radius.max_px : radius.max_px, 1.0f),
       strengthened ? frame.intensity : 1, strengthened ? frame.power : 1);
   set(NOOK_FRAME_NORMAL, frame.normal_scale, frame.normal_bias, frame.normal_texture != 0,
       strengthened ? float(frame.layer) : 0);
@@ -64,6 +84,8 @@ FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nna
       float(viewport.height));
   set(NOOK_FRAME_SURFACE, float(surface_width - 1), float(surface_height - 1), float(surface_width),
       float(surface_height));
+  set(NOOK_FRAME_INPUT, decode.log_rate, radius.in_pixels ? pass.blur_sharpness / radius_extent : 0,
+      float(layer), 0);
   const nnao::TapNoise shift = nnao::frame_noise_step(count);
   const float last[] = {shift.rotation, shift.offset, float(filters)};
   for (int column = 0; column < 3; ++column)

@@ -28,7 +28,17 @@ struct FrameConstants {
 
 // The frame must have passed check_frame. count: the frames that the pass has drawn, which turns the noise of
 // the taps of passes with temporal_frames.
+// layer: of the host's texture arrays, for passes with layers.
 FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass,
-                               std::uint32_t count);
+                               std::uint32_t count, int layer = 0);
+
+// Returns the frame of one layer: its matrices are those of the layer.
+nook_nnao_frame_desc layer_frame(const nook_nnao_frame_desc& frame, int layer);
+
+// The layers that a frame of the pass has: 1 unless its images are texture arrays.
+constexpr int drawn_layers(const nook_nnao_desc& pass) {
+  return pass.layers > 0 ? pass.layers : 1;
+}
+inline constexpr int max_layers = 8;
 
 }  // namespace nook::gl

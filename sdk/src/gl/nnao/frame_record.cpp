@@ -38,6 +38,22 @@ nook_nnao_frame_desc own_target(nook_nnao_frame_desc frame) {
   return frame;
 }
 
+// Puts simpler kinds in place of those that follow from them: linear depth for logarithmic depth,
+// metres for a share of the scene.
+void simplify(nnao::Recording& recording, const nook_nnao_frame_desc& frame) {
+  if (frame.radius_kind == NOOK_NNAO_RADIUS_SCENE) {
+    recording.frame.radius = frame.radius * frame.scene_size;
+    recording.frame.radius_kind = NOOK_NNAO_RADIUS_METRES;
+  }
+  if (frame.depth_kind != NOOK_NNAO_DEPTH_LOGARITHMIC) return;
+  const nnao::DepthDecode decode =
+      nnao::depth_decode({frame.projection, nnao::DepthKind::logarithmic, nnao::ClipRange(frame.clip),
+                          frame.sky_depth, frame.depth_log_scale, frame.depth_log_near, frame.depth_log_far});
+  for (float& depth : recording.depth) depth = nnao::view_depth(decode, true, depth);
+  recording.frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+  recording.frame.sky_depth = 0;
+}
+
 // AO is in red, or in alpha beside bent normals.
 Vector<float> ao_of(TexelReader& reader, const NnaoPass& pass, const nook_nnao_desc& made_with,
                     const Viewport& viewport) {
@@ -69,6 +85,7 @@ nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_des
   recording.height = std::uint32_t(viewport.height);
   recording.library_version = NOOK_VERSION;
   nnao::copy_frame_settings(drawn, recording.frame);
+  simplify(recording, drawn);
   recording.pass = {made_with.taps, made_with.half_resolution, made_with.blur, made_with.blur_sharpness,
                     pass.path()};
   recording.network.assign(network.begin(), network.end());

@@ -1,6 +1,8 @@
 #include "sdk/src/gl/nnao/host_images.h"
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/gl/nnao/render_texture.h"
+#include "sdk/src/gl/touched_state.h"
 
 namespace nook::gl {
 namespace {
@@ -15,67 +17,104 @@ void clear_refusal(const Device& device) {
   }
 }
 
-GLint level_value(const Functions& gl, GLenum what) {
-  GLint value = 0;
-  gl.GetTexLevelParameteriv(GL_TEXTURE_2D, 0, what, &value);
-  return value;
+// A kind of texture that a pass reads.
+struct TextureKind {
+  GLenum target = GL_TEXTURE_2D, binding = GL_TEXTURE_BINDING_2D;
+  GLuint unit = 0;  // to which it is bound for queries
+  const char* name = "2D texture without layers or samples";
+};
+constexpr TextureKind texture_array{GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY, host_depth_unit,
+                                    "2D texture array"};
+constexpr TextureKind sample_texture{GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE,
+                                     host_depth_unit, "multisample texture"};
+
+TextureKind kind_of(const HostImages& images) {
+  return images.layers > 0 ? texture_array : TextureKind{};
+}
+TextureKind depth_kind_of(const HostImages& images) {
+  return images.samples > 0 ? sample_texture : kind_of(images);
 }
 
-// Leaves the texture bound to unit 0.
-void bind_checked(const Device& device, const HostImages& images, std::uint32_t name, const char* field) {
+// A texture that is bound.
+struct BoundTexture {
+  const Functions& gl;
+  GLenum target;
+
+  GLint level(GLenum what) const {
+    GLint value = 0;
+    gl.GetTexLevelParameteriv(target, 0, what, &value);
+    return value;
+  }
+};
+
+// Leaves the texture bound.
+BoundTexture bind_checked(const Device& device, const HostImages& images, const TextureKind& kind,
+                          std::uint32_t name, const char* field) {
   const Functions& gl = device.gl;
+  const BoundTexture texture{gl, kind.target};
   if (!gl.IsTexture(name))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.%s is no texture of this OpenGL context (got %u, need the name of a 2D texture)",
                   field, name);
-  gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_2D, name);
+  gl.ActiveTexture(GL_TEXTURE0 + kind.unit);
+  gl.BindTexture(kind.target, name);
   GLint bound = 0;
-  gl.GetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+  gl.GetIntegerv(kind.binding, &bound);
   if (static_cast<std::uint32_t>(bound) != name) {
     clear_refusal(device);
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "frame.%s is a texture of another kind (got %u, need a 2D texture without layers or samples)", field,
-        name);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.%s is a texture of another kind (got %u, need a %s)",
+                  field, name, kind.name);
   }
   GLint base_level = 0;
-  gl.GetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, &base_level);
+  gl.GetTexParameteriv(kind.target, GL_TEXTURE_BASE_LEVEL, &base_level);
   if (base_level != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.%s begins at another level (its GL_TEXTURE_BASE_LEVEL is %d, need 0)", field,
                   base_level);
-  if (!gl.can.texture_sizes) return;
-  const GLint width = level_value(gl, GL_TEXTURE_WIDTH), height = level_value(gl, GL_TEXTURE_HEIGHT);
+  if (!gl.can.texture_sizes) return texture;
+  const GLint width = texture.level(GL_TEXTURE_WIDTH), height = texture.level(GL_TEXTURE_HEIGHT);
   if (width != images.width || height != images.height)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.%s has another size (got %d x %d, need frame.width x frame.height, %d x %d)", field,
                   width, height, images.width, images.height);
+  if (kind.target == GL_TEXTURE_2D_ARRAY && texture.level(GL_TEXTURE_DEPTH) < images.layers)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.%s has another size (got %d layers, need desc.layers, %d)", field,
+                  texture.level(GL_TEXTURE_DEPTH), images.layers);
+  if (kind.target == GL_TEXTURE_2D_MULTISAMPLE && texture.level(GL_TEXTURE_SAMPLES) != images.samples)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.%s has another size (got %d samples, need desc.depth_samples, %d)", field,
+                  texture.level(GL_TEXTURE_SAMPLES), images.samples);
+  return texture;
 }
 
 bool is_float_or_normalised(GLint type) {
   return type == GL_FLOAT || type == GL_UNSIGNED_NORMALIZED || type == GL_SIGNED_NORMALIZED;
 }
 
-[[noreturn]] void refuse_format(const Functions& gl, const char* field, const char* need) {
+[[noreturn]] void refuse_format(const BoundTexture& texture, const char* field, const char* need) {
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.%s has a format that does not fit (got 0x%04x, need %s)",
-                field, static_cast<unsigned>(level_value(gl, GL_TEXTURE_INTERNAL_FORMAT)), need);
+                field, static_cast<unsigned>(texture.level(GL_TEXTURE_INTERNAL_FORMAT)), need);
 }
 
-void check_depth(const Functions& gl, const HostImages& images) {
+void check_depth(const BoundTexture& texture, nook_nnao_depth_kind kind) {
+  const Functions& gl = texture.gl;
   if (!gl.can.texture_sizes) return;
-  const bool depth_format = level_value(gl, GL_TEXTURE_DEPTH_SIZE) > 0;
-  const GLint red_bits = level_value(gl, GL_TEXTURE_RED_SIZE);
-  const bool red_float = red_bits > 0 && level_value(gl, GL_TEXTURE_RED_TYPE) == GL_FLOAT;
-  if (images.depth_kind == NOOK_NNAO_DEPTH_LINEAR) {
+  const bool depth_format = texture.level(GL_TEXTURE_DEPTH_SIZE) > 0;
+  const GLint red_bits = texture.level(GL_TEXTURE_RED_SIZE);
+  const bool red_float = red_bits > 0 && texture.level(GL_TEXTURE_RED_TYPE) == GL_FLOAT;
+  if (kind == NOOK_NNAO_DEPTH_LINEAR) {
     if (!red_float)
-      refuse_format(gl, "depth_texture", "red in floats, such as GL_R32F, for NOOK_NNAO_DEPTH_LINEAR");
+      refuse_format(texture, "depth_texture", "red in floats, such as GL_R32F, for NOOK_NNAO_DEPTH_LINEAR");
   } else if (!depth_format && !(red_float && red_bits >= 32)) {
-    refuse_format(gl, "depth_texture", "a depth format or GL_R32F for NOOK_NNAO_DEPTH_HARDWARE");
+    refuse_format(texture, "depth_texture",
+                  kind == NOOK_NNAO_DEPTH_HARDWARE
+                      ? "a depth format or GL_R32F for NOOK_NNAO_DEPTH_HARDWARE"
+                      : "a depth format or GL_R32F for NOOK_NNAO_DEPTH_LOGARITHMIC");
   }
   if (!depth_format || !gl.can.stencil_textures) return;
   GLint mode = GL_DEPTH_COMPONENT;
-  gl.GetTexParameteriv(GL_TEXTURE_2D, GL_DEPTH_STENCIL_TEXTURE_MODE, &mode);
+  gl.GetTexParameteriv(texture.target, GL_DEPTH_STENCIL_TEXTURE_MODE, &mode);
   if (mode != GL_DEPTH_COMPONENT)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.depth_texture shows its stencil (GL_DEPTH_STENCIL_TEXTURE_MODE is 0x%04x, need "
@@ -83,26 +122,26 @@ void check_depth(const Functions& gl, const HostImages& images) {
                   static_cast<unsigned>(mode));
 }
 
-void check_normal(const Functions& gl) {
-  if (!gl.can.texture_sizes) return;
+void check_normal(const BoundTexture& texture) {
+  if (!texture.gl.can.texture_sizes) return;
   for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE})
-    if (!is_float_or_normalised(level_value(gl, channel)))
-      refuse_format(gl, "normal_texture", "red, green and blue in floats or normalised integers");
+    if (!is_float_or_normalised(texture.level(channel)))
+      refuse_format(texture, "normal_texture", "red, green and blue in floats or normalised integers");
 }
 
-void check_layer(const Functions& gl, nook_nnao_layer layer) {
-  if (!gl.can.texture_sizes) return;
-  if (!is_float_or_normalised(level_value(gl, GL_TEXTURE_RED_TYPE)))
-    refuse_format(gl, "layer_texture", "red in floats or normalised integers");
-  if (layer == NOOK_NNAO_LAYER_REPLACE && !is_float_or_normalised(level_value(gl, GL_TEXTURE_GREEN_TYPE)))
-    refuse_format(gl, "layer_texture", "red and green for NOOK_NNAO_LAYER_REPLACE");
+void check_layer(const BoundTexture& texture, nook_nnao_layer layer) {
+  if (!texture.gl.can.texture_sizes) return;
+  if (!is_float_or_normalised(texture.level(GL_TEXTURE_RED_TYPE)))
+    refuse_format(texture, "layer_texture", "red in floats or normalised integers");
+  if (layer == NOOK_NNAO_LAYER_REPLACE && !is_float_or_normalised(texture.level(GL_TEXTURE_GREEN_TYPE)))
+    refuse_format(texture, "layer_texture", "red and green for NOOK_NNAO_LAYER_REPLACE");
 }
 
-void check_motion(const Functions& gl) {
-  if (!gl.can.texture_sizes) return;
+void check_motion(const BoundTexture& texture) {
+  if (!texture.gl.can.texture_sizes) return;
   for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE})
-    if (!is_float_or_normalised(level_value(gl, channel)))
-      refuse_format(gl, "motion_texture", "red and green in floats or normalised integers");
+    if (!is_float_or_normalised(texture.level(channel)))
+      refuse_format(texture, "motion_texture", "red and green in floats or normalised integers");
 }
 
 void check_complete(const Functions& gl, const HostImages& images) {
@@ -163,9 +202,13 @@ void check_framebuffer(const Device& device, const HostImages& images) {
   check_apart(images, attached_texture(gl, GL_DEPTH_ATTACHMENT), "attached to frame.target_name");
 }
 
-void check_renderable(const Functions& gl, std::uint32_t texture, std::uint32_t framebuffer) {
+void check_renderable(const Functions& gl, const HostImages& images, std::uint32_t framebuffer) {
+  const std::uint32_t texture = images.target_name;
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  if (images.layers > 0)
+    attach_layer(gl, texture, 0);
+  else
+    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
   const GLenum status = gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
   gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
   if (status != GL_FRAMEBUFFER_COMPLETE)
@@ -181,17 +224,20 @@ void check_target_texture(const Device& device, const HostImages& images, std::u
                   "frame.target_name is the pass's own texture (got %u); use NOOK_NNAO_TARGET_OWN",
                   own_texture);
   check_apart(images, images.target_name, "frame.target_name");
-  bind_checked(device, images, images.target_name, "target_name");
-  if (device.gl.can.texture_sizes && !is_float_or_normalised(level_value(device.gl, GL_TEXTURE_RED_TYPE)))
-    refuse_format(device.gl, "target_name", "a colour format in floats or normalised integers");
+  const BoundTexture texture =
+      bind_checked(device, images, kind_of(images), images.target_name, "target_name");
+  if (device.gl.can.texture_sizes && !is_float_or_normalised(texture.level(GL_TEXTURE_RED_TYPE)))
+    refuse_format(texture, "target_name", "a colour format in floats or normalised integers");
 }
 
 }  // namespace
 
-HostImages images_of(const nook_nnao_frame_desc& frame, bool temporal) {
+HostImages images_of(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
   HostImages images;
   images.width = frame.width;
   images.height = frame.height;
+  images.layers = pass.layers;
+  images.samples = pass.depth_samples;
   images.depth_kind = frame.depth_kind;
   images.layer = frame.layer;
   images.target = frame.target;
@@ -199,31 +245,33 @@ HostImages images_of(const nook_nnao_frame_desc& frame, bool temporal) {
   images.normal = frame.normal_texture;
   if (frame.layer != NOOK_NNAO_LAYER_NONE) images.layer_texture = frame.layer_texture;
   if (frame.target != NOOK_NNAO_TARGET_OWN) images.target_name = frame.target_name;
-  if (temporal) images.motion = frame.motion_texture;
+  if (pass.temporal_frames) images.motion = frame.motion_texture;
   return images;
+}
+
+void check_images_of(const Functions& gl, const nook_nnao_desc& pass) {
+  if (pass.depth_samples == 0) return;
+  const int major = gl.version / 10, minor = gl.version % 10;
+  if (!gl.can.sample_textures)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "desc.depth_samples needs multisample textures (got %s %d.%d, need 3.1 or newer); resolve "
+                  "depth to a 2D texture",
+                  api_name(gl), major, minor);
 }
 
 void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
                   std::uint32_t target_framebuffer) {
-  const Functions& gl = device.gl;
+  const TextureKind kind = kind_of(images);
   check_apart(images, own_texture, "the pass's own texture");
-  bind_checked(device, images, images.depth, "depth_texture");
-  check_depth(gl, images);
-  if (images.normal) {
-    bind_checked(device, images, images.normal, "normal_texture");
-    check_normal(gl);
-  }
-  if (images.layer_texture) {
-    bind_checked(device, images, images.layer_texture, "layer_texture");
-    check_layer(gl, images.layer);
-  }
-  if (images.motion) {
-    bind_checked(device, images, images.motion, "motion_texture");
-    check_motion(gl);
-  }
+  check_depth(bind_checked(device, images, depth_kind_of(images), images.depth, "depth_texture"),
+              images.depth_kind);
+  if (images.normal) check_normal(bind_checked(device, images, kind, images.normal, "normal_texture"));
+  if (images.layer_texture)
+    check_layer(bind_checked(device, images, kind, images.layer_texture, "layer_texture"), images.layer);
+  if (images.motion) check_motion(bind_checked(device, images, kind, images.motion, "motion_texture"));
   if (images.target == NOOK_NNAO_TARGET_TEXTURE) {
     check_target_texture(device, images, own_texture);
-    check_renderable(gl, images.target_name, target_framebuffer);
+    check_renderable(device.gl, images, target_framebuffer);
   }
   if (images.target == NOOK_NNAO_TARGET_FRAMEBUFFER) check_framebuffer(device, images);
 }

@@ -10,6 +10,8 @@ namespace nook::gl {
 // The names, kinds and sizes of a frame. OpenGL is queried about the images only when one of them changes.
 struct HostImages {
   int width = 0, height = 0;
+  int layers = 0;   // of texture arrays; 0: 2D textures
+  int samples = 0;  // of depth; 0: it is no multisample texture
   nook_nnao_depth_kind depth_kind = 0;
   nook_nnao_layer layer = 0;
   nook_nnao_target target = 0;
@@ -17,13 +19,16 @@ struct HostImages {
 
   bool operator==(const HostImages&) const = default;
 };
-// temporal: whether the pass reads motion.
-HostImages images_of(const nook_nnao_frame_desc& frame, bool temporal);
+// pass: what the host gave for the pass that reads them.
+HostImages images_of(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass);
+
+// Throws Failure(NOOK_ERROR_UNSUPPORTED) unless this OpenGL has the kinds of images of a pass.
+void check_images_of(const Functions& gl, const nook_nnao_desc& pass);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless every image exists and has a suitable size and format,
 // and no input is the target. own_texture is that of the pass, and target_framebuffer one without
-// attachments, which a target texture is tried in. Binds 2D textures to unit 0 and the draw framebuffer;
-// leaves no OpenGL error.
+// attachments, which a target texture is tried in. Binds 2D textures to unit 0, arrays and multisample
+// textures to unit 1, and the draw framebuffer; leaves no OpenGL error.
 void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
                   std::uint32_t target_framebuffer);
 

@@ -16,8 +16,16 @@ constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE
 
 }  // namespace
 
+bool replaces_target(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
+  const Viewport viewport = viewport_of(frame);
+  const bool own = frame.target == NOOK_NNAO_TARGET_OWN;
+  const int width = own ? pass.max_width : frame.width, height = own ? pass.max_height : frame.height;
+  return frame.blend == NOOK_NNAO_WRITE && frame.target != NOOK_NNAO_TARGET_FRAMEBUFFER &&
+         viewport.width == width && viewport.height == height;
+}
+
 void NnaoPass::check(const nook_nnao_frame_desc& frame) {
-  const HostImages images = images_of(frame, temporal());
+  const HostImages images = images_of(frame, desc_);
   if (checked_ == images) return;
   checked_.reset();
   check_images(device_, images, own_.texture(), target_framebuffer_.name());
@@ -29,6 +37,23 @@ void NnaoPass::bind_texture(GLuint unit, GLuint texture) const {
   device_.gl.BindTexture(GL_TEXTURE_2D, texture);
 }
 
+void NnaoPass::bind_host(GLuint unit, GLuint texture) const {
+  const bool samples = desc_.depth_samples > 0 && unit == NOOK_UNIT_HOST_DEPTH;
+  const GLenum target = desc_.layers > 0 ? GL_TEXTURE_2D_ARRAY
+                        : samples        ? GL_TEXTURE_2D_MULTISAMPLE
+                                         : GL_TEXTURE_2D;
+  device_.gl.ActiveTexture(GL_TEXTURE0 + unit);
+  device_.gl.BindTexture(target, texture);
+}
+
+// Normals have no samples, and arrays as depth has.
+void NnaoPass::bind_normals(GLuint texture) const {
+  if (desc_.layers > 0)
+    bind_host(NOOK_UNIT_NORMAL, texture);
+  else
+    bind_texture(NOOK_UNIT_NORMAL, texture);
+}
+
 void NnaoPass::set_frame(const Stage& stage, const FrameConstants& constants) const {
   device_.gl.UseProgram(stage.program.name());
   device_.gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4),
@@ -36,9 +61,10 @@ void NnaoPass::set_frame(const Stage& stage, const FrameConstants& constants) co
 }
 
 void NnaoPass::draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
-                    const Viewport& viewport) const {
+                    const Viewport& viewport, bool discards) const {
   const Functions& gl = device_.gl;
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  if (discards) discard_colours(gl);
   set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
   set_frame(stage, constants);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
@@ -63,22 +89,22 @@ void NnaoPass::run_network(const FrameConstants& constants, const Viewport& surf
 }
 
 GLuint NnaoPass::accumulate(const nook_nnao_frame_desc& frame, const FrameConstants& constants,
-                            const Viewport& surface) {
-  const std::size_t now = turn(), before = 1 - now;
-  const HistoryConstants values = history_constants(frame, desc_, constants, earlier_);
+                            const Viewport& surface, LayerTextures& kept) {
+  const std::size_t now = turn(kept), before = 1 - now;
+  const HistoryConstants values = history_constants(frame, desc_, constants, kept.earlier);
   bind_texture(NOOK_UNIT_AO, ao_[0].texture());
-  bind_texture(NOOK_UNIT_HISTORY, history_[before].texture());
-  bind_texture(NOOK_UNIT_HISTORY_DEPTH, depth_[before].texture());
-  bind_texture(NOOK_UNIT_MOTION, frame.motion_texture);
+  bind_texture(NOOK_UNIT_HISTORY, kept.history[before].texture());
+  bind_texture(NOOK_UNIT_HISTORY_DEPTH, kept.depth[before].texture());
+  bind_host(NOOK_UNIT_MOTION, frame.motion_texture);
   device_.gl.UseProgram(accumulate_stage_.program.name());
   device_.gl.Uniform4fv(earlier_location_, NOOK_EARLIER_VEC4S, values.data());
-  draw(accumulate_stage_, constants, history_[now].framebuffer(), surface);
-  earlier_ = {earlier_.count + 1, true, constants, surface.width, surface.height};
-  return history_[now].texture();
+  draw(accumulate_stage_, constants, kept.history[now].framebuffer(), surface);
+  kept.earlier = {kept.earlier.count + 1, true, constants, surface.width, surface.height};
+  return kept.history[now].texture();
 }
 
 void NnaoPass::draw_output(const Stage& stage, const nook_nnao_frame_desc& frame,
-                           const FrameConstants& constants) {
+                           const FrameConstants& constants, int layer) {
   const Functions& gl = device_.gl;
   const bool to_texture = frame.target == NOOK_NNAO_TARGET_TEXTURE;
   GLuint framebuffer = own_.framebuffer();
@@ -87,11 +113,14 @@ void NnaoPass::draw_output(const Stage& stage, const nook_nnao_frame_desc& frame
     if (gl.can.desktop_raster) gl.Enable(GL_FRAMEBUFFER_SRGB);  // OpenGL ES has no switch: it is on
     if (frame.blend == NOOK_NNAO_MULTIPLY) set_blend(gl, multiplying);
   }
-  if (to_texture) {
+  if (desc_.layers > 0) {
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    attach_layer(gl, to_texture ? frame.target_name : own_.texture(), layer);
+  } else if (to_texture) {
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, frame.target_name, 0);
   }
-  draw(stage, constants, framebuffer, viewport_of(frame));
+  draw(stage, constants, framebuffer, viewport_of(frame), replaces_target(frame, desc_));
   // If it stayed attached, a texture that the host deletes would live on.
   if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
 }
@@ -99,24 +128,38 @@ void NnaoPass::draw_output(const Stage& stage, const nook_nnao_frame_desc& frame
 void NnaoPass::render(const nook_nnao_frame_desc& frame) {
   check(frame);
   const Functions& gl = device_.gl;
-  const FrameConstants constants = frame_constants(frame, desc_, earlier_.count);
-  const RenderTexture& depth = depth_[turn()];
+  set_plain_drawing(gl);
+  gl.BindVertexArray(vertex_array_.name());
+  for (GLuint unit = 0; unit < texture_unit_count; ++unit) gl.BindSampler(unit, sampler_.name());
+  if (desc_.layers == 0) {
+    render_layer(frame, 0);
+    return;
+  }
+  for (int layer = 0; layer < desc_.layers; ++layer) {
+    if (layer > 0) set_plain_drawing(gl);  // the output of the layer before may have left blending on
+    render_layer(layer_frame(frame, layer), layer);
+  }
+}
+
+void NnaoPass::render_layer(const nook_nnao_frame_desc& frame, int layer) {
+  LayerTextures& kept = textures_of(layer);
+  const FrameConstants constants = frame_constants(frame, desc_, kept.earlier.count, layer);
+  const RenderTexture& depth = kept.depth[turn(kept)];
   const Viewport viewport = viewport_of(frame);
   const Viewport surface{0, 0, surface_length(viewport.width, half()),
                          surface_length(viewport.height, half())};
   const bool layered = frame.layer != NOOK_NNAO_LAYER_NONE;
   if (timer_) timer_->begin_frame();
-  set_plain_drawing(gl);
-  gl.BindVertexArray(vertex_array_.name());
-  for (GLuint unit = 0; unit < texture_unit_count; ++unit) gl.BindSampler(unit, sampler_.name());
 
   // No texture that a stage draws into stays bound.
   for (const GLuint unit : {NOOK_UNIT_DEPTH, NOOK_UNIT_AO, NOOK_UNIT_LAYER, NOOK_UNIT_MOTION})
     bind_texture(unit, 0);
-  bind_texture(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
+  if (desc_.layers > 0)
+    for (const int unit : {NOOK_UNIT_LAYER, NOOK_UNIT_MOTION}) bind_host(GLuint(unit), 0);
+  bind_host(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
   draw(depth_stage_, constants, depth.framebuffer(), surface);
   bind_texture(NOOK_UNIT_DEPTH, depth.texture());
-  bind_texture(NOOK_UNIT_NORMAL, frame.normal_texture);
+  bind_normals(frame.normal_texture);
   if (normals_stage_.program.name() != 0) {
     draw(normals_stage_, constants, normals_.framebuffer(), surface);
     bind_texture(NOOK_UNIT_NORMAL, normals_.texture());
@@ -125,19 +168,19 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
   end_stage();
 
   if (frame.view == NOOK_NNAO_VIEW_NORMALS) {
-    bind_texture(NOOK_UNIT_NORMAL, frame.normal_texture);
+    bind_normals(frame.normal_texture);
     end_stage();
     end_stage();
-    draw_output(show_normals_stage_, frame, constants);
+    draw_output(show_normals_stage_, frame, constants, layer);
     end_stage();
     return;
   }
   run_network(constants, surface);
-  const GLuint mean = temporal() ? accumulate(frame, constants, surface) : ao_[0].texture();
+  const GLuint mean = temporal() ? accumulate(frame, constants, surface, kept) : ao_[0].texture();
   end_stage();
-  bind_texture(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
+  bind_host(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
   bind_texture(NOOK_UNIT_AO, frame.view == NOOK_NNAO_VIEW_RAW ? ao_[0].texture() : mean);
-  bind_texture(NOOK_UNIT_LAYER, layered ? frame.layer_texture : 0);
+  bind_host(NOOK_UNIT_LAYER, layered ? frame.layer_texture : 0);
   for (int pass = 0; pass < drawn_filters(desc_); ++pass) {
     draw(filter_stage_, constants, ao_[(pass + 1) % 2].framebuffer(), surface);
     bind_texture(NOOK_UNIT_AO, ao_[(pass + 1) % 2].texture());
@@ -145,7 +188,7 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
   end_stage();
   // The views for debugging have no layer.
   const bool combined = layered && frame.view == NOOK_NNAO_VIEW_AO;
-  draw_output(combined ? layered_stage_ : resolve_stage_, frame, constants);
+  draw_output(combined ? layered_stage_ : resolve_stage_, frame, constants, layer);
   end_stage();
 }
 

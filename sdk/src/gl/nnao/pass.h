@@ -5,12 +5,13 @@
 //   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> [mean ->] filter [->
 //   filter] ->
 //                    upsample and resolve
-// The mean over frames belongs to passes with temporal_frames.
-// The paper's form reads the normals of its taps: a stage between depth and AO writes them.
+// The mean over frames belongs to passes with temporal_frames. Passes with layers draw them one after the
+// other. The paper's form reads the normals of its taps: a stage between depth and AO writes them.
 #pragma once
 
 #include <nook/nook_nnao.h>
 
+#include <array>
 #include <optional>
 
 #include "sdk/src/gl/nnao/frame_constants.h"
@@ -33,6 +34,10 @@ std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form);
 constexpr int drawn_filters(const nook_nnao_desc& desc) {
   return desc.half_resolution || desc.blur == 0 ? desc.blur : desc.blur - 1;
 }
+
+// Returns whether the frame writes every texel of a target that is no framebuffer of the host: its old
+// contents are not needed then.
+bool replaces_target(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass);
 
 // Every call may change any of the touched state; the caller holds a StateGuard.
 class NnaoPass {
@@ -61,18 +66,33 @@ class NnaoPass {
 
   void check(const nook_nnao_frame_desc& frame);
   bool temporal() const { return desc_.temporal_frames != 0; }
-  // The one of two textures that the present frame writes.
-  std::size_t turn() const { return temporal() ? earlier_.count % 2 : 0; }
   bool half() const { return desc_.half_resolution != 0; }
   void bind_texture(GLuint unit, GLuint texture) const;
+  // Binds a texture of the host; 0: nothing is bound.
+  void bind_host(GLuint unit, GLuint texture) const;
+  void bind_normals(GLuint texture) const;
   void set_frame(const Stage& stage, const FrameConstants& constants) const;
-  void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer,
-            const Viewport& viewport) const;
+  // discards: nothing outside the viewport is needed afterwards.
+  void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer, const Viewport& viewport,
+            bool discards = true) const;
   void run_network(const FrameConstants& constants, const Viewport& surface) const;
+  // What passes with temporal_frames keep of a layer, and what all layers of others share.
+  struct LayerTextures {
+    RenderTexture depth[2];    // of the surface; two for means over frames, which use them in turns
+    RenderTexture history[2];  // means over frames, in turns
+    EarlierFrame earlier;
+  };
+  LayerTextures& textures_of(int layer) { return layers_[temporal() ? std::size_t(layer) : 0]; }
+  // The one of two textures that the present frame writes.
+  std::size_t turn(const LayerTextures& layer) const { return temporal() ? layer.earlier.count % 2 : 0; }
+
+  // Draws one layer of a frame that has its matrices.
+  void render_layer(const nook_nnao_frame_desc& frame, int layer);
   // Blends the frame with those before it, and returns the texture of the mean.
   GLuint accumulate(const nook_nnao_frame_desc& frame, const FrameConstants& constants,
-                    const Viewport& surface);
-  void draw_output(const Stage& stage, const nook_nnao_frame_desc& frame, const FrameConstants& constants);
+                    const Viewport& surface, LayerTextures& kept);
+  void draw_output(const Stage& stage, const nook_nnao_frame_desc& frame, const FrameConstants& constants,
+                   int layer);
   void end_stage() {
     if (timer_) timer_->end_stage();
   }
@@ -84,16 +104,14 @@ class NnaoPass {
   Stage depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_, filter_stage_, resolve_stage_,
       layered_stage_, show_normals_stage_;
   GLint earlier_location_ = -1;  // of accumulate_stage_
-  RenderTexture depth_[2];       // of the surface; two for means over frames, which use them in turns
-  RenderTexture normals_;        // of the surface
-  RenderTexture history_[2];     // means over frames, in turns
-  RenderTexture ao_[2];          // of the surface; the second where the filter is a draw
+  std::array<LayerTextures, max_layers> layers_;
+  RenderTexture normals_;  // of the surface
+  RenderTexture ao_[2];    // of the surface; the second where the filter is a draw
   RenderTexture own_;
   Object sampler_, vertex_array_, target_framebuffer_;
   TexelTable filters_;  // of the paper's form
   std::optional<StageTimer> timer_;
   std::optional<HostImages> checked_;
-  EarlierFrame earlier_;
 };
 
 }  // namespace nook::gl

@@ -3,6 +3,7 @@
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/nnao/network_constants.h"
 #include "sdk/src/gl/nnao/pass.h"
+#include "sdk/src/gl/nnao/pass_defines.h"
 #include "sdk/src/gl/nnao/path.h"
 #include "sdk/src/gl/program.h"
 #include "sdk/src/gl/state_guard.h"
@@ -20,7 +21,9 @@ struct TexturePlan {
 
 // The textures of a pass. Those without a width are not made.
 struct PassPlan {
+  // own has one texture a layer, and depth and history those of each layer where means over frames keep them.
   TexturePlan depth[2], normals, ao[2], history[2], own;
+  int own_layers = 1, kept_layers = 1;
 };
 
 // The formats in which a context draws normals and AO.
@@ -56,7 +59,9 @@ PassPlan plan_of(const nook_nnao_desc& desc, nnao::NetworkForm form, const PassF
            {formats.ao, filtered ? width : 0, height, "nook: filtered AO of the surface"}},
           {{TextureFormat::ao_image, temporal_width, height, "nook: mean AO over frames"},
            {TextureFormat::ao_image, temporal_width, height, "nook: mean AO over the frames before"}},
-          {formats.own, desc.max_width, desc.max_height, "nook: screen-space AO"}};
+          {formats.own, desc.max_width, desc.max_height, "nook: screen-space AO"},
+          drawn_layers(desc),
+          desc.temporal_frames ? drawn_layers(desc) : 1};
 }
 
 }  // namespace
@@ -67,11 +72,14 @@ const char* screen_ao_glsl() {
 
 std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form) {
   const PassPlan plan = plan_of(desc, form, formats_of(desc));
-  std::uint64_t bytes = 0;
-  for (const TexturePlan& texture : {plan.depth[0], plan.depth[1], plan.normals, plan.ao[0], plan.ao[1],
-                                     plan.history[0], plan.history[1], plan.own})
-    bytes += std::uint64_t(texture.width) * std::uint64_t(texture.height) * bytes_per_texel(texture.format);
-  return bytes;
+  const auto bytes = [](const TexturePlan& texture) {
+    return std::uint64_t(texture.width) * std::uint64_t(texture.height) * bytes_per_texel(texture.format);
+  };
+  std::uint64_t kept = 0;
+  for (const TexturePlan& texture : {plan.depth[0], plan.depth[1], plan.history[0], plan.history[1]})
+    kept += bytes(texture);
+  return std::uint64_t(plan.kept_layers) * kept + bytes(plan.normals) + bytes(plan.ao[0]) +
+         bytes(plan.ao[1]) + std::uint64_t(plan.own_layers) * bytes(plan.own);
 }
 
 NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network)
@@ -133,15 +141,14 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
 void NnaoPass::make_programs(const nnao::Network& network) {
   const bool horizon = network.form == nnao::NetworkForm::horizon;
   const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
-  char defines[200], layered[240];
-  std::snprintf(
-      defines, sizeof defines,
-      "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_DIRECTIONS %u\n#define NOOK_STEPS %u\n"
-      "#define NOOK_BENT_NORMALS %d\n#define NOOK_TEMPORAL %d\n",
-      half(), horizon, grid.directions, grid.steps, desc_.bent_normals, temporal());
+  const PassDefines given = pass_defines(desc_, horizon, grid);
+  const char* const defines = given.text;
+  char layered[sizeof given.text + 32];
   std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
-  const auto drawn = [&](const char* path, const char* text) {
-    return make_stage(draw_program(device_, "nnao/screen.vert", path, text));
+  const auto drawn = [&](const char* path, const char* text, bool medium_precision = false) {
+    return make_stage(
+        draw_program(device_, "nnao/screen.vert", path, text,
+                     {.sample_textures = desc_.depth_samples > 0, .medium_precision = medium_precision}));
   };
   depth_stage_ = drawn("nnao/depth.frag", defines);
   if (!horizon) normals_stage_ = drawn("nnao/normals.frag", defines);
@@ -152,7 +159,10 @@ void NnaoPass::make_programs(const nnao::Network& network) {
     accumulate_stage_ = drawn("nnao/accumulate.frag", defines);
     earlier_location_ = uniform_location(device_, accumulate_stage_.program, "nook_earlier");
   }
-  if (drawn_filters(desc_) > 0) filter_stage_ = drawn("nnao/filter.frag", defines);
+  // The filter of AO at half resolution was measured to cost no error in medium precision
+  // (docs/opengl_es.md).
+  if (drawn_filters(desc_) > 0)
+    filter_stage_ = drawn("nnao/filter.frag", defines, half() && desc_.bent_normals == 0);
   resolve_stage_ = drawn("nnao/resolve.frag", defines);
   layered_stage_ = drawn("nnao/resolve.frag", layered);
   show_normals_stage_ = drawn("nnao/show_normals.frag", defines);
@@ -171,19 +181,27 @@ void NnaoPass::make_textures(nnao::NetworkForm form) {
     if (planned.width > 0)
       texture = RenderTexture(device_, planned.format, planned.width, planned.height, planned.label);
   };
-  for (int i = 0; i < 2; ++i) {
-    make(depth_[i], plan.depth[i]);
-    make(history_[i], plan.history[i]);
-  }
+  for (int layer = 0; layer < plan.kept_layers; ++layer)
+    for (int i = 0; i < 2; ++i) {
+      make(layers_[std::size_t(layer)].depth[i], plan.depth[i]);
+      make(layers_[std::size_t(layer)].history[i], plan.history[i]);
+    }
   make(normals_, plan.normals);
   make(ao_[0], plan.ao[0]);
   make(ao_[1], plan.ao[1]);
-  make(own_, plan.own);
+  if (desc_.layers > 0)
+    own_ = RenderTexture(device_, plan.own.format, plan.own.width, plan.own.height, plan.own_layers,
+                         plan.own.label);
+  else
+    make(own_, plan.own);
   set_plain_drawing(device_.gl);
   // AO in red, or the direction to the viewer and AO in alpha.
   const GLfloat aside = desc_.bent_normals ? 0.5f : 1, open[4] = {aside, aside, 1, 1};
   device_.gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, own_.framebuffer());
-  device_.gl.ClearBufferfv(GL_COLOR, 0, open);
+  for (int layer = 0; layer < plan.own_layers; ++layer) {
+    if (desc_.layers > 0) attach_layer(device_.gl, own_.texture(), layer);
+    device_.gl.ClearBufferfv(GL_COLOR, 0, open);
+  }
 }
 
 void NnaoPass::upload_filters(const nnao::Network& network) {

@@ -1,6 +1,7 @@
 #include "sdk/src/gl/nnao/render_texture.h"
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/gl/touched_state.h"
 
 namespace nook::gl {
 namespace {
@@ -37,22 +38,36 @@ std::uint64_t bytes_per_texel(TextureFormat format) {
   return layout_of(format).bytes;
 }
 
-RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, int height, const char* label)
-    : texture_(Object::make(device, Object::Kind::texture)),
-      framebuffer_(Object::make(device, Object::Kind::framebuffer)) {
+// Binds the texture.
+void RenderTexture::begin(Device& device, TextureFormat format, GLenum target, GLuint unit) {
+  texture_ = Object::make(device, Object::Kind::texture);
+  framebuffer_ = Object::make(device, Object::Kind::framebuffer);
   const Functions& gl = device.gl;
-  const Layout layout = layout_of(format);
   const GLint filter =
       format == TextureFormat::ao || format == TextureFormat::bent_ao ? GL_LINEAR : GL_NEAREST;
-  gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_2D, texture_.name());
+  gl.ActiveTexture(GL_TEXTURE0 + unit);
+  gl.BindTexture(target, texture_.name());
   // With a buffer bound, the null pointer would be an offset into the host's buffer.
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
+  gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
+  gl.TexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);
+  gl.TexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+// Checks the texture and the framebuffer that is bound.
+void RenderTexture::end(Device& device, const char* label) {
+  const GLenum status = device.gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw Failure(NOOK_ERROR_GL, "a framebuffer with the texture of \"%s\" is not complete (status 0x%04x)",
+                  label, status);
+}
+
+RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, int height, const char* label) {
+  const Functions& gl = device.gl;
+  const Layout layout = layout_of(format);
+  begin(device, format, GL_TEXTURE_2D, 0);
   // OpenGL ES binds immutable textures alone as images.
   if (gl.TexStorage2D)
     gl.TexStorage2D(GL_TEXTURE_2D, 1, static_cast<GLenum>(layout.internal_format), width, height);
@@ -63,10 +78,30 @@ RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, in
   device.label(GL_TEXTURE, texture_.name(), label);
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
   gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.name(), 0);
-  const GLenum status = gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE)
-    throw Failure(NOOK_ERROR_GL, "a framebuffer with the texture of \"%s\" is not complete (status 0x%04x)",
-                  label, status);
+  end(device, label);
+}
+
+RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, int height, int layers,
+                             const char* label) {
+  const Functions& gl = device.gl;
+  const Layout layout = layout_of(format);
+  begin(device, format, GL_TEXTURE_2D_ARRAY, host_depth_unit);
+  gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, layout.internal_format, width, height, layers, 0, layout.format,
+                layout.type, nullptr);
+  device.check("allocating a texture array");
+  device.label(GL_TEXTURE, texture_.name(), label);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
+  attach_layer(gl, texture_.name(), layers - 1);
+  end(device, label);
+}
+
+void discard_colours(const Functions& gl) {
+  const GLenum colours = GL_COLOR_ATTACHMENT0;
+  if (gl.InvalidateFramebuffer) gl.InvalidateFramebuffer(GL_DRAW_FRAMEBUFFER, 1, &colours);
+}
+
+void attach_layer(const Functions& gl, GLuint texture, int layer) {
+  gl.FramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture, 0, layer);
 }
 
 }  // namespace nook::gl

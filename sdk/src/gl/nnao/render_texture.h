@@ -24,12 +24,24 @@ class RenderTexture {
   // Binds unit 0, the draw framebuffer and the pixel unpack buffer. The contents are undefined. Throws
   // Failure.
   RenderTexture(Device& device, TextureFormat format, int width, int height, const char* label);
+  // A texture array; the framebuffer has its last layer. Binds unit 1 in place of unit 0.
+  RenderTexture(Device& device, TextureFormat format, int width, int height, int layers, const char* label);
 
   GLuint texture() const { return texture_.name(); }
   GLuint framebuffer() const { return framebuffer_.name(); }
 
  private:
+  void begin(Device& device, TextureFormat format, GLenum target, GLuint unit);
+  void end(Device& device, const char* label);
+
   Object texture_, framebuffer_;
 };
+
+// Tells OpenGL that the colours of the draw framebuffer that is bound are not needed, so that a GPU with
+// tiles does not load them. Does nothing where OpenGL has no such function.
+void discard_colours(const Functions& gl);
+
+// Attaches a layer to the draw framebuffer that is bound.
+void attach_layer(const Functions& gl, GLuint texture, int layer);
 
 }  // namespace nook::gl

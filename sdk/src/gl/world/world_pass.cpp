@@ -1,6 +1,7 @@
 #include "sdk/src/gl/world/world_pass.h"
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/gl/nnao/pass.h"
 #include "sdk/src/gl/program.h"
 #include "sdk/src/gl/state_guard.h"
 #include "shaders/nnao/layout.h"
@@ -89,7 +90,7 @@ std::uint64_t WorldPass::bytes() const {
 }
 
 void WorldPass::check(const nook_nnao_frame_desc& frame) {
-  const HostImages images = images_of(frame, false);
+  const HostImages images = images_of(frame, plain_pass());
   if (checked_ == images) return;
   checked_.reset();
   check_images(device_, images, own_.texture(), target_framebuffer_.name());
@@ -165,6 +166,10 @@ void WorldPass::render(const nook_nnao_frame_desc& frame, const float* view, con
   if (to_texture)
     gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, frame.target_name, 0);
   const Viewport viewport = viewport_of(frame);
+  nook_nnao_desc sizes{};
+  sizes.max_width = max_width_;
+  sizes.max_height = max_height_;
+  if (replaces_target(frame, sizes)) discard_colours(gl);
   set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   // If it stayed attached, a texture that the host deletes would live on.

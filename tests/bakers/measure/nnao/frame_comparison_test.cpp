@@ -98,7 +98,7 @@ TEST_CASE("a frame replays to its recorded AO, and its errors are those against 
   }
   const nook::nnao::Recording read = nook::nnao::read_recording(nook::nnao::write_recording(recording));
   FrameReplay replay(context->gl(), nook, read);
-  REQUIRE(replay.has_perspective());
+  REQUIRE(replay.has_baselines());
   const std::vector<FrameRow> rows = compare_frame(replay, read, {}, {}, go_on);
   std::vector<std::string> names;
   for (const FrameRow& row : rows) names.push_back(row.method);
@@ -174,7 +174,7 @@ TEST_CASE("a frame without a perspective has no oracle, and a run can be stopped
   const float parallel[16] = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, -0.04f, 0, 0, 0, -1, 1};
   std::ranges::copy(parallel, recording.frame.projection);
   FrameReplay replay(context->gl(), nook, recording);
-  CHECK(!replay.has_perspective());
+  CHECK(!replay.has_baselines());
   const auto rows = compare_frame(replay, recording, {"all"}, {}, go_on);
   REQUIRE(rows.size() == 4);
   CHECK(!rows[0].oracle_mse.has_value());

@@ -1,0 +1,169 @@
+/* The stages of the screen-space pass as data, for hosts whose graphics interface is not OpenGL, such as
+ * Vulkan or Direct3D: shader text, images, and the numbers that the shaders read. The host makes the images
+ * and pipelines, and draws; no function here makes an OpenGL call or needs an OpenGL context. The library
+ * must have been built with its OpenGL half (NOOK_GL, the default), which holds the shaders.
+ *
+ * Once:
+ *     nook_nnao_stages stages;
+ *     nook_nnao_stages_create(context, &desc, &stages);        the descriptor of nook_nnao_create
+ *     nook_nnao_stages_describe(stages, &info);                vertex shader, numbers of the network
+ *     nook_nnao_stages_image(stages, image, &description);     format and size of each image
+ *     nook_nnao_stages_stage(stages, i, &stage);               fragment shader, output, inputs
+ * For each frame:
+ *     nook_nnao_stages_frame(stages, &frame, NULL, 0, 0, &values);
+ * and for each stage in order a draw of three vertices without attributes, without blending, depth test and
+ * culling, into the viewport of the stage. Each stage ends before the next one reads its output.
+ *
+ * The shaders are GLSL 4.50 for Vulkan (`glslangValidator -V`, from which SPIRV-Cross makes HLSL or MSL), and
+ * of OpenGL 4.5 as well. Set 0 has, by binding: 0 a uniform buffer with nook_nnao_frame_values.constants; 1 a
+ * uniform buffer with nook_nnao_stages_info.network, in the stage "occlusion" alone; from 2 on the input
+ * images, with a sampler that does not filter: the shaders read texels. Location 0 is the output.
+ *
+ * Row 0 of every image is where clip y is -1: in Vulkan its first row, with the projection as Vulkan takes
+ * it. Direct3D's first row is where clip y is 1: there the second row of the projection (numbers 1, 5, 9 and
+ * 13) is negated. In both, frame.clip is NOOK_NNAO_CLIP_ZERO_TO_ONE, and view space looks along -z; for a
+ * view space that looks along +z the third column (numbers 8 to 11) is negated, and z of normals by
+ * normal_matrix. */
+#ifndef NOOK_NNAO_STAGES_H
+#define NOOK_NNAO_STAGES_H
+
+#include "nook_nnao.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct nook_nnao_stages_s* nook_nnao_stages;
+
+/* Images that stages read or write. The first four are the host's, and texture arrays or multisample textures
+ * where nook_nnao_desc says so; the host gives those that its frames have, and any 1 x 1 image for others. */
+enum {
+  NOOK_NNAO_IMAGE_HOST_DEPTH = 0,
+  NOOK_NNAO_IMAGE_HOST_NORMAL = 1,
+  NOOK_NNAO_IMAGE_HOST_LAYER = 2,
+  NOOK_NNAO_IMAGE_HOST_MOTION = 3,
+  /* Linear depth of the surface, as the bits of floats. */
+  NOOK_NNAO_IMAGE_DEPTH = 4,
+  /* AO and edges. */
+  NOOK_NNAO_IMAGE_AO = 5,
+  /* The same after filters; with two of them AO is written anew by the second. */
+  NOOK_NNAO_IMAGE_FILTERED = 6,
+  /* With temporal_frames: the mean over frames, and what it and linear depth were in the frame before. After
+   * each frame the host swaps NOOK_NNAO_IMAGE_DEPTH with EARLIER_DEPTH, and MEAN with EARLIER_MEAN. Each
+   * layer has four such images of its own. */
+  NOOK_NNAO_IMAGE_MEAN = 7,
+  NOOK_NNAO_IMAGE_EARLIER_DEPTH = 8,
+  NOOK_NNAO_IMAGE_EARLIER_MEAN = 9,
+  /* The result. The format is that of the pass's own texture; any colour format of the host will do, and a
+   * blend of source times destination multiplies it in place of frame.blend. */
+  NOOK_NNAO_IMAGE_TARGET = 10,
+  NOOK_NNAO_IMAGE_COUNT = 11
+};
+typedef int32_t nook_nnao_image;
+
+/* Formats by their channels, as DXGI_FORMAT and VkFormat name them. */
+enum {
+  /* The host's, or the image does not exist. */
+  NOOK_NNAO_FORMAT_NONE = 0,
+  NOOK_NNAO_FORMAT_R8_UNORM = 1,
+  NOOK_NNAO_FORMAT_R8G8_UNORM = 2,
+  NOOK_NNAO_FORMAT_R8G8B8A8_UNORM = 3,
+  NOOK_NNAO_FORMAT_R32_UINT = 4
+};
+typedef int32_t nook_nnao_format;
+
+enum {
+  /* The most inputs of a stage. */
+  NOOK_NNAO_STAGE_MAX_INPUTS = 6,
+  /* Floats of nook_nnao_frame_values.constants. */
+  NOOK_NNAO_STAGE_CONSTANTS = 76
+};
+
+/* Describes the stages of a pass. path and timers of the descriptor have no effect. Not with a network of the
+ * paper's form. It allocates; on failure *out is NULL.
+ * Any thread. Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_nnao_stages_create(nook_context context, const nook_nnao_desc* desc,
+                                             nook_nnao_stages* out);
+
+/* Releases the object and its texts, and sets *stages to NULL; *stages may be NULL.
+ * Any thread. */
+NOOK_API void nook_nnao_stages_destroy(nook_nnao_stages* stages);
+
+typedef struct nook_nnao_stages_info {
+  /* sizeof(nook_nnao_stages_info); the caller sets it. */
+  uint32_t struct_size;
+  uint32_t stage_count;
+  /* Of every stage: one triangle over the viewport. */
+  const char* vertex_shader;
+  /* The numbers of binding 1, which never change. Pointers are valid while the object lives. */
+  const void* network;
+  uint32_t network_bytes;
+  /* 0. */
+  uint32_t reserved;
+} nook_nnao_stages_info;
+
+/* Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_nnao_stages_describe(nook_nnao_stages stages, nook_nnao_stages_info* info);
+
+typedef struct nook_nnao_image_info {
+  /* sizeof(nook_nnao_image_info); the caller sets it. */
+  uint32_t struct_size;
+  /* NOOK_NNAO_FORMAT_NONE for images of the host, and for those that no stage uses. */
+  nook_nnao_format format;
+  /* Pixels at the pass's maximum size; 0 for images of the host, and for those that no stage uses. */
+  int32_t width, height;
+} nook_nnao_image_info;
+
+/* Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_nnao_stages_image(nook_nnao_stages stages, nook_nnao_image image,
+                                            nook_nnao_image_info* info);
+
+typedef struct nook_nnao_stage_info {
+  /* sizeof(nook_nnao_stage_info); the caller sets it. */
+  uint32_t struct_size;
+  nook_nnao_image output;
+  /* "depth", "occlusion", "accumulate", "filter", "resolve" or "resolve_layered", and the text of its
+   * fragment shader; valid while the object lives. The last two stages are resolve and resolve_layered: a
+   * frame runs the first if frame.layer is NOOK_NNAO_LAYER_NONE, and the second otherwise. */
+  const char* name;
+  const char* fragment_shader;
+  /* 1: the viewport is nook_nnao_frame_values.viewport; 0: it is surface_width x surface_height at (0, 0). */
+  int32_t draws_viewport;
+  /* 1: it reads binding 1. */
+  int32_t reads_network;
+  uint32_t input_count;
+  /* Input i has the binding 2 + i. */
+  nook_nnao_image inputs[NOOK_NNAO_STAGE_MAX_INPUTS];
+} nook_nnao_stage_info;
+
+/* index is less than nook_nnao_stages_info.stage_count.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_nnao_stages_stage(nook_nnao_stages stages, uint32_t index,
+                                            nook_nnao_stage_info* info);
+
+typedef struct nook_nnao_frame_values {
+  /* sizeof(nook_nnao_frame_values); the caller sets it. */
+  uint32_t struct_size;
+  /* Pixels of the surface, which is the viewport at the resolution at which AO is computed. */
+  int32_t surface_width, surface_height;
+  /* x, y, width and height of the last stage. */
+  int32_t viewport[4];
+  /* Binding 0. */
+  float constants[NOOK_NNAO_STAGE_CONSTANTS];
+} nook_nnao_frame_values;
+
+/* Computes the numbers of a frame. It depends on its arguments alone, and allocates nothing.
+ * Of the frame's texture names only their being 0 matters: normal_texture and motion_texture say whether the
+ * frame has such images. target, target_name and blend are not read but for blend with bent normals; view is
+ * NOOK_NNAO_VIEW_AO, RAW or BLURRED, and RAW only without temporal_frames.
+ * earlier: the frame before, or NULL for a cut. number: the count of frames before, which turns the noise of
+ * passes with temporal_frames. layer: less than nook_nnao_desc.layers, or 0.
+ * Any thread. Errors: INVALID_ARGUMENT (as nook_nnao_render), VERSION. */
+NOOK_API nook_result nook_nnao_stages_frame(nook_nnao_stages stages, const nook_nnao_frame_desc* frame,
+                                            const nook_nnao_frame_desc* earlier, uint32_t number,
+                                            uint32_t layer, nook_nnao_frame_values* values);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

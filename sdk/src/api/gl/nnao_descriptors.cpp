@@ -1,0 +1,110 @@
+#include "sdk/src/api/gl/nnao_descriptors.h"
+
+#include <cmath>
+
+#include "sdk/src/core/descriptors.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/gl/nnao/frame_constants.h"
+#include "sdk/src/nnao/network_file.h"
+#include "sdk/src/nnao/taps.h"
+
+namespace nook::api {
+namespace {
+
+void check_switch(const char* field, std::int32_t value) {
+  if (value != 0 && value != 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is neither on nor off (got %d, need 0 or 1)", field,
+                  value);
+}
+
+}  // namespace
+
+nook_nnao_desc default_nnao_desc() {
+  nook_nnao_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.header_version = NOOK_VERSION;
+  desc.taps = nnao::default_taps;
+  desc.blur = 1;
+  desc.blur_sharpness = 16;
+  return desc;
+}
+
+nook_nnao_frame_desc default_nnao_frame() {
+  nook_nnao_frame_desc frame{};
+  frame.struct_size = sizeof frame;
+  frame.header_version = NOOK_VERSION;
+  frame.normal_scale = 1;
+  frame.normal_matrix[0] = frame.normal_matrix[4] = frame.normal_matrix[8] = 1;
+  frame.intensity = frame.power = 1;
+  frame.earlier_from_view[0] = frame.earlier_from_view[5] = frame.earlier_from_view[10] = 1;
+  frame.motion_scale[0] = frame.motion_scale[1] = 1;
+  frame.depth_log_scale = 1;
+  return frame;
+}
+nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given) {
+  const nook_nnao_desc desc =
+      read_descriptor(given, "nook_nnao_desc_init", first_nnao_desc, default_nnao_desc());
+  constexpr int largest = 16384;
+  if (desc.max_width < 1 || desc.max_height < 1 || desc.max_width > largest || desc.max_height > largest)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.max_width and desc.max_height are out of range (got %d x %d, need 1 x 1 to %d x %d)",
+                  desc.max_width, desc.max_height, largest, largest);
+  if (desc.taps < 0 || nnao::horizon_grid(static_cast<std::uint32_t>(desc.taps)).steps == 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256)", desc.taps);
+  check_switch("half_resolution", desc.half_resolution);
+  if (desc.blur < 0 || desc.blur > 2)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.blur is out of range (got %d, need 0 to 2)", desc.blur);
+  check_switch("timers", desc.timers);
+  if (!(desc.blur_sharpness > 0) || !std::isfinite(desc.blur_sharpness))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.blur_sharpness is out of range (got %g, need more than 0)",
+                  double(desc.blur_sharpness));
+  if (desc.path < NOOK_NNAO_PATH_AUTOMATIC || desc.path > NOOK_NNAO_PATH_COMPUTE)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.path is unknown (got %d, need 0 to %d)", desc.path,
+                  NOOK_NNAO_PATH_COMPUTE);
+  check_switch("bent_normals", desc.bent_normals);
+  if (desc.temporal_frames != 0 && (desc.temporal_frames < 2 || desc.temporal_frames > 64))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.temporal_frames is out of range (got %d, need 0, or 2 to 64)", desc.temporal_frames);
+  if (desc.temporal_frames != 0 && desc.bent_normals)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.temporal_frames does not go with desc.bent_normals (got %d and 1); use one of them",
+                  desc.temporal_frames);
+  if (desc.depth_samples < 0 || desc.depth_samples > 16)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.depth_samples is out of range (got %d, need 0 to 16)",
+                  desc.depth_samples);
+  if (desc.depth_sample < NOOK_NNAO_SAMPLE_MEDIAN || desc.depth_sample > NOOK_NNAO_SAMPLE_NEAREST)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.depth_sample is unknown (got %d, need 0 to %d)",
+                  desc.depth_sample, NOOK_NNAO_SAMPLE_NEAREST);
+  if (desc.layers < 0 || desc.layers > gl::max_layers)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.layers is out of range (got %d, need 0 to %d)",
+                  desc.layers, gl::max_layers);
+  if (desc.layers != 0 && desc.depth_samples != 0)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.layers does not go with desc.depth_samples (got %d and %d); resolve depth to an array "
+        "without samples",
+        desc.layers, desc.depth_samples);
+  if (!desc.network && desc.network_size != 0)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.network is NULL with desc.network_size %zu; give the bytes, or 0 for the embedded network",
+        desc.network_size);
+  return desc;
+}
+
+std::span<const std::byte> network_bytes(const nook_nnao_desc& desc) {
+  if (!desc.network) return nnao::default_network_file();
+  return {static_cast<const std::byte*>(desc.network), desc.network_size};
+}
+
+void check_form(const nook_nnao_desc& desc, nnao::NetworkForm form) {
+  if (desc.bent_normals && form == nnao::NetworkForm::paper)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.bent_normals needs a network of the horizon form (got one of the paper's form); train "
+        "one, or leave desc.network NULL");
+}
+
+}  // namespace nook::api

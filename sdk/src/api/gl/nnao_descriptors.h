@@ -1,0 +1,31 @@
+// The descriptors of the screen-space pass: defaults and checks.
+#pragma once
+
+#include <nook/nook_nnao.h>
+
+#include <cstddef>
+#include <span>
+
+#include "sdk/src/nnao/network.h"
+
+namespace nook::api {
+
+nook_nnao_desc default_nnao_desc();
+nook_nnao_frame_desc default_nnao_frame();
+
+// The sizes in the first release.
+inline constexpr std::size_t first_nnao_desc = offsetof(nook_nnao_desc, network_size) + sizeof(std::size_t);
+inline constexpr std::size_t first_nnao_frame = offsetof(nook_nnao_frame_desc, view) + sizeof(nook_nnao_view);
+
+// Returns the caller's descriptor in this library's version. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT,
+// NOOK_ERROR_VERSION), naming the field, unless it is sound.
+nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given);
+
+// Returns the file of the network, which is the embedded one if the host gave none.
+std::span<const std::byte> network_bytes(const nook_nnao_desc& desc);
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the network's form does not have what the descriptor asks
+// for.
+void check_form(const nook_nnao_desc& desc, nnao::NetworkForm form);
+
+}  // namespace nook::api

@@ -1,0 +1,17 @@
+// The definitions that a pass puts before its shaders.
+#pragma once
+
+#include <nook/nook_nnao.h>
+
+#include "sdk/src/nnao/taps.h"
+
+namespace nook::gl {
+
+struct PassDefines {
+  char text[280] = "";
+};
+
+// horizon: the network has the horizon form.
+PassDefines pass_defines(const nook_nnao_desc& desc, bool horizon, const nnao::TapGrid& grid);
+
+}  // namespace nook::gl

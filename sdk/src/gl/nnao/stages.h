@@ -1,0 +1,39 @@
+// The stages of the screen-space pass as shader text and images, for hosts without OpenGL.
+#pragma once
+
+#include <nook/nook_nnao_stages.h>
+
+#include "sdk/src/core/containers.h"
+#include "sdk/src/nnao/network.h"
+
+namespace nook::gl {
+
+struct StageText {
+  explicit StageText(Memory* memory) : fragment(memory) {}
+
+  const char* name = "";
+  String fragment;
+  nook_nnao_image output = NOOK_NNAO_IMAGE_TARGET;
+  bool draws_viewport = false, reads_network = false;
+  std::uint32_t input_count = 0;
+  nook_nnao_image inputs[NOOK_NNAO_STAGE_MAX_INPUTS] = {};
+};
+
+struct PassStages {
+  explicit PassStages(Memory* memory) : vertex(memory), stages(memory), network(memory) {}
+
+  String vertex;
+  Vector<StageText> stages;
+  Vector<float> network;  // the uniform block, whose last vec4 has the directions as an integer
+};
+
+// The descriptor must be checked, and the network have the horizon form.
+PassStages pass_stages(const nook_nnao_desc& desc, const nnao::Network& network, Memory* memory);
+
+nook_nnao_image_info stage_image(const nook_nnao_desc& desc, nook_nnao_image image);
+
+// frame has passed check_frame, and earlier may be null.
+nook_nnao_frame_values frame_values(const nook_nnao_desc& desc, const nook_nnao_frame_desc& frame,
+                                    const nook_nnao_frame_desc* earlier, std::uint32_t number, int layer);
+
+}  // namespace nook::gl

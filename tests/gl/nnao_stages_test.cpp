@@ -1,0 +1,266 @@
+// The stages as data: run in plain OpenGL by nothing but what nook_nnao_stages.h gives, they draw what the
+// pass draws; every text compiles for Vulkan; bad input.
+#include <nook/nook_nnao_stages.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
+#include <random>
+#include <utility>
+
+#include "platform/program.h"
+#include "sdk/src/nnao/network_file.h"
+#include "tests/abi/growing_struct.h"
+#include "tests/gl/nnao_images.h"
+#include "tests/gl/nnao_stage_renderer.h"
+#include "tests/gl/test_context.h"
+
+using namespace nook;
+using namespace nook::test;
+
+extern "C" int nook_call_every_stages_function(void);
+
+namespace {
+
+constexpr int width = 61, height = 43;
+
+bool message_has(const char* part) {
+  INFO(nook_last_message());
+  return std::strstr(nook_last_message(), part) != nullptr;
+}
+
+struct Settings {
+  const char* name;
+  std::function<void(nook_nnao_desc&)> change;
+};
+const Settings all_settings[] = {
+    {"default", [](nook_nnao_desc&) {}},
+    {"fast", [](nook_nnao_desc& d) { d.half_resolution = 1; }},
+    {"best", [](nook_nnao_desc& d) { d.taps = 32; }},
+    {"no filter", [](nook_nnao_desc& d) { d.blur = 0; }},
+    {"two filters", [](nook_nnao_desc& d) { d.blur = 2; }},
+    {"two filters at half resolution", [](nook_nnao_desc& d) { d.blur = 2, d.half_resolution = 1; }},
+    {"bent normals", [](nook_nnao_desc& d) { d.bent_normals = 1; }},
+    {"bent normals at half resolution", [](nook_nnao_desc& d) { d.bent_normals = d.half_resolution = 1; }},
+    {"means over frames", [](nook_nnao_desc& d) { d.temporal_frames = 4; }},
+    {"means over frames at half resolution",
+     [](nook_nnao_desc& d) { d.temporal_frames = 8, d.half_resolution = 1; }},
+    {"two eyes", [](nook_nnao_desc& d) { d.layers = 2; }},
+    {"two eyes at half resolution, means over frames",
+     [](nook_nnao_desc& d) { d.layers = 2, d.temporal_frames = 4, d.half_resolution = 1; }},
+    {"samples", [](nook_nnao_desc& d) { d.depth_samples = 4; }},
+    {"nearest sample at half resolution",
+     [](nook_nnao_desc& d) {
+       d.depth_samples = 8, d.depth_sample = NOOK_NNAO_SAMPLE_NEAREST, d.half_resolution = 1;
+     }},
+};
+
+nook_nnao_stages make_stages(nook_context context, const nook_nnao_desc& desc) {
+  nook_nnao_stages stages = nullptr;
+  NOOK_OK_OR_FAIL(nook_nnao_stages_create(context, &desc, &stages));
+  return stages;
+}
+
+void compare(platform::Context& context, const Settings& settings) {
+  NnaoFixture fixture(context);
+  const GladGLContext& gl = context.gl();
+  Textures& textures = fixture.textures;
+  nook_nnao_desc desc = pass_desc(width, height);
+  settings.change(desc);
+  GLint most = 0;
+  gl.GetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &most);
+  if (desc.depth_samples > most) return;
+  const int channels = desc.bent_normals ? 4 : 1;
+  const bool layers = desc.layers > 0, samples = desc.depth_samples > 0;
+  const GLenum target = layers ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
+  nook_nnao pass = create_pass(fixture.gl, desc);
+  nook_nnao_stages stages = make_stages(fixture.host.handle, desc);
+  std::vector<std::unique_ptr<StageRenderer>> renderers;  // of each layer
+  for (int layer = 0; layer < std::max(desc.layers, 1); ++layer)
+    renderers.push_back(std::make_unique<StageRenderer>(gl, stages));
+  const Camera camera = plain_camera(float(width) / height);
+  const Picture picture = look(camera, still_life(), width, height);
+  const std::vector<float> stored = stored_depth(camera, picture), normal_values = flat(picture.normal);
+  const auto image = [&](GLint format, int count, const std::vector<float>& values) {
+    return nearest(gl, target,
+                   layers ? textures.array(format, count, width, height, {values, values})
+                          : textures.floats(format, count, width, height, values));
+  };
+  const GLuint depth = samples
+                           ? textures.depth_samples(width, height, std::vector<std::vector<float>>(4, stored))
+                           : image(GL_DEPTH_COMPONENT32F, 1, stored);
+  const GLuint normals = image(GL_RGB32F, 3, normal_values);
+  const GLuint layer_image = image(GL_RG32F, 2, std::vector<float>(width * height * 2, 0.8f));
+  const GLuint motion = image(GL_RG32F, 2, std::vector<float>(width * height * 2, 0.3f));
+  float projections[32];
+  for (int i = 0; i < 32; ++i) projections[i] = camera.projection[i % 16] + (i == 24 ? 0.1f : 0.0f);
+  std::vector<nook_nnao_frame_desc> frames;
+  for (int i = 0; i < 4; ++i) {
+    nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, i % 2 ? normals : 0, 0.6f);
+    if (layers) frame.layer_projections = projections;
+    frame.earlier_from_view[3] = 0.01f * float(i);
+    if (i == 2) frame.layer = NOOK_NNAO_LAYER_MIN, frame.layer_texture = layer_image;
+    if (i >= 2) frame.motion_texture = motion;
+    if (i == 3) frame.radius_kind = NOOK_NNAO_RADIUS_SCREEN, frame.radius = 0.1f, frame.intensity = 2;
+    if (i == 3 && !desc.temporal_frames) {
+      frame.viewport[0] = 5, frame.viewport[1] = 3, frame.viewport[2] = 41, frame.viewport[3] = 33;
+    }
+    frames.push_back(frame);
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const nook_nnao_frame_desc& frame = frames[i];
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+    for (std::size_t layer = 0; layer < renderers.size(); ++layer) {
+      renderers[layer]->draw(
+          frame, i > 0 ? &frames[i - 1] : nullptr, std::uint32_t(i), std::uint32_t(layer),
+          {{NOOK_NNAO_IMAGE_HOST_DEPTH, {samples ? GL_TEXTURE_2D_MULTISAMPLE : target, depth}},
+           {NOOK_NNAO_IMAGE_HOST_NORMAL, {target, normals}},
+           {NOOK_NNAO_IMAGE_HOST_LAYER, {target, layer_image}},
+           {NOOK_NNAO_IMAGE_HOST_MOTION, {target, motion}}});
+      const std::vector<float> wanted =
+          read_texture(gl, info_of(pass).texture, width, height, channels, layers ? int(layer) : -1);
+      const std::vector<float> found = read_texture(gl, renderers[layer]->target(), width, height, channels);
+      INFO(settings.name << ", frame " << i << ", layer " << layer);
+      const nook_nnao_frame_desc& f = frame;
+      // Outside its viewport each target keeps what it had.
+      std::size_t off = 0;
+      for (int y = f.viewport[1]; y < f.viewport[1] + (f.viewport[3] ? f.viewport[3] : height); ++y)
+        for (int x = f.viewport[0] * channels;
+             x < (f.viewport[0] + (f.viewport[2] ? f.viewport[2] : width)) * channels; ++x) {
+          const std::size_t at = std::size_t(y) * width * std::size_t(channels) + std::size_t(x);
+          off += std::abs(found[at] - wanted[at]) > 1.1f / 255;
+        }
+      // The compiler of a driver may contract the same expressions in another way in a program of another
+      // version: a tap on the border of two texels then goes the other way.
+      CHECK(off <= std::size_t(width * height) / 1000);
+    }
+  }
+  nook_nnao_stages_destroy(&stages);
+  nook_nnao_destroy(&pass);
+}
+
+}  // namespace
+
+TEST_CASE("nnao: the stages as data draw what the pass draws") {
+  NOOK_NEED_CONTEXT(context);
+  if (context.is_es() || version_of(context) < 45) {
+    std::printf("the texts of the stages are GLSL 4.50: not run on this context\n");
+    return;
+  }
+  for (const Settings& settings : all_settings) compare(context, settings);
+}
+
+TEST_CASE("nnao: every stage compiles as GLSL for Vulkan") {
+  if (std::system("glslangValidator --version > /dev/null 2>&1") != 0) {
+    std::printf("no glslangValidator (Debian's glslang-tools): stages are not compiled for Vulkan\n");
+    return;
+  }
+  CountedContext host;
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("nook_stages_" + std::to_string(std::random_device{}()));
+  std::filesystem::create_directory(folder);
+  const auto compile = [&](const char* stage, const char* text) {
+    const std::filesystem::path file = folder / (std::string("stage.") + stage);
+    std::ofstream(file) << text;
+    std::string command = "glslangValidator -V -o '";
+    command.append(file.string()).append(".spv' '").append(file.string()).append("' > '");
+    command.append(file.string()).append(".log' 2>&1");
+    return std::system(command.c_str());
+  };
+  for (const Settings& settings : all_settings)
+    for (const int taps : {9, 64}) {
+      nook_nnao_desc desc = pass_desc(width, height);
+      desc.taps = taps;
+      settings.change(desc);
+      nook_nnao_stages stages = make_stages(host.handle, desc);
+      auto info = sized<nook_nnao_stages_info>();
+      NOOK_OK_OR_FAIL(nook_nnao_stages_describe(stages, &info));
+      if (&settings == all_settings) CHECK(compile("vert", info.vertex_shader) == 0);
+      for (std::uint32_t i = 0; i < info.stage_count; ++i) {
+        auto stage = sized<nook_nnao_stage_info>();
+        NOOK_OK_OR_FAIL(nook_nnao_stages_stage(stages, i, &stage));
+        INFO(settings.name << ", " << taps << " taps, " << stage.name);
+        CHECK(compile("frag", stage.fragment_shader) == 0);
+      }
+      nook_nnao_stages_destroy(&stages);
+    }
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("nnao: values of stages follow from the arguments alone, without memory") {
+  CountedContext host;
+  const nook_nnao_desc desc = pass_desc(width, height);
+  nook_nnao_stages stages = make_stages(host.handle, desc);
+  const nook_nnao_frame_desc frame = frame_desc(plain_camera(1.4f), width, height, 0, 0, 0.5f);
+  auto first = sized<nook_nnao_frame_values>(), second = first;
+  const long allocations = host.allocations;
+  NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages, &frame, nullptr, 3, 0, &first));
+  NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages, &frame, nullptr, 3, 0, &second));
+  CHECK(host.allocations == allocations);
+  CHECK(std::memcmp(&first, &second, sizeof first) == 0);
+  CHECK(first.viewport[2] == width);
+  CHECK(first.surface_height == height);
+  check_info<nook_nnao_frame_values>(offsetof(nook_nnao_frame_values, constants) + sizeof first.constants,
+                                     [&](nook_nnao_frame_values* values) {
+                                       return nook_nnao_stages_frame(stages, &frame, nullptr, 0, 0, values);
+                                     });
+  nook_nnao_stages_destroy(&stages);
+}
+
+TEST_CASE("nnao: bad arguments of stages are refused with their name") {
+  CountedContext host;
+  nook_nnao_desc desc = pass_desc(width, height);
+  desc.temporal_frames = 4;
+  nook_nnao_stages stages = make_stages(host.handle, desc);
+  auto stage = sized<nook_nnao_stage_info>();
+  auto image = sized<nook_nnao_image_info>();
+  auto values = sized<nook_nnao_frame_values>();
+  CHECK(nook_nnao_stages_stage(stages, 99, &stage) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("nook_nnao_stages_stage: index is out of range (got 99, need less than 5)"));
+  CHECK(nook_nnao_stages_image(stages, 11, &image) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("image is unknown (got 11, need 0 to 10)"));
+  const nook_nnao_frame_desc good = frame_desc(plain_camera(1.4f), width, height, 0, 0, 0.5f);
+  const auto refused = [&](const nook_nnao_frame_desc& frame, const nook_nnao_frame_desc* earlier,
+                           std::uint32_t layer, const char* message) {
+    CHECK(nook_nnao_stages_frame(stages, &frame, earlier, 0, layer, &values) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has(message));
+  };
+  nook_nnao_frame_desc bad = good;
+  bad.radius = -1;
+  refused(bad, nullptr, 0, "frame.radius");
+  refused(good, &bad, 0, "frame.radius");
+  refused(good, nullptr, 1, "layer is out of range (got 1, need less than 1)");
+  bad = good, bad.width = width + 1;
+  refused(bad, nullptr, 0, "frame.width");
+  bad = good, bad.view = NOOK_NNAO_VIEW_NORMALS;
+  refused(bad, nullptr, 0, "frame.view 3");
+  bad = good, bad.view = NOOK_NNAO_VIEW_RAW;
+  refused(bad, nullptr, 0, "frame.view 1 does not go with desc.temporal_frames 4");
+  CHECK(nook_nnao_stages_frame(nullptr, &good, nullptr, 0, 0, &values) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_stages_frame(stages, nullptr, nullptr, 0, 0, &values) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_stages_frame(stages, &good, nullptr, 0, 0, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_nnao_stages_destroy(&stages);
+  nook_nnao_stages_destroy(&stages);
+  nook_nnao_stages_destroy(nullptr);
+  desc.taps = 10;
+  CHECK(nook_nnao_stages_create(host.handle, &desc, &stages) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("desc.taps is unknown"));
+  const std::vector<std::byte> network = nnao::write_network(mild_network(nnao::NetworkForm::paper));
+  desc = pass_desc(width, height);
+  desc.network = network.data();
+  desc.network_size = network.size();
+  CHECK(nook_nnao_stages_create(host.handle, &desc, &stages) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("desc.network has the paper's form"));
+  desc.network_size = 5;
+  CHECK(nook_nnao_stages_create(host.handle, &desc, &stages) == NOOK_ERROR_BAD_FILE);
+  CHECK(stages == nullptr);
+}
+
+TEST_CASE("nnao: every function of the stages is called from C") {
+  CHECK(nook_call_every_stages_function() == 0);
+}
