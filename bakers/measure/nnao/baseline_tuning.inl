@@ -22,7 +22,7 @@
     {Baseline::xegtao, 8, {1.41f, 1.80f, 0.100f, 0.10f, false, Border::depth, Denoiser::edges_3}},
     {Baseline::xegtao, 18, {2.80f, 2.24f, 0.900f, 0.35f, false, Border::depth, Denoiser::blur}},
     {Baseline::xegtao, 54, {2.80f, 1.80f, 0.800f, 0.35f, false, Border::depth, Denoiser::edges_1}},
-    {Baseline::n8ao, 16, {3.20f, 2.80f, 0.140f, 0.00f, false, Border::pixel, Denoiser::disc}},
+    {Baseline::n8ao, 16, {2.80f, 3.20f, 0.140f, 0.00f, false, Border::pixel, Denoiser::disc}},
     {Baseline::s4ao, 12, {0.45f, 1.60f, 0.110f, 0.00f, false, Border::pixel, Denoiser::none}},
     {Baseline::vtk, 32, {2.24f, 1.26f, 0.000f, 0.00f, false, Border::pixel, Denoiser::none}},
     {Baseline::qgis, 64, {0.80f, 2.50f, 0.500f, 0.00f, false, Border::depth, Denoiser::box}},

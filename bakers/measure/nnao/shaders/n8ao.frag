@@ -9,7 +9,8 @@ uniform float falloff;  // in radii
 float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noise) {
   // A texel's depth is that of its centre: so much nearer a slanted plane may be than the point.
   float facing = dot(normal, normalize(-position));
-  float margin = 0.75 * sqrt(max(1.0 - facing * facing, 0.0)) / (max(facing, 0.02) * pixels_per_metre(-position.z));
+  float slope = sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.02);
+  float margin = (0.25 + 0.75 * slope) / pixels_per_metre(-position.z);
   float closed = 0.0;
   for (int i = 0; i < steps; ++i) {
     vec3 point = position + radius.x * hemisphere_point(i, steps, noise, normal);
