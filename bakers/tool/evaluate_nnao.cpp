@@ -70,8 +70,10 @@ struct Shown {
   const char* suffix;
   std::vector<std::pair<std::string, int>> methods;
 };
-const Shown sheets[] = {{"", {{"nnao", 9}, {"xegtao", 18}, {"gtao_bitmask", 16}, {"hbao", 64}}},
-                        {"_presets", {{half_name, 9}, {"nnao", 9}, {"nnao", 32}, {"gtao", 16}}}};
+const Shown sheets[] = {
+    {"", {{"nnao", 9}, {"xegtao", 18}, {"gtao_bitmask", 16}, {"hbao", 64}}},
+    {"_presets", {{half_name, 9}, {"nnao", 9}, {"nnao", 32}, {"gtao", 16}}},
+    {"_shipped", {{"n8ao_shipped", 16}, {"s4ao_shipped", 12}, {"vtk_shipped", 32}, {"filament_shipped", 7}}}};
 
 bool is_shown(const std::string& method, int taps) {
   for (const Shown& sheet : sheets)
@@ -352,7 +354,8 @@ Json tune(const Options& options) {
   const auto context = make_context();
   std::vector<BaselineMethod> methods;
   for (const BaselineMethod& method : baseline_methods())
-    if (options.tune == "all" || options.tune == baseline_name(method.baseline)) methods.push_back(method);
+    if (!method.shipped && (options.tune == "all" || options.tune == baseline_name(method.baseline)))
+      methods.push_back(method);
   const std::vector<TunedBaseline> tuned =
       tune_baselines(*context, views, methods, [&](std::size_t done, std::size_t total) {
         bar.show("tuning", "methods", done, total);
@@ -422,8 +425,9 @@ void run(Options& options) {
 void add_evaluate_nnao(CLI::App& evaluate_command) {
   CLI::App* command = evaluate_command.add_subcommand("nnao",
                                                       "the screen-space pass, and SSAO, SSAO+, HBAO, GTAO, "
-                                                      "GTAO with a visibility bitmask and XeGTAO, against "
-                                                      "ray tracing");
+                                                      "GTAO with a visibility bitmask, XeGTAO, and forms of "
+                                                      "what N8AO, Godot, VTK, QGIS and Filament ship, "
+                                                      "against ray tracing");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command->add_option("scene", o.scenes.files,
@@ -480,6 +484,8 @@ void add_evaluate_nnao(CLI::App& evaluate_command) {
                       "keep the ray-traced references in this folder, and take those that are there");
   std::vector<std::string> methods{"all", "nnao", half_name, twice_name, "nnao_paper", "nnao_file"};
   methods.insert(methods.end(), baselines.begin() + 1, baselines.end());
+  for (const BaselineMethod& method : baseline_methods())
+    if (method.shipped) methods.push_back(baseline_row(method));
   for (const Oracle oracle : all_oracles) methods.push_back(oracle_name(oracle));
   for (const std::string& name : frame_method_names()) methods.push_back(name);
   command

@@ -161,6 +161,11 @@ void add_train_nnao(CLI::App& train) {
       ->add_option("--time-limit", o.time_limit_s,
                    "stop after so many seconds of training, as Ctrl-C does: the same command goes on")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--dark-weight", o.training.dark_weight,
+                   "horizon form: a point counts 1 + this x (1 - AO)^2 times")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
   command->add_option("--batch", o.training.batch, "points a step, a multiple of 16")
       ->check(CLI::Range(16, 65536));
   add_common_options(*command, o.common);

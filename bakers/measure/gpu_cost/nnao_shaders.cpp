@@ -41,7 +41,14 @@ std::vector<Loop> baseline_loops(const BaselineMethod& method) {
   switch (method.baseline) {
     case Baseline::ssao:
     case Baseline::ssao_plus:
+    case Baseline::n8ao:
+    case Baseline::vtk:
+    case Baseline::qgis:
+    case Baseline::filament:
       return {{"taps", steps, {}}};
+    case Baseline::s4ao:
+      // Its grid is unrolled.
+      return {};
     case Baseline::hbao:
       return {{"directions", groups, {{"steps", steps, {}}}}};
     case Baseline::xegtao:
@@ -53,6 +60,8 @@ std::vector<Loop> baseline_loops(const BaselineMethod& method) {
 }
 
 bool is_counted(const BaselineMethod& method) {
+  // The same shader as the tuned one.
+  if (method.shipped) return false;
   switch (method.baseline) {
     case Baseline::gtao:
     case Baseline::bitmask:
@@ -121,7 +130,9 @@ std::vector<BaselineMethod> counted_baselines() {
 }
 
 std::string counted_name(const BaselineMethod& method) {
-  constexpr const char* names[] = {"SSAO", "SSAO+", "HBAO", "GTAO", "GTAO with bitmask", "XeGTAO"};
+  constexpr const char* names[] = {"SSAO",  "SSAO+", "HBAO",     "N8AO", "S4AO",
+                                   "VTK",   "QGIS",  "Filament", "GTAO", "GTAO with bitmask",
+                                   "XeGTAO"};
   const std::string name = std::string(names[int(method.baseline)]) + " ";
   if (method.baseline != Baseline::xegtao) return name + std::to_string(method.taps);
   return name + (method.taps == 8 ? "Medium" : method.taps == 18 ? "High" : "Ultra");
@@ -147,6 +158,9 @@ std::vector<ShaderCase> baseline_shaders() {
   add(Stage::compute, "denoise.comp", edge_denoiser);
   add(Stage::fragment, "denoise.frag", "edge-aware denoiser, a pixel a thread");
   add(Stage::fragment, "blur.frag", baseline_blur);
+  add(Stage::fragment, "box.frag", box_mean);
+  add(Stage::fragment, "disc.frag", n8ao_disc);
+  add(Stage::fragment, "gaussian.frag", filament_gaussian);
   return shaders;
 }
 

@@ -25,24 +25,46 @@ std::string passes_text(int passes) {
 
 // From the host's depth and normals to smooth AO.
 PassCase baseline_pass(const BaselineMethod& method, Denoiser denoiser) {
-  const int passes = int(denoiser);
   const bool xegtao = method.baseline == Baseline::xegtao;
-  PassCase pass{counted_name(method) + (passes > 0 ? ", denoised " + passes_text(passes) : ", blurred"), {}};
+  PassCase pass{counted_name(method), {}};
   if (xegtao) pass.shaders.push_back({xegtao_levels, quarter});
   pass.shaders.push_back({counted_name(method), 1});
-  if (passes > 0 && !xegtao) pass.shaders.push_back({denoiser_edges, 1});
-  pass.shaders.push_back(passes > 0 ? std::pair<std::string, double>(edge_denoiser, 0.5 * passes)
-                                    : std::pair<std::string, double>(baseline_blur, 2));
+  switch (denoiser) {
+    case Denoiser::none:
+      pass.name += ", not denoised";
+      break;
+    case Denoiser::blur:
+      pass.name += ", blurred";
+      pass.shaders.push_back({baseline_blur, 2});
+      break;
+    case Denoiser::box:
+      pass.name += ", 4 x 4 mean";
+      pass.shaders.push_back({box_mean, 1});
+      break;
+    case Denoiser::disc:
+      pass.name += ", its denoiser";
+      pass.shaders.push_back({n8ao_disc, disc_passes});
+      break;
+    case Denoiser::gaussian:
+      pass.name += ", its denoiser";
+      pass.shaders.push_back({filament_gaussian, 2});
+      break;
+    default:
+      pass.name += ", denoised " + passes_text(edge_passes(denoiser));
+      if (!xegtao) pass.shaders.push_back({denoiser_edges, 1});
+      pass.shaders.push_back({edge_denoiser, 0.5 * edge_passes(denoiser)});
+  }
   return pass;
 }
 
 void add_baselines(std::vector<PassCase>& passes) {
   for (const BaselineMethod& method : counted_baselines()) {
-    if (method.baseline != Baseline::xegtao) {
+    if (method.baseline != Baseline::xegtao && method.baseline != Baseline::vtk) {
       passes.push_back(baseline_pass(method, method.tuning.denoiser));
       continue;
     }
-    for (const Denoiser denoiser : all_denoisers) passes.push_back(baseline_pass(method, denoiser));
+    for (const Denoiser denoiser : denoisers_of(method.baseline))
+      passes.push_back(baseline_pass(method, denoiser));
   }
 }
 

@@ -50,6 +50,9 @@ struct PassCase {
 // Behind the names of what has bent normals as a second output.
 inline constexpr char bent_normals[] = ", bent normals";
 inline constexpr char baseline_blur[] = "blur of the baselines";
+inline constexpr char box_mean[] = "mean of 4 x 4 pixels";
+inline constexpr char n8ao_disc[] = "N8AO's disc";
+inline constexpr char filament_gaussian[] = "Filament's Gaussian";
 inline constexpr char edge_denoiser[] = "edge-aware denoiser, two pixels a thread";
 inline constexpr char denoiser_edges[] = "edges for the denoiser";
 inline constexpr char xegtao_levels[] = "XeGTAO depth levels, four pixels a thread";

@@ -15,6 +15,9 @@ BaselinePass::BaselinePass(const GladGLContext& gl, int width, int height)
       width_(width),
       height_(height),
       blur_(gl, "blur.frag"),
+      box_(gl, "box.frag"),
+      disc_(gl, "disc.frag"),
+      gaussian_(gl, "gaussian.frag"),
       images_{{gl, GL_R8, GL_RED, width, height, nullptr}, {gl, GL_R8, GL_RED, width, height, nullptr}},
       edge_denoiser_(gl, width, height),
       depth_levels_(gl, width, height),
@@ -69,9 +72,11 @@ void BaselinePass::draw_raw(const BaselineMethod& method, const GpuView& view, c
   gl_.Uniform1i(shader.at("groups"), grid.groups);
   gl_.Uniform1i(shader.at("steps"), grid.steps);
   // A baseline has one of these; the location of the others is -1, which OpenGL ignores.
-  for (const char* shape : {"bias", "falloff", "thickness"}) gl_.Uniform1f(shader.at(shape), tuning.shape);
+  for (const char* shape : {"bias", "falloff", "thickness", "threshold"})
+    gl_.Uniform1f(shader.at(shape), tuning.shape);
   gl_.Uniform2f(shader.at("bias_turn"), std::cos(tuning.shape), std::sin(tuning.shape));
   gl_.Uniform1i(shader.at("equal_weights"), tuning.equal_weights);
+  gl_.Uniform1f(shader.at("strength"), tuning.strength);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, images_[0].framebuffer());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -125,9 +130,9 @@ GLuint BaselinePass::draw(const BaselineMethod& method, const GpuView& view, con
   gl_.BindVertexArray(vertex_array_);
   const Denoiser denoiser = method.tuning.denoiser;
   if (method.baseline == Baseline::xegtao) {
-    const bool by_edges = denoised && denoiser != Denoiser::blur;
+    const bool by_edges = denoised && edge_passes(denoiser) > 0;
     draw_xegtao(program(method), method, view, request, by_edges ? 1 / headroom : 1, with_edges_);
-    if (by_edges) return edge_denoiser_.denoise(images_[0].texture(), int(denoiser), headroom);
+    if (by_edges) return edge_denoiser_.denoise(images_[0].texture(), edge_passes(denoiser), headroom);
   } else {
     draw_raw(method, view, request);
   }
@@ -136,9 +141,33 @@ GLuint BaselinePass::draw(const BaselineMethod& method, const GpuView& view, con
 
 GLuint BaselinePass::denoise(GLuint ao, const GpuView& view, const AoRequest& request, Denoiser denoiser) {
   gl_.BindVertexArray(vertex_array_);
+  if (denoiser == Denoiser::none) return ao;
   if (denoiser == Denoiser::blur) return blur(ao, view, request);
+  if (edge_passes(denoiser) == 0) return draw_own(denoiser, ao, view, request);
   edge_denoiser_.find_edges(view);
-  return edge_denoiser_.denoise(ao, int(denoiser), 1);
+  return edge_denoiser_.denoise(ao, edge_passes(denoiser), 1);
+}
+
+GLuint BaselinePass::draw_own(Denoiser denoiser, GLuint ao, const GpuView& view, const AoRequest& request) {
+  const GpuProgram& program = denoiser == Denoiser::box    ? box_
+                              : denoiser == Denoiser::disc ? disc_
+                                                           : gaussian_;
+  const int passes = denoiser == Denoiser::box ? 1 : denoiser == Denoiser::disc ? disc_passes : 2;
+  set_surface(program, view, request);
+  gl_.Uniform1i(program.at("ao_image"), 2);
+  // N8AO's default radius of its disc.
+  gl_.Uniform1f(program.at("disc_px"), 12);
+  for (int pass = 0; pass < passes; ++pass) {
+    const GpuImage& target = images_[(pass + 1) % 2];
+    gl_.ActiveTexture(GL_TEXTURE2);
+    gl_.BindTexture(GL_TEXTURE_2D, pass == 0 ? ao : images_[pass % 2].texture());
+    gl_.Uniform2i(program.at("axis"), pass == 0, pass == 1);
+    gl_.Uniform1f(program.at("turn"), float(pass));
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  gl_.ActiveTexture(GL_TEXTURE0);
+  return images_[passes % 2].texture();
 }
 
 GLuint BaselinePass::blur(GLuint ao, const GpuView& view, const AoRequest& request) {

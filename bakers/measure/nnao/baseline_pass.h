@@ -43,12 +43,14 @@ class BaselinePass {
   void draw_xegtao(const GpuProgram& shader, const BaselineMethod& method, const GpuView& view,
                    const AoRequest& request, float scale, GLuint framebuffer);
   GLuint blur(GLuint ao, const GpuView& view, const AoRequest& request);
+  // Runs one of the own denoisers of what is shipped.
+  GLuint draw_own(Denoiser denoiser, GLuint ao, const GpuView& view, const AoRequest& request);
 
   const GladGLContext& gl_;
   int width_, height_;
   GLuint vertex_array_ = 0, with_edges_ = 0;
   std::map<std::string, std::unique_ptr<GpuProgram>> programs_;  // by path and defines, made at first use
-  GpuProgram blur_;
+  GpuProgram blur_, box_, disc_, gaussian_;
   GpuImage images_[2];
   EdgeDenoiser edge_denoiser_;
   DepthLevels depth_levels_;

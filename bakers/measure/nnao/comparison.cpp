@@ -156,8 +156,8 @@ Comparison compare(platform::Context& context, std::span<const MeasuredView> vie
                 settings.other_network, sharpness, wanted);
   BaselinePass baselines(gl, width, height);
   for (const BaselineMethod& baseline : baseline_methods())
-    if (wanted(baseline_name(baseline.baseline), baseline.taps))
-      methods.push_back({baseline_name(baseline.baseline), baseline.taps,
+    if (wanted(baseline_row(baseline), baseline.taps))
+      methods.push_back({baseline_row(baseline), baseline.taps,
                          [&baselines, baseline](const GpuView& view, const AoRequest& request, bool blurred) {
                            return baselines.draw(baseline, view, request, blurred);
                          },

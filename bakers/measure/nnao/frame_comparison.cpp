@@ -110,9 +110,9 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& record
   std::vector<std::pair<Oracle, FrameRow>> oracles;
   if (replay.has_baselines()) {
     for (const BaselineMethod& method : baseline_methods())
-      if (is_wanted(methods, baseline_name(method.baseline), method.taps)) {
+      if (is_wanted(methods, baseline_row(method), method.taps)) {
         FrameRow row;
-        row.method = baseline_name(method.baseline);
+        row.method = baseline_row(method);
         row.pass.taps = method.taps;
         jobs.push_back({std::move(row), [method, &replay] { return replay.draw(method); }, nullptr});
       }

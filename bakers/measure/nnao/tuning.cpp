@@ -204,9 +204,9 @@ Found search_some(Search& search, Baseline baseline, const std::vector<TuningPla
 }
 
 // The best of each denoiser, the very best first.
-std::vector<Found> by_denoiser(Search& search, const Found& start) {
+std::vector<Found> by_denoiser(Search& search, Baseline baseline, const Found& start) {
   std::vector<Found> found;
-  for (const Denoiser denoiser : all_denoisers) {
+  for (const Denoiser denoiser : denoisers_of(baseline)) {
     Found best = start;
     if (denoiser != start.place.denoiser) {
       best.place.denoiser = denoiser;
@@ -226,7 +226,8 @@ Found tune(const GladGLContext& gl, BaselinePass& pass, const std::deque<ViewOnG
            const BaselineMethod& method, const std::vector<TuningPlace>& before) {
   Search some(gl, pass, views, views.size() < 12 ? 1 : 3, method, false),
       all(gl, pass, views, 1, method, true);
-  std::vector<Found> candidates = by_denoiser(some, search_some(some, method.baseline, before));
+  std::vector<Found> candidates =
+      by_denoiser(some, method.baseline, search_some(some, method.baseline, before));
   std::erase_if(candidates, [limit = near_best * candidates.front().mse](const Found& found) {
     return found.mse > limit;
   });
@@ -270,7 +271,8 @@ std::vector<TunedBaseline> tune_baselines(platform::Context& context, std::span<
 }
 
 std::string tuning_line(const BaselineMethod& method) {
-  constexpr const char* names[] = {"ssao", "ssao_plus", "hbao", "gtao", "bitmask", "xegtao"};
+  constexpr const char* names[] = {"ssao", "ssao_plus", "hbao", "n8ao",    "s4ao",  "vtk",
+                                   "qgis", "filament",  "gtao", "bitmask", "xegtao"};
   const BaselineTuning& t = method.tuning;
   char text[160];
   std::snprintf(

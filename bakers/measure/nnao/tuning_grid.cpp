@@ -20,6 +20,12 @@ constexpr float gtao_falloffs[] = {0, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 
 constexpr float thicknesses[] = {0.035f, 0.05f, 0.07f, 0.1f, 0.14f, 0.2f, 0.28f,
                                  0.4f,   0.56f, 0.8f,  1.1f, 1.6f,  2.2f, 3.2f};
 constexpr float xegtao_falloffs[] = {0.02f, 0.05f, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.615f, 0.7f, 0.8f, 0.9f, 1};
+constexpr float n8ao_falloffs[] = {0.05f, 0.07f, 0.1f, 0.14f, 0.2f, 0.28f, 0.4f,
+                                   0.56f, 0.8f,  1.1f, 1.6f,  2.2f, 3.2f};
+constexpr float s4ao_falloffs[] = {0.005f, 0.007f, 0.01f, 0.014f, 0.02f, 0.028f, 0.04f, 0.056f,
+                                   0.08f,  0.11f,  0.16f, 0.22f,  0.32f, 0.45f,  0.63f};
+constexpr float qgis_thresholds[] = {0.2f,  0.25f, 0.3f,  0.35f, 0.4f,  0.45f, 0.5f,
+                                     0.55f, 0.6f,  0.65f, 0.7f,  0.75f, 0.8f};
 constexpr float compensations[] = {0, 0.1f, 0.2f, 0.35f, 0.5f, 0.7f, 1, 1.4f, 2, 2.8f, 4};
 
 std::span<const float> shapes(Baseline baseline) {
@@ -27,7 +33,15 @@ std::span<const float> shapes(Baseline baseline) {
     case Baseline::ssao:
       return nothing;
     case Baseline::ssao_plus:
+    case Baseline::vtk:
+    case Baseline::filament:
       return ssao_plus_biases;
+    case Baseline::n8ao:
+      return n8ao_falloffs;
+    case Baseline::s4ao:
+      return s4ao_falloffs;
+    case Baseline::qgis:
+      return qgis_thresholds;
     case Baseline::hbao:
       return hbao_biases;
     case Baseline::gtao:
@@ -73,7 +87,9 @@ TuningPlace first_place(Baseline baseline) {
   place.at[0] = int(std::ranges::find(radius_scales, 1.0f) - radius_scales);
   place.at[1] = int(std::ranges::find(powers, 1.0f) - powers);
   place.at[2] = int(shapes(baseline).size() / 2);
-  place.denoiser = Denoiser::edges_2;
+  const std::span<const Denoiser> denoisers = denoisers_of(baseline);
+  const bool has_edges = std::ranges::find(denoisers, Denoiser::edges_2) != denoisers.end();
+  place.denoiser = has_edges ? Denoiser::edges_2 : denoisers.back();
   return place;
 }
 

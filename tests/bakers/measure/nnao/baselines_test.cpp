@@ -31,6 +31,10 @@ BaselineMethod untuned(BaselineMethod method) {
   return method;
 }
 
+bool is_product(Baseline baseline) {
+  return baseline >= Baseline::n8ao && baseline <= Baseline::filament;
+}
+
 std::vector<float> draw(platform::Context& context, const BaselineMethod& method, const TracedView& view,
                         float radius, bool blurred) {
   BaselinePass pass(context.gl(), width, height);
@@ -58,14 +62,15 @@ TEST_CASE("every baseline leaves an open plane open") {
   for (const BaselineMethod& method : baseline_methods()) {
     const std::vector<float> ao = draw(*context, untuned(method), view, 0.3f, false);
     const float mean = std::accumulate(ao.begin(), ao.end(), 0.0f) / float(ao.size());
-    INFO(baseline_name(method.baseline) << ' ' << method.taps << " mean " << mean);
+    INFO(baseline_row(method) << ' ' << method.taps << " mean " << mean);
     // SSAO clips what exceeds 1: with n points, half of them closed, 2 (open share) falls short by about 0.4
     // / sqrt(n). GTAO and the bitmask take a texel's angle for that of their slice. SSAO+ and HBAO allow for
-    // texels.
+    // texels; what is shipped does not, most of all VTK with a bias of a hundredth of the radius.
     const bool slices = method.baseline >= Baseline::gtao;
     const float bound = method.baseline == Baseline::ssao        ? 0.5f / std::sqrt(float(method.taps))
                         : method.baseline == Baseline::ssao_plus ? 0.01f
                         : slices                                 ? 0.03f
+                        : is_product(method.baseline)            ? 0.08f
                                                                  : 0.004f;
     CHECK(mean > 1 - bound);
   }
@@ -81,7 +86,7 @@ TEST_CASE("the sky is exactly open for every baseline, and occludes nothing") {
     }
   for (const BaselineMethod& method : baseline_methods()) {
     const std::vector<float> ao = draw(*context, method, view, 0.3f, true);
-    INFO(baseline_name(method.baseline) << ' ' << method.taps);
+    INFO(baseline_row(method) << ' ' << method.taps);
     bool sky_open = true;
     for (std::size_t i = 0; i < ao.size(); ++i) sky_open = sky_open && (i % width >= width / 2 || ao[i] == 1);
     CHECK(sky_open);
@@ -109,7 +114,7 @@ TEST_CASE("baselines know the AO of a right-angled corner") {
     if (method.taps < 16) continue;
     const std::vector<float> ao = draw(*context, untuned(method), view, radius, false);
     const std::vector<float> tuned = draw(*context, method, view, radius, true);
-    INFO(baseline_name(method.baseline) << ' ' << method.taps);
+    INFO(baseline_row(method) << ' ' << method.taps);
     // One pixel row above the line, and a quarter of the radius away from it.
     for (const int row : {height / 2 + 1, height / 2 + 6}) {
       INFO("row " << row << " ao " << row_mean(ao, row) << " tuned " << row_mean(tuned, row) << " truth "
@@ -120,10 +125,12 @@ TEST_CASE("baselines know the AO of a right-angled corner") {
       // Three steps, which is all that XeGTAO has, leave horizons low; the next test gives it eight.
       if (cosine_weighted && method.taps >= 32 && method.baseline != Baseline::xegtao)
         CHECK(std::abs(row_mean(ao, row) - row_mean(truth, row)) < 0.1f);
-      CHECK(std::abs(row_mean(tuned, row) - row_mean(truth, row)) < 0.25f);
+      // Shipped rows are as bright as their defaults make them.
+      CHECK(std::abs(row_mean(tuned, row) - row_mean(truth, row)) < (method.shipped ? 0.4f : 0.25f));
     }
-    // It darkens towards the line.
-    CHECK(row_mean(ao, height / 2 + 1) < row_mean(ao, height / 2 + 10) - 0.05f);
+    // It darkens towards the line; N8AO hardly without its contrast.
+    const float fall = is_product(method.baseline) ? 0.01f : 0.05f;
+    CHECK(row_mean(ao, height / 2 + 1) < row_mean(ao, height / 2 + 10) - fall);
   }
 }
 
@@ -210,7 +217,7 @@ std::vector<float> denoised(platform::Context& context, const TracedView& view, 
 
 }  // namespace
 
-TEST_CASE("every denoiser keeps a constant, and a step across an edge of depth") {
+TEST_CASE("every denoiser keeps a constant, and all but the plain mean a step across an edge of depth") {
   const auto context = make_context();
   TracedView view = traced(plane(), camera());
   std::vector<float> constant(view.depth.size(), 0.6f), step = constant;
@@ -230,16 +237,25 @@ TEST_CASE("every denoiser keeps a constant, and a step across an edge of depth")
     }
     // A level of 8 bits for each pass.
     CHECK(off_constant < 3.1f / 255);
-    CHECK(off_step < 3.1f / 255);
+    if (denoiser != Denoiser::box) CHECK(off_step < 3.1f / 255);
   }
 }
 
-TEST_CASE("more passes of the edge-aware denoiser leave less noise") {
+TEST_CASE("denoisers take noise away, and more passes of the edge-aware one leave less") {
   const auto context = make_context();
   const TracedView view = traced(plane(), camera());
   std::vector<float> noise(view.depth.size());
   Random random(1);
   for (float& value : noise) value = random.unit();
+  // 16 pixels of the plain mean, 9 of the disc in each of two passes, 11 on each axis of the Gaussian, whose
+  // weights fall to a half: a variance of 1 / 12 falls to below a fifth of itself.
+  for (const Denoiser denoiser : {Denoiser::box, Denoiser::disc, Denoiser::gaussian}) {
+    const std::vector<float> ao = denoised(*context, view, noise, denoiser);
+    float variance = 0;
+    for (const float value : ao) variance += (value - 0.5f) * (value - 0.5f) / float(ao.size());
+    INFO(denoiser_name(denoiser) << " variance " << variance);
+    CHECK(variance < 0.2f / 12);
+  }
   float before = 1;
   for (const Denoiser denoiser : {Denoiser::edges_1, Denoiser::edges_2, Denoiser::edges_3}) {
     const std::vector<float> ao = denoised(*context, view, noise, denoiser);
