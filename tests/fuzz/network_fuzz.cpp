@@ -60,6 +60,11 @@ nook_nnao_desc pass_of(const std::vector<std::byte>& file, Script& script) {
   desc.path = nook_nnao_path(settings >> 3 & 3);
   if (settings & 32) desc.taps = 1 << script.below(10);
   if (settings & 64) desc.blur_sharpness = script.number();
+  if (settings & 128) {
+    desc.layers = std::int32_t(script.below(10)) - 1;
+    desc.depth_samples = std::int32_t(script.below(20)) - 2;
+    desc.depth_sample = nook_nnao_sample(script.below(4));
+  }
   return desc;
 }
 

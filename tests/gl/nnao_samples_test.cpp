@@ -193,7 +193,8 @@ TEST_CASE("nnao: each rule of multisampled depth gives the AO of the depth that 
   }
 }
 
-TEST_CASE("nnao: the default rule of multisampled depth has the least error against the mean over a pixel") {
+TEST_CASE(
+    "nnao: the default rule of multisampled depth has the smallest error against the mean over a pixel") {
   NOOK_NEED_CONTEXT(context);
   NOOK_NEED_SAMPLES(context);
   NnaoFixture fixture(context);

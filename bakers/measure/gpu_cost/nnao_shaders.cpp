@@ -98,6 +98,10 @@ std::vector<ShaderCase> nnao_shaders() {
           tree_shader(stage, std::string("shaders/nnao/") + file, file + variant + size, lines, loops));
     };
     add(Stage::fragment, "depth.frag", "", defines(half, true, grids[0]), {});
+    add(Stage::fragment, "depth.frag", ", 4 samples",
+        defines(half, true, grids[0]) + "#define NOOK_SAMPLES 4\n#define NOOK_SAMPLE_RULE 0\n", {});
+    add(Stage::fragment, "depth.frag", ", texture array",
+        defines(half, true, grids[0]) + "#define NOOK_LAYERS 1\n", {});
     add(Stage::fragment, "normals.frag", "", defines(half, false, grids[1]), {});
     for (const Grid& grid : grids) {
       const std::string taps = ", " + std::to_string(grid.taps);

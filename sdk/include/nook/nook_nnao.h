@@ -104,7 +104,7 @@ typedef struct nook_nnao_desc {
    * or OpenGL ES 3.1. Normals, motion, layer and target stay single-sampled. 0 (default): 2D textures. Not
    * with layers. */
   int32_t depth_samples;
-  /* Default NOOK_NNAO_SAMPLE_MEDIAN, the rule of least error (docs/nnao.md). */
+  /* Default NOOK_NNAO_SAMPLE_MEDIAN, whose error was measured to be the smallest (docs/nnao.md). */
   nook_nnao_sample depth_sample;
   /* 1 to 8: depth, normals, motion, layer and target are of GL_TEXTURE_2D_ARRAY with at least so many layers,
    * such as two eyes. nook_nnao_render draws them all, layer by layer with the same textures of the pass; its

@@ -35,8 +35,9 @@ extern "C" {
 
 typedef struct nook_nnao_stages_s* nook_nnao_stages;
 
-/* Images that stages read or write. The first four are the host's, and texture arrays or multisample textures
- * where nook_nnao_desc says so; the host gives those that its frames have, and any 1 x 1 image for others. */
+/* Images that stages read or write. The first four are the host's: texture arrays for passes with layers, and
+ * a multisample texture of depth for passes with depth_samples. The host gives those that its frames have,
+ * and any 1 x 1 image for others. */
 enum {
   NOOK_NNAO_IMAGE_HOST_DEPTH = 0,
   NOOK_NNAO_IMAGE_HOST_NORMAL = 1,

@@ -24,8 +24,8 @@ nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given);
 // Returns the file of the network, which is the embedded one if the host gave none.
 std::span<const std::byte> network_bytes(const nook_nnao_desc& desc);
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the network's form does not have what the descriptor asks
-// for.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the network's form lacks something that the descriptor
+// needs.
 void check_form(const nook_nnao_desc& desc, nnao::NetworkForm form);
 
 }  // namespace nook::api

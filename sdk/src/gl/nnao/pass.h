@@ -76,7 +76,7 @@ class NnaoPass {
   void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer, const Viewport& viewport,
             bool discards = true) const;
   void run_network(const FrameConstants& constants, const Viewport& surface) const;
-  // What passes with temporal_frames keep of a layer, and what all layers of others share.
+  // The textures that passes with temporal_frames keep for each layer; all layers of others share one.
   struct LayerTextures {
     RenderTexture depth[2];    // of the surface; two for means over frames, which use them in turns
     RenderTexture history[2];  // means over frames, in turns
