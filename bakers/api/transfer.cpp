@@ -22,6 +22,7 @@ nook_bake_transfer_desc default_transfer_desc() {
   desc.header_version = NOOK_VERSION;
   desc.lobes = settings.lobes;
   desc.ray_side = settings.side;
+  desc.tiles = settings.tiles;
   return desc;
 }
 

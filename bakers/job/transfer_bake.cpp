@@ -1,12 +1,15 @@
 #include "bakers/job/transfer_bake.h"
 
 #include <nook/nook_bake_transfer.h>
+
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "bakers/import/tangents.h"
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/material/material_file.h"
 #include "sdk/src/transfer/transfer_file.h"
 
 namespace nook::bake {
@@ -18,6 +21,12 @@ std::vector<Vec3> directions_of(const float* xyz, std::size_t count) {
   std::vector<Vec3> out(count);
   for (std::size_t i = 0; i < count; ++i) out[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
   return out;
+}
+
+std::string hash_text(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
 }
 
 double mean_share(const nook::transfer::Transfer& transfer) {
@@ -39,6 +48,8 @@ TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
   TransferTask task;
   task.settings.lobes = desc.lobes;
   task.settings.side = desc.ray_side;
+  task.settings.bounces = desc.bounces;
+  task.settings.tiles = desc.tiles;
   SurfaceMesh& mesh = task.mesh;
   const std::size_t count = desc.vertex_count;
   mesh.position = directions_of(desc.positions, count);
@@ -62,7 +73,14 @@ TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
     transfer::check_bake(mesh, task.settings);
     mesh.tangent = surface_tangents(mesh, task.warnings);
   }
+  if (desc.votf)
+    task.settings.holes = holes_of_material({static_cast<const std::byte*>(desc.votf), desc.votf_size});
   return task;
+}
+
+std::shared_ptr<const transfer::HoleTable> holes_of_material(std::span<const std::byte> bytes) {
+  return std::make_shared<const transfer::HoleTable>(transfer::make_hole_table(
+      nook::material::make_tables(nook::material::read_material(bytes), {}, default_memory())));
 }
 
 BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress) {
@@ -74,8 +92,12 @@ BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progre
   Json recipe;
   if (!task.source.empty()) recipe["source"] = task.source;
   recipe["form"] = "separated";
-  recipe["bounces"] = 0;
+  recipe["bounces"] = task.settings.bounces;
   recipe["rays"] = 6 * task.settings.side * task.settings.side;
+  if (task.settings.holes) {
+    recipe["votf"] = hash_text(task.settings.holes->votf_hash);
+    recipe["tiles"] = task.settings.tiles;
+  }
   transfer.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
   BakedFile file;
   file.model = nook::transfer::write_transfer(transfer);
@@ -84,9 +106,11 @@ BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progre
   report["vertices"] = transfer.vertex_count();
   report["triangles"] = task.mesh.triangle.size();
   report["lobes"] = transfer.lobes;
-  report["bounces"] = 0;
+  report["bounces"] = transfer.bounces;
   report["rays"] = recipe["rays"];
   report["file_bytes"] = file.model.size();
+  report["indirect_bytes"] = sizeof(std::uint16_t) * transfer.indirect.size();
+  report["votf"] = recipe.contains("votf") ? recipe["votf"] : Json();
   report["mean_share"] = mean_share(transfer);
   report["seconds"] = seconds;
   report["peak_bytes"] = platform::peak_bytes();

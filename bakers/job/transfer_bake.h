@@ -21,7 +21,12 @@ struct TransferTask {
 // fault, also for what transfer::check_bake refuses.
 TransferTask transfer_task_of(const nook_bake_transfer_desc& desc);
 
-// The stage is NOOK_BAKE_STAGE_RAYTRACE and counts vertices. Throws Failure: INVALID_ARGUMENT, CANCELLED.
+// Makes the holes of the material in the bytes of a .nook file, for BakeSettings. Throws Failure: what
+// read_material throws, and INVALID_ARGUMENT if the material has no VOTF.
+std::shared_ptr<const transfer::HoleTable> holes_of_material(std::span<const std::byte> bytes);
+
+// The stage is NOOK_BAKE_STAGE_RAYTRACE and counts vertices, once for the direct light and once for each
+// reflection. Throws Failure: INVALID_ARGUMENT, CANCELLED.
 BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress);
 
 }  // namespace nook::bake

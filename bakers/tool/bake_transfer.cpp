@@ -16,7 +16,7 @@
 #include "platform/output_file.h"
 #include "platform/printable.h"
 #include "platform/progress_bar.h"
-#include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/transfer.h"
 
 namespace nook::tool {
 namespace {
@@ -28,6 +28,7 @@ struct Options {
   std::filesystem::path input, output;
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   bake::transfer::BakeSettings settings;
+  std::filesystem::path votf;
 };
 
 bake::TransferTask read_task(const Options& o) {
@@ -36,6 +37,8 @@ bake::TransferTask read_task(const Options& o) {
   bake::TransferTask task;
   task.mesh = std::move(imported.mesh);
   task.settings = o.settings;
+  if (!o.votf.empty())
+    task.settings.holes = naming_file(o.votf, [&] { return bake::holes_of_material(read_file(o.votf)); });
   task.source = o.input.filename().string();
   task.warnings = std::move(imported.warnings);
   if (!o.common.quiet)
@@ -45,7 +48,9 @@ bake::TransferTask read_task(const Options& o) {
 }
 
 void run(const Options& o) {
-  require_distinct_files({{{"the input", o.input}}, {{"-o", o.output}, {"--report", o.common.report}}, {}});
+  CommandFiles files{{{"the input", o.input}}, {{"-o", o.output}, {"--report", o.common.report}}, {}};
+  if (!o.votf.empty()) files.inputs.push_back({"--votf", o.votf});
+  require_distinct_files(files);
   platform::OutputFile output(o.output);
   std::optional<platform::OutputFile> report_file;
   if (!o.common.report.empty()) report_file.emplace(o.common.report);
@@ -88,6 +93,17 @@ void add_bake_transfer(CLI::App& bake_command) {
       ->add_option("--ray-side", o.settings.side,
                    "cells along a face of the cube of ray directions; a vertex has 6 times its square")
       ->check(CLI::Range(8u, bake::transfer::max_ray_side))
+      ->capture_default_str();
+  command
+      ->add_option("--bounces", o.settings.bounces,
+                   "reflections of the shape onto itself; each adds 18 bytes for a vertex")
+      ->check(CLI::Range(0u, transfer::max_bounces))
+      ->capture_default_str();
+  command->add_option("--votf", o.votf,
+                      "the .nook file of the material that the shape wears: light falls through its holes");
+  command
+      ->add_option("--tiles", o.settings.tiles, "tiles of that material in one unit of texture coordinates")
+      ->check(CLI::Range(0.01f, 1000.0f))
       ->capture_default_str();
   add_linked_files_option(*command, o.linked);
   add_common_options(*command, o.common);

@@ -7,11 +7,15 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <numbers>
+#include <optional>
 #include <vector>
 
 #include "bakers/raytrace/ambient_occlusion.h"
+#include "bakers/transfer/inter_reflections.h"
 #include "bakers/transfer/visible_directions.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/half.h"
 #include "sdk/src/core/place.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/transfer/check.h"
@@ -56,12 +60,20 @@ LobesOfDirections lobes_of(const CubeCells& cells, std::uint32_t lobes) {
 
 // The memory that one thread reuses for all its vertices.
 struct Workspace {
-  std::vector<std::uint32_t> visible;
+  std::vector<VisibleDirection> visible;
   std::vector<float> seen, whole;  // of each lobe
 };
 
-void bake_vertex(const RayScene& scene, Vec3 origin, Vec3 normal, const CubeCells& cells,
-                 const LobesOfDirections& lobes, Workspace& work, std::span<std::uint8_t> shares) {
+// The surroundings of the vertices.
+struct Sight {
+  const RayScene& scene;
+  const SurfaceHoles* holes;
+  const CubeCells& cells;
+};
+
+void bake_vertex(const Sight& sight, Vec3 origin, Vec3 normal, const LobesOfDirections& lobes,
+                 Workspace& work, std::span<std::uint8_t> shares) {
+  const CubeCells& cells = sight.cells;
   const auto gather = [&](std::uint32_t direction, float cosine, std::vector<float>& sums) {
     for (std::uint32_t k = lobes.begin[direction]; k < lobes.begin[direction + 1]; ++k)
       sums[lobes.lobe[k]] += cosine * lobes.weight[k];
@@ -69,16 +81,86 @@ void bake_vertex(const RayScene& scene, Vec3 origin, Vec3 normal, const CubeCell
   work.visible.clear();
   work.seen.assign(shares.size(), 0);
   work.whole.assign(shares.size(), 0);
-  visible_directions(scene, origin, normal, cells.direction, work.visible);
+  visible_directions(sight.scene, origin, normal, cells.direction, sight.holes, work.visible);
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
     const float cosine = dot(normal, cells.direction[i]);
     if (cosine > 0) gather(i, cosine, work.whole);
   }
-  for (const std::uint32_t i : work.visible) gather(i, dot(normal, cells.direction[i]), work.seen);
+  for (const auto& [i, share] : work.visible) gather(i, dot(normal, cells.direction[i]) * share, work.seen);
   for (std::size_t j = 0; j < shares.size(); ++j)
     shares[j] = work.whole[j] < dark * lobes.integral
                     ? std::uint8_t(0)
                     : std::uint8_t(std::lround(255 * std::min(work.seen[j] / work.whole[j], 1.0f)));
+}
+
+// The irradiance of a vertex for each band of light, from the directions that bake_vertex left behind.
+IrradianceBands direct_irradiance(Vec3 normal, const CubeCells& cells, const Workspace& work) {
+  IrradianceBands sum{};
+  for (const auto& [i, share] : work.visible) {
+    const float weight = dot(normal, cells.direction[i]) * share * cells.solid_angle[i];
+    const IrradianceBands at = nook::transfer::bands_at(cells.direction[i]);
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * at[k];
+  }
+  return sum;
+}
+
+// Runs body(vertex, workspace) for all vertices on all threads, and counts them for the progress.
+class VertexLoop {
+ public:
+  VertexLoop(std::size_t vertices, std::size_t passes, const Progress& progress)
+      : vertices_(vertices), total_(vertices * passes), progress_(progress) {}
+
+  template <class Body>
+  void run(Body&& body) {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, vertices_, 64),
+        [&](const auto& range) {
+          const FlushDenormals flush;
+          Workspace work;
+          for (std::size_t v = range.begin(); v < range.end() && !cancelled_; ++v) body(v, work);
+          if (!progress_) return;
+          const std::lock_guard lock(mutex_);
+          done_ += range.size();
+          if (!cancelled_ && !progress_(done_, total_)) cancelled_ = true;
+        },
+        tbb::simple_partitioner());
+    if (cancelled_)
+      throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu vertices done)", done_,
+                    total_);
+  }
+
+ private:
+  std::size_t vertices_, total_, done_ = 0;
+  const Progress& progress_;
+  std::atomic<bool> cancelled_{false};
+  std::mutex mutex_;
+};
+
+std::optional<SurfaceHoles> surface_holes(const SurfaceMesh& mesh, const BakeSettings& settings,
+                                          const CubeCells& cells) {
+  if (!settings.holes) return {};
+  // The side of a mean cell.
+  const float spread_rad = std::sqrt(4 * std::numbers::pi_v<float> / float(cells.size()));
+  return SurfaceHoles(mesh, *settings.holes, settings.tiles, spread_rad);
+}
+
+// One reflection after another, from the direct irradiance.
+void reflect(const SurfaceMesh& mesh, const Sight& sight, const BakeSettings& settings, VertexLoop& loop,
+             std::vector<IrradianceBands> received, Transfer& transfer) {
+  constexpr std::size_t bands = nook::transfer::band_count;
+  const std::size_t count = mesh.position.size();
+  transfer.bounces = settings.bounces;
+  transfer.indirect.resize(count * settings.bounces * bands);
+  const Reflection reflection{mesh, sight.scene, ray_origin_offset(mesh.position), sight.cells, sight.holes};
+  for (std::uint32_t bounce = 0; bounce < settings.bounces; ++bounce) {
+    std::vector<IrradianceBands> reflected(count);
+    loop.run([&](std::size_t v, Workspace&) {
+      reflected[v] = reflected_irradiance(reflection, v, received);
+      for (std::size_t k = 0; k < bands; ++k)
+        transfer.indirect[(v * settings.bounces + bounce) * bands + k] = to_half(reflected[v][k]);
+    });
+    received = std::move(reflected);
+  }
 }
 
 template <class Number>
@@ -97,6 +179,12 @@ void check_bake(const SurfaceMesh& mesh, const BakeSettings& settings) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the side of the cube of rays is out of range (got %u, need 8 to %u)", settings.side,
                   max_ray_side);
+  if (settings.bounces > nook::transfer::max_bounces)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the number of bounces is out of range (got %u, need 0 to %u)",
+                  settings.bounces, nook::transfer::max_bounces);
+  if (!(settings.tiles >= 0.01f && settings.tiles <= 1000))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the number of tiles is out of range (got %g, need 0.01 to 1000)", double(settings.tiles));
   const std::size_t count = mesh.position.size();
   if (count == 0 || count > nook::transfer::max_vertices)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -151,33 +239,24 @@ Transfer bake_transfer(const SurfaceMesh& mesh, const BakeSettings& settings, co
   const LobesOfDirections lobes = lobes_of(cells, settings.lobes);
   const RayScene scene({mesh.position, mesh.triangle});
   const float offset = ray_origin_offset(mesh.position);
+  const auto holes = surface_holes(mesh, settings, cells);
 
   Transfer transfer;
   transfer.lobes = settings.lobes;
   transfer.hashes = hashes_of(mesh);
   transfer.shares.resize(count * settings.lobes);
   for (std::size_t v = 0; v < count; ++v) transfer.frames.push_back(pack(frame_of(mesh, v)));
+  if (settings.holes) transfer.votf_hash = settings.holes->votf_hash;
 
-  std::atomic<bool> cancelled{false};
-  std::mutex progress_mutex;
-  std::size_t done = 0;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, 64),
-      [&](const auto& range) {
-        const FlushDenormals flush;
-        Workspace work;
-        for (std::size_t v = range.begin(); v < range.end() && !cancelled; ++v)
-          bake_vertex(scene, mesh.position[v] + mesh.normal[v] * offset, mesh.normal[v], cells, lobes, work,
-                      std::span(transfer.shares).subspan(v * settings.lobes, settings.lobes));
-        if (!progress) return;
-        const std::lock_guard lock(progress_mutex);
-        done += range.size();
-        if (!cancelled && !progress(done, count)) cancelled = true;
-      },
-      tbb::simple_partitioner());
-  if (cancelled)
-    throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu vertices done)", done,
-                  count);
+  VertexLoop loop(count, 1 + settings.bounces, progress);
+  const Sight sight{scene, holes ? &*holes : nullptr, cells};
+  std::vector<IrradianceBands> received(settings.bounces > 0 ? count : 0);
+  loop.run([&](std::size_t v, Workspace& work) {
+    bake_vertex(sight, mesh.position[v] + mesh.normal[v] * offset, mesh.normal[v], lobes, work,
+                std::span(transfer.shares).subspan(v * settings.lobes, settings.lobes));
+    if (!received.empty()) received[v] = direct_irradiance(mesh.normal[v], cells, work);
+  });
+  reflect(mesh, sight, settings, loop, std::move(received), transfer);
   return transfer;
 }
 

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 
+#include "sdk/src/core/half.h"
 #include "sdk/src/transfer/transfer.h"
 
 namespace nook::transfer::test {
 
 // Shares are dark, open and partly open in turn; normals lie on a spiral.
-inline Transfer sample_transfer(std::uint32_t vertices = 5, std::uint32_t lobes = 19) {
+inline Transfer sample_transfer(std::uint32_t vertices = 5, std::uint32_t lobes = 19,
+                                std::uint32_t bounces = 0, std::uint64_t votf_hash = 0) {
   Transfer transfer;
   transfer.lobes = lobes;
   transfer.hashes = {11, 22, 33, 44};
@@ -25,6 +27,10 @@ inline Transfer sample_transfer(std::uint32_t vertices = 5, std::uint32_t lobes 
   for (std::uint32_t v = 0; v < vertices; ++v)
     transfer.frames.push_back(
         pack(orthonormal_frame(axes[v + 1], {0.3f, 1, 0.2f}, v % 3 == 0 ? -1.0f : 1.0f)));
+  transfer.bounces = bounces;
+  for (std::uint32_t i = 0; i < vertices * bounces * band_count; ++i)
+    transfer.indirect.push_back(to_half(0.125f * float(i % 7) - 0.25f));
+  transfer.votf_hash = votf_hash;
   transfer.recipe = "{\"form\":\"separated\"}";
   return transfer;
 }

@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <string>
 
 #include "bakers/tool/inspect/describe.h"
@@ -17,6 +18,13 @@ Row describe_transfer(std::span<const std::byte> bytes) {
   row["lobes"] = transfer.lobes;
   row["sharpness"] = transfer::sharpness_of(transfer.lobes);
   row["share_bytes"] = transfer.shares.size();
+  row["bounces"] = transfer.bounces;
+  row["indirect_bytes"] = sizeof(std::uint16_t) * transfer.indirect.size();
+  if (transfer.votf_hash != 0) {
+    char hash[17];
+    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(transfer.votf_hash));
+    row["votf"] = hash;
+  }
   row["mean_share"] = sum / (255.0 * double(transfer.shares.size()));
   add_recipe(row, transfer.recipe);
   return row;

@@ -46,6 +46,14 @@ typedef struct nook_bake_transfer_desc {
   /* NULL (default): the host polls instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
+  /* Reflections of the shape onto itself, 0 (default) to 2; each adds 18 bytes for a vertex. */
+  uint32_t bounces;
+  /* Tiles of the material in one unit of texture coordinates, 0.01 to 1000, for `votf`; default 1. */
+  float tiles;
+  /* The bytes of the .nook file of the material that the shape wears: light falls through the holes of its
+   * VOTF, which it must have. NULL (default): surfaces have no holes. */
+  const void* votf;
+  size_t votf_size;
 } nook_bake_transfer_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does.
@@ -56,7 +64,8 @@ NOOK_API nook_result nook_bake_transfer_desc_init(nook_bake_transfer_desc* desc,
 /* Checks the descriptor, copies its arrays, starts to bake and returns at once. nook_bake_job_model gives the
  * bytes for nook_transfer_load. The report holds the settings, sizes, the time and warnings. On failure *out
  * is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), VERSION, OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), VERSION, BAD_FILE (of votf),
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_transfer_start(const nook_bake_transfer_desc* desc, nook_bake_job* out);
 
 #ifdef __cplusplus

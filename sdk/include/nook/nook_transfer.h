@@ -6,7 +6,8 @@
  *     r_p[c, a] = sum over lobes j of amplitude_j[c] share_p,j response[c, a](direction of lobe j at p),
  * where the share, a byte of the file, is the cosine-weighted part of the lobe that no triangle hides from
  * the vertex, and the response is the integral of the lobe and the material's light basis over the upper
- * hemisphere. A pixel's radiance is sum_a L_a r[c, a] with the light modes L_a of nook_material_decode and
+ * hemisphere. Light that the shape reflects onto itself, baked with `--bounces`, is added for the mean
+ * reflectance of the response's material. A pixel's radiance is sum_a L_a r[c, a] with the light modes L_a of nook_material_decode and
  * the vectors interpolated between vertices.
  *
  *     nook_transfer_fit_light(fit, light, NULL, amplitudes, lobes, NULL);     when the light or the shape
@@ -57,6 +58,12 @@ typedef struct nook_transfer_info {
   float sharpness;
   /* Bytes of shares in memory, vertex_count * lobe_count. */
   uint64_t share_bytes;
+  /* Reflections of the shape onto itself that the vectors hold, 0 to 2. */
+  uint32_t bounces;
+  /* 1: light fell through the holes of a material's VOTF; see nook_transfer_check_material. */
+  int32_t has_holes;
+  /* Bytes of reflected light in memory, vertex_count * bounces * 18. */
+  uint64_t indirect_bytes;
 } nook_transfer_info;
 
 /* Describes a baked shape.
@@ -86,6 +93,12 @@ typedef struct nook_transfer_mesh {
 /* Checks that a mesh is the baked one, by the number of vertices and a checksum of each array.
  * Any thread. Errors: INVALID_ARGUMENT (the message names the first array that differs). */
 NOOK_API nook_result nook_transfer_check_mesh(nook_transfer transfer, const nook_transfer_mesh* mesh);
+
+/* Checks that a material is the one that the shape was baked with, where that matters: with holes, its VOTF
+ * must be the same. Another material can be drawn nevertheless, and then the shadows are those of the baked
+ * holes; `nook evaluate transfer` measures the error. Reflected light follows any material.
+ * Any thread. Errors: INVALID_ARGUMENT (the message names what differs). */
+NOOK_API nook_result nook_transfer_check_material(nook_transfer transfer, nook_material material);
 
 /* ---- Light: immutable, shared by threads ---- */
 
@@ -237,6 +250,10 @@ typedef struct nook_transfer_response_info {
   uint32_t vector_floats;
   /* Memory of the table. */
   uint64_t table_bytes;
+  /* The share of light that the material reflects under even light, RGB, 0 to 1. */
+  float reflectance[3];
+  /* 0. */
+  uint32_t reserved;
 } nook_transfer_response_info;
 
 /* Describes a response.

@@ -1,10 +1,34 @@
 #include "sdk/src/transfer/check.h"
 
+#include <cmath>
+
 #include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/half.h"
 #include "sdk/src/core/hash.h"
 
 namespace nook::transfer {
+namespace {
+
+// A hemisphere of light of one band gives an irradiance up to pi times the harmonic's maximum, 0.64.
+constexpr float max_indirect = 4;
+
+void check_indirect(const Transfer& transfer, nook_result code) {
+  if (transfer.bounces > max_bounces)
+    throw Failure(code, "the number of reflections is out of range (got %u, need 0 to %u)", transfer.bounces,
+                  max_bounces);
+  const std::size_t need = transfer.frames.size() * transfer.bounces * band_count;
+  if (transfer.indirect.size() != need)
+    throw Failure(code, "the array of reflected light has the wrong length (got %zu, need %zu)",
+                  transfer.indirect.size(), need);
+  for (std::size_t i = 0; i < need; ++i)
+    if (!(std::abs(from_half(transfer.indirect[i])) <= max_indirect))
+      throw Failure(code, "the reflected light of vertex %zu is out of range (got %g, need -%g to %g)",
+                    i / (transfer.bounces * band_count), double(from_half(transfer.indirect[i])),
+                    double(max_indirect), double(max_indirect));
+}
+
+}  // namespace
 
 void check_lobes(std::uint32_t lobes, nook_result code) {
   if (lobes < min_lobes || lobes > max_lobes)
@@ -21,6 +45,7 @@ void check_transfer(const Transfer& transfer, nook_result code) {
   if (transfer.shares.size() != shares)
     throw Failure(code, "the array of shares has the wrong length (got %zu, need %zu)",
                   transfer.shares.size(), shares);
+  check_indirect(transfer, code);
 }
 
 std::uint64_t hash_floats(std::span<const float> values) {
@@ -58,6 +83,15 @@ void check_same_mesh(const Transfer& transfer, const MeshArrays& mesh) {
                     array.name, static_cast<unsigned long long>(hash),
                     static_cast<unsigned long long>(array.baked));
   }
+}
+
+void check_same_material(const Transfer& transfer, std::uint64_t votf_hash) {
+  if (transfer.votf_hash == 0 || transfer.votf_hash == votf_hash) return;
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "the VOTF of the material is not the one whose holes were baked (got the hash %016llx, need "
+                "%016llx); bake the transfer with this material",
+                static_cast<unsigned long long>(votf_hash),
+                static_cast<unsigned long long>(transfer.votf_hash));
 }
 
 }  // namespace nook::transfer

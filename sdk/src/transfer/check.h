@@ -27,4 +27,7 @@ struct MeshArrays {
 // Throws Failure(INVALID_ARGUMENT) that names the first array that differs from the baked mesh.
 void check_same_mesh(const Transfer& transfer, const MeshArrays& mesh);
 
+// Throws Failure(INVALID_ARGUMENT) if light fell through the holes of another VOTF than that of a material.
+void check_same_material(const Transfer& transfer, std::uint64_t votf_hash);
+
 }  // namespace nook::transfer

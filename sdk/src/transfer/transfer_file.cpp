@@ -54,11 +54,13 @@ void read_shares(ByteReader& codes, ByteReader& shares, std::uint32_t vertices, 
 
 void read_head(ByteReader in, Transfer& transfer, std::uint32_t& vertices) {
   const std::uint32_t form = in.u8(), bounces = in.u8();
-  if (form != 0 || bounces != 0)
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the form of the transfer is unknown (got form %u with %u bounces, need 0 with 0); use a "
-                  "newer library",
-                  form, bounces);
+  if (form != 0 || bounces > max_bounces)
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "the form of the transfer is unknown (got form %u with %u bounces, need 0 with 0 to %u); use "
+        "a newer library",
+        form, bounces, max_bounces);
+  transfer.bounces = bounces;
   transfer.lobes = in.u16();
   vertices = in.u32();
   for (std::uint64_t* hash :
@@ -74,7 +76,7 @@ std::vector<std::byte> write_transfer(const Transfer& transfer) {
   check_transfer(transfer, NOOK_ERROR_INVALID_ARGUMENT);
   ByteWriter head, frames, recipe;
   head.u8(0);
-  head.u8(0);
+  head.u8(transfer.bounces);
   head.u16(transfer.lobes);
   head.u32(transfer.vertex_count());
   for (const std::uint64_t hash :
@@ -85,11 +87,21 @@ std::vector<std::byte> write_transfer(const Transfer& transfer) {
   recipe.text(transfer.recipe);
   ByteWriter codes, shares;
   write_shares(transfer, codes, shares);
-  const ContainerSection sections[] = {{four_letters("HEAD"), head.bytes()},
-                                       {four_letters("CODE"), codes.bytes()},
-                                       {four_letters("SHAR"), shares.bytes()},
-                                       {four_letters("FRAM"), frames.bytes()},
-                                       {four_letters("RECP"), recipe.bytes()}};
+  std::vector<ContainerSection> sections{{four_letters("HEAD"), head.bytes()},
+                                         {four_letters("CODE"), codes.bytes()},
+                                         {four_letters("SHAR"), shares.bytes()},
+                                         {four_letters("FRAM"), frames.bytes()},
+                                         {four_letters("RECP"), recipe.bytes()}};
+  if (transfer.bounces > 0) {
+    ByteWriter indirect;
+    for (const std::uint16_t half : transfer.indirect) indirect.u16(half);
+    sections.push_back({four_letters("INDI"), indirect.bytes()});
+  }
+  if (transfer.votf_hash != 0) {
+    ByteWriter holes;
+    holes.u64(transfer.votf_hash);
+    sections.push_back({four_letters("HOLE"), holes.bytes()});
+  }
   return write_container(transfer_kind, sections);
 }
 
@@ -108,6 +120,19 @@ Transfer read_transfer(std::span<const std::byte> bytes, Memory* memory) {
     frame.angle = std::uint16_t(frames.u16());
   }
   frames.check_end();
+  if (transfer.bounces > 0) {
+    ByteReader indirect = file.section("INDI");
+    const std::size_t each = std::size_t(transfer.bounces) * band_count;
+    indirect.check_count(vertices, 16 * each, "reflected light");
+    transfer.indirect.resize(vertices * each);
+    for (std::uint16_t& half : transfer.indirect) half = std::uint16_t(indirect.u16());
+    indirect.check_end();
+  }
+  if (file.has("HOLE")) {
+    ByteReader holes = file.section("HOLE");
+    transfer.votf_hash = holes.u64();
+    holes.check_end();
+  }
   ByteReader recipe = file.section("RECP");
   transfer.recipe = recipe.text(recipe.remaining());
   check_transfer(transfer, NOOK_ERROR_BAD_FILE);

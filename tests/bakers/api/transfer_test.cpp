@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "sdk/src/material/material_file.h"
 #include "tests/bakers/api/handles.h"
 #include "tests/catch.h"
+#include "tests/material/material_sample.h"
 #include "tests/transfer/shapes.h"
 
 namespace {
@@ -106,6 +108,12 @@ TEST_CASE("jobs of radiance transfer refuse what cannot be baked") {
   desc.vertex_count = 0;
   CHECK(refused(desc, "vertices"));
   desc = good;
+  desc.bounces = 3;
+  CHECK(refused(desc, "bounces"));
+  desc = good;
+  desc.tiles = NAN;
+  CHECK(refused(desc, "tiles"));
+  desc = good;
   desc.reserved = 1;
   CHECK(refused(desc, "desc.reserved"));
   Shape bad = shape;
@@ -115,6 +123,46 @@ TEST_CASE("jobs of radiance transfer refuse what cannot be baked") {
   desc = good;
   desc.tangents = tangents.data();
   CHECK(refused(desc, "handedness"));
+}
+
+TEST_CASE("a job bakes reflections and the holes of a material, which the runtime describes") {
+  Shape shape = nook::transfer::test::plane(1, 4, 2);
+  append(shape, nook::transfer::test::plane(1, 4, 2, 0.3f));
+  nook_bake_transfer_desc desc = desc_of(shape);
+  CHECK(desc.bounces == 0);
+  CHECK(desc.tiles == 1);
+  const std::vector<std::byte> material =
+      nook::material::write_material(nook::material::test::sample_material());
+  desc.votf = material.data();
+  desc.votf_size = material.size();
+  desc.bounces = 1;
+  const std::string bytes = bytes_of(desc);
+  nook_context_desc context_desc;
+  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  nook_context context = nullptr;
+  REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
+  nook_transfer transfer = nullptr;
+  REQUIRE(nook_transfer_load(context, bytes.data(), bytes.size(), &transfer) == NOOK_OK);
+  nook_transfer_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_transfer_describe(transfer, &info) == NOOK_OK);
+  CHECK(info.bounces == 1);
+  CHECK(info.has_holes == 1);
+  CHECK(info.indirect_bytes == 18 * desc.vertex_count);
+  for (const std::uint32_t seed : {1u, 2u}) {
+    const std::vector<std::byte> worn =
+        nook::material::write_material(nook::material::test::sample_material(seed));
+    nook_material handle = nullptr;
+    REQUIRE(nook_material_load(context, worn.data(), worn.size(), &handle) == NOOK_OK);
+    CHECK(nook_transfer_check_material(transfer, handle) ==
+          (seed == 1 ? NOOK_OK : NOOK_ERROR_INVALID_ARGUMENT));
+    nook_material_destroy(&handle);
+  }
+  nook_transfer_destroy(&transfer);
+  nook_context_destroy(&context);
+  desc.votf_size -= 1;
+  nook_bake_job job = nullptr;
+  CHECK(nook_bake_transfer_start(&desc, &job) == NOOK_ERROR_BAD_FILE);
 }
 
 TEST_CASE("a job of radiance transfer can be cancelled by its progress") {

@@ -1,0 +1,42 @@
+#include "bakers/transfer/inter_reflections.h"
+
+#include <numbers>
+
+#include "bakers/transfer/visible_directions.h"
+
+namespace nook::bake::transfer {
+
+IrradianceBands reflected_irradiance(const Reflection& reflection, std::size_t vertex,
+                                     std::span<const IrradianceBands> before) {
+  const SurfaceMesh& mesh = reflection.mesh;
+  const Vec3 normal = mesh.normal[vertex];
+  const Vec3 origin = mesh.position[vertex] + normal * reflection.origin_offset;
+  const auto& cells = reflection.cells;
+  // Most directions see the sky, which a packet of rays finds faster.
+  std::vector<VisibleDirection> open;
+  visible_directions(reflection.scene, origin, normal, cells.direction, nullptr, open);
+  auto next = open.begin();
+  IrradianceBands sum{};
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    const Vec3 d = cells.direction[i];
+    const float cosine = dot(normal, d);
+    if (!(cosine > 0)) continue;
+    if (next != open.end() && next->direction == i) {
+      ++next;
+      continue;
+    }
+    const float weight = cosine * cells.solid_angle[i] * (1 / std::numbers::pi_v<float>);
+    walk_surfaces(reflection.scene, reflection.holes, origin, d, [&](const RayHit& hit, float share) {
+      const auto& corner = mesh.triangle[hit.triangle];
+      const float at[3] = {1 - hit.u - hit.v, hit.u, hit.v};
+      Vec3 faces;
+      for (std::size_t k = 0; k < 3; ++k) faces += mesh.normal[corner[k]] * at[k];
+      if (!(dot(faces, d) < 0)) return;
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t b = 0; b < sum.size(); ++b) sum[b] += weight * share * at[k] * before[corner[k]][b];
+    });
+  }
+  return sum;
+}
+
+}  // namespace nook::bake::transfer
