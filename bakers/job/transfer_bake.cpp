@@ -37,6 +37,15 @@ double mean_share(const nook::transfer::Transfer& transfer) {
 
 }  // namespace
 
+std::shared_ptr<const nook::material::MaterialTables> tables_of_material(std::span<const std::byte> bytes) {
+  return std::make_shared<const nook::material::MaterialTables>(
+      nook::material::make_tables(nook::material::read_material(bytes), {}, default_memory()));
+}
+
+std::shared_ptr<const transfer::HoleTable> holes_of_material(std::span<const std::byte> bytes) {
+  return std::make_shared<const transfer::HoleTable>(transfer::make_hole_table(*tables_of_material(bytes)));
+}
+
 TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
   need(desc.positions, "desc.positions");
   need(desc.normals, "desc.normals");
@@ -78,20 +87,21 @@ TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
   return task;
 }
 
-std::shared_ptr<const transfer::HoleTable> holes_of_material(std::span<const std::byte> bytes) {
-  return std::make_shared<const transfer::HoleTable>(transfer::make_hole_table(
-      nook::material::make_tables(nook::material::read_material(bytes), {}, default_memory())));
-}
-
 BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress) {
   platform::Stopwatch watch;
-  nook::transfer::Transfer transfer = transfer::bake_transfer(
-      task.mesh, task.settings,
-      [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_RAYTRACE, done, total); });
+  const auto stage = [&](nook_bake_stage at) {
+    return [&progress, at](std::size_t done, std::size_t total) { return progress(at, done, total); };
+  };
+  const nook_bake_stage tracing = NOOK_BAKE_STAGE_RAYTRACE;
+  nook::transfer::Transfer transfer =
+      task.material ? transfer::bake_paper(task.mesh, task.settings, task.paper, *task.material,
+                                           stage(tracing), stage(NOOK_BAKE_STAGE_FIT))
+                    : transfer::bake_transfer(task.mesh, task.settings, stage(tracing));
   const double seconds = watch.seconds();
+  const char* const form = task.material ? "paper" : "separated";
   Json recipe;
   if (!task.source.empty()) recipe["source"] = task.source;
-  recipe["form"] = "separated";
+  recipe["form"] = form;
   recipe["bounces"] = task.settings.bounces;
   recipe["rays"] = 6 * task.settings.side * task.settings.side;
   if (task.settings.holes) {
@@ -102,7 +112,7 @@ BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progre
   BakedFile file;
   file.model = nook::transfer::write_transfer(transfer);
   Json report;
-  report["form"] = "separated";
+  report["form"] = form;
   report["vertices"] = transfer.vertex_count();
   report["triangles"] = task.mesh.triangle.size();
   report["lobes"] = transfer.lobes;
@@ -111,7 +121,14 @@ BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progre
   report["file_bytes"] = file.model.size();
   report["indirect_bytes"] = sizeof(std::uint16_t) * transfer.indirect.size();
   report["votf"] = recipe.contains("votf") ? recipe["votf"] : Json();
-  report["mean_share"] = mean_share(transfer);
+  report["mean_share"] = task.material ? Json() : Json(mean_share(transfer));
+  report["light_modes"] = task.material ? Json(transfer.paper.light_modes) : Json();
+  report["clusters"] = task.material ? Json(transfer.paper.clusters) : Json();
+  report["paper_bytes"] =
+      task.material ? Json(nook::transfer::paper_bytes(transfer.vertex_count(), transfer.paper.clusters,
+                                                       transfer.lobes, transfer.paper.light_modes,
+                                                       transfer.paper.lobe_rank, transfer.paper.vertex_rank))
+                    : Json();
   report["seconds"] = seconds;
   report["peak_bytes"] = platform::peak_bytes();
   report["warnings"] = task.warnings;

@@ -32,7 +32,7 @@ struct Options {
   measure::PictureSettings picture;
   float tiles = 1;
   std::optional<std::uint32_t> truth_bounces;
-  bool without_suns = false, no_pictures = false;
+  bool without_suns = false, no_pictures = false, truth_holes = false;
 };
 
 void check_mesh(const Options& o, const bake::SurfaceMesh& mesh, const transfer::Transfer& baked) {
@@ -48,9 +48,9 @@ struct TruthOf {
     settings.tiles = o.tiles;
     name = settings.bounces == 0 ? "decoded material, direct light"
                                  : "decoded material, " + std::to_string(settings.bounces) + " bounces";
-    if (baked.votf_hash == 0) return;
+    if (baked.votf_hash == 0 && !o.truth_holes) return;
     name += ", holes of the VOTF";
-    if (baked.votf_hash != tables.votf_hash && !o.common.quiet)
+    if (baked.votf_hash != 0 && baked.votf_hash != tables.votf_hash && !o.common.quiet)
       std::fprintf(stderr,
                    "nook: %s: light fell through the holes of another material than %s when it was baked; "
                    "the rows hold the error that this makes\n",
@@ -75,6 +75,9 @@ Json evaluate(const Options& o) {
   const material::MaterialTables tables = naming_file(o.material, [&] {
     return material::make_tables(material::read_material(material_bytes), {}, default_memory());
   });
+  naming_file(o.transfer,
+              [&] { transfer::check_same_light(baked, tables.btf.light_modes, tables.light_hash); });
+  const bool is_paper = baked.paper.is_used();
   const TruthOf truth(o, baked, tables);
   platform::Stopwatch watch;
   const transfer::LobeFit fit(baked.lobes);
@@ -106,14 +109,14 @@ Json evaluate(const Options& o) {
       Json row;
       row["shape"] = o.mesh.stem().string();
       row["light"] = lights[l].name;
-      row["form"] = measure::transfer_form_names[form];
+      row["form"] = form == 0 && is_paper ? measure::paper_form_name : measure::transfer_form_names[form];
       row["lobes"] = baked.lobes;
       row["bounces"] = form == 0 ? baked.bounces : 0;
-      row["bytes"] = form == 0 ? bytes.size() : form == 1 ? baked.frames.size() : 0;
+      row["bytes"] = form == 0 ? bytes.size() : form == 1 ? baked.vertex_count() : 0;
       row["file_bytes"] = form == 0 ? Json(bytes.size()) : Json();
       row["indirect_bytes"] = form == 0 ? Json(sizeof(std::uint16_t) * baked.indirect.size()) : Json();
       row["se_db"] = vectors.lights[l].se_db[form];
-      row["se_exact_db"] = form == 0 ? Json(vectors.lights[l].se_exact_db) : Json();
+      row["se_exact_db"] = form == 0 && !is_paper ? Json(vectors.lights[l].se_exact_db) : Json();
       if (!o.no_pictures) {
         row["mse"] = error.mse[form];
         row["noise_floor_mse"] = error.noise_floor_mse;
@@ -158,6 +161,8 @@ void add_evaluate_transfer(CLI::App& evaluate_command) {
       ->add_option("--truth-bounces", o.truth_bounces,
                    "reflections that the truth of pictures follows, in place of the file's")
       ->check(CLI::Range(0u, 8u));
+  command->add_flag("--truth-holes", o.truth_holes,
+                    "light falls through the holes of the material in the truth, also if the file has none");
   command->add_option("--tiles", o.tiles, "tiles of the material in one unit of texture coordinates")
       ->check(CLI::Range(0.01f, 1000.0f))
       ->capture_default_str();

@@ -1,23 +1,17 @@
 #include "bakers/transfer/bake.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/transfer/inter_reflections.h"
+#include "bakers/transfer/lobes_of_directions.h"
+#include "bakers/transfer/vertex_loop.h"
 #include "bakers/transfer/visible_directions.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
 #include "sdk/src/core/place.h"
-#include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/transfer/check.h"
 #include "sdk/src/transfer/light_cube.h"
 
@@ -27,36 +21,8 @@ namespace {
 using nook::transfer::CubeCells;
 using nook::transfer::Transfer;
 
-// Lobes count down to exp(-reach) of their height, 1e-4: a share has 8 bits.
-constexpr float reach = 9;
 // A lobe with less than this share of itself above a vertex's horizon has the share 0.
 constexpr float dark = 1e-4f;
-
-// The lobes that hold light from each direction, with their value times the direction's solid angle.
-struct LobesOfDirections {
-  std::vector<std::uint32_t> begin;  // of each direction, and one past the end
-  std::vector<std::uint32_t> lobe;
-  std::vector<float> weight;
-  float integral = 0;  // of one lobe
-};
-
-LobesOfDirections lobes_of(const CubeCells& cells, std::uint32_t lobes) {
-  const float sharpness = nook::transfer::sharpness_of(lobes), cap = 1 - reach / sharpness;
-  std::vector<Vec3> axes(lobes);
-  nook::transfer::lobe_axes(axes);
-  LobesOfDirections out;
-  out.integral = gaussian_integral(sharpness);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    out.begin.push_back(std::uint32_t(out.lobe.size()));
-    for (std::uint32_t j = 0; j < lobes; ++j) {
-      if (dot(axes[j], cells.direction[i]) < cap) continue;
-      out.lobe.push_back(j);
-      out.weight.push_back(gaussian_value(axes[j], sharpness, cells.direction[i]) * cells.solid_angle[i]);
-    }
-  }
-  out.begin.push_back(std::uint32_t(out.lobe.size()));
-  return out;
-}
 
 // The memory that one thread reuses for all its vertices.
 struct Workspace {
@@ -91,76 +57,6 @@ void bake_vertex(const Sight& sight, Vec3 origin, Vec3 normal, const LobesOfDire
     shares[j] = work.whole[j] < dark * lobes.integral
                     ? std::uint8_t(0)
                     : std::uint8_t(std::lround(255 * std::min(work.seen[j] / work.whole[j], 1.0f)));
-}
-
-// The irradiance of a vertex for each band of light, from the directions that bake_vertex left behind.
-IrradianceBands direct_irradiance(Vec3 normal, const CubeCells& cells, const Workspace& work) {
-  IrradianceBands sum{};
-  for (const auto& [i, share] : work.visible) {
-    const float weight = dot(normal, cells.direction[i]) * share * cells.solid_angle[i];
-    const IrradianceBands at = nook::transfer::bands_at(cells.direction[i]);
-    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * at[k];
-  }
-  return sum;
-}
-
-// Runs body(vertex, workspace) for all vertices on all threads, and counts them for the progress.
-class VertexLoop {
- public:
-  VertexLoop(std::size_t vertices, std::size_t passes, const Progress& progress)
-      : vertices_(vertices), total_(vertices * passes), progress_(progress) {}
-
-  template <class Body>
-  void run(Body&& body) {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, vertices_, 64),
-        [&](const auto& range) {
-          const FlushDenormals flush;
-          Workspace work;
-          for (std::size_t v = range.begin(); v < range.end() && !cancelled_; ++v) body(v, work);
-          if (!progress_) return;
-          const std::lock_guard lock(mutex_);
-          done_ += range.size();
-          if (!cancelled_ && !progress_(done_, total_)) cancelled_ = true;
-        },
-        tbb::simple_partitioner());
-    if (cancelled_)
-      throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu vertices done)", done_,
-                    total_);
-  }
-
- private:
-  std::size_t vertices_, total_, done_ = 0;
-  const Progress& progress_;
-  std::atomic<bool> cancelled_{false};
-  std::mutex mutex_;
-};
-
-std::optional<SurfaceHoles> surface_holes(const SurfaceMesh& mesh, const BakeSettings& settings,
-                                          const CubeCells& cells) {
-  if (!settings.holes) return {};
-  // The side of a mean cell.
-  const float spread_rad = std::sqrt(4 * std::numbers::pi_v<float> / float(cells.size()));
-  return SurfaceHoles(mesh, *settings.holes, settings.tiles, spread_rad);
-}
-
-// One reflection after another, from the direct irradiance.
-void reflect(const SurfaceMesh& mesh, const Sight& sight, const BakeSettings& settings, VertexLoop& loop,
-             std::vector<IrradianceBands> received, Transfer& transfer) {
-  constexpr std::size_t bands = nook::transfer::band_count;
-  const std::size_t count = mesh.position.size();
-  transfer.bounces = settings.bounces;
-  transfer.indirect.resize(count * settings.bounces * bands);
-  const Reflection reflection{mesh, sight.scene, ray_origin_offset(mesh.position), sight.cells, sight.holes};
-  for (std::uint32_t bounce = 0; bounce < settings.bounces; ++bounce) {
-    std::vector<IrradianceBands> reflected(count);
-    loop.run([&](std::size_t v, Workspace&) {
-      reflected[v] = reflected_irradiance(reflection, v, received);
-      for (std::size_t k = 0; k < bands; ++k)
-        transfer.indirect[(v * settings.bounces + bounce) * bands + k] = to_half(reflected[v][k]);
-    });
-    received = std::move(reflected);
-  }
 }
 
 template <class Number>
@@ -239,7 +135,7 @@ Transfer bake_transfer(const SurfaceMesh& mesh, const BakeSettings& settings, co
   const LobesOfDirections lobes = lobes_of(cells, settings.lobes);
   const RayScene scene({mesh.position, mesh.triangle});
   const float offset = ray_origin_offset(mesh.position);
-  const auto holes = surface_holes(mesh, settings, cells);
+  const auto holes = surface_holes(mesh, settings.holes.get(), settings.tiles, cells.size());
 
   Transfer transfer;
   transfer.lobes = settings.lobes;
@@ -251,12 +147,12 @@ Transfer bake_transfer(const SurfaceMesh& mesh, const BakeSettings& settings, co
   VertexLoop loop(count, 1 + settings.bounces, progress);
   const Sight sight{scene, holes ? &*holes : nullptr, cells};
   std::vector<IrradianceBands> received(settings.bounces > 0 ? count : 0);
-  loop.run([&](std::size_t v, Workspace& work) {
+  loop.run<Workspace>([&](std::size_t v, Workspace& work) {
     bake_vertex(sight, mesh.position[v] + mesh.normal[v] * offset, mesh.normal[v], lobes, work,
                 std::span(transfer.shares).subspan(v * settings.lobes, settings.lobes));
-    if (!received.empty()) received[v] = direct_irradiance(mesh.normal[v], cells, work);
+    if (!received.empty()) received[v] = direct_irradiance(mesh.normal[v], cells, work.visible);
   });
-  reflect(mesh, sight, settings, loop, std::move(received), transfer);
+  reflect({mesh, scene, offset, cells, sight.holes}, settings.bounces, loop, std::move(received), transfer);
   return transfer;
 }
 

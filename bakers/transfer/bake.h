@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 
 #include "bakers/import/surface_mesh.h"
 #include "bakers/transfer/hole_table.h"
+#include "bakers/transfer/vertex_loop.h"
 #include "sdk/src/transfer/transfer.h"
 
 namespace nook::bake::transfer {
@@ -25,9 +25,6 @@ struct BakeSettings {
   float tiles = 1;
 };
 inline constexpr std::uint32_t max_ray_side = 256;
-
-// Returns false to stop. Worker threads call it, one call at a time.
-using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
 // Throws Failure(INVALID_ARGUMENT) for settings out of range, a mesh without vertices, arrays of different
 // lengths, numbers that are not finite, normals and tangents that are not of unit length to 1e-3, and indices

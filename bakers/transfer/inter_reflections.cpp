@@ -2,9 +2,20 @@
 
 #include <numbers>
 
-#include "bakers/transfer/visible_directions.h"
+#include "sdk/src/core/half.h"
 
 namespace nook::bake::transfer {
+
+IrradianceBands direct_irradiance(Vec3 normal, const nook::transfer::CubeCells& cells,
+                                  std::span<const VisibleDirection> visible) {
+  IrradianceBands sum{};
+  for (const auto& [i, share] : visible) {
+    const float weight = dot(normal, cells.direction[i]) * share * cells.solid_angle[i];
+    const IrradianceBands at = nook::transfer::bands_at(cells.direction[i]);
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * at[k];
+  }
+  return sum;
+}
 
 IrradianceBands reflected_irradiance(const Reflection& reflection, std::size_t vertex,
                                      std::span<const IrradianceBands> before) {
@@ -37,6 +48,23 @@ IrradianceBands reflected_irradiance(const Reflection& reflection, std::size_t v
     });
   }
   return sum;
+}
+
+void reflect(const Reflection& reflection, std::uint32_t bounces, VertexLoop& loop,
+             std::vector<IrradianceBands> received, nook::transfer::Transfer& transfer) {
+  constexpr std::size_t bands = nook::transfer::band_count;
+  struct Nothing {};
+  transfer.bounces = bounces;
+  transfer.indirect.resize(received.size() * bounces * bands);
+  for (std::uint32_t bounce = 0; bounce < bounces; ++bounce) {
+    std::vector<IrradianceBands> reflected(received.size());
+    loop.run<Nothing>([&](std::size_t v, Nothing&) {
+      reflected[v] = reflected_irradiance(reflection, v, received);
+      for (std::size_t k = 0; k < bands; ++k)
+        transfer.indirect[(v * bounces + bounce) * bands + k] = to_half(reflected[v][k]);
+    });
+    received = std::move(reflected);
+  }
 }
 
 }  // namespace nook::bake::transfer

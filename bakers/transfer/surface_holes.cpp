@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace nook::bake::transfer {
 namespace {
@@ -35,6 +36,14 @@ nook::transfer::Frame frame_at(const SurfaceMesh& mesh, const RayHit& hit) {
     tangent += mesh.tangent[at.vertex[k]].direction * at.weight[k];
   }
   return nook::transfer::orthonormal_frame(normal, tangent, mesh.tangent[at.vertex[0]].handedness);
+}
+
+std::optional<SurfaceHoles> surface_holes(const SurfaceMesh& mesh, const HoleTable* table, float tiles,
+                                          std::size_t rays) {
+  if (!table) return {};
+  // The side of a mean cell.
+  const float spread_rad = std::sqrt(4 * std::numbers::pi_v<float> / float(rays));
+  return SurfaceHoles(mesh, *table, tiles, spread_rad);
 }
 
 SurfaceHoles::SurfaceHoles(const SurfaceMesh& mesh, const HoleTable& table, float tiles, float spread_rad)

@@ -1,6 +1,9 @@
 // Rays through the holes of the meso-structure that a mesh wears.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "bakers/import/surface_mesh.h"
 #include "bakers/raytrace/ray_scene.h"
 #include "bakers/transfer/hole_table.h"
@@ -29,6 +32,10 @@ class SurfaceHoles {
   const HoleTable& table_;
   float tiles_, spread_rad_;
 };
+
+// Returns the holes for rays that share the sphere evenly; none without a table.
+std::optional<SurfaceHoles> surface_holes(const SurfaceMesh& mesh, const HoleTable* table, float tiles,
+                                          std::size_t rays);
 
 // Calls body(hit, share) for the surfaces along a ray from the nearest on, with the share of the ray that
 // ends there, and returns the share that reaches the sky. holes may be null: the first surface takes all.

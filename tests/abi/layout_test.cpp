@@ -556,7 +556,7 @@ NOOK_AT(nook_probe_surface, alpha_x, 36);
 NOOK_AT(nook_probe_surface, alpha_y, 40);
 NOOK_AT(nook_probe_surface, reflectance, 44);
 
-NOOK_SIZE(nook_transfer_info, 40);
+NOOK_SIZE(nook_transfer_info, 56);
 NOOK_AT(nook_transfer_info, vertex_count, 4);
 NOOK_AT(nook_transfer_info, lobe_count, 8);
 NOOK_AT(nook_transfer_info, sharpness, 12);
@@ -564,6 +564,9 @@ NOOK_AT(nook_transfer_info, share_bytes, 16);
 NOOK_AT(nook_transfer_info, bounces, 24);
 NOOK_AT(nook_transfer_info, has_holes, 28);
 NOOK_AT(nook_transfer_info, indirect_bytes, 32);
+NOOK_AT(nook_transfer_info, form, 40);
+NOOK_AT(nook_transfer_info, light_modes, 44);
+NOOK_AT(nook_transfer_info, paper_bytes, 48);
 
 NOOK_SIZE(nook_transfer_mesh, 40);
 NOOK_AT(nook_transfer_mesh, vertex_count, 4);

@@ -108,7 +108,9 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
   measure.ao.resize(count);
   measure.lights.resize(lights.size());
   std::vector<Frame> frames;
-  for (const nook::transfer::PackedFrame& frame : transfer.frames) frames.push_back(unpack(frame));
+  const bool is_paper = transfer.paper.is_used();
+  for (std::size_t v = 0; v < count; ++v)
+    frames.push_back(is_paper ? bake::transfer::frame_of(mesh, v) : unpack(transfer.frames[v]));
 
   Transfer direct = transfer;
   direct.bounces = 0;
@@ -138,10 +140,7 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
   const LobeValues lobes = lobe_values(cells, transfer.lobes);
   const bake::RayScene scene({mesh.position, mesh.triangle});
   const float offset = bake::ray_origin_offset(mesh.position);
-  std::optional<bake::transfer::SurfaceHoles> holes;
-  if (settings.holes)
-    holes.emplace(mesh, *settings.holes, settings.tiles,
-                  std::sqrt(4 * std::numbers::pi_v<float> / float(cells.size())));
+  const auto holes = bake::transfer::surface_holes(mesh, settings.holes, settings.tiles, cells.size());
   std::vector<std::vector<float>> truth(lights.size()), exact(lights.size());
   for (auto* sums : {&truth, &exact})
     for (std::vector<float>& sum : *sums) sum.resize(count * size);
@@ -157,7 +156,7 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
         for (std::size_t v = range.begin(); v < range.end() && !cancelled; ++v) {
           const Frame& frame = frames[v];
           const Vec3 side = frame.bitangent();
-          const std::uint8_t* const shares = transfer.shares_of(v);
+          const std::uint8_t* const shares = is_paper ? nullptr : transfer.shares_of(v);
           visible.clear();
           bake::transfer::visible_directions(scene, mesh.position[v] + mesh.normal[v] * offset,
                                              mesh.normal[v], cells.direction, holes ? &*holes : nullptr,
@@ -177,6 +176,7 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
               if (is_visible)
                 add_light(lights[l].cells[i] * (share * cells.solid_angle[i]), basis,
                           std::span(truth[l]).subspan(v * size, size));
+              if (is_paper) continue;
               Vec3 sum;
               for (std::uint32_t k = lobes.begin[i]; k < lobes.begin[i + 1]; ++k) {
                 const float* const a = &lights[l].amplitudes[3 * std::size_t(lobes.lobe[k])];

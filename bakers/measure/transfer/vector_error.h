@@ -21,11 +21,12 @@ namespace nook::measure {
 
 // The forms of the per-vertex vectors, from the best.
 enum class TransferForm {
-  separated = 0,  // baked transfer, as the runtime computes it
-  ao = 1,         // the vectors of the open vertex times its ambient occlusion
-  none = 2,       // the vectors of the open vertex
+  baked = 0,  // baked transfer, separated or in the paper's form, as the runtime computes it
+  ao = 1,     // the vectors of the open vertex times its ambient occlusion
+  none = 2,   // the vectors of the open vertex
 };
 inline constexpr std::array<const char*, 3> transfer_form_names{"separated", "ao", "none"};
+inline constexpr const char* paper_form_name = "paper";
 
 // One light in every representation that is measured.
 struct MeasuredLight {
@@ -49,7 +50,8 @@ struct LightVectors {
   double vectors_ms = 0;                   // of the separated form on one thread
   // Signal to error, dB.
   std::array<double, 3> se_db{};
-  double se_exact_db = 0;  // of the separated form with integrals by direct sums in place of the response
+  // Of the separated form with integrals by direct sums in place of the response; not of the paper's form.
+  double se_exact_db = 0;
 };
 
 // Returns false to stop. Worker threads call it, one call at a time.

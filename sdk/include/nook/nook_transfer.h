@@ -48,6 +48,16 @@ NOOK_API nook_result nook_transfer_load(nook_context context, const void* bytes,
  * Any thread. */
 NOOK_API void nook_transfer_destroy(nook_transfer* transfer);
 
+/* The form of baked transfer. */
+enum {
+  /* A share for each vertex and lobe; takes any material. */
+  NOOK_TRANSFER_FORM_SEPARATED = 0,
+  /* The matrices from lobes to the light modes of one material, compressed by CTA: less work when the light
+   * changes. */
+  NOOK_TRANSFER_FORM_PAPER = 1
+};
+typedef int32_t nook_transfer_form;
+
 typedef struct nook_transfer_info {
   /* sizeof(nook_transfer_info); the caller sets it. */
   uint32_t struct_size;
@@ -64,6 +74,11 @@ typedef struct nook_transfer_info {
   int32_t has_holes;
   /* Bytes of reflected light in memory, vertex_count * bounces * 18. */
   uint64_t indirect_bytes;
+  nook_transfer_form form;
+  /* Of the paper's form: the light modes of the material that it was baked with; else 0. */
+  uint32_t light_modes;
+  /* Of the paper's form: bytes of its compressed matrices in memory, and in the file; else 0. */
+  uint64_t paper_bytes;
 } nook_transfer_info;
 
 /* Describes a baked shape.
@@ -72,8 +87,8 @@ NOOK_API nook_result nook_transfer_describe(nook_transfer transfer, nook_transfe
 
 /* Writes the frames that the vectors refer to: normals with 3 floats and tangents with 4, the handedness
  * last, for each vertex; either may be NULL. A host that draws with them needs no tangents of its own.
- * vertex_count must be the transfer's.
- * Any thread. Errors: INVALID_ARGUMENT. */
+ * vertex_count must be the transfer's. The paper's form has no frames.
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the paper's form). */
 NOOK_API nook_result nook_transfer_read_frames(nook_transfer transfer, float* normals, float* tangents,
                                                uint32_t vertex_count);
 
@@ -94,9 +109,10 @@ typedef struct nook_transfer_mesh {
  * Any thread. Errors: INVALID_ARGUMENT (the message names the first array that differs). */
 NOOK_API nook_result nook_transfer_check_mesh(nook_transfer transfer, const nook_transfer_mesh* mesh);
 
-/* Checks that a material is the one that the shape was baked with, where that matters: with holes, its VOTF
- * must be the same. Another material can be drawn nevertheless, and then the shadows are those of the baked
- * holes; `nook evaluate transfer` measures the error. Reflected light follows any material.
+/* Checks that a material is the one that the shape was baked with, where that matters: in the paper's form its
+ * light modes, and with holes its VOTF must be the same. nook_transfer_vectors refuses other light modes. A
+ * material with another VOTF can be drawn nevertheless, and then the shadows are those of the baked holes;
+ * `nook evaluate transfer` measures the error. Reflected light follows any material.
  * Any thread. Errors: INVALID_ARGUMENT (the message names what differs). */
 NOOK_API nook_result nook_transfer_check_material(nook_transfer transfer, nook_material material);
 
@@ -265,8 +281,9 @@ NOOK_API nook_result nook_transfer_response_describe(nook_transfer_response resp
  * lobe_count x RGB, finite numbers whose magnitude is at most 1e22; lobe_count must be that of the response
  * and of the transfer. stride_floats is the number of floats between the vectors of two vertices, 0 for
  * vector_floats. The work goes through the context's parallel_for if there is one, and the result does not
- * depend on it. Beside 16 bytes a lobe the call does not allocate.
- * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+ * depend on it. The call allocates 16 bytes for a lobe, and in the paper's form 3 * light_modes * vertex rank
+ * floats for a cluster, 2.2 KiB at 16 modes. Any thread. Errors: INVALID_ARGUMENT (also, in the paper's form,
+ * the response is of another material), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_vectors(nook_transfer transfer, nook_transfer_response response,
                                            const float* amplitudes, uint32_t lobe_count,
                                            uint32_t first_vertex, uint32_t vertex_count, float* vectors,

@@ -115,6 +115,12 @@ nook_result nook_transfer_describe(nook_transfer transfer, nook_transfer_info* i
     known.share_bytes = transfer->transfer.shares.size();
     known.bounces = transfer->transfer.bounces;
     known.has_holes = transfer->transfer.votf_hash != 0;
+    const PaperTransfer& paper = transfer->transfer.paper;
+    known.form = paper.is_used() ? NOOK_TRANSFER_FORM_PAPER : NOOK_TRANSFER_FORM_SEPARATED;
+    known.light_modes = paper.light_modes;
+    if (paper.is_used())
+      known.paper_bytes = paper_bytes(known.vertex_count, paper.clusters, known.lobe_count, paper.light_modes,
+                                      paper.lobe_rank, paper.vertex_rank);
     known.indirect_bytes = sizeof(std::uint16_t) * transfer->transfer.indirect.size();
     write_info(info, first_info, known);
   });
@@ -125,6 +131,9 @@ nook_result nook_transfer_read_frames(nook_transfer transfer, float* normals, fl
   return api::enter("nook_transfer_read_frames", [&] {
     need(transfer, "transfer");
     const Transfer& baked = transfer->transfer;
+    if (baked.paper.is_used())
+      throw Failure(NOOK_ERROR_UNSUPPORTED,
+                    "the paper's form of transfer has no frames; keep those of the mesh");
     if (vertex_count != baked.vertex_count())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "vertex_count is not the transfer's (got %u, need %u)",
                     vertex_count, baked.vertex_count());
@@ -160,6 +169,7 @@ nook_result nook_transfer_check_material(nook_transfer transfer, nook_material m
   return api::enter("nook_transfer_check_material", [&] {
     need(transfer, "transfer");
     need(material, "material");
+    check_same_light(transfer->transfer, material->tables.btf.light_modes, material->tables.light_hash);
     check_same_material(transfer->transfer, material->tables.votf_hash);
   });
 }
@@ -229,6 +239,7 @@ nook_result nook_transfer_vectors(nook_transfer transfer, nook_transfer_response
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "vertices are out of range (got %u from %u on, the transfer has %u)", vertex_count,
                     first_vertex, baked.vertex_count());
+    check_same_light(baked, response->response.light_modes, response->response.light_hash);
     const VectorOutput output = output_of(vectors, stride_floats, response->response);
     baked_vectors(response->response, response->isa, {amplitudes, std::size_t(3) * lobe_count}, baked,
                   first_vertex, vertex_count, output, response->context->parallel(),

@@ -28,7 +28,7 @@ struct HemisphereCells {
 struct LightModes {
   std::span<const float> values;
   std::uint32_t light_modes = 0;
-  Vec3 reflectance;  // of the material under even light, [0, 1]
+  Vec3 reflectance{};  // of the material under even light, [0, 1]
   std::uint64_t light_hash = 0, votf_hash = 0;
 };
 

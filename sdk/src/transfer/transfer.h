@@ -1,4 +1,4 @@
-// Baked radiance transfer of a static shape in its separated form, as plain data: for each vertex and lobe
+// Baked radiance transfer of a static shape as plain data. Its separated form has for each vertex and lobe
 // the share of the lobe's light that reaches the vertex. The method follows Y.-T. Tsai, Z.-C. Shih:
 // K-Clustered Tensor Approximation, 2012, section 6.3, with the transfer matrix of a vertex replaced by a
 // product.
@@ -26,6 +26,7 @@
 #include "sdk/src/transfer/frame.h"
 #include "sdk/src/transfer/light_bands.h"
 #include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/paper.h"
 
 namespace nook::transfer {
 
@@ -43,12 +44,13 @@ struct MeshHashes {
 
 struct Transfer {
   explicit Transfer(Memory* memory = default_memory())
-      : shares(memory), frames(memory), indirect(memory), recipe(memory) {}
+      : shares(memory), frames(memory), paper(memory), indirect(memory), recipe(memory) {}
 
   std::uint32_t lobes = 0;
   MeshHashes hashes;
   Vector<std::uint8_t> shares;  // vertices x lobes, 255 is open
   Vector<PackedFrame> frames;   // one for each vertex
+  PaperTransfer paper;          // in place of shares and frames, which are empty then
   std::uint32_t bounces = 0;    // reflections, up to max_bounces
   // vertices x bounces x band_count half floats m_(b,k), in the order of light_bands.h.
   Vector<std::uint16_t> indirect;
@@ -56,7 +58,9 @@ struct Transfer {
   std::uint64_t votf_hash = 0;
   String recipe;  // settings of the bake, JSON; the runtime does not read it
 
-  std::uint32_t vertex_count() const { return std::uint32_t(frames.size()); }
+  std::uint32_t vertex_count() const {
+    return std::uint32_t(paper.is_used() ? paper.cluster.size() : frames.size());
+  }
   const std::uint8_t* shares_of(std::size_t vertex) const { return shares.data() + vertex * lobes; }
 };
 

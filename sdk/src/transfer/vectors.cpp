@@ -123,6 +123,19 @@ void baked_vectors(const Response& response, Isa isa, std::span<const float> amp
                    const Transfer& transfer, std::uint32_t first, std::uint32_t count,
                    const VectorOutput& output, const Parallel& parallel, Memory* memory) {
   const ReflectedLight reflected(response, amplitudes, transfer, memory);
+  if (transfer.paper.is_used()) {
+    const Vector<float> lit = paper_light(transfer.paper, amplitudes, parallel, memory);
+    const auto body = [&](std::uint32_t index) noexcept {
+      const std::uint32_t end = std::min(count, (index + 1) * piece);
+      for (std::uint32_t i = index * piece; i < end; ++i) {
+        float* const vector = output.vectors + i * output.stride;
+        paper_vector(transfer.paper, lit, std::size_t(first) + i, vector);
+        reflected.add(std::size_t(first) + i, vector);
+      }
+    };
+    parallel_for(parallel, (count + piece - 1) / piece, body);
+    return;
+  }
   run(
       response, isa, amplitudes, count, output, parallel, memory,
       [&](std::uint32_t i) { return unpack(transfer.frames[first + i]); },
