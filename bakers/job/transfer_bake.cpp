@@ -82,6 +82,11 @@ TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
     transfer::check_bake(mesh, task.settings);
     mesh.tangent = surface_tangents(mesh, task.warnings);
   }
+  if (desc.material) {
+    task.material = tables_of_material({static_cast<const std::byte*>(desc.material), desc.material_size});
+    task.paper.clusters = desc.clusters;
+    transfer::check_paper_bake(mesh, task.paper);
+  }
   if (desc.votf)
     task.settings.holes = holes_of_material({static_cast<const std::byte*>(desc.votf), desc.votf_size});
   return task;

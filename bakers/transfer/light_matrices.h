@@ -9,7 +9,7 @@
 
 namespace nook::bake::transfer {
 
-// What all vertices share. All references must outlive the matrices.
+// The scene and the material of all vertices. All references must outlive the matrices.
 struct MatrixSource {
   const SurfaceMesh& mesh;
   const RayScene& scene;

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include "bakers/raytrace/ambient_occlusion.h"
@@ -42,8 +41,7 @@ LightMetric light_metric(std::uint32_t lobes) {
   const double sharpness = double(nook::transfer::sharpness_of(lobes));
   std::vector<Vec3> axes(lobes);
   nook::transfer::lobe_axes(axes);
-  static const char* const env = std::getenv("NOOK_DECAY");
-  const double decay = env ? std::atof(env) : 2;
+  constexpr double decay = 2;
   // The zonal coefficients of a lobe fall like those of a normal distribution.
   const auto bands = Index(std::ceil(3 * std::sqrt(sharpness))) + 2;
   std::vector<double> power;
@@ -90,6 +88,19 @@ CommonBasis common_basis(const LightMetric& metric, const MatrixXd& sum, std::si
   return out;
 }
 
+// Vertices from one to the next that chooses the first clusters.
+Index seed_step(Index count) {
+  return std::max<Index>(count / Index(seed_vertices), 1);
+}
+
+// Counts different rows among those, up to `enough`: there are no more clusters than these.
+std::size_t distinct_rows(const Eigen::Map<const Matrix>& rows, std::size_t enough) {
+  std::set<float> norms;
+  for (Index i = 0; i < rows.rows() && norms.size() < enough; i += seed_step(rows.rows()))
+    norms.insert(rows.row(i).squaredNorm());
+  return norms.size();
+}
+
 // The first clusters: k-means of the vertices' matrices on their leading axes.
 std::vector<std::uint32_t> first_clusters(const Eigen::Map<const Matrix>& rows, std::size_t clusters,
                                           std::uint64_t seed) {
@@ -101,7 +112,7 @@ std::vector<std::uint32_t> first_clusters(const Eigen::Map<const Matrix>& rows, 
   const Matrix axis = tensor::leading_eigenvectors(gram, std::size_t(axes)).transpose() * some;
   Matrix points = rows * axis.transpose();
   for (Index a = 0; a < axes; ++a) points.col(a) /= std::max(axis.row(a).norm(), 1e-20f);
-  const Index step = std::max<Index>(count / Index(seed_vertices), 1);
+  const Index step = seed_step(count);
   Matrix chosen((count + step - 1) / step, axes);
   for (Index i = 0; i < chosen.rows(); ++i) chosen.row(i) = points.row(i * step);
   const std::vector<std::uint32_t> group = tensor::seed_clusters(chosen, clusters, seed);
@@ -121,12 +132,6 @@ std::vector<std::uint32_t> first_clusters(const Eigen::Map<const Matrix>& rows, 
   // The chosen vertices keep their groups, so that none is empty.
   for (Index i = 0; i < chosen.rows(); ++i) out[std::size_t(i * step)] = group[std::size_t(i)];
   return out;
-}
-
-std::size_t distinct_rows(const Eigen::Map<const Matrix>& rows, std::size_t enough) {
-  std::set<float> norms;
-  for (Index i = 0; i < rows.rows() && norms.size() < enough; ++i) norms.insert(rows.row(i).squaredNorm());
-  return norms.size();
 }
 
 std::uint16_t finite_half(double value) {
@@ -167,8 +172,6 @@ PaperTransfer packed(const tensor::ClusteredFit& fit, const MatrixXd& expand, st
   }
   return paper;
 }
-
-struct PaperWorkspace : MatrixWorkspace {};
 
 void need(std::uint32_t got, std::uint32_t low, std::uint32_t high, const char* what) {
   if (got < low || got > high)

@@ -42,7 +42,7 @@ std::optional<SurfaceHoles> surface_holes(const SurfaceMesh& mesh, const HoleTab
 template <class Body>
 float walk_surfaces(const RayScene& scene, const SurfaceHoles* holes, Vec3 origin, Vec3 direction,
                     Body&& body) {
-  // Less is left than half a step of a byte.
+  // The rest of a ray below half a step of a byte does not count.
   constexpr float nothing = 1 / 512.0f;
   float rest = 1, beyond = 0;
   while (rest > nothing) {

@@ -611,7 +611,7 @@ NOOK_AT(nook_gl_transfer_info, texture, 4);
 NOOK_AT(nook_gl_transfer_info, bytes, 8);
 NOOK_AT(nook_gl_transfer_info, glsl, 16);
 
-NOOK_SIZE(nook_bake_transfer_desc, 120);
+NOOK_SIZE(nook_bake_transfer_desc, 144);
 NOOK_AT(nook_bake_transfer_desc, positions, 16);
 NOOK_AT(nook_bake_transfer_desc, normals, 24);
 NOOK_AT(nook_bake_transfer_desc, tangents, 32);
@@ -629,6 +629,10 @@ NOOK_AT(nook_bake_transfer_desc, bounces, 96);
 NOOK_AT(nook_bake_transfer_desc, tiles, 100);
 NOOK_AT(nook_bake_transfer_desc, votf, 104);
 NOOK_AT(nook_bake_transfer_desc, votf_size, 112);
+NOOK_AT(nook_bake_transfer_desc, material, 120);
+NOOK_AT(nook_bake_transfer_desc, material_size, 128);
+NOOK_AT(nook_bake_transfer_desc, clusters, 136);
+NOOK_AT(nook_bake_transfer_desc, reserved_2, 140);
 
 #include "tests/abi/host.h"
 

@@ -124,6 +124,8 @@ TEST_CASE("numbers of the paper's form that are out of range are not written") {
   refused([](PaperTransfer& p) { p.light_modes = 6; });
   refused([](PaperTransfer& p) { p.scale = NAN; });
   refused([](PaperTransfer& p) { p.scale = 0; });
+  refused([](PaperTransfer& p) { p.scale = 1e4f; });
+  refused([](PaperTransfer& p) { p.lobe_basis[5] = to_half(1.5f); });
 }
 
 TEST_CASE("the paper's form takes the light modes of its own material only") {

@@ -7,12 +7,15 @@
  * where the share, a byte of the file, is the cosine-weighted part of the lobe that no triangle hides from
  * the vertex, and the response is the integral of the lobe and the material's light basis over the upper
  * hemisphere. Light that the shape reflects onto itself, baked with `--bounces`, is added for the mean
- * reflectance of the response's material. A pixel's radiance is sum_a L_a r[c, a] with the light modes L_a of nook_material_decode and
- * the vectors interpolated between vertices.
+ * reflectance of the response's material. A pixel's radiance is sum_a L_a r[c, a] with the light modes L_a of
+ * nook_material_decode and the vectors interpolated between vertices.
  *
- *     nook_transfer_fit_light(fit, light, NULL, amplitudes, lobes, NULL);     when the light or the shape
- * turns nook_transfer_vectors(transfer, response, amplitudes, lobes, 0, count, vectors, 0);      and after
- * that Nothing is computed for vertices when only the view moves.
+ * When the light or the shape turns, a host calls
+ *     nook_transfer_fit_light(fit, light, NULL, amplitudes, lobes, NULL);
+ *     nook_transfer_vectors(transfer, response, amplitudes, lobes, 0, count, vectors, 0);
+ * and nothing is computed for vertices when only the view moves. The paper's form of a file, baked with
+ * `--form paper`, has the matrices from lobes to the light modes of one material in place of shares; the
+ * calls are the same.
  *
  * The space of directions is that of the baked vertices. Frames have x along growing u, z along the normal,
  * and y = handedness * cross(normal, tangent) along growing v. The vectors of a vertex are 3 x light_modes
@@ -109,9 +112,9 @@ typedef struct nook_transfer_mesh {
  * Any thread. Errors: INVALID_ARGUMENT (the message names the first array that differs). */
 NOOK_API nook_result nook_transfer_check_mesh(nook_transfer transfer, const nook_transfer_mesh* mesh);
 
-/* Checks that a material is the one that the shape was baked with, where that matters: in the paper's form its
- * light modes, and with holes its VOTF must be the same. nook_transfer_vectors refuses other light modes. A
- * material with another VOTF can be drawn nevertheless, and then the shadows are those of the baked holes;
+/* Checks that a material is the one that the shape was baked with, where that matters: in the paper's form
+ * its light modes, and with holes its VOTF must be the same. nook_transfer_vectors refuses other light modes.
+ * A material with another VOTF can be drawn nevertheless, and then the shadows are those of the baked holes;
  * `nook evaluate transfer` measures the error. Reflected light follows any material.
  * Any thread. Errors: INVALID_ARGUMENT (the message names what differs). */
 NOOK_API nook_result nook_transfer_check_material(nook_transfer transfer, nook_material material);

@@ -25,9 +25,11 @@ void check_range(std::uint32_t got, std::uint32_t low, std::uint32_t high, const
     throw Failure(code, "the number of %s is out of range (got %u, need %u to %u)", what, got, low, high);
 }
 
-void check_halves(std::span<const std::uint16_t> halves, const char* what, nook_result code) {
+void check_halves(std::span<const std::uint16_t> halves, float limit, const char* what, nook_result code) {
   for (std::size_t i = 0; i < halves.size(); ++i)
-    if ((halves[i] & 0x7c00u) == 0x7c00u) throw Failure(code, "number %zu of the %s is not finite", i, what);
+    if (!(std::abs(from_half(halves[i])) <= limit))
+      throw Failure(code, "number %zu of the %s is out of range (got %g, need -%g to %g)", i, what,
+                    double(from_half(halves[i])), double(limit), double(limit));
 }
 
 void check_indirect(const Transfer& transfer, nook_result code) {
@@ -36,11 +38,7 @@ void check_indirect(const Transfer& transfer, nook_result code) {
                   max_bounces);
   const std::size_t need = std::size_t(transfer.vertex_count()) * transfer.bounces * band_count;
   need_size(transfer.indirect.size(), need, "reflected light", code);
-  for (std::size_t i = 0; i < need; ++i)
-    if (!(std::abs(from_half(transfer.indirect[i])) <= max_indirect))
-      throw Failure(code, "the reflected light of vertex %zu is out of range (got %g, need -%g to %g)",
-                    i / (transfer.bounces * band_count), double(from_half(transfer.indirect[i])),
-                    double(max_indirect), double(max_indirect));
+  check_halves(transfer.indirect, max_indirect, "reflected light", code);
 }
 
 void check_arrays(const Transfer& transfer, nook_result code) {
@@ -57,9 +55,9 @@ void check_paper_head(const PaperTransfer& paper, nook_result code) {
   check_range(paper.clusters, 1, max_clusters, "clusters", code);
   check_range(paper.lobe_rank, 1, max_lobe_rank, "lobe modes", code);
   check_range(paper.vertex_rank, 1, max_vertex_rank, "vertex modes", code);
-  if (!(paper.scale > 0) || !(paper.scale <= 1e20f))
-    throw Failure(code, "the scale of the cores is out of range (got %g, need more than 0, up to 1e20)",
-                  double(paper.scale));
+  if (!(paper.scale > 0) || !(paper.scale <= max_core_scale))
+    throw Failure(code, "the scale of the cores is out of range (got %g, need more than 0, up to %g)",
+                  double(paper.scale), double(max_core_scale));
 }
 
 namespace {
@@ -74,9 +72,9 @@ void check_paper(const Transfer& transfer, nook_result code) {
   need_size(p.coefficients.size(), vertices * p.vertex_rank, "coefficients", code);
   need_size(transfer.frames.size(), 0, "frames", code);
   need_size(transfer.shares.size(), 0, "shares", code);
-  check_halves(p.lobe_basis, "lobe bases", code);
-  check_halves(p.cores, "cores", code);
-  check_halves(p.coefficients, "coefficients", code);
+  check_halves(p.lobe_basis, 1, "lobe bases", code);
+  check_halves(p.cores, 65504, "cores", code);
+  check_halves(p.coefficients, 1, "coefficients", code);
   for (std::size_t v = 0; v < vertices; ++v)
     if (p.cluster[v] >= p.clusters)
       throw Failure(code, "vertex %zu is of cluster %u (there are %u)", v, std::uint32_t(p.cluster[v]),

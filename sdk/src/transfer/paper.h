@@ -18,6 +18,9 @@ inline constexpr std::uint32_t max_clusters = 256, max_lobe_rank = 256, max_vert
 // Of one channel, a multiple of 4.
 inline constexpr std::uint32_t max_light_modes = 1024;
 
+// With it, and bases and coefficients of magnitude 1 at most, vectors are finite for amplitudes up to 1e22.
+inline constexpr float max_core_scale = 1000;
+
 struct PaperTransfer {
   explicit PaperTransfer(Memory* memory = default_memory())
       : lobe_basis(memory), cores(memory), cluster(memory), coefficients(memory) {}
@@ -27,7 +30,7 @@ struct PaperTransfer {
   std::uint64_t light_hash = 0;  // of the material, see material/tables.h
   float scale = 1;               // of the cores
 
-  // Half floats.
+  // Half floats; those of bases and coefficients are between -1 and 1.
   Vector<std::uint16_t> lobe_basis;  // clusters x lobes x lobe_rank
   Vector<std::uint16_t> cores;       // clusters x 3 light_modes x vertex_rank x lobe_rank, in units of scale
   Vector<std::uint8_t> cluster;      // of each vertex

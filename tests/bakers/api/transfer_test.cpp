@@ -195,6 +195,40 @@ TEST_CASE("a job bakes reflections and the holes of a material, which the runtim
   CHECK(nook_bake_transfer_start(&desc, &job) == NOOK_ERROR_BAD_FILE);
 }
 
+TEST_CASE("a job bakes the paper's form for the light modes of one material") {
+  const Shape shape = nook::transfer::test::plane(1, 9, 2);
+  nook_bake_transfer_desc desc = desc_of(shape);
+  const std::string material = material_with_holes(0);
+  desc.material = material.data();
+  desc.material_size = material.size();
+  desc.lobes = 162;
+  desc.clusters = 2;
+  const std::string bytes = bytes_of(desc);
+  nook_context_desc context_desc;
+  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  nook_context context = nullptr;
+  REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
+  nook_transfer transfer = nullptr;
+  REQUIRE(nook_transfer_load(context, bytes.data(), bytes.size(), &transfer) == NOOK_OK);
+  nook_transfer_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_transfer_describe(transfer, &info) == NOOK_OK);
+  CHECK(info.form == NOOK_TRANSFER_FORM_PAPER);
+  CHECK(info.vertex_count == desc.vertex_count);
+  CHECK(info.share_bytes == 0);
+  CHECK(info.light_modes == 16);  // 15 of the material, rounded up
+  CHECK(double(bytes.size()) < 1.01 * double(info.paper_bytes) + 400);
+  float normal[3];
+  CHECK(nook_transfer_read_frames(transfer, normal, nullptr, desc.vertex_count) == NOOK_ERROR_UNSUPPORTED);
+  nook_transfer_destroy(&transfer);
+  nook_context_destroy(&context);
+  desc.clusters = 300;
+  CHECK(refused(desc, "clusters"));
+  desc.clusters = 0;
+  desc.reserved_2 = 1;
+  CHECK(refused(desc, "desc.reserved_2"));
+}
+
 TEST_CASE("a job of radiance transfer can be cancelled by its progress") {
   const Shape shape = nook::transfer::test::knot_over_plane();
   nook_bake_transfer_desc desc = desc_of(shape);

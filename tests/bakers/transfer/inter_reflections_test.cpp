@@ -214,7 +214,7 @@ TEST_CASE("under a half-open weave light comes through by its measured openness"
   }
   CHECK(measured / count > 0.2);
   CHECK(measured / count < 0.8);
-  // Over many lobes that averages out.
+  // The mean of many lobes has less of both.
   CHECK(std::abs(got - measured) / count < 0.02);
 }
 
