@@ -144,10 +144,10 @@ Transfer bake_transfer(const SurfaceMesh& mesh, const BakeSettings& settings, co
   for (std::size_t v = 0; v < count; ++v) transfer.frames.push_back(pack(frame_of(mesh, v)));
   if (settings.holes) transfer.votf_hash = settings.holes->votf_hash;
 
-  VertexLoop loop(count, 1 + settings.bounces, progress);
+  VertexLoop loop(count * (1 + settings.bounces), progress);
   const Sight sight{scene, holes ? &*holes : nullptr, cells};
   std::vector<IrradianceBands> received(settings.bounces > 0 ? count : 0);
-  loop.run<Workspace>([&](std::size_t v, Workspace& work) {
+  loop.run<Workspace>(count, [&](std::size_t v, Workspace& work) {
     bake_vertex(sight, mesh.position[v] + mesh.normal[v] * offset, mesh.normal[v], lobes, work,
                 std::span(transfer.shares).subspan(v * settings.lobes, settings.lobes));
     if (!received.empty()) received[v] = direct_irradiance(mesh.normal[v], cells, work.visible);

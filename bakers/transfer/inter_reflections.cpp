@@ -58,7 +58,7 @@ void reflect(const Reflection& reflection, std::uint32_t bounces, VertexLoop& lo
   transfer.indirect.resize(received.size() * bounces * bands);
   for (std::uint32_t bounce = 0; bounce < bounces; ++bounce) {
     std::vector<IrradianceBands> reflected(received.size());
-    loop.run<Nothing>([&](std::size_t v, Nothing&) {
+    loop.run<Nothing>(received.size(), [&](std::size_t v, Nothing&) {
       reflected[v] = reflected_irradiance(reflection, v, received);
       for (std::size_t k = 0; k < bands; ++k)
         transfer.indirect[(v * bounces + bounce) * bands + k] = to_half(reflected[v][k]);

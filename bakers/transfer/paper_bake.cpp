@@ -210,27 +210,23 @@ Transfer bake_paper(const SurfaceMesh& mesh, const BakeSettings& settings, const
   // The common basis from some of the vertices; then all vertices, reduced at once.
   const std::size_t stride = (count + most_samples - 1) / most_samples,
                     samples = (count + stride - 1) / stride;
-  VertexLoop loop(count, 1 + settings.bounces, progress);
+  VertexLoop loop(samples + count * (1 + settings.bounces), progress);
   const std::size_t common = std::min<std::size_t>(paper.common_rank, settings.lobes);
   const CommonBasis basis = [&] {
-    constexpr std::size_t block = 64;
-    std::vector<MatrixXd> sums((samples + block - 1) / block);
-    tbb::parallel_for(std::size_t(0), sums.size(), [&](std::size_t b) {
-      const FlushDenormals flush;
-      MatrixWorkspace work;
-      sums[b] = MatrixXd::Zero(Index(settings.lobes), Index(settings.lobes));
-      for (std::size_t s = b * block; s < std::min(samples, (b + 1) * block); ++s) {
-        light_matrix(source, settings.lobes, s * stride, work);
-        sums[b] += (work.matrix * work.matrix.transpose()).cast<double>();
-      }
+    const auto size = Index(settings.lobes);
+    std::vector<MatrixXd> sums((samples + VertexLoop::block - 1) / VertexLoop::block,
+                               MatrixXd::Zero(size, size));
+    loop.run<MatrixWorkspace>(samples, [&](std::size_t s, MatrixWorkspace& work) {
+      light_matrix(source, settings.lobes, s * stride, work);
+      sums[s / VertexLoop::block] += (work.matrix * work.matrix.transpose()).cast<double>();
     });
-    MatrixXd sum = MatrixXd::Zero(Index(settings.lobes), Index(settings.lobes));
+    MatrixXd sum = MatrixXd::Zero(size, size);
     for (const MatrixXd& part : sums) sum += part;
     return common_basis(light_metric(settings.lobes), sum, common);
   }();
   tensor::Tensor reduced({count, common, modes});
   std::vector<IrradianceBands> received(settings.bounces > 0 ? count : 0);
-  loop.run<MatrixWorkspace>([&](std::size_t v, MatrixWorkspace& work) {
+  loop.run<MatrixWorkspace>(count, [&](std::size_t v, MatrixWorkspace& work) {
     light_matrix(source, settings.lobes, v, work);
     Eigen::Map<Matrix>(&reduced.data[v * common * modes], Index(common), Index(modes)).noalias() =
         basis.project * work.matrix;

@@ -1,9 +1,9 @@
 // The loop over vertices of a bake.
 #pragma once
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <functional>
@@ -17,25 +17,28 @@ namespace nook::bake::transfer {
 // Returns false to stop. Worker threads call it, one call at a time.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// Runs body(vertex, workspace) for all vertices on all threads, and counts them for the progress; each thread
-// reuses a workspace.
+// Runs body(vertex, workspace) on all threads for vertices from 0 on, in blocks that start at multiples of
+// `block`, and counts them for the progress; a block has a workspace that its vertices reuse.
 class VertexLoop {
  public:
-  VertexLoop(std::size_t vertices, std::size_t passes, const Progress& progress)
-      : vertices_(vertices), total_(vertices * passes), progress_(progress) {}
+  static constexpr std::size_t block = 64;
+
+  // total: vertices of all runs.
+  VertexLoop(std::size_t total, const Progress& progress) : total_(total), progress_(progress) {}
 
   // Throws Failure(CANCELLED) if the progress returns false.
   template <class Workspace, class Body>
-  void run(Body&& body) {
+  void run(std::size_t vertices, Body&& body) {
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, vertices_, 64),
-        [&](const auto& range) {
+        std::size_t(0), (vertices + block - 1) / block,
+        [&](std::size_t index) {
           const FlushDenormals flush;
           Workspace work;
-          for (std::size_t v = range.begin(); v < range.end() && !cancelled_; ++v) body(v, work);
+          const std::size_t first = index * block, end = std::min(first + block, vertices);
+          for (std::size_t v = first; v < end && !cancelled_; ++v) body(v, work);
           if (!progress_) return;
           const std::lock_guard lock(mutex_);
-          done_ += range.size();
+          done_ += end - first;
           if (!cancelled_ && !progress_(done_, total_)) cancelled_ = true;
         },
         tbb::simple_partitioner());
@@ -45,7 +48,7 @@ class VertexLoop {
   }
 
  private:
-  std::size_t vertices_, total_, done_ = 0;
+  std::size_t total_, done_ = 0;
   const Progress& progress_;
   std::atomic<bool> cancelled_{false};
   std::mutex mutex_;

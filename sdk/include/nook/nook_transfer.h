@@ -23,7 +23,8 @@
  * light and vectors can be slightly negative; nook_transfer_fit_quality gives the share.
  *
  * nook_gl_transfer.h keeps vectors in a buffer and has the GLSL. The method follows section 6.3 of Y.-T.
- * Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012, in a separated form. */
+ * Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012, in a separated form and in its
+ * own. */
 #ifndef NOOK_TRANSFER_H
 #define NOOK_TRANSFER_H
 
