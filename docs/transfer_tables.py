@@ -138,7 +138,7 @@ def holes_table(bench):
 
 # Clusters and ranks of vertices of clustered PCA, whose bytes are just below those of the paper's form: a cluster
 # has a matrix of all lobes for each vertex mode.
-PCA = [(38, 1), (12, 3), (9, 4), (3, 12), (2, 18)]
+PCA = [(38, 1), (19, 2), (12, 3), (9, 4)]
 # The same with matrices of the 128 common combinations of lobes, which are stored once.
 COMMON_PCA = [(22, 8)]
 
