@@ -4,7 +4,7 @@ docs/transfer.md.
 
     docs/transfer_tables.py --out out/transfer_tables [--material FIBER.nook] [--write]
 
-A step whose report is in the output folder already is not repeated: remove the folder to measure anew. Without --material
+--only NAME,... makes some of the tables: vectors, pictures, lights, times, reflections, holes, paper. A step whose report is in the output folder already is not repeated: remove the folder to measure anew. Without --material
 the fiber is baked first, which takes two minutes. Maps are those of NOOK_ASSETS, or of ../shared/assets.
 """
 import argparse
@@ -49,6 +49,15 @@ class Bench:
     def bake(self, shape, lobes):
         return self.run(f"{shape}_{lobes}_bake", "bake", "transfer", self.shape(shape), "--lobes", str(lobes), "-o",
                         self.path(f"{shape}_{lobes}.nook"))["rows"][0]
+
+    def bake_form(self, name, shape, *options):
+        """The row of a bake with options, whose file has the same name."""
+        return self.run(f"{name}_bake", "bake", "transfer", self.shape(shape), "-o", self.path(f"{name}.nook"),
+                        *options)["rows"][0]
+
+    def evaluate_form(self, name, shape, variant, *options):
+        return self.run(f"{name}_{variant}", "evaluate", "transfer", self.shape(shape), self.path(f"{name}.nook"),
+                        "--material", self.material, "--light", *self.maps, *options)
 
     def evaluate(self, shape, lobes, variant, *options):
         self.bake(shape, lobes)
@@ -95,6 +104,72 @@ def light_table(bench):
     return table(["light", "", *MAPS], rows)
 
 
+# Path tracing with reflections takes four times as long as with direct light.
+FEW = ["--width", "160", "--height", "120", "--paths", "64"]
+
+
+def mse_row(report, form="separated", key="mse"):
+    return [f"{value:.1e}" for value in of_form(report, form, key)]
+
+
+def reflections_table(bench):
+    rows = []
+    for bounces in [0, 1, 2]:
+        name = f"knot_642_bounces_{bounces}"
+        bake = bench.bake_form(name, "knot", "--bounces", str(bounces))
+        report = bench.evaluate_form(name, "knot", "pictures", "--truth-bounces", "2", *FEW)
+        rows.append([str(bounces), f"{bake['file_bytes'] / 2**20:.2f}", f"{bake['indirect_bytes'] / 2**20:.2f}",
+                     *mse_row(report)])
+    rows.append(["noise of the truth", "-", "-", *mse_row(report, key="noise_floor_mse")])
+    return table(["bounces of the file", "file, MiB", "of it reflections, MiB", *MAPS], rows)
+
+
+def holes_table(bench):
+    rows = []
+    for label, name, options in [("with holes", "knot_642_holes", ["--votf", bench.material]),
+                                 ("without", "knot_642_bounces_0", [])]:
+        bench.bake_form(name, "knot", *options)
+        report = bench.evaluate_form(name, "knot", "holes", "--truth-holes", *FEW)
+        rows.append([label, "S/E, dB", *[f"{value:.1f}" for value in of_form(report, "separated", "se_db")]])
+        rows.append([label, "squared error of pictures", *mse_row(report)])
+    rows.append(["noise of the truth", "squared error of pictures", *mse_row(report, key="noise_floor_mse")])
+    return table(["file", "", *MAPS], rows)
+
+
+# Clusters and ranks of vertices of clustered PCA, whose bytes are just below those of the paper's form: a cluster
+# has a matrix of all lobes for each vertex mode.
+PCA = [(38, 1), (19, 2), (12, 3), (9, 4)]
+# The same with matrices of the 128 common combinations of lobes, which are stored once.
+COMMON_PCA = [(22, 8)]
+
+
+def paper_table(bench):
+    rows = []
+
+    def row(label, name, size, *options):
+        bake = bench.bake_form(name, "knot", *options)
+        report = bench.evaluate_form(name, "knot", "vectors", "--no-pictures")
+        form = "separated" if label.startswith("separated") else "paper"
+        rows.append([label, f"{size(bake) / 2**20:.2f}",
+                     *[f"{value:.1f}" for value in of_form(report, form, "se_db")],
+                     f"{min(of_form(report, form, 'ms_vectors')):.1f}"])
+        return bake
+
+    row("separated", "knot_642_bounces_0", lambda bake: bake["file_bytes"])
+    of_paper = ["--form", "paper", "--material", bench.material]
+    bake = row("paper, CTA", "knot_642_paper", lambda bake: bake["file_bytes"], *of_paper)
+    modes = bake["light_modes"]
+    for clusters, rank in PCA:
+        row(f"clustered PCA, {clusters} x {rank}", f"knot_642_pca_{clusters}_{rank}",
+            lambda bake: 2 * rank * clusters * 642 * 3 * modes + bake["vertices"] * (2 * rank + 1), *of_paper,
+            "--lobe-rank", "128", "--vertex-rank", str(rank), "--clusters", str(clusters))
+    for clusters, rank in COMMON_PCA:
+        row(f"clustered PCA of 128 combinations, {clusters} x {rank}", f"knot_642_pca_{clusters}_{rank}",
+            lambda bake: 2 * 128 * (642 + rank * clusters * 3 * modes) + bake["vertices"] * (2 * rank + 1), *of_paper,
+            "--lobe-rank", "128", "--vertex-rank", str(rank), "--clusters", str(clusters))
+    return table(["form", "MiB", *MAPS, "vectors, ms"], rows)
+
+
 def times_table(bench):
     bake = bench.bake("dense", 642)
     report = bench.evaluate("knot", 642, "times", "--no-pictures")
@@ -113,14 +188,17 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/transfer_tables")
     parser.add_argument("--material", help="a baked fiber")
+    parser.add_argument("--only", help="names of tables, separated by commas")
     parser.add_argument("--write", action="store_true", help="put the tables into the document")
     arguments = parser.parse_args()
     assets = pathlib.Path(os.environ.get("NOOK_ASSETS", ROOT.parent / "shared/assets"))
     bench = Bench(arguments.build, arguments.out, assets, arguments.material or str(arguments.out / "fiber.nook"))
     if not arguments.material:
         bench.run("fiber", "bake", "material", "--meso", "fiber", "-o", bench.material)
-    tables = {"vectors": vectors_table(bench), "pictures": pictures_table(bench), "lights": light_table(bench),
-              "times": times_table(bench)}
+    makers = {"vectors": vectors_table, "pictures": pictures_table, "lights": light_table, "times": times_table,
+              "reflections": reflections_table, "holes": holes_table, "paper": paper_table}
+    names = arguments.only.split(",") if arguments.only else list(makers)
+    tables = {name: makers[name](bench) for name in names}
     show(ROOT / "docs/transfer.md", "transfer_tables.py", tables, arguments.write)
 
 

@@ -22,6 +22,7 @@ nook_bake_transfer_desc default_transfer_desc() {
   desc.header_version = NOOK_VERSION;
   desc.lobes = settings.lobes;
   desc.ray_side = settings.side;
+  desc.tiles = settings.tiles;
   return desc;
 }
 
@@ -45,6 +46,8 @@ nook_result nook_bake_transfer_start(const nook_bake_transfer_desc* desc, nook_b
                     d.threads, most_threads);
     if (d.reserved != 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", d.reserved);
+    if (d.reserved_2 != 0)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved_2 is %u, need 0", d.reserved_2);
     auto task = std::make_shared<TransferTask>(transfer_task_of(d));
     auto bake = [task](const StageReport& report) { return bake_transfer_file(*task, report); };
     *out = new nook_bake_job_s{BakeJob(std::move(bake), d.threads, listener_of(d.progress, d.progress_user))};

@@ -1,12 +1,15 @@
 #include "bakers/job/transfer_bake.h"
 
 #include <nook/nook_bake_transfer.h>
+
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "bakers/import/tangents.h"
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/material/material_file.h"
 #include "sdk/src/transfer/transfer_file.h"
 
 namespace nook::bake {
@@ -20,6 +23,12 @@ std::vector<Vec3> directions_of(const float* xyz, std::size_t count) {
   return out;
 }
 
+std::string hash_text(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
 double mean_share(const nook::transfer::Transfer& transfer) {
   double sum = 0;
   for (const std::uint8_t share : transfer.shares) sum += share;
@@ -27,6 +36,15 @@ double mean_share(const nook::transfer::Transfer& transfer) {
 }
 
 }  // namespace
+
+std::shared_ptr<const nook::material::MaterialTables> tables_of_material(std::span<const std::byte> bytes) {
+  return std::make_shared<const nook::material::MaterialTables>(
+      nook::material::make_tables(nook::material::read_material(bytes), {}, default_memory()));
+}
+
+std::shared_ptr<const transfer::HoleTable> holes_of_material(std::span<const std::byte> bytes) {
+  return std::make_shared<const transfer::HoleTable>(transfer::make_hole_table(*tables_of_material(bytes)));
+}
 
 TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
   need(desc.positions, "desc.positions");
@@ -39,6 +57,8 @@ TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
   TransferTask task;
   task.settings.lobes = desc.lobes;
   task.settings.side = desc.ray_side;
+  task.settings.bounces = desc.bounces;
+  task.settings.tiles = desc.tiles;
   SurfaceMesh& mesh = task.mesh;
   const std::size_t count = desc.vertex_count;
   mesh.position = directions_of(desc.positions, count);
@@ -62,32 +82,58 @@ TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
     transfer::check_bake(mesh, task.settings);
     mesh.tangent = surface_tangents(mesh, task.warnings);
   }
+  if (desc.material) {
+    task.material = tables_of_material({static_cast<const std::byte*>(desc.material), desc.material_size});
+    task.paper.clusters = desc.clusters;
+    transfer::check_paper_bake(mesh, task.paper);
+  }
+  if (desc.votf)
+    task.settings.holes = holes_of_material({static_cast<const std::byte*>(desc.votf), desc.votf_size});
   return task;
 }
 
 BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress) {
   platform::Stopwatch watch;
-  nook::transfer::Transfer transfer = transfer::bake_transfer(
-      task.mesh, task.settings,
-      [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_RAYTRACE, done, total); });
+  const auto stage = [&](nook_bake_stage at) {
+    return [&progress, at](std::size_t done, std::size_t total) { return progress(at, done, total); };
+  };
+  const nook_bake_stage tracing = NOOK_BAKE_STAGE_RAYTRACE;
+  nook::transfer::Transfer transfer =
+      task.material ? transfer::bake_paper(task.mesh, task.settings, task.paper, *task.material,
+                                           stage(tracing), stage(NOOK_BAKE_STAGE_FIT))
+                    : transfer::bake_transfer(task.mesh, task.settings, stage(tracing));
   const double seconds = watch.seconds();
+  const char* const form = task.material ? "paper" : "separated";
   Json recipe;
   if (!task.source.empty()) recipe["source"] = task.source;
-  recipe["form"] = "separated";
-  recipe["bounces"] = 0;
+  recipe["form"] = form;
+  recipe["bounces"] = task.settings.bounces;
   recipe["rays"] = 6 * task.settings.side * task.settings.side;
+  if (task.settings.holes) {
+    recipe["votf"] = hash_text(task.settings.holes->votf_hash);
+    recipe["tiles"] = task.settings.tiles;
+  }
   transfer.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
   BakedFile file;
   file.model = nook::transfer::write_transfer(transfer);
   Json report;
-  report["form"] = "separated";
+  report["form"] = form;
   report["vertices"] = transfer.vertex_count();
   report["triangles"] = task.mesh.triangle.size();
   report["lobes"] = transfer.lobes;
-  report["bounces"] = 0;
+  report["bounces"] = transfer.bounces;
   report["rays"] = recipe["rays"];
   report["file_bytes"] = file.model.size();
-  report["mean_share"] = mean_share(transfer);
+  report["indirect_bytes"] = sizeof(std::uint16_t) * transfer.indirect.size();
+  report["votf"] = recipe.contains("votf") ? recipe["votf"] : Json();
+  report["mean_share"] = task.material ? Json() : Json(mean_share(transfer));
+  report["light_modes"] = task.material ? Json(transfer.paper.light_modes) : Json();
+  report["clusters"] = task.material ? Json(transfer.paper.clusters) : Json();
+  report["paper_bytes"] =
+      task.material ? Json(nook::transfer::paper_bytes(transfer.vertex_count(), transfer.paper.clusters,
+                                                       transfer.lobes, transfer.paper.light_modes,
+                                                       transfer.paper.lobe_rank, transfer.paper.vertex_rank))
+                    : Json();
   report["seconds"] = seconds;
   report["peak_bytes"] = platform::peak_bytes();
   report["warnings"] = task.warnings;

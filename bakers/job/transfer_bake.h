@@ -6,13 +6,16 @@
 #include <vector>
 
 #include "bakers/job/baked_file.h"
-#include "bakers/transfer/bake.h"
+#include "bakers/transfer/paper_bake.h"
 
 namespace nook::bake {
 
 struct TransferTask {
   SurfaceMesh mesh;
   transfer::BakeSettings settings;
+  // Of the paper's form, which is baked if there is a material.
+  std::shared_ptr<const nook::material::MaterialTables> material;
+  transfer::PaperSettings paper;
   std::string source;                 // the name of the file, if there is one
   std::vector<std::string> warnings;  // of the import
 };
@@ -21,7 +24,15 @@ struct TransferTask {
 // fault, also for what transfer::check_bake refuses.
 TransferTask transfer_task_of(const nook_bake_transfer_desc& desc);
 
-// The stage is NOOK_BAKE_STAGE_RAYTRACE and counts vertices. Throws Failure: INVALID_ARGUMENT, CANCELLED.
+// Makes the tables of the material in the bytes of a .nook file. Throws Failure: what read_material throws.
+std::shared_ptr<const nook::material::MaterialTables> tables_of_material(std::span<const std::byte> bytes);
+// Makes the holes of the material in the bytes of a .nook file, for BakeSettings. Throws Failure: what
+// read_material throws, and INVALID_ARGUMENT if the material has no VOTF.
+std::shared_ptr<const transfer::HoleTable> holes_of_material(std::span<const std::byte> bytes);
+
+// The stage is NOOK_BAKE_STAGE_RAYTRACE and counts vertices, once for the direct light and once for each
+// reflection; in the paper's form NOOK_BAKE_STAGE_FIT counts clusters after that. Throws Failure:
+// INVALID_ARGUMENT, CANCELLED.
 BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress);
 
 }  // namespace nook::bake

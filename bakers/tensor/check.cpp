@@ -64,6 +64,9 @@ void check_clustered(const Dimensions& dimensions, const ClusteredSettings& s) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "mixture clusters are out of range (got %zu, need 1 to the %zu clusters)", s.mixture,
                   s.clusters);
+  if (s.nearest > 0 && s.mode != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the nearest clusters can be tried in mode 1 only (mode %zu is clustered)", s.mode + 1);
   if (s.sweeps < 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "sweeps are out of range (got %d, need 1 or more)", s.sweeps);
   for (std::size_t n : s.global_modes)

@@ -34,6 +34,9 @@ struct ClusteredSettings {
   double tolerance = 3e-4;
   int sweeps = 1;  // of the N-SVD of one cluster in an update stage; more change little
   Pursuit pursuit = Pursuit::greedy;
+  // Of CTA: each sub-tensor tries this number of clusters, those whose means are nearest, and its own; 0:
+  // all.
+  std::size_t nearest = 0;
   // A sub-tensor keeps its previous clusters if the search found worse ones. false: exactly Algorithm 1,
   // which then has to undo iterations more often.
   bool keep_better_clusters = true;

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <numeric>
+
 #include "bakers/tensor/atoms.h"
 #include "bakers/tensor/empty_clusters.h"
 #include "bakers/tensor/iteration.h"
@@ -15,16 +18,63 @@ Eigen::VectorXd projected_norms(const TensorView& reduced, const WorkingCluster&
   return (unfold(projected, mode) * v.transpose()).rowwise().squaredNorm().cast<double>();
 }
 
+// The sub-tensors of mode 1 that try each cluster: those to which its mean is one of the nearest, and its
+// members.
+std::vector<std::vector<std::size_t>> tries(const WorkingFit& fit, const TensorView& reduced,
+                                            std::size_t nearest) {
+  const auto count = Eigen::Index(fit.membership.size()), clusters = Eigen::Index(fit.clusters.size());
+  const Eigen::Map<const Matrix> rows(reduced.data, count, Eigen::Index(reduced.size()) / count);
+  Matrix means = Matrix::Zero(clusters, rows.cols());
+  for (Eigen::Index c = 0; c < clusters; ++c) {
+    const std::vector<std::size_t>& members = fit.clusters[std::size_t(c)].members;
+    for (const std::size_t i : members) means.row(c) += rows.row(Eigen::Index(i));
+    if (!members.empty()) means.row(c) /= float(members.size());
+  }
+  const Eigen::VectorXf squares = means.rowwise().squaredNorm();
+  std::vector<std::vector<std::size_t>> lists(fit.clusters.size());
+  constexpr Eigen::Index block = 1024;
+  std::vector<std::uint32_t> order(fit.clusters.size());
+  for (Eigen::Index first = 0; first < count; first += block) {
+    const Eigen::Index size = std::min(block, count - first);
+    const Matrix products = rows.middleRows(first, size) * means.transpose();
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const auto distance = [&](std::uint32_t c) { return squares[c] - 2 * products(i, c); };
+      std::iota(order.begin(), order.end(), 0u);
+      std::nth_element(order.begin(), order.begin() + std::ptrdiff_t(nearest - 1), order.end(),
+                       [&](std::uint32_t a, std::uint32_t b) {
+                         const float x = distance(a), y = distance(b);
+                         return x < y || (x == y && a < b);
+                       });
+      const auto sub_tensor = std::size_t(first + i);
+      const std::uint32_t own = fit.membership[sub_tensor];
+      bool has_own = false;
+      for (std::size_t k = 0; k < nearest; ++k) {
+        lists[order[k]].push_back(sub_tensor);
+        has_own = has_own || order[k] == own;
+      }
+      if (!has_own) lists[own].push_back(sub_tensor);
+    }
+  }
+  return lists;
+}
+
 // Each sub-tensor goes to the cluster that keeps most of its norm; empty clusters are filled. Returns their
 // number.
-std::size_t classify(WorkingFit& fit, const TensorView& reduced) {
+std::size_t classify(WorkingFit& fit, const TensorView& reduced, std::size_t nearest) {
   const std::size_t sub_tensors_count = fit.membership.size();
   std::vector<double> kept(sub_tensors_count, -1), error(sub_tensors_count);
+  const bool some = nearest > 0 && nearest < fit.clusters.size();
+  std::vector<std::vector<std::size_t>> lists;
+  if (some) lists = tries(fit, reduced, nearest);
   for (std::size_t c = 0; c < fit.clusters.size(); ++c) {
-    const Eigen::VectorXd norms = projected_norms(reduced, fit.clusters[c], fit.mode);
-    for (std::size_t i = 0; i < sub_tensors_count; ++i) {
-      if (norms[Eigen::Index(i)] <= kept[i]) continue;
-      kept[i] = norms[Eigen::Index(i)];
+    if (some && lists[c].empty()) continue;
+    const Tensor listed = some ? sub_tensors(reduced, fit.mode, lists[c]) : Tensor();
+    const Eigen::VectorXd norms =
+        projected_norms(some ? TensorView(listed) : reduced, fit.clusters[c], fit.mode);
+    for (Eigen::Index k = 0; k < norms.size(); ++k) {
+      const std::size_t i = some ? lists[c][std::size_t(k)] : std::size_t(k);
+      if (norms[k] <= kept[i]) continue;
+      kept[i] = norms[k];
       fit.membership[i] = std::uint32_t(c);
     }
   }
@@ -66,7 +116,7 @@ ClusteredFit fit_cta(const TensorView& a, const ClusteredSettings& settings, con
                   settings.mixture);
   return iterate(a, settings, progress,
                  [&](WorkingFit& fit, const TensorView& reduced, int iteration, double objective) {
-                   const std::size_t splits = classify(fit, reduced);
+                   const std::size_t splits = classify(fit, reduced, settings.nearest);
                    return StepResult{update(fit, reduced, settings, progress, iteration, objective), splits};
                  });
 }

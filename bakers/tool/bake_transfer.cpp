@@ -16,7 +16,7 @@
 #include "platform/output_file.h"
 #include "platform/printable.h"
 #include "platform/progress_bar.h"
-#include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/transfer.h"
 
 namespace nook::tool {
 namespace {
@@ -28,6 +28,9 @@ struct Options {
   std::filesystem::path input, output;
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   bake::transfer::BakeSettings settings;
+  std::filesystem::path votf, material;
+  std::string form = "separated";
+  bake::transfer::PaperSettings paper;
 };
 
 bake::TransferTask read_task(const Options& o) {
@@ -36,6 +39,14 @@ bake::TransferTask read_task(const Options& o) {
   bake::TransferTask task;
   task.mesh = std::move(imported.mesh);
   task.settings = o.settings;
+  task.paper = o.paper;
+  task.paper.seed = o.common.seed;
+  if (o.form == "paper") {
+    task.material = naming_file(o.material, [&] { return bake::tables_of_material(read_file(o.material)); });
+    bake::transfer::check_paper_bake(task.mesh, task.paper);
+  }
+  if (!o.votf.empty())
+    task.settings.holes = naming_file(o.votf, [&] { return bake::holes_of_material(read_file(o.votf)); });
   task.source = o.input.filename().string();
   task.warnings = std::move(imported.warnings);
   if (!o.common.quiet)
@@ -45,7 +56,13 @@ bake::TransferTask read_task(const Options& o) {
 }
 
 void run(const Options& o) {
-  require_distinct_files({{{"the input", o.input}}, {{"-o", o.output}, {"--report", o.common.report}}, {}});
+  CommandFiles files{{{"the input", o.input}}, {{"-o", o.output}, {"--report", o.common.report}}, {}};
+  if (!o.material.empty()) files.inputs.push_back({"--material", o.material});
+  if (!o.votf.empty()) files.inputs.push_back({"--votf", o.votf});
+  require_distinct_files(files);
+  if ((o.form == "paper") != !o.material.empty())
+    throw ToolError(exit_bad_arguments, o.form == "paper" ? "--form paper needs --material"
+                                                          : "--material is of --form paper only");
   platform::OutputFile output(o.output);
   std::optional<platform::OutputFile> report_file;
   if (!o.common.report.empty()) report_file.emplace(o.common.report);
@@ -54,8 +71,9 @@ void run(const Options& o) {
   try {
     bake::run_with_threads(o.common.threads, [&] {
       platform::ProgressBar bar(o.common.quiet);
-      file = bake::bake_transfer_file(task, [&](nook_bake_stage, std::size_t done, std::size_t total) {
-        bar.show("ray tracing", "vertices", done, total);
+      file = bake::bake_transfer_file(task, [&](nook_bake_stage stage, std::size_t done, std::size_t total) {
+        const bool is_fit = stage == NOOK_BAKE_STAGE_FIT;
+        bar.show(is_fit ? "fitting" : "ray tracing", is_fit ? "clusters" : "vertices", done, total);
         return !interrupted();
       });
     });
@@ -88,6 +106,34 @@ void add_bake_transfer(CLI::App& bake_command) {
       ->add_option("--ray-side", o.settings.side,
                    "cells along a face of the cube of ray directions; a vertex has 6 times its square")
       ->check(CLI::Range(8u, bake::transfer::max_ray_side))
+      ->capture_default_str();
+  command
+      ->add_option("--bounces", o.settings.bounces,
+                   "reflections of the shape onto itself; each adds 18 bytes for a vertex")
+      ->check(CLI::Range(0u, transfer::max_bounces))
+      ->capture_default_str();
+  command->add_option("--votf", o.votf,
+                      "the .nook file of the material that the shape wears: light falls through its holes");
+  command
+      ->add_option("--tiles", o.settings.tiles, "tiles of that material in one unit of texture coordinates")
+      ->check(CLI::Range(0.01f, 1000.0f))
+      ->capture_default_str();
+  command
+      ->add_option("--form", o.form,
+                   "separated: takes any material; paper: matrices of one --material, compressed by CTA")
+      ->check(CLI::IsMember({"separated", "paper"}))
+      ->capture_default_str();
+  command->add_option("--material", o.material, "the .nook file of the material, for --form paper");
+  command
+      ->add_option("--clusters", o.paper.clusters,
+                   "clusters of vertices, of --form paper; 0: one for each 360")
+      ->check(CLI::Range(0u, transfer::max_clusters))
+      ->capture_default_str();
+  command->add_option("--lobe-rank", o.paper.lobe_rank, "lobe modes of a cluster, of --form paper")
+      ->check(CLI::Range(1u, transfer::max_lobe_rank))
+      ->capture_default_str();
+  command->add_option("--vertex-rank", o.paper.vertex_rank, "vertex modes of a cluster, of --form paper")
+      ->check(CLI::Range(1u, transfer::max_vertex_rank))
       ->capture_default_str();
   add_linked_files_option(*command, o.linked);
   add_common_options(*command, o.common);

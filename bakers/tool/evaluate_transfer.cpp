@@ -1,7 +1,9 @@
 // nook evaluate transfer: baked radiance transfer against direct sums and path tracing, beside simpler forms.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bakers/measure/transfer/pictures.h"
 #include "bakers/measure/transfer/vector_error.h"
@@ -28,7 +30,9 @@ struct Options {
   std::vector<std::filesystem::path> lights;
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   measure::PictureSettings picture;
-  bool without_suns = false, no_pictures = false;
+  float tiles = 1;
+  std::optional<std::uint32_t> truth_bounces;
+  bool without_suns = false, no_pictures = false, truth_holes = false;
 };
 
 void check_mesh(const Options& o, const bake::SurfaceMesh& mesh, const transfer::Transfer& baked) {
@@ -36,6 +40,30 @@ void check_mesh(const Options& o, const bake::SurfaceMesh& mesh, const transfer:
     throw ToolError(exit_bad_input, o.transfer.string() + ": was baked from another mesh than " +
                                         o.mesh.string() + "; bake the transfer again");
 }
+
+// The part of light transport that the truth follows: that of the file, with the material that is worn.
+struct TruthOf {
+  TruthOf(const Options& o, const transfer::Transfer& baked, const material::MaterialTables& tables) {
+    settings.bounces = o.truth_bounces.value_or(baked.bounces);
+    settings.tiles = o.tiles;
+    name = settings.bounces == 0 ? "decoded material, direct light"
+                                 : "decoded material, " + std::to_string(settings.bounces) + " bounces";
+    if (baked.votf_hash == 0 && !o.truth_holes) return;
+    name += ", holes of the VOTF";
+    if (baked.votf_hash != 0 && baked.votf_hash != tables.votf_hash && !o.common.quiet)
+      std::fprintf(stderr,
+                   "nook: %s: light fell through the holes of another material than %s when it was baked; "
+                   "the rows hold the error that this makes\n",
+                   o.transfer.c_str(), o.material.c_str());
+    if (tables.visibility == material::VisibilityForm::none) return;
+    holes = bake::transfer::make_hole_table(tables);
+    settings.holes = &*holes;
+  }
+
+  std::optional<bake::transfer::HoleTable> holes;
+  measure::TruthSettings settings;
+  std::string name;
+};
 
 Json evaluate(const Options& o) {
   platform::ProgressBar bar(o.common.quiet);
@@ -47,6 +75,10 @@ Json evaluate(const Options& o) {
   const material::MaterialTables tables = naming_file(o.material, [&] {
     return material::make_tables(material::read_material(material_bytes), {}, default_memory());
   });
+  naming_file(o.transfer,
+              [&] { transfer::check_same_light(baked, tables.btf.light_modes, tables.light_hash); });
+  const bool is_paper = baked.paper.is_used();
+  const TruthOf truth(o, baked, tables);
   platform::Stopwatch watch;
   const transfer::LobeFit fit(baked.lobes);
   const double factor_ms = watch.seconds() * 1e3;
@@ -60,9 +92,10 @@ Json evaluate(const Options& o) {
       return !interrupted();
     };
   };
-  const measure::VectorMeasure vectors =
-      measure::measure_vectors(mesh, baked, tables, lights, progress("summing light", "vertices"));
+  const measure::VectorMeasure vectors = measure::measure_vectors(mesh, baked, tables, lights, truth.settings,
+                                                                  progress("summing light", "vertices"));
   measure::PictureSettings picture = o.picture;
+  picture.truth = truth.settings;
   picture.seed = o.common.seed;
   Json rows = Json::array();
   for (std::size_t l = 0; l < lights.size(); ++l) {
@@ -76,17 +109,19 @@ Json evaluate(const Options& o) {
       Json row;
       row["shape"] = o.mesh.stem().string();
       row["light"] = lights[l].name;
-      row["form"] = measure::transfer_form_names[form];
+      row["form"] = form == 0 && is_paper ? measure::paper_form_name : measure::transfer_form_names[form];
       row["lobes"] = baked.lobes;
-      row["bounces"] = 0;
-      row["bytes"] = form == 0 ? bytes.size() : form == 1 ? baked.frames.size() : 0;
+      row["bounces"] = form == 0 ? baked.bounces : 0;
+      row["bytes"] = form == 0 ? bytes.size() : form == 1 ? baked.vertex_count() : 0;
       row["file_bytes"] = form == 0 ? Json(bytes.size()) : Json();
+      row["indirect_bytes"] = form == 0 ? Json(sizeof(std::uint16_t) * baked.indirect.size()) : Json();
       row["se_db"] = vectors.lights[l].se_db[form];
-      row["se_exact_db"] = form == 0 ? Json(vectors.lights[l].se_exact_db) : Json();
+      row["se_exact_db"] = form == 0 && !is_paper ? Json(vectors.lights[l].se_exact_db) : Json();
       if (!o.no_pictures) {
         row["mse"] = error.mse[form];
         row["noise_floor_mse"] = error.noise_floor_mse;
-        row["truth"] = "decoded material, direct light";
+        row["truth"] = truth.name;
+        row["truth_bounces"] = truth.settings.bounces;
       }
       row["light_error"] = lights[l].quality.relative_error;
       row["negative_share"] = lights[l].quality.negative_share;
@@ -122,7 +157,13 @@ void add_evaluate_transfer(CLI::App& evaluate_command) {
   command->add_option("--paths", o.picture.paths, "light samples of a pixel of the truth")
       ->check(CLI::Range(2u, 1u << 20))
       ->capture_default_str();
-  command->add_option("--tiles", o.picture.tiles, "tiles of the material in one unit of texture coordinates")
+  command
+      ->add_option("--truth-bounces", o.truth_bounces,
+                   "reflections that the truth of pictures follows, in place of the file's")
+      ->check(CLI::Range(0u, 8u));
+  command->add_flag("--truth-holes", o.truth_holes,
+                    "light falls through the holes of the material in the truth, also if the file has none");
+  command->add_option("--tiles", o.tiles, "tiles of the material in one unit of texture coordinates")
       ->check(CLI::Range(0.01f, 1000.0f))
       ->capture_default_str();
   add_linked_files_option(*command, o.linked);

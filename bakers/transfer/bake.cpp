@@ -1,19 +1,17 @@
 #include "bakers/transfer/bake.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "bakers/raytrace/ambient_occlusion.h"
+#include "bakers/transfer/inter_reflections.h"
+#include "bakers/transfer/lobes_of_directions.h"
+#include "bakers/transfer/vertex_loop.h"
 #include "bakers/transfer/visible_directions.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/place.h"
-#include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/transfer/check.h"
 #include "sdk/src/transfer/light_cube.h"
 
@@ -23,45 +21,25 @@ namespace {
 using nook::transfer::CubeCells;
 using nook::transfer::Transfer;
 
-// Lobes count down to exp(-reach) of their height, 1e-4: a share has 8 bits.
-constexpr float reach = 9;
 // A lobe with less than this share of itself above a vertex's horizon has the share 0.
 constexpr float dark = 1e-4f;
 
-// The lobes that hold light from each direction, with their value times the direction's solid angle.
-struct LobesOfDirections {
-  std::vector<std::uint32_t> begin;  // of each direction, and one past the end
-  std::vector<std::uint32_t> lobe;
-  std::vector<float> weight;
-  float integral = 0;  // of one lobe
-};
-
-LobesOfDirections lobes_of(const CubeCells& cells, std::uint32_t lobes) {
-  const float sharpness = nook::transfer::sharpness_of(lobes), cap = 1 - reach / sharpness;
-  std::vector<Vec3> axes(lobes);
-  nook::transfer::lobe_axes(axes);
-  LobesOfDirections out;
-  out.integral = gaussian_integral(sharpness);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    out.begin.push_back(std::uint32_t(out.lobe.size()));
-    for (std::uint32_t j = 0; j < lobes; ++j) {
-      if (dot(axes[j], cells.direction[i]) < cap) continue;
-      out.lobe.push_back(j);
-      out.weight.push_back(gaussian_value(axes[j], sharpness, cells.direction[i]) * cells.solid_angle[i]);
-    }
-  }
-  out.begin.push_back(std::uint32_t(out.lobe.size()));
-  return out;
-}
-
 // The memory that one thread reuses for all its vertices.
 struct Workspace {
-  std::vector<std::uint32_t> visible;
+  std::vector<VisibleDirection> visible;
   std::vector<float> seen, whole;  // of each lobe
 };
 
-void bake_vertex(const RayScene& scene, Vec3 origin, Vec3 normal, const CubeCells& cells,
-                 const LobesOfDirections& lobes, Workspace& work, std::span<std::uint8_t> shares) {
+// The surroundings of the vertices.
+struct Sight {
+  const RayScene& scene;
+  const SurfaceHoles* holes;
+  const CubeCells& cells;
+};
+
+void bake_vertex(const Sight& sight, Vec3 origin, Vec3 normal, const LobesOfDirections& lobes,
+                 Workspace& work, std::span<std::uint8_t> shares) {
+  const CubeCells& cells = sight.cells;
   const auto gather = [&](std::uint32_t direction, float cosine, std::vector<float>& sums) {
     for (std::uint32_t k = lobes.begin[direction]; k < lobes.begin[direction + 1]; ++k)
       sums[lobes.lobe[k]] += cosine * lobes.weight[k];
@@ -69,12 +47,12 @@ void bake_vertex(const RayScene& scene, Vec3 origin, Vec3 normal, const CubeCell
   work.visible.clear();
   work.seen.assign(shares.size(), 0);
   work.whole.assign(shares.size(), 0);
-  visible_directions(scene, origin, normal, cells.direction, work.visible);
+  visible_directions(sight.scene, origin, normal, cells.direction, sight.holes, work.visible);
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
     const float cosine = dot(normal, cells.direction[i]);
     if (cosine > 0) gather(i, cosine, work.whole);
   }
-  for (const std::uint32_t i : work.visible) gather(i, dot(normal, cells.direction[i]), work.seen);
+  for (const auto& [i, share] : work.visible) gather(i, dot(normal, cells.direction[i]) * share, work.seen);
   for (std::size_t j = 0; j < shares.size(); ++j)
     shares[j] = work.whole[j] < dark * lobes.integral
                     ? std::uint8_t(0)
@@ -97,6 +75,12 @@ void check_bake(const SurfaceMesh& mesh, const BakeSettings& settings) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the side of the cube of rays is out of range (got %u, need 8 to %u)", settings.side,
                   max_ray_side);
+  if (settings.bounces > nook::transfer::max_bounces)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the number of bounces is out of range (got %u, need 0 to %u)",
+                  settings.bounces, nook::transfer::max_bounces);
+  if (!(settings.tiles >= 0.01f && settings.tiles <= 1000))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the number of tiles is out of range (got %g, need 0.01 to 1000)", double(settings.tiles));
   const std::size_t count = mesh.position.size();
   if (count == 0 || count > nook::transfer::max_vertices)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -151,33 +135,24 @@ Transfer bake_transfer(const SurfaceMesh& mesh, const BakeSettings& settings, co
   const LobesOfDirections lobes = lobes_of(cells, settings.lobes);
   const RayScene scene({mesh.position, mesh.triangle});
   const float offset = ray_origin_offset(mesh.position);
+  const auto holes = surface_holes(mesh, settings.holes.get(), settings.tiles, cells.size());
 
   Transfer transfer;
   transfer.lobes = settings.lobes;
   transfer.hashes = hashes_of(mesh);
   transfer.shares.resize(count * settings.lobes);
   for (std::size_t v = 0; v < count; ++v) transfer.frames.push_back(pack(frame_of(mesh, v)));
+  if (settings.holes) transfer.votf_hash = settings.holes->votf_hash;
 
-  std::atomic<bool> cancelled{false};
-  std::mutex progress_mutex;
-  std::size_t done = 0;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, 64),
-      [&](const auto& range) {
-        const FlushDenormals flush;
-        Workspace work;
-        for (std::size_t v = range.begin(); v < range.end() && !cancelled; ++v)
-          bake_vertex(scene, mesh.position[v] + mesh.normal[v] * offset, mesh.normal[v], cells, lobes, work,
-                      std::span(transfer.shares).subspan(v * settings.lobes, settings.lobes));
-        if (!progress) return;
-        const std::lock_guard lock(progress_mutex);
-        done += range.size();
-        if (!cancelled && !progress(done, count)) cancelled = true;
-      },
-      tbb::simple_partitioner());
-  if (cancelled)
-    throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu vertices done)", done,
-                  count);
+  VertexLoop loop(count * (1 + settings.bounces), progress);
+  const Sight sight{scene, holes ? &*holes : nullptr, cells};
+  std::vector<IrradianceBands> received(settings.bounces > 0 ? count : 0);
+  loop.run<Workspace>(count, [&](std::size_t v, Workspace& work) {
+    bake_vertex(sight, mesh.position[v] + mesh.normal[v] * offset, mesh.normal[v], lobes, work,
+                std::span(transfer.shares).subspan(v * settings.lobes, settings.lobes));
+    if (!received.empty()) received[v] = direct_irradiance(mesh.normal[v], cells, work.visible);
+  });
+  reflect({mesh, scene, offset, cells, sight.holes}, settings.bounces, loop, std::move(received), transfer);
   return transfer;
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <memory>
 
 #include "bakers/import/surface_mesh.h"
+#include "bakers/transfer/hole_table.h"
+#include "bakers/transfer/vertex_loop.h"
 #include "sdk/src/transfer/transfer.h"
 
 namespace nook::bake::transfer {
@@ -15,20 +17,24 @@ struct BakeSettings {
   // Rays go through the centres of the cells of a cube of side x side cells a face. The paper has 32, which
   // is 6,144 rays of a vertex, half of them below its horizon.
   std::uint32_t side = 32;
+  // Reflections of the shape onto itself, up to max_bounces, gathered through the same cells.
+  std::uint32_t bounces = 0;
+  // The holes of the material that the shape wears, with `tiles` tiles in one unit of texture coordinates;
+  // null: surfaces have none.
+  std::shared_ptr<const HoleTable> holes = nullptr;
+  float tiles = 1;
 };
 inline constexpr std::uint32_t max_ray_side = 256;
-
-// Returns false to stop. Worker threads call it, one call at a time.
-using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
 // Throws Failure(INVALID_ARGUMENT) for settings out of range, a mesh without vertices, arrays of different
 // lengths, numbers that are not finite, normals and tangents that are not of unit length to 1e-3, and indices
 // out of range.
 void check_bake(const SurfaceMesh& mesh, const BakeSettings& settings);
 
-// Ray origins lie 1e-4 of the bounding box's diagonal above their vertex, along its normal. Threads work on
-// blocks of vertices, and the result does not depend on their number. The result passed check_transfer; its
-// recipe is empty. Throws Failure: as check_bake, and CANCELLED if progress returns false.
+// Progress counts vertices, once for the direct light and once for each reflection. Ray origins lie 1e-4 of
+// the bounding box's diagonal above their vertex, along its normal. Threads work on blocks of vertices, and
+// the result does not depend on their number. The result passed check_transfer; its recipe is empty. Throws
+// Failure: as check_bake, and CANCELLED if progress returns false.
 nook::transfer::Transfer bake_transfer(const SurfaceMesh& mesh, const BakeSettings& settings,
                                        const Progress& progress = {});
 

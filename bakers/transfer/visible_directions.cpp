@@ -32,28 +32,35 @@ void add(Packet& packet, Vec3 origin, Vec3 d, std::uint32_t index) {
   packet.rays.flags[lane] = 0;
 }
 
-void trace(const RayScene& scene, Packet& packet, std::vector<std::uint32_t>& visible) {
+void trace(const RayScene& scene, const SurfaceHoles* holes, Packet& packet,
+           std::vector<VisibleDirection>& visible) {
   for (std::uint32_t lane = 0; lane < lanes; ++lane) {
     packet.valid[lane] = lane < packet.count ? -1 : 0;
     if (lane >= packet.count) packet.rays.tfar[lane] = -1;
   }
   occluded16(scene.get(), packet.valid, packet.rays);
-  for (std::uint32_t lane = 0; lane < packet.count; ++lane)
-    if (packet.rays.tfar[lane] >= 0) visible.push_back(packet.direction[lane]);
+  for (std::uint32_t lane = 0; lane < packet.count; ++lane) {
+    float share = packet.rays.tfar[lane] >= 0 ? 1.0f : 0.0f;
+    if (share == 0 && holes)
+      share = holes->share_through(
+          scene, {packet.rays.org_x[lane], packet.rays.org_y[lane], packet.rays.org_z[lane]},
+          {packet.rays.dir_x[lane], packet.rays.dir_y[lane], packet.rays.dir_z[lane]});
+    if (share > 0) visible.push_back({packet.direction[lane], share});
+  }
   packet.count = 0;
 }
 
 }  // namespace
 
 void visible_directions(const RayScene& scene, Vec3 origin, Vec3 normal, std::span<const Vec3> directions,
-                        std::vector<std::uint32_t>& visible) {
+                        const SurfaceHoles* holes, std::vector<VisibleDirection>& visible) {
   Packet packet;
   for (std::uint32_t i = 0; i < directions.size(); ++i) {
     if (!(dot(normal, directions[i]) > 0)) continue;
     add(packet, origin, directions[i], i);
-    if (packet.count == lanes) trace(scene, packet, visible);
+    if (packet.count == lanes) trace(scene, holes, packet, visible);
   }
-  if (packet.count > 0) trace(scene, packet, visible);
+  if (packet.count > 0) trace(scene, holes, packet, visible);
 }
 
 }  // namespace nook::bake::transfer

@@ -6,13 +6,21 @@
 #include <vector>
 
 #include "bakers/raytrace/ray_scene.h"
+#include "bakers/transfer/surface_holes.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook::bake::transfer {
 
-// Appends to `visible` the indices of the directions above the horizon of `normal` in which no triangle lies;
-// both sides of triangles occlude. The caller has set FlushDenormals.
+// A direction by its index, and the share of its light that arrives: below 1 only through holes.
+struct VisibleDirection {
+  std::uint32_t direction = 0;
+  float share = 1;
+};
+
+// Appends to `visible` the directions above the horizon of `normal` from which light arrives, by rising index
+// within a packet of 16 rays; both sides of triangles occlude. holes may be null. The caller has set
+// FlushDenormals.
 void visible_directions(const RayScene& scene, Vec3 origin, Vec3 normal, std::span<const Vec3> directions,
-                        std::vector<std::uint32_t>& visible);
+                        const SurfaceHoles* holes, std::vector<VisibleDirection>& visible);
 
 }  // namespace nook::bake::transfer

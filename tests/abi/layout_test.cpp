@@ -593,11 +593,17 @@ NOOK_AT(nook_probe_surface, alpha_x, 36);
 NOOK_AT(nook_probe_surface, alpha_y, 40);
 NOOK_AT(nook_probe_surface, reflectance, 44);
 
-NOOK_SIZE(nook_transfer_info, 24);
+NOOK_SIZE(nook_transfer_info, 56);
 NOOK_AT(nook_transfer_info, vertex_count, 4);
 NOOK_AT(nook_transfer_info, lobe_count, 8);
 NOOK_AT(nook_transfer_info, sharpness, 12);
 NOOK_AT(nook_transfer_info, share_bytes, 16);
+NOOK_AT(nook_transfer_info, bounces, 24);
+NOOK_AT(nook_transfer_info, has_holes, 28);
+NOOK_AT(nook_transfer_info, indirect_bytes, 32);
+NOOK_AT(nook_transfer_info, form, 40);
+NOOK_AT(nook_transfer_info, light_modes, 44);
+NOOK_AT(nook_transfer_info, paper_bytes, 48);
 
 NOOK_SIZE(nook_transfer_mesh, 40);
 NOOK_AT(nook_transfer_mesh, vertex_count, 4);
@@ -629,18 +635,20 @@ NOOK_AT(nook_transfer_response_desc, material, 16);
 NOOK_AT(nook_transfer_response_desc, lobe_count, 24);
 NOOK_AT(nook_transfer_response_desc, isa, 28);
 
-NOOK_SIZE(nook_transfer_response_info, 24);
+NOOK_SIZE(nook_transfer_response_info, 40);
 NOOK_AT(nook_transfer_response_info, lobe_count, 4);
 NOOK_AT(nook_transfer_response_info, light_modes, 8);
 NOOK_AT(nook_transfer_response_info, vector_floats, 12);
 NOOK_AT(nook_transfer_response_info, table_bytes, 16);
+NOOK_AT(nook_transfer_response_info, reflectance, 24);
+NOOK_AT(nook_transfer_response_info, reserved, 36);
 
 NOOK_SIZE(nook_gl_transfer_info, 24);
 NOOK_AT(nook_gl_transfer_info, texture, 4);
 NOOK_AT(nook_gl_transfer_info, bytes, 8);
 NOOK_AT(nook_gl_transfer_info, glsl, 16);
 
-NOOK_SIZE(nook_bake_transfer_desc, 96);
+NOOK_SIZE(nook_bake_transfer_desc, 144);
 NOOK_AT(nook_bake_transfer_desc, positions, 16);
 NOOK_AT(nook_bake_transfer_desc, normals, 24);
 NOOK_AT(nook_bake_transfer_desc, tangents, 32);
@@ -654,6 +662,14 @@ NOOK_AT(nook_bake_transfer_desc, threads, 72);
 NOOK_AT(nook_bake_transfer_desc, reserved, 76);
 NOOK_AT(nook_bake_transfer_desc, progress, 80);
 NOOK_AT(nook_bake_transfer_desc, progress_user, 88);
+NOOK_AT(nook_bake_transfer_desc, bounces, 96);
+NOOK_AT(nook_bake_transfer_desc, tiles, 100);
+NOOK_AT(nook_bake_transfer_desc, votf, 104);
+NOOK_AT(nook_bake_transfer_desc, votf_size, 112);
+NOOK_AT(nook_bake_transfer_desc, material, 120);
+NOOK_AT(nook_bake_transfer_desc, material_size, 128);
+NOOK_AT(nook_bake_transfer_desc, clusters, 136);
+NOOK_AT(nook_bake_transfer_desc, reserved_2, 140);
 
 #include "tests/abi/host.h"
 

@@ -133,6 +133,7 @@ int nook_call_every_transfer_function(const void* transfer_bytes, size_t transfe
   mesh.positions = numbers;
   EXPECT(nook_transfer_check_mesh(transfer, &mesh) == NOOK_ERROR_INVALID_ARGUMENT);
   EXPECT(strstr(nook_last_message(), "positions") != NULL);
+  EXPECT_OK(nook_transfer_check_material(transfer, material));
   light_vertices(context, transfer, material, info.lobe_count, info.vertex_count);
   free(numbers);
   nook_material_destroy(&material);

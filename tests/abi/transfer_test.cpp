@@ -94,11 +94,11 @@ TEST_CASE("transfer: bad parameters and bad files") {
   CHECK(nook_transfer_fit_create(l.stage.context, 11, &fit) == invalid);
   CHECK(nook_transfer_fit_create(l.stage.context, 2563, &fit) == invalid);
   CHECK(fit == nullptr);
-  check_info<nook_transfer_info>(sizeof(nook_transfer_info), [&](nook_transfer_info* info) {
+  check_info<nook_transfer_info>(offsetof(nook_transfer_info, bounces), [&](nook_transfer_info* info) {
     return nook_transfer_describe(l.transfer, info);
   });
   check_info<nook_transfer_response_info>(
-      sizeof(nook_transfer_response_info),
+      offsetof(nook_transfer_response_info, reflectance),
       [&](nook_transfer_response_info* info) { return nook_transfer_response_describe(l.response, info); });
 }
 

@@ -73,7 +73,7 @@ room(bakers/world bakers/world ${stopwatch} ${ground} sdk/src/character sdk/src/
 room(bakers/nnao bakers/nnao ${ground} sdk/src/nnao)
 room(bakers/probe bakers/probe ${ground} sdk/src/probe)
 room(bakers/material bakers/material bakers/tensor ${ground} sdk/src/material)
-room(bakers/transfer bakers/transfer ${ground} sdk/src/transfer)
+room(bakers/transfer bakers/transfer bakers/tensor ${ground} sdk/src/material sdk/src/transfer)
 set(makers bakers/character bakers/world bakers/nnao bakers/probe bakers/material bakers/transfer ${ground} ${systems})
 room(bakers/images bakers/images platform ${makers})
 room(bakers/measure/truth bakers/measure/truth sdk/src/core)

@@ -48,8 +48,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(ok(nook_transfer_describe(transfer, &info)) && info.vertex_count > 0 && info.lobe_count >= 12);
   if (info.lobe_count <= most_lobes && info.vertex_count <= most_vertices) {
     std::vector<float> frames(std::size_t(7) * info.vertex_count);
-    require(ok(nook_transfer_read_frames(transfer, frames.data(), frames.data() + 3 * info.vertex_count,
-                                         info.vertex_count)));
+    const nook_result read = nook_transfer_read_frames(
+        transfer, frames.data(), frames.data() + 3 * info.vertex_count, info.vertex_count);
+    require(info.form == NOOK_TRANSFER_FORM_PAPER ? read == NOOK_ERROR_UNSUPPORTED : ok(read));
     for (const float number : frames) require(std::isfinite(number));
     std::vector<float> amplitudes(3 * info.lobe_count);
     for (float& amplitude : amplitudes) amplitude = std::fmod(input.script.number(), 1e3f);

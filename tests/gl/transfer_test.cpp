@@ -7,10 +7,13 @@
 #include "sdk/src/gl/touched_state.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/material/parabolic.h"
+#include "sdk/src/material/tables.h"
+#include "sdk/src/transfer/transfer_file.h"
 #include "tests/gl/material_decoder.h"
 #include "tests/gl/poison.h"
 #include "tests/gl/test_context.h"
 #include "tests/material/material_sample.h"
+#include "tests/transfer/transfer_sample.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -48,6 +51,13 @@ const char fragment_text[] =
     "  nook_transfer_mix(corners, vec3(0.5, 0.3, 0.2), between);\n"
     "  mixed = vec4(nook_transfer_radiance(modes, between), 1.0);\n"
     "}\n";
+
+material::test::SampleSize agreement_size() {
+  material::test::SampleSize size;
+  size.width = size.height = 8;
+  size.rank_light = 6;
+  return size;
+}
 
 nook_transfer_response make_response(nook_context context, nook_material material) {
   nook_transfer_response_desc desc;
@@ -142,32 +152,14 @@ Drawn draw(const GladGLContext& gl, nook_gl_material material, nook_gl_transfer 
   return {read_texture(gl, value, count, 1, 4), read_texture(gl, mixed, count, 1, 4)};
 }
 
-}  // namespace
-
-TEST_CASE("transfer: a C program calls every function of nook_gl_transfer.h") {
-  NOOK_NEED_CONTEXT(context);
-  const std::vector<std::byte> bytes = material::write_material(material::test::sample_material(2));
-  CHECK(nook_transfer_call_everything(bytes.data(), bytes.size(), platform::Context::loader, &context) == 0);
-}
-
-TEST_CASE("transfer: the GLSL agrees with the CPU reference to 1/255") {
-  NOOK_NEED_CONTEXT(context);
-  MaterialFixture fixture(context);
-  material::test::SampleSize size;
-  size.width = size.height = 8;
-  size.rank_light = 6;
-  const nook_material material = fixture.load(material::test::sample_material(4, size));
-  const nook_transfer_response response = make_response(fixture.host.handle, material);
+// Draws vectors and compares them with what nook_transfer_shade makes of them.
+void check_agreement(platform::Context& context, MaterialFixture& fixture, nook_material material,
+                     nook_transfer_response response, const std::vector<float>& vectors) {
   nook_transfer_response_info info{};
   info.struct_size = sizeof info;
   NOOK_OK_OR_FAIL(nook_transfer_response_describe(response, &info));
   nook_gl_transfer transfer = nullptr;
   NOOK_OK_OR_FAIL(nook_gl_transfer_create(fixture.gl, response, count, &transfer));
-
-  // Vectors whose radiances are near 1.
-  material::test::Numbers numbers(9);
-  std::vector<float> vectors(std::size_t(count) * info.vector_floats);
-  for (float& number : vectors) number = numbers.between(-0.3f, 0.3f);
   NOOK_OK_OR_FAIL(nook_gl_transfer_update(transfer, vectors.data(), vectors.size()));
   const std::vector<nook_material_sample> samples = views_of(info_of(material));
   const Drawn drawn = draw(context.gl(), fixture.upload(material), transfer, samples);
@@ -194,8 +186,51 @@ TEST_CASE("transfer: the GLSL agrees with the CPU reference to 1/255") {
     }
   CHECK(brightest > 0.1f);
   nook_gl_transfer_destroy(&transfer);
-  nook_transfer_response other = response;
-  nook_transfer_response_destroy(&other);
+}
+
+}  // namespace
+
+TEST_CASE("transfer: a C program calls every function of nook_gl_transfer.h") {
+  NOOK_NEED_CONTEXT(context);
+  const std::vector<std::byte> bytes = material::write_material(material::test::sample_material(2));
+  CHECK(nook_transfer_call_everything(bytes.data(), bytes.size(), platform::Context::loader, &context) == 0);
+}
+
+TEST_CASE("transfer: the GLSL agrees with the CPU reference to 1/255") {
+  NOOK_NEED_CONTEXT(context);
+  MaterialFixture fixture(context);
+  const nook_material material = fixture.load(material::test::sample_material(4, agreement_size()));
+  nook_transfer_response response = make_response(fixture.host.handle, material);
+  nook_transfer_response_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_transfer_response_describe(response, &info));
+  // Vectors whose radiances are near 1.
+  material::test::Numbers numbers(9);
+  std::vector<float> vectors(std::size_t(count) * info.vector_floats);
+  for (float& number : vectors) number = numbers.between(-0.3f, 0.3f);
+  check_agreement(context, fixture, material, response, vectors);
+  nook_transfer_response_destroy(&response);
+}
+
+TEST_CASE("transfer: the paper's form with reflected light is drawn as the CPU reference shades it") {
+  NOOK_NEED_CONTEXT(context);
+  MaterialFixture fixture(context);
+  const material::Material made = material::test::sample_material(4, agreement_size());
+  const nook_material material = fixture.load(made);
+  nook_transfer_response response = make_response(fixture.host.handle, material);
+  const material::MaterialTables tables = material::make_tables(
+      material::read_material(material::write_material(made)), {}, default_memory(), 16);
+  const std::vector<std::byte> bytes = transfer::write_transfer(
+      transfer::test::sample_paper(count, 42, tables.btf.light_modes, tables.light_hash, 1));
+  nook_transfer transfer = nullptr;
+  NOOK_OK_OR_FAIL(nook_transfer_load(fixture.host.handle, bytes.data(), bytes.size(), &transfer));
+  std::vector<float> amplitudes(3 * 42), vectors(std::size_t(count) * 3 * tables.btf.light_modes);
+  for (std::size_t i = 0; i < amplitudes.size(); ++i) amplitudes[i] = 0.3f * std::sin(float(i));
+  NOOK_OK_OR_FAIL(
+      nook_transfer_vectors(transfer, response, amplitudes.data(), 42, 0, count, vectors.data(), 0));
+  check_agreement(context, fixture, material, response, vectors);
+  nook_transfer_destroy(&transfer);
+  nook_transfer_response_destroy(&response);
 }
 
 TEST_CASE("transfer: vectors that do not fit are refused") {

@@ -249,3 +249,48 @@ TEST_CASE("suns are taken out of a map, and nothing is lost") {
     }
   CHECK(after + double(suns[0].irradiance.y) == Approx(before).epsilon(1e-5));
 }
+
+TEST_CASE("reflected light is the light's bands times the baked ones, for the material's reflectance") {
+  constexpr std::uint32_t count = 19;
+  const material::MaterialTables tables = sample_tables();
+  Response response = response_of(tables, count);
+  response.reflectance = {0.5f, 0.25f, 0.8f};
+  const LobeFit fit(count);
+  const CubeCells cells(64);
+  std::vector<float> amplitudes(3 * count);
+  fit.fit(cells, radiance_of(cells), Mat3x4{}, amplitudes);
+  const Transfer baked = transfer::test::sample_transfer(5, count, 2),
+                 direct = transfer::test::sample_transfer(5, count);
+  const std::size_t modes = tables.btf.light_modes, size = 3 * modes;
+  std::vector<float> with(5 * size), without(5 * size);
+  const Isa isa = choose_isa(NOOK_ISA_AUTO);
+  baked_vectors(response, isa, amplitudes, baked, 0, 5, {with.data(), size}, {}, default_memory());
+  baked_vectors(response, isa, amplitudes, direct, 0, 5, {without.data(), size}, {}, default_memory());
+  // The light that the lobes hold, in bands and over the upper hemisphere, by sums over directions.
+  std::array<double, 9> bands[3]{};
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    Vec3 sum;
+    for (std::size_t j = 0; j < count; ++j)
+      sum += Vec3{amplitudes[3 * j], amplitudes[3 * j + 1], amplitudes[3 * j + 2]} *
+             gaussian_value(fit.axes()[j], fit.sharpness(), cells.direction[i]);
+    const auto at = bands_at(cells.direction[i]);
+    const float channel[3] = {sum.x, sum.y, sum.z};
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < 9; ++k) bands[c][k] += double(channel[c] * at[k] * cells.solid_angle[i]);
+  }
+  const std::vector<double> even = summed(tables, Frame{}, cells, [](Vec3) { return Vec3{1, 1, 1}; });
+  const double share[3] = {0.5, 0.25, 0.8};
+  for (std::size_t v = 0; v < 5; ++v)
+    for (std::size_t c = 0; c < 3; ++c) {
+      double irradiance = 0;
+      for (std::size_t k = 0; k < 9; ++k)
+        irradiance += bands[c][k] * (share[c] * double(from_half(baked.indirect[18 * v + k])) +
+                                     share[c] * share[c] * double(from_half(baked.indirect[18 * v + 9 + k])));
+      for (std::size_t a = 0; a < modes; ++a) {
+        const std::size_t i = v * size + c * modes + a;
+        // Sums over directions stand for integrals on both sides, to a few parts in a thousand.
+        CHECK(double(with[i] - without[i]) ==
+              Approx(irradiance / std::numbers::pi * even[c * modes + a]).epsilon(0.01).margin(2e-3));
+      }
+    }
+}

@@ -22,8 +22,13 @@ nook_result result_of(std::span<const std::byte> bytes) {
 }  // namespace
 
 TEST_CASE("a file gives back what was written") {
-  const Transfer made = transfer::test::sample_transfer(7, 21);
+  const Transfer made =
+      GENERATE(transfer::test::sample_transfer(7, 21), transfer::test::sample_transfer(7, 21, 1),
+               transfer::test::sample_transfer(3, 12, 2, 77));
   const Transfer read = read_transfer(write_transfer(made));
+  CHECK(read.bounces == made.bounces);
+  CHECK(read.indirect == made.indirect);
+  CHECK(read.votf_hash == made.votf_hash);
   CHECK(read.lobes == made.lobes);
   CHECK(read.hashes == made.hashes);
   CHECK(read.shares == made.shares);
@@ -31,14 +36,37 @@ TEST_CASE("a file gives back what was written") {
   CHECK(read.recipe == made.recipe);
 }
 
+TEST_CASE("without reflections and holes a file has the sections of files that never had any") {
+  const Transfer made = transfer::test::sample_transfer(7, 21);
+  const std::vector<std::byte> bytes = write_transfer(made);
+  const Container file(bytes, transfer_kind);
+  CHECK(file.version() == 1);
+  ByteReader head = file.section("HEAD");
+  CHECK(head.u8() == 0);
+  CHECK(head.u8() == 0);
+  CHECK(head.u16() == 21);
+  CHECK(head.u32() == 7);
+  CHECK(head.remaining() == 32);
+  CHECK_FALSE(file.has("INDI"));
+  CHECK_FALSE(file.has("HOLE"));
+  // 40 bytes of head and 24 for each of five sections, see core/container.h.
+  std::size_t size = 40 + 5 * 24;
+  for (const char* name : {"HEAD", "CODE", "SHAR", "FRAM", "RECP"}) {
+    const char letters[5] = {name[0], name[1], name[2], name[3], 0};
+    size += file.section(letters).remaining();
+  }
+  CHECK(bytes.size() >= size);
+  CHECK(bytes.size() < size + 5 * 16);
+}
+
 TEST_CASE("truncated files are refused") {
-  const std::vector<std::byte> bytes = write_transfer(transfer::test::sample_transfer());
+  const std::vector<std::byte> bytes = write_transfer(transfer::test::sample_transfer(3, 12, 2, 77));
   for (std::size_t size = 0; size < bytes.size(); ++size)
     CHECK(result_of(std::span(bytes).first(size)) == NOOK_ERROR_BAD_FILE);
 }
 
 TEST_CASE("flipped bytes with a repaired checksum are refused or harmless") {
-  const std::vector<std::byte> bytes = write_transfer(transfer::test::sample_transfer());
+  const std::vector<std::byte> bytes = write_transfer(transfer::test::sample_transfer(5, 19, 1, 77));
   std::size_t refused = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i)
     for (const unsigned flip : {1u, 0x80u, 0xffu}) {
@@ -55,6 +83,12 @@ TEST_CASE("flipped bytes with a repaired checksum are refused or harmless") {
 TEST_CASE("numbers out of range are not written") {
   Transfer transfer = transfer::test::sample_transfer();
   transfer.shares.pop_back();
+  CHECK_THROWS_AS(write_transfer(transfer), Failure);
+  transfer = transfer::test::sample_transfer();
+  transfer.bounces = 1;
+  CHECK_THROWS_AS(write_transfer(transfer), Failure);
+  transfer = transfer::test::sample_transfer(3, 12, 2);
+  transfer.indirect[5] = 0x7c00;  // infinity
   CHECK_THROWS_AS(write_transfer(transfer), Failure);
   transfer = transfer::test::sample_transfer();
   transfer.lobes = 3;
@@ -84,4 +118,11 @@ TEST_CASE("a mesh is the baked one or is named") {
   CHECK_NOTHROW(check_same_mesh(transfer, {same, {}, {}, {}, 2}));
   CHECK_THROWS_AS(check_same_mesh(transfer, {moved, {}, {}, {}, 2}), Failure);
   CHECK_THROWS_AS(check_same_mesh(transfer, {same, {}, {}, {}, 3}), Failure);
+}
+
+TEST_CASE("another VOTF than the baked one is refused, and without holes any will do") {
+  CHECK_NOTHROW(check_same_material(transfer::test::sample_transfer(), 5));
+  const Transfer holes = transfer::test::sample_transfer(5, 19, 0, 77);
+  CHECK_NOTHROW(check_same_material(holes, 77));
+  CHECK_THROWS_AS(check_same_material(holes, 5), Failure);
 }

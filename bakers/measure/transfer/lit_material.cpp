@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::measure {
 
@@ -12,7 +13,10 @@ nook::transfer::Response response_of(const nook::material::MaterialTables& table
   std::vector<float> values(cells.direction.size() * count);
   for (std::size_t i = 0; i < cells.direction.size(); ++i)
     light_basis_at(tables, cells.direction[i], std::span(values).subspan(i * count, count));
-  return make_response(lobes, cells, {values, tables.btf.light_modes}, default_memory());
+  return make_response(
+      lobes, cells,
+      {values, tables.btf.light_modes, mean_reflectance(tables), tables.light_hash, tables.votf_hash},
+      default_memory());
 }
 
 }  // namespace nook::measure

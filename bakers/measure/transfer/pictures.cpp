@@ -8,9 +8,11 @@
 #include <cmath>
 #include <mutex>
 #include <numbers>
+#include <optional>
 
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/random.h"
+#include "bakers/transfer/surface_holes.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/material/evaluate.h"
@@ -69,55 +71,40 @@ class Renderer {
         camera_(camera_of(source.mesh, settings)),
         rays_({source.mesh.position, source.mesh.triangle}),
         offset_(bake::ray_origin_offset(source.mesh.position)),
-        sampler_(source.map) {}
+        sampler_(source.map) {
+    // A sample of the light has no width: the holes are those of the finest level.
+    if (settings.truth.holes) holes_.emplace(source.mesh, *settings.truth.holes, settings.truth.tiles, 0.0f);
+  }
 
   PixelHit hit(int column, int row) const {
-    PixelHit hit;
     const float x = ((float(column) + 0.5f) / float(settings_.width) - 0.5f) * camera_.width;
     const float y = (0.5f - (float(row) + 0.5f) / float(settings_.height)) * camera_.height;
     const Vec3 direction = normalised(camera_.forward + camera_.right * x + camera_.up * y);
     const bake::RayHit found = rays_.nearest(camera_.eye, direction);
-    if (std::isinf(found.distance)) return hit;
-    const bake::SurfaceMesh& mesh = source_.mesh;
-    hit.vertex = mesh.triangle[found.triangle];
-    hit.weight = {1 - found.u - found.v, found.u, found.v};
-    Vec3 normal, tangent;
-    float u = 0, v = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t at = hit.vertex[k];
-      normal += mesh.normal[at] * hit.weight[k];
-      tangent += mesh.tangent[at].direction * hit.weight[k];
-      u += mesh.uv[at].u * hit.weight[k];
-      v += mesh.uv[at].v * hit.weight[k];
-    }
-    hit.frame = nook::transfer::orthonormal_frame(normal, tangent, mesh.tangent[hit.vertex[0]].handedness);
-    // The inside of a surface is not lit.
-    if (dot(found.normal, hit.frame.normal) <= 0 && found.from_behind) return hit;
-    hit.is_hit = true;
-    hit.origin = camera_.eye + direction * found.distance + hit.frame.normal * offset_;
-    nook::material::Sample sample;
-    sample.u = u * settings_.tiles;
-    sample.v = v * settings_.tiles;
-    sample.level = level(hit, direction, found.distance);
-    sample.view = local(hit.frame, -direction);
-    hit.modes.resize(source_.tables.btf.light_modes);
-    nook::material::decode_modes(source_.tables, sample, hit.modes);
-    return hit;
+    if (std::isinf(found.distance)) return {};
+    return surface_at(found, camera_.eye, direction, true);
   }
 
-  // One estimate of the direct light, from one sample of the map and one of the hemisphere (the balance
-  // heuristic, E. Veach 1997).
-  Vec3 sample(const PixelHit& hit, bake::Random& random) const {
+  // One estimate of the light, from one sample of the map and one of the hemisphere (the balance heuristic,
+  // E. Veach 1997). The second one goes on where it meets a surface, up to `bounces` times.
+  Vec3 sample(const PixelHit& hit, std::uint32_t bounces, bake::Random& random) const {
     const double choice = random.unit_double();
     const float alias = random.unit(), u = random.unit(), v = random.unit();
     const bake::LightSample light = sampler_.sample(choice, alias, u, v);
-    Vec3 sum = weighed(hit, light.direction, light.radiance, light.density);
+    Vec3 sum = reflected(hit, light.direction, light.radiance * share_of_sky(hit.origin, light.direction),
+                         light.density);
     const float s = random.unit(), t = random.unit();
     const Vec3 around = bake::cosine_direction(s, t);
     const Vec3 direction =
         hit.frame.tangent * around.x + hit.frame.bitangent() * around.y + hit.frame.normal * around.z;
-    sum += weighed(hit, direction, source_.map.radiance(direction), sampler_.density(direction));
-    return sum;
+    bake::RayHit found;
+    const bool is_sky = !next_surface(hit.origin, direction, random, found);
+    if (is_sky)
+      return sum + reflected(hit, direction, source_.map.radiance(direction), sampler_.density(direction));
+    if (bounces == 0) return sum;
+    const PixelHit next = surface_at(found, hit.origin, direction, false);
+    if (!next.is_hit) return sum;
+    return sum + reflected(hit, direction, sample(next, bounces - 1, random), 0);
   }
 
   Vec3 shaded(const PixelHit& hit, TransferForm form) const {
@@ -134,6 +121,36 @@ class Renderer {
   }
 
  private:
+  // The surface of a hit as a ray sees it; pixels see a footprint, other rays the finest level.
+  PixelHit surface_at(const bake::RayHit& found, Vec3 from, Vec3 direction, bool is_pixel) const {
+    PixelHit hit;
+    const bake::SurfaceMesh& mesh = source_.mesh;
+    hit.vertex = mesh.triangle[found.triangle];
+    hit.weight = {1 - found.u - found.v, found.u, found.v};
+    Vec3 normal, tangent;
+    float u = 0, v = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t at = hit.vertex[k];
+      normal += mesh.normal[at] * hit.weight[k];
+      tangent += mesh.tangent[at].direction * hit.weight[k];
+      u += mesh.uv[at].u * hit.weight[k];
+      v += mesh.uv[at].v * hit.weight[k];
+    }
+    hit.frame = nook::transfer::orthonormal_frame(normal, tangent, mesh.tangent[hit.vertex[0]].handedness);
+    // The inside of a surface is not lit.
+    if (dot(found.normal, hit.frame.normal) <= 0 && found.from_behind) return hit;
+    hit.is_hit = true;
+    hit.origin = from + direction * found.distance + hit.frame.normal * offset_;
+    nook::material::Sample sample;
+    sample.u = u * settings_.truth.tiles;
+    sample.v = v * settings_.truth.tiles;
+    sample.level = is_pixel ? level(hit, direction, found.distance) : 0;
+    sample.view = local(hit.frame, -direction);
+    hit.modes.resize(source_.tables.btf.light_modes);
+    nook::material::decode_modes(source_.tables, sample, hit.modes);
+    return hit;
+  }
+
   static Vec3 local(const Frame& frame, Vec3 d) {
     return {dot(frame.tangent, d), dot(frame.bitangent(), d), dot(frame.normal, d)};
   }
@@ -146,7 +163,7 @@ class Renderer {
     const auto& t = mesh.uv[hit.vertex[0]];
     const float du1 = mesh.uv[hit.vertex[1]].u - t.u, dv1 = mesh.uv[hit.vertex[1]].v - t.v;
     const float du2 = mesh.uv[hit.vertex[2]].u - t.u, dv2 = mesh.uv[hit.vertex[2]].v - t.v;
-    const float texels = std::abs(du1 * dv2 - du2 * dv1) * settings_.tiles * settings_.tiles *
+    const float texels = std::abs(du1 * dv2 - du2 * dv1) * settings_.truth.tiles * settings_.truth.tiles *
                          float(source_.tables.btf.width * source_.tables.btf.height);
     const float area = length(cross(a, b)), pixel = distance * camera_.height / float(settings_.height);
     const float cosine = std::max(std::abs(dot(direction, hit.frame.normal)), 0.05f);
@@ -154,11 +171,26 @@ class Renderer {
     return 0.5f * std::log2(std::max(covered, 1e-10f));
   }
 
-  Vec3 weighed(const PixelHit& hit, Vec3 direction, Vec3 radiance, float light_density) const {
+  float share_of_sky(Vec3 origin, Vec3 direction) const {
+    if (!rays_.occluded(origin, direction)) return 1;
+    return holes_ ? holes_->share_through(rays_, origin, direction) : 0.0f;
+  }
+
+  // Finds the surface that stops a ray, by chance where it has holes.
+  bool next_surface(Vec3 origin, Vec3 direction, bake::Random& random, bake::RayHit& found) const {
+    for (float beyond = 0;; beyond = found.distance) {
+      found = rays_.nearest(origin, direction, beyond);
+      if (std::isinf(found.distance)) return false;
+      if (!holes_ || random.unit() < holes_->cover(found, direction)) return true;
+    }
+  }
+
+  // Light of a direction that was sampled by `light_density` and by its cosine.
+  Vec3 reflected(const PixelHit& hit, Vec3 direction, Vec3 radiance, float light_density) const {
     const Vec3 at = local(hit.frame, direction);
-    if (!(at.z > 0)) return {};
+    if (!(at.z > 0) || (radiance.x == 0 && radiance.y == 0 && radiance.z == 0)) return {};
     const float density = light_density + at.z / pi;
-    if (!(density > 0) || rays_.occluded(hit.origin, direction)) return {};
+    if (!(density > 0)) return {};
     const std::size_t modes = hit.modes.size();
     float basis[3 * 1024];
     nook::material::light_basis_at(source_.tables, at, std::span(basis, 3 * modes));
@@ -174,6 +206,7 @@ class Renderer {
   bake::RayScene rays_;
   float offset_;
   bake::LightSampler sampler_;
+  std::optional<bake::transfer::SurfaceHoles> holes_;
 };
 
 // Linear radiance of all pixels; two independent halves of the truth.
@@ -231,7 +264,8 @@ PictureError measure_pictures(const PictureSource& source, const PictureSettings
             bake::Random random(bake::mix_bits(settings.seed ^ bake::mix_bits(i)));
             const std::uint32_t half = settings.paths / 2;
             for (std::vector<Vec3>& truth : images.truth) {
-              for (std::uint32_t s = 0; s < half; ++s) truth[i] += renderer.sample(hit, random);
+              for (std::uint32_t s = 0; s < half; ++s)
+                truth[i] += renderer.sample(hit, settings.truth.bounces, random);
               truth[i] = truth[i] * (1 / float(half));
             }
             for (std::size_t form = 0; form < 3; ++form)

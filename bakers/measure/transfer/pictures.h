@@ -12,7 +12,7 @@ namespace nook::measure {
 struct PictureSettings {
   int width = 480, height = 360;
   std::uint32_t paths = 256;  // light samples of a pixel of the truth
-  float tiles = 1;            // tiles of the material in one unit of texture coordinates
+  TruthSettings truth;
   std::uint64_t seed = 1;
 };
 
@@ -33,9 +33,11 @@ struct PictureError {
 };
 
 // The camera looks at the middle of the bounding box from 35 degrees above its horizon. A pixel has one ray
-// through its middle. The truth is the direct light of the map on the material as it is decoded at the
-// pixel, half of the samples by luminance and half cosine-weighted, with multiple importance sampling. The
-// visibility of the VOTF is not applied. Throws Failure(CANCELLED) if progress returns false.
+// through its middle. The truth is the light of the map on the material as it is decoded at the pixel, half
+// of the samples by luminance and half cosine-weighted, with multiple importance sampling, and after
+// reflections on the material as it is decoded at each surface on the way. Rays to the light pass through the
+// holes of the VOTF if the settings have them; those of the camera do not. Throws Failure(CANCELLED) if
+// progress returns false.
 PictureError measure_pictures(const PictureSource& source, const PictureSettings& settings,
                               const VectorProgress& progress);
 

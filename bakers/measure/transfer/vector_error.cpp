@@ -8,6 +8,8 @@
 #include <cmath>
 #include <ctime>
 #include <mutex>
+#include <numbers>
+#include <optional>
 
 #include "bakers/measure/transfer/lit_material.h"
 #include "bakers/raytrace/ambient_occlusion.h"
@@ -98,14 +100,22 @@ MeasuredLight measured_light(std::string name, bake::Environment map, const nook
 
 VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& transfer,
                               const nook::material::MaterialTables& tables,
-                              std::span<const MeasuredLight> lights, const VectorProgress& progress) {
+                              std::span<const MeasuredLight> lights, const TruthSettings& settings,
+                              const VectorProgress& progress) {
   const std::size_t count = mesh.position.size(), size = std::size_t(3) * tables.btf.light_modes;
   VectorMeasure measure;
   measure.light_modes = tables.btf.light_modes;
   measure.ao.resize(count);
   measure.lights.resize(lights.size());
   std::vector<Frame> frames;
-  for (const nook::transfer::PackedFrame& frame : transfer.frames) frames.push_back(unpack(frame));
+  const bool is_paper = transfer.paper.is_used();
+  for (std::size_t v = 0; v < count; ++v)
+    frames.push_back(is_paper ? bake::transfer::frame_of(mesh, v) : unpack(transfer.frames[v]));
+
+  Transfer direct = transfer;
+  direct.bounces = 0;
+  direct.indirect.clear();
+  std::vector<std::vector<float>> direct_vectors(lights.size());
 
   const nook::transfer::Response response = response_of(tables, transfer.lobes);
   // The numbers of the tables are those of AVX2, where the processor has it.
@@ -117,7 +127,11 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
     const std::clock_t begin = std::clock();
     baked_vectors(response, isa, lights[l].amplitudes, transfer, 0, transfer.vertex_count(),
                   {vectors.form[0].data(), size}, {}, default_memory());
+    direct_vectors[l] = vectors.form[0];
     vectors.vectors_ms = 1e3 * double(std::clock() - begin) / CLOCKS_PER_SEC;
+    if (transfer.bounces > 0)
+      baked_vectors(response, isa, lights[l].amplitudes, direct, 0, direct.vertex_count(),
+                    {direct_vectors[l].data(), size}, {}, default_memory());
     open_vectors(response, isa, lights[l].amplitudes, frames, {vectors.form[2].data(), size}, {},
                  default_memory());
   }
@@ -126,6 +140,7 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
   const LobeValues lobes = lobe_values(cells, transfer.lobes);
   const bake::RayScene scene({mesh.position, mesh.triangle});
   const float offset = bake::ray_origin_offset(mesh.position);
+  const auto holes = bake::transfer::surface_holes(mesh, settings.holes, settings.tiles, cells.size());
   std::vector<std::vector<float>> truth(lights.size()), exact(lights.size());
   for (auto* sums : {&truth, &exact})
     for (std::vector<float>& sum : *sums) sum.resize(count * size);
@@ -136,29 +151,32 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
       tbb::blocked_range<std::size_t>(0, count, 64),
       [&](const auto& range) {
         const bake::FlushDenormals flush;
-        std::vector<std::uint32_t> visible;
+        std::vector<bake::transfer::VisibleDirection> visible;
         std::vector<float> basis(size);
         for (std::size_t v = range.begin(); v < range.end() && !cancelled; ++v) {
           const Frame& frame = frames[v];
           const Vec3 side = frame.bitangent();
-          const std::uint8_t* const shares = transfer.shares_of(v);
+          const std::uint8_t* const shares = is_paper ? nullptr : transfer.shares_of(v);
           visible.clear();
           bake::transfer::visible_directions(scene, mesh.position[v] + mesh.normal[v] * offset,
-                                             mesh.normal[v], cells.direction, visible);
+                                             mesh.normal[v], cells.direction, holes ? &*holes : nullptr,
+                                             visible);
           auto next = visible.begin();
           double open = 0;
           for (std::uint32_t i = 0; i < cells.size(); ++i) {
             const Vec3 d = cells.direction[i],
                        local{dot(frame.tangent, d), dot(side, d), dot(frame.normal, d)};
-            const bool is_visible = next != visible.end() && *next == i;
+            const bool is_visible = next != visible.end() && next->direction == i;
+            const float share = is_visible ? next->share : 0.0f;
             next += is_visible;
             if (!(local.z > 0)) continue;
             light_basis_at(tables, local, basis);
-            if (is_visible) open += double(local.z * cells.solid_angle[i]);
+            open += double(share * local.z * cells.solid_angle[i]);
             for (std::size_t l = 0; l < lights.size(); ++l) {
               if (is_visible)
-                add_light(lights[l].cells[i] * cells.solid_angle[i], basis,
+                add_light(lights[l].cells[i] * (share * cells.solid_angle[i]), basis,
                           std::span(truth[l]).subspan(v * size, size));
+              if (is_paper) continue;
               Vec3 sum;
               for (std::uint32_t k = lobes.begin[i]; k < lobes.begin[i + 1]; ++k) {
                 const float* const a = &lights[l].amplitudes[3 * std::size_t(lobes.lobe[k])];
@@ -182,7 +200,8 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
     LightVectors& vectors = measure.lights[l];
     for (std::size_t i = 0; i < count * size; ++i)
       vectors.form[1][i] = vectors.form[2][i] * std::min(measure.ao[i / size], 1.0f);
-    for (std::size_t form = 0; form < 3; ++form) vectors.se_db[form] = decibels(truth[l], vectors.form[form]);
+    for (std::size_t form = 0; form < 3; ++form)
+      vectors.se_db[form] = decibels(truth[l], form == 0 ? direct_vectors[l] : vectors.form[form]);
     vectors.se_exact_db = decibels(truth[l], exact[l]);
   }
   return measure;

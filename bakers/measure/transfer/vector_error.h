@@ -9,6 +9,7 @@
 
 #include "bakers/import/surface_mesh.h"
 #include "bakers/raytrace/environment.h"
+#include "bakers/transfer/hole_table.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/material/tables.h"
 #include "sdk/src/transfer/light_cube.h"
@@ -20,11 +21,12 @@ namespace nook::measure {
 
 // The forms of the per-vertex vectors, from the best.
 enum class TransferForm {
-  separated = 0,  // baked transfer, as the runtime computes it
-  ao = 1,         // the vectors of the open vertex times its ambient occlusion
-  none = 2,       // the vectors of the open vertex
+  baked = 0,  // baked transfer, separated or in the paper's form, as the runtime computes it
+  ao = 1,     // the vectors of the open vertex times its ambient occlusion
+  none = 2,   // the vectors of the open vertex
 };
 inline constexpr std::array<const char*, 3> transfer_form_names{"separated", "ao", "none"};
+inline constexpr const char* paper_form_name = "paper";
 
 // One light in every representation that is measured.
 struct MeasuredLight {
@@ -48,21 +50,31 @@ struct LightVectors {
   double vectors_ms = 0;                   // of the separated form on one thread
   // Signal to error, dB.
   std::array<double, 3> se_db{};
-  double se_exact_db = 0;  // of the separated form with integrals by direct sums in place of the response
+  // Of the separated form with integrals by direct sums in place of the response; not of the paper's form.
+  double se_exact_db = 0;
 };
 
 // Returns false to stop. Worker threads call it, one call at a time.
 using VectorProgress = std::function<bool(std::size_t done, std::size_t total)>;
+
+// The part of light transport that the truth follows.
+struct TruthSettings {
+  std::uint32_t bounces = 0;                         // reflections of the shape onto itself; of pictures only
+  const bake::transfer::HoleTable* holes = nullptr;  // of the material; null: surfaces have none
+  float tiles = 1;  // tiles of the material in one unit of texture coordinates
+};
 
 struct VectorMeasure {
   std::vector<LightVectors> lights;
   std::vector<float> ao;  // of each vertex, cosine-weighted visibility
   std::uint32_t light_modes = 0;
 };
-// Traces the visibility of each vertex again. The lobes of the fits are those of the transfer. Throws
-// Failure(CANCELLED) if progress returns false.
+// Traces the visibility of each vertex again. The lobes of the fits are those of the transfer. The vectors of
+// the separated form hold reflected light as the file does, and the decibels are those of its direct part.
+// Throws Failure(CANCELLED) if progress returns false.
 VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const nook::transfer::Transfer& transfer,
                               const nook::material::MaterialTables& tables,
-                              std::span<const MeasuredLight> lights, const VectorProgress& progress);
+                              std::span<const MeasuredLight> lights, const TruthSettings& settings,
+                              const VectorProgress& progress);
 
 }  // namespace nook::measure

@@ -46,6 +46,22 @@ typedef struct nook_bake_transfer_desc {
   /* NULL (default): the host polls instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
+  /* Reflections of the shape onto itself, 0 (default) to 2; each adds 18 bytes for a vertex. */
+  uint32_t bounces;
+  /* Tiles of the material in one unit of texture coordinates, 0.01 to 1000, for `votf`; default 1. */
+  float tiles;
+  /* The bytes of the .nook file of the material that the shape wears: light falls through the holes of its
+   * VOTF, which it must have. NULL (default): surfaces have no holes. */
+  const void* votf;
+  size_t votf_size;
+  /* The bytes of the .nook file of a material, for whose light modes the job bakes the paper's form. NULL
+   * (default): the separated form, which takes any material. */
+  const void* material;
+  size_t material_size;
+  /* Clusters of vertices of the paper's form, up to 256; 0 (default): one for each 360 vertices. */
+  uint32_t clusters;
+  /* Must be 0. */
+  uint32_t reserved_2;
 } nook_bake_transfer_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does.
@@ -56,7 +72,8 @@ NOOK_API nook_result nook_bake_transfer_desc_init(nook_bake_transfer_desc* desc,
 /* Checks the descriptor, copies its arrays, starts to bake and returns at once. nook_bake_job_model gives the
  * bytes for nook_transfer_load. The report holds the settings, sizes, the time and warnings. On failure *out
  * is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), VERSION, OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), VERSION, BAD_FILE (of votf or
+ * material), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_transfer_start(const nook_bake_transfer_desc* desc, nook_bake_job* out);
 
 #ifdef __cplusplus

@@ -6,12 +6,16 @@
  *     r_p[c, a] = sum over lobes j of amplitude_j[c] share_p,j response[c, a](direction of lobe j at p),
  * where the share, a byte of the file, is the cosine-weighted part of the lobe that no triangle hides from
  * the vertex, and the response is the integral of the lobe and the material's light basis over the upper
- * hemisphere. A pixel's radiance is sum_a L_a r[c, a] with the light modes L_a of nook_material_decode and
- * the vectors interpolated between vertices.
+ * hemisphere. Light that the shape reflects onto itself, baked with `--bounces`, is added for the mean
+ * reflectance of the response's material. A pixel's radiance is sum_a L_a r[c, a] with the light modes L_a of
+ * nook_material_decode and the vectors interpolated between vertices.
  *
- *     nook_transfer_fit_light(fit, light, NULL, amplitudes, lobes, NULL);     when the light or the shape
- * turns nook_transfer_vectors(transfer, response, amplitudes, lobes, 0, count, vectors, 0);      and after
- * that Nothing is computed for vertices when only the view moves.
+ * When the light or the shape turns, a host calls
+ *     nook_transfer_fit_light(fit, light, NULL, amplitudes, lobes, NULL);
+ *     nook_transfer_vectors(transfer, response, amplitudes, lobes, 0, count, vectors, 0);
+ * and nothing is computed for vertices when only the view moves. The paper's form of a file, baked with
+ * `--form paper`, has the matrices from lobes to the light modes of one material in place of shares; the
+ * calls are the same.
  *
  * The space of directions is that of the baked vertices. Frames have x along growing u, z along the normal,
  * and y = handedness * cross(normal, tangent) along growing v. The vectors of a vertex are 3 x light_modes
@@ -19,7 +23,8 @@
  * light and vectors can be slightly negative; nook_transfer_fit_quality gives the share.
  *
  * nook_gl_transfer.h keeps vectors in a buffer and has the GLSL. The method follows section 6.3 of Y.-T.
- * Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012, in a separated form. */
+ * Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012, in a separated form and in its
+ * own. */
 #ifndef NOOK_TRANSFER_H
 #define NOOK_TRANSFER_H
 
@@ -47,6 +52,16 @@ NOOK_API nook_result nook_transfer_load(nook_context context, const void* bytes,
  * Any thread. */
 NOOK_API void nook_transfer_destroy(nook_transfer* transfer);
 
+/* The form of baked transfer. */
+enum {
+  /* A share for each vertex and lobe; takes any material. */
+  NOOK_TRANSFER_FORM_SEPARATED = 0,
+  /* The matrices from lobes to the light modes of one material, compressed by CTA: less work when the light
+   * changes. */
+  NOOK_TRANSFER_FORM_PAPER = 1
+};
+typedef int32_t nook_transfer_form;
+
 typedef struct nook_transfer_info {
   /* sizeof(nook_transfer_info); the caller sets it. */
   uint32_t struct_size;
@@ -57,6 +72,17 @@ typedef struct nook_transfer_info {
   float sharpness;
   /* Bytes of shares in memory, vertex_count * lobe_count. */
   uint64_t share_bytes;
+  /* Reflections of the shape onto itself that the vectors hold, 0 to 2. */
+  uint32_t bounces;
+  /* 1: light fell through the holes of a material's VOTF; see nook_transfer_check_material. */
+  int32_t has_holes;
+  /* Bytes of reflected light in memory, vertex_count * bounces * 18. */
+  uint64_t indirect_bytes;
+  nook_transfer_form form;
+  /* Of the paper's form: the light modes of the material that it was baked with; else 0. */
+  uint32_t light_modes;
+  /* Of the paper's form: bytes of its compressed matrices in memory, and in the file; else 0. */
+  uint64_t paper_bytes;
 } nook_transfer_info;
 
 /* Describes a baked shape.
@@ -65,8 +91,8 @@ NOOK_API nook_result nook_transfer_describe(nook_transfer transfer, nook_transfe
 
 /* Writes the frames that the vectors refer to: normals with 3 floats and tangents with 4, the handedness
  * last, for each vertex; either may be NULL. A host that draws with them needs no tangents of its own.
- * vertex_count must be the transfer's.
- * Any thread. Errors: INVALID_ARGUMENT. */
+ * vertex_count must be the transfer's. The paper's form has no frames.
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the paper's form). */
 NOOK_API nook_result nook_transfer_read_frames(nook_transfer transfer, float* normals, float* tangents,
                                                uint32_t vertex_count);
 
@@ -86,6 +112,13 @@ typedef struct nook_transfer_mesh {
 /* Checks that a mesh is the baked one, by the number of vertices and a checksum of each array.
  * Any thread. Errors: INVALID_ARGUMENT (the message names the first array that differs). */
 NOOK_API nook_result nook_transfer_check_mesh(nook_transfer transfer, const nook_transfer_mesh* mesh);
+
+/* Checks that a material is the one that the shape was baked with, where that matters: in the paper's form
+ * its light modes, and with holes its VOTF must be the same. nook_transfer_vectors refuses other light modes.
+ * A material with another VOTF can be drawn nevertheless, and then the shadows are those of the baked holes;
+ * `nook evaluate transfer` measures the error. Reflected light follows any material.
+ * Any thread. Errors: INVALID_ARGUMENT (the message names what differs). */
+NOOK_API nook_result nook_transfer_check_material(nook_transfer transfer, nook_material material);
 
 /* ---- Light: immutable, shared by threads ---- */
 
@@ -237,6 +270,10 @@ typedef struct nook_transfer_response_info {
   uint32_t vector_floats;
   /* Memory of the table. */
   uint64_t table_bytes;
+  /* The share of light that the material reflects under even light, RGB, 0 to 1. */
+  float reflectance[3];
+  /* 0. */
+  uint32_t reserved;
 } nook_transfer_response_info;
 
 /* Describes a response.
@@ -248,8 +285,9 @@ NOOK_API nook_result nook_transfer_response_describe(nook_transfer_response resp
  * lobe_count x RGB, finite numbers whose magnitude is at most 1e22; lobe_count must be that of the response
  * and of the transfer. stride_floats is the number of floats between the vectors of two vertices, 0 for
  * vector_floats. The work goes through the context's parallel_for if there is one, and the result does not
- * depend on it. Beside 16 bytes a lobe the call does not allocate.
- * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+ * depend on it. The call allocates 16 bytes for a lobe, and in the paper's form 3 * light_modes * vertex rank
+ * floats for a cluster, 2.2 KiB at 16 modes. Any thread. Errors: INVALID_ARGUMENT (also, in the paper's form,
+ * the response is of another material), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_vectors(nook_transfer transfer, nook_transfer_response response,
                                            const float* amplitudes, uint32_t lobe_count,
                                            uint32_t first_vertex, uint32_t vertex_count, float* vectors,

@@ -9,6 +9,7 @@
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/material/check.h"
 #include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 #include "sdk/src/transfer/check.h"
 #include "sdk/src/transfer/transfer_file.h"
 #include "sdk/src/transfer/vectors.h"
@@ -39,7 +40,10 @@ Response response_of(const nook::material::MaterialTables& tables, std::uint32_t
   Vector<float> values(cells.direction.size() * count, 0.0f, memory);
   for (std::size_t i = 0; i < cells.direction.size(); ++i)
     nook::material::light_basis_at(tables, cells.direction[i], std::span(values).subspan(i * count, count));
-  return make_response(lobes, cells, {values, tables.btf.light_modes}, memory);
+  return make_response(lobes, cells,
+                       {values, tables.btf.light_modes, nook::material::mean_reflectance(tables),
+                        tables.light_hash, tables.votf_hash},
+                       memory);
 }
 
 void check_amplitudes(const float* amplitudes, std::uint32_t got, std::uint32_t lobes) {
@@ -109,6 +113,15 @@ nook_result nook_transfer_describe(nook_transfer transfer, nook_transfer_info* i
     known.lobe_count = transfer->transfer.lobes;
     known.sharpness = sharpness_of(transfer->transfer.lobes);
     known.share_bytes = transfer->transfer.shares.size();
+    known.bounces = transfer->transfer.bounces;
+    known.has_holes = transfer->transfer.votf_hash != 0;
+    const PaperTransfer& paper = transfer->transfer.paper;
+    known.form = paper.is_used() ? NOOK_TRANSFER_FORM_PAPER : NOOK_TRANSFER_FORM_SEPARATED;
+    known.light_modes = paper.light_modes;
+    if (paper.is_used())
+      known.paper_bytes = paper_bytes(known.vertex_count, paper.clusters, known.lobe_count, paper.light_modes,
+                                      paper.lobe_rank, paper.vertex_rank);
+    known.indirect_bytes = sizeof(std::uint16_t) * transfer->transfer.indirect.size();
     write_info(info, first_info, known);
   });
 }
@@ -118,6 +131,9 @@ nook_result nook_transfer_read_frames(nook_transfer transfer, float* normals, fl
   return api::enter("nook_transfer_read_frames", [&] {
     need(transfer, "transfer");
     const Transfer& baked = transfer->transfer;
+    if (baked.paper.is_used())
+      throw Failure(NOOK_ERROR_UNSUPPORTED,
+                    "the paper's form of transfer has no frames; keep those of the mesh");
     if (vertex_count != baked.vertex_count())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "vertex_count is not the transfer's (got %u, need %u)",
                     vertex_count, baked.vertex_count());
@@ -146,6 +162,15 @@ nook_result nook_transfer_check_mesh(nook_transfer transfer, const nook_transfer
     check_same_mesh(transfer->transfer,
                     {values(mesh->positions, 3), values(mesh->normals, 3), values(mesh->tangents, 4),
                      values(mesh->uvs, 2), mesh->vertex_count});
+  });
+}
+
+nook_result nook_transfer_check_material(nook_transfer transfer, nook_material material) {
+  return api::enter("nook_transfer_check_material", [&] {
+    need(transfer, "transfer");
+    need(material, "material");
+    check_same_light(transfer->transfer, material->tables.btf.light_modes, material->tables.light_hash);
+    check_same_material(transfer->transfer, material->tables.votf_hash);
   });
 }
 
@@ -189,6 +214,10 @@ nook_result nook_transfer_response_describe(nook_transfer_response response,
     known.light_modes = response->response.light_modes;
     known.vector_floats = 3 * known.light_modes;
     known.table_bytes = response->response.table.size() * sizeof(float);
+    const Vec3 share = response->response.reflectance;
+    known.reflectance[0] = share.x;
+    known.reflectance[1] = share.y;
+    known.reflectance[2] = share.z;
     write_info(info, first_response_info, known);
   });
 }
@@ -210,6 +239,7 @@ nook_result nook_transfer_vectors(nook_transfer transfer, nook_transfer_response
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "vertices are out of range (got %u from %u on, the transfer has %u)", vertex_count,
                     first_vertex, baked.vertex_count());
+    check_same_light(baked, response->response.light_modes, response->response.light_hash);
     const VectorOutput output = output_of(vectors, stride_floats, response->response);
     baked_vectors(response->response, response->isa, {amplitudes, std::size_t(3) * lobe_count}, baked,
                   first_vertex, vertex_count, output, response->context->parallel(),

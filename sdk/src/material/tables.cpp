@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sdk/src/core/half.h"
+#include "sdk/src/core/hash.h"
 #include "sdk/src/material/direction_mesh.h"
 #include "sdk/src/material/spatial_modes.h"
 #include "sdk/src/material/view_cells.h"
@@ -146,6 +147,38 @@ void make_light_map(const Material& material, float scale, MaterialTables& table
     }
 }
 
+void add_floats(Hash64& hash, std::span<const float> values) {
+  for (const float value : values) {
+    const auto bits = bit_cast<std::uint32_t>(value);
+    const std::byte bytes[4] = {std::byte(bits), std::byte(bits >> 8), std::byte(bits >> 16),
+                                std::byte(bits >> 24)};
+    hash.add(bytes);
+  }
+}
+
+// The exponent scales the light map, and so belongs to what was baked with it.
+std::uint64_t hash_of_light(const Material& material, int exponent) {
+  Hash64 hash;
+  const float scale = float(exponent);
+  add_floats(hash, {&scale, 1});
+  for (const Vec3 light : material.lights) {
+    const float xyz[3] = {light.x, light.y, light.z};
+    add_floats(hash, xyz);
+  }
+  add_floats(hash, material.light_basis);
+  return hash.value();
+}
+
+std::uint64_t hash_of_votf(const Material& material) {
+  Hash64 hash;
+  const float mapping[3] = {float(material.visibility), material.mapping.threshold, material.mapping.weight};
+  add_floats(hash, mapping);
+  for (const auto* values : {&material.votf.cores, &material.votf.x_bases, &material.votf.y_bases,
+                             &material.votf.rows.coefficients, &material.votf.map.rows.coefficients})
+    add_floats(hash, *values);
+  return std::max<std::uint64_t>(hash.value(), 1);
+}
+
 std::uint64_t tensor_bytes(const TensorTables& tables) {
   return 2 * (std::uint64_t(tables.spatial.size()) + tables.coefficients.size() + tables.membership.size());
 }
@@ -169,9 +202,11 @@ MaterialTables make_tables(const Material& material, const Parallel& parallel, M
   make_light_map(material, std::ldexp(1.0f, -exponent), tables, memory);
   tables.visibility = material.visibility;
   tables.mapping = material.mapping;
+  tables.light_hash = hash_of_light(material, exponent);
   if (material.visibility == VisibilityForm::none) return tables;
   // The inverse power of two multiplies the coefficients, so that it is used only where a half would
   // overflow.
+  tables.votf_hash = hash_of_votf(material);
   const int votf_exponent = std::min(spatial_exponent(votf, memory), 0);
   make_spatial(votf, 1, votf_exponent, parallel, tables.votf, memory);
   pack_cells(view_cells(votf, material.views, map_side, memory), votf.shape.rank_view,

@@ -57,6 +57,10 @@ struct MaterialTables {
   // side x 4 floats, with layer channel light_modes / 4 + a / 4. It is divided by the power of two of the
   // BTF's spatial modes.
   Vector<float> light;
+
+  // XXH64 of the numbers that the light basis and the VOTF were made from, for data that was baked with them;
+  // votf_hash is 0 without a VOTF.
+  std::uint64_t light_hash = 0, votf_hash = 0;
 };
 
 inline constexpr std::uint32_t default_map_side = 256;

@@ -13,6 +13,9 @@ namespace nook::transfer {
 // length. Every byte is a valid share and part of a valid frame.
 void check_transfer(const Transfer& transfer, nook_result code);
 
+// Throws Failure(code) if a number of the paper's form is out of range; the arrays are not read.
+void check_paper_head(const PaperTransfer& paper, nook_result code);
+
 // Throws Failure(code) unless min_lobes <= lobes <= max_lobes.
 void check_lobes(std::uint32_t lobes, nook_result code);
 
@@ -26,5 +29,11 @@ struct MeshArrays {
 };
 // Throws Failure(INVALID_ARGUMENT) that names the first array that differs from the baked mesh.
 void check_same_mesh(const Transfer& transfer, const MeshArrays& mesh);
+
+// Throws Failure(INVALID_ARGUMENT) if light fell through the holes of another VOTF than that of a material.
+void check_same_material(const Transfer& transfer, std::uint64_t votf_hash);
+// Throws Failure(INVALID_ARGUMENT) if the transfer has the paper's form for the light modes of another
+// material.
+void check_same_light(const Transfer& transfer, std::uint32_t light_modes, std::uint64_t light_hash);
 
 }  // namespace nook::transfer

@@ -148,6 +148,14 @@ Response make_response(std::uint32_t lobes, const HemisphereCells& cells, const 
   for (std::size_t i = 0; i < std::size_t(side) * side * 3; ++i)
     std::copy_n(&nodes[i * modes.light_modes], modes.light_modes, &response.table[i * response.lanes]);
 
+  response.even.assign(count, 0.0f);
+  for (std::size_t i = 0; i < cells.direction.size(); ++i)
+    for (std::size_t k = 0; k < count; ++k)
+      response.even[k] += cells.solid_angle * modes.values[i * count + k];
+  response.reflectance = modes.reflectance;
+  response.light_hash = modes.light_hash;
+  response.votf_hash = modes.votf_hash;
+
   response.padded = std::uint32_t(padded_count(lobes));
   Vector<Vec3> axes(lobes, Vec3{}, memory);
   lobe_axes(axes);

@@ -28,10 +28,12 @@ struct HemisphereCells {
 struct LightModes {
   std::span<const float> values;
   std::uint32_t light_modes = 0;
+  Vec3 reflectance{};  // of the material under even light, [0, 1]
+  std::uint64_t light_hash = 0, votf_hash = 0;
 };
 
 struct Response {
-  explicit Response(Memory* memory) : row_begin(memory), row_end(memory) {}
+  explicit Response(Memory* memory) : row_begin(memory), row_end(memory), even(memory) {}
 
   std::uint32_t lobes = 0;
   std::uint32_t light_modes = 0;  // of a channel
@@ -47,6 +49,10 @@ struct Response {
   // The axes of the lobes, padded to a multiple of 16 with an axis of 0.
   AlignedArray<float> axis_x, axis_y, axis_z;
   std::uint32_t padded = 0;
+
+  Vector<float> even;  // 3 x light_modes integrals of the light basis: the response to even light
+  Vec3 reflectance;
+  std::uint64_t light_hash = 0, votf_hash = 0;  // of the material
 };
 
 // cells are those of HemisphereCells(sharpness_of(lobes)).

@@ -1,4 +1,4 @@
-// Baked radiance transfer of a static shape in its separated form, as plain data: for each vertex and lobe
+// Baked radiance transfer of a static shape as plain data. Its separated form has for each vertex and lobe
 // the share of the lobe's light that reaches the vertex. The method follows Y.-T. Tsai, Z.-C. Shih:
 // K-Clustered Tensor Approximation, 2012, section 6.3, with the transfer matrix of a vertex replaced by a
 // product.
@@ -10,6 +10,12 @@
 // where v_j = integral of V G_j cos+ / integral of G_j cos+ is a byte of this data, and P, the response,
 // belongs to a material alone. The radiance of a pixel is sum_a L_a r[c, a] with the light modes L_a that
 // the material decodes.
+//
+// Light that the shape reflects onto itself is kept apart, as irradiance for light of bands 0 to 2. With a
+// mean reflectance a of a channel, the vertex receives after up to B reflections the irradiance
+//   E[c] = sum_b a[c]^b sum_k L_k[c] m_(b,k),   b = 1 to B,
+// where m is what a shape that reflects all light would give. So the file holds no material's reflectance,
+// and any material can be put on it. The vector gets E[c] / pi times the integral of phi[c, a].
 #pragma once
 
 #include <cstdint>
@@ -18,11 +24,14 @@
 
 #include "sdk/src/core/containers.h"
 #include "sdk/src/transfer/frame.h"
+#include "sdk/src/transfer/light_bands.h"
 #include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/paper.h"
 
 namespace nook::transfer {
 
 inline constexpr std::uint32_t max_vertices = 10'000'000;
+inline constexpr std::uint32_t max_bounces = 2;
 
 // XXH64 of the arrays of the baked mesh, little-endian floats, where -0 counts as 0.
 struct MeshHashes {
@@ -34,15 +43,24 @@ struct MeshHashes {
 };
 
 struct Transfer {
-  explicit Transfer(Memory* memory = default_memory()) : shares(memory), frames(memory), recipe(memory) {}
+  explicit Transfer(Memory* memory = default_memory())
+      : shares(memory), frames(memory), paper(memory), indirect(memory), recipe(memory) {}
 
   std::uint32_t lobes = 0;
   MeshHashes hashes;
   Vector<std::uint8_t> shares;  // vertices x lobes, 255 is open
   Vector<PackedFrame> frames;   // one for each vertex
-  String recipe;                // settings of the bake, JSON; the runtime does not read it
+  PaperTransfer paper;          // in place of shares and frames, which are empty then
+  std::uint32_t bounces = 0;    // reflections, up to max_bounces
+  // vertices x bounces x band_count half floats m_(b,k), in the order of light_bands.h.
+  Vector<std::uint16_t> indirect;
+  // The hash of the VOTF through whose holes light fell, see material/tables.h; 0: surfaces have no holes.
+  std::uint64_t votf_hash = 0;
+  String recipe;  // settings of the bake, JSON; the runtime does not read it
 
-  std::uint32_t vertex_count() const { return std::uint32_t(frames.size()); }
+  std::uint32_t vertex_count() const {
+    return std::uint32_t(paper.is_used() ? paper.cluster.size() : frames.size());
+  }
   const std::uint8_t* shares_of(std::size_t vertex) const { return shares.data() + vertex * lobes; }
 };
 

@@ -52,13 +52,87 @@ void read_shares(ByteReader& codes, ByteReader& shares, std::uint32_t vertices, 
                   bytes.size() - next);
 }
 
-void read_head(ByteReader in, Transfer& transfer, std::uint32_t& vertices) {
-  const std::uint32_t form = in.u8(), bounces = in.u8();
-  if (form != 0 || bounces != 0)
+void add_separated(const Transfer& transfer, std::vector<ContainerSection>& sections) {
+  ByteWriter codes, shares, frames;
+  write_shares(transfer, codes, shares);
+  for (const PackedFrame& frame : transfer.frames)
+    for (const std::uint16_t number : {frame.u, frame.v, frame.angle}) frames.u16(number);
+  sections.push_back({four_letters("CODE"), codes.bytes()});
+  sections.push_back({four_letters("SHAR"), shares.bytes()});
+  sections.push_back({four_letters("FRAM"), frames.bytes()});
+}
+
+std::vector<std::byte> bytes_of(std::span<const std::uint16_t> halves) {
+  ByteWriter out;
+  for (const std::uint16_t half : halves) out.u16(half);
+  return out.bytes();
+}
+
+void add_paper(const PaperTransfer& paper, std::vector<ContainerSection>& sections) {
+  ByteWriter head, clusters;
+  for (const std::uint32_t number : {paper.light_modes, paper.clusters, paper.lobe_rank, paper.vertex_rank})
+    head.u16(number);
+  head.u64(paper.light_hash);
+  head.f32(paper.scale);
+  for (const std::uint8_t cluster : paper.cluster) clusters.u8(cluster);
+  sections.push_back({four_letters("PAPR"), head.bytes()});
+  sections.push_back({four_letters("LOBE"), bytes_of(paper.lobe_basis)});
+  sections.push_back({four_letters("CORE"), bytes_of(paper.cores)});
+  sections.push_back({four_letters("CLUS"), clusters.bytes()});
+  sections.push_back({four_letters("COEF"), bytes_of(paper.coefficients)});
+}
+
+// Reads exactly `count` half floats. Nothing is allocated for more than the section has.
+void read_halves(ByteReader in, std::uint64_t count, Vector<std::uint16_t>& halves) {
+  if (count != in.remaining() / 2 || in.remaining() % 2)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the form of the transfer is unknown (got form %u with %u bounces, need 0 with 0); use a "
-                  "newer library",
-                  form, bounces);
+                  "section %s has the wrong length (got %zu bytes, need %llu); bake the file again",
+                  in.name(), in.remaining(), static_cast<unsigned long long>(2 * count));
+  halves.resize(count);
+  for (std::uint16_t& half : halves) half = std::uint16_t(in.u16());
+}
+
+void read_paper(const Container& file, std::uint32_t vertices, Transfer& transfer) {
+  PaperTransfer& paper = transfer.paper;
+  ByteReader head = file.section("PAPR"), clusters = file.section("CLUS");
+  for (std::uint32_t* number : {&paper.light_modes, &paper.clusters, &paper.lobe_rank, &paper.vertex_rank})
+    *number = head.u16();
+  paper.light_hash = head.u64();
+  paper.scale = head.f32();
+  head.check_end();
+  check_paper_head(paper, NOOK_ERROR_BAD_FILE);
+  clusters.check_count(vertices, 8, "clusters");
+  paper.cluster.resize(vertices);
+  for (std::uint8_t& cluster : paper.cluster) cluster = std::uint8_t(clusters.u8());
+  clusters.check_end();
+  const std::uint64_t each = std::uint64_t(paper.clusters) * paper.lobe_rank;
+  read_halves(file.section("LOBE"), each * transfer.lobes, paper.lobe_basis);
+  read_halves(file.section("CORE"), each * 3 * paper.light_modes * paper.vertex_rank, paper.cores);
+  read_halves(file.section("COEF"), std::uint64_t(vertices) * paper.vertex_rank, paper.coefficients);
+}
+
+void read_separated(const Container& file, std::uint32_t vertices, Transfer& transfer) {
+  ByteReader codes = file.section("CODE"), shares = file.section("SHAR"), frames = file.section("FRAM");
+  frames.check_count(vertices, 8 * frame_bytes, "frames");
+  read_shares(codes, shares, vertices, transfer);
+  transfer.frames.resize(vertices);
+  for (PackedFrame& frame : transfer.frames) {
+    frame.u = std::uint16_t(frames.u16());
+    frame.v = std::uint16_t(frames.u16());
+    frame.angle = std::uint16_t(frames.u16());
+  }
+  frames.check_end();
+}
+
+void read_head(ByteReader in, Transfer& transfer, std::uint32_t& form, std::uint32_t& vertices) {
+  form = in.u8();
+  const std::uint32_t bounces = in.u8();
+  if (form > 1 || bounces > max_bounces)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the form of the transfer is unknown (got form %u with %u bounces, need 0 or 1 with 0 to "
+                  "%u); use a newer library",
+                  form, bounces, max_bounces);
+  transfer.bounces = bounces;
   transfer.lobes = in.u16();
   vertices = in.u32();
   for (std::uint64_t* hash :
@@ -72,42 +146,56 @@ void read_head(ByteReader in, Transfer& transfer, std::uint32_t& vertices) {
 
 std::vector<std::byte> write_transfer(const Transfer& transfer) {
   check_transfer(transfer, NOOK_ERROR_INVALID_ARGUMENT);
-  ByteWriter head, frames, recipe;
-  head.u8(0);
-  head.u8(0);
+  ByteWriter head, recipe;
+  head.u8(transfer.paper.is_used() ? 1 : 0);
+  head.u8(transfer.bounces);
   head.u16(transfer.lobes);
   head.u32(transfer.vertex_count());
   for (const std::uint64_t hash :
        {transfer.hashes.position, transfer.hashes.normal, transfer.hashes.tangent, transfer.hashes.uv})
     head.u64(hash);
-  for (const PackedFrame& frame : transfer.frames)
-    for (const std::uint16_t number : {frame.u, frame.v, frame.angle}) frames.u16(number);
   recipe.text(transfer.recipe);
-  ByteWriter codes, shares;
-  write_shares(transfer, codes, shares);
-  const ContainerSection sections[] = {{four_letters("HEAD"), head.bytes()},
-                                       {four_letters("CODE"), codes.bytes()},
-                                       {four_letters("SHAR"), shares.bytes()},
-                                       {four_letters("FRAM"), frames.bytes()},
-                                       {four_letters("RECP"), recipe.bytes()}};
+  std::vector<ContainerSection> sections{{four_letters("HEAD"), head.bytes()}};
+  if (transfer.paper.is_used())
+    add_paper(transfer.paper, sections);
+  else
+    add_separated(transfer, sections);
+  sections.push_back({four_letters("RECP"), recipe.bytes()});
+  if (transfer.bounces > 0) {
+    ByteWriter indirect;
+    for (const std::uint16_t half : transfer.indirect) indirect.u16(half);
+    sections.push_back({four_letters("INDI"), indirect.bytes()});
+  }
+  if (transfer.votf_hash != 0) {
+    ByteWriter holes;
+    holes.u64(transfer.votf_hash);
+    sections.push_back({four_letters("HOLE"), holes.bytes()});
+  }
   return write_container(transfer_kind, sections);
 }
 
 Transfer read_transfer(std::span<const std::byte> bytes, Memory* memory) {
   const Container file(bytes, transfer_kind);
   Transfer transfer(memory);
-  std::uint32_t vertices = 0;
-  read_head(file.section("HEAD"), transfer, vertices);
-  ByteReader codes = file.section("CODE"), shares = file.section("SHAR"), frames = file.section("FRAM");
-  frames.check_count(vertices, 8 * frame_bytes, "frames");
-  read_shares(codes, shares, vertices, transfer);
-  transfer.frames.resize(vertices);
-  for (PackedFrame& frame : transfer.frames) {
-    frame.u = std::uint16_t(frames.u16());
-    frame.v = std::uint16_t(frames.u16());
-    frame.angle = std::uint16_t(frames.u16());
+  std::uint32_t form = 0, vertices = 0;
+  read_head(file.section("HEAD"), transfer, form, vertices);
+  if (form == 1)
+    read_paper(file, vertices, transfer);
+  else
+    read_separated(file, vertices, transfer);
+  if (transfer.bounces > 0) {
+    ByteReader indirect = file.section("INDI");
+    const std::size_t each = std::size_t(transfer.bounces) * band_count;
+    indirect.check_count(vertices, 16 * each, "reflected light");
+    transfer.indirect.resize(vertices * each);
+    for (std::uint16_t& half : transfer.indirect) half = std::uint16_t(indirect.u16());
+    indirect.check_end();
   }
-  frames.check_end();
+  if (file.has("HOLE")) {
+    ByteReader holes = file.section("HOLE");
+    transfer.votf_hash = holes.u64();
+    holes.check_end();
+  }
   ByteReader recipe = file.section("RECP");
   transfer.recipe = recipe.text(recipe.remaining());
   check_transfer(transfer, NOOK_ERROR_BAD_FILE);

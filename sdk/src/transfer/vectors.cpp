@@ -1,8 +1,11 @@
 #include "sdk/src/transfer/vectors.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/half.h"
+#include "sdk/src/transfer/light_bands.h"
 #include "sdk/src/transfer/vector_kernels.h"
 
 namespace nook::transfer {
@@ -46,11 +49,51 @@ void write_axes(const Frame& frame, float* axes) {
   std::copy_n(values, 9, axes);
 }
 
-// frame_at(i) gives the frame and shares_at(i) the bytes of vertex i, or null.
-template <class FrameAt, class SharesAt>
+// The light that a baked shape reflects onto itself, for one light and one material.
+class ReflectedLight {
+ public:
+  ReflectedLight(const Response& response, std::span<const float> amplitudes, const Transfer& transfer,
+                 Memory* memory)
+      : response_(response), transfer_(transfer) {
+    if (transfer.bounces == 0) return;
+    Vector<Vec3> axes(response.lobes, Vec3{}, memory);
+    lobe_axes(axes);
+    const auto light = bands_of_lobes(axes, sharpness_of(response.lobes), amplitudes);
+    const Vec3 share = response.reflectance;
+    Vec3 reflected = share * (1 / std::numbers::pi_v<float>);
+    for (std::uint32_t b = 0; b < transfer.bounces; ++b) {
+      for (std::uint32_t k = 0; k < band_count; ++k)
+        light_[b * band_count + k] = {light[k].x * reflected.x, light[k].y * reflected.y,
+                                      light[k].z * reflected.z};
+      reflected = {reflected.x * share.x, reflected.y * share.y, reflected.z * share.z};
+    }
+  }
+
+  // Adds to the vector of a vertex.
+  void add(std::size_t vertex, float* vector) const noexcept {
+    const std::uint32_t count = transfer_.bounces * band_count;
+    if (count == 0) return;
+    const std::uint16_t* const halves = &transfer_.indirect[vertex * count];
+    Vec3 sum;
+    for (std::uint32_t i = 0; i < count; ++i) sum += light_[i] * from_half(halves[i]);
+    const float channel[3] = {sum.x, sum.y, sum.z};
+    for (std::uint32_t c = 0; c < 3; ++c)
+      for (std::uint32_t a = 0; a < response_.light_modes; ++a)
+        vector[c * response_.light_modes + a] += channel[c] * response_.even[c * response_.light_modes + a];
+  }
+
+ private:
+  const Response& response_;
+  const Transfer& transfer_;
+  std::array<Vec3, max_bounces * band_count> light_{};  // radiance of each harmonic, by the reflection
+};
+
+// frame_at(i) gives the frame and shares_at(i) the bytes of vertex i, or null; after(i, vector) may
+// change a vector.
+template <class FrameAt, class SharesAt, class After>
 void run(const Response& response, Isa isa, std::span<const float> amplitudes, std::uint32_t count,
          const VectorOutput& output, const Parallel& parallel, Memory* memory, FrameAt&& frame_at,
-         SharesAt&& shares_at) {
+         SharesAt&& shares_at, After&& after) {
   const AlignedArray<float> padded = padded_amplitudes(response, amplitudes, memory);
   const LightView light = view_of(response, padded);
   const VectorKernels* const kernels = vector_kernels(isa);
@@ -68,6 +111,7 @@ void run(const Response& response, Isa isa, std::span<const float> amplitudes, s
       block.stride = output.stride;
       block.scratch = scratch;
       kernels->vectors(light, block);
+      for (std::uint32_t v = 0; v < block.count; ++v) after(i + v, block.vectors + v * block.stride);
     }
   };
   parallel_for(parallel, (count + piece - 1) / piece, body);
@@ -78,10 +122,25 @@ void run(const Response& response, Isa isa, std::span<const float> amplitudes, s
 void baked_vectors(const Response& response, Isa isa, std::span<const float> amplitudes,
                    const Transfer& transfer, std::uint32_t first, std::uint32_t count,
                    const VectorOutput& output, const Parallel& parallel, Memory* memory) {
+  const ReflectedLight reflected(response, amplitudes, transfer, memory);
+  if (transfer.paper.is_used()) {
+    const Vector<float> lit = paper_light(transfer.paper, amplitudes, parallel, memory);
+    const auto body = [&](std::uint32_t index) noexcept {
+      const std::uint32_t end = std::min(count, (index + 1) * piece);
+      for (std::uint32_t i = index * piece; i < end; ++i) {
+        float* const vector = output.vectors + i * output.stride;
+        paper_vector(transfer.paper, lit, std::size_t(first) + i, vector);
+        reflected.add(std::size_t(first) + i, vector);
+      }
+    };
+    parallel_for(parallel, (count + piece - 1) / piece, body);
+    return;
+  }
   run(
       response, isa, amplitudes, count, output, parallel, memory,
       [&](std::uint32_t i) { return unpack(transfer.frames[first + i]); },
-      [&](std::uint32_t i) { return transfer.shares_of(first + i); });
+      [&](std::uint32_t i) { return transfer.shares_of(first + i); },
+      [&](std::uint32_t i, float* vector) { reflected.add(std::size_t(first) + i, vector); });
 }
 
 void open_vectors(const Response& response, Isa isa, std::span<const float> amplitudes,
@@ -90,7 +149,7 @@ void open_vectors(const Response& response, Isa isa, std::span<const float> ampl
   run(
       response, isa, amplitudes, std::uint32_t(frames.size()), output, parallel, memory,
       [&](std::uint32_t i) { return frames[i]; },
-      [](std::uint32_t) { return static_cast<const std::uint8_t*>(nullptr); });
+      [](std::uint32_t) { return static_cast<const std::uint8_t*>(nullptr); }, [](std::uint32_t, float*) {});
 }
 
 }  // namespace nook::transfer

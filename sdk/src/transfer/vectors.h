@@ -17,8 +17,9 @@ struct VectorOutput {
 };
 
 // Vertices first to first + count of baked transfer, whose lobes are those of the response. amplitudes has
-// lobes x RGB. The result does not depend on `parallel`. Nothing is allocated except for the padded
-// amplitudes, from `memory`.
+// lobes x RGB; in the paper's form the light modes are the response's. The result does not depend on
+// `parallel`. Nothing is allocated except for the padded amplitudes, and in the paper's form for the
+// clusters' matrices under the light, from `memory`.
 void baked_vectors(const Response& response, Isa isa, std::span<const float> amplitudes,
                    const Transfer& transfer, std::uint32_t first, std::uint32_t count,
                    const VectorOutput& output, const Parallel& parallel, Memory* memory);

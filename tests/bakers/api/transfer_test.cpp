@@ -1,4 +1,5 @@
 // Jobs of radiance transfer, and their files in the runtime.
+#include <nook/nook_bake_material.h>
 #include <nook/nook_bake_transfer.h>
 #include <nook/nook_transfer.h>
 
@@ -30,9 +31,7 @@ nook_bake_transfer_desc desc_of(const Shape& shape) {
   return desc;
 }
 
-std::string bytes_of(const nook_bake_transfer_desc& desc) {
-  nook_bake_job job = nullptr;
-  REQUIRE(nook_bake_transfer_start(&desc, &job) == NOOK_OK);
+std::string bytes_of(nook_bake_job job) {
   REQUIRE(nook_bake_job_wait(job) == NOOK_OK);
   const void* bytes = nullptr;
   std::size_t size = 0;
@@ -40,6 +39,41 @@ std::string bytes_of(const nook_bake_transfer_desc& desc) {
   std::string out(static_cast<const char*>(bytes), size);
   nook_bake_job_destroy(&job);
   return out;
+}
+
+std::string bytes_of(const nook_bake_transfer_desc& desc) {
+  nook_bake_job job = nullptr;
+  REQUIRE(nook_bake_transfer_start(&desc, &job) == NOOK_OK);
+  return bytes_of(job);
+}
+
+// A grey material of 6 x 4 texels, of which one column of three is a hole.
+std::string material_with_holes(std::uint32_t column) {
+  constexpr std::uint32_t directions = 5, width = 6, height = 4;
+  std::vector<float> set{0, 0, 1}, btf, coverage;
+  for (std::uint32_t i = 1; i < directions; ++i)
+    set.insert(set.end(), {0.6f * float(int(i % 2) * 2 - 1) * float(i < 3),
+                           0.6f * float(int(i % 2) * 2 - 1) * float(i >= 3), 0.8f});
+  for (std::uint32_t i = 0; i < directions * directions * height * width; ++i)
+    btf.insert(btf.end(), 3, 0.2f + 0.01f * float(i % 7));
+  for (std::uint32_t i = 0; i < directions * height * width; ++i)
+    coverage.push_back(i % width % 3 == column ? 0.0f : 1.0f);
+  nook_bake_material_desc desc;
+  REQUIRE(nook_bake_material_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  desc.light_count = desc.view_count = directions;
+  desc.width = desc.rank_x = desc.votf_rank_x = width;
+  desc.height = desc.rank_y = desc.votf_rank_y = height;
+  desc.rank_light = 3 * directions;
+  desc.rank_view = directions;
+  desc.method = NOOK_BAKE_METHOD_N_SVD;
+  desc.btf = btf.data();
+  desc.coverage = coverage.data();
+  desc.lights = desc.views = set.data();
+  nook_bake_job job = nullptr;
+  const nook_result started = nook_bake_material_start(&desc, &job);
+  INFO(nook_bake_last_message());
+  REQUIRE(started == NOOK_OK);
+  return bytes_of(job);
 }
 
 bool refused(const nook_bake_transfer_desc& desc, const char* text) {
@@ -106,6 +140,12 @@ TEST_CASE("jobs of radiance transfer refuse what cannot be baked") {
   desc.vertex_count = 0;
   CHECK(refused(desc, "vertices"));
   desc = good;
+  desc.bounces = 3;
+  CHECK(refused(desc, "bounces"));
+  desc = good;
+  desc.tiles = NAN;
+  CHECK(refused(desc, "tiles"));
+  desc = good;
   desc.reserved = 1;
   CHECK(refused(desc, "desc.reserved"));
   Shape bad = shape;
@@ -115,6 +155,78 @@ TEST_CASE("jobs of radiance transfer refuse what cannot be baked") {
   desc = good;
   desc.tangents = tangents.data();
   CHECK(refused(desc, "handedness"));
+}
+
+TEST_CASE("a job bakes reflections and the holes of a material, which the runtime describes") {
+  Shape shape = nook::transfer::test::plane(1, 4, 2);
+  append(shape, nook::transfer::test::plane(1, 4, 2, 0.3f));
+  nook_bake_transfer_desc desc = desc_of(shape);
+  CHECK(desc.bounces == 0);
+  CHECK(desc.tiles == 1);
+  const std::string material = material_with_holes(0);
+  desc.votf = material.data();
+  desc.votf_size = material.size();
+  desc.bounces = 1;
+  const std::string bytes = bytes_of(desc);
+  nook_context_desc context_desc;
+  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  nook_context context = nullptr;
+  REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
+  nook_transfer transfer = nullptr;
+  REQUIRE(nook_transfer_load(context, bytes.data(), bytes.size(), &transfer) == NOOK_OK);
+  nook_transfer_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_transfer_describe(transfer, &info) == NOOK_OK);
+  CHECK(info.bounces == 1);
+  CHECK(info.has_holes == 1);
+  CHECK(info.indirect_bytes == 18 * desc.vertex_count);
+  for (const std::uint32_t column : {0u, 1u}) {
+    const std::string worn = material_with_holes(column);
+    nook_material handle = nullptr;
+    REQUIRE(nook_material_load(context, worn.data(), worn.size(), &handle) == NOOK_OK);
+    CHECK(nook_transfer_check_material(transfer, handle) ==
+          (column == 0 ? NOOK_OK : NOOK_ERROR_INVALID_ARGUMENT));
+    nook_material_destroy(&handle);
+  }
+  nook_transfer_destroy(&transfer);
+  nook_context_destroy(&context);
+  desc.votf_size -= 1;
+  nook_bake_job job = nullptr;
+  CHECK(nook_bake_transfer_start(&desc, &job) == NOOK_ERROR_BAD_FILE);
+}
+
+TEST_CASE("a job bakes the paper's form for the light modes of one material") {
+  const Shape shape = nook::transfer::test::plane(1, 9, 2);
+  nook_bake_transfer_desc desc = desc_of(shape);
+  const std::string material = material_with_holes(0);
+  desc.material = material.data();
+  desc.material_size = material.size();
+  desc.lobes = 162;
+  desc.clusters = 2;
+  const std::string bytes = bytes_of(desc);
+  nook_context_desc context_desc;
+  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  nook_context context = nullptr;
+  REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
+  nook_transfer transfer = nullptr;
+  REQUIRE(nook_transfer_load(context, bytes.data(), bytes.size(), &transfer) == NOOK_OK);
+  nook_transfer_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_transfer_describe(transfer, &info) == NOOK_OK);
+  CHECK(info.form == NOOK_TRANSFER_FORM_PAPER);
+  CHECK(info.vertex_count == desc.vertex_count);
+  CHECK(info.share_bytes == 0);
+  CHECK(info.light_modes == 16);  // 15 of the material, rounded up
+  CHECK(double(bytes.size()) < 1.01 * double(info.paper_bytes) + 400);
+  float normal[3];
+  CHECK(nook_transfer_read_frames(transfer, normal, nullptr, desc.vertex_count) == NOOK_ERROR_UNSUPPORTED);
+  nook_transfer_destroy(&transfer);
+  nook_context_destroy(&context);
+  desc.clusters = 300;
+  CHECK(refused(desc, "clusters"));
+  desc.clusters = 0;
+  desc.reserved_2 = 1;
+  CHECK(refused(desc, "desc.reserved_2"));
 }
 
 TEST_CASE("a job of radiance transfer can be cancelled by its progress") {

@@ -115,6 +115,24 @@ TEST_CASE("CTA recovers planted clusters from seeds of which a third is wrong") 
   check_constraints(fit, 1);
 }
 
+TEST_CASE("CTA that tries the nearest clusters only ends near CTA that tries all") {
+  const Tensor a = waves({60, 6, 8, 8});
+  ClusteredSettings settings = settings_of(0, {2, 2, 4, 4}, 8, 1, seeds_in_order(60, 8));
+  const ClusteredFit all = fit_cta(a, settings);
+  settings.nearest = 8;
+  const ClusteredFit every = fit_cta(a, settings);
+  CHECK(every.objective == all.objective);
+  CHECK(every.mixture.membership == all.mixture.membership);
+  settings.nearest = 3;
+  const ClusteredFit some = fit_cta(a, settings);
+  check_constraints(some, 1);
+  check_objective(some, a);
+  // The start is the same; clusters that are far away would take some sub-tensors a little better.
+  CHECK(some.objective.front() == all.objective.front());
+  CHECK(some.objective.back() < some.objective.front());
+  CHECK(some.objective.back() < 1.5 * all.objective.back());
+}
+
 TEST_CASE("K-CTA recovers a tensor in which each sub-tensor mixes two clusters") {
   const test::Planted planted = test::planted_clusters({5, 40, 9, 8}, {2, 2, 3, 3}, 1, 4, 2, 32);
   ClusteredSettings settings = settings_of(1, {2, 2, 3, 3}, 4, 2, seeds_round(40, 4));
@@ -336,6 +354,7 @@ TEST_CASE("settings that do not fit are refused by name") {
   CHECK(test::says(message([](auto& s) { s.seeds.assign(12, 1); }), "no sub-tensor is seeded in cluster 0"));
   CHECK(test::says(message([](auto& s) { s.iterations = -2; }), "-2"));
   CHECK(test::says(message([](auto& s) { s.sweeps = 0; }), "sweeps"));
+  CHECK(test::says(message([](auto& s) { s.nearest = 2; }), "mode 2 is clustered"));
   CHECK(test::says(test::failure_of([&] { fit_cta(a, good); }), "got K = 2"));
   a.data[1] = std::numeric_limits<float>::quiet_NaN();
   CHECK(test::says(message([](auto&) {}), "(0, 0, 0, 1)"));

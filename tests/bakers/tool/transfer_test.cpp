@@ -61,6 +61,66 @@ TEST_CASE("bake and evaluate transfer: files, reports, pictures, and better erro
   CHECK(read_text(folder.path("pictures/sky.png")).substr(1, 3) == "PNG");
 }
 
+TEST_CASE("bake and evaluate transfer: reflections, holes and the paper's form") {
+  const TestFolder folder;
+  write_shape(folder.path("ball.glb"), ball_over_plane());
+  write_text(folder.path("sky.hdr"), rgbe_map(32, 16));
+  for (const char* seed : {"1", "2"}) {
+    const ToolRun material =
+        folder.run({"bake", "material", "--meso", "weave", "--directions", "12", "--texels", "12",
+                    "--bounces", "0", "--view-map", "8", "--radius", seed[0] == '1' ? "0.1" : "0.06", "-o",
+                    folder.path(std::string("weave") + seed), "--quiet"});
+    INFO(material.error);
+    REQUIRE(material.exit_code == 0);
+  }
+  const auto evaluate = [&](const char* material) {
+    return folder.run({"evaluate", "transfer", folder.path("ball.glb"), folder.path("b.nook"), "--material",
+                       folder.path(material), "--light", folder.path("sky.hdr"), "--width", "48", "--height",
+                       "36", "--paths", "16", "--report", folder.path("e.json")});
+  };
+  const auto first_row = [&] { return Json::parse(read_text(folder.path("e.json"))).at("rows").at(0); };
+  ToolRun run = folder.run({"bake", "transfer", folder.path("ball.glb"), "-o", folder.path("b.nook"),
+                            "--lobes", "42", "--bounces", "2", "--votf", folder.path("weave1"), "--tiles",
+                            "4", "--report", folder.path("b.json")});
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  const Json baked = Json::parse(read_text(folder.path("b.json"))).at("rows").at(0);
+  CHECK(baked.at("bounces") == 2);
+  CHECK(baked.at("indirect_bytes") == 36 * baked.at("vertices").get<int>());
+  CHECK(baked.at("votf").get<std::string>().size() == 16);
+  run = folder.run({"inspect", folder.path("b.nook")});
+  CHECK(run.out.find(baked.at("votf").get<std::string>()) != std::string::npos);
+  run = evaluate("weave1");
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  CHECK(run.error.find("another material") == std::string::npos);
+  CHECK(first_row().at("truth") == "decoded material, 2 bounces, holes of the VOTF");
+  CHECK(first_row().at("truth_bounces") == 2);
+  run = evaluate("weave2");
+  REQUIRE(run.exit_code == 0);
+  CHECK(run.error.find("holes of another material") != std::string::npos);
+
+  run = folder.run({"bake", "transfer", folder.path("ball.glb"), "-o", folder.path("b.nook"), "--lobes",
+                    "162", "--form", "paper", "--material", folder.path("weave1"), "--clusters", "6",
+                    "--report", folder.path("b.json")});
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  CHECK(Json::parse(read_text(folder.path("b.json"))).at("rows").at(0).at("form") == "paper");
+  run = evaluate("weave1");
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  CHECK(first_row().at("form") == "paper");
+  const Json rows = Json::parse(read_text(folder.path("e.json"))).at("rows");
+  CHECK(rows[0].at("se_db") > rows[1].at("se_db"));
+  run = evaluate("weave2");
+  CHECK(run.exit_code == 2);
+  CHECK(run.error.find("light modes") != std::string::npos);
+  CHECK(
+      folder
+          .run({"bake", "transfer", folder.path("ball.glb"), "-o", folder.path("c.nook"), "--form", "paper"})
+          .exit_code == 2);
+}
+
 TEST_CASE("bake transfer: the same bytes on any number of threads") {
   const TestFolder folder;
   write_shape(folder.path("ball.glb"), ball_over_plane());

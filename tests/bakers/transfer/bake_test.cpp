@@ -121,6 +121,8 @@ TEST_CASE("bad meshes and settings are refused at once") {
   CHECK(result_of(good, {11, 32}) == invalid);
   CHECK(result_of(good, {2563, 32}) == invalid);
   CHECK(result_of(good, {642, 7}) == invalid);
+  CHECK(result_of(good, {642, 32, 3}) == invalid);
+  CHECK(result_of(good, {642, 32, 0, nullptr, NAN}) == invalid);
   CHECK(result_of({}) == invalid);
   SurfaceMesh bad = good;
   bad.position[2].y = NAN;

@@ -1,0 +1,39 @@
+// Light that a shape reflects onto itself, as irradiance at vertices for each band of distant light.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bakers/transfer/vertex_loop.h"
+#include "bakers/transfer/visible_directions.h"
+#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/transfer/transfer.h"
+
+namespace nook::bake::transfer {
+
+using IrradianceBands = std::array<float, nook::transfer::band_count>;
+
+struct Reflection {
+  const SurfaceMesh& mesh;
+  const RayScene& scene;
+  float origin_offset = 0;                 // metres along the normal
+  const nook::transfer::CubeCells& cells;  // the directions that are gathered
+  const SurfaceHoles* holes = nullptr;     // null: none
+};
+
+// Returns the irradiance of a vertex for each band of light, from the directions that it sees.
+IrradianceBands direct_irradiance(Vec3 normal, const nook::transfer::CubeCells& cells,
+                                  std::span<const VisibleDirection> visible);
+
+// Returns the irradiance of a vertex that comes from surfaces which receive `before` at their vertices and
+// reflect all of it evenly. Only the side of a surface that its normals show reflects. The caller has set
+// FlushDenormals.
+IrradianceBands reflected_irradiance(const Reflection& reflection, std::size_t vertex,
+                                     std::span<const IrradianceBands> before);
+
+// Sets the reflected light of the transfer, one reflection after another, from the direct irradiance of all
+// vertices.
+void reflect(const Reflection& reflection, std::uint32_t bounces, VertexLoop& loop,
+             std::vector<IrradianceBands> received, nook::transfer::Transfer& transfer);
+
+}  // namespace nook::bake::transfer
