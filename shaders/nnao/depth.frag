@@ -2,6 +2,10 @@
 // row. The later stages read it many times, and the host's depth costs a division each time.
 #include "shaders/nnao/host_depth.glsl"
 
+#ifdef NOOK_APART
+uniform sampler2D nook_layer;
+#endif
+
 out uint nook_out;
 
 void main() {
@@ -9,5 +13,10 @@ void main() {
 #if NOOK_HALF
   texel *= 2;
 #endif
-  nook_out = floatBitsToUint(nook_screen_depth(texel));
+  float depth = nook_screen_depth(texel);
+#ifdef NOOK_APART
+  // What casters stand for is no occluder of this pass.
+  if (texelFetch(nook_layer, texel + nook_origin, 0).g > 0.5) depth = nook_no_surface;
+#endif
+  nook_out = floatBitsToUint(depth);
 }

@@ -94,8 +94,8 @@ void check_layer(const Functions& gl, nook_nnao_layer layer) {
   if (!gl.can.texture_sizes) return;
   if (!is_float_or_normalised(level_value(gl, GL_TEXTURE_RED_TYPE)))
     refuse_format(gl, "layer_texture", "red in floats or normalised integers");
-  if (layer == NOOK_NNAO_LAYER_REPLACE && !is_float_or_normalised(level_value(gl, GL_TEXTURE_GREEN_TYPE)))
-    refuse_format(gl, "layer_texture", "red and green for NOOK_NNAO_LAYER_REPLACE");
+  if (layer >= NOOK_NNAO_LAYER_REPLACE && !is_float_or_normalised(level_value(gl, GL_TEXTURE_GREEN_TYPE)))
+    refuse_format(gl, "layer_texture", "red and green for NOOK_NNAO_LAYER_REPLACE and _APART");
 }
 
 void check_motion(const Functions& gl) {
@@ -103,6 +103,12 @@ void check_motion(const Functions& gl) {
   for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE})
     if (!is_float_or_normalised(level_value(gl, channel)))
       refuse_format(gl, "motion_texture", "red and green in floats or normalised integers");
+}
+
+void check_ao(const Functions& gl) {
+  if (!gl.can.texture_sizes) return;
+  if (!is_float_or_normalised(level_value(gl, GL_TEXTURE_RED_TYPE)))
+    refuse_format(gl, "ao_texture", "red in floats or normalised integers");
 }
 
 void check_complete(const Functions& gl, const HostImages& images) {
@@ -123,7 +129,8 @@ void check_apart(const HostImages& images, std::uint32_t target, const char* tar
   } inputs[] = {{images.depth, "depth_texture"},
                 {images.normal, "normal_texture"},
                 {images.layer_texture, "layer_texture"},
-                {images.motion, "motion_texture"}};
+                {images.motion, "motion_texture"},
+                {images.ao, "ao_texture"}};
   for (const auto& input : inputs)
     if (input.name != 0 && input.name == target)
       throw Failure(
@@ -220,6 +227,10 @@ void check_images(const Device& device, const HostImages& images, std::uint32_t 
   if (images.motion) {
     bind_checked(device, images, images.motion, "motion_texture");
     check_motion(gl);
+  }
+  if (images.ao) {
+    bind_checked(device, images, images.ao, "ao_texture");
+    check_ao(gl);
   }
   if (images.target == NOOK_NNAO_TARGET_TEXTURE) {
     check_target_texture(device, images, own_texture);

@@ -114,7 +114,9 @@ void NnaoPass::render(const nook_nnao_frame_desc& frame) {
   for (const GLuint unit : {NOOK_UNIT_DEPTH, NOOK_UNIT_AO, NOOK_UNIT_LAYER, NOOK_UNIT_MOTION})
     bind_texture(unit, 0);
   bind_texture(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
-  draw(depth_stage_, constants, depth.framebuffer(), surface);
+  const bool apart = frame.layer == NOOK_NNAO_LAYER_APART;
+  if (apart) bind_texture(NOOK_UNIT_LAYER, frame.layer_texture);
+  draw(apart ? apart_depth_stage_ : depth_stage_, constants, depth.framebuffer(), surface);
   bind_texture(NOOK_UNIT_DEPTH, depth.texture());
   bind_texture(NOOK_UNIT_NORMAL, frame.normal_texture);
   if (normals_stage_.program.name() != 0) {

@@ -133,17 +133,19 @@ NnaoPass::Stage NnaoPass::make_stage(Object program) const {
 void NnaoPass::make_programs(const nnao::Network& network) {
   const bool horizon = network.form == nnao::NetworkForm::horizon;
   const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
-  char defines[200], layered[240];
+  char defines[200], layered[240], apart[240];
   std::snprintf(
       defines, sizeof defines,
       "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_DIRECTIONS %u\n#define NOOK_STEPS %u\n"
       "#define NOOK_BENT_NORMALS %d\n#define NOOK_TEMPORAL %d\n",
       half(), horizon, grid.directions, grid.steps, desc_.bent_normals, temporal());
   std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
+  std::snprintf(apart, sizeof apart, "%s#define NOOK_APART 1\n", defines);
   const auto drawn = [&](const char* path, const char* text) {
     return make_stage(draw_program(device_, "nnao/screen.vert", path, text));
   };
   depth_stage_ = drawn("nnao/depth.frag", defines);
+  apart_depth_stage_ = drawn("nnao/depth.frag", apart);
   if (!horizon) normals_stage_ = drawn("nnao/normals.frag", defines);
   occlusion_stage_ = path_ == NOOK_NNAO_PATH_COMPUTE
                          ? make_stage(compute_program(device_, "nnao/occlusion.comp", defines))
