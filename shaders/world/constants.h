@@ -22,6 +22,18 @@
 #define NOOK_HORIZON_21 1.05297
 #define NOOK_HORIZON_22 -0.51604
 
+// w1 and w2 of a small disc, b = 1: sums of the above.
+#define NOOK_HORIZON_FAR_1 0.25
+#define NOOK_HORIZON_FAR_2 0.0378
+
+// Texels of the table of casters: of a body, a part of it, a caster. Texels of a tile's list: its first entry
+// and their number; an entry is a number of a body, four to a texel.
+#define NOOK_BODY_TEXELS 4
+#define NOOK_PART_TEXELS 4
+#define NOOK_CASTER_TEXELS 2
+// Pixels along the side of a tile.
+#define NOOK_TILE_SIZE 32
+
 // The equal parts of a cone of light.
 #define NOOK_CONE_PARTS 16
 

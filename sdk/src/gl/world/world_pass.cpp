@@ -1,9 +1,14 @@
 #include "sdk/src/gl/world/world_pass.h"
 
+#include <algorithm>
+
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/program.h"
 #include "sdk/src/gl/state_guard.h"
+#include "sdk/src/gl/world/caster_texels.h"
+#include "sdk/src/nnao/host_depth.h"
 #include "shaders/nnao/layout.h"
+#include "shaders/world/constants.h"
 
 namespace nook::gl {
 namespace {
@@ -11,19 +16,16 @@ namespace {
 // Multiplies the target by AO; alpha stays.
 constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE, GL_FUNC_ADD, GL_FUNC_ADD};
 
-constexpr std::uint64_t group_texels = 2, caster_texels = 2;
-
-// A rotation and a translation, column-major.
-Vec3 viewed(const float* m, Vec3 p) {
-  return {m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12], m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
-          m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]};
-}
+// Textures that only this pass has. Those that are not read by the same stage share a unit.
+constexpr GLuint caster_unit = filter_unit, half_ao_unit = filter_unit;
+constexpr GLuint half_depth_unit = NOOK_UNIT_NORMAL, other_ao_unit = NOOK_UNIT_MOTION;
 
 // The frame's constants of the screen pass that this pass does not use have the values of such a pass.
-nook_nnao_desc plain_pass() {
+nook_nnao_desc plain_pass(bool half) {
   nook_nnao_desc desc{};
   desc.taps = 32;
   desc.blur_sharpness = 16;
+  desc.half_resolution = half;
   return desc;
 }
 
@@ -33,7 +35,11 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
     : device_(device),
       max_width_(desc.max_width),
       max_height_(desc.max_height),
-      casters_(device.memory, filter_unit) {
+      half_(desc.half_resolution != 0),
+      casters_(device.memory, caster_unit),
+      kept_(device.memory),
+      ranges_(device.memory),
+      lists_(device.memory) {
   const Functions& gl = device.gl;
   GLint largest = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -43,14 +49,19 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
         "desc.max_width x desc.max_height is larger than this OpenGL's textures (got %d x %d, need at "
         "most %d x %d)",
         desc.max_width, desc.max_height, largest, largest);
-  stage_ = make_stage("");
-  layered_stage_ = make_stage("#define NOOK_LAYERED 1\n");
+  const char* const output = half_ ? "world/resolve.frag" : "world/darken.frag";
+  const char* const defines = half_ ? "#define NOOK_HALF 1\n" : "#define NOOK_HALF 0\n";
+  const char* const layered = half_ ? "#define NOOK_HALF 1\n#define NOOK_LAYERED 1\n"
+                                    : "#define NOOK_HALF 0\n#define NOOK_LAYERED 1\n";
+  output_ = make_stage(output, defines);
+  layered_output_ = make_stage(output, layered);
+  if (half_) make_half(desc);
   own_ = RenderTexture(device, TextureFormat::ao, desc.max_width, desc.max_height, "nook: AO of the world");
-  const std::uint64_t texels = std::uint64_t{desc.casters} * caster_texels;
+  const std::uint64_t texels = std::uint64_t{desc.casters} * NOOK_CASTER_TEXELS;
   if (texels > device.max_texels)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "desc.casters is larger than this OpenGL's tables (got %u, need at most %llu)",
-                  desc.casters, static_cast<unsigned long long>(device.max_texels / caster_texels));
+                  desc.casters, static_cast<unsigned long long>(device.max_texels / NOOK_CASTER_TEXELS));
   casters_.reserve(device, GL_RGBA32F, texels, "nook: world casters");
   sampler_ = Object::make(device, Object::Kind::sampler);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
@@ -64,79 +75,160 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
   device.check("making the world pass");
 }
 
-WorldPass::Stage WorldPass::make_stage(const char* defines) {
+WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines) {
   Stage stage;
-  stage.program = draw_program(device_, "nnao/screen.vert", "world/darken.frag", defines);
-  stage.frame = uniform_location(device_, stage.program, "nook_frame");
-  stage.groups = uniform_location(device_, stage.program, "nook_world_groups");
+  stage.program = draw_program(device_, "nnao/screen.vert", fragment, defines);
+  const auto at = [&](const char* name) { return uniform_location(device_, stage.program, name); };
+  stage.frame = at("nook_frame");
+  stage.groups = at("nook_world_groups");
+  stage.columns = at("nook_world_tile_columns");
+  stage.first_tile = at("nook_world_first_tile");
+  stage.composition = at("nook_world_composition");
+  stage.counts = at("nook_world_counts");
   device_.gl.UseProgram(stage.program.name());
   const struct {
     const char* name;
     GLint unit;
   } samplers[] = {{"nook_host_depth", NOOK_UNIT_DEPTH},
                   {"nook_host_normal", NOOK_UNIT_NORMAL},
-                  {"nook_world_casters", filter_unit},
-                  {"nook_layer", NOOK_UNIT_LAYER}};
+                  {"nook_world_casters", caster_unit},
+                  {"nook_layer", NOOK_UNIT_LAYER},
+                  {"nook_other_ao", other_ao_unit},
+                  {"nook_depth", half_depth_unit},
+                  {"nook_ao", half_ao_unit}};
   // Where a stage has no such sampler the location is -1, which OpenGL ignores.
-  for (const auto& sampler : samplers)
-    device_.gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
+  for (const auto& sampler : samplers) device_.gl.Uniform1i(at(sampler.name), sampler.unit);
   return stage;
 }
 
-std::uint64_t WorldPass::bytes() const {
-  return std::uint64_t(max_width_) * std::uint64_t(max_height_) * bytes_per_texel(TextureFormat::ao) +
-         casters_.bytes();
+void WorldPass::make_half(const nook_world_pass_desc& desc) {
+  half_depth_ = make_stage("nnao/depth.frag", "#define NOOK_HALF 1\n");
+  half_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n");
+  const int width = surface_length(desc.max_width, true), height = surface_length(desc.max_height, true);
+  depth_ = RenderTexture(device_, TextureFormat::depth, width, height, "nook: depth of every fourth pixel");
+  ao_ = RenderTexture(device_, TextureFormat::ao, width, height, "nook: AO of every fourth pixel");
 }
 
-void WorldPass::check(const nook_nnao_frame_desc& frame) {
-  const HostImages images = images_of(frame, false);
+std::uint64_t WorldPass::bytes() const {
+  const auto texels = [](std::uint64_t width, std::uint64_t height) { return width * height; };
+  std::uint64_t sum = texels(max_width_, max_height_) * bytes_per_texel(TextureFormat::ao);
+  if (half_)
+    sum += texels(surface_length(max_width_, true), surface_length(max_height_, true)) *
+           (bytes_per_texel(TextureFormat::ao) + bytes_per_texel(TextureFormat::depth));
+  return sum + casters_.bytes();
+}
+
+void WorldPass::check(const WorldFrame& frame) {
+  HostImages images = images_of(frame.screen, false);
+  images.ao = frame.ao_texture;
   if (checked_ == images) return;
   checked_.reset();
   check_images(device_, images, own_.texture(), target_framebuffer_.name());
   checked_ = images;
 }
 
-void WorldPass::upload(const float* view, const ReachingGroups& groups) {
-  groups_ = groups.count;
-  caster_count_ = groups.casters;
-  const std::uint64_t texels = groups.count * group_texels + groups.casters * caster_texels;
-  if (texels == 0) return;
+std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& groups) {
+  const Viewport viewport = viewport_of(frame.screen);
+  const auto width = std::uint32_t(viewport.width), height = std::uint32_t(viewport.height);
+  const nnao::ScreenRays rays = nnao::projection_rays(frame.screen.projection, width, height);
+  const world::TileGrid grid{width,        height,        rays.x_scale,     rays.x_offset,
+                             rays.y_scale, rays.y_offset, rays.orthographic};
+  kept_.clear();
+  ranges_.clear();
+  caster_count_ = 0;
+  std::uint64_t texels = 0;
+  for (std::uint32_t g = 0; g < groups.count; ++g) {
+    PosedCaster room;
+    const ReachingGroup group = groups.group(groups.user, g, room);
+    if (group.casters.empty()) continue;
+    const world::TileRange tiles = world::covered_tiles(grid, viewed(frame.view, group.centre), group.reach);
+    if (tiles.empty) continue;
+    kept_.push_back(g);
+    ranges_.push_back(tiles);
+    caster_count_ += static_cast<std::uint32_t>(group.casters.size());
+    texels += texels_of(group);
+  }
   if (texels > device_.max_texels)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
-        "the frame has more casters than this OpenGL has room for (got %u in %u bodies, need at most %u "
-        "of both); leave out bodies that are far from the view",
-        groups.casters, groups.count, device_.max_texels / 2);
+        "the frame has more casters in view than this OpenGL has room for (got %u in %u bodies, need at most "
+        "%u of both); leave out bodies that are far from the view",
+        caster_count_, group_count(), device_.max_texels / NOOK_BODY_TEXELS);
+  world::write_tile_lists(grid, ranges_, lists_);
+  // Lists that outgrow OpenGL's tables are left out: every body counts at every pixel.
+  const bool fits = !kept_.empty() && texels + lists_.size() / 4 <= device_.max_texels;
+  tile_columns_ = fits ? grid.columns() : 0;
+  first_tile_ = static_cast<std::uint32_t>(texels);
+  return texels + (fits ? lists_.size() / 4 : 0);
+}
+
+void WorldPass::upload(const WorldFrame& frame, const ReachingGroups& groups) {
+  const std::uint64_t texels = choose(frame, groups);
+  if (texels == 0) return;
   casters_.write(device_, texels, [&](void* memory) {
-    auto* const out = static_cast<float*>(memory);
-    const auto put = [&](std::uint64_t texel, Vec3 place, float w) {
-      float* const at = out + 4 * texel;
-      at[0] = place.x;
-      at[1] = place.y;
-      at[2] = place.z;
-      at[3] = w;
-    };
-    std::uint64_t next = groups.count * group_texels;
-    for (std::uint32_t g = 0; g < groups.count; ++g) {
+    CasterTexels out(static_cast<float*>(memory), frame.view, group_count());
+    for (std::uint32_t body = 0; body < group_count(); ++body) {
       PosedCaster room;
-      const ReachingGroup group = groups.group(groups.user, g, room);
-      put(g * group_texels, viewed(view, group.centre), group.reach);
-      put(g * group_texels + 1, {float(next), float(group.casters.size()), 0}, 0);
-      for (const PosedCaster& caster : group.casters) {
-        put(next++, viewed(view, caster.capsule.a), caster.ao_scale * caster.capsule.radius_a);
-        put(next++, viewed(view, caster.capsule.b), caster.ao_scale * caster.capsule.radius_b);
-      }
+      out.put(body, groups.group(groups.user, kept_[body], room), frame.level_error);
     }
+    if (tile_columns_ != 0)
+      std::copy(lists_.begin(), lists_.end(), static_cast<float*>(memory) + 4 * std::size_t{first_tile_});
   });
 }
 
-void WorldPass::render(const nook_nnao_frame_desc& frame, const float* view, const ReachingGroups& groups) {
-  check(frame);
+void WorldPass::set_frame(const Stage& stage, const WorldFrame& frame,
+                          const FrameConstants& constants) const {
   const Functions& gl = device_.gl;
-  const bool layered = frame.layer != NOOK_NNAO_LAYER_NONE;
-  const bool to_texture = frame.target == NOOK_NNAO_TARGET_TEXTURE;
-  const Stage& stage = layered ? layered_stage_ : stage_;
-  upload(view, groups);
+  gl.UseProgram(stage.program.name());
+  gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
+  gl.Uniform1i(stage.groups, static_cast<GLint>(group_count()));
+  gl.Uniform1i(stage.columns, static_cast<GLint>(tile_columns_));
+  gl.Uniform1i(stage.first_tile, static_cast<GLint>(first_tile_));
+  gl.Uniform1i(stage.composition, frame.ao_texture ? 1 + frame.composition : 0);
+  gl.Uniform1i(stage.counts, frame.counts);
+}
+
+void WorldPass::draw(GLuint framebuffer, const Viewport& viewport) const {
+  const Functions& gl = device_.gl;
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void WorldPass::draw_half(const WorldFrame& frame, const FrameConstants& constants) {
+  const Viewport viewport = viewport_of(frame.screen);
+  const Viewport surface{0, 0, surface_length(viewport.width, true), surface_length(viewport.height, true)};
+  set_frame(half_depth_, frame, constants);
+  draw(depth_.framebuffer(), surface);
+  set_frame(half_ao_, frame, constants);
+  draw(ao_.framebuffer(), surface);
+}
+
+void WorldPass::draw_output(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) {
+  const Functions& gl = device_.gl;
+  const nook_nnao_frame_desc& screen = frame.screen;
+  const bool to_texture = screen.target == NOOK_NNAO_TARGET_TEXTURE;
+  set_frame(stage, frame, constants);
+  GLuint framebuffer = own_.framebuffer();
+  if (screen.target != NOOK_NNAO_TARGET_OWN) {
+    framebuffer = to_texture ? target_framebuffer_.name() : screen.target_name;
+    if (gl.can.desktop_raster) gl.Enable(GL_FRAMEBUFFER_SRGB);  // OpenGL ES has no switch: it is on
+    if (screen.blend == NOOK_NNAO_MULTIPLY) set_blend(gl, multiplying);
+  }
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  if (to_texture)
+    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, screen.target_name, 0);
+  draw(framebuffer, viewport_of(screen));
+  // If it stayed attached, a texture that the host deletes would live on.
+  if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+}
+
+void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
+  check(frame);
+  upload(frame, groups);
+  const Functions& gl = device_.gl;
+  const nook_nnao_frame_desc& screen = frame.screen;
+  const bool layered = screen.layer != NOOK_NNAO_LAYER_NONE;
   set_plain_drawing(gl);
   gl.BindVertexArray(vertex_array_.name());
   for (GLuint unit = 0; unit < texture_unit_count; ++unit) gl.BindSampler(unit, sampler_.name());
@@ -144,31 +236,20 @@ void WorldPass::render(const nook_nnao_frame_desc& frame, const float* view, con
     gl.ActiveTexture(GL_TEXTURE0 + unit);
     gl.BindTexture(GL_TEXTURE_2D, texture);
   };
-  bind(NOOK_UNIT_DEPTH, frame.depth_texture);
-  bind(NOOK_UNIT_NORMAL, frame.normal_texture);
-  bind(filter_unit, 0);
-  bind(NOOK_UNIT_LAYER, layered ? frame.layer_texture : 0);
+  bind(NOOK_UNIT_DEPTH, screen.depth_texture);
+  bind(NOOK_UNIT_NORMAL, screen.normal_texture);
+  bind(other_ao_unit, frame.ao_texture);
+  bind(NOOK_UNIT_LAYER, 0);
+  bind(caster_unit, 0);
   casters_.bind(device_);
-
-  const FrameConstants constants = frame_constants(frame, plain_pass(), 0);
-  gl.UseProgram(stage.program.name());
-  gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
-  gl.Uniform1i(stage.groups, static_cast<GLint>(groups_));
-
-  GLuint framebuffer = own_.framebuffer();
-  if (frame.target != NOOK_NNAO_TARGET_OWN) {
-    framebuffer = to_texture ? target_framebuffer_.name() : frame.target_name;
-    if (gl.can.desktop_raster) gl.Enable(GL_FRAMEBUFFER_SRGB);  // OpenGL ES has no switch: it is on
-    if (frame.blend == NOOK_NNAO_MULTIPLY) set_blend(gl, multiplying);
+  const FrameConstants constants = frame_constants(screen, plain_pass(half_), 0);
+  if (half_) {
+    draw_half(frame, constants);
+    bind(half_depth_unit, depth_.texture());
+    bind(half_ao_unit, ao_.texture());
   }
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  if (to_texture)
-    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, frame.target_name, 0);
-  const Viewport viewport = viewport_of(frame);
-  set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  // If it stayed attached, a texture that the host deletes would live on.
-  if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+  if (layered) bind(NOOK_UNIT_LAYER, screen.layer_texture);
+  draw_output(layered ? layered_output_ : output_, frame, constants);
 }
 
 }  // namespace nook::gl
