@@ -15,7 +15,7 @@ void main() {
 #endif
   float depth = nook_screen_depth(texel);
 #ifdef NOOK_APART
-  // What casters stand for is no occluder of this pass.
+  // A surface that casters stand for is no occluder of this pass.
   if (texelFetch(nook_layer, texel + nook_origin, 0).g > 0.5) depth = nook_no_surface;
 #endif
   nook_out = floatBitsToUint(depth);

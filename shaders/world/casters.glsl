@@ -2,7 +2,7 @@
 // reach; its first part, the number of parts, the squared distance from which one capsule stands for it; that capsule.
 // A part has four texels: its centre and the squared distance from which one capsule stands for it; its first caster and
 // their number; that capsule. A capsule is two texels, its ends with their radii in AO. Props and occluders are bodies
-// without parts.
+// of one part that has one caster.
 #include "shaders/core/texels.glsl"
 #include "shaders/world/coverage.glsl"
 
@@ -48,7 +48,6 @@ float nook_world_body_open(int body, vec3 point, vec3 normal) {
   if (distance2 > reach.w * reach.w) return 1.0;
   vec4 parts = nook_texel(nook_world_casters, texel + 1);
   int first = int(parts.x), last = first + NOOK_PART_TEXELS * int(parts.y);
-  if (first == last) return nook_world_caster_open(texel + 2, point, normal);
   if (distance2 > parts.z) return nook_world_merged_open(texel + 2, point, normal);
   return nook_world_parts_open(first, last, point, normal);
 }

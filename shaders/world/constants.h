@@ -31,8 +31,6 @@
 #define NOOK_BODY_TEXELS 4
 #define NOOK_PART_TEXELS 4
 #define NOOK_CASTER_TEXELS 2
-// Pixels along the side of a tile.
-#define NOOK_TILE_SIZE 32
 
 // The equal parts of a cone of light.
 #define NOOK_CONE_PARTS 16

@@ -9,7 +9,8 @@
 uniform sampler2D nook_host_normal;
 // The lists of bodies that may reach a tile lie behind the casters: for each tile a texel, then the entries.
 uniform int nook_world_first_tile;
-uniform int nook_world_tile_columns;  // 0: there are no lists, and every body counts
+uniform int nook_world_tile_columns;  // 0: no body reaches the view
+uniform int nook_world_tile_size;     // pixels along a side
 uniform int nook_world_counts;  // 1: shows the number of casters that a pixel evaluates, over 255
 
 out vec4 nook_out;
@@ -43,14 +44,14 @@ vec3 nook_world_normal(ivec2 pixel, vec3 position) {
 }
 
 float nook_world_tile_open(ivec2 pixel, vec3 point, vec3 normal) {
-  if (nook_world_tile_columns == 0) return nook_world_open(point, normal);
-  ivec2 tile = pixel / NOOK_TILE_SIZE;
+  if (nook_world_tile_columns == 0) return 1.0;
+  ivec2 tile = pixel / nook_world_tile_size;
   vec4 range = nook_texel(nook_world_casters, nook_world_first_tile + tile.y * nook_world_tile_columns + tile.x);
   int first = nook_world_first_tile + int(range.x), count = int(range.y);
   float open = 1.0;
-  for (int i = 0; i < count; i += 4) {
-    vec4 bodies = nook_texel(nook_world_casters, first + i / 4);
-    for (int k = 0; k < min(4, count - i); ++k) open *= nook_world_body_open(int(bodies[k]), point, normal);
+  for (int i = 0; i < count; ++i) {
+    int body = int(nook_texel(nook_world_casters, first + (i >> 2))[i & 3]);
+    open *= nook_world_body_open(body, point, normal);
   }
   return open;
 }

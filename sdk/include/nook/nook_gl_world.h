@@ -12,8 +12,8 @@
  *     nook_world_render(world, &frame);
  * The texture of the world pass is then AO of everything.
  *
- * The casters of a frame go through lists of tiles of 32 pixels: a body is in those of the tiles that its
- * reach may cover on the screen. */
+ * The casters of a frame go through lists of tiles of 32 pixels, larger ones where OpenGL has no room for so
+ * many: a body is in the lists of the tiles that its reach may cover on the screen. */
 #ifndef NOOK_GL_WORLD_H
 #define NOOK_GL_WORLD_H
 
@@ -60,7 +60,7 @@ NOOK_API void nook_world_pass_destroy(nook_world_pass* pass);
 
 /* The composition of the darkening w by casters with AO s of another kind. */
 enum {
-  /* s w: s knows nothing of the casters, as that of nook_nnao_render with NOOK_NNAO_LAYER_APART. */
+  /* s w: the casters have no part in s, as in that of nook_nnao_render with NOOK_NNAO_LAYER_APART. */
   NOOK_WORLD_PRODUCT = 0,
   /* min(s, w): s has the casters' darkening as well. */
   NOOK_WORLD_MINIMUM = 1

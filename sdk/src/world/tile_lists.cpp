@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shaders/world/constants.h"
-
 namespace nook::world {
 namespace {
 
-constexpr std::uint32_t tiles_along(std::uint32_t length_px) {
-  return (length_px + NOOK_TILE_SIZE - 1) / NOOK_TILE_SIZE;
+constexpr std::uint32_t tiles_along(std::uint32_t length_px, std::uint32_t tile_px) {
+  return (length_px + tile_px - 1) / tile_px;
 }
 
 // Tangents of the directions between which a sphere lies, in the plane of an axis of the screen and the
@@ -28,14 +26,14 @@ Extent perspective_extent(float aside, float depth, float radius) {
 }
 
 // Returns false where no pixel from 0 to size_px lies between.
-bool tiles_between(Extent extent, float scale, float offset, std::uint32_t size_px, std::uint32_t& first,
-                   std::uint32_t& last) {
+bool tiles_between(Extent extent, float scale, float offset, std::uint32_t size_px, std::uint32_t tile_px,
+                   std::uint32_t& first, std::uint32_t& last) {
   float low = (extent.low - offset) / scale, high = (extent.high - offset) / scale;
   if (low > high) std::swap(low, high);
   // Also where a number is NaN.
   if (!(high >= 0 && low <= float(size_px))) return std::isnan(low) || std::isnan(high);
   const auto tile = [&](float pixel) {
-    return std::uint32_t(std::clamp(pixel, 0.0f, float(size_px - 1))) / NOOK_TILE_SIZE;
+    return std::uint32_t(std::clamp(pixel, 0.0f, float(size_px - 1))) / tile_px;
   };
   first = tile(low);
   last = tile(high);
@@ -45,11 +43,11 @@ bool tiles_between(Extent extent, float scale, float offset, std::uint32_t size_
 }  // namespace
 
 std::uint32_t TileGrid::columns() const {
-  return tiles_along(width_px);
+  return tiles_along(width_px, tile_px);
 }
 
 std::uint32_t TileGrid::rows() const {
-  return tiles_along(height_px);
+  return tiles_along(height_px, tile_px);
 }
 
 TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius) {
@@ -61,10 +59,20 @@ TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius) {
     x = perspective_extent(centre.x, depth, radius);
     y = perspective_extent(centre.y, depth, radius);
   }
-  range.empty =
-      !tiles_between(x, grid.x_scale, grid.x_offset, grid.width_px, range.first_column, range.last_column) ||
-      !tiles_between(y, grid.y_scale, grid.y_offset, grid.height_px, range.first_row, range.last_row);
+  range.empty = !tiles_between(x, grid.x_scale, grid.x_offset, grid.width_px, grid.tile_px,
+                               range.first_column, range.last_column) ||
+                !tiles_between(y, grid.y_scale, grid.y_offset, grid.height_px, grid.tile_px, range.first_row,
+                               range.last_row);
   return range;
+}
+
+std::uint64_t most_list_texels(const TileGrid& grid, std::span<const TileRange> ranges) {
+  std::uint64_t entries = 0;
+  for (const TileRange& r : ranges)
+    if (!r.empty)
+      entries += std::uint64_t{r.last_column - r.first_column + 1} * (r.last_row - r.first_row + 1);
+  // Each tile has a texel, and one that is not full.
+  return 2 * std::uint64_t{grid.columns()} * grid.rows() + entries / 4;
 }
 
 void write_tile_lists(const TileGrid& grid, std::span<const TileRange> ranges, Vector<float>& texels) {

@@ -136,7 +136,7 @@ TEST_CASE("export: glTF's extras are the casters themselves") {
   CHECK(none.largest == 0);
 }
 
-TEST_CASE("export: the error of capsules of one radius is small, and the text says it") {
+TEST_CASE("export: the error of capsules of one radius is small, and stands in the text") {
   const CharacterModel model = model_with_joints();
   const ExportError error = export_error(model, CasterFormat::unreal, CasterRadii::ao);
   CHECK(error.rms > 0);

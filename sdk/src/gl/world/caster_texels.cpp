@@ -14,6 +14,9 @@ constexpr std::array<std::uint8_t, world::max_part_casters> every_caster = [] {
   return order;
 }();
 
+// The parts of a prop or an occluder.
+constexpr world::CasterParts one_caster{1, {0, 1}, {}};
+
 // A sphere round the casters that `order` picks and the AO that they take far away, as caster_strength.
 struct Bound {
   Vec3 centre;
@@ -47,10 +50,8 @@ Vec3 viewed(const float* m, Vec3 p) {
 }
 
 std::uint64_t texels_of(const ReachingGroup& group) {
-  std::uint64_t texels = NOOK_BODY_TEXELS;
-  if (group.parts)
-    texels += group.parts->count * NOOK_PART_TEXELS + group.casters.size() * NOOK_CASTER_TEXELS;
-  return texels;
+  const std::uint64_t parts = group.parts ? group.parts->count : 1;
+  return NOOK_BODY_TEXELS + parts * NOOK_PART_TEXELS + group.casters.size() * NOOK_CASTER_TEXELS;
 }
 
 CasterTexels::CasterTexels(float* table, const float* view, std::uint32_t bodies)
@@ -77,19 +78,16 @@ void CasterTexels::put_capsule(std::uint64_t texel, const Capsule& capsule, floa
 void CasterTexels::put(std::uint32_t body, const ReachingGroup& group, float level_error) {
   const std::uint64_t texel = std::uint64_t{body} * NOOK_BODY_TEXELS;
   put_place(texel, group.centre, group.reach);
-  if (!group.parts) {
-    put(texel + 1, 0, 0, endless_reach * endless_reach, 0);
-    put_capsule(texel + 2, group.casters[0].capsule, group.casters[0].ao_scale);
-    return;
-  }
+  const world::CasterParts& parts = group.parts ? *group.parts : one_caster;
+  // One caster has no level below it.
+  if (!group.parts) level_error = 0;
   const float far = world::merging_distance(group.strength, group.radius, level_error);
-  put(texel + 1, float(next_), float(group.parts->count), squared(far), 0);
+  put(texel + 1, float(next_), float(parts.count), squared(far), 0);
   put_capsule(texel + 2, world::merged(group.casters, {every_caster.data(), group.casters.size()}), 1);
-  put_parts(group, level_error);
+  put_parts(group, parts, level_error);
 }
 
-void CasterTexels::put_parts(const ReachingGroup& group, float level_error) {
-  const world::CasterParts& parts = *group.parts;
+void CasterTexels::put_parts(const ReachingGroup& group, const world::CasterParts& parts, float level_error) {
   std::uint64_t part = next_, caster = next_ + std::uint64_t{parts.count} * NOOK_PART_TEXELS;
   for (std::uint32_t p = 0; p < parts.count; ++p, part += NOOK_PART_TEXELS) {
     const std::span<const std::uint8_t> order{parts.order.data() + parts.first[p],

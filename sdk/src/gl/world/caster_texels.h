@@ -25,7 +25,7 @@ class CasterTexels {
   void put(std::uint64_t texel, float x, float y, float z, float w);
   void put_place(std::uint64_t texel, Vec3 place, float w);
   void put_capsule(std::uint64_t texel, const Capsule& capsule, float scale);
-  void put_parts(const ReachingGroup& group, float level_error);
+  void put_parts(const ReachingGroup& group, const world::CasterParts& parts, float level_error);
 
   float* table_;
   const float* view_;

@@ -29,6 +29,14 @@ nook_nnao_desc plain_pass(bool half) {
   return desc;
 }
 
+[[noreturn]] void refuse_casters(const Device& device, std::uint32_t casters, std::uint32_t bodies) {
+  throw Failure(
+      NOOK_ERROR_INVALID_ARGUMENT,
+      "the frame has more casters in view than this OpenGL has room for (got %u in %u bodies, need at most "
+      "%u of both); leave out bodies that are far from the view",
+      casters, bodies, device.max_texels / NOOK_BODY_TEXELS);
+}
+
 }  // namespace
 
 WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
@@ -82,6 +90,7 @@ WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines
   stage.frame = at("nook_frame");
   stage.groups = at("nook_world_groups");
   stage.columns = at("nook_world_tile_columns");
+  stage.tile_size = at("nook_world_tile_size");
   stage.first_tile = at("nook_world_first_tile");
   stage.composition = at("nook_world_composition");
   stage.counts = at("nook_world_counts");
@@ -131,8 +140,14 @@ std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& g
   const Viewport viewport = viewport_of(frame.screen);
   const auto width = std::uint32_t(viewport.width), height = std::uint32_t(viewport.height);
   const nnao::ScreenRays rays = nnao::projection_rays(frame.screen.projection, width, height);
-  const world::TileGrid grid{width,        height,        rays.x_scale,     rays.x_offset,
-                             rays.y_scale, rays.y_offset, rays.orthographic};
+  world::TileGrid grid;
+  grid.width_px = width;
+  grid.height_px = height;
+  grid.x_scale = rays.x_scale;
+  grid.x_offset = rays.x_offset;
+  grid.y_scale = rays.y_scale;
+  grid.y_offset = rays.y_offset;
+  grid.orthographic = rays.orthographic;
   kept_.clear();
   ranges_.clear();
   caster_count_ = 0;
@@ -148,18 +163,27 @@ std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& g
     caster_count_ += static_cast<std::uint32_t>(group.casters.size());
     texels += texels_of(group);
   }
-  if (texels > device_.max_texels)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the frame has more casters in view than this OpenGL has room for (got %u in %u bodies, need at most "
-        "%u of both); leave out bodies that are far from the view",
-        caster_count_, group_count(), device_.max_texels / NOOK_BODY_TEXELS);
-  world::write_tile_lists(grid, ranges_, lists_);
-  // Lists that outgrow OpenGL's tables are left out: every body counts at every pixel.
-  const bool fits = !kept_.empty() && texels + lists_.size() / 4 <= device_.max_texels;
-  tile_columns_ = fits ? grid.columns() : 0;
   first_tile_ = static_cast<std::uint32_t>(texels);
-  return texels + (fits ? lists_.size() / 4 : 0);
+  tile_columns_ = 0;
+  if (kept_.empty()) return 0;
+  // Larger tiles have shorter lists, down to one list of all bodies.
+  while (texels + world::most_list_texels(grid, ranges_) > device_.max_texels &&
+         grid.columns() * grid.rows() > 1) {
+    grid.tile_px *= 2;
+    for (world::TileRange& range : ranges_) {
+      range.first_column /= 2;
+      range.last_column /= 2;
+      range.first_row /= 2;
+      range.last_row /= 2;
+    }
+  }
+  if (texels + world::most_list_texels(grid, ranges_) > device_.max_texels)
+    refuse_casters(device_, caster_count_, group_count());
+  world::write_tile_lists(grid, ranges_, lists_);
+  texels += lists_.size() / 4;
+  tile_px_ = grid.tile_px;
+  tile_columns_ = grid.columns();
+  return texels;
 }
 
 void WorldPass::upload(const WorldFrame& frame, const ReachingGroups& groups) {
@@ -171,8 +195,7 @@ void WorldPass::upload(const WorldFrame& frame, const ReachingGroups& groups) {
       PosedCaster room;
       out.put(body, groups.group(groups.user, kept_[body], room), frame.level_error);
     }
-    if (tile_columns_ != 0)
-      std::copy(lists_.begin(), lists_.end(), static_cast<float*>(memory) + 4 * std::size_t{first_tile_});
+    std::copy(lists_.begin(), lists_.end(), static_cast<float*>(memory) + 4 * std::size_t{first_tile_});
   });
 }
 
@@ -183,6 +206,7 @@ void WorldPass::set_frame(const Stage& stage, const WorldFrame& frame,
   gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
   gl.Uniform1i(stage.groups, static_cast<GLint>(group_count()));
   gl.Uniform1i(stage.columns, static_cast<GLint>(tile_columns_));
+  gl.Uniform1i(stage.tile_size, static_cast<GLint>(tile_px_));
   gl.Uniform1i(stage.first_tile, static_cast<GLint>(first_tile_));
   gl.Uniform1i(stage.composition, frame.ao_texture ? 1 + frame.composition : 0);
   gl.Uniform1i(stage.counts, frame.counts);

@@ -69,7 +69,8 @@ class WorldPass {
  private:
   struct Stage {
     Object program;
-    GLint frame = -1, groups = -1, columns = -1, first_tile = -1, composition = -1, counts = -1;
+    GLint frame = -1, groups = -1, columns = -1, first_tile = -1, tile_size = -1, composition = -1,
+          counts = -1;
   };
   Stage make_stage(const char* fragment, const char* defines);
   void make_half(const nook_world_pass_desc& desc);
@@ -93,7 +94,7 @@ class WorldPass {
   Vector<std::uint32_t> kept_;  // the groups that reach the view
   Vector<world::TileRange> ranges_;
   Vector<float> lists_;
-  std::uint32_t caster_count_ = 0, tile_columns_ = 0, first_tile_ = 0;
+  std::uint32_t caster_count_ = 0, tile_columns_ = 0, first_tile_ = 0, tile_px_ = 32;
   std::optional<HostImages> checked_;
 };
 
