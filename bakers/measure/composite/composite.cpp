@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr float changed_by = 0.01f;
 
-// What a rule combines at a pixel.
+// The numbers that a rule combines at a pixel.
 struct Parts {
   float screen = 1;                     // the screen pass with the characters in its depth
   float room = 1;                       // the same without them: their pixels hide nothing

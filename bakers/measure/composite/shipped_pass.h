@@ -1,5 +1,5 @@
-// What a host gets: the screen pass with the characters apart, and the world pass that composes with it,
-// through the public interface.
+// The screen pass with the characters apart, and the world pass that composes with it, through the public
+// interface, as a host has them.
 #pragma once
 
 #include <nook/nook_gl_world.h>
