@@ -2,6 +2,7 @@
 // row. The later stages read it many times, and the host's depth costs a division each time.
 #include "shaders/nnao/host_depth.glsl"
 
+// NOOK_APART: the weight of the layer above which there is no surface.
 #ifdef NOOK_APART
 uniform sampler2D nook_layer;
 #endif
@@ -15,8 +16,7 @@ void main() {
 #endif
   float depth = nook_screen_depth(texel);
 #ifdef NOOK_APART
-  // A surface that casters stand for is no occluder of this pass.
-  if (texelFetch(nook_layer, texel + nook_origin, 0).g > 0.5) depth = nook_no_surface;
+  if (texelFetch(nook_layer, texel + nook_origin, 0).g > NOOK_APART) depth = nook_no_surface;
 #endif
   nook_out = floatBitsToUint(depth);
 }

@@ -32,6 +32,9 @@
 #define NOOK_PART_TEXELS 4
 #define NOOK_CASTER_TEXELS 2
 
+// The weight of a layer from which on no more than a step of 8 bits is left of what it replaces.
+#define NOOK_REPLACED 0.998
+
 // The equal parts of a cone of light.
 #define NOOK_CONE_PARTS 16
 

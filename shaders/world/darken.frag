@@ -4,6 +4,8 @@
 #include "shaders/world/casters.glsl"
 #if !NOOK_HALF
 #include "shaders/world/output.glsl"
+#elif defined(NOOK_LAYERED)
+uniform sampler2D nook_layer;
 #endif
 
 uniform sampler2D nook_host_normal;
@@ -56,6 +58,15 @@ float nook_world_tile_open(ivec2 pixel, vec3 point, vec3 normal) {
   return open;
 }
 
+// Whether the layer replaces the whole of the result.
+bool nook_world_replaced(ivec2 pixel) {
+#ifdef NOOK_LAYERED
+  return nook_layer_mode >= 3 && texelFetch(nook_layer, pixel + nook_origin, 0).g > NOOK_REPLACED;
+#else
+  return false;
+#endif
+}
+
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
 #if NOOK_HALF
@@ -65,11 +76,11 @@ void main() {
 #endif
   float depth = nook_screen_depth(pixel);
   float open = 1.0;
-  if (depth != nook_no_surface) {
+  if (depth != nook_no_surface && !nook_world_replaced(pixel)) {
     vec3 position = nook_position(nook_screen_rays, vec2(pixel), depth);
     open = nook_world_tile_open(pixel, position, nook_world_normal(pixel, position));
-    if (nook_world_counts == 1) open = float(nook_world_evaluated) / 255.0;
   }
+  if (nook_world_counts == 1) open = float(nook_world_evaluated) / 255.0;
 #if NOOK_HALF
   nook_out = vec4(vec3(open), 1.0);
 #else

@@ -9,7 +9,10 @@ out vec4 nook_out;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy) - nook_origin;
+  if (nook_world_counts == 1) {
+    nook_out = vec4(texelFetch(nook_ao, pixel / 2, 0).rrr, 1.0);
+    return;
+  }
   float depth = nook_screen_depth(pixel);
-  float open = depth == nook_no_surface ? 1.0 : nook_upsampled(pixel, depth).r;
-  nook_out = nook_world_counts == 1 ? vec4(vec3(open), 1.0) : nook_world_result(open, pixel);
+  nook_out = nook_world_result(depth == nook_no_surface ? 1.0 : nook_upsampled(pixel, depth).r, pixel);
 }

@@ -97,7 +97,8 @@ typedef struct nook_world_frame_desc {
   const nook_world_capsule* props;
   uint32_t prop_count;
   /* AO, 0 to 1, default 1/1024: a body does not reach points from which it takes less, by the bound that
-   * nook_world_sample states. 0: every body reaches every point. */
+   * nook_world_sample states times the cosine between the normal and the highest point of the sphere round
+   * the body. 0: every body reaches every point. */
   float cutoff_error;
   /* AO, 0 to 1, default 1/256: beyond a distance one capsule stands for the casters of a limb, and beyond
    * another one for those of a body, where the rms of the difference is about this. 0: every caster counts.

@@ -140,6 +140,7 @@ gl::ReachingGroup reaching_group(const void* user, std::uint32_t index, PosedCas
           group.radius,
           endless ? gl::endless_reach : group.radius + std::sqrt(group.strength / reaching.cutoff_error),
           group.strength,
+          endless ? gl::endless_reach : group.strength / reaching.cutoff_error,
           reaching.casting->parts(index)};
 }
 

@@ -140,7 +140,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
       "#define NOOK_BENT_NORMALS %d\n#define NOOK_TEMPORAL %d\n",
       half(), horizon, grid.directions, grid.steps, desc_.bent_normals, temporal());
   std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
-  std::snprintf(apart, sizeof apart, "%s#define NOOK_APART 1\n", defines);
+  std::snprintf(apart, sizeof apart, "%s#define NOOK_APART 0.5\n", defines);
   const auto drawn = [&](const char* path, const char* text) {
     return make_stage(draw_program(device_, "nnao/screen.vert", path, text));
   };

@@ -77,12 +77,12 @@ void CasterTexels::put_capsule(std::uint64_t texel, const Capsule& capsule, floa
 
 void CasterTexels::put(std::uint32_t body, const ReachingGroup& group, float level_error) {
   const std::uint64_t texel = std::uint64_t{body} * NOOK_BODY_TEXELS;
-  put_place(texel, group.centre, group.reach);
+  put_place(texel, group.centre, group.radius);
   const world::CasterParts& parts = group.parts ? *group.parts : one_caster;
   // One caster has no level below it.
   if (!group.parts) level_error = 0;
   const float far = world::merging_distance(group.strength, group.radius, level_error);
-  put(texel + 1, float(next_), float(parts.count), squared(far), 0);
+  put(texel + 1, float(next_), float(parts.count), squared(far), group.strength_over_cutoff);
   put_capsule(texel + 2, world::merged(group.casters, {every_caster.data(), group.casters.size()}), 1);
   put_parts(group, parts, level_error);
 }

@@ -1,6 +1,7 @@
 #include "sdk/src/gl/world/world_pass.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/program.h"
@@ -113,6 +114,10 @@ WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines
 void WorldPass::make_half(const nook_world_pass_desc& desc) {
   half_depth_ = make_stage("nnao/depth.frag", "#define NOOK_HALF 1\n");
   half_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n");
+  char masked[80];
+  std::snprintf(masked, sizeof masked, "#define NOOK_HALF 1\n#define NOOK_APART %g\n", NOOK_REPLACED);
+  masked_half_depth_ = make_stage("nnao/depth.frag", masked);
+  masked_half_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n#define NOOK_LAYERED 1\n");
   const int width = surface_length(desc.max_width, true), height = surface_length(desc.max_height, true);
   depth_ = RenderTexture(device_, TextureFormat::depth, width, height, "nook: depth of every fourth pixel");
   ao_ = RenderTexture(device_, TextureFormat::ao, width, height, "nook: AO of every fourth pixel");
@@ -222,9 +227,10 @@ void WorldPass::draw(GLuint framebuffer, const Viewport& viewport) const {
 void WorldPass::draw_half(const WorldFrame& frame, const FrameConstants& constants) {
   const Viewport viewport = viewport_of(frame.screen);
   const Viewport surface{0, 0, surface_length(viewport.width, true), surface_length(viewport.height, true)};
-  set_frame(half_depth_, frame, constants);
+  const bool masked = frame.screen.layer >= NOOK_NNAO_LAYER_REPLACE;
+  set_frame(masked ? masked_half_depth_ : half_depth_, frame, constants);
   draw(depth_.framebuffer(), surface);
-  set_frame(half_ao_, frame, constants);
+  set_frame(masked ? masked_half_ao_ : half_ao_, frame, constants);
   draw(ao_.framebuffer(), surface);
 }
 
@@ -266,13 +272,13 @@ void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
   bind(NOOK_UNIT_LAYER, 0);
   bind(caster_unit, 0);
   casters_.bind(device_);
+  if (layered) bind(NOOK_UNIT_LAYER, screen.layer_texture);
   const FrameConstants constants = frame_constants(screen, plain_pass(half_), 0);
   if (half_) {
     draw_half(frame, constants);
     bind(half_depth_unit, depth_.texture());
     bind(half_ao_unit, ao_.texture());
   }
-  if (layered) bind(NOOK_UNIT_LAYER, screen.layer_texture);
   draw_output(layered ? layered_output_ : output_, frame, constants);
 }
 

@@ -22,9 +22,11 @@ namespace nook::gl {
 struct ReachingGroup {
   std::span<const PosedCaster> casters;
   Vec3 centre;
-  float radius = 0;                           // of a sphere round them
-  float reach = 0;                            // metres from the centre; no point beyond it is darkened
-  float strength = 0;                         // square metres, see caster_strength
+  float radius = 0;    // of a sphere round them
+  float reach = 0;     // metres from the centre; no point beyond it is darkened
+  float strength = 0;  // square metres, see caster_strength
+  // Square metres; the AO that they take at the distance d is at most cutoff_error times this / d^2.
+  float strength_over_cutoff = 0;
   const world::CasterParts* parts = nullptr;  // NULL: one caster
 };
 
@@ -86,9 +88,9 @@ class WorldPass {
   Device& device_;
   int max_width_, max_height_;
   bool half_;
-  Stage output_, layered_output_;  // at half resolution the upsample
-  Stage half_depth_, half_ao_;
-  RenderTexture own_, depth_, ao_;  // depth and AO of every fourth pixel
+  Stage output_, layered_output_;                                    // at half resolution the upsample
+  Stage half_depth_, half_ao_, masked_half_depth_, masked_half_ao_;  // masked: without replaced pixels
+  RenderTexture own_, depth_, ao_;                                   // depth and AO of every fourth pixel
   Object sampler_, vertex_array_, target_framebuffer_;
   TexelTable casters_;          // and behind them the lists of tiles
   Vector<std::uint32_t> kept_;  // the groups that reach the view
