@@ -1,6 +1,6 @@
-// The openness that the casters of a frame leave at a point. The table holds four texels for each body: the sphere
-// round it; its first part, the number of parts, the squared distance from which one capsule stands for it, its strength
-// over the cut-off; that capsule.
+// The openness that the casters of a frame leave at a point. The table holds four texels for each body: the centre of
+// the sphere round it, with its strength over the cut-off and its radius in one number; its first part, the number of
+// parts, the squared distance from which one capsule stands for it; that capsule.
 // A part has four texels: its centre and the squared distance from which one capsule stands for it; its first caster and
 // their number; that capsule. A capsule is two texels, its ends with their radii in AO. Props and occluders are bodies
 // of one part that has one caster.
@@ -43,12 +43,14 @@ float nook_world_parts_open(int first, int last, vec3 point, vec3 normal) {
 
 float nook_world_body_open(int body, vec3 point, vec3 normal) {
   int texel = NOOK_BODY_TEXELS * body;
-  vec4 bound = nook_texel(nook_world_casters, texel), parts = nook_texel(nook_world_casters, texel + 1);
+  vec4 bound = nook_texel(nook_world_casters, texel);
   vec3 d = bound.xyz - point;
-  float distance2 = dot(d, d), gap = sqrt(distance2) - bound.w;
+  float radius = bound.w < NOOK_ENDLESS_BOUND ? fract(bound.w) * NOOK_LARGEST_RADIUS : NOOK_ENDLESS_BOUND;
+  float distance2 = dot(d, d), gap = sqrt(distance2) - radius;
   // The casters cover at most strength / gap^2, and their cosine is at most that of the top of the sphere, top / gap.
-  float top = dot(d, normal) + bound.w;
-  if (top < 0.0 || (gap > 0.0 && parts.w * min(top, gap) < gap * gap * gap)) return 1.0;
+  float top = dot(d, normal) + radius;
+  if (top < 0.0 || (gap > 0.0 && bound.w * min(top, gap) < NOOK_STRENGTH_STEPS * gap * gap * gap)) return 1.0;
+  vec4 parts = nook_texel(nook_world_casters, texel + 1);
   int first = int(parts.x), last = first + NOOK_PART_TEXELS * int(parts.y);
   if (distance2 > parts.z) return nook_world_merged_open(texel + 2, point, normal);
   return nook_world_parts_open(first, last, point, normal);

@@ -32,6 +32,14 @@
 #define NOOK_PART_TEXELS 4
 #define NOOK_CASTER_TEXELS 2
 
+// The strength of a body over the cut-off counts steps of the inverse of this, square metres; the fraction of the
+// number is the body's radius over the largest one, metres. Bodies with larger numbers reach everything, and have
+// the endless one.
+#define NOOK_STRENGTH_STEPS 8.0
+#define NOOK_LARGEST_RADIUS 4.0
+#define NOOK_LARGEST_STRENGTH 4096.0
+#define NOOK_ENDLESS_BOUND 1e15
+
 // The weight of a layer from which on no more than a step of 8 bits is left of what it replaces.
 #define NOOK_REPLACED 0.998
 

@@ -51,9 +51,11 @@ float nook_world_tile_open(ivec2 pixel, vec3 point, vec3 normal) {
   vec4 range = nook_texel(nook_world_casters, nook_world_first_tile + tile.y * nook_world_tile_columns + tile.x);
   int first = nook_world_first_tile + int(range.x), count = int(range.y);
   float open = 1.0;
+  vec4 bodies = vec4(0.0);
   for (int i = 0; i < count; ++i) {
-    int body = int(nook_texel(nook_world_casters, first + (i >> 2))[i & 3]);
-    open *= nook_world_body_open(body, point, normal);
+    if ((i & 3) == 0) bodies = nook_texel(nook_world_casters, first + (i >> 2));
+    open *= nook_world_body_open(int(bodies.x), point, normal);
+    bodies = bodies.yzwx;
   }
   return open;
 }

@@ -1,6 +1,7 @@
 #include "sdk/src/gl/world/caster_texels.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sdk/src/character/world_casters.h"
 #include "shaders/world/constants.h"
@@ -36,6 +37,15 @@ Bound bound_of(std::span<const PosedCaster> casters, std::span<const std::uint8_
     bound.strength += caster_strength(casters[i]);
   }
   return bound;
+}
+
+// Strength and radius as casters.glsl unpacks them, both rounded up.
+float packed_bound(const ReachingGroup& group) {
+  const float strength = group.strength_over_cutoff;
+  if (!(strength < NOOK_LARGEST_STRENGTH && group.radius < 0.99f * NOOK_LARGEST_RADIUS))
+    return NOOK_ENDLESS_BOUND;
+  // 32,768 steps leave eight bits of the fraction, which the summand covers.
+  return std::ceil(strength * NOOK_STRENGTH_STEPS) + 0.005f + group.radius / NOOK_LARGEST_RADIUS;
 }
 
 float squared(float a) {
@@ -77,12 +87,12 @@ void CasterTexels::put_capsule(std::uint64_t texel, const Capsule& capsule, floa
 
 void CasterTexels::put(std::uint32_t body, const ReachingGroup& group, float level_error) {
   const std::uint64_t texel = std::uint64_t{body} * NOOK_BODY_TEXELS;
-  put_place(texel, group.centre, group.radius);
+  put_place(texel, group.centre, packed_bound(group));
   const world::CasterParts& parts = group.parts ? *group.parts : one_caster;
   // One caster has no level below it.
   if (!group.parts) level_error = 0;
   const float far = world::merging_distance(group.strength, group.radius, level_error);
-  put(texel + 1, float(next_), float(parts.count), squared(far), group.strength_over_cutoff);
+  put(texel + 1, float(next_), float(parts.count), squared(far), 0);
   put_capsule(texel + 2, world::merged(group.casters, {every_caster.data(), group.casters.size()}), 1);
   put_parts(group, parts, level_error);
 }
