@@ -23,7 +23,7 @@ EVALUATE = ["--max-poses", "44", "--points", "600"]
 
 
 ROOMS = ["--composite", "--views", "8", "--rays", "128"]
-# In the order of the table.
+# Rows of the table.
 RULES = ["nook", "nook, half resolution", "mask, product", "mask, sum", "mask, between sum and minimum", "mask, minimum", "product", "minimum",
          "screen", "screen without characters", "world", "none"]
 

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/import/static_scene.h"
 #include "bakers/measure/character/evaluated_poses.h"
 #include "bakers/measure/character/report.h"
 #include "bakers/measure/composite/composite.h"
@@ -39,18 +38,14 @@ struct Options {
   measure::CompositeStudy rooms;
 };
 
-bake::TriangleSoup read_scene(const std::filesystem::path& path, float metres) {
-  bake::StaticScene scene = naming_file(path, [&] { return bake::import_static_scene(path); });
-  for (Vec3& p : scene.position) p = metres * p;
-  return {std::move(scene.position), std::move(scene.triangle)};
-}
-
 std::vector<measure::MeasuredRoom> rooms_of(const Options& options) {
   std::vector<measure::MeasuredRoom> rooms{{"room", measure::own_room()}};
-  for (std::size_t i = 0; i < options.scenes.size(); ++i)
-    rooms.push_back(
-        {options.scenes[i].stem().string(),
-         read_scene(options.scenes[i], i < options.scene_metres.size() ? options.scene_metres[i] : 1)});
+  for (std::size_t i = 0; i < options.scenes.size(); ++i) {
+    const float metres = i < options.scene_metres.size() ? options.scene_metres[i] : 1;
+    rooms.push_back({options.scenes[i].stem().string(), naming_file(options.scenes[i], [&] {
+                       return measure::room_of(options.scenes[i], metres);
+                     })});
+  }
   return rooms;
 }
 

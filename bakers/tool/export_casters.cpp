@@ -1,5 +1,5 @@
 // nook export casters: the world casters of a model as text for other engines.
-#include "bakers/world/export_casters.h"
+#include "bakers/measure/world/export_casters.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -19,18 +19,20 @@
 namespace nook::tool {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct Options {
   CommonOptions common;
   std::filesystem::path model, output;
-  bake::CasterFormat format = bake::CasterFormat::gltf;
-  bake::CasterRadii radii = bake::CasterRadii::ao;
+  measure::CasterFormat format = measure::CasterFormat::gltf;
+  measure::CasterRadii radii = measure::CasterRadii::ao;
 };
 
-const std::map<std::string, bake::CasterFormat> formats{{"unreal", bake::CasterFormat::unreal},
-                                                        {"source2", bake::CasterFormat::source2},
-                                                        {"gltf", bake::CasterFormat::gltf}};
-const std::map<std::string, bake::CasterRadii> radii_names{{"ao", bake::CasterRadii::ao},
-                                                           {"light", bake::CasterRadii::light}};
+const std::map<std::string, measure::CasterFormat> formats{{"unreal", measure::CasterFormat::unreal},
+                                                           {"source2", measure::CasterFormat::source2},
+                                                           {"gltf", measure::CasterFormat::gltf}};
+const std::map<std::string, measure::CasterRadii> radii_names{{"ao", measure::CasterRadii::ao},
+                                                              {"light", measure::CasterRadii::light}};
 
 template <class Names, class Value>
 std::string name_of(const Names& names, Value value) {
@@ -46,15 +48,15 @@ void run(const Options& o) {
   std::optional<platform::OutputFile> report;
   if (!o.common.report.empty()) report.emplace(o.common.report);
   const CharacterModel model = naming_file(o.model, [&] { return read_character_model(bytes); });
-  output.commit(naming_file(o.model, [&] { return bake::export_casters(model, o.format, o.radii); }));
-  const bake::ExportError error = bake::export_error(model, o.format, o.radii);
-  const Row rows = Row::array({{{"format", name_of(formats, o.format)},
+  output.commit(naming_file(o.model, [&] { return measure::export_casters(model, o.format, o.radii); }));
+  const measure::ExportError error = measure::export_error(model, o.format, o.radii);
+  const Json rows = Json::array({{{"format", name_of(formats, o.format)},
                                 {"radii", name_of(radii_names, o.radii)},
                                 {"casters", model.world_casters.size()},
                                 {"rms", error.rms},
                                 {"largest", error.largest},
                                 {"over_none", error.over_none}}});
-  if (report) report->commit(Row{{"rows", rows}}.dump(2) + "\n");
+  if (report) report->commit(Json{{"rows", rows}}.dump(2) + "\n");
   if (!o.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
 }
 

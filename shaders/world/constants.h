@@ -32,9 +32,9 @@
 #define NOOK_PART_TEXELS 4
 #define NOOK_CASTER_TEXELS 2
 
-// The strength of a body over the cut-off counts steps of the inverse of this, square metres; the fraction of the
-// number is the body's radius over the largest one, metres. Bodies with larger numbers reach everything, and have
-// the endless one.
+// The strength of a body over the cut-off counts steps of the inverse of this, square metres; the fraction of
+// the number is the body's radius over the largest one, metres. Bodies with larger numbers reach everything,
+// and have the endless one.
 #define NOOK_STRENGTH_STEPS 8.0
 #define NOOK_LARGEST_RADIUS 4.0
 #define NOOK_LARGEST_STRENGTH 4096.0

@@ -68,18 +68,20 @@ float nook_world_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
 // as the disc of the same vector at a great distance.
 float nook_world_far_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
   vec3 a = end_a.xyz - point, b = end_b.xyz - point;
-  float ia = inversesqrt(max(dot(a, a), 1e-24)), ib = inversesqrt(max(dot(b, b), 1e-24));
-  float su = min(end_a.w * ia, NOOK_LARGEST_SINE), sv = min(end_b.w * ib, NOOK_LARGEST_SINE);
+  float ia = inversesqrt(dot(a, a)), ib = inversesqrt(dot(b, b));
+  float su = end_a.w * ia, sv = end_b.w * ib;
   float c = clamp(dot(a, b) * (ia * ib), -0.999, 1.0);
   float nu = dot(normal, a) * ia, nv = dot(normal, b) * ib;
   float lambda = nook_angle_of_versine(1.0 - c), s = sqrt(1.0 - c * c);
   float together = (lambda + s) * (su + sv) / (1.0 + c) * 0.159154943;
-  // lambda - s over 1 - c, which is s / 3 for small angles.
-  float apart = (1.0 - c > 1e-3 ? (lambda - s) / (1.0 - c) : 0.333333333 * s) * (su - sv) * 0.159154943;
+  // (lambda - s) / (1 - c), over 2 pi, within 0.002 up to a right angle.
+  float apart = lambda * (0.00194 * lambda * lambda + 0.0530516) * (su - sv);
   float hu = together + apart + 0.5 * su * su, hv = together - apart + 0.5 * sv * sv;
   float size2 = hu * hu + hv * hv + 2.0 * hu * hv * c;
   float factor = hu * nu + hv * nv;
-  float size = sqrt(size2), cube = size * sqrt(size);
-  float t = clamp(factor / max(cube, 1e-20), -1.0, 1.0), q = 1.0 - t * t;
+  // 1 / size, and the root of it.
+  float inverse = inversesqrt(size2 + 1e-20), inverse_root = sqrt(inverse);
+  float t = clamp(factor * (inverse * inverse_root), -1.0, 1.0), q = 1.0 - t * t;
+  float cube = size2 * inverse_root;
   return clamp(factor + cube * (0.5 * (1.0 - t) - q * (NOOK_HORIZON_FAR_2 * q + NOOK_HORIZON_FAR_1)), 0.0, 1.0);
 }

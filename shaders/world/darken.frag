@@ -60,7 +60,7 @@ float nook_world_tile_open(ivec2 pixel, vec3 point, vec3 normal) {
   return open;
 }
 
-// Whether the layer replaces the whole of the result.
+// Returns true where the layer replaces the whole of the result.
 bool nook_world_replaced(ivec2 pixel) {
 #ifdef NOOK_LAYERED
   return nook_layer_mode >= 3 && texelFetch(nook_layer, pixel + nook_origin, 0).g > NOOK_REPLACED;

@@ -386,6 +386,34 @@ TEST_CASE("world: levels stay within their error, with fewer casters at a pixel"
   CHECK(mean_casters() < without_levels);
 }
 
+TEST_CASE("world: a crowd that moves away pops by a few level errors at most") {
+  NOOK_NEED_CONTEXT(context);
+  CrowdFixture fixture(context);
+  fixture.made();
+  const nook_nnao_frame_desc screen = fixture.screen();
+  nook_world_frame_desc frame = fixture.frame(screen);
+  constexpr float error = 1.0f / 64;
+  std::vector<float> before;
+  float pop = 0;
+  for (int step = 0; step < 40; ++step) {
+    // Casters move, and the surfaces that they darken stay.
+    frame.view[14] = -0.1f * float(step);
+    frame.level_error = 0;
+    const std::vector<float> all = fixture.drawn(frame);
+    frame.level_error = error;
+    std::vector<float> off = fixture.drawn(frame);
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      off[i] -= all[i];
+      if (step > 0) pop = std::max(pop, std::abs(off[i] - before[i]));
+    }
+    before = off;
+  }
+  INFO("largest pop " << pop);
+  // The error is an rms over points and normals; the largest of some 1e5 changes is several times as much.
+  CHECK(pop < 8 * error);
+  CHECK(pop > 0);
+}
+
 TEST_CASE("world: half resolution comes close to full resolution") {
   NOOK_NEED_CONTEXT(context);
   CrowdFixture fixture(context);

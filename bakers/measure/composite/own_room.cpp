@@ -1,5 +1,6 @@
 #include "bakers/measure/composite/own_room.h"
 
+#include "bakers/import/static_scene.h"
 #include "bakers/nnao/solids.h"
 
 namespace nook::measure {
@@ -62,6 +63,12 @@ TriangleSoup own_room() {
   add_chair_with_back(soup, {-0.3f, 0, -1.65f}, -1);
   add_shelf(soup);
   return soup;
+}
+
+bake::TriangleSoup room_of(const std::filesystem::path& file, float metres_per_unit) {
+  StaticScene scene = import_static_scene(file);
+  for (Vec3& p : scene.position) p = metres_per_unit * p;
+  return {std::move(scene.position), std::move(scene.triangle)};
 }
 
 }  // namespace nook::measure

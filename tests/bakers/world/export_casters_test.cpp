@@ -1,5 +1,5 @@
 // Casters as text for other engines: what is written is read back and compared with the model.
-#include "bakers/world/export_casters.h"
+#include "bakers/measure/world/export_casters.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@
 #include "tests/character/model_sample.h"
 
 using namespace nook;
-using namespace nook::bake;
+using namespace nook::measure;
 using namespace nook::test;
 
 namespace {

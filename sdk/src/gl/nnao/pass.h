@@ -81,8 +81,8 @@ class NnaoPass {
   nook_nnao_desc desc_;  // without network and next
   nook_nnao_path path_;
   // The stage of normals belongs to the paper's form, that of the filter where it is a draw.
-  Stage depth_stage_, apart_depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_, filter_stage_, resolve_stage_,
-      layered_stage_, show_normals_stage_;
+  Stage depth_stage_, apart_depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_, filter_stage_,
+      resolve_stage_, layered_stage_, show_normals_stage_;
   GLint earlier_location_ = -1;  // of accumulate_stage_
   RenderTexture depth_[2];       // of the surface; two for means over frames, which use them in turns
   RenderTexture normals_;        // of the surface

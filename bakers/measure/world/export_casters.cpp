@@ -1,4 +1,4 @@
-#include "bakers/world/export_casters.h"
+#include "bakers/measure/world/export_casters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,10 @@
 #include "bakers/world/posed_casters.h"
 #include "sdk/src/core/failure.h"
 
-namespace nook::bake {
+namespace nook::measure {
 namespace {
+
+using namespace bake;
 
 constexpr float centimetres = 100, inches = 1 / 0.0254f;
 constexpr float degrees = 180 / std::numbers::pi_v<float>;
@@ -204,4 +206,4 @@ std::string export_casters(const CharacterModel& model, CasterFormat format, Cas
   return text;
 }
 
-}  // namespace nook::bake
+}  // namespace nook::measure

@@ -8,7 +8,7 @@
 
 #include "sdk/src/character/model.h"
 
-namespace nook::bake {
+namespace nook::measure {
 
 enum class CasterFormat {
   unreal,   // bodies of a physics asset, as objects in Unreal's text form; centimetres
@@ -35,4 +35,4 @@ ExportError export_error(const CharacterModel& model, CasterFormat format, Caste
 // (INVALID_ARGUMENT) for a model without casters or without its rest pose.
 std::string export_casters(const CharacterModel& model, CasterFormat format, CasterRadii radii);
 
-}  // namespace nook::bake
+}  // namespace nook::measure
