@@ -17,8 +17,8 @@ inline constexpr double light_lobes = 12;  // of an instance's light
 inline constexpr double sides = 2;
 
 // The world pass at a pixel of the crowd sample with 100 characters.
-inline constexpr double bodies_of_tile = 60;
-inline constexpr double parts_of_body = 0.2;
-inline constexpr double casters_of_part = 1;
+inline constexpr double bodies_of_tile = 68;
+inline constexpr double parts_of_body = 0.08;
+inline constexpr double casters_of_part = 0.2;
 
 }  // namespace nook::measure::trips
