@@ -51,11 +51,11 @@ void run(const Options& o) {
   output.commit(naming_file(o.model, [&] { return measure::export_casters(model, o.format, o.radii); }));
   const measure::ExportError error = measure::export_error(model, o.format, o.radii);
   const Json rows = Json::array({{{"format", name_of(formats, o.format)},
-                                {"radii", name_of(radii_names, o.radii)},
-                                {"casters", model.world_casters.size()},
-                                {"rms", error.rms},
-                                {"largest", error.largest},
-                                {"over_none", error.over_none}}});
+                                  {"radii", name_of(radii_names, o.radii)},
+                                  {"casters", model.world_casters.size()},
+                                  {"rms", error.rms},
+                                  {"largest", error.largest},
+                                  {"over_none", error.over_none}}});
   if (report) report->commit(Json{{"rows", rows}}.dump(2) + "\n");
   if (!o.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
 }
