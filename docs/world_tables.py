@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Bakes characters, runs nook evaluate world on them, and prints the tables of docs/world.md.
 
-    docs/world_tables.py --nook build/bakers/tool/nook [--write] [--keep DIR] CHARACTER.glb ...
+    docs/world_tables.py --nook build/bakers/tool/nook [--write] [--keep DIR] [--room SCENE.glb=METRES] CHARACTER.glb ...
 
 Half of the clips are fitted, the others measured. The self-shadow is fitted in a hurry (--steps 100 --rays 4), which the casters do not
-depend on. --keep keeps models and reports, and takes those that are there.
+depend on. --keep keeps models and reports, and takes those that are there. The table of rooms is of the first character, in the
+built-in room and in those of --room, whose units have so many metres; without --room it stays as it is.
 """
 import argparse
 import json
@@ -21,6 +22,12 @@ BAKE = ["--split", "half", "--auto-poses", "300", "--samples-per-clip", "8", "--
 EVALUATE = ["--max-poses", "44", "--points", "600"]
 
 
+ROOMS = ["--composite", "--views", "8", "--rays", "128"]
+# Rows of the table.
+RULES = ["nook", "nook, half resolution", "mask, product", "mask, sum", "mask, between sum and minimum", "mask, minimum", "product", "minimum",
+         "screen", "screen without characters", "world", "none"]
+
+
 def surface_of(row):
     return f"cone {row['cone_degrees']:g}°" if row["surface"] == "cone" else row["surface"]
 
@@ -32,6 +39,23 @@ def measure(nook, character, folder):
     if not report.exists():
         subprocess.run([nook, "evaluate", "world", character, model, *EVALUATE, "--report", report, "--quiet"], check=True)
     return json.loads(report.read_text())["rows"]
+
+
+def measure_rooms(nook, character, folder, rooms):
+    report = folder / f"{character.stem}_rooms.json"
+    if not report.exists():
+        scenes = [word for room in rooms for word in ("--scene", room.split("=")[0], "--scene-metres", room.split("=")[1])]
+        subprocess.run([nook, "evaluate", "world", character, folder / f"{character.stem}.nook", *ROOMS, *scenes, "--report", report,
+                        "--quiet"], check=True)
+    return json.loads(report.read_text())["rows"]
+
+
+def room_table(rows):
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    by = {(row["scene"], row["region"], row["method"]): row for row in rows}
+    lines = [[rule, *(f"{by[scene, 'darkened', rule]['mse'] * 1e3:.2f} ({by[scene, 'darkened', rule]['bias']:+.3f})" for scene in scenes),
+              *(f"{by[scene, 'elsewhere', rule]['mse'] * 1e3:.2f}" for scene in scenes[-1:])] for rule in RULES]
+    return table(["", *scenes, f"elsewhere, {scenes[-1]}"], lines)
 
 
 def tables(rows_by_character):
@@ -59,12 +83,16 @@ def main():
     parser.add_argument("--nook", default=ROOT / "build/bakers/tool/nook")
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--keep", type=pathlib.Path)
+    parser.add_argument("--room", action="append", default=[])
     parser.add_argument("characters", nargs="+", type=pathlib.Path)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         folder = options.keep or pathlib.Path(scratch)
         rows = {character.stem: measure(options.nook, character, folder) for character in options.characters}
-    show(DOCUMENT, SCRIPT, tables(rows), options.write)
+        found = tables(rows)
+        if options.room:
+            found["rooms"] = room_table(measure_rooms(options.nook, options.characters[0], folder, options.room))
+    show(DOCUMENT, SCRIPT, found, options.write)
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@ void add_evaluate_transfer(CLI::App& evaluate);
 void add_evaluate_world(CLI::App& evaluate);
 void add_train_nnao(CLI::App& train);
 void add_train_specular(CLI::App& train);
+void add_export_casters(CLI::App& export_command);
 void add_inspect(CLI::App& tool);
 
 }  // namespace nook::tool

@@ -7,6 +7,8 @@
 
 #include "bakers/measure/character/evaluated_poses.h"
 #include "bakers/measure/character/report.h"
+#include "bakers/measure/composite/composite.h"
+#include "bakers/measure/composite/own_room.h"
 #include "bakers/measure/world/pictures.h"
 #include "bakers/measure/world/report.h"
 #include "bakers/tool/character/clip_names.h"
@@ -15,6 +17,7 @@
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
+#include "platform/platform.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {
@@ -29,7 +32,38 @@ struct Options {
   measure::WorldStudy study;
   std::filesystem::path images;
   std::size_t image_count = 3;
+  bool composite = false;
+  std::vector<std::filesystem::path> scenes;  // beside the built-in room
+  std::vector<float> scene_metres;            // of a unit of each
+  measure::CompositeStudy rooms;
 };
+
+std::vector<measure::MeasuredRoom> rooms_of(const Options& options) {
+  std::vector<measure::MeasuredRoom> rooms{{"room", measure::own_room()}};
+  for (std::size_t i = 0; i < options.scenes.size(); ++i) {
+    const float metres = i < options.scene_metres.size() ? options.scene_metres[i] : 1;
+    rooms.push_back({options.scenes[i].stem().string(), naming_file(options.scenes[i], [&] {
+                       return measure::room_of(options.scenes[i], metres);
+                     })});
+  }
+  return rooms;
+}
+
+Json composite_report(const Options& options, const measure::BakedCharacter& baked,
+                      std::span<const bake::Pose> poses) {
+  platform::ContextRequest request;
+  request.major = request.minor = 3;
+  const std::unique_ptr<platform::Context> context = platform::create_context(request);
+  measure::CompositeStudy study = options.rooms;
+  study.truth.seed = options.common.seed;
+  study.truth.rays = options.study.rays;
+  platform::ProgressBar bar(options.common.quiet);
+  return measure::composite_rows(*context, rooms_of(options), baked.character.mesh, baked.model,
+                                 baked.model_bytes, poses, study, [&](std::size_t done, std::size_t total) {
+                                   bar.show("ray tracing", "views", done, total);
+                                   return !interrupted();
+                                 });
+}
 
 Json evaluate(const Options& options) {
   const measure::BakedCharacter baked = read_evaluated_files(options.files);
@@ -45,6 +79,7 @@ Json evaluate(const Options& options) {
   platform::ProgressBar bar(options.common.quiet);
   Json report;
   report["rows"] = naming_file(options.files.model, [&] {
+    if (options.composite) return composite_report(options, baked, measured.poses);
     return measure::world_rows(baked.character.mesh, baked.model, measured.poses, study,
                                [&](std::size_t done, std::size_t total) {
                                  bar.show("ray tracing", "poses", done, total);
@@ -92,6 +127,19 @@ void add_evaluate_world(CLI::App& evaluate_command) {
       "draw floor and wall by ray tracing, Nook, capsules and blobs: PNG files in this directory");
   command->add_option("--image-count", o.image_count, "poses to draw")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_flag("--composite", o.composite,
+                    "measure instead the darkening by characters and the screen pass together, in rooms with "
+                    "characters, over pixels that the characters darken and elsewhere");
+  command->add_option("--scene", o.scenes, "a room in glTF, with +y up, beside the built-in one")
+      ->check(CLI::ExistingFile);
+  command->add_option("--scene-metres", o.scene_metres, "metres of a unit of each --scene, default 1")
+      ->check(CLI::Range(1e-4f, 1e4f));
+  command->add_option("--views", o.rooms.views, "views of each room")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--figures", o.rooms.figures, "characters in each room")
+      ->check(CLI::Range(1, 100))
       ->capture_default_str();
   add_common_options(*command, o.common);
   command->callback([options] {

@@ -41,6 +41,9 @@ int run(int argc, char** argv) {
   CLI::App* train = tool.add_subcommand("train", "train networks")->require_subcommand(1);
   nook::tool::add_train_nnao(*train);
   nook::tool::add_train_specular(*train);
+  CLI::App* write =
+      tool.add_subcommand("export", "write what .nook files hold for other engines")->require_subcommand(1);
+  nook::tool::add_export_casters(*write);
   nook::tool::add_inspect(tool);
   try {
     tool.parse(argc, argv);

@@ -126,10 +126,10 @@ platform::Image Panels::draw(const measure::Group& group, const measure::AoPanel
   Look look = panel_look();
   if (floor) look.floor_ao = floor->floor();
   if (panel.screen_space != measure::ScreenSpace::kNowhere)
-    look.screen_ao = stage_.screen_space->draw(stage_.renderer, drawn, camera,
-                                               panel.screen_space == measure::ScreenSpace::kEverywhere
-                                                   ? NOOK_NNAO_LAYER_NONE
-                                                   : NOOK_NNAO_LAYER_REPLACE);
+    look.screen_ao = stage_.screen_space->draw_screen(stage_.renderer, drawn, camera,
+                                                      panel.screen_space == measure::ScreenSpace::kEverywhere
+                                                          ? NOOK_NNAO_LAYER_NONE
+                                                          : NOOK_NNAO_LAYER_REPLACE);
   stage_.target.bind();
   stage_.renderer.draw(drawn, camera, look, camera.target_ws, 6.0f);
   return stage_.target.read();

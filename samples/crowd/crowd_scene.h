@@ -43,6 +43,7 @@ class CrowdScene {
                                                  std::span<const nook_probe_lobe> lobes);
 
   void link_nearest(std::uint32_t neighbours);
+  nook_scene handle() const { return scene_.get(); }
   const nook::Gl& gl() const { return gl_; }
   nook_scene_stats stats() const { return scene_.stats(); }
   const nook::CharacterModel& model() const { return model_; }

@@ -7,7 +7,6 @@
 #include <cstdio>
 
 #include "platform/stopwatch.h"
-#include "samples/crowd/floor_light.h"
 #include "samples/crowd/recorded_frames.h"
 
 namespace crowd {
@@ -58,8 +57,6 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
   const float radius_m = crowd_radius_m(stage.places);
   Look look;
   look.fog_start_m = 1.2f * radius_m + 8;
-  const auto floor =
-      request.light ? std::make_unique<FloorLight>(gl, stage.hero, stage.places, *request.light) : nullptr;
   FrameTimes sum;
   for (std::uint32_t frame = 0; frame < request.frames; ++frame) {
     platform::Stopwatch watch;
@@ -74,7 +71,7 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
     const Camera camera = orbit(radius_m, float(frame) / float(std::max(request.frames, 24u)));
     if (stage.screen_space) {
       watch.lap_ms();
-      look.screen_ao = stage.screen_space->draw(stage.renderer, drawn, camera);
+      look.screen_ao = stage.screen_space->draw(stage.renderer, drawn, camera, scene.handle());
       gl.Finish();
       now.screen_space = watch.lap_ms();
       if (!request.record.empty()) {
@@ -87,7 +84,6 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
       ProbeLight lit = probe_light(scene, *request.light, camera);
       lit.fog_start_m = look.fog_start_m;
       lit.screen_ao = look.screen_ao;
-      lit.floor = floor->draw(poses);
       stage.renderer.draw_probe_light(drawn, camera, lit);
     } else {
       stage.renderer.draw(drawn, camera, look, glm::vec3(0), radius_m + 1);

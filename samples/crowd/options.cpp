@@ -47,8 +47,9 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--report", o.report, "JSON with times and errors (default: report.json in --out)");
   app.add_option("--tier", tier, "highest OpenGL tier: 33, 43 or best")
       ->check(CLI::IsMember({"33", "43", "best"}));
-  app.add_option("--screen-space", screen_space,
-                 "on or off: screen-space AO on the floor, beside the AO of the characters")
+  app.add_option(
+         "--screen-space", screen_space,
+         "on or off: AO on the floor by the screen and by the characters, beside the AO of the characters")
       ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--light", o.lights,
                  "probe (.nook) or environment (.hdr, .exr). The first one lights the frames, and each is "

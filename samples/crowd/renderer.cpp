@@ -232,7 +232,6 @@ void Renderer::set_probe_light(const platform::Program& program, const Camera& c
     const char* name;
   } textures[] = {{2, GL_TEXTURE_2D, light.screen_ao.texture, "screen_ao"},
                   {3, GL_TEXTURE_2D, light.screen_ao.depth, "screen_depth"},
-                  {4, GL_TEXTURE_2D, light.floor.texture, "floor_light"},
                   {5, GL_TEXTURE_BUFFER, light.texture, "nook_scene_lights"}};
   for (const auto& t : textures) {
     gl_.ActiveTexture(GL_TEXTURE0 + GLenum(t.unit));
@@ -240,8 +239,6 @@ void Renderer::set_probe_light(const platform::Program& program, const Camera& c
     gl_.Uniform1i(program.uniform(t.name), t.unit);
   }
   gl_.Uniform3fv(program.uniform("ground_irradiance"), 1, glm::value_ptr(light.ground_irradiance));
-  gl_.Uniform2fv(program.uniform("floor_first_m"), 1, glm::value_ptr(light.floor.first_m));
-  gl_.Uniform2fv(program.uniform("floor_extent_m"), 1, glm::value_ptr(light.floor.extent_m));
   gl_.Uniform1i(program.uniform("use_screen_ao"), light.screen_ao.texture != 0);
   gl_.Uniform1f(program.uniform("ao_strength"), light.ao_strength);
   gl_.Uniform1f(program.uniform("exposure"), light.exposure);

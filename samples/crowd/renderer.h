@@ -29,7 +29,7 @@ struct DrawnInstance {
   GLint light_texel = 0;  // where Nook's view has the instance's light
 };
 
-// The result of the screen-space pass for the same instances through the same camera.
+// The result of the passes over the screen for the same instances through the same camera.
 struct ScreenAo {
   GLuint texture = 0;  // 0 if there was no such pass
   GLuint depth = 0;    // single-sampled, as large as the viewport
@@ -64,7 +64,6 @@ struct ProbeLight {
   glm::vec3 ground_albedo{0.36f, 0.36f, 0.37f};
   float fog_start_m = 22;
   ScreenAo screen_ao;
-  FloorTexture floor;  // the share of the ground's irradiance that the bodies leave, RGB
 };
 
 class Renderer {
@@ -81,8 +80,8 @@ class Renderer {
   // round shadow_centre_ws.
   void draw(std::span<const DrawnInstance> instances, const Camera& camera, const Look& look,
             const glm::vec3& shadow_centre_ws, float shadow_radius_m);
-  // The same in a probe's light: its irradiance times directional AO. On the ground the AO is the floor's or
-  // the screen's, whichever is darker.
+  // The same in a probe's light: its irradiance times directional AO, on the ground times the AO of
+  // light.screen_ao.
   void draw_probe_light(std::span<const DrawnInstance> instances, const Camera& camera,
                         const ProbeLight& light);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
+#include <vector>
 
 namespace crowd {
 namespace {
@@ -25,6 +26,14 @@ nook_nnao_desc pass_settings(int width, int height, const ScreenSpaceQuality& qu
   return desc;
 }
 
+nook_world_pass_desc world_settings(int width, int height, const ScreenSpaceQuality& quality) {
+  nook_world_pass_desc desc = nook::world_pass_desc();
+  desc.max_width = width;
+  desc.max_height = height;
+  desc.half_resolution = quality.half_resolution;
+  return desc;
+}
+
 }  // namespace
 
 ScreenSpaceQuality quality_for(const std::string& gl_renderer) {
@@ -39,7 +48,8 @@ ScreenSpaceAo::ScreenSpaceAo(const platform::Context& context, const nook::Gl& g
       width_px_(width_px),
       height_px_(height_px),
       quality_(quality_for(context.renderer())),
-      pass_(gl, pass_settings(width_px, height_px, quality_)) {
+      pass_(gl, pass_settings(width_px, height_px, quality_)),
+      world_(gl, world_settings(width_px, height_px, quality_)) {
   gl_.GenTextures(kTextures, textures_);
   gl_.GenFramebuffers(1, &framebuffer_);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
@@ -66,7 +76,42 @@ ScreenSpaceAo::~ScreenSpaceAo() {
 }
 
 ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> instances,
-                             const Camera& camera, nook_nnao_layer layer) {
+                             const Camera& camera, nook_scene scene) {
+  draw_screen(renderer, instances, camera, NOOK_NNAO_LAYER_APART);
+  nook_world_frame_desc& frame = world_frame_;
+  frame = nook::world_frame_desc();
+  frame.screen = &frame_;
+  const glm::mat4 view = view_from_world(camera);
+  std::copy_n(glm::value_ptr(view), 16, frame.view);
+  frame.scene = scene;
+  frame.ao_texture = pass_.info().texture;
+  world_.render(frame);
+  return {world_.info().texture, textures_[kDepth]};
+}
+
+double ScreenSpaceAo::mean_casters() {
+  nook_world_frame_desc frame = world_frame_;
+  frame.show = NOOK_WORLD_VIEW_CASTERS;
+  world_.render(frame);
+  const std::size_t pixels = std::size_t(width_px_) * std::size_t(height_px_);
+  std::vector<float> counts(pixels), depth(pixels);
+  gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, world_.info().texture);
+  gl_.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, counts.data());
+  gl_.BindTexture(GL_TEXTURE_2D, textures_[kDepth]);
+  gl_.GetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+  double sum = 0, surfaces = 0;
+  for (std::size_t i = 0; i < pixels; ++i)
+    if (depth[i] < 1) {
+      sum += 255 * double(counts[i]);
+      surfaces += 1;
+    }
+  return sum / std::max(surfaces, 1.0);
+}
+
+ScreenAo ScreenSpaceAo::draw_screen(Renderer& renderer, std::span<const DrawnInstance> instances,
+                                    const Camera& camera, nook_nnao_layer layer) {
   const float aspect = float(width_px_) / float(height_px_);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_.Viewport(0, 0, width_px_, height_px_);

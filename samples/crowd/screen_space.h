@@ -1,8 +1,6 @@
-// Nook's screen-space AO for the crowd: depth and normals are drawn before the lighting, and the pass reads
-// them.
+// Nook's AO for the floor of the crowd: depth and normals are drawn before the lighting, and the screen-space
+// pass reads them, then the world pass, by whose casters the characters darken the floor.
 #pragma once
-
-#include <nook/nook_nnao.h>
 
 #include <nook/nook.hpp>
 
@@ -33,11 +31,18 @@ class ScreenSpaceAo {
   int height_px() const { return height_px_; }
   const ScreenSpaceQuality& quality() const { return quality_; }
 
-  // With NOOK_NNAO_LAYER_REPLACE the texture has 1 on characters: the lighting multiplies it with the AO of
-  // their vertices, which already has what the pass would count again. With NOOK_NNAO_LAYER_NONE the texture
-  // has screen-space AO on characters too. Leaves another framebuffer bound.
+  // The texture has 1 on characters: the lighting multiplies it with the AO of their vertices, which already
+  // has what the passes would count again. The instances are those of the scene, by whose casters they darken
+  // the floor once: the screen-space pass leaves them out. Leaves another framebuffer bound.
   ScreenAo draw(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
-                nook_nnao_layer layer = NOOK_NNAO_LAYER_REPLACE);
+                nook_scene scene);
+  // The screen-space pass alone. With NOOK_NNAO_LAYER_NONE the texture has its AO on characters too.
+  ScreenAo draw_screen(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
+                       nook_nnao_layer layer);
+
+  // The mean number of casters that the last frame of draw evaluates at a pixel with a surface. Waits for the
+  // GPU.
+  double mean_casters();
 
   // Records the frame that was drawn last. Waits for the GPU.
   nook::Recording record(const char* note) { return pass_.record(frame_, note); }
@@ -51,7 +56,9 @@ class ScreenSpaceAo {
   GLuint textures_[kTextures] = {};
   GLuint framebuffer_ = 0;
   nook::Nnao pass_;
-  nook_nnao_frame_desc frame_{};  // of the last draw
+  nook::WorldPass world_;
+  nook_nnao_frame_desc frame_{};         // of the last draw
+  nook_world_frame_desc world_frame_{};  // the same
 };
 
 }  // namespace crowd

@@ -165,9 +165,6 @@ in vec3 surface_light;
 uniform int light;
 #ifdef GROUND
 uniform vec3 ground_irradiance;
-uniform sampler2D floor_light;
-uniform vec2 floor_first_m;
-uniform vec2 floor_extent_m;
 #endif
 uniform float ao_strength;
 uniform float exposure;
@@ -177,11 +174,11 @@ uniform vec3 background;
 out vec4 colour;
 void main() {
 #ifdef GROUND
-  vec3 occlusion = texture(floor_light, (surface_position_ws.xz - floor_first_m) / floor_extent_m).rgb;
+  vec3 occlusion = vec3(1.0);
 #else
   vec3 occlusion = surface_light;
 #endif
-  // Screen-space AO, which is 1 on characters, has the contacts that are finer than the floor's texels.
+  // It is 1 on characters, and on the ground what they and the screen leave.
   if (use_screen_ao) occlusion = min(occlusion, vec3(fetch_screen_ao()));
   occlusion = mix(vec3(1.0), occlusion, ao_strength);
 #ifdef GROUND

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "platform/stopwatch.h"
-#include "samples/crowd/floor_light.h"
 #include "samples/crowd/frames.h"
 #include "samples/crowd/recorded_frames.h"
 
@@ -74,7 +73,7 @@ bool show_controls(Controls& c, const CrowdScene& scene, bool have_light, double
   ImGui::Checkbox("neighbours", &c.neighbours);
   ImGui::SameLine();
   ImGui::Checkbox("ground", &c.ground);
-  ImGui::Checkbox("screen-space AO on the floor", &c.screen_space);
+  ImGui::Checkbox("AO on the floor", &c.screen_space);
   ImGui::SliderInt("nearest neighbours", &c.link_count, 0, 16);
   if (c.screen_space) {
     c.record = ImGui::Button("record a frame");
@@ -142,7 +141,6 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
   bool tier_changed = true;
   int linked = -1;
   bool lit = false;
-  const auto floor = light ? std::make_unique<FloorLight>(gl, hero, places, *light) : nullptr;
   double time_s = 0, update_ms = 0;
   platform::Stopwatch frame_watch;
   while (!context.should_close()) {
@@ -182,7 +180,7 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
         screen_space.reset();  // frees its memory before the next one takes its own
         screen_space = std::make_unique<ScreenSpaceAo>(context, scene->gl(), width, height);
       }
-      look.screen_ao = screen_space->draw(renderer, drawn, camera);
+      look.screen_ao = screen_space->draw(renderer, drawn, camera, scene->handle());
       if (controls.record) controls.recorded = record_frame(*screen_space, record_folder);
       controls.record = false;
     }
@@ -194,7 +192,6 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
       probe.ao_strength = look.ao_strength;
       probe.fog_start_m = look.fog_start_m;
       probe.screen_ao = look.screen_ao;
-      probe.floor = floor->draw(poses);
       renderer.draw_probe_light(drawn, camera, probe);
     } else {
       renderer.draw(drawn, camera, look, glm::vec3(0), radius_m + 1);

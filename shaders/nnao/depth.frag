@@ -2,6 +2,11 @@
 // row. The later stages read it many times, and the host's depth costs a division each time.
 #include "shaders/nnao/host_depth.glsl"
 
+// NOOK_APART: the weight of the layer above which there is no surface.
+#ifdef NOOK_APART
+uniform NOOK_HOST_IMAGE nook_layer;
+#endif
+
 out uint nook_out;
 
 void main() {
@@ -9,5 +14,9 @@ void main() {
 #if NOOK_HALF
   texel *= 2;
 #endif
-  nook_out = floatBitsToUint(nook_screen_depth(texel));
+  float depth = nook_screen_depth(texel);
+#ifdef NOOK_APART
+  if (nook_host_texel(nook_layer, texel).g > NOOK_APART) depth = nook_no_surface;
+#endif
+  nook_out = floatBitsToUint(depth);
 }

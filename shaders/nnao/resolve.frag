@@ -36,7 +36,7 @@ float nook_strengthened(float ao) {
 // The modes of nook_nnao_layer.
 float nook_combined(float ao, ivec2 pixel) {
   vec2 layer = nook_host_texel(nook_layer, pixel).rg;
-  if (nook_layer_mode == 3) return mix(ao, layer.r, layer.g);
+  if (nook_layer_mode >= 3) return mix(ao, layer.r, layer.g);
   float smaller = min(ao, layer.r);
   return nook_layer_mode == 1 ? smaller : layer.r > 0.0 ? smaller / layer.r : 1.0;
 }

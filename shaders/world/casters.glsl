@@ -1,22 +1,63 @@
-// The openness that all casters of a frame leave at a point. The table holds two texels for each group, its sphere of
-// reach and (first texel, number of casters), then two for each caster: its ends with their radii in AO.
+// The openness that the casters of a frame leave at a point. The table holds four texels for each body: the centre of
+// the sphere round it, with its strength over the cut-off and its radius in one number; its first part, the number of
+// parts, the squared distance from which one capsule stands for it; that capsule.
+// A part has four texels: its centre and the squared distance from which one capsule stands for it; its first caster and
+// their number; that capsule. A capsule is two texels, its ends with their radii in AO. Props and occluders are bodies
+// of one part that has one caster.
 #include "shaders/core/texels.glsl"
 #include "shaders/world/coverage.glsl"
 
 uniform NOOK_TEXELS nook_world_casters;
 uniform int nook_world_groups;
 
+// The casters that the point has evaluated so far.
+int nook_world_evaluated = 0;
+
+float nook_world_caster_open(int texel, vec3 point, vec3 normal) {
+  ++nook_world_evaluated;
+  return 1.0 - nook_world_coverage(nook_texel(nook_world_casters, texel), nook_texel(nook_world_casters, texel + 1),
+                                   point, normal);
+}
+
+float nook_world_merged_open(int texel, vec3 point, vec3 normal) {
+  ++nook_world_evaluated;
+  return 1.0 - nook_world_far_coverage(nook_texel(nook_world_casters, texel),
+                                       nook_texel(nook_world_casters, texel + 1), point, normal);
+}
+
+float nook_world_parts_open(int first, int last, vec3 point, vec3 normal) {
+  float open = 1.0;
+  for (int part = first; part < last; part += NOOK_PART_TEXELS) {
+    vec4 place = nook_texel(nook_world_casters, part);
+    vec3 d = place.xyz - point;
+    if (dot(d, d) > place.w) {
+      open *= nook_world_merged_open(part + 2, point, normal);
+    } else {
+      vec4 range = nook_texel(nook_world_casters, part + 1);
+      int from = int(range.x), to = from + NOOK_CASTER_TEXELS * int(range.y);
+      for (int k = from; k < to; k += NOOK_CASTER_TEXELS) open *= nook_world_caster_open(k, point, normal);
+    }
+  }
+  return open;
+}
+
+float nook_world_body_open(int body, vec3 point, vec3 normal) {
+  int texel = NOOK_BODY_TEXELS * body;
+  vec4 bound = nook_texel(nook_world_casters, texel);
+  vec3 d = bound.xyz - point;
+  float radius = bound.w < NOOK_ENDLESS_BOUND ? fract(bound.w) * NOOK_LARGEST_RADIUS : NOOK_ENDLESS_BOUND;
+  float distance2 = dot(d, d), gap = sqrt(distance2) - radius;
+  // The casters cover at most strength / gap^2, and their cosine is at most that of the top of the sphere, top / gap.
+  float top = dot(d, normal) + radius;
+  if (top < 0.0 || (gap > 0.0 && bound.w * min(top, gap) < NOOK_STRENGTH_STEPS * gap * gap * gap)) return 1.0;
+  vec4 parts = nook_texel(nook_world_casters, texel + 1);
+  int first = int(parts.x), last = first + NOOK_PART_TEXELS * int(parts.y);
+  if (distance2 > parts.z) return nook_world_merged_open(texel + 2, point, normal);
+  return nook_world_parts_open(first, last, point, normal);
+}
+
 float nook_world_open(vec3 point, vec3 normal) {
   float open = 1.0;
-  for (int group = 0; group < nook_world_groups; ++group) {
-    vec4 reach = nook_texel(nook_world_casters, 2 * group);
-    vec3 d = reach.xyz - point;
-    if (dot(d, d) > reach.w * reach.w) continue;
-    vec4 range = nook_texel(nook_world_casters, 2 * group + 1);
-    int first = int(range.x), last = first + 2 * int(range.y);
-    for (int k = first; k < last; k += 2)
-      open *= 1.0 - nook_world_coverage(nook_texel(nook_world_casters, k), nook_texel(nook_world_casters, k + 1),
-                                        point, normal);
-  }
+  for (int body = 0; body < nook_world_groups; ++body) open *= nook_world_body_open(body, point, normal);
   return open;
 }

@@ -22,6 +22,27 @@
 #define NOOK_HORIZON_21 1.05297
 #define NOOK_HORIZON_22 -0.51604
 
+// w1 and w2 of a small disc, b = 1: sums of the above.
+#define NOOK_HORIZON_FAR_1 0.25
+#define NOOK_HORIZON_FAR_2 0.0378
+
+// Texels of the table of casters: of a body, a part of it, a caster. Texels of a tile's list: its first entry
+// and their number; an entry is a number of a body, four to a texel.
+#define NOOK_BODY_TEXELS 4
+#define NOOK_PART_TEXELS 4
+#define NOOK_CASTER_TEXELS 2
+
+// The strength of a body over the cut-off counts steps of the inverse of this, square metres; the fraction of
+// the number is the body's radius over the largest one, metres. Bodies with larger numbers reach everything,
+// and have the endless one.
+#define NOOK_STRENGTH_STEPS 8.0
+#define NOOK_LARGEST_RADIUS 4.0
+#define NOOK_LARGEST_STRENGTH 4096.0
+#define NOOK_ENDLESS_BOUND 1e15
+
+// The weight of a layer from which on no more than a step of 8 bits is left of what it replaces.
+#define NOOK_REPLACED 0.998
+
 // The equal parts of a cone of light.
 #define NOOK_CONE_PARTS 16
 

@@ -59,3 +59,29 @@ float nook_world_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
   float size2 = max(sum * sum - 2.0 * hull.x * hull.y * spread, 0.0);
   return min(nook_above_horizon(hull.x * nu + hull.y * nv, size2, min(nu / su, nv / sv)), 1.0);
 }
+
+// The same from far away, where a capsule is a narrow strip: within 0.003 of the above for 99 of 100 capsules whose ends
+// have sines below 0.25. With the vector g in the plane of u and v for which dot(g, u) = s_u and dot(g, v) = s_v, the
+// strip's sine along the arc of w from u to v is dot(g, w), and its integral 2 / pi dot(g, w) w over the arc is
+//   (lambda + s) (s_u + s_v) / (2 (1 + c)) (u + v) + (lambda - s) (s_u - s_v) / (2 (1 - c)) (u - v), over pi,
+// lambda the angle between both and s its sine. The ends add halves of their discs. Above the horizon the region counts
+// as the disc of the same vector at a great distance.
+float nook_world_far_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
+  vec3 a = end_a.xyz - point, b = end_b.xyz - point;
+  float ia = inversesqrt(dot(a, a)), ib = inversesqrt(dot(b, b));
+  float su = end_a.w * ia, sv = end_b.w * ib;
+  float c = clamp(dot(a, b) * (ia * ib), -0.999, 1.0);
+  float nu = dot(normal, a) * ia, nv = dot(normal, b) * ib;
+  float lambda = nook_angle_of_versine(1.0 - c), s = sqrt(1.0 - c * c);
+  float together = (lambda + s) * (su + sv) / (1.0 + c) * 0.159154943;
+  // (lambda - s) / (1 - c), over 2 pi, within 0.002 up to a right angle.
+  float apart = lambda * (0.00194 * lambda * lambda + 0.0530516) * (su - sv);
+  float hu = together + apart + 0.5 * su * su, hv = together - apart + 0.5 * sv * sv;
+  float size2 = hu * hu + hv * hv + 2.0 * hu * hv * c;
+  float factor = hu * nu + hv * nv;
+  // 1 / size, and the root of it.
+  float inverse = inversesqrt(size2 + 1e-20), inverse_root = sqrt(inverse);
+  float t = clamp(factor * (inverse * inverse_root), -1.0, 1.0), q = 1.0 - t * t;
+  float cube = size2 * inverse_root;
+  return clamp(factor + cube * (0.5 * (1.0 - t) - q * (NOOK_HORIZON_FAR_2 * q + NOOK_HORIZON_FAR_1)), 0.0, 1.0);
+}

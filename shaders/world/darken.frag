@@ -1,11 +1,19 @@
-// AO of the casters at what the host's depth shows.
+// AO of the casters at what the host's depth shows: of every pixel, or of every second pixel of every second row, which
+// resolve.frag spreads.
 #include "shaders/nnao/host_depth.glsl"
 #include "shaders/world/casters.glsl"
-
-uniform sampler2D nook_host_normal;
-#ifdef NOOK_LAYERED
+#if !NOOK_HALF
+#include "shaders/world/output.glsl"
+#elif defined(NOOK_LAYERED)
 uniform sampler2D nook_layer;
 #endif
+
+uniform sampler2D nook_host_normal;
+// The lists of bodies that may reach a tile lie behind the casters: for each tile a texel, then the entries.
+uniform int nook_world_first_tile;
+uniform int nook_world_tile_columns;  // 0: no body reaches the view
+uniform int nook_world_tile_size;     // pixels along a side
+uniform int nook_world_counts;  // 1: shows the number of casters that a pixel evaluates, over 255
 
 out vec4 nook_out;
 
@@ -37,32 +45,47 @@ vec3 nook_world_normal(ivec2 pixel, vec3 position) {
   return dot(n, nook_to_viewer(position)) < 0.0 ? -n : n;
 }
 
-float nook_world_strengthened(float ao) {
-  float base = max(1.0 - nook_intensity * (1.0 - ao), 0.0);
-  // pow is inexact on some drivers, and open must stay exactly open.
-  return nook_power == 1.0 || base == 1.0 ? base : pow(base, nook_power);
+float nook_world_tile_open(ivec2 pixel, vec3 point, vec3 normal) {
+  if (nook_world_tile_columns == 0) return 1.0;
+  ivec2 tile = pixel / nook_world_tile_size;
+  vec4 range = nook_texel(nook_world_casters, nook_world_first_tile + tile.y * nook_world_tile_columns + tile.x);
+  int first = nook_world_first_tile + int(range.x), count = int(range.y);
+  float open = 1.0;
+  vec4 bodies = vec4(0.0);
+  for (int i = 0; i < count; ++i) {
+    if ((i & 3) == 0) bodies = nook_texel(nook_world_casters, first + (i >> 2));
+    open *= nook_world_body_open(int(bodies.x), point, normal);
+    bodies = bodies.yzwx;
+  }
+  return open;
 }
 
+// Returns true where the layer replaces the whole of the result.
+bool nook_world_replaced(ivec2 pixel) {
 #ifdef NOOK_LAYERED
-// The modes of nook_nnao_layer.
-float nook_world_combined(float ao, ivec2 pixel) {
-  vec2 layer = texelFetch(nook_layer, pixel + nook_origin, 0).rg;
-  if (nook_layer_mode == 3) return mix(ao, layer.r, layer.g);
-  float smaller = min(ao, layer.r);
-  return nook_layer_mode == 1 ? smaller : layer.r > 0.0 ? smaller / layer.r : 1.0;
-}
+  return nook_layer_mode >= 3 && texelFetch(nook_layer, pixel + nook_origin, 0).g > NOOK_REPLACED;
+#else
+  return false;
 #endif
+}
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy) - nook_origin;
-  float depth = nook_screen_depth(pixel);
-  float ao = 1.0;
-  if (depth != nook_no_surface) {
-    vec3 position = nook_position(nook_screen_rays, vec2(pixel), depth);
-    ao = nook_world_strengthened(nook_world_open(position, nook_world_normal(pixel, position)));
-  }
-#ifdef NOOK_LAYERED
-  ao = nook_world_combined(ao, pixel);
+  ivec2 texel = ivec2(gl_FragCoord.xy);
+#if NOOK_HALF
+  ivec2 pixel = 2 * texel;
+#else
+  ivec2 pixel = texel - nook_origin;
 #endif
-  nook_out = vec4(vec3(ao), 1.0);
+  float depth = nook_screen_depth(pixel);
+  float open = 1.0;
+  if (depth != nook_no_surface && !nook_world_replaced(pixel)) {
+    vec3 position = nook_position(nook_screen_rays, vec2(pixel), depth);
+    open = nook_world_tile_open(pixel, position, nook_world_normal(pixel, position));
+  }
+  if (nook_world_counts == 1) open = float(nook_world_evaluated) / 255.0;
+#if NOOK_HALF
+  nook_out = vec4(vec3(open), 1.0);
+#else
+  nook_out = nook_world_counts == 1 ? vec4(vec3(open), 1.0) : nook_world_result(open, pixel);
+#endif
 }

@@ -129,7 +129,7 @@ TEST_CASE("recorded frames: bad parameters name their field") {
   refused([](Desc& d) { d.height = 20000; }, "got 5 x 20000");
   refused([](Desc& d) { d.depth = nullptr; }, "desc.depth");
   refused([](Desc& d) { d.layer_texels = nullptr; }, "layer_texels");
-  refused([](Desc& d) { d.layer = 4; }, "layer is unknown (got 4, need 0 to 3)");
+  refused([](Desc& d) { d.layer = 5; }, "layer is unknown (got 5, need 0 to 4)");
   refused([](Desc& d) { d.radius = NAN; }, "radius");
   refused([](Desc& d) { d.projection[5] = 0; }, "projection");
   refused([](Desc& d) { d.taps = 10; }, "got 10, need 9, 16");

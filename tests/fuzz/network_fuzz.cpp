@@ -81,7 +81,7 @@ nook_nnao_frame_desc frame_of(Script& script) {
   const std::uint32_t settings = script.byte();
   if (settings & 1) frame.normal_texture = 1001;
   if (settings & 2) {
-    frame.layer = nook_nnao_layer(script.below(5));
+    frame.layer = nook_nnao_layer(script.below(6));
     frame.layer_texture = 1002;
   }
   if (settings & 4) {

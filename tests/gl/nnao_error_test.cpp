@@ -150,7 +150,7 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
       {[&](Frame& f) { f.intensity = 17; }, "frame.intensity"},
       {[&](Frame& f) { f.power = 0; }, "frame.power"},
       {[&](Frame& f) { f.sky_depth = -2; }, "frame.sky_depth"},
-      {[&](Frame& f) { f.layer = 4; }, "frame.layer is unknown"},
+      {[&](Frame& f) { f.layer = 5; }, "frame.layer is unknown"},
       {[&](Frame& f) { f.layer = NOOK_NNAO_LAYER_MIN; }, "frame.layer_texture is 0"},
       {[&](Frame& f) { f.layer = NOOK_NNAO_LAYER_MIN, f.layer_texture = integer; },
        "frame.layer_texture has a format"},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <optional>
 
 #include "sdk/src/gl/touched_state.h"
 #include "sdk/src/nnao/evaluate.h"
@@ -198,7 +199,7 @@ TEST_CASE("world: the bodies of a scene darken as on the CPU, and outgrow the ta
                                                      fixture.normals_of(picture), 1);
       nook_world_frame_desc frame = world_frame(screen, view);
       frame.scene = crowd.scene;
-      frame.cutoff_error = 0;
+      frame.cutoff_error = frame.level_error = 0;
       NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
       const std::vector<float> wanted = sampled(picture, view, crowd.scene, {});
       const Difference found = difference(fixture.own(), wanted, bound);
@@ -293,6 +294,7 @@ TEST_CASE("world: nothing is darkened beyond the stated reach, and by no more th
       nook_world_frame_desc frame = world_frame(screen, View());
       frame.scene = crowd.scene;
       frame.cutoff_error = cutoff;
+      frame.level_error = 0;
       NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
       return fixture.own();
     };
@@ -306,6 +308,200 @@ TEST_CASE("world: nothing is darkened beyond the stated reach, and by no more th
     CHECK(changed > 0);
   }
   nook_character_model_destroy(&loaded);
+}
+
+namespace {
+
+// A crowd of bodies round the still life, which a camera looks at.
+struct CrowdFixture : WorldFixture {
+  explicit CrowdFixture(platform::Context& made_in) : WorldFixture(made_in) {
+    Numbers numbers(4);
+    CharacterModel model = sample_model();
+    add_world_casters(model, numbers);
+    loaded = load_model(host.handle, model);
+    CrowdOptions options;
+    options.instances = 7;
+    options.offset = {0, -0.3f, -3};
+    options.occluders = true;
+    crowd.emplace(host.handle, std::vector<nook_character_model>{loaded},
+                  std::vector<std::uint32_t>{std::uint32_t(model.bone_count())}, options);
+    crowd->pose(0);
+  }
+  ~CrowdFixture() {
+    crowd.reset();
+    nook_character_model_destroy(&loaded);
+  }
+
+  nook_nnao_frame_desc screen() {
+    return frame_desc(camera, width, height, depth_of(camera, picture), normals_of(picture), 0.5f);
+  }
+  // level_error is 0.
+  nook_world_frame_desc frame(const nook_nnao_frame_desc& of) const {
+    nook_world_frame_desc frame = world_frame(of, View());
+    frame.scene = crowd->scene;
+    frame.cutoff_error = frame.level_error = 0;
+    return frame;
+  }
+  std::vector<float> drawn(const nook_world_frame_desc& frame) {
+    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+    return own();
+  }
+
+  const Camera camera = plain_camera(float(width) / height);
+  const Picture picture = look(camera, still_life(), width, height);
+  nook_character_model loaded = nullptr;
+  std::optional<Crowd> crowd;
+};
+
+double mean_square(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::pow(double(a[i]) - double(b[i]), 2);
+  return sum / double(a.size());
+}
+
+}  // namespace
+
+TEST_CASE("world: levels stay within their error, with fewer casters at a pixel") {
+  NOOK_NEED_CONTEXT(context);
+  CrowdFixture fixture(context);
+  fixture.made();
+  const nook_nnao_frame_desc screen = fixture.screen();
+  nook_world_frame_desc frame = fixture.frame(screen);
+  const std::vector<float> all = fixture.drawn(frame);
+  const auto mean_casters = [&] {
+    frame.show = NOOK_WORLD_VIEW_CASTERS;
+    const std::vector<float> counts = fixture.drawn(frame);
+    frame.show = NOOK_WORLD_VIEW_AO;
+    double sum = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      if (std::isfinite(fixture.picture.depth[i])) sum += 255 * double(counts[i]);
+    return sum;
+  };
+  const double without_levels = mean_casters();
+  for (const float error : {1.0f / 256, 1.0f / 32}) {
+    frame.level_error = error;
+    // The rms is that of one body; seven of them add as if independent. A step of 8 bits besides.
+    CHECK(std::sqrt(mean_square(fixture.drawn(frame), all)) < std::sqrt(7.0) * double(error) + 1.0 / 255);
+  }
+  CHECK(mean_casters() < without_levels);
+}
+
+TEST_CASE("world: a crowd that moves away pops by a few level errors at most") {
+  NOOK_NEED_CONTEXT(context);
+  CrowdFixture fixture(context);
+  fixture.made();
+  const nook_nnao_frame_desc screen = fixture.screen();
+  nook_world_frame_desc frame = fixture.frame(screen);
+  constexpr float error = 1.0f / 64;
+  std::vector<float> before;
+  float pop = 0;
+  for (int step = 0; step < 14; ++step) {
+    // Casters move, and the surfaces that they darken stay.
+    frame.view[14] = -0.3f * float(step);
+    frame.level_error = 0;
+    const std::vector<float> all = fixture.drawn(frame);
+    frame.level_error = error;
+    std::vector<float> off = fixture.drawn(frame);
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      off[i] -= all[i];
+      if (step > 0) pop = std::max(pop, std::abs(off[i] - before[i]));
+    }
+    before = off;
+  }
+  INFO("largest pop " << pop);
+  // The error is an rms over points and normals; the largest of some 1e5 changes is several times as much.
+  CHECK(pop < 8 * error);
+  CHECK(pop > 0);
+}
+
+TEST_CASE("world: half resolution comes close to full resolution") {
+  NOOK_NEED_CONTEXT(context);
+  CrowdFixture fixture(context);
+  const nook_nnao_frame_desc screen = fixture.screen();
+  const nook_world_frame_desc frame = fixture.frame(screen);
+  fixture.made();
+  const std::vector<float> full = fixture.drawn(frame);
+  nook_world_pass_destroy(&fixture.pass);
+  nook_world_pass_desc desc = world_desc();
+  desc.half_resolution = 1;
+  fixture.made(desc);
+  const std::vector<float> half = fixture.drawn(frame);
+  // Balls of a few pixels have edges all over; elsewhere AO is smooth.
+  CHECK(difference(half, full, 0.05f).beyond < 0.05f);
+  CHECK(std::sqrt(mean_square(half, full)) < 0.03);
+  for (std::size_t i = 0; i < half.size(); ++i)
+    if (!std::isfinite(fixture.picture.depth[i])) REQUIRE(half[i] == 1);
+}
+
+TEST_CASE("world: AO of another kind is composed by product and by minimum") {
+  NOOK_NEED_CONTEXT(context);
+  CrowdFixture fixture(context);
+  for (const int half : {0, 1}) {
+    nook_world_pass_destroy(&fixture.pass);
+    nook_world_pass_desc desc = world_desc();
+    desc.half_resolution = half;
+    fixture.made(desc);
+    const nook_nnao_frame_desc screen = fixture.screen();
+    nook_world_frame_desc frame = fixture.frame(screen);
+    const std::vector<float> alone = fixture.drawn(frame);
+    std::vector<float> other(std::size_t(width) * height);
+    for (std::size_t i = 0; i < other.size(); ++i) other[i] = float(i % 17) / 16;
+    frame.ao_texture = fixture.textures.floats(GL_R32F, 1, width, height, other);
+    for (const nook_world_composition composition : {NOOK_WORLD_PRODUCT, NOOK_WORLD_MINIMUM}) {
+      frame.composition = composition;
+      const std::vector<float> found = fixture.drawn(frame);
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        const float wanted =
+            composition == NOOK_WORLD_PRODUCT ? alone[i] * other[i] : std::min(alone[i], other[i]);
+        // Two roundings to 8 bits.
+        REQUIRE(std::abs(found[i] - wanted) < 1.1f / 255);
+      }
+    }
+  }
+}
+
+TEST_CASE("world: the screen pass leaves surfaces apart out of its occluders") {
+  NOOK_NEED_CONTEXT(context);
+  WorldFixture fixture(context);
+  const Camera camera = plain_camera(float(width) / height);
+  Picture picture = look(camera, still_life(), width, height);
+  // The nearer half of the surfaces stands for characters.
+  std::vector<float> depths;
+  for (const float d : picture.depth)
+    if (std::isfinite(d)) depths.push_back(d);
+  std::nth_element(depths.begin(), depths.begin() + std::ptrdiff_t(depths.size() / 2), depths.end());
+  const float middle = depths[depths.size() / 2];
+  std::vector<float> layer(std::size_t(2 * width * height), 0.0f);
+  Picture without = picture;
+  for (std::size_t i = 0; i < picture.depth.size(); ++i) {
+    layer[2 * i] = 0.25f;
+    if (!(picture.depth[i] < middle)) continue;
+    layer[2 * i + 1] = 1;
+    without.depth[i] = INFINITY;
+  }
+  for (const int half : {0, 1}) {
+    nook_nnao pass = fixture.pass_of(9, half, 1, nullptr);
+    const auto drawn = [&](const Picture& of, nook_nnao_layer mode) {
+      nook_nnao_frame_desc frame =
+          frame_desc(camera, width, height, fixture.depth_of(camera, of), fixture.normals_of(picture), 0.6f);
+      frame.layer = mode;
+      frame.layer_texture = fixture.textures.floats(GL_RG32F, 2, width, height, layer);
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+      nook_nnao_info info{};
+      info.struct_size = sizeof info;
+      NOOK_OK_OR_FAIL(nook_nnao_describe(pass, &info));
+      return read_texture(context.gl(), info.texture, width, height);
+    };
+    const std::vector<float> apart = drawn(picture, NOOK_NNAO_LAYER_APART),
+                             removed = drawn(without, NOOK_NNAO_LAYER_REPLACE),
+                             present = drawn(picture, NOOK_NNAO_LAYER_REPLACE);
+    int changed = 0;
+    for (std::size_t i = 0; i < apart.size(); ++i) {
+      REQUIRE(apart[i] == removed[i]);
+      changed += apart[i] != present[i];
+    }
+    CHECK(changed > 50);
+  }
 }
 
 namespace {
@@ -342,6 +538,14 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
       {"texture", [&] { render(true); }},
       {"first frame", [&] { render(false); }},
       {"later frame", [&] { render(false); }},
+      {"half resolution",
+       [&] {
+         nook_world_pass_destroy(&fixture.pass);
+         nook_world_pass_desc desc = world_desc();
+         desc.half_resolution = 1;
+         fixture.made(desc);
+         render(false);
+       }},
       {"refused frame", [&] { render(true, NOOK_ERROR_INVALID_ARGUMENT); }},
       {"destroy", [&] { nook_world_pass_destroy(&fixture.pass); }},
   };
@@ -423,6 +627,10 @@ TEST_CASE("world: bad input is refused at once, and draws nothing") {
   refused("frame.view", [](auto& f) { f.view[5] = 2; });
   refused("frame.props is NULL", [](auto& f) { f.props = nullptr; });
   refused("frame.cutoff_error", [](auto& f) { f.cutoff_error = -1; });
+  refused("frame.level_error", [](auto& f) { f.level_error = NAN; });
+  refused("frame.composition", [](auto& f) { f.composition = 2; });
+  refused("frame.show", [](auto& f) { f.show = -1; });
+  refused("frame.ao_texture", [](auto& f) { f.ao_texture = 12345; });
   nook_world_capsule bad = casters[0];
   bad.radius_a = 0;
   refused("frame.props[0] has a radius", [&](auto& f) {
@@ -440,4 +648,7 @@ TEST_CASE("world: bad input is refused at once, and draws nothing") {
   nook_world_pass none = nullptr;
   CHECK(nook_world_pass_create(fixture.gl, &desc, &none) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(none == nullptr);
+  desc = world_desc(4, 4);
+  desc.half_resolution = 2;
+  CHECK(nook_world_pass_create(fixture.gl, &desc, &none) == NOOK_ERROR_INVALID_ARGUMENT);
 }

@@ -16,8 +16,9 @@ inline constexpr double light_lobes = 12;  // of an instance's light
 // The screen-space pass.
 inline constexpr double sides = 2;
 
-// The world pass at a pixel that one body reaches.
-inline constexpr double bodies = 1;
-inline constexpr double casters_of_body = 40;
+// The world pass at a pixel of the crowd sample with 100 characters.
+inline constexpr double bodies_of_tile = 68;
+inline constexpr double parts_of_body = 0.08;
+inline constexpr double casters_of_part = 0.2;
 
 }  // namespace nook::measure::trips

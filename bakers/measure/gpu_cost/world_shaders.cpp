@@ -2,13 +2,35 @@
 #include "bakers/measure/gpu_cost/trip_counts.h"
 
 namespace nook::measure {
+namespace {
+
+// One caster at a point, in the form that `call` names.
+std::string caster_host(const char* call) {
+  return std::string(
+             "#include \"shaders/world/casters.glsl\"\n"
+             "in vec3 point;\nin vec3 facing;\nout vec4 colour;\n"
+             "void main() { colour = vec4(")
+      .append(call)
+      .append("(0, point, facing)); }\n");
+}
+
+}  // namespace
 
 std::vector<ShaderCase> world_shaders() {
   const std::vector<Loop> loops{
-      {"bodies", trips::bodies, {{"casters of a body", trips::casters_of_body, {}}}}};
+      {"bodies of a tile",
+       trips::bodies_of_tile,
+       {{"parts of a body", trips::parts_of_body, {{"casters of a part", trips::casters_of_part, {}}}}}}};
   const char* const path = "shaders/world/darken.frag";
-  return {tree_shader(Stage::fragment, path, "darken.frag", "", loops),
-          tree_shader(Stage::fragment, path, "darken.frag, layered", "#define NOOK_LAYERED 1\n", loops)};
+  const char* const resolve = "shaders/world/resolve.frag";
+  const std::string full = "#define NOOK_HALF 0\n", half = "#define NOOK_HALF 1\n";
+  return {
+      tree_shader(Stage::fragment, path, "darken.frag", full, loops),
+      tree_shader(Stage::fragment, path, "darken.frag, layered", full + "#define NOOK_LAYERED 1\n", loops),
+      tree_shader(Stage::fragment, path, "darken.frag, half resolution", half, loops),
+      tree_shader(Stage::fragment, resolve, "resolve.frag of the world pass", half),
+      host_shader(caster_host("nook_world_caster_open"), "one caster of the world pass"),
+      host_shader(caster_host("nook_world_merged_open"), "one capsule for a limb or a body")};
 }
 
 }  // namespace nook::measure

@@ -25,6 +25,18 @@ void set_projection(const GpuView& view, float (&projection)[16]) {
 
 }  // namespace
 
+nook_nnao_frame_desc frame_of(const GpuView& view) {
+  nook_nnao_frame_desc frame;
+  succeed(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+  frame.width = view.width;
+  frame.height = view.height;
+  frame.depth_texture = view.depth.texture();
+  frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+  frame.normal_texture = view.normal.texture();
+  set_projection(view, frame.projection);
+  return frame;
+}
+
 NookGl::NookGl(platform::Context& context) {
   nook_context_desc context_desc;
   succeed(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
@@ -68,14 +80,7 @@ NetworkPass::~NetworkPass() {
 
 GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blurred,
                          const std::optional<Mat3x4>& earlier_from_view) {
-  nook_nnao_frame_desc frame;
-  succeed(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
-  frame.width = view.width;
-  frame.height = view.height;
-  frame.depth_texture = view.depth.texture();
-  frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
-  frame.normal_texture = view.normal.texture();
-  set_projection(view, frame.projection);
+  nook_nnao_frame_desc frame = frame_of(view);
   frame.radius = request.radius;
   frame.max_radius_px = request.max_radius_px;
   frame.view = blurred ? NOOK_NNAO_VIEW_BLURRED : NOOK_NNAO_VIEW_RAW;

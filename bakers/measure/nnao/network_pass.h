@@ -21,11 +21,15 @@ class NookGl {
   NookGl& operator=(const NookGl&) = delete;
 
   nook_gl get() const { return gl_; }
+  nook_context context() const { return context_; }
 
  private:
   nook_context context_ = nullptr;
   nook_gl gl_ = nullptr;
 };
+
+// The frame of a view whose depth is linear: size, depth, normals, projection.
+nook_nnao_frame_desc frame_of(const GpuView& view);
 
 // A form in which the pass is measured.
 struct NetworkForm {

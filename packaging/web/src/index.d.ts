@@ -252,7 +252,7 @@ export interface NnaoFrame {
   maxRadiusPx?: number;
   intensity?: number;
   power?: number;
-  layer?: "none" | "min" | "remainder" | "replace";
+  layer?: "none" | "min" | "remainder" | "replace" | "apart";
   layerTexture?: WebGLTexture | null;
   /** Where the result goes: nothing for the pass's own texture, null for the canvas. */
   target?: WebGLTexture | WebGLFramebuffer | null;

@@ -8,12 +8,14 @@
 #include "nook_nnao_recording.hpp"
 #include "nook_probe.hpp"
 #include "nook_transfer.hpp"
+#include "nook_world.hpp"
 // A library without its OpenGL half (NOOK_GL=OFF) is installed without these headers.
 #if __has_include("nook_gl.h")
 #include "nook_gl.hpp"
 #include "nook_gl_material.hpp"
 #include "nook_gl_probe.hpp"
 #include "nook_gl_transfer.hpp"
+#include "nook_gl_world.hpp"
 #include "nook_nnao.hpp"
 #include "nook_nnao_stages.hpp"
 #endif

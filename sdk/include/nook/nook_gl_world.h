@@ -2,7 +2,18 @@
  *
  * After depth, one call darkens the whole screen by the casters of a scene, also by those that the screen
  * does not show. It takes the frame of the screen pass (nook_nnao.h), the view matrix and the scene. The pass
- * follows the state contract that was chosen at nook_gl_create, on every tier. */
+ * follows the state contract that was chosen at nook_gl_create, on every tier.
+ *
+ * With the screen pass, so that both darken once: the layer texture is 1 in green where a character is, and
+ * its AO in red.
+ *     screen.layer = NOOK_NNAO_LAYER_APART;  screen.layer_texture = layer;
+ *     nook_nnao_render(nnao, &screen);
+ *     frame.screen = &screen;  frame.ao_texture = nnao_info.texture;
+ *     nook_world_render(world, &frame);
+ * The texture of the world pass is then AO of everything.
+ *
+ * The casters of a frame go through lists of tiles of 32 pixels, larger ones where OpenGL has no room for so
+ * many: a body is in the lists of the tiles that its reach may cover on the screen. */
 #ifndef NOOK_GL_WORLD_H
 #define NOOK_GL_WORLD_H
 
@@ -27,8 +38,8 @@ typedef struct nook_world_pass_desc {
   /* Casters and groups (bodies) that the pass has room for from the start, default 4096; it makes more room
    * when a frame has more. */
   uint32_t casters;
-  /* 0. */
-  uint32_t reserved;
+  /* 1: AO is computed at half width and half height, and upsampled by a joint-bilateral filter. Default 0. */
+  int32_t half_resolution;
 } nook_world_pass_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
@@ -47,6 +58,24 @@ NOOK_API nook_result nook_world_pass_create(nook_gl gl, const nook_world_pass_de
  * Context thread. */
 NOOK_API void nook_world_pass_destroy(nook_world_pass* pass);
 
+/* The composition of the darkening w by casters with AO s of another kind. */
+enum {
+  /* s w: the casters have no part in s, as in that of nook_nnao_render with NOOK_NNAO_LAYER_APART. */
+  NOOK_WORLD_PRODUCT = 0,
+  /* min(s, w): s has the casters' darkening as well. */
+  NOOK_WORLD_MINIMUM = 1
+};
+typedef int32_t nook_world_composition;
+
+/* The quantity that the pass shows, for debug views. */
+enum {
+  /* The result. */
+  NOOK_WORLD_VIEW_AO = 0,
+  /* The number of casters that a pixel evaluates, over 255. */
+  NOOK_WORLD_VIEW_CASTERS = 1
+};
+typedef int32_t nook_world_view;
+
 typedef struct nook_world_frame_desc {
   /* nook_world_frame_desc_init sets these two. */
   uint32_t struct_size;
@@ -55,8 +84,8 @@ typedef struct nook_world_frame_desc {
   const void* next;
   /* Depth, normals, projection, viewport, strength, layer, target and blend, as nook_nnao_render reads them,
    * so that the same descriptor serves both; required. radius, max_radius_px and view are not read. With
-   * NOOK_NNAO_LAYER_REPLACE the layer is a mask: where its green channel is 1, such as on characters, its red
-   * channel is the result. A layer texture that holds this pass's result hands it to the screen pass. */
+   * NOOK_NNAO_LAYER_REPLACE or _APART the layer is a mask: where its green channel is 1, such as on
+   * characters, its red channel is the result. */
   const nook_nnao_frame_desc* screen;
   /* From world space to the view space of screen->projection: column-major, a rotation and a translation.
    * Required. */
@@ -68,8 +97,21 @@ typedef struct nook_world_frame_desc {
   const nook_world_capsule* props;
   uint32_t prop_count;
   /* AO, 0 to 1, default 1/1024: a body does not reach points from which it takes less, by the bound that
-   * nook_world_sample states. 0: every body reaches every point. */
+   * nook_world_sample states times the cosine between the normal and the highest point of the sphere round
+   * the body. 0: every body reaches every point. */
   float cutoff_error;
+  /* AO, 0 to 1, default 1/256: beyond a distance one capsule stands for the casters of a limb, and beyond
+   * another one for those of a body, where the rms of the difference is about this. 0: every caster counts.
+   */
+  float level_error;
+  /* AO of another kind in its red channel, such as that of nook_nnao_render for the same frame: a 2D texture
+   * of screen->width x screen->height, in floats or normalised integers. The result is its composition with
+   * that of the casters. Default 0: none. */
+  uint32_t ao_texture;
+  /* Default NOOK_WORLD_PRODUCT. */
+  nook_world_composition composition;
+  /* Default NOOK_WORLD_VIEW_AO. */
+  nook_world_view show;
 } nook_world_frame_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
@@ -77,11 +119,11 @@ typedef struct nook_world_frame_desc {
 NOOK_API nook_result nook_world_frame_desc_init(nook_world_frame_desc* desc, size_t size,
                                                 uint32_t header_version);
 
-/* Draws the AO of a frame; that of sky is exactly 1. The call reads nothing back and never waits for the GPU,
- * and allocates only where the casters outgrow their room. On failure it leaves no OpenGL error, changes no
- * state and draws nothing. Context thread, while no other call changes the scene. Errors: INVALID_ARGUMENT
- * (the message names the field, its value and what is needed), VERSION, OUT_OF_MEMORY, GL (the OpenGL context
- * was lost). */
+/* Draws the AO of a frame; that of sky is exactly 1, or that of ao_texture. The call reads nothing back and
+ * never waits for the GPU, and allocates only where the casters outgrow their room. On failure it leaves no
+ * OpenGL error, changes no state and draws nothing. Context thread, while no other call changes the scene.
+ * Errors: INVALID_ARGUMENT (the message names the field, its value and what is needed), VERSION,
+ * OUT_OF_MEMORY, GL (the OpenGL context was lost). */
 NOOK_API nook_result nook_world_render(nook_world_pass pass, const nook_world_frame_desc* frame);
 
 /* Makes the next nook_world_render query every texture again, as nook_nnao_recheck does. The call makes no
@@ -94,14 +136,14 @@ typedef struct nook_world_pass_info {
   /* The OpenGL name of the pass's own texture: GL_R8, max_width x max_height, 1 everywhere before the first
    * frame. Nook owns it; the host reads it. */
   uint32_t texture;
-  /* For shaders of the host: the table of casters of the last frame, a texture of caster_target (a texture
-   * buffer, or a 2D texture on OpenGL ES), and the number of its groups. */
+  /* For shaders of the host: the table of casters of the last frame that may reach its view, a texture of
+   * caster_target (a texture buffer, or a 2D texture on OpenGL ES), and the number of its groups (bodies). */
   uint32_t caster_texture;
   uint32_t caster_target;
   int32_t group_count;
   /* Casters in the table. */
   int32_t caster_count;
-  /* The bytes of the pass's texture and table. */
+  /* The bytes of the pass's textures and table. */
   uint64_t texture_bytes;
   /* GLSL to put after the #version line: float nook_world_open(vec3 point, vec3 normal), in view space, with
    * the uniforms nook_world_casters (a sampler) and nook_world_groups (an int), which the host sets. */

@@ -204,7 +204,10 @@ enum {
   /* min(s, c) / c: for an image that c has already darkened, so that the product is min(s, c). */
   NOOK_NNAO_LAYER_REMAINDER = 2,
   /* (1 - w) s + w c: where w is 1, only the layer counts. */
-  NOOK_NNAO_LAYER_REPLACE = 3
+  NOOK_NNAO_LAYER_REPLACE = 3,
+  /* (1 - w) s + w c, and surfaces whose w is above 0.5 hide nothing from others, for characters whose casters
+   * darken the others in nook_world_render: what both know then darkens once. */
+  NOOK_NNAO_LAYER_APART = 4
 };
 typedef int32_t nook_nnao_layer;
 

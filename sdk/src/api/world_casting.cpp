@@ -62,13 +62,17 @@ std::uint32_t Casting::group_count() const {
   return (scene_ ? size_of(scene_->instances) + size_of(scene_->occluders) : 0) + prop_count_;
 }
 
-std::uint32_t Casting::caster_count() const {
-  std::uint32_t count = prop_count_;
-  if (!scene_) return count;
-  for (const Instance& instance : scene_->instances)
-    if (casts(instance)) count += size_of(instance.casters.posed);
-  for (const Occluder& occluder : scene_->occluders) count += casts(occluder);
-  return count;
+const world::CasterParts* Casting::parts(std::uint32_t index) const {
+  if (!scene_ || index >= scene_->instances.size()) return nullptr;
+  const CharacterModel& model = scene_->instances[index].model->model;
+  if (parts_of_ != &model) {
+    std::array<Vec3, world::max_part_casters> middle;
+    for (std::size_t i = 0; i < model.world_casters.size(); ++i)
+      middle[i] = 0.5f * (model.world_casters[i].capsule.a + model.world_casters[i].capsule.b);
+    parts_ = world::parts_of({middle.data(), model.world_casters.size()});
+    parts_of_ = &model;
+  }
+  return &parts_;
 }
 
 world::CasterGroup Casting::group(const void* user, std::uint32_t index, PosedCaster& room) {

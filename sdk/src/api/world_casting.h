@@ -4,6 +4,7 @@
 #include <nook/nook_world.h>
 
 #include "sdk/src/character/scene.h"
+#include "sdk/src/world/caster_parts.h"
 #include "sdk/src/world/sample.h"
 
 namespace nook::api {
@@ -23,8 +24,8 @@ class Casting {
 
   // Bodies by slot, then occluders by slot, then props; a free slot is a group without casters.
   std::uint32_t group_count() const;
-  // The number of casters of all groups.
-  std::uint32_t caster_count() const;
+  // The parts of a group that is a body; NULL for others. What it returns lives until the next call.
+  const world::CasterParts* parts(std::uint32_t index) const;
   // user: a Casting. The strength of an occluder or a prop is infinite, so that it is never left out.
   static world::CasterGroup group(const void* user, std::uint32_t index, PosedCaster& room);
 
@@ -38,6 +39,9 @@ class Casting {
   nook_instance_id receiver_;
   const nook_world_capsule* props_;
   std::uint32_t prop_count_;
+  // Of the model that was met last: the bodies of a crowd are alike.
+  mutable const CharacterModel* parts_of_ = nullptr;
+  mutable world::CasterParts parts_;
 };
 
 }  // namespace nook::api

@@ -233,3 +233,42 @@ TEST_CASE("evaluate world has a row for each surface and method, and pictures") 
   CHECK(baked.folder.run({"evaluate", "world", baked.glb}).exit_code == 2);
   CHECK(baked.folder.run({"evaluate", "world", baked.glb, baked.model, "--clips", "fly"}).exit_code == 2);
 }
+
+TEST_CASE("evaluate world --composite measures both passes in a room") {
+  const Baked baked;
+  const ToolRun run = baked.folder.run({"evaluate", "world", baked.glb, baked.model, "--report", baked.report,
+                                        "--composite", "--views", "1", "--figures", "2", "--rays", "16"});
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  double none = 0, nook = 0;
+  for (const Json& row : Json::parse(read_text(baked.report)).at("rows")) {
+    for (const char* key : {"surface", "scene", "region", "method", "mse", "over_screen", "bias", "pixels"})
+      CHECK(row.contains(key));
+    if (row.at("region") != "darkened") continue;
+    if (row.at("method") == "none") none = row.at("mse");
+    if (row.at("method") == "nook") nook = row.at("mse");
+  }
+  CHECK(none > 0);
+  // The room alone is most of what darkens: any sound composition leaves much less.
+  CHECK(nook < 0.5 * none);
+  CHECK(baked.folder.run({"evaluate", "world", baked.glb, baked.model, "--composite", "--scene", baked.model})
+            .exit_code == 3);
+}
+
+TEST_CASE("export casters writes each format with its error") {
+  const Baked baked;
+  for (const char* format : {"unreal", "source2", "gltf"}) {
+    const std::string out = baked.folder.path("casters.txt");
+    const ToolRun run = baked.folder.run(
+        {"export", "casters", baked.model, "-o", out, "--format", format, "--report", baked.report});
+    INFO(run.error);
+    REQUIRE(run.exit_code == 0);
+    const Json row = Json::parse(read_text(baked.report)).at("rows").at(0);
+    CHECK(row.at("format") == format);
+    CHECK(row.at("casters").get<int>() > 0);
+    CHECK(row.at("over_none").get<double>() < 0.05);
+    CHECK(read_text(out).size() > 1000);
+  }
+  CHECK(baked.folder.run({"export", "casters", baked.model}).exit_code == 2);
+  CHECK(baked.folder.run({"export", "casters", baked.glb, "-o", baked.folder.path("x")}).exit_code == 3);
+}

@@ -35,7 +35,7 @@ struct nook_world_pass_s : RefCounted {
 
 namespace {
 
-constexpr std::size_t first_desc = offsetof(nook_world_pass_desc, reserved) + sizeof(std::uint32_t);
+constexpr std::size_t first_desc = offsetof(nook_world_pass_desc, half_resolution) + sizeof(std::int32_t);
 constexpr std::size_t first_frame = offsetof(nook_world_frame_desc, cutoff_error) + sizeof(float);
 constexpr std::size_t first_info = offsetof(nook_world_pass_info, glsl) + sizeof(const char*);
 // Of nook_nnao_frame_desc, whose defaults are those of nook_nnao_frame_desc_init.
@@ -54,6 +54,7 @@ nook_world_frame_desc default_frame() {
   frame.struct_size = sizeof frame;
   frame.header_version = NOOK_VERSION;
   frame.cutoff_error = SceneSettings{}.cutoff_error;
+  frame.level_error = 1.0f / 256;
   return frame;
 }
 
@@ -69,6 +70,9 @@ nook_world_pass_desc checked(const nook_world_pass_desc* given) {
   if (desc.casters < 1 || desc.casters > most)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.casters is out of range (got %u, need 1 to %u)",
                   desc.casters, most);
+  if (desc.half_resolution != 0 && desc.half_resolution != 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.half_resolution is neither on nor off (got %d, need 0 or 1)", desc.half_resolution);
   return desc;
 }
 
@@ -105,6 +109,22 @@ void check_view(const float (&m)[16]) {
         double(m[0]), double(m[1]), double(m[2]));
 }
 
+void check_numbers(const nook_world_frame_desc& frame) {
+  const auto check = [](const char* field, float value) {
+    if (!(value >= 0 && value <= 1))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.%s is out of range (got %g, need 0 to 1)", field,
+                    double(value));
+  };
+  check("cutoff_error", frame.cutoff_error);
+  check("level_error", frame.level_error);
+  const auto check_kind = [](const char* field, std::int32_t value) {
+    if (value != 0 && value != 1)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.%s is unknown (got %d, need 0 or 1)", field, value);
+  };
+  check_kind("composition", frame.composition);
+  check_kind("show", frame.show);
+}
+
 // The groups of the scene with their reach.
 struct Reaching {
   const api::Casting* casting;
@@ -116,8 +136,13 @@ gl::ReachingGroup reaching_group(const void* user, std::uint32_t index, PosedCas
   const world::CasterGroup group = api::Casting::group(reaching.casting, index, room);
   if (group.casters.empty()) return {};
   const bool endless = reaching.cutoff_error == 0 || std::isinf(group.strength);
-  return {group.casters, group.centre,
-          endless ? gl::endless_reach : group.radius + std::sqrt(group.strength / reaching.cutoff_error)};
+  return {group.casters,
+          group.centre,
+          group.radius,
+          endless ? gl::endless_reach : group.radius + std::sqrt(group.strength / reaching.cutoff_error),
+          group.strength,
+          endless ? gl::endless_reach : group.strength / reaching.cutoff_error,
+          reaching.casting->parts(index)};
 }
 
 }  // namespace
@@ -157,14 +182,17 @@ nook_result nook_world_render(nook_world_pass pass, const nook_world_frame_desc*
     const nook_nnao_frame_desc screen = screen_of(known, pass->desc);
     check_view(known.view);
     api::check_props("frame", known.props, known.prop_count);
-    if (!(known.cutoff_error >= 0 && known.cutoff_error <= 1))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.cutoff_error is out of range (got %g, need 0 to 1)",
-                    double(known.cutoff_error));
+    check_numbers(known);
     const api::Casting casting(known.scene ? &known.scene->scene : nullptr, 0, known.props, known.prop_count);
     const Reaching reaching{&casting, known.cutoff_error};
-    const gl::ReachingGroups groups{casting.group_count(), casting.caster_count(), &reaching, reaching_group};
-    pass->gl->guarded(world_users(pass->gl->device.gl),
-                      [&] { pass->pass->render(screen, known.view, groups); });
+    const gl::ReachingGroups groups{casting.group_count(), &reaching, reaching_group};
+    const gl::WorldFrame drawn{screen,
+                               known.view,
+                               known.ao_texture,
+                               known.composition,
+                               known.level_error,
+                               known.show == NOOK_WORLD_VIEW_CASTERS};
+    pass->gl->guarded(world_users(pass->gl->device.gl), [&] { pass->pass->render(drawn, groups); });
   });
 }
 

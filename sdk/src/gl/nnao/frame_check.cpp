@@ -71,7 +71,7 @@ void check_kinds(const nook_nnao_frame_desc& frame) {
   check_kind("depth_kind", frame.depth_kind, NOOK_NNAO_DEPTH_LOGARITHMIC);
   check_kind("radius_kind", frame.radius_kind, NOOK_NNAO_RADIUS_SCENE);
   check_kind("clip", frame.clip, NOOK_NNAO_CLIP_ZERO_TO_ONE);
-  check_kind("layer", frame.layer, NOOK_NNAO_LAYER_REPLACE);
+  check_kind("layer", frame.layer, NOOK_NNAO_LAYER_APART);
   check_kind("target", frame.target, NOOK_NNAO_TARGET_FRAMEBUFFER);
   check_kind("blend", frame.blend, NOOK_NNAO_MULTIPLY);
   check_kind("view", frame.view, NOOK_NNAO_VIEW_NORMALS);

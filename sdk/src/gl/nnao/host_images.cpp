@@ -133,8 +133,8 @@ void check_layer(const BoundTexture& texture, nook_nnao_layer layer) {
   if (!texture.gl.can.texture_sizes) return;
   if (!is_float_or_normalised(texture.level(GL_TEXTURE_RED_TYPE)))
     refuse_format(texture, "layer_texture", "red in floats or normalised integers");
-  if (layer == NOOK_NNAO_LAYER_REPLACE && !is_float_or_normalised(texture.level(GL_TEXTURE_GREEN_TYPE)))
-    refuse_format(texture, "layer_texture", "red and green for NOOK_NNAO_LAYER_REPLACE");
+  if (layer >= NOOK_NNAO_LAYER_REPLACE && !is_float_or_normalised(texture.level(GL_TEXTURE_GREEN_TYPE)))
+    refuse_format(texture, "layer_texture", "red and green for NOOK_NNAO_LAYER_REPLACE and _APART");
 }
 
 void check_motion(const BoundTexture& texture) {
@@ -142,6 +142,12 @@ void check_motion(const BoundTexture& texture) {
   for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE})
     if (!is_float_or_normalised(texture.level(channel)))
       refuse_format(texture, "motion_texture", "red and green in floats or normalised integers");
+}
+
+void check_ao(const BoundTexture& texture) {
+  if (!texture.gl.can.texture_sizes) return;
+  if (!is_float_or_normalised(texture.level(GL_TEXTURE_RED_TYPE)))
+    refuse_format(texture, "ao_texture", "red in floats or normalised integers");
 }
 
 void check_complete(const Functions& gl, const HostImages& images) {
@@ -162,7 +168,8 @@ void check_apart(const HostImages& images, std::uint32_t target, const char* tar
   } inputs[] = {{images.depth, "depth_texture"},
                 {images.normal, "normal_texture"},
                 {images.layer_texture, "layer_texture"},
-                {images.motion, "motion_texture"}};
+                {images.motion, "motion_texture"},
+                {images.ao, "ao_texture"}};
   for (const auto& input : inputs)
     if (input.name != 0 && input.name == target)
       throw Failure(
@@ -269,6 +276,7 @@ void check_images(const Device& device, const HostImages& images, std::uint32_t 
   if (images.layer_texture)
     check_layer(bind_checked(device, images, kind, images.layer_texture, "layer_texture"), images.layer);
   if (images.motion) check_motion(bind_checked(device, images, kind, images.motion, "motion_texture"));
+  if (images.ao) check_ao(bind_checked(device, images, kind, images.ao, "ao_texture"));
   if (images.target == NOOK_NNAO_TARGET_TEXTURE) {
     check_target_texture(device, images, own_texture);
     check_renderable(device.gl, images, target_framebuffer);

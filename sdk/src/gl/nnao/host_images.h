@@ -15,7 +15,7 @@ struct HostImages {
   nook_nnao_depth_kind depth_kind = 0;
   nook_nnao_layer layer = 0;
   nook_nnao_target target = 0;
-  std::uint32_t depth = 0, normal = 0, layer_texture = 0, motion = 0, target_name = 0;
+  std::uint32_t depth = 0, normal = 0, layer_texture = 0, motion = 0, ao = 0, target_name = 0;
 
   bool operator==(const HostImages&) const = default;
 };

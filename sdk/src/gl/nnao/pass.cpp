@@ -157,7 +157,9 @@ void NnaoPass::render_layer(const nook_nnao_frame_desc& frame, int layer) {
   if (desc_.layers > 0)
     for (const int unit : {NOOK_UNIT_LAYER, NOOK_UNIT_MOTION}) bind_host(GLuint(unit), 0);
   bind_host(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
-  draw(depth_stage_, constants, depth.framebuffer(), surface);
+  const bool apart = frame.layer == NOOK_NNAO_LAYER_APART;
+  if (apart) bind_host(NOOK_UNIT_LAYER, frame.layer_texture);
+  draw(apart ? apart_depth_stage_ : depth_stage_, constants, depth.framebuffer(), surface);
   bind_texture(NOOK_UNIT_DEPTH, depth.texture());
   bind_normals(frame.normal_texture);
   if (normals_stage_.program.name() != 0) {

@@ -101,8 +101,8 @@ class NnaoPass {
   nook_nnao_desc desc_;  // without network and next
   nook_nnao_path path_;
   // The stage of normals belongs to the paper's form, that of the filter where it is a draw.
-  Stage depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_, filter_stage_, resolve_stage_,
-      layered_stage_, show_normals_stage_;
+  Stage depth_stage_, apart_depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_, filter_stage_,
+      resolve_stage_, layered_stage_, show_normals_stage_;
   GLint earlier_location_ = -1;  // of accumulate_stage_
   std::array<LayerTextures, max_layers> layers_;
   RenderTexture normals_;  // of the surface

@@ -143,14 +143,16 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
   const PassDefines given = pass_defines(desc_, horizon, grid);
   const char* const defines = given.text;
-  char layered[sizeof given.text + 32];
+  char layered[sizeof given.text + 32], apart[sizeof given.text + 32];
   std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
+  std::snprintf(apart, sizeof apart, "%s#define NOOK_APART 0.5\n", defines);
   const auto drawn = [&](const char* path, const char* text, bool medium_precision = false) {
     return make_stage(
         draw_program(device_, "nnao/screen.vert", path, text,
                      {.sample_textures = desc_.depth_samples > 0, .medium_precision = medium_precision}));
   };
   depth_stage_ = drawn("nnao/depth.frag", defines);
+  apart_depth_stage_ = drawn("nnao/depth.frag", apart);
   if (!horizon) normals_stage_ = drawn("nnao/normals.frag", defines);
   occlusion_stage_ = path_ == NOOK_NNAO_PATH_COMPUTE
                          ? make_stage(compute_program(device_, "nnao/occlusion.comp", defines))

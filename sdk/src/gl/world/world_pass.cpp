@@ -1,10 +1,16 @@
 #include "sdk/src/gl/world/world_pass.h"
 
+#include <algorithm>
+#include <cstdio>
+
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/nnao/pass.h"
 #include "sdk/src/gl/program.h"
 #include "sdk/src/gl/state_guard.h"
+#include "sdk/src/gl/world/caster_texels.h"
+#include "sdk/src/nnao/host_depth.h"
 #include "shaders/nnao/layout.h"
+#include "shaders/world/constants.h"
 
 namespace nook::gl {
 namespace {
@@ -12,20 +18,25 @@ namespace {
 // Multiplies the target by AO; alpha stays.
 constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE, GL_FUNC_ADD, GL_FUNC_ADD};
 
-constexpr std::uint64_t group_texels = 2, caster_texels = 2;
-
-// A rotation and a translation, column-major.
-Vec3 viewed(const float* m, Vec3 p) {
-  return {m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12], m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
-          m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]};
-}
+// Textures that only this pass has. Those that are not read by the same stage share a unit.
+constexpr GLuint caster_unit = filter_unit, half_ao_unit = filter_unit;
+constexpr GLuint half_depth_unit = NOOK_UNIT_NORMAL, other_ao_unit = NOOK_UNIT_MOTION;
 
 // The frame's constants of the screen pass that this pass does not use have the values of such a pass.
-nook_nnao_desc plain_pass() {
+nook_nnao_desc plain_pass(bool half) {
   nook_nnao_desc desc{};
   desc.taps = 32;
   desc.blur_sharpness = 16;
+  desc.half_resolution = half;
   return desc;
+}
+
+[[noreturn]] void refuse_casters(const Device& device, std::uint32_t casters, std::uint32_t bodies) {
+  throw Failure(
+      NOOK_ERROR_INVALID_ARGUMENT,
+      "the frame has more casters in view than this OpenGL has room for (got %u in %u bodies, need at most "
+      "%u of both); leave out bodies that are far from the view",
+      casters, bodies, device.max_texels / NOOK_BODY_TEXELS);
 }
 
 }  // namespace
@@ -34,7 +45,11 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
     : device_(device),
       max_width_(desc.max_width),
       max_height_(desc.max_height),
-      casters_(device.memory, filter_unit) {
+      half_(desc.half_resolution != 0),
+      casters_(device.memory, caster_unit),
+      kept_(device.memory),
+      ranges_(device.memory),
+      lists_(device.memory) {
   const Functions& gl = device.gl;
   GLint largest = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -44,14 +59,19 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
         "desc.max_width x desc.max_height is larger than this OpenGL's textures (got %d x %d, need at "
         "most %d x %d)",
         desc.max_width, desc.max_height, largest, largest);
-  stage_ = make_stage("");
-  layered_stage_ = make_stage("#define NOOK_LAYERED 1\n");
+  const char* const output = half_ ? "world/resolve.frag" : "world/darken.frag";
+  const char* const defines = half_ ? "#define NOOK_HALF 1\n" : "#define NOOK_HALF 0\n";
+  const char* const layered = half_ ? "#define NOOK_HALF 1\n#define NOOK_LAYERED 1\n"
+                                    : "#define NOOK_HALF 0\n#define NOOK_LAYERED 1\n";
+  output_ = make_stage(output, defines);
+  layered_output_ = make_stage(output, layered);
+  if (half_) make_half(desc);
   own_ = RenderTexture(device, TextureFormat::ao, desc.max_width, desc.max_height, "nook: AO of the world");
-  const std::uint64_t texels = std::uint64_t{desc.casters} * caster_texels;
+  const std::uint64_t texels = std::uint64_t{desc.casters} * NOOK_CASTER_TEXELS;
   if (texels > device.max_texels)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "desc.casters is larger than this OpenGL's tables (got %u, need at most %llu)",
-                  desc.casters, static_cast<unsigned long long>(device.max_texels / caster_texels));
+                  desc.casters, static_cast<unsigned long long>(device.max_texels / NOOK_CASTER_TEXELS));
   casters_.reserve(device, GL_RGBA32F, texels, "nook: world casters");
   sampler_ = Object::make(device, Object::Kind::sampler);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
@@ -65,79 +85,185 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
   device.check("making the world pass");
 }
 
-WorldPass::Stage WorldPass::make_stage(const char* defines) {
+WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines) {
   Stage stage;
-  stage.program = draw_program(device_, "nnao/screen.vert", "world/darken.frag", defines);
-  stage.frame = uniform_location(device_, stage.program, "nook_frame");
-  stage.groups = uniform_location(device_, stage.program, "nook_world_groups");
+  stage.program = draw_program(device_, "nnao/screen.vert", fragment, defines);
+  const auto at = [&](const char* name) { return uniform_location(device_, stage.program, name); };
+  stage.frame = at("nook_frame");
+  stage.groups = at("nook_world_groups");
+  stage.columns = at("nook_world_tile_columns");
+  stage.tile_size = at("nook_world_tile_size");
+  stage.first_tile = at("nook_world_first_tile");
+  stage.composition = at("nook_world_composition");
+  stage.counts = at("nook_world_counts");
   device_.gl.UseProgram(stage.program.name());
   const struct {
     const char* name;
     GLint unit;
   } samplers[] = {{"nook_host_depth", NOOK_UNIT_DEPTH},
                   {"nook_host_normal", NOOK_UNIT_NORMAL},
-                  {"nook_world_casters", filter_unit},
-                  {"nook_layer", NOOK_UNIT_LAYER}};
+                  {"nook_world_casters", caster_unit},
+                  {"nook_layer", NOOK_UNIT_LAYER},
+                  {"nook_other_ao", other_ao_unit},
+                  {"nook_depth", half_depth_unit},
+                  {"nook_ao", half_ao_unit}};
   // Where a stage has no such sampler the location is -1, which OpenGL ignores.
-  for (const auto& sampler : samplers)
-    device_.gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
+  for (const auto& sampler : samplers) device_.gl.Uniform1i(at(sampler.name), sampler.unit);
   return stage;
 }
 
-std::uint64_t WorldPass::bytes() const {
-  return std::uint64_t(max_width_) * std::uint64_t(max_height_) * bytes_per_texel(TextureFormat::ao) +
-         casters_.bytes();
+void WorldPass::make_half(const nook_world_pass_desc& desc) {
+  half_depth_ = make_stage("nnao/depth.frag", "#define NOOK_HALF 1\n");
+  half_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n");
+  char masked[80];
+  std::snprintf(masked, sizeof masked, "#define NOOK_HALF 1\n#define NOOK_APART %g\n", NOOK_REPLACED);
+  masked_half_depth_ = make_stage("nnao/depth.frag", masked);
+  masked_half_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n#define NOOK_LAYERED 1\n");
+  const int width = surface_length(desc.max_width, true), height = surface_length(desc.max_height, true);
+  depth_ = RenderTexture(device_, TextureFormat::depth, width, height, "nook: depth of every fourth pixel");
+  ao_ = RenderTexture(device_, TextureFormat::ao, width, height, "nook: AO of every fourth pixel");
 }
 
-void WorldPass::check(const nook_nnao_frame_desc& frame) {
-  const HostImages images = images_of(frame, plain_pass());
+std::uint64_t WorldPass::bytes() const {
+  const auto texels = [](std::uint64_t width, std::uint64_t height) { return width * height; };
+  std::uint64_t sum = texels(max_width_, max_height_) * bytes_per_texel(TextureFormat::ao);
+  if (half_)
+    sum += texels(surface_length(max_width_, true), surface_length(max_height_, true)) *
+           (bytes_per_texel(TextureFormat::ao) + bytes_per_texel(TextureFormat::depth));
+  return sum + casters_.bytes();
+}
+
+void WorldPass::check(const WorldFrame& frame) {
+  HostImages images = images_of(frame.screen, plain_pass(half_));
+  images.ao = frame.ao_texture;
   if (checked_ == images) return;
   checked_.reset();
   check_images(device_, images, own_.texture(), target_framebuffer_.name());
   checked_ = images;
 }
 
-void WorldPass::upload(const float* view, const ReachingGroups& groups) {
-  groups_ = groups.count;
-  caster_count_ = groups.casters;
-  const std::uint64_t texels = groups.count * group_texels + groups.casters * caster_texels;
-  if (texels == 0) return;
-  if (texels > device_.max_texels)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the frame has more casters than this OpenGL has room for (got %u in %u bodies, need at most %u "
-        "of both); leave out bodies that are far from the view",
-        groups.casters, groups.count, device_.max_texels / 2);
-  casters_.write(device_, texels, [&](void* memory) {
-    auto* const out = static_cast<float*>(memory);
-    const auto put = [&](std::uint64_t texel, Vec3 place, float w) {
-      float* const at = out + 4 * texel;
-      at[0] = place.x;
-      at[1] = place.y;
-      at[2] = place.z;
-      at[3] = w;
-    };
-    std::uint64_t next = groups.count * group_texels;
-    for (std::uint32_t g = 0; g < groups.count; ++g) {
-      PosedCaster room;
-      const ReachingGroup group = groups.group(groups.user, g, room);
-      put(g * group_texels, viewed(view, group.centre), group.reach);
-      put(g * group_texels + 1, {float(next), float(group.casters.size()), 0}, 0);
-      for (const PosedCaster& caster : group.casters) {
-        put(next++, viewed(view, caster.capsule.a), caster.ao_scale * caster.capsule.radius_a);
-        put(next++, viewed(view, caster.capsule.b), caster.ao_scale * caster.capsule.radius_b);
-      }
+std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& groups) {
+  const Viewport viewport = viewport_of(frame.screen);
+  const auto width = std::uint32_t(viewport.width), height = std::uint32_t(viewport.height);
+  const nnao::ScreenRays rays = nnao::projection_rays(frame.screen.projection, width, height);
+  world::TileGrid grid;
+  grid.width_px = width;
+  grid.height_px = height;
+  grid.x_scale = rays.x_scale;
+  grid.x_offset = rays.x_offset;
+  grid.y_scale = rays.y_scale;
+  grid.y_offset = rays.y_offset;
+  grid.orthographic = rays.orthographic;
+  kept_.clear();
+  ranges_.clear();
+  caster_count_ = 0;
+  std::uint64_t texels = 0;
+  for (std::uint32_t g = 0; g < groups.count; ++g) {
+    PosedCaster room;
+    const ReachingGroup group = groups.group(groups.user, g, room);
+    if (group.casters.empty()) continue;
+    const world::TileRange tiles = world::covered_tiles(grid, viewed(frame.view, group.centre), group.reach);
+    if (tiles.empty) continue;
+    kept_.push_back(g);
+    ranges_.push_back(tiles);
+    caster_count_ += static_cast<std::uint32_t>(group.casters.size());
+    texels += texels_of(group);
+  }
+  first_tile_ = static_cast<std::uint32_t>(texels);
+  tile_columns_ = 0;
+  if (kept_.empty()) return 0;
+  // Larger tiles have shorter lists, down to one list of all bodies.
+  while (texels + world::most_list_texels(grid, ranges_) > device_.max_texels &&
+         grid.columns() * grid.rows() > 1) {
+    grid.tile_px *= 2;
+    for (world::TileRange& range : ranges_) {
+      range.first_column /= 2;
+      range.last_column /= 2;
+      range.first_row /= 2;
+      range.last_row /= 2;
     }
+  }
+  if (texels + world::most_list_texels(grid, ranges_) > device_.max_texels)
+    refuse_casters(device_, caster_count_, group_count());
+  world::write_tile_lists(grid, ranges_, lists_);
+  texels += lists_.size() / 4;
+  tile_px_ = grid.tile_px;
+  tile_columns_ = grid.columns();
+  return texels;
+}
+
+void WorldPass::upload(const WorldFrame& frame, const ReachingGroups& groups) {
+  const std::uint64_t texels = choose(frame, groups);
+  if (texels == 0) return;
+  casters_.write(device_, texels, [&](void* memory) {
+    CasterTexels out(static_cast<float*>(memory), frame.view, group_count());
+    for (std::uint32_t body = 0; body < group_count(); ++body) {
+      PosedCaster room;
+      out.put(body, groups.group(groups.user, kept_[body], room), frame.level_error);
+    }
+    std::copy(lists_.begin(), lists_.end(), static_cast<float*>(memory) + 4 * std::size_t{first_tile_});
   });
 }
 
-void WorldPass::render(const nook_nnao_frame_desc& frame, const float* view, const ReachingGroups& groups) {
-  check(frame);
+void WorldPass::set_frame(const Stage& stage, const WorldFrame& frame,
+                          const FrameConstants& constants) const {
   const Functions& gl = device_.gl;
-  const bool layered = frame.layer != NOOK_NNAO_LAYER_NONE;
-  const bool to_texture = frame.target == NOOK_NNAO_TARGET_TEXTURE;
-  const Stage& stage = layered ? layered_stage_ : stage_;
-  upload(view, groups);
+  gl.UseProgram(stage.program.name());
+  gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
+  gl.Uniform1i(stage.groups, static_cast<GLint>(group_count()));
+  gl.Uniform1i(stage.columns, static_cast<GLint>(tile_columns_));
+  gl.Uniform1i(stage.tile_size, static_cast<GLint>(tile_px_));
+  gl.Uniform1i(stage.first_tile, static_cast<GLint>(first_tile_));
+  gl.Uniform1i(stage.composition, frame.ao_texture ? 1 + frame.composition : 0);
+  gl.Uniform1i(stage.counts, frame.counts);
+}
+
+void WorldPass::draw(GLuint framebuffer, const Viewport& viewport) const {
+  const Functions& gl = device_.gl;
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void WorldPass::draw_half(const WorldFrame& frame, const FrameConstants& constants) {
+  const Viewport viewport = viewport_of(frame.screen);
+  const Viewport surface{0, 0, surface_length(viewport.width, true), surface_length(viewport.height, true)};
+  const bool masked = frame.screen.layer >= NOOK_NNAO_LAYER_REPLACE;
+  set_frame(masked ? masked_half_depth_ : half_depth_, frame, constants);
+  draw(depth_.framebuffer(), surface);
+  set_frame(masked ? masked_half_ao_ : half_ao_, frame, constants);
+  draw(ao_.framebuffer(), surface);
+}
+
+void WorldPass::draw_output(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) {
+  const Functions& gl = device_.gl;
+  const nook_nnao_frame_desc& screen = frame.screen;
+  const bool to_texture = screen.target == NOOK_NNAO_TARGET_TEXTURE;
+  set_frame(stage, frame, constants);
+  GLuint framebuffer = own_.framebuffer();
+  if (screen.target != NOOK_NNAO_TARGET_OWN) {
+    framebuffer = to_texture ? target_framebuffer_.name() : screen.target_name;
+    if (gl.can.desktop_raster) gl.Enable(GL_FRAMEBUFFER_SRGB);  // OpenGL ES has no switch: it is on
+    if (screen.blend == NOOK_NNAO_MULTIPLY) set_blend(gl, multiplying);
+  }
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  if (to_texture)
+    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, screen.target_name, 0);
+  nook_nnao_desc sizes{};
+  sizes.max_width = max_width_;
+  sizes.max_height = max_height_;
+  if (replaces_target(screen, sizes)) discard_colours(gl);
+  draw(framebuffer, viewport_of(screen));
+  // If it stayed attached, a texture that the host deletes would live on.
+  if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+}
+
+void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
+  check(frame);
+  upload(frame, groups);
+  const Functions& gl = device_.gl;
+  const nook_nnao_frame_desc& screen = frame.screen;
+  const bool layered = screen.layer != NOOK_NNAO_LAYER_NONE;
   set_plain_drawing(gl);
   gl.BindVertexArray(vertex_array_.name());
   for (GLuint unit = 0; unit < texture_unit_count; ++unit) gl.BindSampler(unit, sampler_.name());
@@ -145,35 +271,20 @@ void WorldPass::render(const nook_nnao_frame_desc& frame, const float* view, con
     gl.ActiveTexture(GL_TEXTURE0 + unit);
     gl.BindTexture(GL_TEXTURE_2D, texture);
   };
-  bind(NOOK_UNIT_DEPTH, frame.depth_texture);
-  bind(NOOK_UNIT_NORMAL, frame.normal_texture);
-  bind(filter_unit, 0);
-  bind(NOOK_UNIT_LAYER, layered ? frame.layer_texture : 0);
+  bind(NOOK_UNIT_DEPTH, screen.depth_texture);
+  bind(NOOK_UNIT_NORMAL, screen.normal_texture);
+  bind(other_ao_unit, frame.ao_texture);
+  bind(NOOK_UNIT_LAYER, 0);
+  bind(caster_unit, 0);
   casters_.bind(device_);
-
-  const FrameConstants constants = frame_constants(frame, plain_pass(), 0);
-  gl.UseProgram(stage.program.name());
-  gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
-  gl.Uniform1i(stage.groups, static_cast<GLint>(groups_));
-
-  GLuint framebuffer = own_.framebuffer();
-  if (frame.target != NOOK_NNAO_TARGET_OWN) {
-    framebuffer = to_texture ? target_framebuffer_.name() : frame.target_name;
-    if (gl.can.desktop_raster) gl.Enable(GL_FRAMEBUFFER_SRGB);  // OpenGL ES has no switch: it is on
-    if (frame.blend == NOOK_NNAO_MULTIPLY) set_blend(gl, multiplying);
+  if (layered) bind(NOOK_UNIT_LAYER, screen.layer_texture);
+  const FrameConstants constants = frame_constants(screen, plain_pass(half_), 0);
+  if (half_) {
+    draw_half(frame, constants);
+    bind(half_depth_unit, depth_.texture());
+    bind(half_ao_unit, ao_.texture());
   }
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  if (to_texture)
-    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, frame.target_name, 0);
-  const Viewport viewport = viewport_of(frame);
-  nook_nnao_desc sizes{};
-  sizes.max_width = max_width_;
-  sizes.max_height = max_height_;
-  if (replaces_target(frame, sizes)) discard_colours(gl);
-  set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  // If it stayed attached, a texture that the host deletes would live on.
-  if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+  draw_output(layered ? layered_output_ : output_, frame, constants);
 }
 
 }  // namespace nook::gl

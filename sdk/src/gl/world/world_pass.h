@@ -1,4 +1,6 @@
-// Casters darken what a depth buffer shows: one draw over the viewport.
+// Casters darken what a depth buffer shows.
+//   full resolution  host depth -> AO and result
+//   half resolution  host depth -> depth of every fourth pixel; AO of these -> upsample and result
 #pragma once
 
 #include <nook/nook_gl_world.h>
@@ -11,6 +13,8 @@
 #include "sdk/src/gl/nnao/host_images.h"
 #include "sdk/src/gl/nnao/render_texture.h"
 #include "sdk/src/gl/texel_table.h"
+#include "sdk/src/world/caster_parts.h"
+#include "sdk/src/world/tile_lists.h"
 
 namespace nook::gl {
 
@@ -18,20 +22,34 @@ namespace nook::gl {
 struct ReachingGroup {
   std::span<const PosedCaster> casters;
   Vec3 centre;
-  float reach = 0;  // metres from the centre; no point beyond it is darkened
+  float radius = 0;    // of a sphere round them
+  float reach = 0;     // metres from the centre; no point beyond it is darkened
+  float strength = 0;  // square metres, see caster_strength
+  // Square metres; the AO that they take at the distance d is at most cutoff_error times this / d^2.
+  float strength_over_cutoff = 0;
+  const world::CasterParts* parts = nullptr;  // NULL: one caster
 };
 
-// The casters of a frame. group(index) is called for each once, in order, and what it returns lives until the
+// The groups of a frame. group(index) is called for each at most twice, and what it returns lives until the
 // next call.
 struct ReachingGroups {
-  std::uint32_t count = 0;    // groups
-  std::uint32_t casters = 0;  // of all groups
+  std::uint32_t count = 0;
   const void* user = nullptr;
   ReachingGroup (*group)(const void* user, std::uint32_t index, PosedCaster& room) = nullptr;
 };
 
 // No point is beyond this reach; its square is still a float.
 inline constexpr float endless_reach = 1e15f;
+
+// A frame that passed its checks.
+struct WorldFrame {
+  const nook_nnao_frame_desc& screen;
+  const float* view;  // column-major
+  std::uint32_t ao_texture = 0;
+  nook_world_composition composition = NOOK_WORLD_PRODUCT;
+  float level_error = 0;
+  bool counts = false;  // shows evaluated casters in place of AO
+};
 
 // Every call may change any of the touched state of the user `screen`, and of uploads; the caller holds a
 // StateGuard.
@@ -40,32 +58,45 @@ class WorldPass {
   // Throws Failure.
   WorldPass(Device& device, const nook_world_pass_desc& desc);
 
-  // Draws a frame that passed check_frame. view is column-major. Throws Failure before anything is drawn.
-  void render(const nook_nnao_frame_desc& frame, const float* view, const ReachingGroups& groups);
+  // Draws a frame. Throws Failure before anything is drawn.
+  void render(const WorldFrame& frame, const ReachingGroups& groups);
   void recheck() { checked_.reset(); }
 
   GLuint ao_texture() const { return own_.texture(); }
   const TexelTable& table() const { return casters_; }
-  std::uint32_t group_count() const { return groups_; }
+  std::uint32_t group_count() const { return static_cast<std::uint32_t>(kept_.size()); }
   std::uint32_t caster_count() const { return caster_count_; }
   std::uint64_t bytes() const;
 
  private:
   struct Stage {
     Object program;
-    GLint frame = -1, groups = -1;
+    GLint frame = -1, groups = -1, columns = -1, first_tile = -1, tile_size = -1, composition = -1,
+          counts = -1;
   };
-  Stage make_stage(const char* defines);
-  void check(const nook_nnao_frame_desc& frame);
-  void upload(const float* view, const ReachingGroups& groups);
+  Stage make_stage(const char* fragment, const char* defines);
+  void make_half(const nook_world_pass_desc& desc);
+  void check(const WorldFrame& frame);
+  // Chooses the groups of a frame and returns the texels of their table.
+  std::uint64_t choose(const WorldFrame& frame, const ReachingGroups& groups);
+  void upload(const WorldFrame& frame, const ReachingGroups& groups);
+  void set_frame(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) const;
+  void draw(GLuint framebuffer, const Viewport& viewport) const;
+  void draw_half(const WorldFrame& frame, const FrameConstants& constants);
+  void draw_output(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants);
 
   Device& device_;
   int max_width_, max_height_;
-  Stage stage_, layered_stage_;
-  RenderTexture own_;
+  bool half_;
+  Stage output_, layered_output_;                                    // at half resolution the upsample
+  Stage half_depth_, half_ao_, masked_half_depth_, masked_half_ao_;  // masked: without replaced pixels
+  RenderTexture own_, depth_, ao_;                                   // depth and AO of every fourth pixel
   Object sampler_, vertex_array_, target_framebuffer_;
-  TexelTable casters_;
-  std::uint32_t groups_ = 0, caster_count_ = 0;
+  TexelTable casters_;          // and behind them the lists of tiles
+  Vector<std::uint32_t> kept_;  // the groups that reach the view
+  Vector<world::TileRange> ranges_;
+  Vector<float> lists_;
+  std::uint32_t caster_count_ = 0, tile_columns_ = 0, first_tile_ = 0, tile_px_ = 32;
   std::optional<HostImages> checked_;
 };
 

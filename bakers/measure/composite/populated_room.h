@@ -1,0 +1,39 @@
+// Characters that stand in a room, and cameras that look at them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bakers/import/skinned_mesh.h"
+#include "bakers/nnao/cameras.h"
+#include "bakers/raytrace/ray_scene.h"
+
+namespace nook::measure {
+
+// A character in its place. World space, metres, +y up.
+struct Figure {
+  bake::Pose pose;
+  std::vector<Vec3> body;  // vertices
+  Vec3 foot;               // on the floor, below the middle of the body
+};
+
+// Stands `count` figures on floors of the room, as far as they find room: on level ground, clear of the
+// room's surfaces and of each other. The poses are evenly picked. The same seed gives the same places.
+std::vector<Figure> stand_in_room(const bake::TriangleSoup& room, const bake::SkinnedMesh& mesh,
+                                  std::span<const bake::Pose> poses, std::size_t count, std::uint64_t seed);
+
+// The room and the figures in it; triangles from first_figure on are the figures'.
+struct PopulatedRoom {
+  bake::TriangleSoup soup;
+  std::uint32_t first_figure = 0;
+};
+PopulatedRoom populated(const bake::TriangleSoup& room, const bake::SkinnedMesh& mesh,
+                        std::span<const Figure> figures);
+
+// Cameras 1.6 to 3.4 m from a figure each, which they see; as many as find a place.
+std::vector<bake::nnao::Camera> cameras_at(const PopulatedRoom& room, std::span<const Figure> figures,
+                                           std::size_t count, std::uint32_t width, std::uint32_t height,
+                                           std::uint64_t seed);
+
+}  // namespace nook::measure

@@ -1,0 +1,35 @@
+// A view of a room with figures: its G-buffer and the truth at some of its pixels.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bakers/measure/composite/populated_room.h"
+
+namespace nook::measure {
+
+struct RoomTruth {
+  std::uint32_t rays = 256;
+  float radius = 0.5f;       // metres; the room occludes within it, figures at any distance
+  std::uint32_t every = 11;  // one pixel of so many is traced
+  std::uint64_t seed = 1;
+};
+
+// Pixels of the room that are traced. The room hides a direction by a hit within the radius, a figure by a
+// hit at any distance that nothing of the room stands before.
+struct RoomPixels {
+  std::vector<std::uint32_t> pixel;
+  std::vector<Vec3> position, normal;       // world space
+  std::vector<float> room[2], together[2];  // AO without the figures and with them, each by half of the rays
+};
+
+struct RoomView {
+  bake::nnao::TracedView view;
+  std::vector<std::uint8_t> is_figure;  // of each pixel
+  RoomPixels pixels;
+};
+
+RoomView trace_room_view(const PopulatedRoom& room, const bake::RayScene& all,
+                         const bake::nnao::Camera& camera, const RoomTruth& truth);
+
+}  // namespace nook::measure

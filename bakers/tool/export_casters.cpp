@@ -1,0 +1,85 @@
+// nook export casters: the world casters of a model as text for other engines.
+#include "bakers/measure/world/export_casters.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/tool/commands.h"
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/distinct_files.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/table.h"
+#include "platform/output_file.h"
+#include "sdk/src/character/model_file.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::filesystem::path model, output;
+  measure::CasterFormat format = measure::CasterFormat::gltf;
+  measure::CasterRadii radii = measure::CasterRadii::ao;
+};
+
+const std::map<std::string, measure::CasterFormat> formats{{"unreal", measure::CasterFormat::unreal},
+                                                           {"source2", measure::CasterFormat::source2},
+                                                           {"gltf", measure::CasterFormat::gltf}};
+const std::map<std::string, measure::CasterRadii> radii_names{{"ao", measure::CasterRadii::ao},
+                                                              {"light", measure::CasterRadii::light}};
+
+template <class Names, class Value>
+std::string name_of(const Names& names, Value value) {
+  for (const auto& [name, named] : names)
+    if (named == value) return name;
+  return "";
+}
+
+void run(const Options& o) {
+  require_distinct_files({{{"the model", o.model}}, {{"-o", o.output}, {"--report", o.common.report}}, {}});
+  const std::vector<std::byte> bytes = read_file(o.model);
+  platform::OutputFile output(o.output);
+  std::optional<platform::OutputFile> report;
+  if (!o.common.report.empty()) report.emplace(o.common.report);
+  const CharacterModel model = naming_file(o.model, [&] { return read_character_model(bytes); });
+  output.commit(naming_file(o.model, [&] { return measure::export_casters(model, o.format, o.radii); }));
+  const measure::ExportError error = measure::export_error(model, o.format, o.radii);
+  const Json rows = Json::array({{{"format", name_of(formats, o.format)},
+                                  {"radii", name_of(radii_names, o.radii)},
+                                  {"casters", model.world_casters.size()},
+                                  {"rms", error.rms},
+                                  {"largest", error.largest},
+                                  {"over_none", error.over_none}}});
+  if (report) report->commit(Json{{"rows", rows}}.dump(2) + "\n");
+  if (!o.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+}
+
+}  // namespace
+
+void add_export_casters(CLI::App& export_command) {
+  CLI::App* command = export_command.add_subcommand(
+      "casters",
+      "write the world casters of a baked character for engines that do not link Nook: a physics asset of "
+      "Unreal as text, a list of capsules for Source 2, extras of a glTF file.\n"
+      "rms and largest are the AO by which the floor below the rest pose differs from that of Nook's own "
+      "casters, over_none its mean squared error over that of no darkening");
+  const auto options = std::make_shared<Options>();
+  command->add_option("model", options->model, "a .nook file of nook bake character")->required();
+  command->add_option("-o,--output", options->output, "the file to write")->required();
+  command->add_option("--format", options->format, "unreal, source2 or gltf (default)")
+      ->transform(CLI::CheckedTransformer(formats));
+  command
+      ->add_option("--radii", options->radii,
+                   "ao (default) or light: which radii capsules of Unreal and Source 2 have")
+      ->transform(CLI::CheckedTransformer(radii_names));
+  add_common_options(*command, options->common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,35 @@
+// The table of casters that shaders/world/casters.glsl reads.
+#pragma once
+
+#include <cstdint>
+
+#include "sdk/src/gl/world/world_pass.h"
+
+namespace nook::gl {
+
+// From world to view space by a rotation and a translation, column-major.
+Vec3 viewed(const float* view, Vec3 p);
+
+// The texels of a group.
+std::uint64_t texels_of(const ReachingGroup& group);
+
+class CasterTexels {
+ public:
+  // table: four floats for each texel of all bodies.
+  CasterTexels(float* table, const float* view, std::uint32_t bodies);
+
+  // Bodies come in the order of their numbers.
+  void put(std::uint32_t body, const ReachingGroup& group, float level_error);
+
+ private:
+  void put(std::uint64_t texel, float x, float y, float z, float w);
+  void put_place(std::uint64_t texel, Vec3 place, float w);
+  void put_capsule(std::uint64_t texel, const Capsule& capsule, float scale);
+  void put_parts(const ReachingGroup& group, const world::CasterParts& parts, float level_error);
+
+  float* table_;
+  const float* view_;
+  std::uint64_t next_;  // texel of the next body's parts
+};
+
+}  // namespace nook::gl

@@ -1,0 +1,41 @@
+// Which bodies may reach which tiles of the screen. Depth behind a tile has no part in it: a body is in
+// the list of each tile that the sphere of its reach covers on the screen.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "sdk/src/core/containers.h"
+#include "sdk/src/core/vec.h"
+
+namespace nook::world {
+
+// A viewport in tiles of tile_px pixels along a side. View space x is (x_scale pixel + x_offset) times the
+// depth, or times 1 in an orthographic view; y is alike.
+struct TileGrid {
+  std::uint32_t width_px = 0, height_px = 0, tile_px = 32;
+  float x_scale = 1, x_offset = 0, y_scale = 1, y_offset = 0;
+  bool orthographic = false;
+  std::uint32_t columns() const;
+  std::uint32_t rows() const;
+};
+
+// Tiles from first to last, both included; none where empty.
+struct TileRange {
+  std::uint32_t first_column = 0, last_column = 0, first_row = 0, last_row = 0;
+  bool empty = true;
+};
+
+// The tiles that a sphere may cover. centre: view space, metres. Every point of the sphere in front of the
+// camera lies in them.
+TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius);
+
+// Returns a bound of the texels of the lists.
+std::uint64_t most_list_texels(const TileGrid& grid, std::span<const TileRange> ranges);
+
+// Writes the texels of the lists: for each tile (first texel of its entries, counted from that of the first
+// tile; their number; 0; 0), then the entries, which are numbers of `ranges`, four to a texel. Resizes
+// texels. Throws std::bad_alloc.
+void write_tile_lists(const TileGrid& grid, std::span<const TileRange> ranges, Vector<float>& texels);
+
+}  // namespace nook::world

@@ -1,0 +1,18 @@
+// Spreads the AO of every fourth pixel over all of them, and computes the result.
+#include "shaders/nnao/host_depth.glsl"
+#include "shaders/nnao/upsample.glsl"
+#include "shaders/world/output.glsl"
+
+uniform int nook_world_counts;
+
+out vec4 nook_out;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy) - nook_origin;
+  if (nook_world_counts == 1) {
+    nook_out = vec4(texelFetch(nook_ao, pixel / 2, 0).rrr, 1.0);
+    return;
+  }
+  float depth = nook_screen_depth(pixel);
+  nook_out = nook_world_result(depth == nook_no_surface ? 1.0 : nook_upsampled(pixel, depth).r, pixel);
+}
