@@ -27,7 +27,8 @@ LinearLayerFit fitted_layer(const CharacterModel& model, const FitState& state, 
                           settings);
 }
 
-// What does not depend on the vertices, among it the caster weights and the places where casters are felt.
+// Copies all that is the same for each mesh of the rig: also the caster weights, and the places where key
+// points take the shadow of casters.
 void take_rig(const CharacterModel& model, CharacterModel& out) {
   out.kernel = model.kernel;
   out.bone_names = model.bone_names;

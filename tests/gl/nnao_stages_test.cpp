@@ -95,7 +95,10 @@ void compare(platform::Context& context, const Settings& settings) {
                            ? textures.depth_samples(width, height, std::vector<std::vector<float>>(4, stored))
                            : image(GL_DEPTH_COMPONENT32F, 1, stored);
   const GLuint normals = image(GL_RGB32F, 3, normal_values);
-  const GLuint layer_image = image(GL_RG32F, 2, std::vector<float>(width * height * 2, 0.8f));
+  // Every third pixel is a surface of a layer that stands apart.
+  std::vector<float> layer_values(width * height * 2, 0.4f);
+  for (std::size_t i = 1; i < layer_values.size(); i += 6) layer_values[i] = 0.8f;
+  const GLuint layer_image = image(GL_RG32F, 2, layer_values);
   const GLuint motion = image(GL_RG32F, 2, std::vector<float>(width * height * 2, 0.3f));
   float projections[32];
   for (int i = 0; i < 32; ++i) projections[i] = camera.projection[i % 16] + (i == 24 ? 0.1f : 0.0f);
@@ -104,6 +107,7 @@ void compare(platform::Context& context, const Settings& settings) {
     nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, i % 2 ? normals : 0, 0.6f);
     if (layers) frame.layer_projections = projections;
     frame.earlier_from_view[3] = 0.01f * float(i);
+    if (i == 1) frame.layer = NOOK_NNAO_LAYER_APART, frame.layer_texture = layer_image;
     if (i == 2) frame.layer = NOOK_NNAO_LAYER_MIN, frame.layer_texture = layer_image;
     if (i >= 2) frame.motion_texture = motion;
     if (i == 3) frame.radius_kind = NOOK_NNAO_RADIUS_SCREEN, frame.radius = 0.1f, frame.intensity = 2;
@@ -221,7 +225,7 @@ TEST_CASE("nnao: bad arguments of stages are refused with their name") {
   auto image = sized<nook_nnao_image_info>();
   auto values = sized<nook_nnao_frame_values>();
   CHECK(nook_nnao_stages_stage(stages, 99, &stage) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("nook_nnao_stages_stage: index is out of range (got 99, need less than 5)"));
+  CHECK(message_has("nook_nnao_stages_stage: index is out of range (got 99, need less than 6)"));
   CHECK(nook_nnao_stages_image(stages, 11, &image) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("image is unknown (got 11, need 0 to 10)"));
   const nook_nnao_frame_desc good = frame_desc(plain_camera(1.4f), width, height, 0, 0, 0.5f);

@@ -36,7 +36,7 @@ int nook_call_every_stages_function(void) {
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
   EXPECT_OK(nook_nnao_stages_describe(stages, &info));
-  EXPECT(info.stage_count == 4 && info.vertex_shader && info.network && info.network_bytes % 16 == 0);
+  EXPECT(info.stage_count == 5 && info.vertex_shader && info.network && info.network_bytes % 16 == 0);
   for (i = 0; i < info.stage_count; ++i) {
     memset(&stage, 0, sizeof stage);
     stage.struct_size = sizeof stage;

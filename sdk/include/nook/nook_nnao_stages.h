@@ -126,8 +126,8 @@ typedef struct nook_nnao_stage_info {
   /* "depth", "depth_apart", "occlusion", "accumulate", "filter", "resolve" or "resolve_layered", and the text
    * of its fragment shader; valid while the object lives. The first two stages are depth and depth_apart: a
    * frame runs the second if frame.layer is NOOK_NNAO_LAYER_APART, and the first otherwise. The last two are
-   * resolve and resolve_layered: a frame runs the first if frame.layer is NOOK_NNAO_LAYER_NONE, and the second
-   * otherwise. */
+   * resolve and resolve_layered: a frame runs the first if frame.layer is NOOK_NNAO_LAYER_NONE, and the
+   * second otherwise. */
   const char* name;
   const char* fragment_shader;
   /* 1: the viewport is nook_nnao_frame_values.viewport; 0: it is surface_width x surface_height at (0, 0). */

@@ -36,7 +36,8 @@ HostVertices host_vertices(const CharacterModel& model, const nook_vertex_match&
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "%s.struct_size is too small (got %u, need at least %zu); set it to sizeof", desc,
                   match.struct_size, size);
-  if (!match.positions) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.positions is NULL; a valid pointer is needed", desc);
+  if (!match.positions)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.positions is NULL; a valid pointer is needed", desc);
   if (model.rest.position.empty() || model.bind.empty())
     throw Failure(NOOK_ERROR_UNSUPPORTED, "the model has no rest positions; bake it again");
   if (match.primitive < NOOK_ALL_PRIMITIVES ||

@@ -12,6 +12,7 @@ namespace {
 
 // Directions below this cosine belong to another side of the body.
 constexpr float min_facing = 0.2f;
+constexpr float facing_power = 8;
 constexpr std::size_t interpolated_vertices = 3;
 // As a share of the diameter of the rest pose; it allows for positions of 16 bits.
 constexpr float same_place = 1e-4f;
@@ -37,8 +38,8 @@ class SortedPoints {
     });
   }
 
-  // The nearest points that face the same way, the nearest first; `found` is as long as are wanted. Where
-  // fewer face the same way, the distances of the others stay infinite.
+  // Returns the nearest points that face the same way, the nearest first. Where there are fewer than `count`,
+  // the distances of the others stay infinite.
   template <std::size_t count>
   std::array<Near, count> nearest(const Oriented& at) const {
     std::array<Near, count> found;
@@ -105,8 +106,10 @@ struct Share {
 };
 
 // The nearest candidates, weighed by the inverse square of their distances; the weights sum to 1. A vertex at
-// the place of a baked one takes that one alone, but for a millionth.
-Vector<Share> shares_of(const Oriented& at, const SortedPoints& baked, Memory* memory) {
+// the place of a baked one takes that one alone, but for a millionth. Parts of a body meet at vertices of one
+// place that look different ways: a high power of the cosine chooses among them.
+Vector<Share> shares_of(const Oriented& at, const SortedPoints& baked, std::span<const Oriented> points,
+                        Memory* memory) {
   Vector<Share> shares(memory);
   const auto near = baked.nearest<interpolated_vertices>(at);
   float farthest = 0, sum = 0;
@@ -115,7 +118,8 @@ Vector<Share> shares_of(const Oriented& at, const SortedPoints& baked, Memory* m
   for (const auto& n : near) {
     if (!std::isfinite(n.distance)) continue;
     const float relative = farthest > 0 ? n.distance / farthest : 0;
-    const float weight = 1 / (relative * relative + 1e-6f);
+    const float facing = std::pow(dot(points[n.index].normal, at.normal), facing_power);
+    const float weight = facing / (relative * relative + 1e-6f);
     shares.push_back({n.index, weight});
     sum += weight;
   }
@@ -190,7 +194,7 @@ Oriented in_rest_space(const Oriented& at, const CharacterModel& model, std::uin
   return rest;
 }
 
-// The vertices of the pose check that the new mesh still has.
+// Keeps the vertices of the pose check at whose places the new mesh has vertices.
 void keep_rest_vertices(const CharacterModel& model, CharacterModel& out, Memory* memory) {
   Vector<Oriented> points(memory);
   for (std::size_t i = 0; i < out.rest.position.size(); ++i)
@@ -242,7 +246,7 @@ CharacterModel resampled(const CharacterModel& model, const HostVertices& host, 
   Vector<std::uint32_t> nearest_file_vertex(memory);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     LayerMean mean(model, memory);
-    for (const Share& share : shares_of(vertices[i], sorted, memory))
+    for (const Share& share : shares_of(vertices[i], sorted, baked, memory))
       mean.add(model.file_to_welded[candidates[share.candidate].file_vertex], share.weight);
     mean.append_to(out);
     const std::uint32_t nearest = candidates[sorted.nearest<1>(vertices[i])[0].index].file_vertex;
