@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/character/pose_sets.h"
 #include "bakers/measure/character/lods.h"
 #include "bakers/measure/character/report.h"
 #include "bakers/tool/character/evaluated_files.h"
@@ -53,8 +52,10 @@ Json evaluate(const Options& options) {
   if (!recipe)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the model holds no recipe of its training poses; bake it again");
-  std::vector<bake::Pose> training = bake::recipe_poses(baked.character, *recipe);
-  bake::thin_out(training, options.training_poses);
+  PoseChoice fitted;
+  fitted.training = true;
+  fitted.most = options.training_poses;
+  const std::vector<bake::Pose> training = choose_poses(baked.character, &*recipe, fitted).poses;
   const EvaluatedPoses measured = choose_poses(baked.character, &*recipe, options.poses);
   const std::uint64_t seed = evaluation_ray_seed(options.common.seed);
   platform::ProgressBar bar(options.common.quiet);
