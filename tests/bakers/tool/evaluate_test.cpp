@@ -240,8 +240,9 @@ TEST_CASE("evaluate world --composite measures both passes in a room") {
                                         "--composite", "--views", "1", "--figures", "2", "--rays", "16"});
   INFO(run.error);
   REQUIRE(run.exit_code == 0);
+  const Json report = Json::parse(read_text(baked.report));
   double none = 0, nook = 0;
-  for (const Json& row : Json::parse(read_text(baked.report)).at("rows")) {
+  for (const Json& row : report.at("rows")) {
     for (const char* key : {"surface", "scene", "region", "method", "mse", "over_screen", "bias", "pixels"})
       CHECK(row.contains(key));
     if (row.at("region") != "darkened") continue;
