@@ -1,0 +1,8 @@
+#include <nook/nook_gl_transfer.h>
+
+#include "tests/abi/layout/layout.h"
+
+NOOK_SIZE(nook_gl_transfer_info, 24);
+NOOK_AT(nook_gl_transfer_info, texture, 4);
+NOOK_AT(nook_gl_transfer_info, bytes, 8);
+NOOK_AT(nook_gl_transfer_info, glsl, 16);
