@@ -56,7 +56,9 @@ nook_result nook_gl_transfer_update(nook_gl_transfer gl_transfer, const float* v
     nook_gl_s& gl = *gl_transfer->gl;
     gl.device.need_alive();
     gl.device.report_host_errors();
-    gl.guarded(gl::probe_users(gl.device.gl), [&] { texture.update({vectors, float_count}); });
+    // It is the number of floats of a texture that was made, so that it fits a size on every machine.
+    const auto count = static_cast<std::size_t>(float_count);
+    gl.guarded(gl::probe_users(gl.device.gl), [&] { texture.update({vectors, count}); });
   });
 }
 
