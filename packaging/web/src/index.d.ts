@@ -230,6 +230,10 @@ export interface NnaoOptions {
   halfResolution?: boolean | number;
   blur?: boolean | number;
   blurSharpness?: number;
+  /** The texture is then RGBA8: the bent normal in view space as (n + 1) / 2, and AO in alpha. */
+  bentNormals?: boolean | number;
+  /** A mean over at most so many frames; 0: none. */
+  temporalFrames?: number;
   /** A .nook file of `nook train nnao`; default: the library's own. */
   network?: Bytes;
 }
@@ -238,7 +242,11 @@ export interface NnaoFrame {
   height: number;
   viewport?: Numbers;
   depthTexture: WebGLTexture;
-  depthKind?: "hardware" | "linear";
+  depthKind?: "hardware" | "linear" | "logarithmic";
+  /** Of logarithmic depth; see nook_nnao.h. */
+  depthLogFar?: number;
+  depthLogScale?: number;
+  depthLogNear?: number;
   skyDepth?: number;
   normalTexture?: WebGLTexture | null;
   normalScale?: number;
@@ -247,13 +255,20 @@ export interface NnaoFrame {
   /** Column-major, as WebGL takes it. */
   projection: Numbers;
   clip?: "negative-one-to-one" | "zero-to-one";
-  /** Metres. */
+  /** Metres, or the share that radiusKind says. */
   radius: number;
+  radiusKind?: "metres" | "screen" | "scene";
+  sceneSize?: number;
   maxRadiusPx?: number;
   intensity?: number;
   power?: number;
   layer?: "none" | "min" | "remainder" | "replace" | "apart";
   layerTexture?: WebGLTexture | null;
+  /** For temporalFrames: three rows of four, from this frame's view space to the earlier one's. */
+  earlierFromView?: Numbers;
+  motionTexture?: WebGLTexture | null;
+  motionScale?: Numbers;
+  reset?: boolean | number;
   /** Where the result goes: nothing for the pass's own texture, null for the canvas. */
   target?: WebGLTexture | WebGLFramebuffer | null;
   blend?: "write" | "multiply";

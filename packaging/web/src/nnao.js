@@ -15,17 +15,18 @@ export class Nnao extends OnSurface {
     return this.info.texture;
   }
 
-  // The members of nook_nnao_frame_desc in camelCase. depthTexture, normalTexture and layerTexture are WebGLTextures; target is
+  // The members of nook_nnao_frame_desc in camelCase. depthTexture, normalTexture, layerTexture and motionTexture are WebGLTextures; target is
   // a WebGLTexture, a WebGLFramebuffer, null for the canvas, or nothing for the pass's own texture.
-  render({ depthTexture, normalTexture, layerTexture, target, ...frame }) {
+  render({ depthTexture, normalTexture, layerTexture, motionTexture, target, ...frame }) {
     const { library, surface } = this;
     const kind = target === undefined ? "own" : target && "WebGLTexture" in globalThis && target instanceof WebGLTexture
       ? "texture" : "framebuffer";
     const table = kind === "texture" ? "textures" : "framebuffers";
-    surface.lend([["textures", depthTexture], ["textures", normalTexture], ["textures", layerTexture], [table, target]],
-      (depth, normal, layer, name) => surface.current(() => library.call(() => library.check(library.module._nook_nnao_render(
+    surface.lend([["textures", depthTexture], ["textures", normalTexture], ["textures", layerTexture], ["textures", motionTexture],
+      [table, target]],
+      (depth, normal, layer, motion, name) => surface.current(() => library.call(() => library.check(library.module._nook_nnao_render(
         this.handle, library.descriptor("nook_nnao_frame_desc", {
-          ...frame, depthTexture: depth, normalTexture: normal, layerTexture: layer, target: kind, targetName: name,
+          ...frame, depthTexture: depth, normalTexture: normal, layerTexture: layer, motionTexture: motion, target: kind, targetName: name,
         }))))));
   }
   // Call it after a texture of the host has been given another size or format.
