@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "bakers/import/skinning.h"
+#include "bakers/raytrace/bounds.h"
 #include "bakers/raytrace/random.h"
 
 namespace nook::bake {
@@ -32,17 +33,6 @@ float snapped(double metres) {
   return float((std::floor(metres / double(grid_step_m)) + 0.5) * double(grid_step_m));
 }
 
-struct Bounds {
-  Vec3 low, high;
-};
-Bounds bounds_of(std::span<const Vec3> points) {
-  Bounds b{points.front(), points.front()};
-  for (const Vec3 p : points) {
-    b.low = {std::min(b.low.x, p.x), std::min(b.low.y, p.y), std::min(b.low.z, p.z)};
-    b.high = {std::max(b.high.x, p.x), std::max(b.high.y, p.y), std::max(b.high.z, p.z)};
-  }
-  return b;
-}
 Vec3 foot_of(std::span<const Vec3> body) {
   const Bounds b = bounds_of(body);
   return {0.5f * (b.low.x + b.high.x), b.low.y, 0.5f * (b.low.z + b.high.z)};

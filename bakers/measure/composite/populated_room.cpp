@@ -7,6 +7,7 @@
 
 #include "bakers/import/skinning.h"
 #include "bakers/nnao/solids.h"
+#include "bakers/raytrace/bounds.h"
 #include "bakers/raytrace/random.h"
 #include "bakers/world/surroundings.h"
 
@@ -17,19 +18,6 @@ using namespace bake;
 
 constexpr int attempts = 4000;
 constexpr float turn = 2 * std::numbers::pi_v<float>;
-
-struct Bounds {
-  Vec3 low, high;
-};
-
-Bounds bounds_of(std::span<const Vec3> points) {
-  Bounds b{points.front(), points.front()};
-  for (const Vec3 p : points) {
-    b.low = {std::min(b.low.x, p.x), std::min(b.low.y, p.y), std::min(b.low.z, p.z)};
-    b.high = {std::max(b.high.x, p.x), std::max(b.high.y, p.y), std::max(b.high.z, p.z)};
-  }
-  return b;
-}
 
 // The lowest surface on a vertical line that looks up and has 2 m of air above it.
 std::optional<float> floor_at(const RayScene& room, const Bounds& bounds, float x, float z) {

@@ -47,6 +47,28 @@ std::string bytes_of(const nook_bake_transfer_desc& desc) {
   return bytes_of(job);
 }
 
+// What a job baked, as the runtime has it.
+struct Loaded {
+  nook_context context = nullptr;
+  nook_transfer transfer = nullptr;
+  nook_transfer_info info{};
+
+  explicit Loaded(const std::string& bytes) {
+    nook_context_desc context_desc;
+    REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+    REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
+    REQUIRE(nook_transfer_load(context, bytes.data(), bytes.size(), &transfer) == NOOK_OK);
+    info.struct_size = sizeof info;
+    REQUIRE(nook_transfer_describe(transfer, &info) == NOOK_OK);
+  }
+  ~Loaded() {
+    nook_transfer_destroy(&transfer);
+    nook_context_destroy(&context);
+  }
+  Loaded(const Loaded&) = delete;
+  Loaded& operator=(const Loaded&) = delete;
+};
+
 // A grey material of 6 x 4 texels, of which one column of three is a hole.
 std::string material_with_holes(std::uint32_t column) {
   constexpr std::uint32_t directions = 5, width = 6, height = 4;
@@ -168,28 +190,19 @@ TEST_CASE("a job bakes reflections and the holes of a material, which the runtim
   desc.votf_size = material.size();
   desc.bounces = 1;
   const std::string bytes = bytes_of(desc);
-  nook_context_desc context_desc;
-  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
-  nook_context context = nullptr;
-  REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
-  nook_transfer transfer = nullptr;
-  REQUIRE(nook_transfer_load(context, bytes.data(), bytes.size(), &transfer) == NOOK_OK);
-  nook_transfer_info info{};
-  info.struct_size = sizeof info;
-  REQUIRE(nook_transfer_describe(transfer, &info) == NOOK_OK);
+  const Loaded loaded(bytes);
+  const nook_transfer_info& info = loaded.info;
   CHECK(info.bounces == 1);
   CHECK(info.has_holes == 1);
   CHECK(info.indirect_bytes == 18 * desc.vertex_count);
   for (const std::uint32_t column : {0u, 1u}) {
     const std::string worn = material_with_holes(column);
     nook_material handle = nullptr;
-    REQUIRE(nook_material_load(context, worn.data(), worn.size(), &handle) == NOOK_OK);
-    CHECK(nook_transfer_check_material(transfer, handle) ==
+    REQUIRE(nook_material_load(loaded.context, worn.data(), worn.size(), &handle) == NOOK_OK);
+    CHECK(nook_transfer_check_material(loaded.transfer, handle) ==
           (column == 0 ? NOOK_OK : NOOK_ERROR_INVALID_ARGUMENT));
     nook_material_destroy(&handle);
   }
-  nook_transfer_destroy(&transfer);
-  nook_context_destroy(&context);
   desc.votf_size -= 1;
   nook_bake_job job = nullptr;
   CHECK(nook_bake_transfer_start(&desc, &job) == NOOK_ERROR_BAD_FILE);
@@ -204,24 +217,16 @@ TEST_CASE("a job bakes the paper's form for the light modes of one material") {
   desc.lobes = 162;
   desc.clusters = 2;
   const std::string bytes = bytes_of(desc);
-  nook_context_desc context_desc;
-  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
-  nook_context context = nullptr;
-  REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
-  nook_transfer transfer = nullptr;
-  REQUIRE(nook_transfer_load(context, bytes.data(), bytes.size(), &transfer) == NOOK_OK);
-  nook_transfer_info info{};
-  info.struct_size = sizeof info;
-  REQUIRE(nook_transfer_describe(transfer, &info) == NOOK_OK);
+  const Loaded loaded(bytes);
+  const nook_transfer_info& info = loaded.info;
   CHECK(info.form == NOOK_TRANSFER_FORM_PAPER);
   CHECK(info.vertex_count == desc.vertex_count);
   CHECK(info.share_bytes == 0);
   CHECK(info.light_modes == 16);  // 15 of the material, rounded up
   CHECK(double(bytes.size()) < 1.01 * double(info.paper_bytes) + 400);
   float normal[3];
-  CHECK(nook_transfer_read_frames(transfer, normal, nullptr, desc.vertex_count) == NOOK_ERROR_UNSUPPORTED);
-  nook_transfer_destroy(&transfer);
-  nook_context_destroy(&context);
+  CHECK(nook_transfer_read_frames(loaded.transfer, normal, nullptr, desc.vertex_count) ==
+        NOOK_ERROR_UNSUPPORTED);
   desc.clusters = 300;
   CHECK(refused(desc, "clusters"));
   desc.clusters = 0;
