@@ -1,5 +1,5 @@
-// What tests of the world pass draw: props over a floor seen by a turned camera, and the AO that the CPU
-// gives at the same pixels.
+// The scene of the tests of the world pass: props over a floor, seen by a turned camera, and the AO that the
+// CPU gives at the same pixels.
 #pragma once
 
 #include <nook/nook_gl_world.h>

@@ -47,7 +47,7 @@ std::string bytes_of(const nook_bake_transfer_desc& desc) {
   return bytes_of(job);
 }
 
-// What a job baked, as the runtime has it.
+// The file of a job, loaded by the runtime.
 struct Loaded {
   nook_context context = nullptr;
   nook_transfer transfer = nullptr;
