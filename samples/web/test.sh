@@ -24,7 +24,8 @@ cp "$here/package_test.mjs" "$scratch/"
 # Emscripten 3.1.6 takes the fetch of newer versions of node for that of a browser.
 (cd "$scratch" && node package_test.mjs "$folder/site/data")
 
-cmake --build "$build" -j "${NOOK_JOBS:-$(nproc)}" --target web_screen
+cmake --build "$build" -j "${NOOK_JOBS:-$(nproc)}" --target web_screen web_picture
 "$build/tests/web/web_screen" "$folder/site/data"
+"$build/tests/web/web_picture" "$folder/site/data"
 mkdir -p "$folder/test"
 node "$here/test.mjs" "$folder/site" "$folder/test" "$seconds"

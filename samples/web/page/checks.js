@@ -1,4 +1,5 @@
 // What the test of the page calls in the browser; see ../test.mjs.
+import { Program, depthTarget, texture } from "./program.js";
 
 const largest = (a, b) => {
   let most = 0;
@@ -98,6 +99,89 @@ export function makeChecks(page) {
       const count = description.width * description.height;
       return this.screen({ ...description, depth: new Float32Array(bytes, 0, count), normals: new Float32Array(bytes, 4 * count, 4 * count),
         expected: new Uint8Array(bytes, 20 * count, count) });
+    },
+
+    // The picture that the native program drew of the expected scene, drawn again with its shaders: the share of pixels within two
+    // steps of 255 in every channel, and the mean difference in steps.
+    async picture() {
+      const gl = webgl, { ao } = page.renderer;
+      const description = await (await fetch("data/picture.json")).json();
+      const bytes = await (await fetch("data/picture.bin")).arrayBuffer();
+      const array = (type, name) => new type(bytes, description.arrays[name].offset, description.arrays[name].length);
+      const { width, height, clip_from_world } = description;
+      const triangles = array(Uint32Array, "triangles");
+      const bodies = gl.createVertexArray();
+      gl.bindVertexArray(bodies);
+      const buffers = [[gl.ARRAY_BUFFER, array(Float32Array, "positions")], [gl.ARRAY_BUFFER, array(Float32Array, "normals")],
+        [gl.ELEMENT_ARRAY_BUFFER, triangles]].map(([target, data]) => {
+        const made = gl.createBuffer();
+        gl.bindBuffer(target, made);
+        gl.bufferData(target, data, gl.STATIC_DRAW);
+        return made;
+      });
+      const pointAt = (vertex) => [0, 1].forEach((slot) => {
+        gl.bindBuffer(gl.ARRAY_BUFFER, buffers[slot]);
+        gl.enableVertexAttribArray(slot);
+        gl.vertexAttribPointer(slot, 3, gl.FLOAT, false, 12, 12 * vertex);
+      });
+      // views: the AO of both instances, or none for depth alone.
+      const draw = (target, program, values, views) => {
+        gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
+        gl.viewport(0, 0, width, height);
+        gl.enable(gl.DEPTH_TEST);
+        gl.clearColor(1, 1, 1, 1);
+        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        program.use({ clip_from_world, ...values });
+        gl.bindVertexArray(bodies);
+        for (const body of [0, 1]) {
+          pointAt(body * character.vertices);
+          if (views) {
+            const { buffer, stride, offset } = views[body];
+            gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+            gl.enableVertexAttribArray(2);
+            gl.vertexAttribPointer(2, 1, gl.FLOAT, false, stride, offset);
+          }
+          gl.drawElements(gl.TRIANGLES, triangles.length - 6, gl.UNSIGNED_INT, 0);
+        }
+        pointAt(0);
+        gl.disableVertexAttribArray(2);
+        gl.vertexAttrib1f(2, 1);
+        gl.drawElements(gl.TRIANGLES, 6, gl.UNSIGNED_INT, 4 * (triangles.length - 6));
+      };
+      const { scene, ids } = expectedScene();
+      const depth = depthTarget(gl, width, height), picture = depthTarget(gl, width, height);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, picture.framebuffer);
+      const colour = texture(gl, gl.RGBA8, width, height);
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, colour, 0);
+      gl.drawBuffers([gl.COLOR_ATTACHMENT0]);
+      const pass = ao.createNnao({ maxWidth: width, maxHeight: height });
+      draw(depth, new Program(gl, description.vertex, description.depth_fragment), {}, null);
+      pass.render({ depthTexture: depth.depth, width, height, projection: description.projection, radius: description.radius });
+      ao.update(scene);
+      draw(picture, new Program(gl, description.vertex, description.fragment), { screen_ao: pass.texture },
+        ids.map((id) => ao.aoBuffer(scene, id)));
+      const pixels = new Uint8Array(4 * width * height);
+      gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+      gl.bindVertexArray(null);
+      gl.useProgram(null);
+      buffers.forEach((buffer) => gl.deleteBuffer(buffer));
+      gl.deleteVertexArray(bodies);
+      for (const each of [depth, picture]) gl.deleteFramebuffer(each.framebuffer);
+      for (const each of [depth.depth, picture.depth, colour]) gl.deleteTexture(each);
+      pass.destroy();
+      ao.release(scene);
+      scene.destroy();
+      const expected = array(Uint8Array, "pixels");
+      let near = 0, sum = 0;
+      const colours = new Set();
+      for (let i = 0; i < pixels.length; i += 4) {
+        const off = [0, 1, 2].map((k) => Math.abs(pixels[i + k] - expected[i + k]));
+        near += Math.max(...off) <= 2;
+        sum += (off[0] + off[1] + off[2]) / 3;
+        colours.add(pixels[i]);
+      }
+      return { share: near / (width * height), mean: sum / (width * height), colours: colours.size, error: gl.getError() };
     },
 
     // The material decoded by WebGL has no CPU picture here; the CPU in WebAssembly answers a sample.
