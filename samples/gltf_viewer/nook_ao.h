@@ -29,6 +29,7 @@ class NookAo {
     nook_nnao_desc screen = nook::nnao_desc();
     frame_.width = screen.max_width = width;
     frame_.height = screen.max_height = height;
+    screen.blur = 2;  // the picture has no temporal anti-aliasing, which would average the taps' pattern
     screen_.emplace(*gl_, screen);
   }
 

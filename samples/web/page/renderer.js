@@ -103,7 +103,7 @@ export class Renderer {
         this.pass.destroy();
       }
       this.view = depthTarget(gl, width, height);
-      this.pass = this.ao.createNnao({ maxWidth: width, maxHeight: height, taps: 16 });
+      this.pass = this.ao.createNnao({ maxWidth: width, maxHeight: height, taps: 16, blur: 2 });
     }
     if (!this.bones || this.bones.rows < bodies) {
       if (this.bones) gl.deleteTexture(this.bones.texture);
