@@ -4,6 +4,7 @@
 
 #include "bakers/material/appearance.h"
 #include "bakers/material/raw_file.h"
+#include "bakers/synthesis/balance.h"
 #include "bakers/synthesis/seam_energy.h"
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"
@@ -104,7 +105,7 @@ SynthesisTask synthesis_task_of(const nook_bake_synthesis_desc& desc) {
 BakedFile bake_synthesis_file(const SynthesisTask& task, const StageReport& progress) {
   platform::Stopwatch watch;
   const std::vector<Texel> plane = synthesis::synthesise(
-      task.exemplar, task.settings,
+      synthesis::balanced(task.exemplar), task.settings,
       [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_FIT, done, total); });
   const double seconds = watch.seconds();
   const synthesis::Seams before = synthesis::measure_tiled(task.exemplar),

@@ -166,18 +166,17 @@ class Count {
   const Progress& progress_;
 };
 
-// The windows of the coarsest level of an exemplar that does not tile have to fit into it.
 std::uint32_t level_count(const ExemplarShape& shape) {
-  const std::int32_t shorter = std::min(shape.width, shape.height), coarsest = shape.is_tiling ? 4 : 8;
+  const std::int32_t shorter = std::min(shape.width, shape.height);
   std::uint32_t levels = 1;
-  while (levels < 6 && (coarsest << levels) <= shorter) ++levels;
+  while (levels < 6 && (4 << levels) <= shorter) ++levels;
   return levels - 1;
 }
 
-// Returns the shape of a level whose texels have a spacing. Near the border the surroundings of a texel would
-// be mirror images: its neighbours lie a spacing away and their windows two more.
+// Returns the shape of a level whose texels have a spacing: the neighbours of a texel that is shown lie in
+// the exemplar, except where that would leave less than half of it.
 ExemplarShape shape_of_level(ExemplarShape shape, std::int32_t spacing) {
-  if (!shape.is_tiling) shape.margin = std::min(3 * spacing, std::min(shape.width, shape.height) / 4);
+  if (!shape.is_tiling) shape.margin = std::min(spacing, std::min(shape.width, shape.height) / 4);
   return shape;
 }
 

@@ -14,14 +14,16 @@ void check_size(std::uint32_t got, std::uint32_t most, const char* what, nook_re
 }
 
 // Splits a place in texels into the texel of a row that repeats after `size` of them, and the fraction in it.
+// Beyond the precision of floats it is some texel of the row.
 struct Place {
   std::uint32_t texel;
   float fraction;
 };
 Place place_of(float texels, std::uint32_t size) {
   const float whole = std::floor(texels);
+  if (!std::isfinite(whole)) return {0, 0};
   const float turn = whole - float(size) * std::floor(whole / float(size));
-  return {std::min(std::uint32_t(std::max(turn, 0.0f)), size - 1), texels - whole};
+  return {std::uint32_t(std::clamp(turn, 0.0f, float(size - 1))), texels - whole};
 }
 
 }  // namespace
