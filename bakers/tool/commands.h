@@ -12,6 +12,7 @@ void add_bake_character(CLI::App& bake);
 void add_bake_lod(CLI::App& bake);
 void add_bake_probe(CLI::App& bake);
 void add_bake_material(CLI::App& bake);
+void add_bake_synthesis(CLI::App& bake);
 void add_bake_transfer(CLI::App& bake);
 void add_evaluate_character(CLI::App& evaluate);
 void add_evaluate_casters(CLI::App& evaluate);

@@ -17,6 +17,7 @@
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/recording_file.h"
 #include "sdk/src/probe/probe_file.h"
+#include "sdk/src/synthesis/coordinates_file.h"
 #include "sdk/src/transfer/transfer_file.h"
 
 namespace nook::tool {
@@ -47,6 +48,7 @@ constexpr Kind kinds[] = {{character_kind.kind, describe_character},
                           {nnao::recording_kind.kind, describe_recording},
                           {probe::probe_kind.kind, describe_probes},
                           {material::material_kind.kind, describe_material},
+                          {synthesis::synthesis_kind.kind, describe_synthesis},
                           {transfer::transfer_kind.kind, describe_transfer},
                           {bake::material::raw_kind.kind, describe_raw_material}};
 

@@ -29,6 +29,7 @@ int run(int argc, char** argv) {
   nook::tool::add_bake_lod(*bake);
   nook::tool::add_bake_probe(*bake);
   nook::tool::add_bake_material(*bake);
+  nook::tool::add_bake_synthesis(*bake);
   nook::tool::add_bake_transfer(*bake);
   nook::tool::add_evaluate_character(*evaluate);
   nook::tool::add_evaluate_casters(*evaluate);

@@ -15,6 +15,7 @@ Row describe_character(std::span<const std::byte> bytes);
 Row describe_network(std::span<const std::byte> bytes);
 Row describe_probes(std::span<const std::byte> bytes);
 Row describe_material(std::span<const std::byte> bytes);
+Row describe_synthesis(std::span<const std::byte> bytes);
 Row describe_transfer(std::span<const std::byte> bytes);
 Row describe_raw_material(std::span<const std::byte> bytes);
 Row describe_recording(std::span<const std::byte> bytes);

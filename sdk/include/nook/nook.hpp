@@ -7,6 +7,7 @@
 #include "nook_material.hpp"
 #include "nook_nnao_recording.hpp"
 #include "nook_probe.hpp"
+#include "nook_synthesis.hpp"
 #include "nook_transfer.hpp"
 #include "nook_world.hpp"
 // A library without its OpenGL half (NOOK_GL=OFF) is installed without these headers.
@@ -14,6 +15,7 @@
 #include "nook_gl.hpp"
 #include "nook_gl_material.hpp"
 #include "nook_gl_probe.hpp"
+#include "nook_gl_synthesis.hpp"
 #include "nook_gl_transfer.hpp"
 #include "nook_gl_world.hpp"
 #include "nook_nnao.hpp"

@@ -1,11 +1,11 @@
 /* The bakers as a library, nook_bake: what all of its headers share. nook_bake_character.h imports characters
- * and bakes them, nook_bake_material.h and nook_bake_transfer.h bake materials and radiance transfer, and
- * nook_bake_trace.h gives ray-traced references.
+ * and bakes them, nook_bake_material.h, nook_bake_synthesis.h and nook_bake_transfer.h bake materials,
+ * planes of them and radiance transfer, and nook_bake_trace.h gives ray-traced references.
  *
  * nook_bake is for offline use. It links Embree, oneTBB and other libraries, and the runtime library, nook,
  * never needs it. Its results are the bytes of .nook files, which nook_character_model_load,
- * nook_material_load and nook_transfer_load take. Thread contracts, descriptors and results follow the rules
- * of nook.h; the messages of this library are in nook_bake_last_message(). */
+ * nook_material_load, nook_synthesis_load and nook_transfer_load take. Thread contracts, descriptors and
+ * results follow the rules of nook.h; the messages of this library are in nook_bake_last_message(). */
 #ifndef NOOK_BAKE_H
 #define NOOK_BAKE_H
 

@@ -214,6 +214,18 @@ static int call_transfer_functions(void) {
   return wrong + (job != NULL || calls == 0);
 }
 
+/* Bytes that are no material are refused before a job starts. */
+static int call_synthesis_functions(void) {
+  static const char bytes[40] = {0};
+  nook_bake_synthesis_desc desc;
+  nook_bake_job job = NULL;
+  int wrong = nook_bake_synthesis_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  desc.material = bytes;
+  desc.material_size = sizeof bytes;
+  wrong += nook_bake_synthesis_start(&desc, &job) != NOOK_ERROR_BAD_FILE;
+  return wrong + (job != NULL);
+}
+
 int call_every_function(void) {
   tube t;
   nook_bake_mesh_desc desc;
@@ -233,6 +245,7 @@ int call_every_function(void) {
   wrong += call_irradiance_functions(&t);
   wrong += call_material_functions();
   wrong += call_transfer_functions();
+  wrong += call_synthesis_functions();
   nook_bake_character_destroy(&character);
   return wrong + (character != NULL);
 }

@@ -5,6 +5,7 @@
 
 #include <nook/nook_bake_character.h>
 #include <nook/nook_bake_material.h>
+#include <nook/nook_bake_synthesis.h>
 #include <nook/nook_bake_trace.h>
 #include <nook/nook_bake_transfer.h>
 

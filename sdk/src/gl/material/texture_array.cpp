@@ -24,6 +24,8 @@ Layout layout_of(const Functions& gl, ArrayUse use) {
       return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
     case ArrayUse::membership:
       return {GL_RGBA16UI, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, 8, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
+    case ArrayUse::coordinates:
+      return {GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, 4, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
     default:
       return {gl.profile == Profile::desktop ? GL_RGBA32F : GL_RGBA16F,
               GL_RGBA,

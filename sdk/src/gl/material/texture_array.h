@@ -1,4 +1,4 @@
-// A texture array of a material and its contents.
+// A texture array of a material, or of the coordinates of one, and its contents.
 #pragma once
 
 #include "sdk/src/gl/object.h"
@@ -9,7 +9,8 @@ enum class ArrayUse {
   spatial,       // half floats, mipmaps, linear, repeated
   coefficients,  // half floats, nearest
   membership,    // 16-bit integers, nearest
-  light          // floats, linear, clamped to the edge
+  light,         // floats, linear, clamped to the edge
+  coordinates    // pairs of 16-bit integers, nearest
 };
 
 struct ArrayPlan {
@@ -20,8 +21,9 @@ struct ArrayPlan {
   GLsizei levels = 1;
 };
 
-// Creates a GL_TEXTURE_2D_ARRAY with four numbers in each texel. `data` has all layers of level 0, then those
-// of level 1 and so on. Binds the array of unit 0, and expects plain pixel unpacking. Throws Failure.
+// Creates a GL_TEXTURE_2D_ARRAY with four numbers in each texel, or two of coordinates. `data` has all layers
+// of level 0, then those of level 1 and so on. Binds the array of unit 0, and expects plain pixel unpacking.
+// Throws Failure.
 Object make_texture_array(Device& device, const ArrayPlan& plan, const void* data, const char* label);
 
 // Sets pixel unpacking from host memory without gaps.

@@ -1,0 +1,39 @@
+// The bake of a coordinate texture, from a material to the bytes of a file and its report.
+#pragma once
+
+#include <nook/nook_bake_synthesis.h>
+
+#include <span>
+#include <string>
+
+#include "bakers/job/baked_file.h"
+#include "bakers/synthesis/synthesise.h"
+
+namespace nook::bake {
+
+// The part of a material that the plane may show, in texels.
+struct Crop {
+  std::uint32_t x = 0, y = 0;
+  std::uint32_t width = 0, height = 0;  // 0: all of the material
+};
+
+struct SynthesisTask {
+  std::uint32_t width = 0, height = 0;  // of the material, in texels
+  synthesis::Exemplar exemplar;         // of the crop
+  Crop crop;
+  synthesis::SynthesisSettings settings;
+  std::string source;  // the name of the file, if there is one
+};
+
+// Takes the looks of texels from the bytes of a .nook file, of a material or a raw material. is_tiling: the
+// material repeats without a seam; a crop never does. Throws Failure: INVALID_ARGUMENT (the crop exceeds the
+// material, settings are out of range), BAD_FILE, FILE_VERSION.
+SynthesisTask synthesis_task(std::span<const std::byte> material, const Crop& crop, bool is_tiling,
+                             const synthesis::SynthesisSettings& settings);
+// Throws what synthesis_task throws, and INVALID_ARGUMENT for a NULL material.
+SynthesisTask synthesis_task_of(const nook_bake_synthesis_desc& desc);
+
+// The stage is NOOK_BAKE_STAGE_FIT and counts texels. Throws Failure: CANCELLED.
+BakedFile bake_synthesis_file(const SynthesisTask& task, const StageReport& progress);
+
+}  // namespace nook::bake

@@ -1,0 +1,68 @@
+// The looks of the texels that a synthesis takes from.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "bakers/tensor/tensor.h"
+
+namespace nook::bake::synthesis {
+
+// A texel of an exemplar, or a step between two.
+struct Texel {
+  std::int32_t x = 0, y = 0;
+  bool operator==(const Texel&) const = default;
+};
+constexpr Texel operator+(Texel a, Texel b) {
+  return {a.x + b.x, a.y + b.y};
+}
+constexpr Texel operator-(Texel a, Texel b) {
+  return {a.x - b.x, a.y - b.y};
+}
+constexpr Texel operator*(Texel a, std::int32_t s) {
+  return {a.x * s, a.y * s};
+}
+
+// Returns i modulo size, at least 0.
+constexpr std::int32_t wrapped(std::int32_t i, std::int32_t size) {
+  const std::int32_t rest = i % size;
+  return rest < 0 ? rest + size : rest;
+}
+// Mirrors i at both ends of a row, whose last texel has no copy beside it.
+constexpr std::int32_t mirrored(std::int32_t i, std::int32_t size) {
+  if (size == 1) return 0;
+  const std::int32_t at = wrapped(i, 2 * size - 2);
+  return at < size ? at : 2 * size - 2 - at;
+}
+
+// The shape of an exemplar. Beyond the border of one that tiles lies its other side; beyond that of one that
+// does not, its mirror image.
+struct ExemplarShape {
+  std::int32_t width = 0, height = 0;
+  bool is_tiling = true;
+  // Texels along the border of an exemplar that does not tile which a plane does not show, because their
+  // surroundings are not known.
+  std::int32_t margin = 0;
+
+  Texel inside(Texel t) const {
+    return is_tiling ? Texel{wrapped(t.x, width), wrapped(t.y, height)}
+                     : Texel{mirrored(t.x, width), mirrored(t.y, height)};
+  }
+  bool holds(Texel t) const { return t.x >= 0 && t.x < width && t.y >= 0 && t.y < height; }
+  // Moves a texel into the part that a plane may show.
+  Texel shown(Texel t) const {
+    if (is_tiling) return inside(t);
+    return {std::clamp(t.x, margin, width - 1 - margin), std::clamp(t.y, margin, height - 1 - margin)};
+  }
+  bool is_shown(Texel t) const { return is_tiling || shown(t) == t; }
+  // Row of the texel in matrices; the texel lies inside.
+  Eigen::Index row(Texel t) const { return Eigen::Index(t.y) * width + t.x; }
+  Eigen::Index texels() const { return Eigen::Index(width) * height; }
+};
+
+struct Exemplar {
+  ExemplarShape shape;
+  tensor::Matrix values;  // a row for each texel, y * width + x
+};
+
+}  // namespace nook::bake::synthesis

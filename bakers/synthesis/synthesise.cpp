@@ -1,0 +1,246 @@
+#include "bakers/synthesis/synthesise.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "bakers/raytrace/hemisphere.h"
+#include "bakers/synthesis/appearance_level.h"
+#include "bakers/synthesis/gaussian_stack.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/synthesis/coordinates.h"
+
+namespace nook::bake::synthesis {
+namespace {
+
+using tensor::Matrix;
+
+// A plane of n x n coordinates of the exemplar, which repeats.
+struct Plane {
+  std::int32_t side = 0;
+  std::vector<Texel> texels;
+
+  Texel at(Texel p) const {
+    return texels[std::size_t(wrapped(p.y, side)) * std::size_t(side) + std::size_t(wrapped(p.x, side))];
+  }
+};
+
+// What a level of the exemplar offers to the plane of that level.
+struct Level {
+  ExemplarShape shape;
+  std::int32_t spacing = 1;
+  Matrix appearance;
+  std::vector<Texel> similar;
+};
+
+// Two random numbers in [-1, 1) for a texel of a level.
+std::array<float, 2> random_pair(std::uint64_t seed, std::uint32_t level, Texel p) {
+  const std::uint64_t bits = mix_bits(mix_bits(seed ^ (std::uint64_t(level) << 56)) ^
+                                      (std::uint64_t(std::uint32_t(p.y)) << 32) ^ std::uint32_t(p.x));
+  return {2 * unit_float(bits) - 1, 2 * unit_float(mix_bits(bits)) - 1};
+}
+
+// Returns the first place of a block of `length` texels of the exemplar in a row of `size`, for a random
+// number in [-1, 1).
+std::int32_t random_place(float random, std::int32_t size, std::int32_t margin, std::int32_t length) {
+  return margin + std::int32_t((random + 1) / 2 * float(std::max(size - 2 * margin - length, 0) + 1));
+}
+
+// Puts square blocks of the exemplar beside each other, each from a random place, as large as the part of it
+// that a plane may show allows, but no larger than half of it: without any order to begin with, the
+// corrections would find the mean of everything.
+Plane coarsest_plane(const Level& level, std::int32_t side, std::uint32_t number, std::uint64_t seed) {
+  const ExemplarShape& shape = level.shape;
+  const std::int32_t margin = shape.is_tiling ? 0 : shape.margin,
+                     shorter = std::min(shape.width, shape.height) - 2 * margin,
+                     block = std::max(shorter / 2 / level.spacing, 1),
+                     length = (block - 1) * level.spacing + 1;
+  Plane plane{side, std::vector<Texel>(std::size_t(side) * std::size_t(side))};
+  for (std::int32_t y = 0; y < side; ++y)
+    for (std::int32_t x = 0; x < side; ++x) {
+      const auto [a, b] = random_pair(seed, number, {x / block, y / block});
+      const Texel first{random_place(a, shape.width, margin, length),
+                        random_place(b, shape.height, margin, length)};
+      plane.texels[std::size_t(y) * std::size_t(side) + std::size_t(x)] =
+          first + Texel{x % block, y % block} * level.spacing;
+    }
+  return plane;
+}
+
+// Gives each texel four children, half the spacing away along each axis, and moves them at random.
+Plane upsampled(const Plane& coarse, const Level& level, std::uint32_t number, float jitter,
+                std::uint64_t seed) {
+  const std::int32_t side = 2 * coarse.side, h = level.spacing;
+  Plane plane{side, std::vector<Texel>(std::size_t(side) * std::size_t(side))};
+  tbb::parallel_for(0, side, [&](std::int32_t y) {
+    for (std::int32_t x = 0; x < side; ++x) {
+      const Texel parent = coarse.at({x / 2, y / 2});
+      // The middle of the four children is that of the parent; at a spacing of 1 they lie to its left.
+      const auto place = [h](std::int32_t child) { return child == 0 ? -((h + 1) / 2) : h / 2; };
+      const auto [a, b] = random_pair(seed, number, {x, y});
+      const float reach = jitter * float(h);
+      const Texel moved{std::int32_t(std::lround(a * reach)), std::int32_t(std::lround(b * reach))};
+      plane.texels[std::size_t(y) * std::size_t(side) + std::size_t(x)] =
+          level.shape.shown(parent + Texel{place(x % 2), place(y % 2)} + moved);
+    }
+  });
+  return plane;
+}
+
+constexpr std::array<Texel, 4> diagonals{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
+
+// The surroundings of a texel of the plane: for each diagonal neighbour the mean of what three texels near it
+// expect there, equation (2) of the paper of 2006.
+using Surroundings = Eigen::Matrix<float, 4, Eigen::Dynamic, Eigen::RowMajor, 4, appearance_channels>;
+Surroundings surroundings(const Plane& plane, const Level& level, Texel p) {
+  Surroundings out = Surroundings::Zero(4, level.appearance.cols());
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    const Texel d = diagonals[std::size_t(i)];
+    for (const Texel further : {Texel{0, 0}, Texel{d.x, 0}, Texel{0, d.y}})
+      out.row(i) += level.appearance.row(
+          level.shape.row(level.shape.inside(plane.at(p + d + further) - further * level.spacing)));
+    out.row(i) *= 1 / 3.0f;
+  }
+  return out;
+}
+
+float difference(const Surroundings& wanted, const Level& level, Texel candidate) {
+  float sum = 0;
+  for (Eigen::Index i = 0; i < 4; ++i)
+    sum += (wanted.row(i) - level.appearance.row(level.shape.row(
+                                level.shape.inside(candidate + diagonals[std::size_t(i)] * level.spacing))))
+               .squaredNorm();
+  return sum;
+}
+
+// The best of the candidates that the 3 x 3 texels round p propose: each continues its own piece of the
+// exemplar to p, or the piece that is the most like it.
+Texel corrected(const Plane& plane, const Level& level, Texel p) {
+  const Surroundings wanted = surroundings(plane, level, p);
+  Texel best = plane.at(p);
+  float least = difference(wanted, level, best);
+  const auto propose = [&](Texel candidate) {
+    if (!level.shape.is_shown(candidate)) return;
+    candidate = level.shape.inside(candidate);
+    const float cost = difference(wanted, level, candidate);
+    if (cost < least) {
+      least = cost;
+      best = candidate;
+    }
+  };
+  for (std::int32_t y = -1; y <= 1; ++y)
+    for (std::int32_t x = -1; x <= 1; ++x) {
+      const Texel from = plane.at(p + Texel{x, y}), step = Texel{x, y} * level.spacing;
+      propose(from - step);
+      propose(level.similar[std::size_t(level.shape.row(from))] - step);
+    }
+  return best;
+}
+
+// Corrects the texels whose coordinates are `phase` modulo 2; all of them see the plane as it was.
+void correct(const Level& level, Texel phase, const Plane& before, Plane& after) {
+  tbb::parallel_for(0, (before.side - phase.y + 1) / 2, [&](std::int32_t row) {
+    const std::int32_t y = 2 * row + phase.y;
+    for (std::int32_t x = phase.x; x < before.side; x += 2)
+      after.texels[std::size_t(y) * std::size_t(before.side) + std::size_t(x)] =
+          corrected(before, level, {x, y});
+  });
+}
+
+// Counts finished work, and stops it.
+class Count {
+ public:
+  Count(std::size_t total, const Progress& progress) : total_(total), progress_(progress) {}
+  void add(std::size_t work) {
+    done_ += work;
+    if (progress_ && !progress_(done_, total_))
+      throw Failure(NOOK_ERROR_CANCELLED, "cancelled during the synthesis (%zu of %zu texels done)", done_,
+                    total_);
+  }
+
+ private:
+  std::size_t total_, done_ = 0;
+  const Progress& progress_;
+};
+
+std::uint32_t level_count(const ExemplarShape& shape) {
+  const std::int32_t shorter = std::min(shape.width, shape.height);
+  std::uint32_t levels = 1;
+  while (levels < 6 && (4 << levels) <= shorter) ++levels;
+  return levels - 1;
+}
+
+// Returns the shape of a level whose texels have a spacing: the neighbours of a texel that is shown lie in
+// the exemplar, except where that would leave less than half of it.
+ExemplarShape shape_of_level(ExemplarShape shape, std::int32_t spacing) {
+  if (!shape.is_tiling) shape.margin = std::min(spacing, std::min(shape.width, shape.height) / 4);
+  return shape;
+}
+
+void correct_passes(const Level& level, std::uint32_t passes, Plane& plane, Count& count) {
+  Plane next = plane;
+  for (std::uint32_t pass = 0; pass < passes; ++pass)
+    for (std::int32_t y = 0; y < 2; ++y)
+      for (std::int32_t x = 0; x < 2; ++x) {
+        correct(level, {x, y}, plane, next);
+        plane.texels = next.texels;
+        count.add(plane.texels.size() / 4);
+      }
+}
+
+}  // namespace
+
+void check_synthesis(const Exemplar& exemplar, const SynthesisSettings& settings) {
+  const ExemplarShape& shape = exemplar.shape;
+  const auto shorter = std::uint32_t(std::max(std::min(shape.width, shape.height), 0));
+  if (shorter < min_exemplar_side)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the material is too small for a synthesis (got %d x %d texels, need %u x %u)", shape.width,
+                  shape.height, min_exemplar_side, min_exemplar_side);
+  if (settings.side < side_step || settings.side > nook::synthesis::max_side ||
+      settings.side % side_step != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the side of the plane is out of range (got %u texels, need a multiple of %u up to %u)",
+                  settings.side, side_step, nook::synthesis::max_side);
+  if (!(settings.jitter >= 0 && settings.jitter <= 1))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "jitter is out of range (got %g, need 0 to 1)",
+                  double(settings.jitter));
+  if (settings.passes < 1 || settings.passes > 16)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "passes is out of range (got %u, need 1 to 16)",
+                  settings.passes);
+  if (exemplar.values.rows() != shape.texels() || exemplar.values.cols() < 1 || !exemplar.values.allFinite())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the looks of the texels are missing or not finite");
+}
+
+std::vector<Texel> synthesise(const Exemplar& exemplar, const SynthesisSettings& settings,
+                              const Progress& progress) {
+  check_synthesis(exemplar, settings);
+  const std::uint32_t levels = level_count(exemplar.shape);
+  const std::vector<Matrix> stack = gaussian_stack(exemplar, levels);
+  // The search for similar texels of a level counts as many texels as the exemplar has.
+  std::size_t total = 0;
+  for (std::uint32_t l = 0; l <= levels; ++l) {
+    const std::size_t side = settings.side >> l;
+    total += std::size_t(exemplar.shape.texels()) + settings.passes * 4 * (side * side / 4);
+  }
+  Count count(total, progress);
+  count.add(0);
+  Plane plane;
+  for (std::uint32_t l = levels + 1; l-- > 0;) {
+    const std::int32_t spacing = std::int32_t(1) << l;
+    Level level{shape_of_level(exemplar.shape, spacing), spacing, {}, {}};
+    level.appearance = appearance_vectors(stack[l], level.shape, level.spacing);
+    level.similar = similar_texels(level.appearance, level.shape, level.spacing);
+    count.add(std::size_t(exemplar.shape.texels()));
+    const float jitter = l >= 2 ? settings.jitter : 0.0f;
+    plane = l == levels ? coarsest_plane(level, std::int32_t(settings.side >> l), l, settings.seed)
+                        : upsampled(plane, level, l, jitter, settings.seed);
+    correct_passes(level, settings.passes, plane, count);
+  }
+  return std::move(plane.texels);
+}
+
+}  // namespace nook::bake::synthesis

@@ -1,0 +1,35 @@
+// Appearance-space texture synthesis (S. Lefebvre, H. Hoppe: Appearance-Space Texture Synthesis, 2006), on
+// the coarse-to-fine scheme of their Parallel Controllable Texture Synthesis, 2005: coordinates of the
+// exemplar are doubled in density level by level, moved at random, and corrected, all texels at once, towards
+// those whose surroundings in the exemplar are like their surroundings in the plane.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bakers/synthesis/exemplar.h"
+#include "bakers/synthesis/similar_texels.h"
+
+namespace nook::bake::synthesis {
+
+inline constexpr std::uint32_t side_step = 64;  // a plane's side is a multiple of it
+inline constexpr std::uint32_t min_exemplar_side = 16;
+
+struct SynthesisSettings {
+  std::uint32_t side = 512;  // texels along a side of the plane
+  // Random movement at each level but the two finest, relative to the spacing of its texels: 0 to 1.
+  float jitter = 0.4f;
+  std::uint32_t passes = 4;  // corrections at each level
+  std::uint64_t seed = 1;
+};
+
+// Throws Failure(INVALID_ARGUMENT) that names the first fault.
+void check_synthesis(const Exemplar& exemplar, const SynthesisSettings& settings);
+
+// Returns side x side texels of the exemplar, row by row, of a plane that repeats. The outermost texels of an
+// exemplar that does not tile are not shown, so that a filter of 3 x 3 texels never reaches beyond it. Gives
+// the same bits on any number of threads. Throws Failure: INVALID_ARGUMENT, CANCELLED.
+std::vector<Texel> synthesise(const Exemplar& exemplar, const SynthesisSettings& settings,
+                              const Progress& progress = {});
+
+}  // namespace nook::bake::synthesis

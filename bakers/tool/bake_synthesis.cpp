@@ -1,0 +1,119 @@
+// nook bake synthesis: a coordinate texture that spreads a material over a plane.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/job/synthesis_bake.h"
+#include "bakers/job/worker_arena.h"
+#include "bakers/measure/synthesis/plane_picture.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/distinct_files.h"
+#include "bakers/tool/image_folder.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/table.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
+#include "sdk/src/core/container.h"
+#include "sdk/src/material/material_file.h"
+#include "sdk/src/synthesis/coordinates_file.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::filesystem::path input, output, images;
+  std::vector<std::uint32_t> crop;
+  bool is_tiling = true;
+  bake::synthesis::SynthesisSettings settings;
+};
+
+// Pictures of the plane without and with its coordinates, of a compressed material.
+void write_pictures(const Options& o, std::span<const std::byte> material, const bake::Crop& crop,
+                    const bake::BakedFile& file) {
+  if (o.images.empty() || container_kind(material) != nook::material::material_kind.kind) return;
+  const auto tables =
+      nook::material::make_tables(nook::material::read_material(material), {}, default_memory());
+  const auto coordinates = nook::synthesis::read_coordinates(file.model);
+  const std::string name = as_file_name(o.input.stem().string());
+  bake::write_png(o.images / (name + "_synthesis.png"),
+                  measure::plane_sheet(tables, coordinates, {crop.x, crop.y, crop.width, crop.height}));
+}
+
+void run(Options& o) {
+  require_distinct_files(
+      {{{"the input", o.input}}, {{"-o", o.output}, {"--report", o.common.report}}, o.images});
+  platform::OutputFile output(o.output);
+  std::optional<platform::OutputFile> report_file;
+  if (!o.common.report.empty()) report_file.emplace(o.common.report);
+  make_image_folder(o.images);
+  o.settings.seed = o.common.seed;
+  const bake::Crop crop =
+      o.crop.empty() ? bake::Crop{} : bake::Crop{o.crop[0], o.crop[1], o.crop[2], o.crop[3]};
+  const std::vector<std::byte> material = read_file(o.input);
+  bake::BakedFile file;
+  try {
+    bake::run_with_threads(o.common.threads, [&] {
+      bake::SynthesisTask task =
+          naming_file(o.input, [&] { return bake::synthesis_task(material, crop, o.is_tiling, o.settings); });
+      task.source = o.input.filename().string();
+      platform::ProgressBar bar(o.common.quiet);
+      file = bake::bake_synthesis_file(task, [&](nook_bake_stage, std::size_t done, std::size_t total) {
+        bar.show("synthesis", "texels", done, total);
+        return !interrupted();
+      });
+      write_pictures(o, material, task.crop, file);
+    });
+  } catch (const Failure& failure) {
+    if (failure.code() != NOOK_ERROR_CANCELLED) throw;
+    throw ToolError(exit_other, "stopped; nothing was written");
+  }
+  output.commit(file.model);
+  const Json rows = Json::array({Json::parse(file.report)});
+  if (report_file)
+    report_file->commit(Json{{"rows", rows}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (!o.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+}
+
+}  // namespace
+
+void add_bake_synthesis(CLI::App& bake_command) {
+  CLI::App* command = bake_command.add_subcommand(
+      "synthesis", "a coordinate texture that spreads a material over a plane without visible repeats");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command
+      ->add_option("input", o.input,
+                   "the material, a .nook file of `bake material`, or what --keep-raw wrote")
+      ->required();
+  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  command
+      ->add_option("--size", o.settings.side,
+                   "texels along a side of the plane, which repeats after them: a multiple of 64")
+      ->check(CLI::Range(bake::synthesis::side_step, nook::synthesis::max_side))
+      ->capture_default_str();
+  command->add_flag("!--no-tile", o.is_tiling,
+                    "the material does not repeat without a seam, as measured ones");
+  command->add_option("--crop", o.crop, "X Y WIDTH HEIGHT: the part of the material that may show, in texels")
+      ->expected(4);
+  command
+      ->add_option("--jitter", o.settings.jitter,
+                   "random movement, 0 to 1: more of it repeats less and has more seams")
+      ->check(CLI::Range(0.0f, 1.0f))
+      ->capture_default_str();
+  command->add_option("--passes", o.settings.passes, "corrections at each level")
+      ->check(CLI::Range(1u, 16u))
+      ->capture_default_str();
+  command->add_option("--images", o.images,
+                      "write a picture of the plane without and with the coordinates to this folder");
+  add_common_options(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

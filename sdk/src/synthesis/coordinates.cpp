@@ -1,0 +1,60 @@
+#include "sdk/src/synthesis/coordinates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sdk/src/core/failure.h"
+
+namespace nook::synthesis {
+namespace {
+
+void check_size(std::uint32_t got, std::uint32_t most, const char* what, nook_result code) {
+  if (got < 1 || got > most)
+    throw Failure(code, "%s is out of range (got %u, need 1 to %u)", what, got, most);
+}
+
+// Splits a place in texels into the texel of a row that repeats after `size` of them, and the fraction in it.
+// Beyond the precision of floats it is some texel of the row.
+struct Place {
+  std::uint32_t texel;
+  float fraction;
+};
+Place place_of(float texels, std::uint32_t size) {
+  const float whole = std::floor(texels);
+  if (!std::isfinite(whole)) return {0, 0};
+  const float turn = whole - float(size) * std::floor(whole / float(size));
+  return {std::uint32_t(std::clamp(turn, 0.0f, float(size - 1))), texels - whole};
+}
+
+}  // namespace
+
+void check_sizes(const Coordinates& coordinates, nook_result code) {
+  check_size(coordinates.side, max_side, "the side of the plane in texels", code);
+  check_size(coordinates.width, max_tile_side, "the width of the material in texels", code);
+  check_size(coordinates.height, max_tile_side, "the height of the material in texels", code);
+}
+
+void check_coordinates(const Coordinates& coordinates, nook_result code) {
+  check_sizes(coordinates, code);
+  const std::size_t texels = std::size_t(coordinates.side) * coordinates.side;
+  if (coordinates.cells.size() != texels)
+    throw Failure(code, "the plane has the wrong number of texels (got %zu, need %zu)",
+                  coordinates.cells.size(), texels);
+  for (std::size_t i = 0; i < texels; ++i) {
+    const Cell cell = coordinates.cells[i];
+    if (cell.x >= coordinates.width || cell.y >= coordinates.height)
+      throw Failure(code,
+                    "texel %zu of the plane shows (%u, %u), which is no texel of the material (%u x %u)", i,
+                    unsigned(cell.x), unsigned(cell.y), coordinates.width, coordinates.height);
+  }
+}
+
+Point material_point(const Coordinates& coordinates, Point plane) {
+  const Place x = place_of(plane.u * float(coordinates.width), coordinates.side),
+              y = place_of(plane.v * float(coordinates.height), coordinates.side);
+  const Cell cell = coordinates.cells[std::size_t(y.texel) * coordinates.side + x.texel];
+  return {(float(cell.x) + x.fraction) / float(coordinates.width),
+          (float(cell.y) + y.fraction) / float(coordinates.height)};
+}
+
+}  // namespace nook::synthesis

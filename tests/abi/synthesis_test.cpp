@@ -1,0 +1,67 @@
+// nook_synthesis.h: every function from C, bad parameters and bad files.
+#include <nook/nook_synthesis.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "sdk/src/material/material_file.h"
+#include "sdk/src/synthesis/coordinates_file.h"
+#include "tests/abi/host.h"
+#include "tests/catch.h"
+#include "tests/material/material_sample.h"
+#include "tests/synthesis/coordinates_sample.h"
+
+using namespace nook::test;
+
+extern "C" int nook_call_every_synthesis_function(const void* synthesis_bytes, std::size_t synthesis_size,
+                                                  const void* material_bytes, std::size_t material_size);
+
+namespace {
+
+constexpr nook_result invalid = NOOK_ERROR_INVALID_ARGUMENT;
+
+bool last_has(const char* part) {
+  return std::string(nook_last_message()).find(part) != std::string::npos;
+}
+
+// Coordinates for the sample material, which has 6 x 4 texels.
+std::vector<std::byte> synthesis_bytes(std::uint32_t width = 6) {
+  return nook::synthesis::write_coordinates(nook::synthesis::test::sample_coordinates(8, width, 4));
+}
+std::vector<std::byte> material_bytes() {
+  return nook::material::write_material(nook::material::test::sample_material());
+}
+
+}  // namespace
+
+TEST_CASE("every function of coordinate textures, from C") {
+  const std::vector<std::byte> synthesis = synthesis_bytes(), material = material_bytes();
+  CHECK(nook_call_every_synthesis_function(synthesis.data(), synthesis.size(), material.data(),
+                                           material.size()) == 0);
+}
+
+TEST_CASE("bad parameters of coordinate textures are refused") {
+  Stage stage;
+  const std::vector<std::byte> bytes = synthesis_bytes(5), of_material = material_bytes();
+  nook_synthesis synthesis = nullptr;
+  nook_material material = nullptr;
+  CHECK(nook_synthesis_load(stage.context, nullptr, 8, &synthesis) == invalid);
+  CHECK(nook_synthesis_load(nullptr, bytes.data(), bytes.size(), &synthesis) == invalid);
+  CHECK(nook_synthesis_load(stage.context, bytes.data(), bytes.size() - 1, &synthesis) ==
+        NOOK_ERROR_BAD_FILE);
+  CHECK(synthesis == nullptr);
+  REQUIRE(nook_synthesis_load(stage.context, bytes.data(), bytes.size(), &synthesis) == NOOK_OK);
+  REQUIRE(nook_material_load(stage.context, of_material.data(), of_material.size(), &material) == NOOK_OK);
+  CHECK(nook_synthesis_check_material(synthesis, material) == invalid);
+  CHECK(last_has("6 x 4"));
+  CHECK(last_has("5 x 4"));
+  const float bad[2] = {0, std::numeric_limits<float>::quiet_NaN()};
+  float out[2];
+  CHECK(nook_synthesis_material_uvs(synthesis, bad, 1, out) == invalid);
+  CHECK(last_has("point 0"));
+  CHECK(nook_synthesis_material_uvs(synthesis, bad, 0, nullptr) == NOOK_OK);
+  CHECK(nook_synthesis_material_uvs(synthesis, nullptr, 1, out) == invalid);
+  nook_material_destroy(&material);
+  nook_synthesis_destroy(&synthesis);
+}
