@@ -136,6 +136,37 @@ std::vector<float> Light::irradiance(const std::vector<float>& normals) const {
   return e;
 }
 
+SplitLight Light::split() const {
+  // Lobes of less than this sharpness are wider than 70 degrees.
+  constexpr float narrow = 5;
+  const auto brightness = [](const nook_probe_lobe& lobe) {
+    return lobe.amplitude[0] + lobe.amplitude[1] + lobe.amplitude[2];
+  };
+  SplitLight parts;
+  parts.soft = lobes_;
+  auto sun = parts.soft.end();
+  for (auto lobe = parts.soft.begin(); lobe != parts.soft.end(); ++lobe)
+    if (lobe->sharpness >= narrow && lobe->axis[1] > 0.05f && brightness(*lobe) > 0 &&
+        (sun == parts.soft.end() || brightness(*lobe) > brightness(*sun)))
+      sun = lobe;
+  const float up[3] = {0, 1, 0};
+  const auto irradiance_up = [&](const nook_probe_lobe* of, std::size_t count, float* rgb) {
+    nook::check(
+        nook_probe_lobes_irradiance(of, std::uint32_t(count), NOOK_PROBE_IRRADIANCE_BANDS, up, rgb, 1));
+    for (int c = 0; c < 3; ++c) rgb[c] = std::max(rgb[c], 0.0f);
+  };
+  if (sun != parts.soft.end()) {
+    std::copy_n(sun->axis, 3, parts.to_sun);
+    // A cone whose directions are as far from its axis in the mean: 1 / sharpness = (1 - cos(half angle))
+    // / 2.
+    parts.sun_degrees = 2 * std::acos(1 - 2 / sun->sharpness) * 180 / kPi;
+    irradiance_up(&*sun, 1, parts.sun_up);
+    parts.soft.erase(sun);
+  }
+  irradiance_up(parts.soft.data(), parts.soft.size(), parts.soft_up);
+  return parts;
+}
+
 std::vector<float> Light::radiance(const float direction[3]) const {
   std::vector<float> rgb(3);
   nook::check(

@@ -11,6 +11,14 @@
 
 namespace crowd {
 
+// A light in two parts: soft light, and one cone that stands for the brightest narrow lobe.
+struct SplitLight {
+  std::vector<nook_probe_lobe> soft;
+  float to_sun[3] = {0, 1, 0};
+  float sun_degrees = 0;                  // full angle; 0: there is no such lobe
+  float soft_up[3] = {}, sun_up[3] = {};  // the irradiance of open ground
+};
+
 class Light {
  public:
   // Reads a probe's file, whose lobes are then the environment too, or a latitude-longitude map, to which
@@ -28,6 +36,8 @@ class Light {
 
   // The irradiance of surfaces with these unit normals from the lobes: RGB for each, not below 0.
   std::vector<float> irradiance(const std::vector<float>& normals) const;
+  // The world pass takes the soft part by its bands, which hold no sharp shadow, and the sun as a cone.
+  SplitLight split() const;
   // The radiance of the lobes in a unit direction: RGB, not below 0.
   std::vector<float> radiance(const float direction[3]) const;
 
