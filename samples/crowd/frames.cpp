@@ -44,7 +44,9 @@ ProbeLight probe_light(const CrowdScene& scene, const Light& light, const Camera
   ProbeLight look;
   look.texture = view.texture;
   look.glsl = view.glsl;
-  look.ground_irradiance = {up[0], up[1], up[2]};
+  const SplitLight parts = light.split();
+  look.ground_irradiance = {parts.soft_up[0], parts.soft_up[1], parts.soft_up[2]};
+  look.ground_sun_irradiance = {parts.sun_up[0], parts.sun_up[1], parts.sun_up[2]};
   const float luminance = 0.2126f * up[0] + 0.7152f * up[1] + 0.0722f * up[2];
   look.exposure = 1.2f * 3.14159265f / std::max(luminance, 1e-6f);
   look.horizon = {horizon[0], horizon[1], horizon[2]};
@@ -57,6 +59,7 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
   const float radius_m = crowd_radius_m(stage.places);
   Look look;
   look.fog_start_m = 1.2f * radius_m + 8;
+  const SplitLight parts = request.light ? request.light->split() : SplitLight{};
   FrameTimes sum;
   for (std::uint32_t frame = 0; frame < request.frames; ++frame) {
     platform::Stopwatch watch;
@@ -71,7 +74,8 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
     const Camera camera = orbit(radius_m, float(frame) / float(std::max(request.frames, 24u)));
     if (stage.screen_space) {
       watch.lap_ms();
-      look.screen_ao = stage.screen_space->draw(stage.renderer, drawn, camera, scene.handle());
+      look.screen_ao = stage.screen_space->draw(stage.renderer, drawn, camera, scene.handle(),
+                                                request.light ? &parts : nullptr);
       gl.Finish();
       now.screen_space = watch.lap_ms();
       if (!request.record.empty()) {

@@ -33,18 +33,21 @@ float texel_share(std::uint32_t y, std::uint32_t width, std::uint32_t height) {
   return (top - bottom) / (2 * float(width));
 }
 
-// The sky is blue above and white at the horizon. A warm sun stands 30 degrees high and is 15 degrees wide,
-// and dry ground reflects its light.
+// A hazy sun 30 degrees high, about 15 degrees wide.
+constexpr nook_probe_lobe kSun{{0.62f, 0.5f, 0.605f}, 30, {40, 30, 18}, 0};
+
+// The sky without its sun is blue above and white at the horizon, and dry ground reflects its light.
 void sky_radiance(const float direction[3], float* rgb) {
   static constexpr float zenith[3] = {0.16f, 0.34f, 0.80f}, horizon[3] = {0.45f, 0.58f, 0.80f},
-                         sun[3] = {40.0f, 30.0f, 18.0f}, ground[3] = {0.30f, 0.25f, 0.19f};
-  static constexpr float to_sun[3] = {0.62f, 0.5f, 0.605f};
-  const float up = direction[1];
-  float to_sun_cosine = 0;
-  for (int i = 0; i < 3; ++i) to_sun_cosine += direction[i] * to_sun[i];
-  const float glow = std::exp(30 * (to_sun_cosine - 1)), share = std::pow(std::max(up, 0.0f), 0.6f);
-  for (int c = 0; c < 3; ++c)
-    rgb[c] = up < 0 ? ground[c] : std::lerp(horizon[c], zenith[c], share) + sun[c] * glow;
+                         ground[3] = {0.30f, 0.25f, 0.19f};
+  const float up = direction[1], share = std::pow(std::max(up, 0.0f), 0.6f);
+  for (int c = 0; c < 3; ++c) rgb[c] = up < 0 ? ground[c] : std::lerp(horizon[c], zenith[c], share);
+}
+
+void add_sun(const float direction[3], float* rgb) {
+  float cosine = 0;
+  for (int i = 0; i < 3; ++i) cosine += direction[i] * kSun.axis[i];
+  for (int c = 0; c < 3; ++c) rgb[c] += kSun.amplitude[c] * std::exp(kSun.sharpness * (cosine - 1));
 }
 
 }  // namespace
@@ -67,13 +70,19 @@ Light Light::built_in_sky(const nook::Context& context) {
   sky.width_ = 2 * kSkyHeight;
   sky.height_ = kSkyHeight;
   sky.rgb_.resize(3 * std::size_t(sky.width_) * sky.height_);
-  for (std::uint32_t y = 0; y < sky.height_; ++y)
-    for (std::uint32_t x = 0; x < sky.width_; ++x) {
-      float direction[3];
-      texel_direction(x, y, sky.width_, sky.height_, direction);
-      sky_radiance(direction, &sky.rgb_[3 * (std::size_t(y) * sky.width_ + x)]);
-    }
+  const auto each_texel = [&](void (*write)(const float*, float*)) {
+    for (std::uint32_t y = 0; y < sky.height_; ++y)
+      for (std::uint32_t x = 0; x < sky.width_; ++x) {
+        float direction[3];
+        texel_direction(x, y, sky.width_, sky.height_, direction);
+        write(direction, &sky.rgb_[3 * (std::size_t(y) * sky.width_ + x)]);
+      }
+  };
+  each_texel(sky_radiance);
   sky.fit_lobes(context);
+  each_texel(add_sun);
+  sky.lobes_.push_back(kSun);
+  sky.has_sun_ = true;
   sky.measure_mean();
   return sky;
 }
@@ -134,6 +143,28 @@ std::vector<float> Light::irradiance(const std::vector<float>& normals) const {
                                           normals.size() / 3));
   for (float& channel : e) channel = std::max(channel, 0.0f);
   return e;
+}
+
+SplitLight Light::split() const {
+  SplitLight parts;
+  parts.soft = lobes_;
+  const float up[3] = {0, 1, 0};
+  const auto irradiance_up = [&](const nook_probe_lobe* of, std::size_t count, float* rgb) {
+    nook::check(
+        nook_probe_lobes_irradiance(of, std::uint32_t(count), NOOK_PROBE_IRRADIANCE_BANDS, up, rgb, 1));
+    for (int c = 0; c < 3; ++c) rgb[c] = std::max(rgb[c], 0.0f);
+  };
+  if (has_sun_) {
+    const nook_probe_lobe& sun = parts.soft.back();
+    std::copy_n(sun.axis, 3, parts.to_sun);
+    // A cone whose directions are as far from its axis in the mean: 1 / sharpness = (1 - cos(half angle))
+    // / 2.
+    parts.sun_degrees = 2 * std::acos(1 - 2 / sun.sharpness) * 180 / kPi;
+    irradiance_up(&sun, 1, parts.sun_up);
+    parts.soft.pop_back();
+  }
+  irradiance_up(parts.soft.data(), parts.soft.size(), parts.soft_up);
+  return parts;
 }
 
 std::vector<float> Light::radiance(const float direction[3]) const {

@@ -11,13 +11,21 @@
 
 namespace crowd {
 
+// A light in two parts: soft light, and a cone that stands for the lobe of a sun.
+struct SplitLight {
+  std::vector<nook_probe_lobe> soft;
+  float to_sun[3] = {0, 1, 0};
+  float sun_degrees = 0;                  // full angle; 0: there is no such lobe
+  float soft_up[3] = {}, sun_up[3] = {};  // the irradiance of open ground
+};
+
 class Light {
  public:
   // Reads a probe's file, whose lobes are then the environment too, or a latitude-longitude map, to which
   // this fits 12 lobes. Throws std::runtime_error and nook::Error.
   Light(const nook::Context& context, const std::filesystem::path& path);
 
-  // A clear sky with a low, hazy sun over warm ground, to which 12 lobes are fitted.
+  // A clear sky over warm ground, to which 12 lobes are fitted, and a low, hazy sun, which is a lobe itself.
   static Light built_in_sky(const nook::Context& context);
 
   const std::string& name() const { return name_; }
@@ -28,6 +36,9 @@ class Light {
 
   // The irradiance of surfaces with these unit normals from the lobes: RGB for each, not below 0.
   std::vector<float> irradiance(const std::vector<float>& normals) const;
+  // The world pass takes the soft part by its bands, which hold no sharp shadow, and the sun as a cone.
+  // Fitted lobes of a map overlap with both signs, so that none of them is a sun.
+  SplitLight split() const;
   // The radiance of the lobes in a unit direction: RGB, not below 0.
   std::vector<float> radiance(const float direction[3]) const;
 
@@ -43,6 +54,7 @@ class Light {
   std::vector<float> rgb_;  // the environment
   std::uint32_t width_ = 0, height_ = 0;
   float mean_radiance_ = 0;
+  bool has_sun_ = false;  // the last lobe is a sun
 };
 
 }  // namespace crowd

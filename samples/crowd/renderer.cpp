@@ -239,6 +239,7 @@ void Renderer::set_probe_light(const platform::Program& program, const Camera& c
     gl_.Uniform1i(program.uniform(t.name), t.unit);
   }
   gl_.Uniform3fv(program.uniform("ground_irradiance"), 1, glm::value_ptr(light.ground_irradiance));
+  gl_.Uniform3fv(program.uniform("ground_sun_irradiance"), 1, glm::value_ptr(light.ground_sun_irradiance));
   gl_.Uniform1i(program.uniform("use_screen_ao"), light.screen_ao.texture != 0);
   gl_.Uniform1f(program.uniform("ao_strength"), light.ao_strength);
   gl_.Uniform1f(program.uniform("exposure"), light.exposure);

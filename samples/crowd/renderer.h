@@ -31,8 +31,10 @@ struct DrawnInstance {
 
 // The result of the passes over the screen for the same instances through the same camera.
 struct ScreenAo {
-  GLuint texture = 0;  // 0 if there was no such pass
-  GLuint depth = 0;    // single-sampled, as large as the viewport
+  // 0 if there was no such pass. Red is AO; under a probe's light red, green and blue are the open shares of
+  // soft light, and alpha is that of the sun.
+  GLuint texture = 0;
+  GLuint depth = 0;  // single-sampled, as large as the viewport
 };
 
 // A texture that lies on a square of the ground, such as AO that was made elsewhere.
@@ -58,7 +60,8 @@ struct ProbeLight {
   const char* glsl = nullptr;  // that reads the texture
   // On open ground. The ground is flat, so that no pixel of it evaluates the lobes.
   glm::vec3 ground_irradiance{1};
-  float exposure = 1;  // of radiance, before bright parts are rolled off
+  glm::vec3 ground_sun_irradiance{0};  // of the light whose open share is the alpha of screen_ao
+  float exposure = 1;                  // of radiance, before bright parts are rolled off
   float ao_strength = 1;
   glm::vec3 horizon{0.5f};  // radiance behind everything
   glm::vec3 ground_albedo{0.36f, 0.36f, 0.37f};

@@ -31,6 +31,7 @@ nook_world_pass_desc world_settings(int width, int height, const ScreenSpaceQual
   desc.max_width = width;
   desc.max_height = height;
   desc.half_resolution = quality.half_resolution;
+  desc.coloured = 1;
   return desc;
 }
 
@@ -76,7 +77,7 @@ ScreenSpaceAo::~ScreenSpaceAo() {
 }
 
 ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> instances,
-                             const Camera& camera, nook_scene scene) {
+                             const Camera& camera, nook_scene scene, const SplitLight* light) {
   draw_screen(renderer, instances, camera, NOOK_NNAO_LAYER_APART);
   nook_world_frame_desc& frame = world_frame_;
   frame = nook::world_frame_desc();
@@ -85,6 +86,12 @@ ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> 
   std::copy_n(glm::value_ptr(view), 16, frame.view);
   frame.scene = scene;
   frame.ao_texture = pass_.info().texture;
+  if (light) {
+    frame.lobes = light->soft.data();
+    frame.lobe_count = std::uint32_t(light->soft.size());
+    std::copy_n(light->to_sun, 3, frame.light_axis);
+    frame.light_degrees = light->sun_degrees;
+  }
   world_.render(frame);
   return {world_.info().texture, textures_[kDepth]};
 }
@@ -92,6 +99,10 @@ ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> 
 double ScreenSpaceAo::mean_casters() {
   nook_world_frame_desc frame = world_frame_;
   frame.show = NOOK_WORLD_VIEW_CASTERS;
+  // The number is that of AO; the light of the last frame may be gone.
+  frame.lobes = nullptr;
+  frame.lobe_count = 0;
+  frame.light_degrees = 0;
   world_.render(frame);
   const std::size_t pixels = std::size_t(width_px_) * std::size_t(height_px_);
   std::vector<float> counts(pixels), depth(pixels);

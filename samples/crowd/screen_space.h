@@ -5,6 +5,7 @@
 #include <nook/nook.hpp>
 
 #include "platform/platform.h"
+#include "samples/crowd/light.h"
 #include "samples/crowd/renderer.h"
 
 namespace crowd {
@@ -34,8 +35,10 @@ class ScreenSpaceAo {
   // The texture has 1 on characters: the lighting multiplies it with the AO of their vertices, which already
   // has what the passes would count again. The instances are those of the scene, by whose casters they darken
   // the floor once: the screen-space pass leaves them out. Leaves another framebuffer bound.
+  // With a light, which must outlive the next draw, red, green and blue are the open shares of its soft part,
+  // and alpha is that of its sun.
   ScreenAo draw(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
-                nook_scene scene);
+                nook_scene scene, const SplitLight* light = nullptr);
   // The screen-space pass alone. With NOOK_NNAO_LAYER_NONE the texture has its AO on characters too.
   ScreenAo draw_screen(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
                        nook_nnao_layer layer);

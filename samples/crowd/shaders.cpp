@@ -72,7 +72,7 @@ uniform sampler2D screen_ao;
 uniform sampler2D screen_depth;
 // The picture is multisampled and AO is not, so that at an edge the texel may belong to another surface. This takes
 // the texel, of this one and the four beside it, whose depth is nearest.
-float fetch_screen_ao() {
+vec4 fetch_screen_light() {
   const ivec2 steps[5] = ivec2[5](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
   ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(screen_depth, 0) - 1, best = pixel;
   float min_off = 2.0;
@@ -82,8 +82,9 @@ float fetch_screen_ao() {
     if (off < min_off) best = candidate;
     min_off = min(min_off, off);
   }
-  return texelFetch(screen_ao, best, 0).r;
+  return texelFetch(screen_ao, best, 0);
 }
+float fetch_screen_ao() { return fetch_screen_light().r; }
 )";
 
 const char* const kLitFragment = R"(
@@ -165,6 +166,7 @@ in vec3 surface_light;
 uniform int light;
 #ifdef GROUND
 uniform vec3 ground_irradiance;
+uniform vec3 ground_sun_irradiance;
 #endif
 uniform float ao_strength;
 uniform float exposure;
@@ -174,16 +176,11 @@ uniform vec3 background;
 out vec4 colour;
 void main() {
 #ifdef GROUND
-  vec3 occlusion = vec3(1.0);
+  // What characters and the screen leave of soft light, and in alpha of the sun.
+  vec4 open = mix(vec4(1.0), use_screen_ao ? fetch_screen_light() : vec4(1.0), ao_strength);
+  vec3 irradiance = ground_irradiance * open.rgb + ground_sun_irradiance * open.a;
 #else
-  vec3 occlusion = surface_light;
-#endif
-  // It is 1 on characters, and on the ground what they and the screen leave.
-  if (use_screen_ao) occlusion = min(occlusion, vec3(fetch_screen_ao()));
-  occlusion = mix(vec3(1.0), occlusion, ao_strength);
-#ifdef GROUND
-  vec3 irradiance = ground_irradiance * occlusion;
-#else
+  vec3 occlusion = mix(vec3(1.0), surface_light, ao_strength);
   vec3 irradiance = nook_scene_irradiance(light, normalize(surface_normal_ws), occlusion);
 #endif
   vec3 seen = 1.0 - exp(-exposure * surface_albedo * irradiance * 0.31830989);

@@ -23,8 +23,8 @@ extern const char* const kLitFragment;
 // Irradiance that is given, at vertices or in a texture that lies on the ground. Bright parts are rolled off.
 extern const char* const kGivenLightFragment;
 // Follows kVersion, a definition of GROUND for the ground, Nook's GLSL for lights, and kScreenAo: a probe's
-// irradiance times directional AO. On the ground that AO is the darker one of a texture that lies there and
-// of screen-space AO. Bright parts are rolled off.
+// irradiance times directional AO. On the ground the passes over the screen give that of soft light and the
+// open share of the sun. Bright parts are rolled off.
 extern const char* const kProbeLightFragment;
 // The depth that the key light sees. Only characters are drawn with it.
 extern const char* const kShadowFragment;

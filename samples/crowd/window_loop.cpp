@@ -133,6 +133,7 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
   controls.link_count = int(options.neighbours);
   controls.tier = options.tier;
   controls.screen_space = options.screen_space;
+  const SplitLight parts = light ? light->split() : SplitLight{};
   const float radius_m = crowd_radius_m(places);
   controls.distance_m = radius_m + 4;
   const std::filesystem::path record_folder = options.record.empty() ? options.out : options.record;
@@ -180,7 +181,7 @@ void run_window(platform::Context& context, const Hero& hero, std::span<const un
         screen_space.reset();  // frees its memory before the next one takes its own
         screen_space = std::make_unique<ScreenSpaceAo>(context, scene->gl(), width, height);
       }
-      look.screen_ao = screen_space->draw(renderer, drawn, camera, scene->handle());
+      look.screen_ao = screen_space->draw(renderer, drawn, camera, scene->handle(), lit ? &parts : nullptr);
       if (controls.record) controls.recorded = record_frame(*screen_space, record_folder);
       controls.record = false;
     }

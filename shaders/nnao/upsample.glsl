@@ -4,7 +4,10 @@
 
 uniform sampler2D nook_ao;
 // A texel of nook_ao without a surface.
-const vec4 nook_open = vec4(1.0, 0.0, vec2(128.0 / 255.0));
+#ifndef NOOK_OPEN_TEXEL
+#define NOOK_OPEN_TEXEL vec4(1.0, 0.0, vec2(128.0 / 255.0))
+#endif
+const vec4 nook_open = NOOK_OPEN_TEXEL;
 
 float nook_smaller(float a, float b) {
   return abs(a) < abs(b) ? a : b;

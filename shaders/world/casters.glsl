@@ -6,6 +6,9 @@
 // of one part that has one caster.
 #include "shaders/core/texels.glsl"
 #include "shaders/world/coverage.glsl"
+#ifdef NOOK_COLOURED
+#include "shaders/world/light.glsl"
+#endif
 
 uniform NOOK_TEXELS nook_world_casters;
 uniform int nook_world_groups;
@@ -13,16 +16,26 @@ uniform int nook_world_groups;
 // The casters that the point has evaluated so far.
 int nook_world_evaluated = 0;
 
-float nook_world_caster_open(int texel, vec3 point, vec3 normal) {
+float nook_world_left(float share, vec3 phi, vec3 normal) {
   ++nook_world_evaluated;
-  return 1.0 - nook_world_coverage(nook_texel(nook_world_casters, texel), nook_texel(nook_world_casters, texel + 1),
-                                   point, normal);
+#ifdef NOOK_COLOURED
+  nook_world_gather(phi, normal, share);
+#endif
+  return 1.0 - share;
+}
+
+float nook_world_caster_open(int texel, vec3 point, vec3 normal) {
+  vec3 phi;
+  float share = nook_world_coverage(nook_texel(nook_world_casters, texel), nook_texel(nook_world_casters, texel + 1),
+                                    point, normal, phi);
+  return nook_world_left(share, phi, normal);
 }
 
 float nook_world_merged_open(int texel, vec3 point, vec3 normal) {
-  ++nook_world_evaluated;
-  return 1.0 - nook_world_far_coverage(nook_texel(nook_world_casters, texel),
-                                       nook_texel(nook_world_casters, texel + 1), point, normal);
+  vec3 phi;
+  float share = nook_world_far_coverage(nook_texel(nook_world_casters, texel),
+                                        nook_texel(nook_world_casters, texel + 1), point, normal, phi);
+  return nook_world_left(share, phi, normal);
 }
 
 float nook_world_parts_open(int first, int last, vec3 point, vec3 normal) {

@@ -46,8 +46,9 @@ float nook_above_horizon(float factor, float size2, float lowest) {
   return max(size * sqrt(size) * (0.5 * (1.0 - t) - q * (w2 * q + w1)) + factor, 0.0);
 }
 
-// The ends of the capsule with their radii, and a point with its unit normal, all in the same space; in [0, 1].
-float nook_world_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
+// The ends of the capsule with their radii, and a point with its unit normal, all in the same space; in [0, 1]. phi gets
+// the vector of the region.
+float nook_world_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal, out vec3 phi) {
   vec3 a = end_a.xyz - point, b = end_b.xyz - point;
   float ia = inversesqrt(max(dot(a, a), 1e-24)), ib = inversesqrt(max(dot(b, b), 1e-24));
   float su = min(end_a.w * ia, NOOK_LARGEST_SINE), sv = min(end_b.w * ib, NOOK_LARGEST_SINE);
@@ -55,6 +56,7 @@ float nook_world_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
   float spread = 0.5 * dot(d, d);
   float nu = dot(normal, u), nv = dot(normal, v);
   vec2 hull = nook_hull_factor(su, sv, spread);
+  phi = hull.x * u + hull.y * v;
   float sum = hull.x + hull.y;
   float size2 = max(sum * sum - 2.0 * hull.x * hull.y * spread, 0.0);
   return min(nook_above_horizon(hull.x * nu + hull.y * nv, size2, min(nu / su, nv / sv)), 1.0);
@@ -66,7 +68,7 @@ float nook_world_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
 //   (lambda + s) (s_u + s_v) / (2 (1 + c)) (u + v) + (lambda - s) (s_u - s_v) / (2 (1 - c)) (u - v), over pi,
 // lambda the angle between both and s its sine. The ends add halves of their discs. Above the horizon the region counts
 // as the disc of the same vector at a great distance.
-float nook_world_far_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
+float nook_world_far_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal, out vec3 phi) {
   vec3 a = end_a.xyz - point, b = end_b.xyz - point;
   float ia = inversesqrt(dot(a, a)), ib = inversesqrt(dot(b, b));
   float su = end_a.w * ia, sv = end_b.w * ib;
@@ -77,6 +79,7 @@ float nook_world_far_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
   // (lambda - s) / (1 - c), over 2 pi, within 0.002 up to a right angle.
   float apart = lambda * (0.00194 * lambda * lambda + 0.0530516) * (su - sv);
   float hu = together + apart + 0.5 * su * su, hv = together - apart + 0.5 * sv * sv;
+  phi = (hu * ia) * a + (hv * ib) * b;
   float size2 = hu * hu + hv * hv + 2.0 * hu * hv * c;
   float factor = hu * nu + hv * nv;
   // 1 / size, and the root of it.

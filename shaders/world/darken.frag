@@ -45,6 +45,28 @@ vec3 nook_world_normal(ivec2 pixel, vec3 position) {
   return dot(n, nook_to_viewer(position)) < 0.0 ? -n : n;
 }
 
+#ifdef NOOK_COLOURED
+// The lists of bodies whose shadow may fall on a tile, from this texel on, and behind them these bodies.
+uniform int nook_world_first_light_tile;
+uniform int nook_world_first_shade;
+uniform int nook_world_light_columns;  // 0: there is no cone, or it is open
+
+float nook_world_tile_light(ivec2 pixel, vec3 point) {
+  if (nook_world_light_columns == 0) return 1.0;
+  for (int i = 0; i < NOOK_CONE_PARTS; ++i) nook_world_parts[i] = 1.0;
+  ivec2 tile = pixel / nook_world_tile_size;
+  vec4 range = nook_texel(nook_world_casters, nook_world_first_light_tile + tile.y * nook_world_light_columns + tile.x);
+  int first = nook_world_first_light_tile + int(range.x), count = int(range.y);
+  vec4 bodies = vec4(0.0);
+  for (int i = 0; i < count; ++i) {
+    if ((i & 3) == 0) bodies = nook_texel(nook_world_casters, first + (i >> 2));
+    nook_world_body_shade(nook_world_casters, nook_world_first_shade + NOOK_SHADE_TEXELS * int(bodies.x), point);
+    bodies = bodies.yzwx;
+  }
+  return nook_world_open_cone();
+}
+#endif
+
 float nook_world_tile_open(ivec2 pixel, vec3 point, vec3 normal) {
   if (nook_world_tile_columns == 0) return 1.0;
   ivec2 tile = pixel / nook_world_tile_size;
@@ -78,14 +100,22 @@ void main() {
 #endif
   float depth = nook_screen_depth(pixel);
   float open = 1.0;
+  vec4 light = vec4(1.0);
   if (depth != nook_no_surface && !nook_world_replaced(pixel)) {
     vec3 position = nook_position(nook_screen_rays, vec2(pixel), depth);
-    open = nook_world_tile_open(pixel, position, nook_world_normal(pixel, position));
+    vec3 normal = nook_world_normal(pixel, position);
+    open = nook_world_tile_open(pixel, position, normal);
+#ifdef NOOK_COLOURED
+    light = vec4(nook_world_open_light(normal, open), nook_world_tile_light(pixel, position));
+#endif
   }
-  if (nook_world_counts == 1) open = float(nook_world_evaluated) / 255.0;
+#ifndef NOOK_COLOURED
+  light.rgb = vec3(open);
+#endif
+  if (nook_world_counts == 1) light = vec4(vec3(float(nook_world_evaluated) / 255.0), 1.0);
 #if NOOK_HALF
-  nook_out = vec4(vec3(open), 1.0);
+  nook_out = light;
 #else
-  nook_out = nook_world_counts == 1 ? vec4(vec3(open), 1.0) : nook_world_result(open, pixel);
+  nook_out = nook_world_counts == 1 ? light : nook_world_result(light, pixel);
 #endif
 }

@@ -28,10 +28,24 @@ float nook_world_combined(float ao, ivec2 pixel) {
 }
 #endif
 
-vec4 nook_world_result(float open, ivec2 pixel) {
+float nook_world_finished(float open, ivec2 pixel) {
   float ao = nook_world_composed(nook_world_strengthened(open), pixel);
 #ifdef NOOK_LAYERED
   ao = nook_world_combined(ao, pixel);
 #endif
-  return vec4(vec3(ao), 1.0);
+  return ao;
+}
+
+// open: by channel, and of the cone of light, which the replacing layers alone change.
+vec4 nook_world_result(vec4 open, ivec2 pixel) {
+#ifdef NOOK_COLOURED
+  vec4 result = vec4(nook_world_finished(open.r, pixel), nook_world_finished(open.g, pixel),
+                     nook_world_finished(open.b, pixel), open.a);
+#ifdef NOOK_LAYERED
+  if (nook_layer_mode >= 3) result.a = mix(open.a, 1.0, texelFetch(nook_layer, pixel + nook_origin, 0).g);
+#endif
+  return result;
+#else
+  return vec4(vec3(nook_world_finished(open.r, pixel)), 1.0);
+#endif
 }

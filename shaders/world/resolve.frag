@@ -1,5 +1,8 @@
 // Spreads the AO of every fourth pixel over all of them, and computes the result.
 #include "shaders/nnao/host_depth.glsl"
+#ifdef NOOK_COLOURED
+#define NOOK_OPEN_TEXEL vec4(1.0)
+#endif
 #include "shaders/nnao/upsample.glsl"
 #include "shaders/world/output.glsl"
 
@@ -14,5 +17,9 @@ void main() {
     return;
   }
   float depth = nook_screen_depth(pixel);
-  nook_out = nook_world_result(depth == nook_no_surface ? 1.0 : nook_upsampled(pixel, depth).r, pixel);
+  vec4 light = depth == nook_no_surface ? vec4(1.0) : nook_upsampled(pixel, depth);
+#ifndef NOOK_COLOURED
+  light = vec4(light.rrr, 1.0);
+#endif
+  nook_out = nook_world_result(light, pixel);
 }

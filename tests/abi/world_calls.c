@@ -18,7 +18,8 @@ int nook_world_call_everything(nook_character_model model, nook_scene scene) {
   uint32_t count = NOOK_WORLD_MAX_CASTERS;
   nook_world_sample_desc desc;
   const float position[3] = {0, -1, 0}, normal[3] = {0, 1, 0};
-  float ao = -1, light = -1;
+  float ao = -1, light = -1, rgb[3] = {-1, -1, -1};
+  const nook_probe_lobe lobe = {{0, 1, 0}, 2, {1, 1, 1}, 0};
   failures = 0;
   EXPECT(nook_world_read_casters(model, casters, &count) == NOOK_OK);
   EXPECT(count > 0 && casters[0].ao_scale > 0);
@@ -28,7 +29,11 @@ int nook_world_call_everything(nook_character_model model, nook_scene scene) {
   desc.point_count = 1;
   desc.light_axis[1] = 1;
   desc.light_degrees = 20;
+  desc.lobes = &lobe;
+  desc.lobe_count = 1;
+  desc.directional_ao = rgb;
   EXPECT(nook_world_sample(scene, &desc, &ao, &light) == NOOK_OK);
   EXPECT(ao > 0 && ao < 1 && light >= 0 && light <= 1);
+  EXPECT(rgb[0] > 0 && rgb[0] < 1);
   return failures;
 }

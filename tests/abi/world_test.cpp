@@ -248,6 +248,17 @@ TEST_CASE("world: bad input is refused with the field's name") {
   refused(invalid, "desc.light_degrees", [](auto& d) { d.light_degrees = 179; });
   refused(invalid, "desc.light_degrees", [](auto& d) { d.light_degrees = NAN; });
   refused(invalid, "desc.light_axis", [](auto& d) { d.light_degrees = 5; });
+  float rgb[3];
+  refused(invalid, "desc.lobes is NULL", [&](auto& d) {
+    d.directional_ao = rgb;
+    d.lobe_count = 1;
+  });
+  nook_probe_lobe lobe{};
+  refused(invalid, "the axis of lobe 0", [&](auto& d) {
+    d.directional_ao = rgb;
+    d.lobes = &lobe;
+    d.lobe_count = 1;
+  });
   refused(NOOK_ERROR_INVALID_HANDLE, "no instance", [](auto& d) { d.receiver = 77; });
   const nook_world_capsule bad[] = {{{0, 0, 0}, 0, {0, 0, 0}, 1}, {{NAN, 0, 0}, 1, {0, 0, 0}, 1}};
   for (const nook_world_capsule& prop : bad)

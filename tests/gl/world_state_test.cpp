@@ -56,6 +56,19 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
          fixture.made(desc);
          render(false);
        }},
+      {"coloured frame",
+       [&] {
+         nook_world_pass_destroy(&fixture.pass);
+         nook_world_pass_desc desc = world_desc();
+         desc.half_resolution = desc.coloured = 1;
+         fixture.made(desc);
+         nook_world_frame_desc frame = world_frame(screen, view);
+         frame.props = casters.data();
+         frame.prop_count = std::uint32_t(casters.size());
+         frame.light_axis[1] = 1;
+         frame.light_degrees = 20;
+         CHECK(nook_world_render(fixture.pass, &frame) == NOOK_OK);
+       }},
       {"refused frame", [&] { render(true, NOOK_ERROR_INVALID_ARGUMENT); }},
       {"destroy", [&] { nook_world_pass_destroy(&fixture.pass); }},
   };

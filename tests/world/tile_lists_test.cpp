@@ -61,6 +61,33 @@ TEST_CASE("tile lists: every point of a sphere that is seen lies in its tiles") 
   }
 }
 
+TEST_CASE("tile lists: every point of a shadow that is seen lies in its tiles") {
+  Numbers numbers(9);
+  for (const bool orthographic : {false, true}) {
+    const world::TileGrid grid = grid_of(orthographic);
+    int seen = 0, empty = 0;
+    for (int i = 0; i < 400; ++i) {
+      const Vec3 centre{numbers.between(-6, 6), numbers.between(-6, 6), numbers.between(-8, 3)};
+      const float radius = numbers.between(0.05f, 1.0f);
+      const world::Shadow shadow{numbers.direction(), numbers.between(0.01f, 0.5f), numbers.between(1, 20)};
+      const world::TileRange range = world::shaded_tiles(grid, centre, radius, shadow);
+      empty += range.empty;
+      for (int k = 0; k < 50; ++k) {
+        const float along = numbers.between(0, shadow.reach);
+        const Vec3 p = centre + along * shadow.away + (radius + shadow.spread * along) * numbers.direction();
+        std::uint32_t column = 0, row = 0;
+        if (!tile_of(grid, p, column, row)) continue;
+        ++seen;
+        REQUIRE_FALSE(range.empty);
+        REQUIRE((range.first_column <= column && column <= range.last_column));
+        REQUIRE((range.first_row <= row && row <= range.last_row));
+      }
+    }
+    CHECK(seen > 200);
+    CHECK(empty > 20);
+  }
+}
+
 TEST_CASE("tile lists: a tile lists the ranges that hold it, in their order") {
   const world::TileGrid grid = grid_of(false);
   REQUIRE((grid.columns() == 7 && grid.rows() == 5));

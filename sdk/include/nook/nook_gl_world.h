@@ -12,6 +12,10 @@
  *     nook_world_render(world, &frame);
  * The texture of the world pass is then AO of everything.
  *
+ * Under probes and one lamp or sun, with nook_world_pass_desc.coloured and frame.lobes, frame.light_axis:
+ *     vec4 open = texelFetch(world_texture, pixel, 0);
+ *     colour = albedo / pi * (irradiance_of_lobes * open.rgb + irradiance_of_lamp * open.a);
+ *
  * The casters of a frame go through lists of tiles of 32 pixels, larger ones where OpenGL has no room for so
  * many: a body is in the lists of the tiles that its reach may cover on the screen. */
 #ifndef NOOK_GL_WORLD_H
@@ -40,6 +44,9 @@ typedef struct nook_world_pass_desc {
   uint32_t casters;
   /* 1: AO is computed at half width and half height, and upsampled by a joint-bilateral filter. Default 0. */
   int32_t half_resolution;
+  /* 1: the pass computes light as well, into a texture GL_RGBA8: in red, green and blue the open share of the
+   * light of frame.lobes, in alpha that of the cone of frame.light_axis. Default 0. */
+  int32_t coloured;
 } nook_world_pass_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
@@ -112,6 +119,19 @@ typedef struct nook_world_frame_desc {
   nook_world_composition composition;
   /* Default NOOK_WORLD_VIEW_AO. */
   nook_world_view show;
+  /* The light whose open share a coloured pass computes by channel, as nook_world_sample does: at most
+   * NOOK_PROBE_MAX_FUNCTIONS lobes in world space. Strength, layer and composition act on each channel as on
+   * AO. Default none: all three channels are AO. */
+  const nook_probe_lobe* lobes;
+  uint32_t lobe_count;
+  /* The light whose open share a coloured pass leaves in alpha: towards it, of unit length in world space,
+   * and the full angle of its cone in degrees, more than 0, less than 179. Where a layer replaces the result
+   * it is 1; strength and composition leave it. Default 0 degrees: none, alpha is 1. */
+  float light_axis[3];
+  float light_degrees;
+  /* Metres, more than 0; a caster that is farther from a point does not take the cone's light from it.
+   * Default 30. */
+  float light_reach;
 } nook_world_frame_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
@@ -133,8 +153,8 @@ NOOK_API nook_result nook_world_recheck(nook_world_pass pass);
 typedef struct nook_world_pass_info {
   /* sizeof(nook_world_pass_info); the caller sets it. */
   uint32_t struct_size;
-  /* The OpenGL name of the pass's own texture: GL_R8, max_width x max_height, 1 everywhere before the first
-   * frame. Nook owns it; the host reads it. */
+  /* The OpenGL name of the pass's own texture: GL_R8, of a coloured pass GL_RGBA8, max_width x max_height, 1
+   * everywhere before the first frame. Nook owns it; the host reads it. */
   uint32_t texture;
   /* For shaders of the host: the table of casters of the last frame that may reach its view, a texture of
    * caster_target (a texture buffer, or a 2D texture on OpenGL ES), and the number of its groups (bodies). */

@@ -12,11 +12,18 @@
  * what the casters leave open counts, and the light's open share is the mean over the parts. Casters that
  * cover different parts thus add, and those that cover one part whole darken it once.
  *
+ * Light by channel: under lobes a caster that covers the share f of the hemisphere takes f rho of the light,
+ * with rho for each channel the mean radiance behind it over that of the hemisphere. With AO the product over
+ * the casters, the open share is 1 - (1 - AO) R, R the mean of rho over the casters by their shares. A shadow
+ * thus falls away from a window and takes its colour from what is left. The lobes count by their bands 0
+ * to 2. Under constant light the open share is AO.
+ *
  * nook_gl_world.h darkens what a depth buffer shows. */
 #ifndef NOOK_WORLD_H
 #define NOOK_WORLD_H
 
 #include "nook_character.h"
+#include "nook_probe.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -70,6 +77,14 @@ typedef struct nook_world_sample_desc {
    * 179. Default 0 degrees: no light. */
   float light_axis[3];
   float light_degrees;
+  /* The light whose open share directional_ao gets: at most NOOK_PROBE_MAX_FUNCTIONS lobes in world space;
+   * default none. The light of a small sun is better left out of them, and given as a cone. */
+  const nook_probe_lobe* lobes;
+  uint32_t lobe_count;
+  /* NULL (default), or room for three floats for each point: the open share of the lobes' light in red, green
+   * and blue, in [0, 1]. It takes the place of AO in albedo / pi * E * AO, E the irradiance of the same
+   * lobes. */
+  float* directional_ao;
 } nook_world_sample_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does.

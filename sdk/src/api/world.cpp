@@ -41,17 +41,9 @@ world::SampleRequest request_of(const nook_world_sample_desc& desc, float cutoff
   if (desc.stride) request.stride = desc.stride / sizeof(float);
   request.cutoff_error = cutoff_error;
   if (desc.light_degrees == 0) return request;
-  if (!(desc.light_degrees > 0 && desc.light_degrees < 179))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.light_degrees is out of range (got %g, need 0, or more than 0 and less than 179)",
-                  double(desc.light_degrees));
-  const Vec3 axis = api::vector_of(desc.light_axis);
-  if (!(std::abs(length(axis) - 1) <= 1e-3f))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.light_axis is not of unit length (got %g, need 1 to 0.001)", double(length(axis)));
   request.has_light = true;
-  request.light_axis = normalised(axis);
-  request.light_half_angle_radians = 0.5f * desc.light_degrees * 0.0174532925f;
+  request.light_axis = api::checked_light("desc", desc.light_axis, desc.light_degrees);
+  request.light_half_angle_radians = api::half_angle_radians(desc.light_degrees);
   return request;
 }
 
@@ -92,7 +84,12 @@ nook_result nook_world_sample(nook_scene scene, const nook_world_sample_desc* de
     if (light && given.light_degrees == 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "light is not NULL, but desc.light_degrees is 0; give the light's full angle");
-    const world::SampleRequest request = request_of(given, scene ? scene->scene.settings.cutoff_error : 0);
+    world::SampleRequest request = request_of(given, scene ? scene->scene.settings.cutoff_error : 0);
+    LightBands bands;
+    if (given.directional_ao) {
+      bands = api::bands_of_lobes("desc", given.lobes, given.lobe_count);
+      request.bands = &bands;
+    }
     if (given.receiver) {
       if (!scene) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.receiver is given without a scene");
       instance_of(scene->scene, given.receiver);
@@ -101,6 +98,6 @@ nook_result nook_world_sample(nook_scene scene, const nook_world_sample_desc* de
                                given.prop_count);
     const Isa isa = scene ? scene->scene.kernels->isa : choose_isa(NOOK_ISA_AUTO);
     world::sample(*world::world_kernels(isa), scene ? scene->scene.parallel : Parallel{}, request,
-                  {casting.group_count(), &casting, api::Casting::group}, ao, light);
+                  {casting.group_count(), &casting, api::Casting::group}, ao, light, given.directional_ao);
   });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sdk/src/character/light.h"
 #include "sdk/src/character/world_casters.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/place.h"
@@ -48,6 +49,48 @@ void check_props(const char* descriptor, const nook_world_capsule* props, std::u
                       "%s.props[%u] has a radius out of range (got %g, need metres above 0)", descriptor, i,
                       double(radius));
   }
+}
+
+Vec3 checked_light(const char* descriptor, const float (&axis)[3], float degrees) {
+  if (!(degrees > 0 && degrees < 179))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "%s.light_degrees is out of range (got %g, need 0, or more than 0 and less than 179)",
+                  descriptor, double(degrees));
+  const Vec3 towards = vector_of(axis);
+  if (!(std::abs(length(towards) - 1) <= 1e-3f))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "%s.light_axis is not of unit length (got %g, need 1 to 0.001)", descriptor,
+                  double(length(towards)));
+  return normalised(towards);
+}
+
+LightBands bands_of_lobes(const char* descriptor, const nook_probe_lobe* lobes, std::uint32_t count,
+                          const float* turn) {
+  if (count > 0 && !lobes)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.lobes is NULL with %s.lobe_count %u", descriptor,
+                  descriptor, count);
+  if (count > max_light_lobes)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.lobe_count is too large (got %u, need at most %u)",
+                  descriptor, count, max_light_lobes);
+  LightBands bands;
+  if (count == 0) {
+    bands.scalar = bands.darkest = {1, 1, 1};
+    return bands;
+  }
+  std::array<SphericalGaussian, max_light_lobes> light;
+  for (std::uint32_t i = 0; i < count; ++i)
+    light[i] = {vector_of(lobes[i].axis), lobes[i].sharpness, vector_of(lobes[i].amplitude)};
+  const std::span<const SphericalGaussian> all{light.data(), count};
+  check_light_lobes(all);
+  for (const SphericalGaussian& lobe : all) {
+    Vec3 axis = lobe.axis;
+    if (turn)
+      axis = axis.x * Vec3{turn[0], turn[1], turn[2]} + axis.y * Vec3{turn[4], turn[5], turn[6]} +
+             axis.z * Vec3{turn[8], turn[9], turn[10]};
+    add_lobe(bands, axis, lobe.amplitude, bands_of(lobe.sharpness));
+  }
+  bands.darkest = darkest_of(all);
+  return bands;
 }
 
 Casting::Casting(Scene* scene, nook_instance_id receiver, const nook_world_capsule* props,

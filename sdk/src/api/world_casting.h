@@ -4,6 +4,7 @@
 #include <nook/nook_world.h>
 
 #include "sdk/src/character/scene.h"
+#include "sdk/src/core/light_bands.h"
 #include "sdk/src/world/caster_parts.h"
 #include "sdk/src/world/sample.h"
 
@@ -15,6 +16,20 @@ inline Vec3 vector_of(const float (&v)[3]) {
 
 // Throws Failure unless every prop is a capsule; the message begins with the descriptor's name.
 void check_props(const char* descriptor, const nook_world_capsule* props, std::uint32_t count);
+
+// The light's axes are turned by `turn`, column-major with four numbers in a column, if it is not NULL.
+// Throws Failure unless the lobes are lobes; the message begins with the descriptor's name. Without lobes the
+// light is constant.
+LightBands bands_of_lobes(const char* descriptor, const nook_probe_lobe* lobes, std::uint32_t count,
+                          const float* turn = nullptr);
+
+// Returns the unit axis of a cone of light. Throws Failure unless it is one.
+Vec3 checked_light(const char* descriptor, const float (&axis)[3], float degrees);
+
+// Of a cone with this full angle.
+inline float half_angle_radians(float degrees) {
+  return 0.5f * degrees * 0.0174532925f;
+}
 
 class Casting {
  public:

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 
+#include "sdk/src/core/light_bands.h"
 #include "sdk/src/core/simd_scalar.h"
 #include "sdk/src/core/vec.h"
 #include "shaders/character/constants.h"
@@ -37,11 +38,6 @@ struct LightView {
   Vec3 darkest;
 };
 
-template <class F>
-struct Colour {
-  F r, g, b;
-};
-
 // The sharpness of the lobe that approximates the clamped cosine, as in core/spherical_gaussian.h.
 inline constexpr float directional_cosine = float(NOOK_COSINE_LOBE_SHARPNESS);
 // k = caster_concentration sqrt(height) (1 - f^2) / f: a far sphere is a lobe of its solid angle, one that
@@ -60,11 +56,6 @@ F lobe_norm(F v) {
   const F q = fma(fma(fma(fma(F(c[4]), v, F(c[3])), v, F(c[2])), v, F(c[1])), v, F(c[0]));
   return q / fma(v, q, F(1.0f));
 }
-
-template <class F>
-struct Direction {
-  F x, y, z;
-};
 
 // Returns the mean of the lobes under the density of vector b, without the part of each lobe that the ground
 // hides.

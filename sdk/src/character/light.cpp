@@ -12,8 +12,6 @@ namespace nook {
 namespace {
 
 constexpr float max_sharpness = 1e4f, max_amplitude = 1e18f;
-// No hemisphere is taken for darker than this share of the mean radiance: fits that ring are below 0 there.
-constexpr float darkest_share = 0.02f;
 
 void check_lobe(const SphericalGaussian& lobe, std::size_t index) {
   if (!(std::abs(length(lobe.axis) - 1) <= 1e-3f))
@@ -31,14 +29,6 @@ void check_lobe(const SphericalGaussian& lobe, std::size_t index) {
                     index, double(channel));
 }
 
-Vec3 darkest_of(std::span<const SphericalGaussian> lobes) {
-  Vec3 mean;
-  for (const SphericalGaussian& lobe : lobes)
-    mean += integral(lobe) * (darkest_share / gaussian_integral(0.0f));
-  constexpr float tiny = 1e-20f;
-  return {std::max(mean.x, tiny), std::max(mean.y, tiny), std::max(mean.z, tiny)};
-}
-
 void allocate(InstanceLight& light, const PointLanes& points, Memory* memory) {
   AlignedArray<LightLobe> lobes(max_light_lobes, memory);
   AlignedArray<LobeBands> lobe_bands(max_light_lobes, memory);
@@ -51,24 +41,6 @@ void allocate(InstanceLight& light, const PointLanes& points, Memory* memory) {
       lane = at;
       at += points.padded_count;
     }
-}
-
-// Of a lobe's mean radiance over the sphere, the zonal factors of its own bands.
-LobeBands bands_of(float sharpness) {
-  const std::array<float, 5> band = gaussian_bands(sharpness);
-  return {gaussian_integral(sharpness) / gaussian_integral(0.0f), 3 * band[1], 7.5f * band[2]};
-}
-
-void add(LightBands& bands, const LightLobe& lobe, const LobeBands& own) {
-  const Vec3 mean = lobe.amplitude * (own.scalar * lobe.above);
-  const Vec3 d = lobe.sharpness > 0 ? lobe.vector * (1 / lobe.sharpness) : Vec3{};
-  bands.scalar += mean;
-  const float axis[3] = {d.x, d.y, d.z};
-  for (int i = 0; i < 3; ++i) {
-    bands.vector[i] += mean * (own.vector * axis[i]);
-    bands.tensor[i] += mean * (own.tensor * (axis[i] * axis[i] - 1.0f / 3));
-    bands.tensor[3 + i] += mean * (own.tensor * 2 * axis[i] * axis[(i + 1) % 3]);
-  }
 }
 
 void fill(float* const* lanes, std::uint32_t count, float value) {
@@ -135,12 +107,16 @@ void join_paper_norm(const Scene& scene, const Instance& instance, const PointLa
 
 }  // namespace
 
-void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes) {
-  Instance& instance = instance_of(scene, id);
+void check_light_lobes(std::span<const SphericalGaussian> lobes) {
   if (lobes.size() > max_light_lobes)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is too large (got %zu, need at most %u)",
                   lobes.size(), max_light_lobes);
   for (std::size_t i = 0; i < lobes.size(); ++i) check_lobe(lobes[i], i);
+}
+
+void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes) {
+  Instance& instance = instance_of(scene, id);
+  check_light_lobes(lobes);
   InstanceLight& light = instance.light;
   if (!lobes.empty() && light.lobes.size() == 0) {
     allocate(light, instance.result.arrays.points, scene.memory);
@@ -178,7 +154,8 @@ void prepare_light(const Scene& scene, Instance& instance) noexcept {
   for (std::uint32_t i = 0; i < light.count; ++i) {
     LightLobe& lobe = light.lobes[i];
     lobe.above = hides ? 1 - share_below(dot(lobe.vector, instance.input.ground.normal), lobe.sharpness) : 1;
-    add(light.bands, lobe, light.lobe_bands[i]);
+    const Vec3 axis = lobe.sharpness > 0 ? lobe.vector * (1 / lobe.sharpness) : Vec3{};
+    add_lobe(light.bands, axis, lobe.amplitude * lobe.above, light.lobe_bands[i]);
   }
 }
 

@@ -40,6 +40,9 @@ struct InstanceLight {
   LightView view() const { return {lobes.data(), count, darkest}; }
 };
 
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless there are at most max_light_lobes and each is a lobe.
+void check_light_lobes(std::span<const SphericalGaussian> lobes);
+
 // Without lobes the instance loses its light. Throws Failure on a bad id or lobe, and std::bad_alloc, and
 // then changes nothing. Allocates only at the first light of an instance.
 void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes);

@@ -20,6 +20,7 @@
 // the unit vector towards the axis, (alpha u + beta v) / sqrt(alpha s_u + beta s_v).
 #pragma once
 
+#include "sdk/src/core/light_bands.h"
 #include "sdk/src/core/simd_scalar.h"
 #include "shaders/world/constants.h"
 
@@ -108,9 +109,10 @@ struct CapsuleLanes {
   F ax, ay, az, bx, by, bz, radius_a, radius_b;
 };
 
-// The share in [0, 1], for a receiver at the origin with a unit normal; 0 where a number is NaN.
+// The share in [0, 1], for a receiver at the origin with a unit normal, and the vector Phi; 0 where a number
+// is NaN, as Phi then is.
 template <class F>
-F coverage(const CapsuleLanes<F>& capsule, F nx, F ny, F nz) {
+F coverage(const CapsuleLanes<F>& capsule, F nx, F ny, F nz, Direction<F>& phi) {
   const F one(1.0f), zero(0.0f), tiny(1e-24f);
   const F a2 = fma(capsule.ax, capsule.ax, fma(capsule.ay, capsule.ay, capsule.az * capsule.az));
   const F b2 = fma(capsule.bx, capsule.bx, fma(capsule.by, capsule.by, capsule.bz * capsule.bz));
@@ -129,7 +131,14 @@ F coverage(const CapsuleLanes<F>& capsule, F nx, F ny, F nz) {
   // |a u + b v|^2 = (a + b)^2 - 2 a b (1 - c).
   const F size2 = max(fma(sum, sum, F(-2.0f) * hull.a * hull.b * spread), zero);
   const F lowest = min(nu / su, nv / sv);
+  phi = {fma(hull.a, ux, hull.b * vx), fma(hull.a, uy, hull.b * vy), fma(hull.a, uz, hull.b * vz)};
   return min(max(above_horizon(factor, size2, lowest), zero), one);
+}
+
+template <class F>
+F coverage(const CapsuleLanes<F>& capsule, F nx, F ny, F nz) {
+  Direction<F> phi;
+  return coverage(capsule, nx, ny, nz, phi);
 }
 
 }  // namespace nook::world

@@ -14,11 +14,18 @@ struct Block {
   alignas(64) float nx[block_points], ny[block_points], nz[block_points];
   alignas(64) float open[block_points];
   alignas(64) float part[cone_parts][block_points];
+  alignas(64) float gathered[GatheredSoa::lanes][block_points];
+  alignas(64) float rgb[3][block_points];
   bool sound[block_points];
   std::uint32_t count = 0;
   Vec3 centre;  // of a sphere that holds the points
   float radius = 0;
 
+  GatheredSoa bands() {
+    GatheredSoa soa;
+    for (int lane = 0; lane < GatheredSoa::lanes; ++lane) soa.lane[lane] = gathered[lane];
+    return soa;
+  }
   PointSoa points() const { return {x, y, z, nx, ny, nz, block_points}; }
 };
 
@@ -80,9 +87,9 @@ bool stands_before(const CasterGroup& group, const Block& block, const SampleReq
 }  // namespace
 
 void sample(const WorldKernels& kernels, const Parallel& parallel, const SampleRequest& request,
-            const CasterGroups& groups, float* ao, float* light) noexcept {
+            const CasterGroups& groups, float* ao, float* light, float* rgb) noexcept {
   ConeParts parts;
-  const bool lit = request.has_light && light;
+  const bool lit = request.has_light && light, coloured = request.bands && rgb;
   if (lit) parts = cone_parts_of(request.light_axis, request.light_half_angle_radians);
   // A capsule counts as a rectangle, whose corners reach beyond its round ends by less than a third of a
   // part.
@@ -92,6 +99,9 @@ void sample(const WorldKernels& kernels, const Parallel& parallel, const SampleR
     const std::uint32_t first = index * block_points;
     load_points(request, first, block);
     std::fill_n(block.open, block_points, 1.0f);
+    const GatheredSoa gathered = block.bands();
+    if (coloured)
+      for (float* const lane : gathered.lane) std::fill_n(lane, block_points, 0.0f);
     if (lit)
       for (auto& part : block.part) std::fill_n(part, block_points, 1.0f);
     for (std::uint32_t g = 0; g < groups.count; ++g) {
@@ -99,14 +109,23 @@ void sample(const WorldKernels& kernels, const Parallel& parallel, const SampleR
       const CasterGroup group = groups.group(groups.user, g, room);
       const auto count = static_cast<std::uint32_t>(group.casters.size());
       if (count == 0) continue;
-      if (ao && reaches(group, block, request.cutoff_error))
-        kernels.open_hemisphere(group.casters.data(), count, block.points(), block.open);
+      if ((ao || coloured) && reaches(group, block, request.cutoff_error)) {
+        if (coloured)
+          kernels.gather_hemisphere(group.casters.data(), count, block.points(), block.open, gathered);
+        else
+          kernels.open_hemisphere(group.casters.data(), count, block.points(), block.open);
+      }
       if (lit && stands_before(group, block, request, wide))
         for (int p = 0; p < cone_parts; ++p)
           kernels.open_part(group.casters.data(), count, block.points(), parts.axis[p], parts.slope,
                             block.part[p]);
     }
+    float* const channels[3] = {block.rgb[0], block.rgb[1], block.rgb[2]};
+    if (coloured) kernels.open_light(*request.bands, block.points(), gathered, block.open, channels);
     for (std::uint32_t i = 0; i < block.count; ++i) {
+      if (coloured)
+        for (std::size_t c = 0; c < 3; ++c)
+          rgb[3 * std::size_t{first + i} + c] = block.sound[i] ? channels[c][i] : 1.0f;
       if (ao) ao[first + i] = block.sound[i] ? std::clamp(block.open[i], 0.0f, 1.0f) : 1.0f;
       if (!lit) continue;
       float sum = 0;

@@ -66,6 +66,30 @@ TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius) {
   return range;
 }
 
+TileRange shaded_tiles(const TileGrid& grid, Vec3 centre, float radius, const Shadow& shadow) {
+  // Each step's spheres lie in one that is not much larger; the last step takes what is left.
+  constexpr int most_steps = 12;
+  TileRange all;
+  float from = 0;
+  for (int step = 0; step < most_steps && from < shadow.reach; ++step) {
+    const float widest = radius + shadow.spread * from;
+    const float to = step + 1 < most_steps ? std::min(from + 3 * widest, shadow.reach) : shadow.reach;
+    const TileRange tiles = covered_tiles(grid, centre + 0.5f * (from + to) * shadow.away,
+                                          0.5f * (to - from) + radius + shadow.spread * to);
+    from = to;
+    if (tiles.empty) continue;
+    if (all.empty) {
+      all = tiles;
+      continue;
+    }
+    all.first_column = std::min(all.first_column, tiles.first_column);
+    all.last_column = std::max(all.last_column, tiles.last_column);
+    all.first_row = std::min(all.first_row, tiles.first_row);
+    all.last_row = std::max(all.last_row, tiles.last_row);
+  }
+  return all;
+}
+
 std::uint64_t most_list_texels(const TileGrid& grid, std::span<const TileRange> ranges) {
   std::uint64_t entries = 0;
   for (const TileRange& r : ranges)

@@ -30,6 +30,14 @@ struct TileRange {
 // camera lies in them.
 TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius);
 
+// The shadow of a body in a cone of light: the spheres whose centre moves from `centre` by up to reach along
+// `away`, which is unit and points from the light, and whose radius grows by `spread` metres a metre.
+struct Shadow {
+  Vec3 away;
+  float spread = 0, reach = 0;
+};
+TileRange shaded_tiles(const TileGrid& grid, Vec3 centre, float radius, const Shadow& shadow);
+
 // Returns a bound of the texels of the lists.
 std::uint64_t most_list_texels(const TileGrid& grid, std::span<const TileRange> ranges);
 

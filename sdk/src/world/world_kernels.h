@@ -8,6 +8,7 @@
 #include "sdk/src/core/capsule.h"
 #include "sdk/src/core/isa.h"
 #include "sdk/src/world/cone.h"
+#include "sdk/src/world/directional.h"
 
 namespace nook::world {
 
@@ -18,6 +19,12 @@ struct PointSoa {
   std::uint32_t padded_count = 0;
 };
 
+// The arrays of gathered bands, in the order of GatheredBands.
+struct GatheredSoa {
+  static constexpr int lanes = 10;
+  float* lane[lanes] = {};
+};
+
 struct WorldKernels {
   Isa isa = Isa::scalar;
   const char* name = nullptr;
@@ -25,7 +32,13 @@ struct WorldKernels {
   // open[i] *= the product over the casters of 1 - coverage.
   void (*open_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
                           float* open);
-  // The same for one part of a cone: 1 - part_coverage.
+  // The same, and adds each caster to the bands.
+  void (*gather_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
+                            float* open, const GatheredSoa& gathered);
+  // Writes the open share of the light for each channel, with `open` that of AO.
+  void (*open_light)(const LightBands& bands, const PointSoa& points, const GatheredSoa& gathered,
+                     const float* open, float* const* rgb);
+  // open[i] *= the product over the casters of 1 - part_coverage, for one part of a cone.
   void (*open_part)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points, Vec3 axis,
                     float slope, float* open);
 };

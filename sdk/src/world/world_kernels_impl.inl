@@ -24,6 +24,42 @@ void open_hemisphere(const PosedCaster* casters, std::uint32_t count, const worl
   }
 }
 
+GatheredBands<Float> load_gathered(const world::GatheredSoa& gathered, std::uint32_t i) {
+  const auto at = [&](int lane) { return load(gathered.lane[lane] + i); };
+  return {at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8), at(9)};
+}
+
+void gather_hemisphere(const PosedCaster* casters, std::uint32_t count, const world::PointSoa& points,
+                       float* open, const world::GatheredSoa& gathered) {
+  for (std::uint32_t i = 0; i < points.padded_count; i += width) {
+    const Float x = load(points.x + i), y = load(points.y + i), z = load(points.z + i);
+    const Direction<Float> n{load(points.nx + i), load(points.ny + i), load(points.nz + i)};
+    Float left = load(open + i);
+    GatheredBands<Float> sum = load_gathered(gathered, i);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      Direction<Float> phi;
+      const Float share =
+          world::coverage(lanes_of(casters[k], casters[k].ao_scale, x, y, z), n.x, n.y, n.z, phi);
+      left = left * (Float(1.0f) - share);
+      world::gather(sum, n, phi, share);
+    }
+    store(open + i, left);
+    const Float out[] = {sum.scalar, sum.x, sum.y, sum.z, sum.xx, sum.yy, sum.zz, sum.xy, sum.yz, sum.zx};
+    for (int lane = 0; lane < world::GatheredSoa::lanes; ++lane) store(gathered.lane[lane] + i, out[lane]);
+  }
+}
+
+void open_light(const LightBands& bands, const world::PointSoa& points, const world::GatheredSoa& gathered,
+                const float* open, float* const* rgb) {
+  for (std::uint32_t i = 0; i < points.padded_count; i += width) {
+    const Direction<Float> n{load(points.nx + i), load(points.ny + i), load(points.nz + i)};
+    const Colour<Float> light = world::open_light(load_gathered(gathered, i), bands, n, load(open + i));
+    store(rgb[0] + i, light.r);
+    store(rgb[1] + i, light.g);
+    store(rgb[2] + i, light.b);
+  }
+}
+
 void open_part(const PosedCaster* casters, std::uint32_t count, const world::PointSoa& points, Vec3 axis,
                float slope, float* open) {
   const Float lx = broadcast(axis.x), ly = broadcast(axis.y), lz = broadcast(axis.z), s = broadcast(slope);
@@ -36,7 +72,8 @@ void open_part(const PosedCaster* casters, std::uint32_t count, const world::Poi
   }
 }
 
-constexpr world::WorldKernels world_table{isa, isa_name(isa), open_hemisphere, open_part};
+constexpr world::WorldKernels world_table{isa,        isa_name(isa), open_hemisphere, gather_hemisphere,
+                                          open_light, open_part};
 
 }  // namespace
 

@@ -13,7 +13,7 @@ NOOK_AT(nook_world_caster, capsule, 0);
 NOOK_AT(nook_world_caster, bone, 32);
 NOOK_AT(nook_world_caster, ao_scale, 36);
 
-NOOK_SIZE(nook_world_sample_desc, 72);
+NOOK_SIZE(nook_world_sample_desc, 96);
 NOOK_AT(nook_world_sample_desc, struct_size, 0);
 NOOK_AT(nook_world_sample_desc, header_version, 4);
 NOOK_AT(nook_world_sample_desc, next, 8);
@@ -26,3 +26,6 @@ NOOK_AT(nook_world_sample_desc, prop_count, 48);
 NOOK_AT(nook_world_sample_desc, receiver, 52);
 NOOK_AT(nook_world_sample_desc, light_axis, 56);
 NOOK_AT(nook_world_sample_desc, light_degrees, 68);
+NOOK_AT(nook_world_sample_desc, lobes, 72);
+NOOK_AT(nook_world_sample_desc, lobe_count, 80);
+NOOK_AT(nook_world_sample_desc, directional_ao, 88);

@@ -41,14 +41,18 @@ nook_nnao_frame_desc default_nnao_frame() {
   frame.depth_log_scale = 1;
   return frame;
 }
+void check_max_size(std::int32_t max_width, std::int32_t max_height) {
+  constexpr std::int32_t largest = 16384;
+  if (max_width < 1 || max_height < 1 || max_width > largest || max_height > largest)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.max_width and desc.max_height are out of range (got %d x %d, need 1 x 1 to %d x %d)",
+                  max_width, max_height, largest, largest);
+}
+
 nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given) {
   const nook_nnao_desc desc =
       read_descriptor(given, "nook_nnao_desc_init", first_nnao_desc, default_nnao_desc());
-  constexpr int largest = 16384;
-  if (desc.max_width < 1 || desc.max_height < 1 || desc.max_width > largest || desc.max_height > largest)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.max_width and desc.max_height are out of range (got %d x %d, need 1 x 1 to %d x %d)",
-                  desc.max_width, desc.max_height, largest, largest);
+  check_max_size(desc.max_width, desc.max_height);
   if (desc.taps < 0 || nnao::horizon_grid(static_cast<std::uint32_t>(desc.taps)).steps == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256)", desc.taps);

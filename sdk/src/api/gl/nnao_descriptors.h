@@ -4,11 +4,16 @@
 #include <nook/nook_nnao.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "sdk/src/nnao/network.h"
 
 namespace nook::api {
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless desc.max_width and desc.max_height are sizes of a pass
+// over the screen.
+void check_max_size(std::int32_t max_width, std::int32_t max_height);
 
 nook_nnao_desc default_nnao_desc();
 nook_nnao_frame_desc default_nnao_frame();

@@ -4,8 +4,10 @@
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
+#include "sdk/src/api/gl/nnao_descriptors.h"
 #include "sdk/src/api/world_casting.h"
 #include "sdk/src/core/descriptors.h"
+#include "sdk/src/core/place.h"
 #include "sdk/src/gl/nnao/frame_check.h"
 #include "sdk/src/gl/program.h"
 #include "sdk/src/gl/world/world_pass.h"
@@ -55,24 +57,25 @@ nook_world_frame_desc default_frame() {
   frame.header_version = NOOK_VERSION;
   frame.cutoff_error = SceneSettings{}.cutoff_error;
   frame.level_error = 1.0f / 256;
+  frame.light_reach = 30;
   return frame;
 }
 
 nook_world_pass_desc checked(const nook_world_pass_desc* given) {
   const nook_world_pass_desc desc =
       read_descriptor(given, "nook_world_pass_desc_init", first_desc, default_desc());
-  constexpr int largest = 16384;
-  if (desc.max_width < 1 || desc.max_height < 1 || desc.max_width > largest || desc.max_height > largest)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.max_width and desc.max_height are out of range (got %d x %d, need 1 x 1 to %d x %d)",
-                  desc.max_width, desc.max_height, largest, largest);
+  api::check_max_size(desc.max_width, desc.max_height);
   constexpr std::uint32_t most = 1u << 20;
   if (desc.casters < 1 || desc.casters > most)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.casters is out of range (got %u, need 1 to %u)",
                   desc.casters, most);
-  if (desc.half_resolution != 0 && desc.half_resolution != 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.half_resolution is neither on nor off (got %d, need 0 or 1)", desc.half_resolution);
+  const auto check_switch = [](const char* field, std::int32_t value) {
+    if (value != 0 && value != 1)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is neither on nor off (got %d, need 0 or 1)", field,
+                    value);
+  };
+  check_switch("half_resolution", desc.half_resolution);
+  check_switch("coloured", desc.coloured);
   return desc;
 }
 
@@ -123,6 +126,22 @@ void check_numbers(const nook_world_frame_desc& frame) {
   };
   check_kind("composition", frame.composition);
   check_kind("show", frame.show);
+}
+
+// The light of a coloured pass: bands in view space, the cone in world space. The view has passed its check.
+void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& frame, bool coloured) {
+  if (!coloured && (frame.lobe_count > 0 || frame.light_degrees != 0))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.%s needs a pass with desc.coloured 1, and this one has 0; create a coloured pass",
+                  frame.lobe_count > 0 ? "lobes" : "light_degrees");
+  drawn.bands = api::bands_of_lobes("frame", frame.lobes, frame.lobe_count, frame.view);
+  if (frame.light_degrees == 0) return;
+  const Vec3 axis = api::checked_light("frame", frame.light_axis, frame.light_degrees);
+  if (!(frame.light_reach > 0 && frame.light_reach <= max_metres))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.light_reach is out of range (got %g, need metres above 0)",
+                  double(frame.light_reach));
+  drawn.cone = gl::LightCone{axis, api::half_angle_radians(frame.light_degrees), frame.light_reach};
 }
 
 // The groups of the scene with their reach.
@@ -186,12 +205,15 @@ nook_result nook_world_render(nook_world_pass pass, const nook_world_frame_desc*
     const api::Casting casting(known.scene ? &known.scene->scene : nullptr, 0, known.props, known.prop_count);
     const Reaching reaching{&casting, known.cutoff_error};
     const gl::ReachingGroups groups{casting.group_count(), &reaching, reaching_group};
-    const gl::WorldFrame drawn{screen,
-                               known.view,
-                               known.ao_texture,
-                               known.composition,
-                               known.level_error,
-                               known.show == NOOK_WORLD_VIEW_CASTERS};
+    gl::WorldFrame drawn{screen,
+                         known.view,
+                         known.ao_texture,
+                         known.composition,
+                         known.level_error,
+                         known.show == NOOK_WORLD_VIEW_CASTERS,
+                         {},
+                         {}};
+    put_light(drawn, known, pass->desc.coloured != 0);
     pass->gl->guarded(world_users(pass->gl->device.gl), [&] { pass->pass->render(drawn, groups); });
   });
 }

@@ -59,9 +59,18 @@ Vec3 viewed(const float* m, Vec3 p) {
           m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]};
 }
 
+Vec3 turned(const float* m, Vec3 d) {
+  return {m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,
+          m[2] * d.x + m[6] * d.y + m[10] * d.z};
+}
+
 std::uint64_t texels_of(const ReachingGroup& group) {
   const std::uint64_t parts = group.parts ? group.parts->count : 1;
   return NOOK_BODY_TEXELS + parts * NOOK_PART_TEXELS + group.casters.size() * NOOK_CASTER_TEXELS;
+}
+
+std::uint64_t shade_texels_of(const ReachingGroup& group) {
+  return NOOK_SHADE_TEXELS + group.casters.size() * NOOK_CASTER_TEXELS;
 }
 
 CasterTexels::CasterTexels(float* table, const float* view, std::uint32_t bodies)
@@ -95,6 +104,21 @@ void CasterTexels::put(std::uint32_t body, const ReachingGroup& group, float lev
   put(texel + 1, float(next_), float(parts.count), squared(far), 0);
   put_capsule(texel + 2, world::merged(group.casters, {every_caster.data(), group.casters.size()}), 1);
   put_parts(group, parts, level_error);
+}
+
+void CasterTexels::begin_shades(std::uint64_t first, std::uint32_t bodies) {
+  shades_ = first;
+  next_ = first + std::uint64_t{bodies} * NOOK_SHADE_TEXELS;
+}
+
+void CasterTexels::put_shade(std::uint32_t body, const ReachingGroup& group) {
+  const std::uint64_t texel = shades_ + std::uint64_t{body} * NOOK_SHADE_TEXELS;
+  put_place(texel, group.centre, group.radius);
+  put(texel + 1, float(next_), float(group.casters.size()), 0, 0);
+  for (const PosedCaster& caster : group.casters) {
+    put_capsule(next_, caster.capsule, 1);
+    next_ += NOOK_CASTER_TEXELS;
+  }
 }
 
 void CasterTexels::put_parts(const ReachingGroup& group, const world::CasterParts& parts, float level_error) {

@@ -10,8 +10,14 @@ namespace nook::gl {
 // From world to view space by a rotation and a translation, column-major.
 Vec3 viewed(const float* view, Vec3 p);
 
+// The same of a direction.
+Vec3 turned(const float* view, Vec3 direction);
+
 // The texels of a group.
 std::uint64_t texels_of(const ReachingGroup& group);
+
+// The texels of a group that casts the shadow of a cone.
+std::uint64_t shade_texels_of(const ReachingGroup& group);
 
 class CasterTexels {
  public:
@@ -21,6 +27,11 @@ class CasterTexels {
   // Bodies come in the order of their numbers.
   void put(std::uint32_t body, const ReachingGroup& group, float level_error);
 
+  // Begins the bodies that cast the shadow of a cone at a texel behind all others; they come in the order of
+  // their numbers.
+  void begin_shades(std::uint64_t first, std::uint32_t bodies);
+  void put_shade(std::uint32_t body, const ReachingGroup& group);
+
  private:
   void put(std::uint64_t texel, float x, float y, float z, float w);
   void put_place(std::uint64_t texel, Vec3 place, float w);
@@ -29,7 +40,8 @@ class CasterTexels {
 
   float* table_;
   const float* view_;
-  std::uint64_t next_;  // texel of the next body's parts
+  std::uint64_t next_;  // texel of the next body's parts, or of its casters
+  std::uint64_t shades_ = 0;
 };
 
 }  // namespace nook::gl

@@ -1,6 +1,8 @@
 #include "sdk/src/gl/world/world_pass.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "sdk/src/core/failure.h"
@@ -9,6 +11,7 @@
 #include "sdk/src/gl/state_guard.h"
 #include "sdk/src/gl/world/caster_texels.h"
 #include "sdk/src/nnao/host_depth.h"
+#include "sdk/src/world/cone.h"
 #include "shaders/nnao/layout.h"
 #include "shaders/world/constants.h"
 
@@ -31,6 +34,17 @@ nook_nnao_desc plain_pass(bool half) {
   return desc;
 }
 
+TextureFormat result_format(bool coloured) {
+  return coloured ? TextureFormat::bent_ao : TextureFormat::ao;
+}
+
+// A capsule counts as a rectangle in each part of a cone, whose corners reach beyond its round ends by less
+// than a third of a part.
+float angle_round(const LightCone& cone, float slope) {
+  constexpr float widest = 1.56f;
+  return std::min(cone.half_angle_radians + 2 * std::atan(slope), widest);
+}
+
 [[noreturn]] void refuse_casters(const Device& device, std::uint32_t casters, std::uint32_t bodies) {
   throw Failure(
       NOOK_ERROR_INVALID_ARGUMENT,
@@ -46,10 +60,14 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
       max_width_(desc.max_width),
       max_height_(desc.max_height),
       half_(desc.half_resolution != 0),
+      coloured_(desc.coloured != 0),
       casters_(device.memory, caster_unit),
       kept_(device.memory),
       ranges_(device.memory),
-      lists_(device.memory) {
+      lists_(device.memory),
+      shades_(device.memory),
+      shade_ranges_(device.memory),
+      shade_lists_(device.memory) {
   const Functions& gl = device.gl;
   GLint largest = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -66,7 +84,8 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
   output_ = make_stage(output, defines);
   layered_output_ = make_stage(output, layered);
   if (half_) make_half(desc);
-  own_ = RenderTexture(device, TextureFormat::ao, desc.max_width, desc.max_height, "nook: AO of the world");
+  own_ = RenderTexture(device, result_format(coloured_), desc.max_width, desc.max_height,
+                       "nook: AO of the world");
   const std::uint64_t texels = std::uint64_t{desc.casters} * NOOK_CASTER_TEXELS;
   if (texels > device.max_texels)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
@@ -87,7 +106,9 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
 
 WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines) {
   Stage stage;
-  stage.program = draw_program(device_, "nnao/screen.vert", fragment, defines);
+  char all[160];
+  std::snprintf(all, sizeof all, "%s%s", defines, coloured_ ? "#define NOOK_COLOURED 1\n" : "");
+  stage.program = draw_program(device_, "nnao/screen.vert", fragment, all);
   const auto at = [&](const char* name) { return uniform_location(device_, stage.program, name); };
   stage.frame = at("nook_frame");
   stage.groups = at("nook_world_groups");
@@ -96,6 +117,11 @@ WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines
   stage.first_tile = at("nook_world_first_tile");
   stage.composition = at("nook_world_composition");
   stage.counts = at("nook_world_counts");
+  stage.bands = at("nook_world_bands");
+  stage.cone = at("nook_world_cone");
+  stage.light_columns = at("nook_world_light_columns");
+  stage.first_light_tile = at("nook_world_first_light_tile");
+  stage.first_shade = at("nook_world_first_shade");
   device_.gl.UseProgram(stage.program.name());
   const struct {
     const char* name;
@@ -121,15 +147,16 @@ void WorldPass::make_half(const nook_world_pass_desc& desc) {
   masked_half_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n#define NOOK_LAYERED 1\n");
   const int width = surface_length(desc.max_width, true), height = surface_length(desc.max_height, true);
   depth_ = RenderTexture(device_, TextureFormat::depth, width, height, "nook: depth of every fourth pixel");
-  ao_ = RenderTexture(device_, TextureFormat::ao, width, height, "nook: AO of every fourth pixel");
+  ao_ = RenderTexture(device_, result_format(coloured_), width, height, "nook: AO of every fourth pixel");
 }
 
 std::uint64_t WorldPass::bytes() const {
   const auto texels = [](std::uint64_t width, std::uint64_t height) { return width * height; };
-  std::uint64_t sum = texels(max_width_, max_height_) * bytes_per_texel(TextureFormat::ao);
+  const TextureFormat result = result_format(coloured_);
+  std::uint64_t sum = texels(max_width_, max_height_) * bytes_per_texel(result);
   if (half_)
     sum += texels(surface_length(max_width_, true), surface_length(max_height_, true)) *
-           (bytes_per_texel(TextureFormat::ao) + bytes_per_texel(TextureFormat::depth));
+           (bytes_per_texel(result) + bytes_per_texel(TextureFormat::depth));
   return sum + casters_.bytes();
 }
 
@@ -156,6 +183,7 @@ std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& g
   grid.orthographic = rays.orthographic;
   kept_.clear();
   ranges_.clear();
+  lists_.clear();
   caster_count_ = 0;
   std::uint64_t texels = 0;
   for (std::uint32_t g = 0; g < groups.count; ++g) {
@@ -169,26 +197,63 @@ std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& g
     caster_count_ += static_cast<std::uint32_t>(group.casters.size());
     texels += texels_of(group);
   }
-  first_tile_ = static_cast<std::uint32_t>(texels);
   tile_columns_ = 0;
-  if (kept_.empty()) return 0;
+  first_shade_ = static_cast<std::uint32_t>(texels);
+  texels += choose_shades(frame, grid, groups);
+  first_tile_ = static_cast<std::uint32_t>(texels);
+  if (kept_.empty() && shades_.empty()) return 0;
+  const auto most_texels = [&] {
+    return texels + world::most_list_texels(grid, ranges_) + world::most_list_texels(grid, shade_ranges_);
+  };
   // Larger tiles have shorter lists, down to one list of all bodies.
-  while (texels + world::most_list_texels(grid, ranges_) > device_.max_texels &&
-         grid.columns() * grid.rows() > 1) {
+  while (most_texels() > device_.max_texels && grid.columns() * grid.rows() > 1) {
     grid.tile_px *= 2;
-    for (world::TileRange& range : ranges_) {
-      range.first_column /= 2;
-      range.last_column /= 2;
-      range.first_row /= 2;
-      range.last_row /= 2;
-    }
+    for (auto* const ranges : {&ranges_, &shade_ranges_})
+      for (world::TileRange& range : *ranges) {
+        range.first_column /= 2;
+        range.last_column /= 2;
+        range.first_row /= 2;
+        range.last_row /= 2;
+      }
   }
-  if (texels + world::most_list_texels(grid, ranges_) > device_.max_texels)
-    refuse_casters(device_, caster_count_, group_count());
-  world::write_tile_lists(grid, ranges_, lists_);
-  texels += lists_.size() / 4;
+  if (most_texels() > device_.max_texels) refuse_casters(device_, caster_count_, group_count());
   tile_px_ = grid.tile_px;
-  tile_columns_ = grid.columns();
+  if (!kept_.empty()) {
+    world::write_tile_lists(grid, ranges_, lists_);
+    texels += lists_.size() / 4;
+    tile_columns_ = grid.columns();
+  }
+  first_light_tile_ = static_cast<std::uint32_t>(texels);
+  if (!shades_.empty()) {
+    world::write_tile_lists(grid, shade_ranges_, shade_lists_);
+    texels += shade_lists_.size() / 4;
+    light_columns_ = grid.columns();
+  }
+  return texels;
+}
+
+std::uint64_t WorldPass::choose_shades(const WorldFrame& frame, const world::TileGrid& grid,
+                                       const ReachingGroups& groups) {
+  shades_.clear();
+  shade_ranges_.clear();
+  shade_lists_.clear();
+  light_columns_ = 0;
+  if (!frame.cone) return 0;
+  const LightCone& cone = *frame.cone;
+  const float wide = angle_round(cone, world::cone_parts_of(cone.axis, cone.half_angle_radians).slope);
+  const world::Shadow shadow{-1.0f * turned(frame.view, cone.axis), std::tan(wide), cone.reach};
+  std::uint64_t texels = 0;
+  for (std::uint32_t g = 0; g < groups.count; ++g) {
+    PosedCaster room;
+    const ReachingGroup group = groups.group(groups.user, g, room);
+    if (group.casters.empty()) continue;
+    const world::TileRange tiles =
+        world::shaded_tiles(grid, viewed(frame.view, group.centre), group.radius, shadow);
+    if (tiles.empty) continue;
+    shades_.push_back(g);
+    shade_ranges_.push_back(tiles);
+    texels += shade_texels_of(group);
+  }
   return texels;
 }
 
@@ -201,7 +266,14 @@ void WorldPass::upload(const WorldFrame& frame, const ReachingGroups& groups) {
       PosedCaster room;
       out.put(body, groups.group(groups.user, kept_[body], room), frame.level_error);
     }
-    std::copy(lists_.begin(), lists_.end(), static_cast<float*>(memory) + 4 * std::size_t{first_tile_});
+    out.begin_shades(first_shade_, static_cast<std::uint32_t>(shades_.size()));
+    for (std::uint32_t body = 0; body < shades_.size(); ++body) {
+      PosedCaster room;
+      out.put_shade(body, groups.group(groups.user, shades_[body], room));
+    }
+    float* const table = static_cast<float*>(memory);
+    std::copy(lists_.begin(), lists_.end(), table + 4 * std::size_t{first_tile_});
+    std::copy(shade_lists_.begin(), shade_lists_.end(), table + 4 * std::size_t{first_light_tile_});
   });
 }
 
@@ -216,6 +288,41 @@ void WorldPass::set_frame(const Stage& stage, const WorldFrame& frame,
   gl.Uniform1i(stage.first_tile, static_cast<GLint>(first_tile_));
   gl.Uniform1i(stage.composition, frame.ao_texture ? 1 + frame.composition : 0);
   gl.Uniform1i(stage.counts, frame.counts);
+  if (coloured_) set_light(stage, frame);
+}
+
+void WorldPass::set_light(const Stage& stage, const WorldFrame& frame) const {
+  const Functions& gl = device_.gl;
+  std::array<Vec3, NOOK_LIGHT_VEC4S> light;
+  light[0] = frame.bands.scalar;
+  std::copy_n(frame.bands.vector, 3, light.begin() + 1);
+  std::copy_n(frame.bands.tensor, 6, light.begin() + 4);
+  light[10] = frame.bands.darkest;
+  std::array<float, 4 * NOOK_LIGHT_VEC4S> bands{};
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    bands[4 * i] = light[i].x;
+    bands[4 * i + 1] = light[i].y;
+    bands[4 * i + 2] = light[i].z;
+  }
+  gl.Uniform4fv(stage.bands, NOOK_LIGHT_VEC4S, bands.data());
+  gl.Uniform1i(stage.light_columns, static_cast<GLint>(light_columns_));
+  gl.Uniform1i(stage.first_light_tile, static_cast<GLint>(first_light_tile_));
+  gl.Uniform1i(stage.first_shade, static_cast<GLint>(first_shade_));
+  if (!frame.cone) return;
+  // The parts lie as in nook_world_sample, whatever the view.
+  const world::ConeParts parts = world::cone_parts_of(frame.cone->axis, frame.cone->half_angle_radians);
+  std::array<float, 4 * NOOK_CONE_VEC4S> cone{};
+  const auto put = [&](std::size_t i, Vec3 v, float w) {
+    cone[4 * i] = v.x;
+    cone[4 * i + 1] = v.y;
+    cone[4 * i + 2] = v.z;
+    cone[4 * i + 3] = w;
+  };
+  for (std::size_t i = 0; i < NOOK_CONE_PARTS; ++i) put(i, turned(frame.view, parts.axis[i]), parts.slope);
+  put(NOOK_CONE_PARTS, turned(frame.view, frame.cone->axis), frame.cone->reach);
+  const float wide = angle_round(*frame.cone, parts.slope);
+  put(NOOK_CONE_PARTS + 1, {std::cos(wide), std::sin(wide), 0}, 0);
+  gl.Uniform4fv(stage.cone, NOOK_CONE_VEC4S, cone.data());
 }
 
 void WorldPass::draw(GLuint framebuffer, const Viewport& viewport) const {

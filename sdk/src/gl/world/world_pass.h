@@ -9,6 +9,7 @@
 #include <span>
 
 #include "sdk/src/core/capsule.h"
+#include "sdk/src/core/light_bands.h"
 #include "sdk/src/gl/nnao/frame_constants.h"
 #include "sdk/src/gl/nnao/host_images.h"
 #include "sdk/src/gl/nnao/render_texture.h"
@@ -41,6 +42,13 @@ struct ReachingGroups {
 // No point is beyond this reach; its square is still a float.
 inline constexpr float endless_reach = 1e15f;
 
+// A cone of light, in world space.
+struct LightCone {
+  Vec3 axis;  // unit, towards the light
+  float half_angle_radians = 0;
+  float reach = 0;  // metres
+};
+
 // A frame that passed its checks.
 struct WorldFrame {
   const nook_nnao_frame_desc& screen;
@@ -49,6 +57,8 @@ struct WorldFrame {
   nook_world_composition composition = NOOK_WORLD_PRODUCT;
   float level_error = 0;
   bool counts = false;  // shows evaluated casters in place of AO
+  LightBands bands;     // in view space; of coloured passes
+  std::optional<LightCone> cone;
 };
 
 // Every call may change any of the touched state of the user `screen`, and of uploads; the caller holds a
@@ -73,13 +83,19 @@ class WorldPass {
     Object program;
     GLint frame = -1, groups = -1, columns = -1, first_tile = -1, tile_size = -1, composition = -1,
           counts = -1;
+    // Of coloured passes.
+    GLint bands = -1, cone = -1, light_columns = -1, first_light_tile = -1, first_shade = -1;
   };
   Stage make_stage(const char* fragment, const char* defines);
   void make_half(const nook_world_pass_desc& desc);
   void check(const WorldFrame& frame);
   // Chooses the groups of a frame and returns the texels of their table.
   std::uint64_t choose(const WorldFrame& frame, const ReachingGroups& groups);
+  // Chooses the groups whose shadow falls into the view, with their texels.
+  std::uint64_t choose_shades(const WorldFrame& frame, const world::TileGrid& grid,
+                              const ReachingGroups& groups);
   void upload(const WorldFrame& frame, const ReachingGroups& groups);
+  void set_light(const Stage& stage, const WorldFrame& frame) const;
   void set_frame(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) const;
   void draw(GLuint framebuffer, const Viewport& viewport) const;
   void draw_half(const WorldFrame& frame, const FrameConstants& constants);
@@ -87,7 +103,7 @@ class WorldPass {
 
   Device& device_;
   int max_width_, max_height_;
-  bool half_;
+  bool half_, coloured_;
   Stage output_, layered_output_;                                    // at half resolution the upsample
   Stage half_depth_, half_ao_, masked_half_depth_, masked_half_ao_;  // masked: without replaced pixels
   RenderTexture own_, depth_, ao_;                                   // depth and AO of every fourth pixel
@@ -96,6 +112,10 @@ class WorldPass {
   Vector<std::uint32_t> kept_;  // the groups that reach the view
   Vector<world::TileRange> ranges_;
   Vector<float> lists_;
+  Vector<std::uint32_t> shades_;  // the groups whose shadow in the cone falls into the view
+  Vector<world::TileRange> shade_ranges_;
+  Vector<float> shade_lists_;
+  std::uint32_t first_shade_ = 0, first_light_tile_ = 0, light_columns_ = 0;
   std::uint32_t caster_count_ = 0, tile_columns_ = 0, first_tile_ = 0, tile_px_ = 32;
   std::optional<HostImages> checked_;
 };

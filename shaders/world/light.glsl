@@ -1,0 +1,107 @@
+// The open share of light by colour channel, and of one cone of light, at a point; formulas and names of
+// sdk/src/world/directional.h and cone.h.
+#include "shaders/core/texels.glsl"
+#include "shaders/world/constants.h"
+
+// The light's bands in view space: scalar; vector x, y, z; tensor xx, yy, zz, twice xy, yz, zx; the darkest hemisphere.
+uniform vec4 nook_world_bands[NOOK_LIGHT_VEC4S];
+
+// What the casters of a point take, each by its share: the sums of the bands.
+struct NookTaken {
+  float scalar;
+  vec3 vector, straight, mixed;  // straight: xx, yy, zz; mixed: xy, yz, zx
+};
+NookTaken nook_world_taken = NookTaken(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
+
+void nook_world_add(inout NookTaken taken, vec3 d, float weight, float first, float second) {
+  taken.scalar += weight;
+  taken.vector += first * d;
+  taken.straight += second * d * d;
+  taken.mixed += second * d * d.yzx;
+}
+
+void nook_world_gather(vec3 phi, vec3 normal, float share) {
+  float size2 = dot(phi, phi), inverse_size = inversesqrt(max(size2, 1e-20));
+  float size = min(size2 * inverse_size, 1.0), sine = sqrt(size);
+  float cosine = dot(phi, normal) * inverse_size;
+  float lift = max(0.5 * (max(cosine, -sine) + sine) - cosine, 0.0);
+  vec3 d = phi * inverse_size + normal * lift;
+  d *= inversesqrt(max(dot(d, d), 1e-12));
+  nook_world_add(nook_world_taken, d, share, share * (1.0 - size * (size * NOOK_DISC_BAND_12 + NOOK_DISC_BAND_11)),
+                 share * (1.0 - size * NOOK_DISC_BAND_21));
+}
+
+vec3 nook_world_light_under(NookTaken taken) {
+  vec3 sum = taken.scalar * nook_world_bands[0].rgb;
+  for (int i = 0; i < 3; ++i)
+    sum += taken.vector[i] * nook_world_bands[1 + i].rgb + taken.straight[i] * nook_world_bands[4 + i].rgb +
+           taken.mixed[i] * nook_world_bands[7 + i].rgb;
+  return sum;
+}
+
+// ao: what the gathered casters leave open.
+vec3 nook_world_open_light(vec3 normal, float ao) {
+  NookTaken hemisphere = NookTaken(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
+  nook_world_add(hemisphere, normal, 1.0, 2.0 / 3.0, 0.25);
+  vec3 ratio = nook_world_light_under(nook_world_taken) /
+               max(nook_world_light_under(hemisphere), nook_world_bands[10].rgb);
+  return clamp(1.0 - (1.0 - ao) / max(nook_world_taken.scalar, 1e-12) * ratio, 0.0, 1.0);
+}
+
+// The cone's parts with the slope of each; then its axis with its reach in metres; then the cosine and the sine of the
+// half angle round all parts.
+uniform vec4 nook_world_cone[NOOK_CONE_VEC4S];
+float nook_world_parts[NOOK_CONE_PARTS];
+
+// Returns true where a sphere, relative to the point, may stand in the cone.
+bool nook_world_in_cone(vec3 centre, float radius) {
+  vec4 axis = nook_world_cone[NOOK_CONE_PARTS], round = nook_world_cone[NOOK_CONE_PARTS + 1];
+  float depth = dot(centre, axis.xyz), aside = sqrt(max(dot(centre, centre) - depth * depth, 0.0));
+  return depth > -radius && depth < axis.w + radius && aside * round.x - depth * round.y < radius;
+}
+
+float nook_share_beyond(float s) {
+  float x = clamp(s, -1.0, 1.0);
+  return x * (x * x * 0.25 - 0.75) + 0.5;
+}
+
+// a and b: the capsule's ends relative to the point, with their radii. part: a unit axis and the slope.
+float nook_part_coverage(vec4 a, vec4 b, vec4 part) {
+  float depth_a = dot(a.xyz, part.xyz), depth_b = dot(b.xyz, part.xyz);
+  float deepest = max(depth_a, depth_b), smallest = 0.02 * deepest, range = depth_b - depth_a;
+  float at = clamp((smallest - depth_a) / (range * range < 1e-20 ? 1e-10 : range), 0.0, 1.0);
+  float ta = depth_a < smallest ? at : 0.0, tb = depth_b < smallest ? at : 1.0;
+  vec4 end_a = mix(a, b, ta), end_b = mix(a, b, tb);
+  float da = max(ta * range + depth_a, smallest), db = max(tb * range + depth_a, smallest);
+  float scale_a = 1.0 / max(da * part.w, 1e-12), scale_b = 1.0 / max(db * part.w, 1e-12);
+  vec3 pa = (end_a.xyz - da * part.xyz) * scale_a, pb = (end_b.xyz - db * part.xyz) * scale_b;
+  vec3 d = pb - pa;
+  float length2 = dot(d, d), inverse = inversesqrt(max(length2, 1e-12)), size = length2 * inverse;
+  float xa = dot(pa, d) * inverse, aside = sqrt(max(dot(pa, pa) - xa * xa, 0.0));
+  float radius = mix(end_a.w * scale_a, end_b.w * scale_b, clamp(-xa * inverse, 0.0, 1.0));
+  float cap = 0.785398163 * radius;
+  float across = nook_share_beyond(aside - radius) - nook_share_beyond(aside + radius);
+  float along = nook_share_beyond(xa - cap) - nook_share_beyond(xa + size + cap);
+  return deepest > 0.0 ? clamp(across * along, 0.0, 1.0) : 0.0;
+}
+
+// The table's bodies of light: the centre and the radius of the sphere round the body; its first caster and their number.
+void nook_world_body_shade(NOOK_TEXELS table, int texel, vec3 point) {
+  vec4 bound = nook_texel(table, texel);
+  if (!nook_world_in_cone(bound.xyz - point, bound.w)) return;
+  vec4 range = nook_texel(table, texel + 1);
+  int from = int(range.x), to = from + NOOK_CASTER_TEXELS * int(range.y);
+  for (int k = from; k < to; k += NOOK_CASTER_TEXELS) {
+    vec4 a = nook_texel(table, k), b = nook_texel(table, k + 1);
+    a.xyz -= point;
+    b.xyz -= point;
+    if (nook_world_in_cone(0.5 * (a.xyz + b.xyz), 0.5 * distance(a.xyz, b.xyz) + max(a.w, b.w)))
+      for (int i = 0; i < NOOK_CONE_PARTS; ++i) nook_world_parts[i] *= 1.0 - nook_part_coverage(a, b, nook_world_cone[i]);
+  }
+}
+
+float nook_world_open_cone() {
+  float sum = 0.0;
+  for (int i = 0; i < NOOK_CONE_PARTS; ++i) sum += nook_world_parts[i];
+  return sum / float(NOOK_CONE_PARTS);
+}

@@ -1,0 +1,132 @@
+#include "sdk/src/world/directional.h"
+
+#include <cmath>
+#include <vector>
+
+#include "tests/catch.h"
+#include "tests/character/model_sample.h"
+#include "tests/world/directions.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+LightBands bands_of(const std::vector<SphericalGaussian>& lobes) {
+  LightBands bands;
+  for (const SphericalGaussian& lobe : lobes)
+    add_lobe(bands, lobe.axis, lobe.amplitude, nook::bands_of(lobe.sharpness));
+  bands.darkest = darkest_of(lobes);
+  return bands;
+}
+
+struct Shares {
+  double hemisphere = 0;  // that the capsule covers
+  double open = 0;        // of the green light, the part that it leaves
+};
+
+// By a spiral of directions round +z, weighted by the cosine.
+Shares traced(const Capsule& c, const std::vector<SphericalGaussian>& lobes, int directions = 2000) {
+  Shares shares;
+  double all = 0;
+  for (int i = 0; i < directions; ++i) {
+    const double square = (i + 0.5) / directions, angle = 2.399963229728653 * i, radius = std::sqrt(square);
+    const Vec3 d{float(radius * std::cos(angle)), float(radius * std::sin(angle)),
+                 float(std::sqrt(1 - square))};
+    double light = 0;
+    for (const SphericalGaussian& lobe : lobes) light += double(value(lobe, d).y);
+    all += light;
+    if (meets(d, c))
+      shares.hemisphere += 1.0 / directions;
+    else
+      shares.open += light;
+  }
+  shares.open /= all;
+  return shares;
+}
+
+struct Result {
+  float ao;
+  Colour<float> open;
+};
+
+Result evaluated(const std::vector<Capsule>& casters, const LightBands& bands) {
+  const Direction<float> n{0, 0, 1};
+  GatheredBands<float> gathered = GatheredBands<float>::none();
+  float ao = 1;
+  for (const Capsule& c : casters) {
+    Direction<float> phi{};
+    const float share = world::coverage<float>(lanes_of(c), n.x, n.y, n.z, phi);
+    world::gather(gathered, n, phi, share);
+    ao *= 1 - share;
+  }
+  return {ao, world::open_light(gathered, bands, n, ao)};
+}
+
+std::vector<SphericalGaussian> random_lobes(Numbers& numbers, float sharpest) {
+  std::vector<SphericalGaussian> lobes{{{0, 0, 1}, 0, {0.3f, 0.3f, 0.3f}}};
+  for (int i = 0; i < 3; ++i)
+    lobes.push_back({numbers.direction(),
+                     numbers.between(0.2f, sharpest),
+                     {numbers.between(0, 2), numbers.between(0, 2), numbers.between(0, 2)}});
+  return lobes;
+}
+
+}  // namespace
+
+TEST_CASE("directional: under constant light every channel is AO") {
+  Numbers numbers(5);
+  LightBands bands;
+  bands.scalar = bands.darkest = {0.2f, 1, 3};
+  for (int i = 0; i < 100; ++i) {
+    const std::vector<Capsule> casters{{numbers.place(1), numbers.place(1), 0.1f, 0.2f},
+                                       {numbers.place(1), numbers.place(1), 0.2f, 0.1f}};
+    const Result r = evaluated(casters, bands);
+    for (const float channel : {r.open.r, r.open.g, r.open.b}) CHECK(std::abs(channel - r.ao) < 1e-5f);
+  }
+}
+
+TEST_CASE("directional: a caster that fills the hemisphere takes all light, and none takes nothing") {
+  Numbers numbers(6);
+  for (int i = 0; i < 20; ++i) {
+    const LightBands bands = bands_of(random_lobes(numbers, 2));
+    // Round the point, and much larger.
+    CHECK(evaluated({{{-5, 0, 5}, {5, 0, 5}, 5.0f, 5.0f}}, bands).open.g < 0.01f);
+    CHECK(evaluated({}, bands).open.g == 1);
+  }
+}
+
+TEST_CASE("directional: the open share of soft light comes near that of rays, much nearer than AO") {
+  Numbers numbers(8);
+  double error = 0, plain = 0, bias = 0;
+  int count = 0;
+  for (int i = 0; i < 120; ++i) {
+    const std::vector<SphericalGaussian> lobes = random_lobes(numbers, 3);
+    const LightBands bands = bands_of(lobes);
+    const Vec3 a = numbers.between(0.6f, 2.0f) * numbers.direction();
+    const Capsule caster{a, a + numbers.place(0.5f), 0.15f, 0.25f};
+    const Shares truth = traced(caster, lobes);
+    if (truth.hemisphere < 0.01) continue;
+    const double off = double(evaluated({caster}, bands).open.g) - truth.open,
+                 ao = 1 - truth.hemisphere - truth.open;
+    error += off * off;
+    plain += ao * ao;
+    bias += off;
+    ++count;
+  }
+  INFO("rms " << std::sqrt(error / count) << ", of AO " << std::sqrt(plain / count));
+  REQUIRE(count > 20);
+  // Lobes of a sharpness up to 3 have some of their power above band 2, and near casters are no discs.
+  CHECK(error < 0.2 * plain);
+  CHECK(std::abs(bias / count) < 0.01);
+}
+
+TEST_CASE("directional: a shadow falls away from the light") {
+  // A window towards +x; the caster stands towards it, or on the other side.
+  const LightBands bands = bands_of({{{1, 0, 0}, 2, {1, 1, 1}}, {{0, 0, 1}, 0, {0.1f, 0.1f, 0.1f}}});
+  const Result before = evaluated({{{1, 0, 0}, {1, 0, 1.5f}, 0.2f, 0.2f}}, bands),
+               behind = evaluated({{{-1, 0, 0}, {-1, 0, 1.5f}, 0.2f, 0.2f}}, bands);
+  CHECK(before.ao == behind.ao);
+  CHECK(1 - before.open.g > 1.3f * (1 - before.ao));
+  CHECK(1 - behind.open.g < 0.6f * (1 - behind.ao));
+}
