@@ -15,6 +15,17 @@
 #define NOOK_LUMINANCE_GREEN 0.7152
 #define NOOK_LUMINANCE_BLUE 0.0722
 
+// Grids in 3D textures: walls of a cell are planes, which cut it into sides; what a share of a place between
+// two probes is away from 0 and 1, so that probes on one's own side keep their proportions where others have
+// all the weight.
+#define NOOK_GRID_PLANES 3
+#define NOOK_GRID_SIDES 8
+#define NOOK_GRID_LEAST_SHARE 0.00390625
+// Texels of a probe: bands 0 to 2, and ZH3. Those of a cell: its planes, and the masks of its sides by fours.
+#define NOOK_GRID_HARMONICS_TEXELS 7
+#define NOOK_GRID_ZONAL_TEXELS 4
+#define NOOK_GRID_WALL_TEXELS 5
+
 // GGX reflection: polynomials of two variables, sums of k u^i v^j over i + j <= degree, j fastest.
 // tests/probe/ggx_fit.cpp fits them.
 #define NOOK_GGX_ALBEDO_0 0.944055

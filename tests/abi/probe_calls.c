@@ -92,6 +92,7 @@ static void use_probe(nook_context context, nook_probe probe) {
   EXPECT_OK(nook_probe_radiance(again, where, up, rgb, 1));
   EXPECT(rgb[0] > 1.5f && rgb[0] < 2.5f);
   EXPECT_OK(nook_probe_irradiance(again, NULL, NOOK_PROBE_IRRADIANCE_FITTED, up, rgb, 1));
+  EXPECT_OK(nook_probe_surface_irradiance(again, NOOK_PROBE_IRRADIANCE_FITTED, up, up, rgb, 1));
   EXPECT_OK(nook_probe_read_lobes(again, NULL, lobes, 12));
   EXPECT(lobes[3].amplitude[1] == coefficients[3 * 3 + 1]);
   use_lobes(lobes, 12);

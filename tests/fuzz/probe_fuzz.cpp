@@ -39,6 +39,10 @@ void evaluate(nook_probe probe, const float* position) {
     require(ok(nook_probe_irradiance(probe, position, form, directions, light, direction_count)));
     for (const float value : light) require(std::isfinite(value));
   }
+  const float places[9] = {0, 0, 0, position ? position[0] : 1, 1, -1, -1e9f, 1e9f, 0.5f};
+  require(ok(nook_probe_surface_irradiance(probe, NOOK_PROBE_IRRADIANCE_BANDS, places, directions, light,
+                                           direction_count)));
+  for (const float value : light) require(std::isfinite(value));
 }
 
 void save(nook_context context, nook_probe probe) {
@@ -99,6 +103,10 @@ void use_probe(nook_context context, nook_probe probe, Script& script) {
   std::vector<nook_probe_lobe> lobes(info.function_count);
   if (ok(nook_probe_read_lobes(probe, outside, lobes.data(), info.function_count))) use_lobes(script, lobes);
   save(context, probe);
+  nook_gl_probe_grid grid = nullptr;
+  if (ok(nook_gl_probe_grid_create(gl_of_tier(33), probe, nook_gl_probe_grid_form(script.below(2)), &grid)))
+    ok(nook_gl_probe_grid_update(grid, probe));
+  nook_gl_probe_grid_destroy(&grid);
   nook_gl_probe uploaded = nullptr;
   if (!ok(nook_gl_probe_create(gl_of_tier(33), probe, &uploaded))) return;
   ok(nook_gl_probe_update(uploaded, probe));

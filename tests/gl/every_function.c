@@ -54,6 +54,8 @@ static void upload_probe(nook_context context, nook_gl gl) {
   nook_probe probe = NULL;
   nook_gl_probe uploaded = NULL;
   nook_gl_probe_info info;
+  nook_gl_probe_grid grid = NULL;
+  nook_gl_probe_grid_info grid_info;
   EXPECT_OK(nook_probe_fit_desc_init(&fit_desc, sizeof fit_desc, NOOK_VERSION));
   EXPECT_OK(nook_probe_fit_create(context, &fit_desc, &fit));
   EXPECT_OK(nook_probe_desc_init(&probe_desc, sizeof probe_desc, NOOK_VERSION));
@@ -69,6 +71,15 @@ static void upload_probe(nook_context context, nook_gl gl) {
   EXPECT(info.texture != 0 && info.bytes >= 16 * (3 + 12 * 2) && strstr(info.glsl, "nook_probe_irradiance"));
   nook_gl_probe_destroy(&uploaded);
   EXPECT(!uploaded);
+  EXPECT_OK(nook_gl_probe_grid_create(gl, probe, NOOK_GL_PROBE_GRID_ZONAL, &grid));
+  EXPECT_OK(nook_gl_probe_grid_update(grid, probe));
+  memset(&grid_info, 0, sizeof grid_info);
+  grid_info.struct_size = sizeof grid_info;
+  EXPECT_OK(nook_gl_probe_grid_describe(grid, &grid_info));
+  EXPECT(grid_info.texture != 0 && grid_info.bytes == 4 * 8 &&
+         strstr(grid_info.glsl, "nook_grid_irradiance"));
+  nook_gl_probe_grid_destroy(&grid);
+  EXPECT(!grid);
   nook_probe_destroy(&probe);
   nook_probe_fit_destroy(&fit);
 }

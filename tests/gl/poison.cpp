@@ -11,8 +11,8 @@ namespace nook::test {
 
 struct Poison::Objects {
   GLuint buffers[4] = {};
-  GLuint texture = 0, other_texture = 0, texture_2d = 0, texture_array = 0, sample_texture = 0, sampler = 0,
-         framebuffer = 0, renderbuffer = 0, vertex_array = 0, program = 0;
+  GLuint texture = 0, other_texture = 0, texture_2d = 0, texture_array = 0, volume = 0, sample_texture = 0,
+         sampler = 0, framebuffer = 0, renderbuffer = 0, vertex_array = 0, program = 0;
   GLuint feedback = 0;
 };
 
@@ -106,6 +106,7 @@ struct Readers {
     return has.desktop ? of_unit(gl::filter_unit, GL_TEXTURE_BINDING_BUFFER) : Values{0};
   }
   Values texture_2d_array() const { return of_unit(0, GL_TEXTURE_BINDING_2D_ARRAY); }
+  Values texture_3d() const { return of_unit(0, GL_TEXTURE_BINDING_3D); }
   Values layer_textures() const {
     Values values;
     for (const int unit : gl::layer_units)
@@ -256,6 +257,8 @@ Poison::Poison(platform::Context& context, unsigned users)
   gl.GenTextures(1, &o.texture_array);
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, o.texture_array);
+  gl.GenTextures(1, &o.volume);
+  gl.BindTexture(GL_TEXTURE_3D, o.volume);
   // OpenGL ES binds immutable textures alone as images.
   if (!has.desktop) gl.TexStorage3D(GL_TEXTURE_2D_ARRAY, 2, GL_RGBA16F, 4, 4, 4);
   for (const int unit : gl::layer_units) {
@@ -325,6 +328,7 @@ void Poison::reset_touched() {
     gl.BindTexture(GL_TEXTURE_2D, 0);
     if (has.desktop) gl.BindTexture(GL_TEXTURE_BUFFER, 0);
     gl.BindTexture(GL_TEXTURE_2D_ARRAY, 0);
+    gl.BindTexture(GL_TEXTURE_3D, 0);
     if (has.sample_textures()) gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
     gl.BindSampler(unit, 0);
   }
@@ -381,6 +385,7 @@ Poison::~Poison() {
   gl.DeleteTextures(1, &o.other_texture);
   gl.DeleteTextures(1, &o.texture_2d);
   gl.DeleteTextures(1, &o.texture_array);
+  gl.DeleteTextures(1, &o.volume);
   if (o.sample_texture) gl.DeleteTextures(1, &o.sample_texture);
   gl.DeleteSamplers(1, &o.sampler);
   gl.DeleteFramebuffers(1, &o.framebuffer);

@@ -20,11 +20,21 @@ inline probe::Probes sample_probes(const probe::Basis& basis,
   return probes;
 }
 
+// A grid whose first cell has a wall.
+inline probe::Probes sample_walls() {
+  probe::Probes probes = sample_probes(probe::harmonic_basis(2), {3, 2, 2});
+  probes.walls.bias = 0.0625f;
+  probes.walls.cell.resize(probes.grid.cells());
+  probes.walls.cell[0].plane[0] = {{-1, 0, 0.5f}, 0.75f};
+  probes.walls.cell[0].counts = {0x55, 0xaa, 0x55, 0xaa, 0x55, 0xaa, 0x55, 0xaa};
+  return probes;
+}
+
 inline std::vector<probe::Probes> all_sample_probes() {
   using namespace probe;
   return {sample_probes(vogel_basis(3, true), {2, 1, 2}),
           sample_probes(vogel_basis(2, false, Domain::hemisphere, {0, 1, 0})),
-          sample_probes(harmonic_basis(2), {1, 2, 1}), sample_probes(dice_basis())};
+          sample_probes(harmonic_basis(2), {1, 2, 1}), sample_probes(dice_basis()), sample_walls()};
 }
 
 }  // namespace nook::test

@@ -35,6 +35,25 @@ void main() {
 )";
 }
 
+struct Volume {
+  const char* name;
+  const char* defines;
+};
+constexpr Volume volumes[] = {
+    {"harmonics", "#define NOOK_GRID_TEXELS NOOK_GRID_HARMONICS_TEXELS\n"},
+    {"zonal harmonics", "#define NOOK_GRID_TEXELS NOOK_GRID_ZONAL_TEXELS\n"},
+    {"zonal harmonics, walls",
+     "#define NOOK_GRID_TEXELS NOOK_GRID_ZONAL_TEXELS\n#define NOOK_GRID_WALLS 1\n"}};
+
+std::string volume_shader(const Volume& volume) {
+  return std::string(volume.defines) + R"(#include "shaders/probe/volume/host.glsl"
+in vec3 position;
+in vec3 normal;
+out vec4 colour;
+void main() { colour = vec4(nook_grid_irradiance(position, normal), 1.0); }
+)";
+}
+
 constexpr char harmonics[] = R"(#include "shaders/probe/host.glsl"
 uniform vec3 coefficients[9];
 in vec3 normal;
@@ -77,6 +96,9 @@ std::vector<ShaderCase> probe_shaders() {
           host_shader(grid_shader(function),
                       "probe grid, " + std::string(function.name) + ", " + std::to_string(lobes) + " lobes",
                       {{"lobes", double(lobes), {}}}));
+  for (const Volume& volume : volumes)
+    shaders.push_back(
+        host_shader(volume_shader(volume), std::string("probe volume, irradiance, ").append(volume.name)));
   shaders.push_back(host_shader(harmonics, "probe, irradiance of harmonics"));
   shaders.push_back(host_shader(zonal_harmonics, "probe, irradiance of zonal harmonics"));
   shaders.push_back(host_shader(ambient, "probe, ambient and specular occlusion"));

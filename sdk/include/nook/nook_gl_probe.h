@@ -15,7 +15,14 @@
  * The same functions exist for a single lobe, such as one in a uniform block: nook_probe_lobe_radiance,
  * nook_probe_lobe_irradiance and so on; shaders/probe documents them. NookLobe has the layout of
  * nook_probe_lobe in std140 and std430. The GLSL agrees with nook_probe.h on the CPU within 1e-4 of the
- * largest value. Every name in it begins with nook_ or Nook. */
+ * largest value. Every name in it begins with nook_ or Nook.
+ *
+ * A grid for diffuse light alone is smaller and faster as spherical harmonics in a 3D texture of half floats,
+ * which the hardware filters: 7 fetches a pixel, 4 as ZH3, and 40 at most where walls choose among the probes
+ * of ZH3. An engine calls nook_gl_probe_grid_create, puts the GLSL of nook_gl_probe_grid_describe into its
+ * shader, sets the uniform nook_grid_texels to a texture unit and the uniform nook_grid_frame to the info's
+ * frame, and binds the texture to GL_TEXTURE_3D of that unit, without a sampler object.
+ *     vec3 e = nook_grid_irradiance(position_ws, normal_ws); */
 #ifndef NOOK_GL_PROBE_H
 #define NOOK_GL_PROBE_H
 
@@ -63,6 +70,62 @@ typedef struct nook_gl_probe_info {
 /* Describes the texture. The call makes no OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_probe_describe(nook_gl_probe gl_probe, nook_gl_probe_info* info);
+
+/* ---- Grids of diffuse light in 3D textures ---- */
+
+typedef struct nook_gl_probe_grid_s* nook_gl_probe_grid;
+
+/* What a texel of a probe holds. */
+enum {
+  /* Bands 0 to 2 of spherical harmonics, 27 half floats. */
+  NOOK_GL_PROBE_GRID_HARMONICS = 0,
+  /* ZH3, see nook_probe_harmonics_to_zonal, 15 half floats. */
+  NOOK_GL_PROBE_GRID_ZONAL = 1
+};
+typedef int32_t nook_gl_probe_grid_form;
+
+/* Uploads a probe or a grid of lobes or harmonics, with its walls if it was baked with them; the caller may
+ * destroy the probe afterwards. Lobes are projected exactly; bands above 2 are left out. On failure *out is
+ * NULL and no OpenGL object is left.
+ * Context thread. Errors: INVALID_ARGUMENT (also, the probe is of ambient dice, or a coefficient is above
+ * 65504), UNSUPPORTED (the texture has counts x by counts y by 7 counts z texels, as ZH3 4 counts z, with
+ * walls 5 counts z more, and one of these is above GL_MAX_3D_TEXTURE_SIZE, which is 256 or more), GL,
+ * OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_probe_grid_create(nook_gl gl, nook_probe probe, nook_gl_probe_grid_form form,
+                                               nook_gl_probe_grid* out);
+
+/* Uploads another grid in place of the present one; the texture keeps its name. The frame changes with the
+ * grid's box, and the GLSL if one of both has walls and the other has none. On failure the old grid stays.
+ * Context thread. Errors: those of nook_gl_probe_grid_create. */
+NOOK_API nook_result nook_gl_probe_grid_update(nook_gl_probe_grid grid, nook_probe probe);
+
+/* Deletes the OpenGL objects and sets *grid to NULL; otherwise it is as nook_gl_probe_destroy.
+ * Context thread. */
+NOOK_API void nook_gl_probe_grid_destroy(nook_gl_probe_grid* grid);
+
+typedef struct nook_gl_probe_grid_info {
+  /* sizeof(nook_gl_probe_grid_info); the caller sets it. */
+  uint32_t struct_size;
+  /* The OpenGL name of a GL_TEXTURE_3D of GL_RGBA16F that Nook owns: the host binds it, and never changes or
+   * deletes it. */
+  uint32_t texture;
+  /* The size of the texture. */
+  uint64_t bytes;
+  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions: the uniforms nook_grid_texels and
+   * nook_grid_frame, the functions nook_grid_light and nook_grid_irradiance, and those of harmonics. The text
+   * is valid until the next update of the grid, or its end. */
+  const char* glsl;
+  /* The four vec4 of the uniform nook_grid_frame, for glUniform4fv. */
+  float frame[16];
+  /* 1: walls choose among the probes. */
+  int32_t walls;
+  /* 0. */
+  uint32_t reserved;
+} nook_gl_probe_grid_info;
+
+/* Describes the texture. The call makes no OpenGL call.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_gl_probe_grid_describe(nook_gl_probe_grid grid, nook_gl_probe_grid_info* info);
 
 #ifdef __cplusplus
 }

@@ -31,6 +31,28 @@ class GlProbe : public Unique<nook_gl_probe, nook_gl_probe_destroy> {
   }
 };
 
+// A grid of diffuse light in a 3D texture of its own; the same holds.
+class GlProbeGrid : public Unique<nook_gl_probe_grid, nook_gl_probe_grid_destroy> {
+ public:
+  GlProbeGrid(const Gl& gl, nook_probe probe, nook_gl_probe_grid_form form)
+      : Unique(create(gl, probe, form)) {}
+
+  void update(nook_probe probe) { check(nook_gl_probe_grid_update(get(), probe)); }
+  nook_gl_probe_grid_info info() const {
+    nook_gl_probe_grid_info info{};
+    info.struct_size = sizeof info;
+    check(nook_gl_probe_grid_describe(get(), &info));
+    return info;
+  }
+
+ private:
+  static nook_gl_probe_grid create(const Gl& gl, nook_probe probe, nook_gl_probe_grid_form form) {
+    nook_gl_probe_grid handle = nullptr;
+    check(nook_gl_probe_grid_create(gl.get(), probe, form, &handle));
+    return handle;
+  }
+};
+
 }  // namespace wrapper
 }  // namespace nook
 #endif

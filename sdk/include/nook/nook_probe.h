@@ -326,6 +326,8 @@ typedef struct nook_probe_info {
   float origin_ws[3];
   /* Metres between neighbours along x, y and z. */
   float spacing_ws[3];
+  /* The number of cells between probes in which walls choose among the probes; 0: the grid knows no walls. */
+  uint32_t wall_cells;
 } nook_probe_info;
 
 /* Describes a probe.
@@ -372,6 +374,15 @@ NOOK_API nook_result nook_probe_radiance(nook_probe probe, const float* position
 NOOK_API nook_result nook_probe_irradiance(nook_probe probe, const float* position_ws,
                                            nook_probe_irradiance_form form, const float* normals,
                                            float* irradiance, size_t count);
+
+/* Evaluates the irradiance on count surfaces, each with a position (world space, metres) and a unit normal of
+ * its own, as the GLSL of nook_gl_probe_grid_describe does before it clamps at 0. In a grid that was baked
+ * with walls, only the probes on the surface's side of a wall count; in other grids, and far from walls, the
+ * result is that of nook_probe_irradiance. The call does not allocate.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_probe_surface_irradiance(nook_probe probe, nook_probe_irradiance_form form,
+                                                   const float* positions_ws, const float* normals,
+                                                   float* irradiance, size_t count);
 
 /* ---- Arithmetic of lobes: the maximum is NOOK_PROBE_MAX_FUNCTIONS lobes, and no call allocates ---- */
 

@@ -65,6 +65,11 @@ class Probe : public Unique<nook_probe, nook_probe_destroy> {
                   std::size_t count) const {
     check(nook_probe_irradiance(get(), position_ws, form, normals, rgb, count));
   }
+  // Every surface has a position of its own.
+  void surface_irradiance(nook_probe_irradiance_form form, const float* positions_ws, const float* normals,
+                          float* rgb, std::size_t count) const {
+    check(nook_probe_surface_irradiance(get(), form, positions_ws, normals, rgb, count));
+  }
 
  private:
   static nook_probe load(const Context& context, const void* bytes, std::size_t size) {

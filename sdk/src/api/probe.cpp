@@ -165,6 +165,7 @@ nook_result nook_probe_describe(nook_probe probe, nook_probe_info* info) {
     for (std::size_t i = 0; i < 3; ++i) answer.counts[i] = probes.grid.counts[i];
     write_vec3(answer.origin_ws, probes.grid.origin_ws);
     write_vec3(answer.spacing_ws, probes.grid.spacing_ws);
+    for (const CellWalls& cell : probes.walls.cell) answer.wall_cells += !cell.open();
     write_info(info, first_info, answer);
   });
 }
@@ -220,4 +221,25 @@ nook_result nook_probe_irradiance(nook_probe probe, const float* position_ws, no
                          return irradiance(probe->probes.basis, coefficients, api::irradiance_form(form),
                                            normal);
                        });
+}
+
+nook_result nook_probe_surface_irradiance(nook_probe probe, nook_probe_irradiance_form form,
+                                          const float* positions_ws, const float* normals,
+                                          float* irradiance_rgb, size_t count) {
+  return api::enter("nook_probe_surface_irradiance", [&] {
+    need(probe, "probe");
+    const IrradianceForm known = api::irradiance_form(form);
+    if (count == 0) return;
+    need(positions_ws, "positions_ws");
+    need(normals, "normals");
+    need(irradiance_rgb, "irradiance");
+    const Probes& probes = probe->probes;
+    Coefficients storage;
+    const std::span<Vec3> coefficients = std::span(storage).first(probes.basis.count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 normal = vec3(normals + 3 * i);
+      interpolate(probes, vec3(positions_ws + 3 * i), normal, coefficients);
+      write_vec3(irradiance_rgb + 3 * i, irradiance(probes.basis, coefficients, known, normal));
+    }
+  });
 }

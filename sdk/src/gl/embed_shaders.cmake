@@ -37,7 +37,7 @@ function(nook_expand path included out)
 endfunction()
 
 file(GLOB_RECURSE paths RELATIVE "${SHADERS}" "${SHADERS}/*.vert" "${SHADERS}/*.frag" "${SHADERS}/*.comp"
-     "${SHADERS}/*/host.glsl")
+     "${SHADERS}/*/host.glsl" "${SHADERS}/*/*/host.glsl")
 list(SORT paths)
 set(source "// Made from shaders at build; do not edit.\n#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\nnamespace {\n")
 set(table "")

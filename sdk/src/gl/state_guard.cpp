@@ -81,6 +81,17 @@ void restore_texture_2d_array(const Functions& gl, const SavedState& s) {
   gl.ActiveTexture(s.active_texture);
 }
 
+void query_texture_3d(const Functions& gl, SavedState& s) {
+  gl.ActiveTexture(GL_TEXTURE0);
+  s.texture_3d = integer(gl, GL_TEXTURE_BINDING_3D);
+  gl.ActiveTexture(s.active_texture);
+}
+void restore_texture_3d(const Functions& gl, const SavedState& s) {
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_3D, s.texture_3d);
+  gl.ActiveTexture(s.active_texture);
+}
+
 void query_image_unit(const Functions& gl, SavedState& s) {
   const std::pair<GLenum, GLint*> values[] = {
       {GL_IMAGE_BINDING_NAME, &s.image_unit.texture},    {GL_IMAGE_BINDING_LEVEL, &s.image_unit.level},

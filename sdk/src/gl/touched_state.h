@@ -10,7 +10,7 @@ namespace nook::gl {
 // The users of an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload
 // of probes and materials, the screen-space pass if its network is a compute shader, the writing of AO to
 // buffers and textures of the host, the recording of frames, and the screen-space pass with
-// nook_nnao_desc.layers and depth_samples. OpenGL ES has tables of texels in 2D
+// nook_nnao_desc.layers and depth_samples, and the upload of grids. OpenGL ES has tables of texels in 2D
 // textures, whose upload is another user.
 enum : unsigned {
   tier_33 = 1,
@@ -26,6 +26,7 @@ enum : unsigned {
   screen_reads = 1024,
   screen_layers = 2048,
   screen_samples = 4096,
+  grids = 8192,
   characters = tier_33 | tier_43,
   everyone = characters | screen,
   draws = tier_33 | screen,
@@ -33,76 +34,79 @@ enum : unsigned {
 
 // X(name, users, the state as OpenGL names it, its purpose and default). An item needs a member of SavedState
 // and a query, a restore and a reset of that name in state_guard.cpp or state_guard_draw.cpp.
-#define NOOK_GL_TOUCHED_STATE(X)                                                                             \
-  X(program, everyone | outputs, "GL_CURRENT_PROGRAM", "runs the passes; default 0")                         \
-  X(array_buffer, everyone | probes | outputs, "GL_ARRAY_BUFFER_BINDING",                                    \
-    "every upload goes through it; default 0")                                                               \
-  X(vertex_array, draws | outputs, "GL_VERTEX_ARRAY_BINDING",                                                \
-    "inputs of the vertex pass, or none; default 0")                                                         \
-  X(active_texture, everyone | probes | materials | outputs, "GL_ACTIVE_TEXTURE",                            \
-    "selects units; default GL_TEXTURE0")                                                                    \
-  X(texture_unit_0, characters | probes,                                                                     \
-    "GL_TEXTURE_BINDING_BUFFER of unit 0; on OpenGL ES GL_TEXTURE_BINDING_2D",                               \
-    "shadows at key points, texels of probes and lights; default 0")                                         \
-  X(texture_2d, screen | outputs, "GL_TEXTURE_BINDING_2D of units 0 to 4",                                   \
-    "inputs of the stages; default 0")                                                                       \
-  X(samplers, screen, "GL_SAMPLER_BINDING of units 0 to 4",                                                  \
-    "so that no parameter of a texture counts; default 0")                                                   \
-  X(filter_texture, screen, "GL_TEXTURE_BINDING_BUFFER of unit 2, not on OpenGL ES",                         \
-    "filters of the paper's network; default 0")                                                             \
-  X(layer_textures, screen_layers, "GL_TEXTURE_BINDING_2D_ARRAY of units 1, 3 and 4",                        \
-    "the host's arrays; default 0")                                                                          \
-  X(sample_texture, screen_samples, "GL_TEXTURE_BINDING_2D_MULTISAMPLE of unit 1",                           \
-    "the host's depth; default 0")                                                                           \
-  X(image_unit, screen_compute, "GL_IMAGE_BINDING_NAME, LEVEL, LAYERED, LAYER, ACCESS, FORMAT of unit 0",    \
-    "what a compute shader writes; default 0, GL_READ_ONLY, GL_R8 (OpenGL ES: GL_R32UI)")                    \
-  X(texture_2d_array, materials, "GL_TEXTURE_BINDING_2D_ARRAY of unit 0", "uploads; default 0")              \
-  X(pixel_unpack_buffer, screen | materials | outputs | texel_uploads, "GL_PIXEL_UNPACK_BUFFER_BINDING",     \
-    "in nook_nnao_create, nook_gl_material_create and nook_gl_scene_write_ao only; on OpenGL ES in updates " \
-    "and probes "                                                                                            \
-    "too; default 0")                                                                                        \
-  X(pixel_store, materials | outputs | texel_uploads,                                                        \
-    "GL_UNPACK_SWAP_BYTES, LSB_FIRST, ROW_LENGTH, IMAGE_HEIGHT, SKIP_ROWS, SKIP_PIXELS, SKIP_IMAGES, "       \
-    "ALIGNMENT; the first two not on OpenGL ES",                                                             \
-    "uploads without gaps; default 0, alignment 4")                                                          \
-  X(draw_framebuffer, draws | outputs, "GL_DRAW_FRAMEBUFFER_BINDING",                                        \
-    "a draw needs a complete framebuffer; default 0")                                                        \
-  X(read_framebuffer, screen_reads, "GL_READ_FRAMEBUFFER_BINDING", "what is read back; default 0")           \
-  X(pixel_pack_buffer, screen_reads, "GL_PIXEL_PACK_BUFFER_BINDING", "texels go to host memory; default 0")  \
-  X(pixel_pack, screen_reads,                                                                                \
-    "GL_PACK_ALIGNMENT, ROW_LENGTH, SKIP_ROWS, SKIP_PIXELS, SWAP_BYTES; the last not on OpenGL ES",          \
-    "texels without gaps; default alignment 4, else 0")                                                      \
-  X(renderbuffer, tier_33 | outputs, "GL_RENDERBUFFER_BINDING",                                              \
-    "in nook_gl_create and nook_gl_scene_write_ao only; default 0")                                          \
-  X(viewport, screen, "GL_VIEWPORT, of index 0 from OpenGL 4.1 on",                                          \
-    "the stages' size; left at the frame's viewport in place of a default")                                  \
-  X(blend, screen,                                                                                           \
-    "GL_BLEND, GL_BLEND_SRC/DST_RGB/ALPHA, GL_BLEND_EQUATION_RGB/ALPHA, of draw buffer 0 from OpenGL 4.0 "   \
-    "on",                                                                                                    \
-    "multiplies into a target; default disabled, GL_ONE, GL_ZERO, GL_FUNC_ADD")                              \
-  X(color_mask, screen, "GL_COLOR_WRITEMASK of draw buffer 0", "all four; default all GL_TRUE")              \
-  X(polygon_mode, screen, "GL_POLYGON_MODE, not on OpenGL ES", "one triangle is filled; default GL_FILL")    \
-  X(scissor_test, screen, "GL_SCISSOR_TEST, of index 0 from OpenGL 4.1 on", "off; default disabled")         \
-  X(framebuffer_srgb, screen, "GL_FRAMEBUFFER_SRGB, not on OpenGL ES",                                       \
-    "on for the host's targets; default disabled")                                                           \
-  X(fragment_tests, screen,                                                                                  \
-    "GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_COLOR_LOGIC_OP, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, "  \
-    "GL_SAMPLE_ALPHA_TO_COVERAGE, GL_CLIP_DISTANCE0 to GL_CLIP_DISTANCE7; on OpenGL ES those that it has",   \
-    "off; default disabled")                                                                                 \
-  X(dither, screen, "GL_DITHER", "off; default enabled")                                                     \
-  X(rasterizer_discard, draws | outputs, "GL_RASTERIZER_DISCARD",                                            \
-    "on in tier 33, where nothing is drawn, off in the screen-space pass; default disabled")                 \
-  X(primitive_restart, draws | outputs, "GL_PRIMITIVE_RESTART, not on OpenGL ES",                            \
-    "every index is a vertex; default disabled")                                                             \
-  X(transform_feedback, tier_33 | outputs, "GL_TRANSFORM_FEEDBACK_BINDING",                                  \
-    "from OpenGL 4.0 and OpenGL ES 3.0 on; default 0")                                                       \
-  X(feedback_buffer, tier_33 | outputs, "GL_TRANSFORM_FEEDBACK_BUFFER_BINDING and its range, index 0",       \
-    "AO; default 0")                                                                                         \
-  X(query_buffer, screen_timers, "GL_QUERY_BUFFER_BINDING",                                                  \
-    "from OpenGL 4.4 on, in nook_nnao_read_timings only; default 0")                                         \
-  X(storage_buffer, tier_43 | outputs_compute, "GL_SHADER_STORAGE_BUFFER_BINDING",                           \
-    "binding a range sets it; default 0")                                                                    \
-  X(storage_ranges, tier_43 | outputs_compute,                                                               \
+#define NOOK_GL_TOUCHED_STATE(X)                                                                            \
+  X(program, everyone | outputs, "GL_CURRENT_PROGRAM", "runs the passes; default 0")                        \
+  X(array_buffer, everyone | probes | outputs, "GL_ARRAY_BUFFER_BINDING",                                   \
+    "every upload goes through it; default 0")                                                              \
+  X(vertex_array, draws | outputs, "GL_VERTEX_ARRAY_BINDING",                                               \
+    "inputs of the vertex pass, or none; default 0")                                                        \
+  X(active_texture, everyone | probes | grids | materials | outputs, "GL_ACTIVE_TEXTURE",                   \
+    "selects units; default GL_TEXTURE0")                                                                   \
+  X(texture_unit_0, characters | probes,                                                                    \
+    "GL_TEXTURE_BINDING_BUFFER of unit 0; on OpenGL ES GL_TEXTURE_BINDING_2D",                              \
+    "shadows at key points, texels of probes and lights; default 0")                                        \
+  X(texture_2d, screen | outputs, "GL_TEXTURE_BINDING_2D of units 0 to 4",                                  \
+    "inputs of the stages; default 0")                                                                      \
+  X(samplers, screen, "GL_SAMPLER_BINDING of units 0 to 4",                                                 \
+    "so that no parameter of a texture counts; default 0")                                                  \
+  X(filter_texture, screen, "GL_TEXTURE_BINDING_BUFFER of unit 2, not on OpenGL ES",                        \
+    "filters of the paper's network; default 0")                                                            \
+  X(layer_textures, screen_layers, "GL_TEXTURE_BINDING_2D_ARRAY of units 1, 3 and 4",                       \
+    "the host's arrays; default 0")                                                                         \
+  X(sample_texture, screen_samples, "GL_TEXTURE_BINDING_2D_MULTISAMPLE of unit 1",                          \
+    "the host's depth; default 0")                                                                          \
+  X(image_unit, screen_compute, "GL_IMAGE_BINDING_NAME, LEVEL, LAYERED, LAYER, ACCESS, FORMAT of unit 0",   \
+    "what a compute shader writes; default 0, GL_READ_ONLY, GL_R8 (OpenGL ES: GL_R32UI)")                   \
+  X(texture_2d_array, materials, "GL_TEXTURE_BINDING_2D_ARRAY of unit 0", "uploads; default 0")             \
+  X(texture_3d, grids, "GL_TEXTURE_BINDING_3D of unit 0", "uploads; default 0")                             \
+  X(pixel_unpack_buffer, screen | materials | grids | outputs | texel_uploads,                              \
+    "GL_PIXEL_UNPACK_BUFFER_BINDING",                                                                       \
+    "in nook_nnao_create, nook_gl_material_create, nook_gl_probe_grid_create and _update and "              \
+    "nook_gl_scene_write_ao only; on OpenGL ES in updates "                                                 \
+    "and probes "                                                                                           \
+    "too; default 0")                                                                                       \
+  X(pixel_store, materials | grids | outputs | texel_uploads,                                               \
+    "GL_UNPACK_SWAP_BYTES, LSB_FIRST, ROW_LENGTH, IMAGE_HEIGHT, SKIP_ROWS, SKIP_PIXELS, SKIP_IMAGES, "      \
+    "ALIGNMENT; the first two not on OpenGL ES",                                                            \
+    "uploads without gaps; default 0, alignment 4")                                                         \
+  X(draw_framebuffer, draws | outputs, "GL_DRAW_FRAMEBUFFER_BINDING",                                       \
+    "a draw needs a complete framebuffer; default 0")                                                       \
+  X(read_framebuffer, screen_reads, "GL_READ_FRAMEBUFFER_BINDING", "what is read back; default 0")          \
+  X(pixel_pack_buffer, screen_reads, "GL_PIXEL_PACK_BUFFER_BINDING", "texels go to host memory; default 0") \
+  X(pixel_pack, screen_reads,                                                                               \
+    "GL_PACK_ALIGNMENT, ROW_LENGTH, SKIP_ROWS, SKIP_PIXELS, SWAP_BYTES; the last not on OpenGL ES",         \
+    "texels without gaps; default alignment 4, else 0")                                                     \
+  X(renderbuffer, tier_33 | outputs, "GL_RENDERBUFFER_BINDING",                                             \
+    "in nook_gl_create and nook_gl_scene_write_ao only; default 0")                                         \
+  X(viewport, screen, "GL_VIEWPORT, of index 0 from OpenGL 4.1 on",                                         \
+    "the stages' size; left at the frame's viewport in place of a default")                                 \
+  X(blend, screen,                                                                                          \
+    "GL_BLEND, GL_BLEND_SRC/DST_RGB/ALPHA, GL_BLEND_EQUATION_RGB/ALPHA, of draw buffer 0 from OpenGL 4.0 "  \
+    "on",                                                                                                   \
+    "multiplies into a target; default disabled, GL_ONE, GL_ZERO, GL_FUNC_ADD")                             \
+  X(color_mask, screen, "GL_COLOR_WRITEMASK of draw buffer 0", "all four; default all GL_TRUE")             \
+  X(polygon_mode, screen, "GL_POLYGON_MODE, not on OpenGL ES", "one triangle is filled; default GL_FILL")   \
+  X(scissor_test, screen, "GL_SCISSOR_TEST, of index 0 from OpenGL 4.1 on", "off; default disabled")        \
+  X(framebuffer_srgb, screen, "GL_FRAMEBUFFER_SRGB, not on OpenGL ES",                                      \
+    "on for the host's targets; default disabled")                                                          \
+  X(fragment_tests, screen,                                                                                 \
+    "GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_COLOR_LOGIC_OP, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, " \
+    "GL_SAMPLE_ALPHA_TO_COVERAGE, GL_CLIP_DISTANCE0 to GL_CLIP_DISTANCE7; on OpenGL ES those that it has",  \
+    "off; default disabled")                                                                                \
+  X(dither, screen, "GL_DITHER", "off; default enabled")                                                    \
+  X(rasterizer_discard, draws | outputs, "GL_RASTERIZER_DISCARD",                                           \
+    "on in tier 33, where nothing is drawn, off in the screen-space pass; default disabled")                \
+  X(primitive_restart, draws | outputs, "GL_PRIMITIVE_RESTART, not on OpenGL ES",                           \
+    "every index is a vertex; default disabled")                                                            \
+  X(transform_feedback, tier_33 | outputs, "GL_TRANSFORM_FEEDBACK_BINDING",                                 \
+    "from OpenGL 4.0 and OpenGL ES 3.0 on; default 0")                                                      \
+  X(feedback_buffer, tier_33 | outputs, "GL_TRANSFORM_FEEDBACK_BUFFER_BINDING and its range, index 0",      \
+    "AO; default 0")                                                                                        \
+  X(query_buffer, screen_timers, "GL_QUERY_BUFFER_BINDING",                                                 \
+    "from OpenGL 4.4 on, in nook_nnao_read_timings only; default 0")                                        \
+  X(storage_buffer, tier_43 | outputs_compute, "GL_SHADER_STORAGE_BUFFER_BINDING",                          \
+    "binding a range sets it; default 0")                                                                   \
+  X(storage_ranges, tier_43 | outputs_compute,                                                              \
     "GL_SHADER_STORAGE_BUFFER_BINDING and its range, index 0 to 3", "passes; default 0")
 
 inline constexpr int storage_binding_count = NOOK_BINDING_COUNT;

@@ -37,7 +37,64 @@ Between between(float position, float origin, float spacing, std::uint32_t count
   return {first, std::min(first + 1, count - 1), clamped - float(first)};
 }
 
+float between(float value, float least) {
+  return value > least ? std::min(value, 1 - least) : least;  // least also for NaN
+}
+
+// Whole files and textures hold planes as half floats, far below whose largest this is.
+constexpr float max_plane = 1024;
+
+void check_walls(const Probes& probes, nook_result code) {
+  const GridWalls& walls = probes.walls;
+  if (!walls.any()) return;
+  if (walls.cell.size() != probes.grid.cells())
+    throw Failure(code, "the number of cells with walls is wrong (got %zu, need %zu)", walls.cell.size(),
+                  probes.grid.cells());
+  if (!(walls.bias >= 0 && walls.bias <= 1e9f))
+    throw Failure(code, "the bias of walls is out of range (got %g metres, need 0 to 1e9)",
+                  double(walls.bias));
+  for (std::size_t i = 0; i < walls.cell.size(); ++i) {
+    for (const WallPlane& plane : walls.cell[i].plane)
+      for (const float value : {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset})
+        if (!(std::abs(value) <= max_plane))
+          throw Failure(code, "a plane of cell %zu is out of range (got %g, need at most %g)", i,
+                        double(value), double(max_plane));
+    for (const std::uint8_t mask : walls.cell[i].counts)
+      if (mask == 0) throw Failure(code, "no probe counts on a side of cell %zu (need 1 at least)", i);
+  }
+}
+
 }  // namespace
+
+GridPlace place_in(const Grid& grid, Vec3 position_ws) {
+  const auto cells = grid.cell_counts();
+  const float at[3] = {(position_ws.x - grid.origin_ws.x) / grid.spacing_ws.x,
+                       (position_ws.y - grid.origin_ws.y) / grid.spacing_ws.y,
+                       (position_ws.z - grid.origin_ws.z) / grid.spacing_ws.z};
+  std::array<std::uint32_t, 3> low;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float last = float(cells[k] - 1);
+    low[k] = at[k] > 0 ? std::uint32_t(std::min(at[k], last)) : 0;  // 0 also for NaN
+  }
+  GridPlace place;
+  place.cell = (std::size_t(low[2]) * cells[1] + low[1]) * cells[0] + low[0];
+  place.in_cell = {at[0] - float(low[0]), at[1] - float(low[1]), at[2] - float(low[2])};
+  for (std::uint32_t c = 0; c < 8; ++c) {
+    const std::uint32_t x = std::min(low[0] + (c & 1), grid.counts[0] - 1),
+                        y = std::min(low[1] + (c >> 1 & 1), grid.counts[1] - 1),
+                        z = std::min(low[2] + (c >> 2), grid.counts[2] - 1);
+    place.corner[c] = (std::size_t(z) * grid.counts[1] + y) * grid.counts[0] + x;
+  }
+  return place;
+}
+
+std::array<float, 8> corner_weights(Vec3 in_cell, float least) {
+  const float x = between(in_cell.x, least), y = between(in_cell.y, least), z = between(in_cell.z, least);
+  std::array<float, 8> weight;
+  for (std::size_t c = 0; c < 8; ++c)
+    weight[c] = (c & 1 ? x : 1 - x) * (c & 2 ? y : 1 - y) * (c & 4 ? z : 1 - z);
+  return weight;
+}
 
 void check_probes(const Probes& probes, nook_result code) {
   check_basis(probes.basis, code);
@@ -52,6 +109,7 @@ void check_probes(const Probes& probes, nook_result code) {
         throw Failure(code, "coefficient %zu of probe %zu is out of range (got %g, need at most %g)",
                       i % probes.basis.count, i / probes.basis.count, double(channel),
                       double(max_coefficient));
+  check_walls(probes, code);
 }
 
 void interpolate(const Probes& probes, Vec3 position_ws, std::span<Vec3> coefficients) {
@@ -69,6 +127,25 @@ void interpolate(const Probes& probes, Vec3 position_ws, std::span<Vec3> coeffic
     const std::span<const Vec3> from = probes.of(row * grid.counts[0] + (bx ? x.second : x.first));
     for (std::size_t i = 0; i < from.size(); ++i) coefficients[i] += from[i] * weight;
   }
+}
+
+void interpolate(const Probes& probes, Vec3 position_ws, Vec3 normal, std::span<Vec3> coefficients) {
+  if (!probes.walls.any()) return interpolate(probes, position_ws, coefficients);
+  const Vec3 moved = position_ws + normal * probes.walls.bias;
+  const GridPlace place = place_in(probes.grid, moved);
+  const CellWalls& walls = probes.walls.cell[place.cell];
+  const std::uint8_t counts = walls.counts[side_of(walls, place.in_cell)];
+  if (counts == CellWalls::all_corners) return interpolate(probes, moved, coefficients);
+  const std::array<float, 8> weight = corner_weights(place.in_cell, float(NOOK_GRID_LEAST_SHARE));
+  std::fill(coefficients.begin(), coefficients.end(), Vec3{});
+  float sum = 0;
+  for (std::size_t c = 0; c < 8; ++c) {
+    if (!(counts >> c & 1)) continue;
+    sum += weight[c];
+    const std::span<const Vec3> from = probes.of(place.corner[c]);
+    for (std::size_t i = 0; i < from.size(); ++i) coefficients[i] += from[i] * weight[c];
+  }
+  for (Vec3& v : coefficients) v = v * (1 / sum);
 }
 
 void to_lobes(const Basis& basis, std::span<const Vec3> coefficients, std::span<SphericalGaussian> lobes) {

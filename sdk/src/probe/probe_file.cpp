@@ -125,6 +125,32 @@ void complete(Basis& basis) {
   basis = made;
 }
 
+void write_walls(ByteWriter& out, const GridWalls& walls) {
+  out.f32(walls.bias);
+  for (const CellWalls& cell : walls.cell) {
+    for (const WallPlane& plane : cell.plane)
+      for (const float value : {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset})
+        out.u16(to_half(value));
+    for (const std::uint8_t mask : cell.counts) out.u8(mask);
+  }
+}
+
+void read_walls(ByteReader in, std::uint32_t cells, GridWalls& walls) {
+  constexpr std::uint32_t bits_of_cell = 8 * (8 * wall_planes + wall_sides);
+  walls.bias = in.f32();
+  in.check_count(cells, bits_of_cell, "cells with walls");
+  walls.cell.resize(cells);
+  const auto half = [&] { return from_half(std::uint16_t(in.u16())); };
+  for (CellWalls& cell : walls.cell) {
+    for (WallPlane& plane : cell.plane) {
+      const float x = half(), y = half(), z = half();
+      plane = {{x, y, z}, half()};
+    }
+    for (std::uint8_t& mask : cell.counts) mask = std::uint8_t(in.u8());
+  }
+  in.check_end();
+}
+
 }  // namespace
 
 std::vector<std::byte> write_probes(const Probes& probes, Packing packing) {
@@ -154,7 +180,15 @@ std::vector<std::byte> write_probes(const Probes& probes, Packing packing) {
   sections.push_back({four_letters("COEF"), coefficients.bytes()});
   recipe.text(probes.recipe);
   sections.push_back({four_letters("RECP"), recipe.bytes()});
-  return write_container(probe_kind, sections);
+  ContainerKind kind = probe_kind;
+  if (probes.walls.any()) {
+    ByteWriter walls;
+    write_walls(walls, probes.walls);
+    sections.push_back({four_letters("WALL"), walls.bytes()});
+  } else {
+    kind.newest_version = 1;
+  }
+  return write_container(kind, sections);
 }
 
 Packing packing_of(std::span<const std::byte> bytes) {
@@ -180,6 +214,8 @@ Probes read_probes(std::span<const std::byte> bytes, Memory* memory) {
   coefficients.check_end();
   ByteReader recipe = file.section("RECP");
   probes.recipe = recipe.text(recipe.remaining());
+  if (file.version() >= 2 && file.has("WALL"))
+    read_walls(file.section("WALL"), std::uint32_t(probes.grid.cells()), probes.walls);
   check_probes(probes, NOOK_ERROR_BAD_FILE);
   return probes;
 }

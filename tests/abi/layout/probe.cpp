@@ -51,7 +51,7 @@ NOOK_AT(nook_probe_desc, spacing_ws, 48);
 NOOK_AT(nook_probe_desc, reserved, 60);
 NOOK_AT(nook_probe_desc, coefficients, 64);
 
-NOOK_SIZE(nook_probe_info, 76);
+NOOK_SIZE(nook_probe_info, 80);
 NOOK_AT(nook_probe_info, struct_size, 0);
 NOOK_AT(nook_probe_info, basis, 4);
 NOOK_AT(nook_probe_info, domain, 8);
@@ -63,6 +63,7 @@ NOOK_AT(nook_probe_info, probe_count, 36);
 NOOK_AT(nook_probe_info, counts, 40);
 NOOK_AT(nook_probe_info, origin_ws, 52);
 NOOK_AT(nook_probe_info, spacing_ws, 64);
+NOOK_AT(nook_probe_info, wall_cells, 76);
 
 NOOK_SIZE(nook_probe_surface, 48);
 NOOK_AT(nook_probe_surface, normal, 0);
