@@ -4,10 +4,11 @@
  * #version line of a fragment shader, beside the material's, and sets the uniform nook_synthesis_texels to a
  * texture unit. For each draw it binds the texture to GL_TEXTURE_2D_ARRAY of that unit, with no sampler
  * object. The shader takes the material's coordinates from those of the plane, and the sides of a pixel from
- * the plane's, so that its mipmap level does not depend on the jumps of the texture: vec2 at =
- * nook_synthesis_material_uv(uv); nook_material_decode(at, dFdx(uv), dFdy(uv), view, modes); alpha =
- * nook_material_visibility(nook_material_occlusion(at, dFdx(uv), dFdy(uv), view)); A pixel needs one more
- * fetch. */
+ * the plane's, so that its mipmap level does not depend on the jumps of the texture:
+ *     vec2 at = nook_synthesis_material_uv(uv);
+ *     nook_material_decode(at, dFdx(uv), dFdy(uv), view, modes);
+ *     alpha = nook_material_visibility(nook_material_occlusion(at, dFdx(uv), dFdy(uv), view));
+ * A pixel needs one more fetch. */
 #ifndef NOOK_GL_SYNTHESIS_H
 #define NOOK_GL_SYNTHESIS_H
 
