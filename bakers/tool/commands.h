@@ -9,12 +9,14 @@ class App;
 namespace nook::tool {
 
 void add_bake_character(CLI::App& bake);
+void add_bake_clips(CLI::App& bake);
 void add_bake_lod(CLI::App& bake);
 void add_bake_probe(CLI::App& bake);
 void add_bake_material(CLI::App& bake);
 void add_bake_transfer(CLI::App& bake);
 void add_evaluate_character(CLI::App& evaluate);
 void add_evaluate_casters(CLI::App& evaluate);
+void add_evaluate_clips(CLI::App& evaluate);
 void add_evaluate_lods(CLI::App& evaluate);
 void add_evaluate_nnao(CLI::App& evaluate);
 void add_evaluate_probe(CLI::App& evaluate);
