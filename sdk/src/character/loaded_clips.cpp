@@ -35,6 +35,43 @@ AlignedArray<std::int8_t> in_blocks(const ClipSet& set, const LoadedModel& model
   return out;
 }
 
+// The nearest matrix with one scale, about a centre whose image stays: the polar factor by Newton's iteration
+// (Higham 1986, "Computing the Polar Decomposition", equation 3.3). Mixed poses are near it, so that a few
+// steps are enough; what does not converge is left to the general form.
+Mat3x4 evened(const Mat3x4& matrix, Vec3 centre) {
+  constexpr int max_steps = 12;
+  constexpr float converged = 1e-6f;  // squared, of rows of unit length
+  const float* const m = matrix.m;
+  const Vec3 given[3] = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}};
+  const float mean =
+      std::sqrt((dot(given[0], given[0]) + dot(given[1], given[1]) + dot(given[2], given[2])) / 3);
+  if (!(mean > 1e-12f && mean < 1e12f))
+    return to_float(projected(to_double(matrix), {centre.x, centre.y, centre.z}));
+  Vec3 row[3] = {given[0] * (1 / mean), given[1] * (1 / mean), given[2] * (1 / mean)};
+  float change = INFINITY;
+  for (int step = 0; step < max_steps && change > converged; ++step) {
+    const Vec3 cofactor[3] = {cross(row[1], row[2]), cross(row[2], row[0]), cross(row[0], row[1])};
+    const float determinant = dot(row[0], cofactor[0]);
+    if (!(std::abs(determinant) > 1e-4f)) break;
+    change = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 next = (row[i] + cofactor[i] * (1 / determinant)) * 0.5f;
+      change = std::max(change, dot(next - row[i], next - row[i]));
+      row[i] = next;
+    }
+  }
+  if (!(change <= converged)) return to_float(projected(to_double(matrix), {centre.x, centre.y, centre.z}));
+  const float scale = (dot(row[0], given[0]) + dot(row[1], given[1]) + dot(row[2], given[2])) / 3;
+  const Vec3 image = transform_point(matrix, centre);
+  Mat3x4 out{{scale * row[0].x, scale * row[0].y, scale * row[0].z, 0, scale * row[1].x, scale * row[1].y,
+              scale * row[1].z, 0, scale * row[2].x, scale * row[2].y, scale * row[2].z, 0}};
+  const Vec3 move = image - transform_vector(out, centre);
+  out.m[3] = move.x;
+  out.m[7] = move.y;
+  out.m[11] = move.z;
+  return out;
+}
+
 float mixed_weight(const FrameTable<std::int16_t>& table, const FrameMix& mix, std::size_t k) {
   const float first = table.frame_weight(mix.first, k);
   return first + mix.share * (table.frame_weight(mix.second, k) - first);
@@ -101,8 +138,7 @@ Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place,
   matrix.m[3] = row[9] - turned.x;
   matrix.m[7] = row[10] - turned.y;
   matrix.m[11] = row[11] - turned.z;
-  const Vec3 c = span.centre;
-  return place * to_float(projected(to_double(matrix), {c.x, c.y, c.z}));
+  return place * evened(matrix, span.centre);
 }
 
 }  // namespace nook
