@@ -9,6 +9,7 @@ class App;
 namespace nook::tool {
 
 void add_bake_character(CLI::App& bake);
+void add_bake_clips(CLI::App& bake);
 void add_bake_lod(CLI::App& bake);
 void add_bake_probe(CLI::App& bake);
 void add_bake_material(CLI::App& bake);
@@ -16,6 +17,7 @@ void add_bake_synthesis(CLI::App& bake);
 void add_bake_transfer(CLI::App& bake);
 void add_evaluate_character(CLI::App& evaluate);
 void add_evaluate_casters(CLI::App& evaluate);
+void add_evaluate_clips(CLI::App& evaluate);
 void add_evaluate_lods(CLI::App& evaluate);
 void add_evaluate_nnao(CLI::App& evaluate);
 void add_evaluate_probe(CLI::App& evaluate);

@@ -12,6 +12,7 @@
 #include "bakers/tool/inspect/describe.h"
 #include "bakers/tool/table.h"
 #include "platform/output_file.h"
+#include "sdk/src/character/clip_file.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/nnao/network_file.h"
@@ -44,6 +45,7 @@ struct Kind {
   Row (*describe)(std::span<const std::byte> bytes);
 };
 constexpr Kind kinds[] = {{character_kind.kind, describe_character},
+                          {clip_kind.kind, describe_clips},
                           {nnao::network_kind.kind, describe_network},
                           {nnao::recording_kind.kind, describe_recording},
                           {probe::probe_kind.kind, describe_probes},

@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
   CLI::App* evaluate =
       tool.add_subcommand("evaluate", "measure .nook files against ray tracing")->require_subcommand(1);
   nook::tool::add_bake_character(*bake);
+  nook::tool::add_bake_clips(*bake);
   nook::tool::add_bake_lod(*bake);
   nook::tool::add_bake_probe(*bake);
   nook::tool::add_bake_material(*bake);
@@ -33,6 +34,7 @@ int run(int argc, char** argv) {
   nook::tool::add_bake_transfer(*bake);
   nook::tool::add_evaluate_character(*evaluate);
   nook::tool::add_evaluate_casters(*evaluate);
+  nook::tool::add_evaluate_clips(*evaluate);
   nook::tool::add_evaluate_lods(*evaluate);
   nook::tool::add_evaluate_nnao(*evaluate);
   nook::tool::add_evaluate_probe(*evaluate);

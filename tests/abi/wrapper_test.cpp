@@ -15,6 +15,7 @@
 
 std::vector<std::byte> nook_test_model_bytes();
 std::vector<std::byte> nook_test_material_bytes();
+std::vector<std::byte> nook_test_clips_bytes();
 
 namespace {
 
@@ -171,4 +172,20 @@ TEST_CASE("recorded frames: the wrapper writes a file whole or not at all") {
   CHECK(folder.files() == 1);
   CHECK_THROWS_AS(recording.write(folder.path / "absent" / "frame.nook"), std::runtime_error);
   CHECK(folder.files() == 1);
+}
+
+TEST_CASE("the C++ wrapper of clips loads, finds and reads") {
+  const std::vector<std::byte> model_bytes = nook_test_model_bytes(), bytes = nook_test_clips_bytes();
+  nook::Context context;
+  nook::CharacterModel model(context, model_bytes.data(), model_bytes.size());
+  const nook::Clips clips(context, model, bytes.data(), bytes.size());
+  CHECK(clips.info().clip_count == 2);
+  CHECK(clips.find("walk") == 1);
+  CHECK(clips.clip(1).frame_count == 5);
+  CHECK_THROWS_AS(clips.find("swim"), nook::Error);
+  const nook_clip_time time{1, NOOK_CLIP_LOOP, 0.6};
+  CHECK(clips.ao(time).size() == model.info().file_vertex_count);
+  std::uint32_t width = 0, height = 0;
+  const std::vector<std::uint8_t> texels = clips.texture(NOOK_CLIPS_MODES, width, height);
+  CHECK(texels.size() == std::size_t(4) * width * height);
 }

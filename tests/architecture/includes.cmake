@@ -58,6 +58,7 @@ foreach(system nnao probe material synthesis transfer)
 endforeach()
 # The world pass takes the frame of the screen pass.
 room(shaders/world shaders/world shaders/nnao shaders/core)
+room(shaders/clips shaders/clips shaders/core)
 room(shaders/character shaders/character shaders/probe shaders/core)
 
 room(platform platform)

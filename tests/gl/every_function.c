@@ -1,6 +1,8 @@
-/* Every function of nook_gl.h and nook_gl_probe.h, called from C in the order a host would; returns the
- * number of failed expectations and prints each. The OpenGL context is current; bytes: a character model. */
+/* Every function of nook_gl.h, nook_gl_clips.h and nook_gl_probe.h, called from C in the order a host would;
+ * returns the number of failed expectations and prints each. The OpenGL context is current; bytes: a
+ * character model. */
 #include <nook/nook_gl.h>
+#include <nook/nook_gl_clips.h>
 #include <nook/nook_gl_probe.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -136,6 +138,7 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   EXPECT(info.ao_bytes >= view.count * sizeof(float) && info.buffer_bytes > info.ao_bytes);
   write_ao(gl, scene, instance);
   light_instance(gl, scene, instance, view.count);
+  EXPECT(strstr(nook_gl_clips_glsl(), "nook_clip_ao") != NULL);
   upload_probe(context, gl);
   EXPECT_OK(nook_gl_scene_release(gl, scene));
   EXPECT(nook_gl_scene_ao_buffer(gl, scene, instance, &view) == NOOK_ERROR_INVALID_HANDLE);

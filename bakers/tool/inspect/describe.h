@@ -12,6 +12,7 @@ namespace nook::tool {
 using Row = nlohmann::ordered_json;
 
 Row describe_character(std::span<const std::byte> bytes);
+Row describe_clips(std::span<const std::byte> bytes);
 Row describe_network(std::span<const std::byte> bytes);
 Row describe_probes(std::span<const std::byte> bytes);
 Row describe_material(std::span<const std::byte> bytes);

@@ -4,6 +4,7 @@
 #define NOOK_NOOK_HPP
 
 #include "nook_character.hpp"
+#include "nook_clips.hpp"
 #include "nook_material.hpp"
 #include "nook_nnao_recording.hpp"
 #include "nook_probe.hpp"
@@ -13,6 +14,7 @@
 // A library without its OpenGL half (NOOK_GL=OFF) is installed without these headers.
 #if __has_include("nook_gl.h")
 #include "nook_gl.hpp"
+#include "nook_gl_clips.h"
 #include "nook_gl_material.hpp"
 #include "nook_gl_probe.hpp"
 #include "nook_gl_synthesis.hpp"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sdk/src/character/light.h"
+#include "sdk/src/character/loaded_clips.h"
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/neighbours.h"
 #include "sdk/src/character/pose_source.h"
@@ -67,9 +68,18 @@ struct InstanceArrays {
 };
 InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory);
 
+// The clip that gives an instance its pose and its own AO.
+struct InstanceClip {
+  explicit InstanceClip(Memory* memory) : weights(memory) {}
+
+  Ref<const LoadedClips> clips;  // null: the pose is the host's, and the self-shadow that of the model
+  Vector<float> weights;         // of the modes of AO, at the time of the last set_clip
+  bool is_used() const { return bool(clips); }
+};
+
 // The host's part of an instance, and what follows from it alone.
 struct InstanceInput {
-  explicit InstanceInput(Memory* memory) : bones(memory), linked(memory), receivers(memory) {}
+  explicit InstanceInput(Memory* memory) : bones(memory), linked(memory), receivers(memory), clip(memory) {}
 
   Vector<Mat3x4> bones;             // rest space to world, one for each bone of the model
   std::uint64_t pose_revision = 0;  // rises with every set_pose; never 0 for a living instance
@@ -79,6 +89,7 @@ struct InstanceInput {
   Vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
   // Slots of the instances that have this one in `linked`, ascending, which a removal must visit.
   Vector<std::uint32_t> receivers;
+  InstanceClip clip;
   // A sphere around the root bone's image of the model's bounding centre that contains all key points and
   // proxy spheres of the pose, and an upper bound of the scale of its bones.
   Sphere bound;
@@ -194,6 +205,9 @@ struct ProjectedBone {
 // Uneven matrices are projected unless settings.strict_poses is set.
 ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones);
 ProjectedBone set_pose(Scene& scene, nook_instance_id id, PoseSource source);
+// Sets the pose of a clip, and the AO of the clip in place of self-shadow until the next set_pose.
+ProjectedBone set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> clips, const FrameMix& mix,
+                       const Mat3x4& place);
 void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
 void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
 void link_nearest(Scene& scene, std::uint32_t k, float max_distance);
@@ -248,7 +262,8 @@ void read_ao(const Scene& scene, const Instance& instance, float* out, std::size
 // The same as numbers of `format`.
 void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format format, void* out,
                 std::size_t stride_bytes) noexcept;
-// The AO from given shadows and added occlusions at the key points.
+// The AO from given shadows and added occlusions at the key points, which are those of the model's own
+// self-shadow also where the instance has a clip.
 void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
              float* out, std::size_t stride_bytes) noexcept;
 

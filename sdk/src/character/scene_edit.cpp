@@ -244,6 +244,8 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
   casters.posed.resize(model->model.world_casters.size());
   instance.result.arrays = std::move(arrays);
   instance.light = std::move(light);
+  // Clips belong to a model; the pose stays until the host sets another.
+  instance.input.clip.clips = {};
   instance.casters = std::move(casters);
   instance.model = std::move(model);
   float longest_squared = 0;
@@ -267,6 +269,7 @@ ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4
     check_size(model, b, bones[b]);
     if (scene.settings.strict_poses) fail_unless_even(model, bones[b], b);
   }
+  instance.input.clip.clips = {};
   return take_pose(instance, bones);
 }
 
@@ -278,7 +281,29 @@ ProjectedBone set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
   const std::span<Mat3x4> converted(scene.converted.data(), instance.input.bones.size());
   std::copy(instance.input.bones.begin(), instance.input.bones.end(), converted.begin());
   convert_pose(model, source, converted);
+  instance.input.clip.clips = {};
   return take_pose(instance, converted);
+}
+
+ProjectedBone set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> clips, const FrameMix& mix,
+                       const Mat3x4& place) {
+  Instance& instance = instance_of(scene, id);
+  const CharacterModel& model = instance.model->model;
+  if (clips->model.get() != instance.model.get())
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the clips were loaded for another model than that of instance %u; load them with its model", id);
+  const std::span<Mat3x4> posed(scene.converted.data(), instance.input.bones.size());
+  for (std::size_t b = 0; b < posed.size(); ++b) {
+    posed[b] = decode_bone(clips->set, mix, place, b);
+    check_size(model, b, posed[b]);
+    if (scene.settings.strict_poses) fail_unless_even(model, posed[b], b);
+  }
+  InstanceClip& clip = instance.input.clip;
+  clip.weights.resize(clips->set.ao.modes);
+  mix_ao_weights(clips->set, mix, clip.weights.data());
+  clip.clips = std::move(clips);
+  return take_pose(instance, posed);
 }
 
 void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {

@@ -36,9 +36,14 @@ void join_paper_norm(const Scene& scene, const Instance& instance, const PointLa
   std::fill_n(points.optical_depth, points.padded_count, 0.0f);
 }
 
+// True where the spheres of the instance darken its own key points; a clip has its AO instead.
+bool has_self_shadow(const Scene& scene, const Instance& instance) {
+  return (scene.terms & NOOK_TERM_SELF) && !instance.input.clip.is_used();
+}
+
 std::uint64_t count_evaluations(const Scene& scene, const Instance& instance, std::uint32_t points) {
   std::uint64_t spheres =
-      (scene.terms & NOOK_TERM_SELF ? spheres_of(instance, instance.plan.level).count : 0) +
+      (has_self_shadow(scene, instance) ? spheres_of(instance, instance.plan.level).count : 0) +
       instance.plan.occluders.size() + (instance.plan.ground_sphere.radius > 0);
   for (const std::uint32_t caster : instance.plan.casters)
     spheres += spheres_of(scene.instances[caster], instance.plan.level).count;
@@ -83,7 +88,7 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
   const PointLanes points = evaluated_points(instance);
   const Kernel& kernel = instance.model->model.kernel;
   std::fill_n(points.norm_sum, points.padded_count, 0.0f);
-  if (scene.terms & NOOK_TERM_SELF)
+  if (has_self_shadow(scene, instance))
     scene.kernels->self_norm_sum(spheres_of(instance, instance.plan.level), fitted_points(points), kernel,
                                  points.norm_sum);
   if (scene.settings.combine == NOOK_COMBINE_COMPOSED)
@@ -95,7 +100,7 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
     std::copy_n(points.optical_depth, points.padded_count, points.added);
   } else {
     scene.kernels->norm_root(points.norm_sum, points.padded_count, kernel.gamma, points.norm_sum);
-    spread_level(instance.model->model.levels[instance.plan.level - 1], scene.terms & NOOK_TERM_SELF,
+    spread_level(instance.model->model.levels[instance.plan.level - 1], has_self_shadow(scene, instance),
                  instance.result.arrays.points);
   }
   instance.result.evaluations = count_evaluations(scene, instance, points.count);
@@ -135,17 +140,26 @@ void update(Scene& scene) noexcept {
 
 namespace {
 
+// The AO of the instance itself.
+enum class Self { none, shadow, clip };
+
+Self self_of(const Scene& scene, const Instance& instance) {
+  if (!(scene.terms & NOOK_TERM_SELF)) return Self::none;
+  return instance.input.clip.is_used() ? Self::clip : Self::shadow;
+}
+
 // Calls put(place, ao) for each file vertex, place being a pointer stride_bytes further for each.
 template <class Put>
-void for_each_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
-                 void* out, std::size_t stride_bytes, Put&& put) noexcept {
+void for_each_ao(const Scene& scene, const Instance& instance, Self self, const float* shadow,
+                 const float* added, void* out, std::size_t stride_bytes, Put&& put) noexcept {
   const LoadedModel& loaded = *instance.model;
   LinearView view = loaded.linear.view();
-  if (!(scene.terms & NOOK_TERM_SELF)) view.open_bias = loaded.open_without_bias.data();
+  if (self != Self::shadow) view.open_bias = loaded.open_without_bias.data();
   if (scene.settings.combine != NOOK_COMBINE_COMPOSED) added = nullptr;
 
   constexpr std::uint32_t chunk_blocks = 16;
-  alignas(64) std::array<float, chunk_blocks * linear_block_vertices> ao;
+  alignas(64) std::array<float, chunk_blocks * linear_block_vertices> ao, own;
+  static_assert(LoadedClips::block_slots % (chunk_blocks * linear_block_vertices) == 0);
   auto* const bytes = static_cast<unsigned char*>(out);
   if (instance.result.evaluated_frame == 0) {
     for (std::size_t i = 0; i < loaded.model.file_to_welded.size(); ++i) put(bytes + i * stride_bytes, 1.0f);
@@ -157,7 +171,12 @@ void for_each_ao(const Scene& scene, const Instance& instance, const float* shad
                            view.key_point,      view.alpha,
                            view.blend,          view.open_bias + first_slot};
     scene.kernels->linear_layer(chunk, shadow, added, ao.data());
-    const std::uint32_t end = first_slot + chunk.block_count * linear_block_vertices;
+    const std::uint32_t count = chunk.block_count * linear_block_vertices, end = first_slot + count;
+    if (self == Self::clip) {
+      const InstanceClip& clip = instance.input.clip;
+      decode_ao(*clip.clips, clip.weights.data(), first_slot, count, own.data());
+      for (std::uint32_t i = 0; i < count; ++i) ao[i] *= own[i];
+    }
     for (std::uint32_t slot = first_slot; slot < end; ++slot)
       for (std::uint32_t i = loaded.slot_begin[slot]; i < loaded.slot_begin[slot + 1]; ++i)
         put(bytes + loaded.slot_file_vertex[i] * stride_bytes, ao[slot - first_slot]);
@@ -171,32 +190,35 @@ void put_float(unsigned char* place, float ao) noexcept {
 }  // namespace
 
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept {
-  read_ao(scene, instance, instance.result.arrays.points.shadow, instance.result.arrays.points.added, out,
-          stride_bytes);
+  const PointLanes& points = instance.result.arrays.points;
+  for_each_ao(scene, instance, self_of(scene, instance), points.shadow, points.added, out, stride_bytes,
+              put_float);
 }
 
 void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
              float* out, std::size_t stride_bytes) noexcept {
-  for_each_ao(scene, instance, shadow, added, out, stride_bytes, put_float);
+  for_each_ao(scene, instance, scene.terms & NOOK_TERM_SELF ? Self::shadow : Self::none, shadow, added, out,
+              stride_bytes, put_float);
 }
 
 void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format format, void* out,
                 std::size_t stride_bytes) noexcept {
   const float* const shadow = instance.result.arrays.points.shadow;
   const float* const added = instance.result.arrays.points.added;
+  const Self self = self_of(scene, instance);
   switch (format) {
     case NOOK_AO_HALF:
-      return for_each_ao(scene, instance, shadow, added, out, stride_bytes,
+      return for_each_ao(scene, instance, self, shadow, added, out, stride_bytes,
                          [](unsigned char* place, float ao) {
                            const std::uint16_t half = to_half(ao);
                            std::memcpy(place, &half, sizeof half);
                          });
     case NOOK_AO_UNORM8:
       return for_each_ao(
-          scene, instance, shadow, added, out, stride_bytes,
+          scene, instance, self, shadow, added, out, stride_bytes,
           [](unsigned char* place, float ao) { *place = static_cast<unsigned char>(ao * 255 + 0.5f); });
     default:
-      return for_each_ao(scene, instance, shadow, added, out, stride_bytes, put_float);
+      return for_each_ao(scene, instance, self, shadow, added, out, stride_bytes, put_float);
   }
 }
 

@@ -273,3 +273,42 @@ TEST_CASE("export casters writes each format with its error") {
   CHECK(baked.folder.run({"export", "casters", baked.model}).exit_code == 2);
   CHECK(baked.folder.run({"export", "casters", baked.glb, "-o", baked.folder.path("x")}).exit_code == 3);
 }
+
+TEST_CASE("clips of a character bake, are measured, and are inspected") {
+  const Baked baked;
+  const std::string clips = baked.folder.path("clips.nook");
+  const ToolRun bake = baked.folder.run({"bake", "clips", baked.glb, baked.model, "-o", clips, "--clips",
+                                         "walk,jump", "--frames-per-second", "20", "--rays", "32",
+                                         "--max-bytes", "2", "--report", baked.report, "--quiet"});
+  INFO(bake.error);
+  REQUIRE(bake.exit_code == 0);
+  const Json made = baked.row();
+  // Two clips of a second, both ends included.
+  CHECK(made.at("frames") == 42);
+  CHECK(made.at("modes").get<int>() % 4 == 0);
+  CHECK(made.at("error").get<double>() < 0.05);
+
+  const ToolRun measured =
+      baked.folder.run({"evaluate", "clips", baked.glb, baked.model, clips, "--rays", "64", "--max-poses",
+                        "10", "--pairs", "2", "--report", baked.report});
+  INFO(measured.error);
+  REQUIRE(measured.exit_code == 0);
+  const Json report = Json::parse(read_text(baked.report));
+  CHECK(report.at("file_bytes") == made.at("file_bytes"));
+  const Json& rows = report.at("rows");
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[0].at("at") == "frames");
+  CHECK(rows[1].at("at") == "half_way");
+  CHECK(rows[3].at("distance_m").get<double>() == 1.5);
+  // A draft of eight spheres is a rough model of the tube, and the clips are ray traced.
+  CHECK(rows[0].at("mse").get<double>() < rows[0].at("mse_live").get<double>());
+  CHECK(rows[1].at("mse").get<double>() < rows[1].at("mse_live").get<double>());
+
+  const ToolRun inspected = baked.folder.run({"inspect", clips});
+  CHECK(inspected.exit_code == 0);
+  CHECK(has(inspected.out, "clips"));
+  CHECK(
+      baked.folder.run({"bake", "clips", baked.glb, baked.model, "-o", clips, "--clips", "swim"}).exit_code ==
+      2);
+  CHECK(baked.folder.run({"evaluate", "clips", baked.glb, baked.model, baked.model}).exit_code == 3);
+}

@@ -4,7 +4,9 @@
 #endif
 #include <nook/nook_bake.h>
 #include <nook/nook_character.h>
+#include <nook/nook_clips.h>
 #include <nook/nook_gl.h>
+#include <nook/nook_gl_clips.h>
 #include <nook/nook_gl_material.h>
 #include <nook/nook_gl_probe.h>
 #include <nook/nook_gl_transfer.h>
@@ -47,4 +49,6 @@ extern float skinning_matrices[16], model_to_world[12], projection[16], view[16]
 extern uint32_t joint_count, vertex_count, point_count, slot, count, float_count;
 extern float ao[4], positions[12], normals[12];
 extern int width, height, first_unit;
+extern double seconds;
+extern void* texels;
 extern GLuint depth, program, motion, character_ao, character_mask;

@@ -1,3 +1,8 @@
+#include "shaders/clips/host.glsl"
+#define gl_VertexID 0
 in vec3 albedo, ambient, direct;
-in float ao;
+in float ao, added;
+uniform ivec2 frames;
+uniform float share;
 out vec3 colour;
+float vertex_ao;

@@ -1,0 +1,102 @@
+#include "bakers/job/clip_bake.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bakers/character/pose_sets.h"
+#include "platform/peak_memory.h"
+#include "platform/stopwatch.h"
+#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void require_same_character(const CharacterModel& model, const SkinnedMesh& mesh) {
+  bool is_same = model.bone_count() == mesh.bones.size() && model.vertex_count() == mesh.vertex_count() &&
+                 std::equal(model.file_to_welded.begin(), model.file_to_welded.end(),
+                            mesh.file_to_welded.begin(), mesh.file_to_welded.end());
+  for (std::size_t b = 0; is_same && b < mesh.bones.size(); ++b)
+    is_same = mesh.bones[b].name == std::string_view(model.bone_names[b]);
+  if (!is_same)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the model is that of another character (got %zu vertices and %zu bones, need %zu and %zu "
+                  "in the same order); bake the character first",
+                  model.vertex_count(), model.bone_count(), mesh.vertex_count(), mesh.bones.size());
+}
+
+std::string recipe_of(const ImportedCharacter& character, const ClipTask& task) {
+  Json recipe;
+  recipe["frames_per_second"] = task.frames_per_second;
+  recipe["rays"] = task.rays;
+  recipe["seed"] = task.tables.seed;
+  recipe["max_error"] = task.tables.max_error;
+  recipe["max_bytes"] = task.tables.max_bytes;
+  recipe["source_hash"] = character.source_hash;
+  return recipe.dump();
+}
+
+}  // namespace
+
+std::vector<std::size_t> chosen_clips(const ImportedCharacter& character,
+                                      std::span<const std::string> names) {
+  std::vector<std::size_t> clips;
+  if (names.empty()) clips = motion_clips(character);
+  for (const std::string& name : names) clips.push_back(find_clip(character, name));
+  std::sort(clips.begin(), clips.end(),
+            [&](std::size_t a, std::size_t b) { return character.clips[a].name < character.clips[b].name; });
+  clips.erase(std::unique(clips.begin(), clips.end()), clips.end());
+  if (clips.empty())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the character has no clip that shows motion; name one");
+  return clips;
+}
+
+BakedFile bake_clips_file(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
+                          const ClipTask& task, const StageReport& progress) {
+  const platform::Stopwatch watch;
+  const CharacterModel model = read_character_model(model_bytes);
+  require_same_character(model, character.mesh);
+  const std::vector<std::size_t> clips = chosen_clips(character, task.clips);
+  const ClipFrames frames = clip_frames(character, clips, task.frames_per_second);
+  if (frames.poses.size() > ClipSet::max_frames)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the clips have too many frames (got %zu, need at most %u)",
+                  frames.poses.size(), ClipSet::max_frames);
+  const AoTargets targets = trace_character_ao(
+      character.mesh, frames.poses, task.rays, task.tables.seed,
+      [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_RAYTRACE, done, total); });
+  const double seconds_raytrace = watch.seconds();
+  const double noise =
+      measure_noise_floor(character.mesh, frames.poses, targets, task.rays, task.tables.seed);
+  ClipTableReport tables;
+  ClipSet set = make_clip_set(character.mesh, model, frames, targets, noise, task.tables, tables);
+  set.recipe = recipe_of(character, task);
+  BakedFile file;
+  file.model = write_clip_set(set);
+  Json report;
+  report["clips"] = set.clips.size();
+  report["frames"] = set.frame_count;
+  report["vertices"] = set.ao.rows;
+  report["rays"] = task.rays;
+  report["modes"] = set.ao.modes;
+  report["pose_modes"] = set.pose.modes;
+  report["file_bytes"] = file.model.size();
+  report["bytes_per_frame_vertex"] =
+      double(file.model.size()) / (double(set.frame_count) * double(set.ao.rows));
+  report["ao_bytes"] = set.ao.mode.size() + 2 * set.ao.weight.size() + 4 * set.ao.scale.size();
+  report["pose_bytes"] = 2 * set.pose.mode.size() + 2 * set.pose.weight.size() + 4 * set.pose.scale.size() +
+                         16 * set.bones.size();
+  report["error"] = tables.error;
+  report["pose_error_m"] = tables.pose_error;
+  report["noise_floor_mse"] = noise;
+  report["error_of_modes"] = tables.error_of_modes;
+  report["seconds_raytrace"] = seconds_raytrace;
+  report["seconds"] = watch.seconds();
+  report["peak_bytes"] = platform::peak_bytes();
+  file.report = report.dump(2, ' ', false, Json::error_handler_t::replace);
+  return file;
+}
+
+}  // namespace nook::bake

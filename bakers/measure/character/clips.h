@@ -1,0 +1,42 @@
+// The error of baked clips against ray tracing, beside that of the live model in the same poses.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bakers/import/gltf.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "sdk/src/character/clip_set.h"
+#include "sdk/src/character/model.h"
+
+namespace nook::bake {
+
+struct ClipStudy {
+  std::uint32_t rays = 128;
+  std::uint64_t seed = 1;
+  std::size_t most_poses = 200;  // of each row, evenly picked
+  std::vector<float> distances_m{0.75f, 1.5f};
+  std::size_t most_pairs = 24;  // of each distance, evenly picked
+};
+
+struct ClipErrors {
+  double mse = 0, mse_visible = 0;
+};
+
+struct ClipErrorRow {
+  std::string at;        // "frames", "half_way", "neighbour"
+  float distance_m = 0;  // of a neighbour
+  std::size_t poses = 0;
+  double visible_share = 0, noise_floor_mse = 0;
+  ClipErrors clips, live, unlinked;  // unlinked: clips without what the neighbour takes
+  // The mean over vertices of what the neighbour takes.
+  double darkening = 0, darkening_live = 0, darkening_traced = 0;
+};
+
+// The set is that of the character and the model. Throws Failure(NOOK_ERROR_CANCELLED).
+std::vector<ClipErrorRow> measure_clips(const ImportedCharacter& character, const CharacterModel& model,
+                                        const ClipSet& set, const ClipStudy& study, const Progress& progress);
+
+}  // namespace nook::bake

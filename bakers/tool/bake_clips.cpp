@@ -1,0 +1,120 @@
+// nook bake clips: the AO and the poses of a character's clips, for crowds without bones on the CPU.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/job/clip_bake.h"
+#include "bakers/job/worker_arena.h"
+#include "bakers/tool/character/clip_names.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/distinct_files.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/table.h"
+#include "platform/output_file.h"
+#include "platform/printable.h"
+#include "platform/progress_bar.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::filesystem::path input, model, output;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ClipTask task;
+};
+
+bake::ImportedCharacter read_character(const Options& o) {
+  bake::ImportedCharacter character =
+      naming_file(o.input, [&] { return bake::import_gltf(o.input, o.linked); });
+  if (!o.common.quiet)
+    for (const std::string& warning : character.warnings)
+      std::fprintf(stderr, "%s: %s\n", platform::printable(o.input.string()).c_str(),
+                   platform::printable_lines(warning).c_str());
+  std::vector<std::string> present;
+  for (const bake::Clip& clip : character.clips) present.push_back(clip.name);
+  require_clips(o.task.clips, present);
+  return character;
+}
+
+bake::BakedFile bake(const Options& o, const std::vector<std::byte>& model,
+                     const bake::ImportedCharacter& character) {
+  platform::ProgressBar bar(o.common.quiet);
+  return bake::bake_clips_file(character, model, o.task,
+                               [&](nook_bake_stage, std::size_t done, std::size_t total) {
+                                 bar.show("ray tracing", "frames", done, total);
+                                 return !interrupted();
+                               });
+}
+
+void run(Options o) {
+  require_distinct_files({{{"the character", o.input}, {"the model", o.model}},
+                          {{"-o", o.output}, {"--report", o.common.report}},
+                          {}});
+  platform::OutputFile output(o.output);
+  std::optional<platform::OutputFile> report_file;
+  if (!o.common.report.empty()) report_file.emplace(o.common.report);
+  o.task.tables.seed = o.common.seed;
+  const std::vector<std::byte> model = read_file(o.model);
+  const bake::ImportedCharacter character = read_character(o);
+  bake::BakedFile file;
+  try {
+    bake::run_with_threads(o.common.threads,
+                           [&] { file = naming_file(o.model, [&] { return bake(o, model, character); }); });
+  } catch (const ToolError&) {
+    if (interrupted()) throw ToolError(exit_other, "stopped; nothing was written");
+    throw;
+  }
+  output.commit(file.model);
+  Json row = Json::parse(file.report);
+  if (report_file) report_file->commit(Json{{"rows", Json::array({row})}}.dump(2) + "\n");
+  // The table has one line for each row; the error by modes is for the report.
+  row.erase("error_of_modes");
+  if (!o.common.quiet) std::fputs(table_text(Json::array({row})).c_str(), stdout);
+}
+
+}  // namespace
+
+void add_bake_clips(CLI::App& bake_command) {
+  CLI::App* command = bake_command.add_subcommand(
+      "clips",
+      "the ray-traced AO and the poses of a character's clips as a small table over frames: a crowd that is "
+      "drawn from baked animation needs no bones on the CPU");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command->add_option("input", o.input, "the character, .glb or .gltf")->required();
+  command->add_option("model", o.model, "its baked model, .nook")->required();
+  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  command->add_option("--clips", o.task.clips, "only these clips (default: all but T- and A-poses)")
+      ->delimiter(',');
+  command->add_option("--frames-per-second", o.task.frames_per_second, "frames of each second of a clip")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
+  command->add_option("--rays", o.task.rays, "rays for each vertex and frame")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command
+      ->add_option("--max-error", o.task.tables.max_error,
+                   "AO, root mean square: the file takes as many modes as this needs")
+      ->check(CLI::Range(1e-4, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--max-bytes", o.task.tables.max_bytes,
+                   "bytes of the file for each frame and vertex; modes beyond it are left out")
+      ->check(CLI::Range(1e-4, 100.0))
+      ->capture_default_str();
+  command->add_option("--max-modes", o.task.tables.max_modes, "modes of AO, a multiple of 4")
+      ->check(CLI::Range(4u, ClipSet::max_ao_modes))
+      ->capture_default_str();
+  add_linked_files_option(*command, o.linked);
+  add_common_options(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,119 @@
+// nook evaluate clips: baked clips against ray tracing, beside the live model.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bakers/measure/character/clips.h"
+#include "bakers/measure/character/report.h"
+#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/evaluation.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "platform/progress_bar.h"
+#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_set_check.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  EvaluatedFiles files;
+  std::filesystem::path clips;
+  bake::ClipStudy study;
+};
+
+double ratio(double error, double baseline) {
+  return baseline > 0 ? error / baseline : 0;
+}
+
+Json row_of(const bake::ClipErrorRow& measured) {
+  Json row;
+  row["at"] = measured.at;
+  row["distance_m"] = measured.distance_m;
+  row["poses"] = measured.poses;
+  row["mse_visible"] = measured.clips.mse_visible;
+  row["mse_visible_live"] = measured.live.mse_visible;
+  row["ratio_to_live_visible"] = ratio(measured.clips.mse_visible, measured.live.mse_visible);
+  row["mse"] = measured.clips.mse;
+  row["mse_live"] = measured.live.mse;
+  row["ratio_to_live"] = ratio(measured.clips.mse, measured.live.mse);
+  row["mse_visible_unlinked"] = measured.unlinked.mse_visible;
+  row["darkening"] = measured.darkening;
+  row["darkening_live"] = measured.darkening_live;
+  row["darkening_traced"] = measured.darkening_traced;
+  row["visible_share"] = measured.visible_share;
+  row["noise_floor_mse"] = measured.noise_floor_mse;
+  return row;
+}
+
+Json evaluate(const Options& options) {
+  const measure::BakedCharacter baked = read_evaluated_files(options.files);
+  const std::vector<std::byte> bytes = read_file(options.clips);
+  const ClipSet set = naming_file(options.clips, [&] {
+    ClipSet read = read_clip_set(bytes);
+    check_clip_model(read, baked.model);
+    return read;
+  });
+  bake::ClipStudy study = options.study;
+  study.seed = measure::evaluation_ray_seed(options.common.seed);
+  platform::ProgressBar bar(options.common.quiet);
+  const auto rows =
+      bake::measure_clips(baked.character, baked.model, set, study, [&](std::size_t done, std::size_t total) {
+        bar.show("ray tracing", "poses", done, total);
+        return !interrupted();
+      });
+  const double values = double(set.frame_count) * double(set.ao.rows);
+  Json report;
+  report["character"] = options.files.character.stem().string();
+  report["clips"] = set.clips.size();
+  report["frames"] = set.frame_count;
+  report["vertices"] = set.ao.rows;
+  report["modes"] = set.ao.modes;
+  report["pose_modes"] = set.pose.modes;
+  report["rays"] = study.rays;
+  report["file_bytes"] = bytes.size();
+  report["bytes_per_frame_vertex"] = double(bytes.size()) / values;
+  report["bytes_per_frame_vertex_with_model"] = double(bytes.size() + baked.model_bytes.size()) / values;
+  report["rows"] = Json::array();
+  for (const bake::ClipErrorRow& row : rows) report["rows"].push_back(row_of(row));
+  report["seed"] = options.common.seed;
+  return report;
+}
+
+}  // namespace
+
+void add_evaluate_clips(CLI::App& evaluate_command) {
+  CLI::App* command = evaluate_command.add_subcommand(
+      "clips",
+      "measure baked clips against ray tracing at the frames, half-way between frames, and with one "
+      "neighbour of the same clips, beside the live model in the same poses. mse_visible is over the "
+      "vertex-poses with a traced AO of at least 0.01");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  add_evaluated_files(*command, o.files);
+  command->add_option("clips", o.clips, "the baked clips, .nook")->required();
+  command->add_option("--rays", o.study.rays, "rays for each vertex and pose")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command->add_option("--max-poses", o.study.most_poses, "poses at the frames and half-way, evenly picked")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str();
+  command->add_option("--pairs", o.study.most_pairs, "poses with a neighbour at each distance")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--distances", o.study.distances_m, "metres from body to body")
+      ->delimiter(',')
+      ->check(CLI::Range(0.01, 1000.0));
+  add_common_options(*command, o.common);
+  command->callback([options] {
+    std::vector<NamedFile> read = named_files(options->files);
+    read.push_back({"the clips", options->clips});
+    run_evaluation(options->common, {read, {}, {}}, [&] { return evaluate(*options); });
+  });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,154 @@
+/* Crowds without bones on the CPU: the AO and the poses of a character's clips, baked over frames.
+ *
+ * Engines draw crowds from baked animation: the CPU knows the clip, the time and the place of each character,
+ * and no bones. `nook bake clips` ray traces a character in every frame of its clips and stores two tables of
+ * low rank: the AO of each vertex, and the pose of each bone for what the character casts on others. A frame
+ * of a table is a short row of weights of modes; a time between two frames mixes their weights.
+ *
+ * A scene (nook_character.h) takes such a character by nook_scene_set_clip. Its own AO is then that of the
+ * clip, and neighbours, ground, occluders and the world casters work as for a character with bones: AO = AO
+ * of the clip * (1 - added), where the added casters are evaluated at key points in the pose of the clip.
+ *
+ * On the GPU a vertex shader decodes the AO itself (nook_gl_clips.h), without work for each vertex on the
+ * CPU. A scene whose terms leave out NOOK_TERM_SELF then gives 1 - added, in the buffers of
+ * nook_gl_scene_update or from nook_scene_read_ao, by which the shader multiplies. */
+#ifndef NOOK_CLIPS_H
+#define NOOK_CLIPS_H
+
+#include "nook_character.h"
+#include "nook_world.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct nook_clips_s* nook_clips;
+
+/* Loads clips from the bytes of a .nook file, for the model that they were baked with or a new bake of the
+ * same character; the caller may free the bytes afterwards. The clips keep the model alive. The library
+ * validates everything, so that hostile bytes are safe. On failure *out is NULL. Any thread.
+ * Errors: INVALID_ARGUMENT (also, the clips are those of another character), BAD_FILE, FILE_VERSION,
+ * OUT_OF_MEMORY. */
+NOOK_API nook_result nook_clips_load(nook_context context, nook_character_model model, const void* bytes,
+                                     size_t size, nook_clips* out);
+
+/* Releases the caller's reference and sets *clips to NULL; scenes that use the clips keep them alive.
+ * Any thread. */
+NOOK_API void nook_clips_destroy(nook_clips* clips);
+
+typedef struct nook_clips_info {
+  /* sizeof(nook_clips_info); the caller sets it. */
+  uint32_t struct_size;
+  uint32_t clip_count;
+  /* The frames of all clips. */
+  uint32_t frame_count;
+  /* The modes of AO, a multiple of 4. A vertex of a frame is a sum over them. */
+  uint32_t mode_count;
+  uint32_t pose_mode_count;
+  /* The vertices and bones of the model. */
+  uint32_t file_vertex_count;
+  uint32_t bone_count;
+  uint32_t reserved;
+  /* Host memory without the model. */
+  uint64_t memory_bytes;
+} nook_clips_info;
+
+/* Describes the clips. Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_clips_describe(nook_clips clips, nook_clips_info* info);
+
+typedef struct nook_clip_info {
+  /* sizeof(nook_clip_info); the caller sets it. */
+  uint32_t struct_size;
+  /* The frames of the clip are first_frame and the following ones: frame i is the pose at duration_s * i /
+   * (frame_count - 1). A clip without duration has one frame. */
+  uint32_t first_frame;
+  uint32_t frame_count;
+  float duration_s;
+  /* Valid while the clips live. */
+  const char* name;
+} nook_clip_info;
+
+/* Describes a clip; clips are in byte order of their names. Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_clips_clip(nook_clips clips, uint32_t clip, nook_clip_info* info);
+
+/* Finds a clip by its name. Any thread. Errors: INVALID_ARGUMENT (there is none; the message names the
+ * first). */
+NOOK_API nook_result nook_clips_find(nook_clips clips, const char* name, uint32_t* clip);
+
+/* Times outside a clip. */
+enum {
+  /* The time is clamped to the clip. */
+  NOOK_CLIP_CLAMP = 0,
+  /* The time counts modulo the duration; negative times count from the end. The last frame is at the
+   * duration and should be equal to the first. */
+  NOOK_CLIP_LOOP = 1
+};
+typedef int32_t nook_clip_wrap;
+
+typedef struct nook_clip_time {
+  uint32_t clip;
+  nook_clip_wrap wrap;
+  /* Seconds from the clip's first frame, finite. */
+  double seconds;
+} nook_clip_time;
+
+/* Gives the two frames, counted over all clips, between which a time lies, and the share of the second in
+ * [0, 1), for a shader: nook_gl_clips.h. Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_clips_frames(nook_clips clips, const nook_clip_time* time, uint32_t frames[2],
+                                       float* share);
+
+/* Writes the AO of the character alone at a time of a clip, in the order of nook_scene_read_ao. count must be
+ * the model's file_vertex_count; stride is in bytes (0: tightly packed). The call does not allocate.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_clips_read_ao(nook_clips clips, const nook_clip_time* time, nook_ao_format format,
+                                        void* out, uint32_t count, size_t stride);
+
+/* Writes the pose at a time of a clip as nook_scene_set_pose takes it. place_3x4 maps the clip's space, in
+ * metres, to the world: a rotation with one scale; NULL: the clip's space. docs/character.md has the error of
+ * the pose. Between two frames a bone moves on a line, and one that turns by an angle shrinks by the cosine of
+ * half of it. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time* time,
+                                          const float* place_3x4, float* bones_3x4, uint32_t bone_count);
+
+/* Writes the world casters of the model (nook_world.h) at a time of a clip, in world space, for
+ * nook_world_sample and the world pass as props, where no scene holds the character. *count is the room in
+ * `out`, and becomes the number of the model's; with out NULL only that is written. The radii are those of
+ * AO. Any thread. Errors: INVALID_ARGUMENT (also, there is too little room), UNSUPPORTED (the model was baked
+ * without; *count becomes 0). */
+NOOK_API nook_result nook_clips_read_casters(nook_clips clips, const nook_clip_time* time,
+                                             const float* place_3x4, nook_world_capsule* out,
+                                             uint32_t* count);
+
+/* Sets the pose of an instance from a clip, at a place as in nook_clips_read_pose, and takes its own AO from
+ * the clip until the next nook_scene_set_pose or nook_scene_set_model. nook_scene_read_ao then multiplies the
+ * AO of the clip at this time by what the added casters of the last update leave open. Under a light
+ * (nook_scene_set_light), and in nook_gl_scene_update, the instance keeps the model's own self-shadow in the
+ * pose of the clip. The clips must have been loaded for the instance's model. The call allocates at the first
+ * clip of an instance. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_scene_set_clip(nook_scene scene, nook_instance_id instance, nook_clips clips,
+                                         const nook_clip_time* time, const float* place_3x4);
+
+/* The textures of nook_gl_clips.h. */
+enum {
+  /* RGBA, 8 bits with sign (GL_RGBA8_SNORM from GL_BYTE): mode_count / 4 texels for each file vertex. */
+  NOOK_CLIPS_MODES = 0,
+  /* RGBA, half floats (GL_RGBA16F from GL_HALF_FLOAT): mode_count / 4 texels for each frame. */
+  NOOK_CLIPS_WEIGHTS = 1
+};
+typedef int32_t nook_clips_table;
+
+/* Gives the size of a table as a 2D texture, in texels; the texels of the table are its rows one after
+ * another, and the last row is filled up with zeros. Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_clips_texture_size(nook_clips clips, nook_clips_table table, uint32_t* width,
+                                             uint32_t* height, uint64_t* bytes);
+
+/* Writes the texels of a table, rows without gaps. byte_count must be the bytes of nook_clips_texture_size.
+ * The AO of vertex v in frame f is clamp(0.5 + sum of weight * mode over the mode_count numbers of each, 0,
+ * 1). Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_clips_read_texture(nook_clips clips, nook_clips_table table, void* texels,
+                                             uint64_t byte_count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,292 @@
+// Baked clips: loading, times, AO, poses and casters, and clips in scenes.
+#include <nook/nook_clips.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "sdk/src/api/clips_handle.h"
+#include "sdk/src/api/entry.h"
+#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_texels.h"
+#include "sdk/src/character/pose_source.h"
+#include "sdk/src/character/world_casters.h"
+#include "sdk/src/core/descriptors.h"
+#include "sdk/src/core/half.h"
+#include "sdk/src/core/place.h"
+
+using namespace nook;
+
+namespace {
+
+constexpr std::size_t first_info = offsetof(nook_clips_info, memory_bytes) + sizeof(std::uint64_t);
+constexpr std::size_t first_clip_info = offsetof(nook_clip_info, name) + sizeof(const char*);
+
+FrameMix mix_of(const ClipSet& set, const nook_clip_time* time) {
+  need(time, "time");
+  if (time->clip >= set.clips.size())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "time.clip is out of range (got %u, need less than %zu)",
+                  time->clip, set.clips.size());
+  if (time->wrap != NOOK_CLIP_CLAMP && time->wrap != NOOK_CLIP_LOOP)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "time.wrap is unknown (got %d, need 0 to %d)", time->wrap,
+                  NOOK_CLIP_LOOP);
+  if (!std::isfinite(time->seconds))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "time.seconds is not finite (got %g)", time->seconds);
+  return frame_mix(set.clips[time->clip], time->seconds, time->wrap == NOOK_CLIP_LOOP);
+}
+
+Mat3x4 place_of(const float* place_3x4) {
+  Mat3x4 place;
+  if (!place_3x4) return place;
+  std::copy_n(place_3x4, 12, place.m);
+  if (!is_pose_matrix(place))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "place_3x4 is not finite or far too large");
+  return place;
+}
+
+// Calls put(place, ao) for each file vertex.
+template <class Put>
+void write_ao(const LoadedClips& clips, const FrameMix& mix, void* out, std::size_t stride, Put&& put) {
+  std::array<float, ClipSet::max_ao_modes> weights;
+  mix_ao_weights(clips.set, mix, weights.data());
+  std::array<float, LoadedClips::block_slots> ao;
+  const LoadedModel& model = *clips.model;
+  const std::uint32_t slots = model.linear.padded_slots();
+  auto* const bytes = static_cast<unsigned char*>(out);
+  for (std::uint32_t first = 0; first < slots; first += LoadedClips::block_slots) {
+    const std::uint32_t count = std::min(LoadedClips::block_slots, slots - first);
+    decode_ao(clips, weights.data(), first, count, ao.data());
+    for (std::uint32_t s = 0; s < count; ++s)
+      for (std::uint32_t i = model.slot_begin[first + s]; i < model.slot_begin[first + s + 1]; ++i)
+        put(bytes + model.slot_file_vertex[i] * stride, ao[s]);
+  }
+}
+
+void write_ao_as(const LoadedClips& clips, const FrameMix& mix, nook_ao_format format, void* out,
+                 std::size_t stride) {
+  switch (format) {
+    case NOOK_AO_HALF:
+      return write_ao(clips, mix, out, stride, [](unsigned char* place, float ao) {
+        const std::uint16_t half = to_half(ao);
+        std::memcpy(place, &half, sizeof half);
+      });
+    case NOOK_AO_UNORM8:
+      return write_ao(clips, mix, out, stride, [](unsigned char* place, float ao) {
+        *place = static_cast<unsigned char>(ao * 255 + 0.5f);
+      });
+    default:
+      return write_ao(clips, mix, out, stride,
+                      [](unsigned char* place, float ao) { std::memcpy(place, &ao, sizeof ao); });
+  }
+}
+
+void check_ao_output(const LoadedClips& clips, nook_ao_format format, std::uint32_t count,
+                     std::size_t stride) {
+  if (format < NOOK_AO_FLOAT || format > NOOK_AO_UNORM8)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "format is unknown (got %d, need 0 to %d)", format,
+                  NOOK_AO_UNORM8);
+  const std::size_t vertices = clips.model->model.file_to_welded.size();
+  if (count != vertices)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "count is not the model's file_vertex_count (got %u, need %zu)", count, vertices);
+  const std::size_t entry = sizeof(float) >> format;
+  if (stride != 0 && stride < entry)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "stride is too small (got %zu bytes, need 0 or at least %zu)",
+                  stride, entry);
+}
+
+// The pose of one bone at a time, checked as nook_scene_set_pose checks it.
+Mat3x4 checked_bone(const LoadedClips& clips, const FrameMix& mix, const Mat3x4& place, std::size_t bone) {
+  const Mat3x4 matrix = decode_bone(clips.set, mix, place, bone);
+  check_size(clips.model->model, bone, matrix);
+  return matrix;
+}
+
+nook_world_capsule capsule_of(const WorldCaster& caster, const Mat3x4& bone) {
+  const float scale = caster.ao_scale * length({bone.m[0], bone.m[4], bone.m[8]});
+  const Vec3 a = transform_point(bone, caster.capsule.a), b = transform_point(bone, caster.capsule.b);
+  return {{a.x, a.y, a.z}, scale * caster.capsule.radius_a, {b.x, b.y, b.z}, scale * caster.capsule.radius_b};
+}
+
+ClipTexels texels_of(const LoadedClips& clips, nook_clips_table table) {
+  if (table < NOOK_CLIPS_MODES || table > NOOK_CLIPS_WEIGHTS)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "table is unknown (got %d, need 0 to %d)", table,
+                  NOOK_CLIPS_WEIGHTS);
+  return table == NOOK_CLIPS_MODES ? mode_texels(clips) : weight_texels(clips);
+}
+
+}  // namespace
+
+nook_result nook_clips_load(nook_context context, nook_character_model model, const void* bytes, size_t size,
+                            nook_clips* out) {
+  return api::enter("nook_clips_load", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(context, "context");
+    need(model, "model");
+    need(bytes, "bytes");
+    const auto read = [&](Memory* memory) {
+      return read_clip_set({static_cast<const std::byte*>(bytes), size}, memory);
+    };
+    *out = Owned<nook_clips_s>::make(context->memory(), Ref<nook_context_s>::share(context), context,
+                                     Ref<const LoadedModel>::share(model), read)
+               .detach();
+    const ClipSet& set = (*out)->set;
+    context->log(NOOK_LOG_INFO, "clips: %zu clips, %u frames, %u vertices, %u modes, %zu bytes",
+                 set.clips.size(), set.frame_count, set.ao.rows, set.ao.modes, size);
+  });
+}
+
+void nook_clips_destroy(nook_clips* clips) {
+  if (!clips || !*clips) return;
+  (*clips)->release();
+  *clips = nullptr;
+}
+
+nook_result nook_clips_describe(nook_clips clips, nook_clips_info* info) {
+  return api::enter("nook_clips_describe", [&] {
+    need(clips, "clips");
+    const ClipSet& set = clips->set;
+    nook_clips_info known{};
+    known.clip_count = static_cast<std::uint32_t>(set.clips.size());
+    known.frame_count = set.frame_count;
+    known.mode_count = set.ao.modes;
+    known.pose_mode_count = set.pose.modes;
+    known.file_vertex_count = static_cast<std::uint32_t>(clips->model->model.file_to_welded.size());
+    known.bone_count = static_cast<std::uint32_t>(set.bones.size());
+    known.memory_bytes = sizeof *clips + clips->metered.bytes();
+    write_info(info, first_info, known);
+  });
+}
+
+nook_result nook_clips_clip(nook_clips clips, uint32_t clip, nook_clip_info* info) {
+  return api::enter("nook_clips_clip", [&] {
+    need(clips, "clips");
+    const auto& known = clips->set.clips;
+    if (clip >= known.size())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "clip is out of range (got %u, need less than %zu)", clip,
+                    known.size());
+    nook_clip_info answer{};
+    answer.first_frame = known[clip].first_frame;
+    answer.frame_count = known[clip].frame_count;
+    answer.duration_s = known[clip].duration_s;
+    answer.name = known[clip].name.c_str();
+    write_info(info, first_clip_info, answer);
+  });
+}
+
+nook_result nook_clips_find(nook_clips clips, const char* name, uint32_t* clip) {
+  return api::enter("nook_clips_find", [&] {
+    need(clips, "clips");
+    need(name, "name");
+    need(clip, "clip");
+    const auto& known = clips->set.clips;
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const ClipRange& range) { return range.name == name; });
+    if (found == known.end())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "there is no clip \"%.60s\"; the first of the %zu clips is \"%.60s\"", name, known.size(),
+                    known[0].name.c_str());
+    *clip = static_cast<std::uint32_t>(found - known.begin());
+  });
+}
+
+nook_result nook_clips_frames(nook_clips clips, const nook_clip_time* time, uint32_t frames[2],
+                              float* share) {
+  return api::enter("nook_clips_frames", [&] {
+    need(clips, "clips");
+    const FrameMix mix = mix_of(clips->set, time);
+    need(frames, "frames");
+    need(share, "share");
+    frames[0] = mix.first;
+    frames[1] = mix.second;
+    *share = mix.share;
+  });
+}
+
+nook_result nook_clips_read_ao(nook_clips clips, const nook_clip_time* time, nook_ao_format format, void* out,
+                               uint32_t count, size_t stride) {
+  return api::enter("nook_clips_read_ao", [&] {
+    need(clips, "clips");
+    const FrameMix mix = mix_of(clips->set, time);
+    need(out, "out");
+    check_ao_output(*clips, format, count, stride);
+    write_ao_as(*clips, mix, format, out, stride ? stride : sizeof(float) >> format);
+  });
+}
+
+nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time* time, const float* place_3x4,
+                                 float* bones_3x4, uint32_t bone_count) {
+  return api::enter("nook_clips_read_pose", [&] {
+    need(clips, "clips");
+    const FrameMix mix = mix_of(clips->set, time);
+    const Mat3x4 place = place_of(place_3x4);
+    need(bones_3x4, "bones_3x4");
+    if (bone_count != clips->set.bones.size())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "bone_count is not the model's (got %u, need %zu)",
+                    bone_count, clips->set.bones.size());
+    for (std::size_t b = 0; b < bone_count; ++b)
+      std::copy_n(checked_bone(*clips, mix, place, b).m, 12, bones_3x4 + 12 * b);
+  });
+}
+
+nook_result nook_clips_read_casters(nook_clips clips, const nook_clip_time* time, const float* place_3x4,
+                                    nook_world_capsule* out, uint32_t* count) {
+  return api::enter("nook_clips_read_casters", [&] {
+    need(count, "count");
+    const std::uint32_t room = *count;
+    *count = 0;
+    need(clips, "clips");
+    const auto& casters = clips->model->model.world_casters;
+    if (casters.empty())
+      throw Failure(NOOK_ERROR_UNSUPPORTED, "the model was baked without world casters; bake it again");
+    *count = static_cast<std::uint32_t>(casters.size());
+    if (!out) return;
+    if (room < casters.size())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "there is too little room (got %u, need %zu)", room,
+                    casters.size());
+    const FrameMix mix = mix_of(clips->set, time);
+    const Mat3x4 place = place_of(place_3x4);
+    for (std::size_t i = 0; i < casters.size(); ++i)
+      out[i] = capsule_of(casters[i], checked_bone(*clips, mix, place, casters[i].bone));
+  });
+}
+
+nook_result nook_scene_set_clip(nook_scene scene, nook_instance_id instance, nook_clips clips,
+                                const nook_clip_time* time, const float* place_3x4) {
+  return api::enter("nook_scene_set_clip", [&] {
+    need(scene, "scene");
+    need(clips, "clips");
+    const FrameMix mix = mix_of(clips->set, time);
+    set_clip(scene->scene, instance, Ref<const LoadedClips>::share(clips), mix, place_of(place_3x4));
+  });
+}
+
+nook_result nook_clips_texture_size(nook_clips clips, nook_clips_table table, uint32_t* width,
+                                    uint32_t* height, uint64_t* bytes) {
+  return api::enter("nook_clips_texture_size", [&] {
+    need(clips, "clips");
+    need(width, "width");
+    need(height, "height");
+    need(bytes, "bytes");
+    const ClipTexels texels = texels_of(*clips, table);
+    *width = ClipTexels::width;
+    *height = texels.height();
+    *bytes = texels.bytes();
+  });
+}
+
+nook_result nook_clips_read_texture(nook_clips clips, nook_clips_table table, void* texels,
+                                    uint64_t byte_count) {
+  return api::enter("nook_clips_read_texture", [&] {
+    need(clips, "clips");
+    need(texels, "texels");
+    const ClipTexels size = texels_of(*clips, table);
+    if (byte_count != size.bytes())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "byte_count is not that of the table (got %llu, need %llu)",
+                    static_cast<unsigned long long>(byte_count),
+                    static_cast<unsigned long long>(size.bytes()));
+    table == NOOK_CLIPS_MODES ? write_mode_texels(*clips, texels) : write_weight_texels(*clips, texels);
+  });
+}

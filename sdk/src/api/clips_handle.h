@@ -1,0 +1,14 @@
+// The object behind nook_clips.
+#pragma once
+
+#include <nook/nook_clips.h>
+
+#include "sdk/src/api/handles.h"
+#include "sdk/src/character/loaded_clips.h"
+
+struct nook_clips_s : Meter, nook::LoadedClips {
+  // make(Memory*) returns the ClipSet, in that memory.
+  template <class Make>
+  nook_clips_s(nook_context_s* made_by, nook::Ref<const nook::LoadedModel> of, Make&& make)
+      : Meter(made_by->memory()), LoadedClips(make(&metered), std::move(of), &metered) {}
+};

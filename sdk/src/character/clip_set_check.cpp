@@ -1,0 +1,124 @@
+#include "sdk/src/character/clip_set_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/hash.h"
+#include "sdk/src/core/place.h"
+
+namespace nook {
+namespace {
+
+constexpr std::uint32_t max_vertices = 1u << 24, max_bones = 65535;
+constexpr float max_duration_s = 1e6f;
+// AO is within [0, 1]; the products of modes and weights that make it are far below this bound.
+constexpr float max_ao_scale = 1e4f;
+
+void check_count(std::uint32_t got, std::uint32_t low, std::uint32_t high, const char* what,
+                 nook_result code) {
+  if (got < low || got > high)
+    throw Failure(code, "the number of %s is out of range (got %u, need %u to %u); bake the clips again",
+                  what, got, low, high);
+}
+
+void check_size(std::size_t got, std::uint64_t need, const char* what, nook_result code) {
+  if (got != need)
+    throw Failure(code, "the array of %s has the wrong length (got %zu, need %llu); bake the clips again",
+                  what, got, static_cast<unsigned long long>(need));
+}
+
+template <class Number>
+void check_table(const FrameTable<Number>& table, std::uint32_t frames, float max_scale, const char* what,
+                 nook_result code) {
+  check_size(table.mode.size(), std::uint64_t(table.modes) * table.rows, what, code);
+  check_size(table.weight.size(), std::uint64_t(table.modes) * frames, what, code);
+  check_size(table.scale.size(), table.modes, what, code);
+  for (std::size_t k = 0; k < table.scale.size(); ++k)
+    if (!(table.scale[k] >= 0) || !(table.scale[k] <= max_scale))
+      throw Failure(code,
+                    "the scale of mode %zu of the %s is out of range (got %g, need 0 to %g); bake the clips "
+                    "again",
+                    k, what, double(table.scale[k]), double(max_scale));
+}
+
+void check_clips(const ClipSet& set, nook_result code) {
+  std::uint32_t frames = 0;
+  for (std::size_t c = 0; c < set.clips.size(); ++c) {
+    const ClipRange& clip = set.clips[c];
+    if (!(clip.duration_s >= 0) || !(clip.duration_s <= max_duration_s))
+      throw Failure(code,
+                    "the duration of clip %zu is out of range (got %g, need 0 to %g seconds); bake the clips "
+                    "again",
+                    c, double(clip.duration_s), double(max_duration_s));
+    if (clip.first_frame != frames || clip.frame_count < 1 || clip.frame_count > set.frame_count - frames)
+      throw Failure(code,
+                    "the frames of clip %zu are out of range (got %u from %u on, need 1 or more from %u on, "
+                    "of %u); bake the clips again",
+                    c, clip.frame_count, clip.first_frame, frames, set.frame_count);
+    frames += clip.frame_count;
+  }
+  if (frames != set.frame_count)
+    throw Failure(code, "the clips have another number of frames than the set (got %u, need %u)", frames,
+                  set.frame_count);
+}
+
+}  // namespace
+
+void check_clip_counts(const ClipSet& set, nook_result code) {
+  check_count(set.frame_count, 1, ClipSet::max_frames, "frames", code);
+  check_count(set.ao.rows, 1, max_vertices, "vertices", code);
+  check_count(set.ao.modes, 4, ClipSet::max_ao_modes, "modes of AO", code);
+  if (set.ao.modes % 4 != 0)
+    throw Failure(code, "the number of modes of AO is no multiple of 4 (got %u); bake the clips again",
+                  set.ao.modes);
+  check_count(set.pose.modes, 1, ClipSet::max_pose_modes, "modes of the pose", code);
+}
+
+void check_clip_set(const ClipSet& set, nook_result code) {
+  check_clip_counts(set, code);
+  check_count(static_cast<std::uint32_t>(std::min<std::size_t>(set.clips.size(), UINT32_MAX)), 1,
+              ClipSet::max_clips, "clips", code);
+  check_count(static_cast<std::uint32_t>(std::min<std::size_t>(set.bones.size(), UINT32_MAX)), 1, max_bones,
+              "bones", code);
+  check_clips(set, code);
+  check_size(set.pose.rows, std::uint64_t(pose_rows_per_bone) * set.bones.size(), "rows of the pose", code);
+  check_table(set.ao, set.frame_count, max_ao_scale, "AO", code);
+  check_table(set.pose, set.frame_count, max_metres, "pose", code);
+  for (std::size_t b = 0; b < set.bones.size(); ++b) {
+    const BoneSpan& bone = set.bones[b];
+    if (!is_place(bone.centre) || !(bone.radius >= 1e-6f) || !(bone.radius <= max_metres))
+      throw Failure(code, "the place of bone %zu is out of range (got %g %g %g with the radius %g)", b,
+                    double(bone.centre.x), double(bone.centre.y), double(bone.centre.z), double(bone.radius));
+  }
+}
+
+std::uint64_t clip_model_hash(const CharacterModel& model) {
+  Hash64 hash;
+  const auto add = [&](std::uint32_t number) {
+    const std::byte bytes[4] = {std::byte(number), std::byte(number >> 8), std::byte(number >> 16),
+                                std::byte(number >> 24)};
+    hash.add(bytes);
+  };
+  add(static_cast<std::uint32_t>(model.vertex_count()));
+  for (const std::uint32_t welded : model.file_to_welded) add(welded);
+  for (const String& name : model.bone_names) {
+    add(static_cast<std::uint32_t>(name.size()));
+    hash.add({reinterpret_cast<const std::byte*>(name.data()), name.size()});
+  }
+  return hash.value();
+}
+
+void check_clip_model(const ClipSet& set, const CharacterModel& model) {
+  if (set.ao.rows == model.vertex_count() && set.bones.size() == model.bone_count() &&
+      set.model_hash == clip_model_hash(model))
+    return;
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "the clips were baked for another character than the model's (got %u vertices and %zu bones "
+                "with the hash %016llx, need %zu and %zu with %016llx); bake the clips with this model",
+                set.ao.rows, set.bones.size(), static_cast<unsigned long long>(set.model_hash),
+                model.vertex_count(), model.bone_count(),
+                static_cast<unsigned long long>(clip_model_hash(model)));
+}
+
+}  // namespace nook

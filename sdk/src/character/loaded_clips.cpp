@@ -1,0 +1,144 @@
+#include "sdk/src/character/loaded_clips.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sdk/src/character/clip_set_check.h"
+#include "sdk/src/character/pose_source.h"
+
+namespace nook {
+namespace {
+
+ClipSet without_ao_modes(ClipSet set) {
+  set.ao.mode.clear();
+  set.ao.mode.shrink_to_fit();
+  return set;
+}
+
+const ClipSet& checked(const ClipSet& set, const CharacterModel& model) {
+  check_clip_model(set, model);
+  return set;
+}
+
+AlignedArray<std::int8_t> in_blocks(const ClipSet& set, const LoadedModel& model, Memory* memory) {
+  constexpr std::uint32_t block_slots = LoadedClips::block_slots;
+  const std::uint32_t slots = model.linear.padded_slots(), blocks = (slots + block_slots - 1) / block_slots;
+  AlignedArray<std::int8_t> out(std::size_t(blocks) * block_slots * set.ao.modes, memory);
+  const auto& slot_of = model.linear.file_to_slot();
+  for (std::size_t i = 0; i < slot_of.size(); ++i) {
+    const std::uint32_t slot = slot_of[i], welded = model.model.file_to_welded[i];
+    std::int8_t* const block = out.data() + std::size_t(slot / block_slots) * block_slots * set.ao.modes;
+    for (std::size_t k = 0; k < set.ao.modes; ++k)
+      block[k * block_slots + slot % block_slots] = set.ao.mode[k * set.ao.rows + welded];
+  }
+  return out;
+}
+
+// The nearest matrix with one scale, about a centre whose image stays: the polar factor by Newton's iteration
+// (Higham 1986, "Computing the Polar Decomposition", equation 3.3). Mixed poses are near it, so that a few
+// steps are enough; what does not converge is left to the general form.
+Mat3x4 evened(const Mat3x4& matrix, Vec3 centre) {
+  constexpr int max_steps = 12;
+  constexpr float converged = 1e-6f;  // squared, of rows of unit length
+  const float* const m = matrix.m;
+  const Vec3 given[3] = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}};
+  const float mean =
+      std::sqrt((dot(given[0], given[0]) + dot(given[1], given[1]) + dot(given[2], given[2])) / 3);
+  if (!(mean > 1e-12f && mean < 1e12f))
+    return to_float(projected(to_double(matrix), {centre.x, centre.y, centre.z}));
+  Vec3 row[3] = {given[0] * (1 / mean), given[1] * (1 / mean), given[2] * (1 / mean)};
+  float change = INFINITY;
+  for (int step = 0; step < max_steps && change > converged; ++step) {
+    const Vec3 cofactor[3] = {cross(row[1], row[2]), cross(row[2], row[0]), cross(row[0], row[1])};
+    const float determinant = dot(row[0], cofactor[0]);
+    if (!(std::abs(determinant) > 1e-4f)) break;
+    change = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 next = (row[i] + cofactor[i] * (1 / determinant)) * 0.5f;
+      change = std::max(change, dot(next - row[i], next - row[i]));
+      row[i] = next;
+    }
+  }
+  if (!(change <= converged)) return to_float(projected(to_double(matrix), {centre.x, centre.y, centre.z}));
+  const float scale = (dot(row[0], given[0]) + dot(row[1], given[1]) + dot(row[2], given[2])) / 3;
+  const Vec3 image = transform_point(matrix, centre);
+  Mat3x4 out{{scale * row[0].x, scale * row[0].y, scale * row[0].z, 0, scale * row[1].x, scale * row[1].y,
+              scale * row[1].z, 0, scale * row[2].x, scale * row[2].y, scale * row[2].z, 0}};
+  const Vec3 move = image - transform_vector(out, centre);
+  out.m[3] = move.x;
+  out.m[7] = move.y;
+  out.m[11] = move.z;
+  return out;
+}
+
+float mixed_weight(const FrameTable<std::int16_t>& table, const FrameMix& mix, std::size_t k) {
+  const float first = table.frame_weight(mix.first, k);
+  return first + mix.share * (table.frame_weight(mix.second, k) - first);
+}
+
+}  // namespace
+
+FrameMix frame_mix(const ClipRange& clip, double time_s, bool is_looping) noexcept {
+  const std::uint32_t last = clip.frame_count - 1;
+  const double duration = double(clip.duration_s);
+  FrameMix mix{clip.first_frame, clip.first_frame, 0};
+  if (last == 0 || !(duration > 0)) return mix;
+  double time = time_s;
+  if (is_looping) {
+    time = std::fmod(time, duration);
+    if (time < 0) time += duration;
+  }
+  const double place = std::clamp(time / duration, 0.0, 1.0) * last;
+  const auto first = std::min(static_cast<std::uint32_t>(place), last - 1);
+  mix.first += first;
+  mix.second = mix.first + 1;
+  mix.share = static_cast<float>(place - first);
+  if (mix.share >= 1) mix = {mix.second, mix.second, 0};
+  return mix;
+}
+
+LoadedClips::LoadedClips(ClipSet loaded, Ref<const LoadedModel> of, Memory* memory)
+    : model(std::move(of)),
+      block_mode(in_blocks(checked(loaded, model->model), *model, memory)),
+      set(without_ao_modes(std::move(loaded))) {}
+
+void mix_ao_weights(const ClipSet& set, const FrameMix& mix, float* weights) noexcept {
+  for (std::size_t k = 0; k < set.ao.modes; ++k) {
+    const float first = set.ao.frame_weight(mix.first, k);
+    weights[k] = first + mix.share * (set.ao.frame_weight(mix.second, k) - first);
+  }
+}
+
+void decode_ao(const LoadedClips& clips, const float* weights, std::uint32_t first_slot, std::uint32_t count,
+               float* ao) noexcept {
+  constexpr std::uint32_t block_slots = LoadedClips::block_slots;
+  const std::int8_t* mode = clips.block_modes(first_slot / block_slots) + first_slot % block_slots;
+  std::fill_n(ao, count, 0.5f);
+  for (std::uint32_t k = 0; k < clips.set.ao.modes; ++k, mode += block_slots) {
+    const float weight = weights[k] * (1.0f / FrameTable<std::int8_t>::max_mode);
+    for (std::uint32_t i = 0; i < count; ++i) ao[i] += weight * float(mode[i]);
+  }
+  for (std::uint32_t i = 0; i < count; ++i) ao[i] = std::min(std::max(ao[i], 0.0f), 1.0f);
+}
+
+Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place, std::size_t bone) noexcept {
+  constexpr float step = 1.0f / FrameTable<std::int16_t>::max_mode;
+  std::array<float, pose_rows_per_bone> row{};
+  const std::int16_t* mode = set.pose.mode.data() + bone * pose_rows_per_bone;
+  for (std::uint32_t k = 0; k < set.pose.modes; ++k, mode += set.pose.rows) {
+    const float weight = mixed_weight(set.pose, mix, k) * step;
+    for (std::uint32_t i = 0; i < pose_rows_per_bone; ++i) row[i] += weight * float(mode[i]);
+  }
+  const BoneSpan& span = set.bones[bone];
+  Mat3x4 matrix;
+  for (std::uint32_t i = 0; i < 3; ++i)
+    for (std::uint32_t j = 0; j < 3; ++j) matrix.m[4 * i + j] = row[3 * i + j] / span.radius;
+  const Vec3 turned = transform_vector(matrix, span.centre);
+  matrix.m[3] = row[9] - turned.x;
+  matrix.m[7] = row[10] - turned.y;
+  matrix.m[11] = row[11] - turned.z;
+  return place * evened(matrix, span.centre);
+}
+
+}  // namespace nook

@@ -1,0 +1,125 @@
+// Baked clips in shaders: the GLSL of nook_gl_clips.h against the CPU.
+#include <nook/nook_gl_clips.h>
+
+#include <cmath>
+#include <vector>
+
+#include "platform/program.h"
+#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/model_file.h"
+#include "tests/character/clip_sample.h"
+#include "tests/gl/crowd.h"
+#include "tests/gl/host_textures.h"
+#include "tests/gl/test_context.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+// Each vertex is a point on a pixel of its own.
+const char vertex_text[] =
+    "uniform ivec2 frames; uniform float share; uniform float vertex_count;\n"
+    "flat out float ao;\n"
+    "void main() {\n"
+    "  ao = nook_clip_ao(gl_VertexID, frames, share);\n"
+    "  gl_Position = vec4((float(gl_VertexID) + 0.5) / vertex_count * 2.0 - 1.0, 0.0, 0.0, 1.0);\n"
+    "  gl_PointSize = 1.0;\n"
+    "}\n";
+const char fragment_text[] = "flat in float ao; out vec4 value; void main() { value = vec4(ao); }\n";
+
+struct Loaded {
+  Loaded() {
+    const CharacterModel plain = sample_model(4, {5, 7, 12, 900, 60, 4});
+    const std::vector<std::byte> model_bytes = write_character_model(plain),
+                                 bytes = write_clip_set(sample_clips(plain, 2, 12).set);
+    NOOK_OK_OR_FAIL(nook_character_model_load(host.handle, model_bytes.data(), model_bytes.size(), &model));
+    NOOK_OK_OR_FAIL(nook_clips_load(host.handle, model, bytes.data(), bytes.size(), &clips));
+    info.struct_size = sizeof info;
+    NOOK_OK_OR_FAIL(nook_clips_describe(clips, &info));
+  }
+  ~Loaded() {
+    nook_clips_destroy(&clips);
+    nook_character_model_destroy(&model);
+  }
+  Loaded(const Loaded&) = delete;
+  Loaded& operator=(const Loaded&) = delete;
+
+  CountedContext host;
+  nook_character_model model = nullptr;
+  nook_clips clips = nullptr;
+  nook_clips_info info{};
+};
+
+// A texture as nook_gl_clips.h describes it.
+GLuint texture_of(const GladGLContext& gl, nook_clips clips, nook_clips_table table, GLuint unit) {
+  std::uint32_t width = 0, height = 0;
+  std::uint64_t bytes = 0;
+  NOOK_OK_OR_FAIL(nook_clips_texture_size(clips, table, &width, &height, &bytes));
+  std::vector<unsigned char> texels(static_cast<std::size_t>(bytes));
+  NOOK_OK_OR_FAIL(nook_clips_read_texture(clips, table, texels.data(), bytes));
+  GLuint name = 0;
+  gl.GenTextures(1, &name);
+  gl.ActiveTexture(GL_TEXTURE0 + unit);
+  gl.BindTexture(GL_TEXTURE_2D, name);
+  const bool is_modes = table == NOOK_CLIPS_MODES;
+  gl.TexImage2D(GL_TEXTURE_2D, 0, is_modes ? GL_RGBA8_SNORM : GL_RGBA16F, GLsizei(width), GLsizei(height), 0,
+                GL_RGBA, is_modes ? GL_BYTE : GL_HALF_FLOAT, texels.data());
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return name;
+}
+
+}  // namespace
+
+TEST_CASE("clips in a vertex shader agree with the CPU") {
+  NOOK_NEED_CONTEXT(context);
+  const GladGLContext& gl = context.gl();
+  Loaded loaded;
+  const GLuint modes = texture_of(gl, loaded.clips, NOOK_CLIPS_MODES, 0),
+               weights = texture_of(gl, loaded.clips, NOOK_CLIPS_WEIGHTS, 1);
+  const platform::Program program(gl, {glsl_header(gl), nook_gl_clips_glsl(), vertex_text},
+                                  {glsl_header(gl), fragment_text});
+  program.use();
+  gl.Uniform1i(program.uniform("nook_clip_modes"), 0);
+  gl.Uniform1i(program.uniform("nook_clip_weights"), 1);
+  gl.Uniform1i(program.uniform("nook_clip_vec4s"), GLint(loaded.info.mode_count / 4));
+  const auto count = int(loaded.info.file_vertex_count);
+  gl.Uniform1f(program.uniform("vertex_count"), float(count));
+  Textures textures(gl);
+  gl.ActiveTexture(GL_TEXTURE2);
+  const GLuint target = textures.floats(GL_RGBA32F, 4, count, 1, {});
+  GLuint framebuffer = 0, array = 0;
+  gl.GenFramebuffers(1, &framebuffer);
+  gl.GenVertexArrays(1, &array);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target, 0);
+  gl.Viewport(0, 0, count, 1);
+  gl.BindVertexArray(array);
+  for (const double seconds : {0.0, 0.6, 1.99, 3.3}) {
+    const nook_clip_time time{1, NOOK_CLIP_LOOP, seconds};
+    std::uint32_t frames[2] = {0, 0};
+    float share = 0;
+    NOOK_OK_OR_FAIL(nook_clips_frames(loaded.clips, &time, frames, &share));
+    gl.Uniform2i(program.uniform("frames"), GLint(frames[0]), GLint(frames[1]));
+    gl.Uniform1f(program.uniform("share"), share);
+    gl.DrawArrays(GL_POINTS, 0, count);
+    const std::vector<float> drawn = read_texture(gl, target, count, 1, 1);
+    std::vector<float> ao(std::size_t(count), -1.0f);
+    NOOK_OK_OR_FAIL(
+        nook_clips_read_ao(loaded.clips, &time, NOOK_AO_FLOAT, ao.data(), std::uint32_t(count), 0));
+    REQUIRE(drawn.size() == ao.size());
+    float worst = 0;
+    for (std::size_t i = 0; i < ao.size(); ++i) worst = std::max(worst, std::abs(drawn[i] - ao[i]));
+    // Weights are half floats of ten bits below one, and there are twelve of them.
+    CHECK(worst < 12 * 0.6f / 4096);
+  }
+  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl.BindVertexArray(0);
+  gl.UseProgram(0);
+  gl.DeleteVertexArrays(1, &array);
+  gl.DeleteFramebuffers(1, &framebuffer);
+  gl.DeleteTextures(1, &modes);
+  gl.DeleteTextures(1, &weights);
+  gl.ActiveTexture(GL_TEXTURE0);
+}
