@@ -7,8 +7,10 @@
 #include <numbers>
 #include <random>
 
+#include "bakers/character/body_tree.h"
 #include "bakers/character/initialise.h"
 #include "bakers/character/joint_roles.h"
+#include "bakers/character/pose_prior.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/character/rotation.h"
 #include "bakers/character/self_collision.h"
@@ -114,8 +116,8 @@ LimbPlan plan_limbs(PoseRandom& random) {
               : grip < 0.65f ? 0.35f + 0.15f * random.normal()
                              : 0.85f + 0.15f * random.normal();
   plan.thumb = random.unit();
-  plan.clavicle = (8 * degree) * normal3(random);
-  plan.hand = (20 * degree) * normal3(random);
+  plan.clavicle = (12 * degree) * normal3(random);
+  plan.hand = (30 * degree) * normal3(random);
   return plan;
 }
 
@@ -123,6 +125,9 @@ struct BodyPlan {
   LimbPlan limb[2];         // left, right
   float bend, lean, twist;  // of the whole spine, radians
   Vec3 neck;
+  // What follows motion capture instead, where a part is chosen to.
+  PriorPose motion;
+  bool trunk_of_motion = false, arms_of_motion = false, legs_of_motion = false;
 };
 
 BodyPlan plan_body(PoseRandom& random) {
@@ -142,11 +147,29 @@ BodyPlan plan_body(PoseRandom& random) {
     plan.limb[1].hip_flexion = plan.limb[0].hip_flexion + 10 * degree * random.normal();
     plan.limb[1].knee = std::fabs(plan.limb[0].knee + 10 * degree * random.normal());
   }
+  // Both hands before the body, as for holding, aiming, praying or resting in the lap.
+  if (random.chance(0.15f)) {
+    LimbPlan& l = plan.limb[0];
+    const float elevation = random.between(5, 115) * degree;
+    const float azimuth = (-15 + 20 * random.normal()) * degree;
+    l.arm_direction = {std::sin(elevation) * std::sin(azimuth), -std::cos(elevation),
+                       std::sin(elevation) * std::cos(azimuth)};
+    l.elbow = random.between(5, 110) * degree;
+    l.elbow_lean = Vec3{-0.5f, 0, 0} + 0.3f * normal3(random);
+    LimbPlan& r = plan.limb[1];
+    r.arm_direction = normalised(l.arm_direction + 0.15f * normal3(random));
+    r.elbow = std::fabs(l.elbow + 20 * degree * random.normal());
+    r.elbow_lean = {l.elbow_lean.x, l.elbow_lean.y, l.elbow_lean.z};
+  }
   const float crouch = std::max(0.0f, std::min(plan.limb[0].hip_flexion, plan.limb[1].hip_flexion));
-  plan.bend = (8 + 16 * random.normal()) * degree + 0.25f * crouch * random.unit();
-  plan.lean = 9 * degree * random.normal();
-  plan.twist = 15 * degree * random.normal();
-  plan.neck = {15 * degree * random.normal(), 22 * degree * random.normal(), 8 * degree * random.normal()};
+  plan.bend = (8 + 22 * random.normal()) * degree + 0.25f * crouch * random.unit();
+  // A spine bends backwards by about 30 degrees and forwards by three times as much.
+  plan.bend = std::clamp(plan.bend, -30 * degree, 90 * degree);
+  plan.lean = 12 * degree * random.normal();
+  plan.twist = 20 * degree * random.normal();
+  plan.neck = {28 * degree * random.normal(), 32 * degree * random.normal(), 14 * degree * random.normal()};
+  // Who bends forwards looks ahead by raising the head.
+  plan.neck.x -= 0.7f * std::max(0.0f, plan.bend) * random.unit();
   return plan;
 }
 
@@ -166,7 +189,10 @@ Vec3 shortest_arc(Vec3 from, Vec3 to) {
 class Rig {
  public:
   explicit Rig(const SkinnedMesh& mesh)
-      : mesh_(mesh), joints_(joint_roles(mesh)), frame_(body_frame(mesh, joints_)) {
+      : mesh_(mesh),
+        joints_(joint_roles(mesh)),
+        tree_(body_tree(mesh, joints_)),
+        frame_(body_frame(mesh, joints_)) {
     posable_.assign(mesh.bones.size(), 0);
     for (std::uint32_t b : posable_joints(mesh)) posable_[b] = 1;
     spine_count_ = std::max<std::size_t>(
@@ -218,10 +244,11 @@ class Rig {
       const Vec3 turn = joint_turn(b, plan, random);
       local[b] = rotation_about(joint_origin(mesh_.bones[b]), turn);
     }
-    place_arms(plan, local);
+    if (!plan.arms_of_motion) place_arms(plan, local);
+    place_limbs_of_motion(plan, local);
     Pose pose(local.size());
-    for (std::size_t b = 0; b < pose.size(); ++b) {
-      const std::int32_t parent = mesh_.bones[b].parent;
+    for (const std::uint32_t b : tree_.order) {
+      const std::int32_t parent = tree_.parent[b];
       pose[b] = parent >= 0 ? pose[std::size_t(parent)] * local[b] : local[b];
     }
     return pose;
@@ -248,8 +275,9 @@ class Rig {
       if (joints_[hand].role != JointRole::hand || joints_[hand].side == Side::none) continue;
       Vec3 sum = joint_origin(mesh_.bones[hand]);
       float count = 1;
-      for (std::size_t b = hand + 1; b < joints_.size(); ++b) {
-        if (joints_[b].role != JointRole::finger || joints_[b].segment != 0 || !is_below(b, hand)) continue;
+      for (std::size_t b = 0; b < joints_.size(); ++b) {
+        if (joints_[b].role != JointRole::finger || joints_[b].segment != 0 || !is_below(tree_, b, hand))
+          continue;
         if (count++ == 1) sum = {};
         sum += joint_origin(mesh_.bones[b]);
       }
@@ -272,8 +300,8 @@ class Rig {
       const Vec3 wrist = joint_origin(mesh_.bones[hand]);
       Vec3 along, thumb;
       std::vector<std::size_t> knuckles, members;
-      for (std::size_t b = hand + 1; b < joints_.size(); ++b) {
-        if (!is_below(b, hand)) continue;
+      for (std::size_t b = 0; b < joints_.size(); ++b) {
+        if (!is_below(tree_, b, hand)) continue;
         if (joints_[b].role == JointRole::finger) {
           members.push_back(b);
           if (joints_[b].segment == 0) {
@@ -300,7 +328,7 @@ class Rig {
       // Rest curl, where there is any, is the surest sign; else the palm is where the thumb hangs.
       Vec3 bend;
       for (std::size_t b : members) {
-        const std::int32_t next = joints_[b].continuation, parent = mesh_.bones[b].parent;
+        const std::int32_t next = joints_[b].continuation, parent = tree_.parent[b];
         if (joints_[b].role != JointRole::finger || next < 0 || joints_[b].segment == 0 || parent < 0)
           continue;
         bend += cross(direction_of(std::size_t(parent)), direction_of(b));
@@ -325,11 +353,7 @@ class Rig {
     }
   }
 
-  bool is_below(std::size_t bone, std::size_t ancestor) const {
-    for (std::int32_t b = mesh_.bones[bone].parent; b >= 0; b = mesh_.bones[std::size_t(b)].parent)
-      if (std::size_t(b) == ancestor) return true;
-    return false;
-  }
+  Vec3 in_body(Vec3 v) const { return v.x * frame_.left + v.y * frame_.up + v.z * frame_.forward; }
 
   Vec3 joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& random) const {
     const Joint& joint = joints_[b];
@@ -340,11 +364,13 @@ class Rig {
     switch (joint.role) {
       case JointRole::spine: {
         const float share = 1 / float(spine_count_);
+        if (plan.trunk_of_motion) return share * in_body(plan.motion.chest) + 0.04f * normal3(random);
         return share * (plan.bend * left + plan.lean * forward + plan.twist * up) + 0.04f * normal3(random);
       }
       case JointRole::neck:
       case JointRole::head: {
         const float share = 1 / float(neck_count_);
+        if (plan.trunk_of_motion) return share * in_body(plan.motion.head);
         return share * (plan.neck.x * left + plan.neck.y * up + plan.neck.z * forward);
       }
       case JointRole::clavicle:
@@ -353,7 +379,7 @@ class Rig {
         return limb.hand;
       case JointRole::finger: {
         static constexpr float reach[3] = {85, 100, 70};
-        const float curl = std::clamp(limb.curl + 0.12f * random.normal(), -0.1f, 1.1f);
+        const float curl = std::clamp(limb.curl + 0.2f * random.normal(), -0.1f, 1.1f);
         const Vec3 spread = joint.segment == 0 ? 0.08f * random.normal() * up : Vec3{};
         return curl * reach[std::min<int>(joint.segment, 2)] * degree * curl_axis_[b] + spread;
       }
@@ -380,6 +406,49 @@ class Rig {
       }
     }
     return {};
+  }
+
+  // The direction in which motion capture holds a limb's joint, in its part's axes; zero where it has none.
+  static Vec3 wished(const BodyPlan& plan, const Joint& joint) {
+    const PriorLimbs& limbs = plan.motion.limbs[joint.side == Side::right ? 1 : 0];
+    switch (joint.role) {
+      case JointRole::upper_arm:
+        return plan.arms_of_motion ? limbs.upper_arm : Vec3{};
+      case JointRole::forearm:
+        return plan.arms_of_motion ? limbs.forearm : Vec3{};
+      case JointRole::hand:
+        return plan.arms_of_motion ? limbs.hand : Vec3{};
+      case JointRole::thigh:
+        return plan.legs_of_motion ? limbs.thigh : Vec3{};
+      case JointRole::calf:
+        return plan.legs_of_motion ? limbs.calf : Vec3{};
+      case JointRole::foot:
+        return plan.legs_of_motion ? limbs.foot : Vec3{};
+      default:
+        return {};
+    }
+  }
+
+  // Limbs go where motion capture points, seen from the trunk, whatever pose they rest in.
+  void place_limbs_of_motion(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
+    if (!plan.arms_of_motion && !plan.legs_of_motion) return;
+    for (const std::uint32_t b : tree_.order) {
+      const Vec3 wish = wished(plan, joints_[b]);
+      if (dot(wish, wish) == 0) continue;
+      Vec3 rest = direction_of(b);
+      if (joints_[b].role == JointRole::hand && palm_[joints_[b].side == Side::right].bone == std::int32_t(b))
+        rest = normalised(palm_[joints_[b].side == Side::right].point - joint_origin(mesh_.bones[b]));
+      if (dot(rest, rest) == 0) continue;
+      // What the joints between the trunk and this one turn already.
+      Mat3x4 above;
+      for (std::int32_t p = tree_.parent[b]; p >= 0; p = tree_.parent[std::size_t(p)]) {
+        const JointRole role = joints_[std::size_t(p)].role;
+        if (role == JointRole::spine || role == JointRole::pelvis) break;
+        above = local[std::size_t(p)] * above;
+      }
+      const Vec3 own = transform_vector(inverse_rigid(above), in_body(wish));
+      local[b] = rotation_about(joint_origin(mesh_.bones[b]), shortest_arc(rest, own));
+    }
   }
 
   // Upper arms and forearms go where the plan points, whatever pose they rest in.
@@ -415,6 +484,7 @@ class Rig {
 
   const SkinnedMesh& mesh_;
   std::vector<Joint> joints_;
+  BodyTree tree_;
   BodyFrame frame_;
   std::vector<char> posable_;
   std::vector<Vec3> curl_axis_;
@@ -434,11 +504,21 @@ std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> ver
     // A few tries give the first that keeps out of itself, or the best: limbs may touch, and must not
     // intersect.
     constexpr int tries = 12;
-    constexpr float allowed = 0.25f, reaching = 0.4f;
+    constexpr float allowed = 0.6f, reaching = 0.4f;
+    // Half of the poses follow motion capture; of these, a share has other arms, and a share other legs.
+    constexpr float of_motion = 0.5f, other_part = 0.2f;
     float best = 0;
     for (int attempt = 0; attempt < tries; ++attempt) {
       BodyPlan plan = plan_body(random);
-      if (random.chance(reaching)) rig.reach(plan, random, mesh.position);
+      if (random.chance(of_motion)) {
+        Random motion(random.bits());
+        plan.motion = prior_pose(motion);
+        const float keep = random.unit();
+        plan.trunk_of_motion = true;
+        plan.arms_of_motion = keep > other_part;
+        plan.legs_of_motion = keep < 1 - other_part;
+      }
+      if (!plan.arms_of_motion && random.chance(reaching)) rig.reach(plan, random, mesh.position);
       Pose pose = rig.pose(plan, random);
       const float depth = collision.depth(pose);
       if (attempt == 0 || depth < best) {

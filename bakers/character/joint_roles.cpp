@@ -57,7 +57,7 @@ JointRole role_of(const std::string& text, Side side, JointRole parent) {
   if (contains(text, {"forearm", "lowerarm", "elbow"})) return JointRole::forearm;
   if (contains(text, {"upperarm", "uparm"})) return JointRole::upper_arm;
   if (contains(text, {"clavicle", "collar", "shoulder"})) return JointRole::clavicle;
-  if (contains(text, {"hand", "wrist", "palm"}))
+  if (contains(text, {"hand", "wrist", "palm", "fist"}))
     return parent == JointRole::hand ? JointRole::other : JointRole::hand;
   if (contains(text, {"neck"})) return JointRole::neck;
   if (contains(text, {"head"})) return JointRole::head;
@@ -96,6 +96,23 @@ JointRole next_role(JointRole role) {
   }
 }
 
+// Rigs with inverse kinematics keep feet and hands beside the limbs that they end: the limb is the one of the
+// same side that has no end.
+void attach_loose_ends(std::vector<Joint>& joints) {
+  const auto attach = [&](JointRole limb, JointRole end) {
+    for (std::size_t b = 0; b < joints.size(); ++b) {
+      if (joints[b].role != limb || joints[b].side == Side::none || joints[b].continuation >= 0) continue;
+      for (std::size_t other = 0; other < joints.size(); ++other)
+        if (joints[other].role == end && joints[other].side == joints[b].side) {
+          joints[b].continuation = std::int32_t(other);
+          break;
+        }
+    }
+  };
+  attach(JointRole::calf, JointRole::foot);
+  attach(JointRole::forearm, JointRole::hand);
+}
+
 }  // namespace
 
 std::vector<Joint> joint_roles(const SkinnedMesh& mesh) {
@@ -117,6 +134,7 @@ std::vector<Joint> joint_roles(const SkinnedMesh& mesh) {
         joint.role == next_role(above.role))
       joints[std::size_t(parent)].continuation = std::int32_t(b);
   }
+  attach_loose_ends(joints);
   return joints;
 }
 

@@ -32,9 +32,9 @@ enum class Side : std::uint8_t { none, left, right };
 struct Joint {
   JointRole role = JointRole::other;
   Side side = Side::none;
-  std::uint8_t segment = 0;  // of fingers: 0 at the knuckle, then 1, 2
-  std::int32_t continuation =
-      -1;  // the bone that continues the limb (its first child of a later role), -1: none
+  std::uint8_t segment = 0;        // of fingers: 0 at the knuckle, then 1, 2
+  std::int32_t continuation = -1;  // the bone that continues the limb: its first child of a later role, or
+                                   // the foot or hand that the rig keeps beside it; -1: none
 };
 
 // Understands the naming of the common humanoid rigs (Unreal, Rigify, Biped, Mixamo, Unity); what it does not

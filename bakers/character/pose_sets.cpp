@@ -84,13 +84,6 @@ ClipSplit split_families(const ImportedCharacter& character, std::span<const std
   return split;
 }
 
-void thin_out(std::vector<Pose>& poses, std::size_t max_count) {
-  if (max_count == 0 || poses.size() <= max_count) return;
-  std::vector<Pose> kept;
-  for (std::size_t i = 0; i < max_count; ++i) kept.push_back(std::move(poses[i * poses.size() / max_count]));
-  poses = std::move(kept);
-}
-
 std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh) {
   const std::size_t bones = mesh.bones.size(), vertices = mesh.vertex_count();
   std::vector<std::size_t> moved(bones, 0);

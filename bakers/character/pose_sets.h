@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bakers/import/gltf.h"
@@ -35,8 +36,14 @@ ClipSplit split_clips(std::span<const std::size_t> clips);
 // motion are on both sides. With one family nothing is measured.
 ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips);
 
-// Keeps at most so many poses, evenly picked; 0 keeps all.
-void thin_out(std::vector<Pose>& poses, std::size_t max_count);
+// Keeps at most so many items, evenly picked; 0 keeps all.
+template <class Item>
+void thin_out(std::vector<Item>& items, std::size_t max_count) {
+  if (max_count == 0 || items.size() <= max_count) return;
+  std::vector<Item> kept;
+  for (std::size_t i = 0; i < max_count; ++i) kept.push_back(std::move(items[i * items.size() / max_count]));
+  items = std::move(kept);
+}
 
 // Joints that move some but not all vertices.
 std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh);

@@ -9,6 +9,7 @@
 
 #include "bakers/character/auto_poses.h"
 #include "bakers/character/pose_sets.h"
+#include "bakers/character/pose_variants.h"
 #include "bakers/import/skinning.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/hash.h"
@@ -93,15 +94,25 @@ std::vector<std::size_t> clips_by_name(const ImportedCharacter& character) {
 }
 
 std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe& recipe) {
+  if (recipe.generation != pose_generation && recipe.auto_poses + recipe.variant_poses > 0)
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "the model's training poses cannot be made again by this version (got generation %d, need %d); "
+        "bake it again",
+        recipe.generation, pose_generation);
   std::vector<Pose> poses;
+  const std::vector<float> area = vertex_areas(character.mesh, character.mesh.position);
   const auto add = [&](std::vector<Pose> more) {
     poses.insert(poses.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
   };
-  if (recipe.auto_poses > 0) {
-    const std::vector<float> area = vertex_areas(character.mesh, character.mesh.position);
-    add(auto_poses(character.mesh, area, recipe.auto_poses, recipe.settings.seed));
+  if (recipe.auto_poses > 0) add(auto_poses(character.mesh, area, recipe.auto_poses, recipe.settings.seed));
+  if (!recipe.clips.empty()) {
+    std::vector<Pose> shown = clip_poses(character, recipe.clips, recipe.samples_per_clip);
+    std::vector<Pose> variants =
+        pose_variants(character.mesh, area, shown, recipe.variant_poses, recipe.settings.seed);
+    add(std::move(shown));
+    add(std::move(variants));
   }
-  if (!recipe.clips.empty()) add(clip_poses(character, recipe.clips, recipe.samples_per_clip));
   if (recipe.single_joint_steps > 0)
     add(single_joint_poses(character.mesh, recipe.single_joint_steps, single_joint_range));
   return poses;
@@ -120,6 +131,8 @@ std::string recipe_text(const ImportedCharacter& character, const Recipe& recipe
     j["clip_names"] = hash_of_names(character);
   }
   j["samples_per_clip"] = recipe.samples_per_clip;
+  j["variant_poses"] = recipe.variant_poses;
+  j["generation"] = recipe.generation;
   j["single_joint_steps"] = recipe.single_joint_steps;
   j["extra_poses"] = recipe.extra_poses;
   j["seed"] = s.seed;
@@ -147,6 +160,9 @@ Recipe read_recipe(const ImportedCharacter& character, std::string_view text) {
       r.clips = clips_of_bits(character, j.at("clips"));
     }
     r.samples_per_clip = j.at("samples_per_clip");
+    // Files from before variants have neither.
+    r.variant_poses = j.value("variant_poses", std::size_t(0));
+    r.generation = j.value("generation", 1);
     r.single_joint_steps = j.at("single_joint_steps");
     r.extra_poses = j.at("extra_poses");
     r.settings.seed = j.at("seed");

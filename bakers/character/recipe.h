@@ -14,12 +14,17 @@ namespace nook::bake {
 
 enum class PoseMode : std::uint8_t { automatic, single_joint, clips, all, extra };
 
+// Rises whenever the same recipe begins to make other automatic poses or variants.
+inline constexpr int pose_generation = 2;
+
 struct Recipe {
   Preset preset = Preset::standard;
   PoseMode poses = PoseMode::all;
   std::size_t auto_poses = 0;      // 0: none
   std::vector<std::size_t> clips;  // indices into the character's clips, in byte order of their names
   std::size_t samples_per_clip = 0;
+  std::size_t variant_poses = 0;  // made of those of the clips
+  int generation = pose_generation;
   int single_joint_steps = 0;   // 0: none
   std::size_t extra_poses = 0;  // given by the host; they cannot be made again
   std::uint64_t source_hash = 0;
@@ -31,7 +36,8 @@ inline constexpr float single_joint_range = 0.785398163f;  // radians: +-45 degr
 // Clips of a character in byte order of their names, reference poses included: what the recipe's bits count.
 std::vector<std::size_t> clips_by_name(const ImportedCharacter& character);
 
-// The training poses: automatic ones, clips, single joints, in this order; without the host's extra poses.
+// The training poses: automatic ones, clips, their variants, single joints, in this order; without the host's
+// extra poses. Fails with BAD_FILE where an earlier generation made poses that this one cannot make again.
 std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe& recipe);
 
 // One line of JSON. Clips are stored as bits over clips_by_name and a hash of all names, so that it stays

@@ -2,22 +2,38 @@
 
 #include <algorithm>
 
+#include "bakers/character/body_tree.h"
+
 namespace nook::bake {
 namespace {
 
 // Bones this near in the hierarchy share flesh: their spheres always overlap.
 constexpr int related_hops = 2;
 
-bool related(const SkinnedMesh& mesh, std::size_t a, std::size_t b) {
-  std::vector<std::size_t> up_a{a}, up_b{b};
-  for (int i = 0; i < related_hops && mesh.bones[up_a.back()].parent >= 0; ++i)
-    up_a.push_back(std::size_t(mesh.bones[up_a.back()].parent));
-  for (int i = 0; i < related_hops && mesh.bones[up_b.back()].parent >= 0; ++i)
-    up_b.push_back(std::size_t(mesh.bones[up_b.back()].parent));
+bool related(const BodyTree& tree, std::size_t a, std::size_t b) {
+  const auto ancestors = [&](std::size_t bone) {
+    std::vector<std::size_t> up{bone};
+    for (int i = 0; i < related_hops && tree.parent[up.back()] >= 0; ++i)
+      up.push_back(std::size_t(tree.parent[up.back()]));
+    return up;
+  };
+  const std::vector<std::size_t> up_a = ancestors(a), up_b = ancestors(b);
   for (std::size_t i = 0; i < up_a.size(); ++i)
     for (std::size_t j = 0; j < up_b.size(); ++j)
       if (up_a[i] == up_b[j] && i + j <= std::size_t(related_hops)) return true;
   return false;
+}
+
+// The hand that a bone belongs to, by a number: all bones below one forearm have the same. -1: none.
+std::vector<std::int32_t> hands_of_bones(const BodyTree& tree, std::span<const Joint> joints) {
+  std::vector<std::int32_t> hand(joints.size(), -1);
+  for (const std::uint32_t b : tree.order) {
+    const std::int32_t parent = tree.parent[b];
+    if (parent < 0) continue;
+    const bool arm_ends = joints[std::size_t(parent)].role == JointRole::forearm;
+    hand[b] = arm_ends && joints[b].role == JointRole::hand ? parent : hand[std::size_t(parent)];
+  }
+  return hand;
 }
 
 float overlap(Vec3 a, float radius_a, Vec3 b, float radius_b) {
@@ -30,9 +46,14 @@ SelfCollision::SelfCollision(const SkinnedMesh& mesh, std::span<const float> ver
     : spheres_(initial_spheres(mesh, vertex_area, 100)) {
   // The spread of points on a round limb's skin is its radius over sqrt(2).
   for (InitialSphere& s : spheres_) s.radius *= 1.414f;
+  const std::vector<Joint> joints = joint_roles(mesh);
+  const BodyTree tree = body_tree(mesh, joints);
+  const std::vector<std::int32_t> hand = hands_of_bones(tree, joints);
   for (std::size_t i = 0; i < spheres_.size(); ++i)
     for (std::size_t j = i + 1; j < spheres_.size(); ++j) {
-      if (related(mesh, spheres_[i].bone, spheres_[j].bone)) continue;
+      // Fingers lie on each other and on the palm in every fist.
+      if (hand[spheres_[i].bone] >= 0 && hand[spheres_[i].bone] == hand[spheres_[j].bone]) continue;
+      if (related(tree, spheres_[i].bone, spheres_[j].bone)) continue;
       pairs_.push_back({std::uint16_t(i), std::uint16_t(j)});
       rest_overlap_.push_back(std::max(
           0.0f, overlap(spheres_[i].centre, spheres_[i].radius, spheres_[j].centre, spheres_[j].radius)));

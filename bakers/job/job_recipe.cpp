@@ -167,6 +167,11 @@ Recipe recipe_of(const nook_bake_job_desc& desc, const ImportedCharacter& charac
         desc.samples_per_clip ? desc.samples_per_clip : samples_per_clip(preset, recipe.clips.size());
   if (recipe.poses == PoseMode::automatic || recipe.poses == PoseMode::all)
     recipe.auto_poses = desc.auto_pose_count ? desc.auto_pose_count : preset.auto_poses;
+  if (recipe.poses == PoseMode::all) {
+    recipe.variant_poses = recipe.clips.size() * recipe.samples_per_clip;
+    // They take the place of automatic poses, so that a bake takes no longer.
+    if (!desc.auto_pose_count) recipe.auto_poses -= std::min(recipe.variant_poses, recipe.auto_poses / 2);
+  }
   if (recipe.poses == PoseMode::single_joint) recipe.single_joint_steps = preset.single_joint_steps;
   if (recipe.poses == PoseMode::extra && desc.extra_pose_count == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

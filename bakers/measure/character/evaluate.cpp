@@ -145,6 +145,8 @@ CharacterEvaluation score_character(const SkinnedMesh& mesh, const CharacterMode
   result.model = columns_of(model_sums, best.visible_count, area, hands);
   result.static_bake = columns_of(static_sums, best.visible_count, area, hands);
   result.oracle = columns_of(oracle_sums, best.visible_count, area, hands);
+  for (std::size_t t = 0; t < poses.size(); ++t)
+    result.pose_visible.push_back({model_sums[t].visible, static_sums[t].visible});
   result.vertex_rms.resize(vertices);
   tbb::parallel_for(std::size_t(0), vertices, [&](std::size_t i) {
     double sum = 0;

@@ -24,6 +24,11 @@ struct ErrorColumns {
   double mse_hands = 0;  // the others; 0 where there are none
 };
 
+// Squared errors of one pose, summed over its visible vertices.
+struct PoseErrorSums {
+  double model = 0, static_bake = 0;
+};
+
 struct CharacterEvaluation {
   std::size_t poses = 0;
   std::uint32_t rays = 0;
@@ -32,7 +37,8 @@ struct CharacterEvaluation {
   // The oracle is the best static bake of each column: the mean truth of a vertex over all poses, in
   // mse_visible over those in which the vertex is visible.
   ErrorColumns model, static_bake, oracle;
-  AoTargets truth;                // what was measured against, for baselines on the same
+  std::vector<PoseErrorSums> pose_visible;  // a value a pose
+  AoTargets truth;                          // what was measured against, for baselines on the same
   std::vector<float> vertex_rms;  // of the model, a value a welded vertex: what a picture of the error shows
 };
 

@@ -53,8 +53,12 @@ EvaluatedPoses choose_poses(const ImportedCharacter& character, const Recipe* re
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the file has no clip that shows motion; use --poses training, or --clips");
   result.poses = clip_poses(character, clips, choice.samples_per_clip);
-  for (std::size_t clip : clips) result.clips.push_back(character.clips[clip].name);
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    result.clips.push_back(character.clips[clips[i]].name);
+    result.clip.insert(result.clip.end(), choice.samples_per_clip, i);
+  }
   thin_out(result.poses, choice.most);
+  thin_out(result.clip, choice.most);
   return result;
 }
 

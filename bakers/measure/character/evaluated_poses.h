@@ -22,6 +22,7 @@ struct EvaluatedPoses {
   std::vector<bake::Pose> poses;
   std::string protocol;            // "unseen clips", "all clips", "named clips", "training poses"
   std::vector<std::string> clips;  // measured
+  std::vector<std::size_t> clip;   // of each pose, an index into clips; empty for training poses
 };
 
 // Without names: the motion clips that the recipe did not fit, or all of them if it fitted all. recipe may be

@@ -1,5 +1,6 @@
 #include "bakers/measure/character/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -18,6 +19,24 @@ using Json = nlohmann::ordered_json;
 
 double ratio(double error, double baseline) {
   return baseline > 0 ? error / baseline : 0;
+}
+
+// The clip whose error is the largest share of that of the static bake over its own poses.
+void add_worst_clip(Json& row, const EvaluatedPoses& measured, const CharacterEvaluation& e) {
+  if (measured.clip.size() != e.pose_visible.size()) return;
+  std::vector<PoseErrorSums> clips(measured.clips.size());
+  PoseErrorSums body;
+  for (std::size_t t = 0; t < e.pose_visible.size(); ++t)
+    for (PoseErrorSums* sums : {&clips[measured.clip[t]], &body}) {
+      sums->model += e.pose_visible[t].model;
+      sums->static_bake += e.pose_visible[t].static_bake;
+    }
+  const auto share = [](const PoseErrorSums& s) { return ratio(s.model, s.static_bake); };
+  const auto worst = std::max_element(clips.begin(), clips.end(),
+                                      [&](const auto& a, const auto& b) { return share(a) < share(b); });
+  row["worst_clip"] = measured.clips[std::size_t(worst - clips.begin())];
+  row["worst_clip_ratio_to_static_visible"] = share(*worst);
+  row["worst_clip_over_body"] = ratio(share(*worst), share(body));
 }
 
 Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, const std::string& name,
@@ -54,6 +73,8 @@ Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, cons
   row["mse_area_oracle"] = e.oracle.mse_area;
   row["ratio_to_static"] = ratio(e.model.mse, e.static_bake.mse);
   row["ratio_to_static_area"] = ratio(e.model.mse_area, e.static_bake.mse_area);
+  row["ratio_to_oracle_visible"] = ratio(e.model.mse_visible, e.oracle.mse_visible);
+  add_worst_clip(row, measured, e);
   return row;
 }
 

@@ -204,7 +204,7 @@ enum {
   NOOK_BAKE_POSES_SINGLE_JOINT = 1,
   /* The character's clips. */
   NOOK_BAKE_POSES_CLIPS = 2,
-  /* AUTO and CLIPS. */
+  /* AUTO, CLIPS, and as many variants of the poses of the clips: mirrored, mixed and blended. */
   NOOK_BAKE_POSES_ALL = 3,
   /* Only extra_poses_3x4. */
   NOOK_BAKE_POSES_EXTRA = 4
@@ -269,7 +269,8 @@ typedef struct nook_bake_job_desc {
   uint32_t steps;
   /* Default ALL, which is AUTO for a character without clips. */
   nook_bake_pose_mode pose_mode;
-  /* The number of generated poses of AUTO and ALL. */
+  /* The number of generated poses of AUTO and ALL. The variants of ALL lower its default by their number, at
+   * most by half. */
   uint32_t auto_pose_count;
   /* The number of poses of each clip. */
   uint32_t samples_per_clip;

@@ -84,7 +84,11 @@ TEST_CASE("by default the clips that were not fitted are measured, 20 poses each
                           "visible_share",
                           "mse_visible",
                           "mse_static_visible",
-                          "mse_oracle_visible"}) {
+                          "mse_oracle_visible",
+                          "ratio_to_oracle_visible",
+                          "worst_clip",
+                          "worst_clip_ratio_to_static_visible",
+                          "worst_clip_over_body"}) {
     INFO(key);
     CHECK(row.contains(key));
     CHECK(has(run.out, key));
@@ -99,6 +103,30 @@ TEST_CASE("by default the clips that were not fitted are measured, 20 poses each
   // The parts that are left out add to the error over all.
   CHECK(share * row.at("mse_visible").get<double>() <= row.at("mse").get<double>() * (1 + 1e-12));
   CHECK(row.at("model_bytes") == read_text(baked.model).size());
+  // The body's ratio is a mean of those of its clips, so that none is the worst with less.
+  const std::string worst = row.at("worst_clip").get<std::string>();
+  CHECK((worst == "run" || worst == "walk"));
+  CHECK(row.at("worst_clip_over_body").get<double>() >= 1 - 1e-12);
+  CHECK(row.at("worst_clip_ratio_to_static_visible").get<double>() >=
+        row.at("ratio_to_static_visible").get<double>() * (1 - 1e-9));
+}
+
+TEST_CASE("the worst clip is the one that is measured worst alone") {
+  const Baked baked;
+  REQUIRE(baked.evaluate({"--samples-per-clip", "4"}).exit_code == 0);
+  const Json both = baked.row();
+  double largest = 0;
+  std::string name;
+  for (const char* clip : {"run", "walk"}) {
+    REQUIRE(baked.evaluate({"--samples-per-clip", "4", "--clips", clip}).exit_code == 0);
+    CHECK(baked.row().at("worst_clip_over_body").get<double>() == 1);
+    const double ratio = baked.row().at("ratio_to_static_visible").get<double>();
+    if (ratio > largest) {
+      largest = ratio;
+      name = clip;
+    }
+  }
+  CHECK(both.at("worst_clip") == name);
 }
 
 TEST_CASE("named clips, and all of them when all were fitted") {
@@ -120,7 +148,7 @@ TEST_CASE("the training poses can be made again from the model's recipe, for the
   INFO(run.error);
   REQUIRE(run.exit_code == 0);
   const Json row = baked.row();
-  CHECK(row.at("poses") == 30 + 2 * 6);
+  CHECK(row.at("poses") == 30 + 2 * 6 + 2 * 6);  // automatic, of two clips, variants of these
   // On the poses they were fitted to, regressions of the joint angle beat the mean of those poses.
   CHECK(row.at("mse_linear_pose").get<double>() < row.at("mse_oracle").get<double>());
   CHECK(row.at("mse_pose_clusters").get<double>() < row.at("mse_oracle").get<double>());

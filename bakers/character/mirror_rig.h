@@ -1,0 +1,26 @@
+// The mirror symmetry of a rig, found from where its joints rest.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bakers/character/joint_motion.h"
+
+namespace nook::bake {
+
+struct MirrorRig {
+  Vec3 normal;                      // of the plane of symmetry, unit length
+  std::vector<std::uint32_t> twin;  // a bone's mirror image; its own index in the middle of the body
+};
+
+// The symmetry about an upright plane across x or z: every joint has a twin whose rest position is its own,
+// mirrored, within 2 % of the rig's extent, twins have twin parents, and not all are their own. Nothing where
+// there is none.
+std::optional<MirrorRig> find_mirror(const SkinnedMesh& mesh, const BodyTree& tree);
+
+// The mirror image of a pose. Twice gives the pose back.
+std::vector<JointMotion> mirrored(const MirrorRig& mirror, std::span<const JointMotion> motions);
+
+}  // namespace nook::bake
