@@ -38,7 +38,8 @@ def bent(angle):
     return pose
 
 
-SMALL = {"preset": "draft", "poses": "auto", "auto_pose_count": 20, "rays": 16, "steps": 60, "spheres": 6, "key_points": 20}
+SMALL = {"preset": "draft", "poses": "extra", "extra_poses": [bent(a) for a in np.linspace(-1.6, 1.6, 17)], "rays": 64, "steps": 60,
+         "spheres": 6, "key_points": 20}
 
 
 class Characters(unittest.TestCase):
@@ -71,8 +72,8 @@ class Characters(unittest.TestCase):
             self.assertEqual(job.wait(), self.data)
 
     def test_the_model_is_nearer_to_ray_tracing_than_a_static_bake(self):
-        error = nook.model_error(self.character, self.model, [bent(1.2), bent(-0.8)], rays=256)
-        # The static bake knows no bend; a fit of 60 steps that were as bad would have learned nothing.
+        error = nook.model_error(self.character, self.model, [bent(1.5), bent(-1.3)], rays=256)
+        # The static bake knows no bend, and a fit that were as bad would have learned nothing.
         self.assertLess(error.mse_visible, error.mse_static_visible)
 
     def test_a_neighbour_and_the_ground_darken(self):
@@ -183,8 +184,8 @@ class Materials(unittest.TestCase):
         self.assertEqual((material.width, material.height, material.view_count), (8, 8, count))
         uv = np.random.default_rng(2).random((20, 2))
         values = material.evaluate(uv, directions, directions)
-        # Rank 1 is exact; half floats of the decoder's tables have 11 bits.
-        np.testing.assert_allclose(values.radiance, np.repeat(albedo / math.pi * directions[:, 2:], 3, axis=1), rtol=5e-3)
+        # The light table has 64 cells a side. Half a cell is up to 0.02 radians, which changes the cosine of 1.2 radians by 5 %.
+        np.testing.assert_allclose(values.radiance, np.repeat(albedo / math.pi * directions[:, 2:], 3, axis=1), rtol=0.05)
         np.testing.assert_array_equal(values.visibility, 1)
 
 

@@ -85,16 +85,20 @@ Vec3 view_of_error(const SkinnedMesh& mesh, std::span<const Vec3> posed,
 }
 
 std::vector<Picture> eight_sides(const SkinnedMesh& mesh, std::span<const float> vertex_rms) {
-  constexpr int width = 300, height = 500, sides = 8;
+  constexpr int width = 300, sides = 8;
   std::vector<float> scaled(vertex_rms.begin(), vertex_rms.end());
   for (float& value : scaled) value /= error_end;
-  // One scale for all sides.
+  // One scale for all sides: that of the widest, in pictures as high as the body.
   float metres_per_pixel = 0;
   std::vector<BodyCamera> cameras;
   for (int side = 0; side < sides; ++side) {
-    cameras.push_back(camera_at(direction(float(side) * pi / 4, 0), mesh.position, width, height));
+    cameras.push_back(camera_at(direction(float(side) * pi / 4, 0), mesh.position, width, 2 * width));
     metres_per_pixel = std::max(metres_per_pixel, cameras.back().metres_per_pixel);
   }
+  Box box;
+  for (const Vec3 p : mesh.position) box.add(p);
+  const int height =
+      std::clamp(int(margin * (box.high.y - box.low.y) / metres_per_pixel), width / 3, 2 * width);
   std::vector<Picture> pictures;
   for (BodyCamera& camera : cameras) {
     camera.metres_per_pixel = metres_per_pixel;

@@ -24,11 +24,25 @@ std::string words(std::string key) {
   return key;
 }
 
+bool counts_bytes(const std::string& key) {
+  return key.starts_with("bytes") || key.ends_with("_bytes");
+}
+
+// The first entries stand open; sizes of sections and settings of the bake are for those who look.
 Html facts_table(const Json& facts) {
-  std::vector<std::vector<Html>> rows{{Html("what"), Html("value")}};
-  for (const auto& item : facts.items())
-    if (!item.value().is_null()) rows.push_back({text(words(item.key())), value_of(item.value())});
-  return table(rows);
+  constexpr std::size_t open_rows = 12;
+  const std::vector<Html> head{Html("what"), Html("value")};
+  std::vector<std::vector<Html>> first{head}, others{head};
+  for (const auto& item : facts.items()) {
+    if (item.value().is_null()) continue;
+    const bool is_size = counts_bytes(item.key()) && item.value().is_number();
+    (first.size() <= open_rows ? first : others)
+        .push_back({text(words(item.key())),
+                    is_size ? byte_count(item.value().get<double>()) : value_of(item.value())});
+  }
+  if (others.size() == 1) return table(first);
+  return table(first) + Html("<details><summary>All sizes and settings</summary>\n") + table(others) +
+         Html("</details>\n");
 }
 
 Html or_not_stated(const std::string& said) {

@@ -11,6 +11,7 @@
     return;
   }
   const vertexText = `#version 300 es
+    precision highp float; precision highp int;
     uniform mat4 view; uniform vec3 low; uniform vec3 size; uniform int show; uniform float errorEnd;
     layout(location = 0) in vec3 position; layout(location = 1) in float traced; layout(location = 2) in float model;
     out float value; out vec3 place;
@@ -20,7 +21,7 @@
       gl_Position = view * vec4(place, 1.0);
     }`;
   const fragmentText = `#version 300 es
-    precision highp float;
+    precision highp float; precision highp int;
     uniform vec3 ramp[${data.ramp.length}]; uniform int show; uniform vec3 eye;
     in float value; in vec3 place; out vec4 colour;
     void main() {
