@@ -47,12 +47,14 @@ void add_triangles(RTCDevice device, RTCScene scene, std::span<const std::array<
   rtcCommitScene(scene);
 }
 
-RTCRayHit parallel_ray(Vec3 origin, float direction_z) {
+RTCRayHit parallel_ray(Vec3 origin, Vec3 direction) {
   RTCRayHit ray{};
   ray.ray.org_x = origin.x;
   ray.ray.org_y = origin.y;
   ray.ray.org_z = origin.z;
-  ray.ray.dir_z = direction_z;
+  ray.ray.dir_x = direction.x;
+  ray.ray.dir_y = direction.y;
+  ray.ray.dir_z = direction.z;
   ray.ray.tfar = std::numeric_limits<float>::infinity();
   ray.ray.mask = ~0u;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -87,31 +89,47 @@ BodyView::BodyView(std::span<const std::array<std::uint32_t, 3>> triangles,
                    std::span<const Vec3> positions_ws, BodySide side, int width, int height)
     : width_(width), height_(height), triangles_(triangles.begin(), triangles.end()) {
   const Box box = bounds_of(positions_ws);
-  const Vec3 centre = 0.5f * (box.low + box.high), size = box.high - box.low;
+  const Vec3 size = box.high - box.low;
   const float metres_per_pixel =
       // A single point also has a scale.
       margin * std::max({size.x / float(width), size.y / float(height), 1e-6f});
-  const float towards = side == BodySide::front ? 1.0f : -1.0f;
+  cast(positions_ws,
+       {0.5f * (box.low + box.high), {0, 0, side == BodySide::front ? 1.0f : -1.0f}, metres_per_pixel});
+}
+
+BodyView::BodyView(std::span<const std::array<std::uint32_t, 3>> triangles,
+                   std::span<const Vec3> positions_ws, const BodyCamera& camera, int width, int height)
+    : width_(width), height_(height), triangles_(triangles.begin(), triangles.end()) {
+  cast(positions_ws, camera);
+}
+
+void BodyView::cast(std::span<const Vec3> positions_ws, const BodyCamera& camera) {
+  const Box box = bounds_of(positions_ws);
+  const Vec3 above = std::fabs(camera.towards.y) > 0.99f ? Vec3{0, 0, -1} : Vec3{0, 1, 0};
+  const Vec3 right = normalised(cross(above, camera.towards)), up = cross(camera.towards, right);
+  const float beyond =
+      length(box.high - box.low) + length(0.5f * (box.low + box.high) - camera.centre_ws) + 1;
   const EmbreeDevice device;
   const EmbreeScene scene(device.get());
-  add_triangles(device.get(), scene.get(), triangles, positions_ws);
-  const int columns = width * samples, rows = height * samples;
+  add_triangles(device.get(), scene.get(), triangles_, positions_ws);
+  const int columns = width_ * samples, rows = height_ * samples;
   hits_.resize(std::size_t(columns) * std::size_t(rows));
   tbb::parallel_for(0, rows, [&](int y) {
     for (int x = 0; x < columns; ++x) {
-      const float right = ((float(x) + 0.5f) / samples - 0.5f * float(width)) * metres_per_pixel;
-      const float up = (0.5f * float(height) - (float(y) + 0.5f) / samples) * metres_per_pixel;
+      const float to_right = ((float(x) + 0.5f) / samples - 0.5f * float(width_)) * camera.metres_per_pixel;
+      const float to_top = (0.5f * float(height_) - (float(y) + 0.5f) / samples) * camera.metres_per_pixel;
       RTCRayHit ray = parallel_ray(
-          {centre.x + towards * right, centre.y + up, centre.z + towards * (size.z + 1)}, -towards);
+          camera.centre_ws + to_right * right + to_top * up + beyond * camera.towards, -camera.towards);
       intersect1(scene.get(), ray);
       const bool hit = ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-      hits_[std::size_t(y) * std::size_t(columns) + std::size_t(x)] = {hit ? ray.hit.primID : nothing,
-                                                                       ray.hit.u, ray.hit.v};
+      const Vec3 normal = normalised({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z});
+      hits_[std::size_t(y) * std::size_t(columns) + std::size_t(x)] = {
+          hit ? ray.hit.primID : nothing, ray.hit.u, ray.hit.v, std::fabs(dot(normal, camera.towards))};
     }
   });
 }
 
-Picture BodyView::draw(std::span<const float> vertex_value, Colour (*colour)(float)) const {
+Picture BodyView::draw(std::span<const float> vertex_value, Colour (*colour)(float), float relief) const {
   Picture picture{width_, height_, std::vector<std::uint8_t>(3 * std::size_t(width_) * std::size_t(height_))};
   const std::size_t columns = std::size_t(width_) * samples;
   for (int y = 0; y < height_; ++y)
@@ -125,6 +143,7 @@ Picture BodyView::draw(std::span<const float> vertex_value, Colour (*colour)(flo
           const auto& t = triangles_[hit.triangle];
           c = colour((1 - hit.u - hit.v) * vertex_value[t[0]] + hit.u * vertex_value[t[1]] +
                      hit.v * vertex_value[t[2]]);
+          for (float& channel : c) channel *= 1 - relief * (1 - hit.cosine);
         }
         for (std::size_t i = 0; i < 3; ++i) sum[i] += c[i] / (samples * samples);
       }

@@ -25,6 +25,13 @@ Colour viridis(float value);  // perceptually uniform from dark violet (0) to ye
 
 enum class BodySide { front, back };  // seen from +z or from -z, +y up
 
+// A parallel view of a body. +y is up in the picture, or -z where the view is along y.
+struct BodyCamera {
+  Vec3 centre_ws;  // in the middle of the picture
+  Vec3 towards;    // from the body to the viewer, unit length
+  float metres_per_pixel = 1;
+};
+
 // The triangle that every sample of an orthographic picture sees. Rays are cast once, and the view is drawn
 // with any values.
 class BodyView {
@@ -33,8 +40,12 @@ class BodyView {
   BodyView(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Vec3> positions_ws,
            BodySide side, int width, int height);
 
-  // Interpolates one value for each vertex and colours it.
-  Picture draw(std::span<const float> vertex_value, Colour (*colour)(float)) const;
+  BodyView(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Vec3> positions_ws,
+           const BodyCamera& camera, int width, int height);
+
+  // Interpolates one value for each vertex and colours it. relief: by how much a surface that is seen from
+  // the side is darker than one that faces the viewer, 0 to 1.
+  Picture draw(std::span<const float> vertex_value, Colour (*colour)(float), float relief = 0) const;
 
  private:
   static constexpr int samples = 3;  // along the side of a pixel
@@ -42,8 +53,11 @@ class BodyView {
   struct Hit {
     std::uint32_t triangle;
     float u, v;
+    float cosine;  // between the view and the face
   };
   static constexpr std::uint32_t nothing = ~0u;
+
+  void cast(std::span<const Vec3> positions_ws, const BodyCamera& camera);
 
   int width_, height_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;

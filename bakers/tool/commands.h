@@ -28,5 +28,6 @@ void add_train_nnao(CLI::App& train);
 void add_train_specular(CLI::App& train);
 void add_export_casters(CLI::App& export_command);
 void add_inspect(CLI::App& tool);
+void add_report(CLI::App& tool);
 
 }  // namespace nook::tool

@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
       tool.add_subcommand("export", "write what .nook files hold for other engines")->require_subcommand(1);
   nook::tool::add_export_casters(*write);
   nook::tool::add_inspect(tool);
+  nook::tool::add_report(tool);
   try {
     tool.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -94,6 +94,8 @@ room(bakers/measure/material bakers/measure/material bakers/images bakers/materi
 room(bakers/measure/gpu_cost bakers/measure/gpu_cost bakers/measure/nnao/baselines.h shaders sdk/src/gl/material/source.h
      sdk/src/gl/embedded_shaders.h)
 room(bakers/measure/crowd bakers/measure/crowd bakers/measure/truth platform)
+# Pages show what the other measures have, and draw nothing.
+room(bakers/measure/report bakers/measure bakers/images platform ${makers})
 room(bakers/job bakers/job bakers/measure ${process} ${makers})
 room(bakers/api bakers/api bakers/job ${makers})
 room(bakers/tool bakers/tool bakers/api/import.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform

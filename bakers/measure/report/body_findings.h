@@ -1,0 +1,78 @@
+// Where the error of a character model lies: in which clips, parts, joints and places.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bakers/import/skinned_mesh.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+
+namespace nook::report {
+
+// Poses of one clip in a row.
+struct ClipPoses {
+  std::string name;
+  std::size_t first = 0, count = 0;
+};
+
+// The AO of the model and of ray tracing for every pose and welded vertex.
+struct MeasuredBody {
+  std::vector<bake::Pose> poses;
+  std::vector<ClipPoses> clips;           // may be empty
+  std::vector<std::vector<float>> model;  // pose by pose
+  bake::AoTargets truth;
+
+  float traced(std::size_t pose, std::size_t vertex) const {
+    return float(truth.row(pose)[vertex]) * bake::AoTargets::scale;
+  }
+};
+
+// Squared errors of vertex-poses that ray tracing does not find black, weighted by rest area.
+struct SeenError {
+  double square = 0, weight = 0;
+  void add(double error, double area) {
+    square += area * error * error;
+    weight += area;
+  }
+  double rms() const;
+};
+
+struct NamedError {
+  std::string name;
+  SeenError error;
+};
+
+struct ClipError {
+  std::string name;
+  SeenError error;
+  std::size_t worst_pose = 0;
+  double worst_rms = 0;
+};
+
+// A region of the surface of about a twentieth of the body's size.
+struct Place {
+  std::vector<std::uint32_t> vertices;
+  std::string joint;           // that moves most of it
+  std::size_t worst_pose = 0;  // in which its error is largest
+  double rms = 0;              // in that pose
+  double share = 0;            // of the error of the whole body
+};
+
+struct BodyFindings {
+  SeenError all;
+  double bias = 0;                // mean of model less ray traced over what is seen
+  std::vector<float> vertex_rms;  // over the poses in which it is seen
+  std::vector<ClipError> clips;   // worst first
+  std::vector<NamedError> parts;  // largest share first
+  std::vector<NamedError> joints;
+  std::vector<Place> places;
+};
+
+BodyFindings find_errors(const bake::SkinnedMesh& mesh, const MeasuredBody& body, std::size_t max_places);
+
+// The names that parts can have, as advice measures them: hands, feet, head, arms, legs, trunk, other.
+std::vector<std::string> part_names();
+
+}  // namespace nook::report

@@ -1,0 +1,26 @@
+# cmake -DTEMPLATES=dir -DOUTPUT=file.cpp -P embed_templates.cmake
+# Turns every file of TEMPLATES into one C++ source; the tool needs no files at run time.
+cmake_minimum_required(VERSION 3.25)
+
+file(GLOB paths RELATIVE "${TEMPLATES}" "${TEMPLATES}/*")
+list(SORT paths)
+set(source "// Made from templates at build; do not edit.\n#include \"bakers/measure/report/template.h\"\n\nnamespace nook::report {\nnamespace {\n")
+set(table "")
+set(number 0)
+foreach(path IN LISTS paths)
+  file(READ "${TEMPLATES}/${path}" text)
+  # MSVC takes up to 16,380 characters in a literal; literals side by side are one string.
+  set(literals "")
+  string(LENGTH "${text}" length)
+  foreach(at RANGE 0 ${length} 12000)
+    string(SUBSTRING "${text}" ${at} 12000 piece)
+    string(APPEND literals "\nR\"page(${piece})page\"")
+  endforeach()
+  string(APPEND source "constexpr char text_${number}[] =${literals};\n")
+  string(APPEND table "    {\"${path}\", text_${number}},\n")
+  math(EXPR number "${number} + 1")
+endforeach()
+string(APPEND source "constexpr Template templates[] = {\n${table}};\n}  // namespace\n\n"
+       "const Template* templates_begin() { return templates; }\n"
+       "const Template* templates_end() { return templates + ${number}; }\n\n}  // namespace nook::report\n")
+file(WRITE "${OUTPUT}" "${source}")

@@ -1,0 +1,69 @@
+// Pieces of a page. Text from files and arguments becomes Html through text() alone, which escapes it, so
+// that no name can add markup or code to a page.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bakers/images/picture.h"
+
+namespace nook::report {
+
+// Markup of this program, which is a constant of the compilation: a text from elsewhere cannot become one.
+class Markup {
+ public:
+  consteval Markup(const char* literal) : text_(literal) {}
+  const char* text() const { return text_; }
+
+ private:
+  const char* text_;
+};
+
+class Html {
+ public:
+  Html() = default;
+  explicit Html(Markup markup) : code_(markup.text()) {}
+
+  const std::string& code() const { return code_; }
+  bool empty() const { return code_.empty(); }
+  Html& operator+=(const Html& other) {
+    code_ += other.code_;
+    return *this;
+  }
+  friend Html operator+(Html a, const Html& b) { return a += b; }
+
+  static Html escaped(std::string_view plain);
+
+ private:
+  std::string code_;
+  friend class HtmlFill;
+  friend Html script_data(const nlohmann::ordered_json& data);
+};
+
+// Escaped for elements and for attributes in quotes. Control characters, characters that turn the direction
+// of writing, and bytes that are no UTF-8 become visible escapes.
+Html text(std::string_view plain);
+
+// Three digits, in the plain notation from 0.001 on; a dash where the value is not finite.
+Html number(double value);
+Html percent(double share);
+Html byte_count(double bytes);
+
+std::string base64(const void* bytes, std::size_t size);
+
+// <tag>inside</tag>.
+Html element(Markup tag, const Html& inside);
+
+// JSON as the text of a script element. Nothing in it can end the element.
+Html script_data(const nlohmann::ordered_json& data);
+
+// The first row names the columns.
+Html table(const std::vector<std::vector<Html>>& rows);
+
+// A picture within the page. alternative says in words what the picture shows.
+Html figure(const bake::Picture& picture, const std::string& alternative, const Html& caption);
+
+}  // namespace nook::report

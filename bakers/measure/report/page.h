@@ -1,0 +1,41 @@
+// The page of any .nook file: advice, sections of its kind, sizes and settings, licences.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bakers/import/asset_notes.h"
+#include "bakers/measure/report/html.h"
+
+namespace nook::report {
+
+// A file that is shown, and what it says of its licence.
+struct ShownFile {
+  std::string name;
+  bake::AssetNotes notes;
+};
+
+struct PageSource {
+  std::string title;             // the name of the .nook file
+  nlohmann::ordered_json facts;  // one row of `nook inspect`
+  std::vector<ShownFile> shown;
+  std::string licence;  // what the user says of all of them; may be empty
+};
+
+// What a kind of file adds.
+struct PageParts {
+  Html lead;      // one or two sentences: the result
+  Html advice;    // of advice_list
+  Html sections;  // each a section element
+  Html scripts;   // may be empty
+};
+
+std::string page_of(const PageSource& source, const PageParts& parts);
+
+// The colours of errors from 0 to `end`, with ticks in units of AO or what unit says.
+Html error_scale(double end, Markup unit);
+// A share of a whole as a bar with its number.
+Html share_bar(double share);
+
+}  // namespace nook::report

@@ -1,0 +1,161 @@
+#include "bakers/measure/report/probe_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "bakers/images/map_picture.h"
+#include "bakers/measure/probe/report.h"
+#include "bakers/measure/report/advice.h"
+#include "bakers/measure/report/light_picture.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/evaluate.h"
+
+namespace nook::report {
+namespace {
+
+using bake::Colour;
+using bake::Environment;
+using bake::Picture;
+using nook::probe::Probes;
+
+constexpr Colour background{0.32f, 0.34f, 0.38f};
+constexpr float mean_shade = 0.3f;  // linear, of a white surface in the mean light
+constexpr std::uint32_t max_layers = 4;
+constexpr int max_side_px = 1000;
+
+Vec3 irradiance_of(const Probes& probes, std::size_t index, Vec3 normal) {
+  return nook::probe::irradiance(probes.basis, probes.of(index), nook::probe::IrradianceForm::bands, normal);
+}
+
+// The mean luminance of irradiance over six directions.
+float mean_light(const Probes& probes, std::size_t index) {
+  float sum = 0;
+  for (const Vec3 n :
+       {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})
+    sum += bake::luminance(irradiance_of(probes, index, n));
+  return sum / 6;
+}
+
+// A white ball in the light of a probe, seen from +z with +y up.
+void draw_ball(Picture& picture, int left, int top, int side, const Probes& probes, std::size_t index,
+               float exposure) {
+  constexpr int samples = 2;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      Colour sum{};
+      for (int s = 0; s < samples * samples; ++s) {
+        const float px = (float(x) + (float(s % samples) + 0.5f) / samples) / float(side) * 2 - 1;
+        const float py = 1 - (float(y) + (float(s / samples) + 0.5f) / samples) / float(side) * 2;
+        const float inside = 0.9025f - px * px - py * py;
+        const Colour c =
+            inside > 0
+                ? display(exposure * irradiance_of(probes, index, normalised({px, py, std::sqrt(inside)})))
+                : background;
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += c[k] / (samples * samples);
+      }
+      set_pixel(picture, left + x, top + y, sum);
+    }
+}
+
+// One layer of constant y: x to the right, z down.
+Picture layer_picture(const Probes& probes, std::uint32_t layer, float exposure) {
+  const auto columns = int(probes.grid.counts[0]), rows = int(probes.grid.counts[2]);
+  // Of grids that are wider than the picture, some probes.
+  const int step = (std::max(columns, rows) * 8 + max_side_px - 1) / max_side_px;
+  const int shown_columns = (columns + step - 1) / step, shown_rows = (rows + step - 1) / step;
+  const int side = std::clamp(max_side_px / std::max(shown_columns, shown_rows), 8, 160);
+  Picture picture = plain_picture(shown_columns * side, shown_rows * side, background);
+  for (int z = 0; z < shown_rows; ++z)
+    for (int x = 0; x < shown_columns; ++x) {
+      const std::size_t index =
+          (std::size_t(z * step) * probes.grid.counts[1] + layer) * probes.grid.counts[0] +
+          std::size_t(x * step);
+      draw_ball(picture, x * side, z * side, side, probes, index, exposure);
+    }
+  return picture;
+}
+
+Html layers(const Probes& probes, float exposure) {
+  Html html;
+  const std::uint32_t count = std::min(probes.grid.counts[1], max_layers);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t layer = (2 * i + 1) * probes.grid.counts[1] / (2 * count);
+    const float height = probes.grid.origin_ws.y + float(layer) * probes.grid.spacing_ws.y;
+    const std::string where =
+        "layer " + std::to_string(layer + 1) + " of " + std::to_string(probes.grid.counts[1]);
+    std::string alternative = "White balls in the light of the probes of ";
+    alternative.append(where).append(", seen from +z");
+    html +=
+        figure(layer_picture(probes, layer, exposure), alternative,
+               text(where) + Html(", at a height of ") + number(double(height)) +
+                   Html(" m: x to the right, z down, each ball lit by its probe and seen from +z. Look for "
+                        "balls that are black or differ from their neighbours without a wall between."));
+  }
+  return html;
+}
+
+struct Lit {
+  float mean = 0;
+  double dark_share = 0;
+};
+
+Lit light_of(const Probes& probes) {
+  std::vector<float> light;
+  double sum = 0;
+  for (std::size_t i = 0; i < probes.grid.size(); ++i) {
+    light.push_back(mean_light(probes, i));
+    sum += double(light.back());
+  }
+  Lit lit;
+  lit.mean = float(sum / double(light.size()));
+  lit.dark_share = double(std::ranges::count_if(light, [&](float l) { return l < 0.01f * lit.mean; })) /
+                   double(light.size());
+  return lit;
+}
+
+void add_map(PageParts& parts, Measures& measures, const Probes& probes, const Environment& map) {
+  const nlohmann::ordered_json errors = measure::probe_errors(map, probes);
+  for (const char* name : {"irradiance_minimum", "irradiance_relative"})
+    if (errors.contains(name) && errors[name].is_number()) measures.value[name] = errors[name].get<double>();
+  std::vector<std::vector<Html>> rows{{Html("against the map"), Html("value")}};
+  for (const auto& item : errors.items())
+    if (item.value().is_number()) rows.push_back({text(item.key()), number(item.value().get<double>())});
+  parts.sections += Html("<section id=\"map\"><h2>Beside the map</h2>\n") +
+                    figure(bake::probe::map_picture(map, probes.basis, probes.of(0), 300),
+                           "The map, the probe's radiance, its irradiance, and the error of its radiance, "
+                           "each over all directions",
+                           Html("From the left: the map; what the probe has of it; the light on a white "
+                                "surface that faces each direction; the error of the second picture, "
+                                "violet none, yellow as large as the map's mean and more. A probe is smooth "
+                                "by design: look at the third picture, which diffuse surfaces use.")) +
+                    table(rows) + Html("</section>\n");
+}
+
+}  // namespace
+
+PageParts probe_parts(const Probes& probes, const Environment* map) {
+  const bool is_grid = probes.grid.size() > 1;
+  if (map && is_grid)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a grid of probes is not the light of one map; give no map");
+  const Lit lit = light_of(probes);
+  Measures measures;
+  measures.value["probes"] = double(probes.grid.size());
+  if (is_grid) measures.value["dark_share"] = lit.dark_share;
+  PageParts parts;
+  if (map) add_map(parts, measures, probes, *map);
+  const float exposure = lit.mean > 0 ? mean_shade / lit.mean : 1.0f;
+  parts.sections += Html("<section id=\"balls\"><h2>The light of the probes</h2>\n") +
+                    layers(probes, exposure) + Html("</section>\n");
+  parts.lead = is_grid ? text(std::to_string(probes.grid.size())) +
+                             Html(" probes, whose light is shown on white balls at one exposure for all.")
+                       : Html("One probe, whose light is shown on a white ball.");
+  if (map && measures.value.contains("irradiance_relative"))
+    parts.lead += Html(" The light on surfaces is off by <strong>") +
+                  percent(measures.value["irradiance_relative"]) + Html("</strong> of the map's mean.");
+  parts.advice = advice_list(Subject::probes, measures);
+  return parts;
+}
+
+}  // namespace nook::report

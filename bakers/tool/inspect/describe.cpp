@@ -1,0 +1,52 @@
+#include "bakers/tool/inspect/describe.h"
+
+#include "bakers/job/material_source.h"
+#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/material/material_file.h"
+#include "sdk/src/nnao/network_file.h"
+#include "sdk/src/nnao/recording_file.h"
+#include "sdk/src/probe/probe_file.h"
+#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/transfer/transfer_file.h"
+
+namespace nook::tool {
+namespace {
+
+struct Kind {
+  FourLetters kind;
+  Row (*describe)(std::span<const std::byte> bytes);
+};
+constexpr Kind kinds[] = {{character_kind.kind, describe_character},
+                          {clip_kind.kind, describe_clips},
+                          {nnao::network_kind.kind, describe_network},
+                          {nnao::recording_kind.kind, describe_recording},
+                          {probe::probe_kind.kind, describe_probes},
+                          {material::material_kind.kind, describe_material},
+                          {synthesis::synthesis_kind.kind, describe_synthesis},
+                          {transfer::transfer_kind.kind, describe_transfer},
+                          {bake::material::raw_kind.kind, describe_raw_material}};
+
+}  // namespace
+
+Row describe(std::span<const std::byte> bytes) {
+  const FourLetters found = bytes.size() >= 16 ? container_kind(bytes) : 0;
+  for (const Kind& kind : kinds)
+    if (kind.kind == found) return kind.describe(bytes);
+  if (found != 0)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "a .nook file of a kind that this version cannot inspect; use a newer one");
+  return describe_character(bytes);  // refuses bytes that are no .nook file, with the reason
+}
+
+void add_recipe(Row& row, std::string_view recipe) {
+  const Row entries = Row::parse(recipe, nullptr, false);
+  if (!entries.is_object()) return;
+  for (const auto& item : entries.items())
+    if (item.value().is_object())
+      for (const auto& part : item.value().items()) row[item.key() + "_" + part.key()] = part.value();
+    else
+      row["recipe_" + item.key()] = item.value();
+}
+
+}  // namespace nook::tool

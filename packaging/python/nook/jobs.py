@@ -1,0 +1,180 @@
+"""Bakes as jobs on threads of their own, with progress and cancel."""
+import ctypes
+import json
+import time
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence
+
+import numpy as np
+
+from . import _layouts as c
+from ._library import Handle, call, choice, described, descriptor, floats, integers, pointer, word
+from .characters import Character
+
+
+class Progress(NamedTuple):
+    """stage is a word: waiting, raytrace, initialise, fit, casters, btf, votf, view_map or done."""
+
+    stage: str
+    done: int
+    total: int
+
+
+ProgressFunction = Callable[[Progress], Optional[bool]]
+
+
+class Job(Handle):
+    """A bake that runs. Iterating gives its progress until it ends."""
+
+    _kind = c.nook_bake_job
+    _destroy = "nook_bake_job_destroy"
+
+    def __init__(self, start: Callable[[Any], None], desc: Any, progress: Optional[ProgressFunction]) -> None:
+        super().__init__()
+        self._error: Optional[BaseException] = None
+
+        def report(_user: Any, at: Any) -> int:
+            try:
+                assert progress is not None
+                return 0 if progress(_progress(at.contents)) is False else 1
+            except BaseException as error:  # nothing crosses the C interface; wait() raises it
+                self._error = error
+                return 0
+
+        # The job calls it from its own threads, so that it lives as long as the job.
+        self._report = c.nook_bake_progress_fn(report if progress else 0)
+        desc.progress = self._report
+        start(ctypes.byref(self._handle))
+
+    def poll(self) -> Progress:
+        """The stage that the job is in; it does not wait."""
+        return _progress(described(c.nook_bake_progress, "nook_bake_job_poll", self.handle))
+
+    def __iter__(self) -> Iterator[Progress]:
+        while True:
+            progress = self.poll()
+            yield progress
+            if progress.stage == "done":
+                return
+            time.sleep(0.1)
+
+    def cancel(self) -> None:
+        """Requests that the job stop soon. wait() then raises Cancelled."""
+        call("nook_bake_job_cancel", self.handle)
+
+    def wait(self) -> bytes:
+        """Waits for the end and returns the bytes of the .nook file. Raises what the progress function raised, Cancelled,
+        or NookError."""
+        try:
+            call("nook_bake_job_wait", self.handle)
+        except Exception:
+            if self._error is not None:
+                raise self._error
+            raise
+        data, size = ctypes.c_void_p(), ctypes.c_size_t()
+        call("nook_bake_job_model", self.handle, ctypes.byref(data), ctypes.byref(size))
+        return ctypes.string_at(data, size.value)
+
+    def report(self) -> Dict[str, Any]:
+        """Settings, times, errors and the curve of the fit. Only after the end of the job."""
+        json_text = ctypes.c_char_p()
+        call("nook_bake_job_report", self.handle, ctypes.byref(json_text))
+        found: Dict[str, Any] = json.loads((json_text.value or b"{}").decode("utf-8"))
+        return found
+
+
+def _progress(at: Any) -> Progress:
+    return Progress(word("NOOK_BAKE_STAGE_", at.stage), int(at.done), int(at.total))
+
+
+def _set(desc: Any, settings: Dict[str, Any], names: Sequence[str]) -> None:
+    """Sets plain fields by their names in the C header."""
+    for name, value in settings.items():
+        if name not in names:
+            raise TypeError(f"{name!r} is no setting; there are {', '.join(sorted(names))}")
+        setattr(desc, name, value)
+
+
+def bake_character(character: Character, *, preset: str = "standard", poses: Optional[str] = None, clips: Sequence[str] = (),
+                   clip_split: Optional[str] = None, extra_poses: Any = None, kernel: Optional[str] = None, fit: Optional[str] = None,
+                   progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
+    """Starts to bake a character model and returns at once.
+
+    preset: draft, standard or production. poses: auto, single_joint, clips, all or extra. clip_split: all, half or families.
+    settings: spheres, key_points, rays, steps, auto_pose_count, samples_per_clip, seed, threads, gamma, time_limit_s, as
+    nook_bake_job_desc has them. progress is called on threads of the job; it returns False to cancel.
+    """
+    desc = descriptor(c.nook_bake_job_desc, "nook_bake_job_desc_init")
+    desc.preset = choice("NOOK_BAKE_PRESET_", preset, "preset")
+    if poses is not None:
+        desc.pose_mode = choice("NOOK_BAKE_POSES_", poses, "poses")
+    if clip_split is not None:
+        desc.clip_split = choice("NOOK_BAKE_SPLIT_", clip_split, "clip_split")
+    if kernel is not None:
+        desc.kernel = choice("NOOK_BAKE_KERNEL_", kernel, "kernel")
+    if fit is not None:
+        desc.fit = choice("NOOK_BAKE_FIT_", fit, "fit")
+    if clips:
+        desc.clip_count = len(clips)
+        desc.clip_names = (ctypes.c_char_p * len(clips))(*[name.encode("utf-8") for name in clips])
+    extra = None
+    if extra_poses is not None:
+        extra = floats(extra_poses, (None, character.bone_count, 3, 4), "extra_poses")
+        desc.extra_poses_3x4, desc.extra_pose_count = pointer(extra), len(extra)
+    _set(desc, settings, ("spheres", "key_points", "rays", "steps", "auto_pose_count", "samples_per_clip", "seed", "threads", "gamma",
+                          "time_limit_s"))
+    return Job(lambda out: call("nook_bake_job_start", character.handle, ctypes.byref(desc), out), desc, progress)
+
+
+def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any = None, lights: Any = None, views: Any = None,
+                  method: Optional[str] = None, progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
+    """Starts to bake a material and returns at once.
+
+    meso: fiber, roughhole or weave; or btf: lights x views x height x width x 3, with lights and views as directions in tangent
+    space, and coverage: views x height x width. method: k_cta, cta or n_svd. settings are the numbers of nook_bake_material_desc.
+    """
+    desc = descriptor(c.nook_bake_material_desc, "nook_bake_material_desc_init")
+    kept: List[Any] = []
+
+    def give(field: str, values: Any, shape: Any) -> Any:
+        array = floats(values, shape, field)
+        kept.append(array)
+        setattr(desc, field, pointer(array))
+        return array
+
+    if meso is not None:
+        desc.meso = meso.encode("utf-8")
+    if lights is not None:
+        desc.light_count = len(give("lights", lights, (None, 3)))
+    if views is not None:
+        desc.view_count = len(give("views", views, (None, 3)))
+    if btf is not None:
+        if lights is None or views is None:
+            raise ValueError("btf: needs lights and views, the directions of its first two axes")
+        desc.height, desc.width = give("btf", btf, (desc.light_count, desc.view_count, None, None, 3)).shape[2:4]
+    if coverage is not None:
+        give("coverage", coverage, (desc.view_count, desc.height, desc.width))
+    if method is not None:
+        desc.method = choice("NOOK_BAKE_METHOD_", method, "method")
+    own = {"struct_size", "header_version", "next", "meso", "btf", "coverage", "lights", "views", "method", "progress", "progress_user"}
+    _set(desc, settings, [name for name, *_ in c.nook_bake_material_desc._fields_ if name not in own])
+    return Job(lambda out: call("nook_bake_material_start", ctypes.byref(desc), out), desc, progress)
+
+
+def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tangents: Any = None, holes_of: Optional[bytes] = None,
+                  progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
+    """Starts to bake radiance transfer of a static shape and returns at once.
+
+    holes_of: the .nook file of the material through whose holes light falls. settings: lobes, ray_side, threads, bounces, tiles.
+    """
+    desc = descriptor(c.nook_bake_transfer_desc, "nook_bake_transfer_desc_init")
+    p = floats(positions, (None, 3), "positions")
+    n = floats(normals, (len(p), 3), "normals")
+    uv = floats(uvs, (len(p), 2), "uvs")
+    tangent = None if tangents is None else floats(tangents, (len(p), 4), "tangents")
+    indices = integers(triangles, np.uint32, (None, 3), "triangles")
+    desc.positions, desc.normals, desc.uvs, desc.tangents = pointer(p), pointer(n), pointer(uv), pointer(tangent)
+    desc.indices, desc.vertex_count, desc.index_count = pointer(indices), len(p), indices.size
+    if holes_of is not None:
+        desc.votf, desc.votf_size = ctypes.cast(ctypes.c_char_p(holes_of), ctypes.c_void_p), len(holes_of)
+    _set(desc, settings, ("lobes", "ray_side", "threads", "bounces", "tiles"))
+    return Job(lambda out: call("nook_bake_transfer_start", ctypes.byref(desc), out), desc, progress)

@@ -1,0 +1,127 @@
+"""What the runtime does with baked characters: models, scenes, ambient occlusion of poses."""
+import ctypes
+from typing import Any, List, Optional, Sequence
+
+import numpy as np
+
+from . import _layouts as c
+from ._library import FloatArray, Handle, call, described, descriptor, floats, pointer, text
+
+
+class Context(Handle):
+    """The library's own object, from which all others are created."""
+
+    _kind = c.nook_context
+    _destroy = "nook_context_destroy"
+
+    def __init__(self) -> None:
+        super().__init__()
+        desc = descriptor(c.nook_context_desc, "nook_context_desc_init")
+        call("nook_context_create", ctypes.byref(desc), ctypes.byref(self._handle))
+
+
+_shared: Optional[Context] = None
+
+
+def shared_context() -> Context:
+    """The context of this module, which any thread may use."""
+    global _shared
+    if _shared is None:
+        _shared = Context()
+    return _shared
+
+
+class CharacterModel(Handle):
+    """A baked character: the bytes of a .nook file."""
+
+    _kind = c.nook_character_model
+    _destroy = "nook_character_model_destroy"
+
+    def __init__(self, data: bytes) -> None:
+        super().__init__()
+        call("nook_character_model_load", shared_context().handle, data, len(data), ctypes.byref(self._handle))
+        info = described(c.nook_character_model_info, "nook_character_model_describe", self.handle)
+        self.bone_count: int = info.bone_count
+        self.sphere_count: int = info.sphere_count
+        self.key_point_count: int = info.key_point_count
+        self.vertex_count: int = info.file_vertex_count
+        self.bone_names: List[str] = [text(call("nook_character_model_bone_name", self.handle, i)) for i in range(info.bone_count)]
+
+    def static_ao(self) -> FloatArray:
+        """AO of the rest pose as a static bake has it, one value for each vertex of the file."""
+        ao = np.empty(self.vertex_count, np.float32)
+        call("nook_character_model_static_ao", self.handle, pointer(ao), self.vertex_count)
+        return ao
+
+
+class Instance:
+    """A character of a scene."""
+
+    def __init__(self, scene: "Scene", model: CharacterModel, number: int) -> None:
+        self.scene, self.model, self.number = scene, model, number
+
+    def set_pose(self, pose: Any) -> None:
+        """bones x 3 x 4, from rest space to the world."""
+        bones = floats(pose, (self.model.bone_count, 3, 4), "pose")
+        call("nook_scene_set_pose", self.scene.handle, self.number, pointer(bones), self.model.bone_count)
+
+    def set_ground(self, plane: Optional[Sequence[float]]) -> None:
+        """The plane a x + b y + c z = d as (a, b, c, d) with a unit normal, or None for no ground."""
+        values = None if plane is None else floats(plane, (4,), "plane")
+        call("nook_scene_set_ground", self.scene.handle, self.number, pointer(values))
+
+    def link(self, caster: "Instance") -> None:
+        """The other instance darkens this one."""
+        call("nook_scene_link", self.scene.handle, self.number, caster.number)
+
+    def read_ao(self) -> FloatArray:
+        """AO after the scene's update, one value for each vertex of the file; 1 is open."""
+        ao = np.empty(self.model.vertex_count, np.float32)
+        call("nook_scene_read_ao", self.scene.handle, self.number, pointer(ao), self.model.vertex_count, 0)
+        return ao
+
+
+class Scene(Handle):
+    """Instances that may darken each other."""
+
+    _kind = c.nook_scene
+    _destroy = "nook_scene_destroy"
+
+    def __init__(self, **settings: Any) -> None:
+        """settings: numbers of nook_scene_desc, such as cutoff_error."""
+        super().__init__()
+        desc = descriptor(c.nook_scene_desc, "nook_scene_desc_init")
+        for name, value in settings.items():
+            if name not in [field for field, *_ in c.nook_scene_desc._fields_[3:]]:
+                raise TypeError(f"{name!r} is no setting of a scene")
+            setattr(desc, name, value)
+        call("nook_scene_create", shared_context().handle, ctypes.byref(desc), ctypes.byref(self._handle))
+
+    def add_instance(self, model: CharacterModel) -> Instance:
+        number = c.nook_instance_id()
+        call("nook_scene_add_instance", self.handle, model.handle, ctypes.byref(number))
+        return Instance(self, model, int(number.value))
+
+    def add_sphere(self, centre: Sequence[float], radius: float) -> int:
+        """An occluder in metres; the number that is returned removes it."""
+        number = c.nook_occluder_id()
+        call("nook_scene_add_occluder", self.handle, pointer(floats(centre, (3,), "centre")), radius, ctypes.byref(number))
+        return int(number.value)
+
+    def remove_sphere(self, number: int) -> None:
+        call("nook_scene_remove_occluder", self.handle, number)
+
+    def update(self) -> None:
+        """Evaluates all instances on this thread."""
+        call("nook_scene_update", self.handle)
+
+
+def evaluate_pose(model: CharacterModel, pose: Any, *, ground: Optional[Sequence[float]] = None) -> FloatArray:
+    """AO of one character in one pose."""
+    with Scene() as scene:
+        instance = scene.add_instance(model)
+        instance.set_pose(pose)
+        if ground is not None:
+            instance.set_ground(ground)
+        scene.update()
+        return instance.read_ao()
