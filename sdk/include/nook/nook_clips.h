@@ -24,9 +24,10 @@ extern "C" {
 
 typedef struct nook_clips_s* nook_clips;
 
-/* Loads clips from the bytes of a .nook file, for the model that they were baked with or a new bake of the
- * same character; the caller may free the bytes afterwards. The clips keep the model alive. The library
- * validates everything, so that hostile bytes are safe. On failure *out is NULL. Any thread.
+/* Loads clips from the bytes of a .nook file, for the model that they were baked with, a new bake of the same
+ * character, or what nook_character_model_remap makes of one; the caller may free the bytes afterwards. The
+ * clips keep the model alive. The library validates everything, so that hostile bytes are safe. On failure
+ * *out is NULL. Any thread.
  * Errors: INVALID_ARGUMENT (also, the clips are those of another character), BAD_FILE, FILE_VERSION,
  * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_clips_load(nook_context context, nook_character_model model, const void* bytes,
