@@ -106,8 +106,8 @@ NOOK_API nook_result nook_clips_read_ao(nook_clips clips, const nook_clip_time* 
 
 /* Writes the pose at a time of a clip as nook_scene_set_pose takes it. place_3x4 maps the clip's space, in
  * metres, to the world: a rotation with one scale; NULL: the clip's space. docs/character.md has the error of
- * the pose. Between two frames a bone moves on a line, and one that turns by an angle shrinks by the cosine of
- * half of it. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
+ * the pose. Between two frames a bone moves on a line, and one that turns by an angle shrinks by the cosine
+ * of half of it. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time* time,
                                           const float* place_3x4, float* bones_3x4, uint32_t bone_count);
 
