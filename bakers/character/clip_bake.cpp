@@ -148,19 +148,25 @@ double true_mse(double residual_mse, double noise_mse, std::size_t count, double
   return std::max(residual_mse - noise_mse * (1 - 2 * taken), 0.0);
 }
 
-// The smallest number of modes, a multiple of `step`, whose error is within the bound; all if none is.
+// The smallest number of modes, a multiple of `step`, whose error is within the bound. If none is, the number
+// with the smallest error: further modes only hold noise.
 std::size_t modes_for(const LowRank& low, double size, double max_mse, double noise_mse, std::size_t step,
                       double rows, double columns, std::vector<double>* curve) {
   double left = low.total;
-  std::size_t found = 0;
+  double best_mse = INFINITY;
+  std::size_t found = 0, best = low.removed.size();
   for (std::size_t k = 1; k <= low.removed.size(); ++k) {
     left = std::max(left - low.removed[k - 1], 0.0);
     if (k % step != 0) continue;
     const double mse = true_mse(left / size, noise_mse, k, rows, columns);
     if (curve) curve->push_back(std::sqrt(mse));
     if (found == 0 && mse <= max_mse) found = k;
+    if (mse < best_mse) {
+      best_mse = mse;
+      best = k;
+    }
   }
-  return found ? found : low.removed.size();
+  return found ? found : best;
 }
 
 // The modes of a byte budget: a mode has a scale, a weight for each frame and a number for each row.

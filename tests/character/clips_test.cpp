@@ -5,6 +5,7 @@
 
 #include "sdk/src/character/clip_file.h"
 #include "sdk/src/character/loaded_clips.h"
+#include "sdk/src/character/vertex_match.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 #include "tests/character/clip_sample.h"
@@ -218,4 +219,27 @@ TEST_CASE("clips of another character are refused") {
   again.alpha[0] += 0.1f;
   again.spheres.pop_back();
   CHECK_NOTHROW(load_clips(set, load(again)));
+}
+
+TEST_CASE(
+    "clips follow a model into the order of a host's mesh, and not into another order of its vertices") {
+  const CharacterModel plain = sample_model(5, {5, 7, 12, 300, 20, 4});
+  const ClipSet set = sample_clips(plain).set;
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < plain.file_to_welded.size(); i += 2) order.push_back(i);
+  for (std::uint32_t i = 1; i < plain.file_to_welded.size(); i += 2) order.push_back(i);
+  const auto model = load(remapped(plain, order, default_memory()));
+  const auto clips = load_clips(set, model);
+  Scene scene = make_scene({});
+  const nook_instance_id id = add_instance(scene, model);
+  set_clip(scene, id, clips, {1, 2, 0.5f}, Mat3x4{});
+  update(scene);
+  const std::vector<float> ao = ao_of(scene, id);
+  REQUIRE(ao.size() == order.size());
+  for (std::size_t i = 0; i < ao.size(); ++i)
+    REQUIRE(std::abs(double(ao[i]) - sample_ao(set, 1, 2, 0.5, plain.file_to_welded[order[i]])) <
+            double(rounding));
+  CharacterModel reversed = plain;
+  std::reverse(reversed.rest.position.begin(), reversed.rest.position.end());
+  CHECK_THROWS_AS(load_clips(set, load(reversed)), Failure);
 }

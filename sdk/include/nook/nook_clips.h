@@ -24,9 +24,10 @@ extern "C" {
 
 typedef struct nook_clips_s* nook_clips;
 
-/* Loads clips from the bytes of a .nook file, for the model that they were baked with or a new bake of the
- * same character; the caller may free the bytes afterwards. The clips keep the model alive. The library
- * validates everything, so that hostile bytes are safe. On failure *out is NULL. Any thread.
+/* Loads clips from the bytes of a .nook file, for the model that they were baked with, a new bake of the same
+ * character, or what nook_character_model_remap makes of one; the caller may free the bytes afterwards. The
+ * clips keep the model alive. The library validates everything, so that hostile bytes are safe. On failure
+ * *out is NULL. Any thread.
  * Errors: INVALID_ARGUMENT (also, the clips are those of another character), BAD_FILE, FILE_VERSION,
  * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_clips_load(nook_context context, nook_character_model model, const void* bytes,
@@ -105,8 +106,8 @@ NOOK_API nook_result nook_clips_read_ao(nook_clips clips, const nook_clip_time* 
 
 /* Writes the pose at a time of a clip as nook_scene_set_pose takes it. place_3x4 maps the clip's space, in
  * metres, to the world: a rotation with one scale; NULL: the clip's space. docs/character.md has the error of
- * the pose. Between two frames a bone moves on a line, and one that turns by an angle shrinks by the cosine of
- * half of it. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
+ * the pose. Between two frames a bone moves on a line, and one that turns by an angle shrinks by the cosine
+ * of half of it. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time* time,
                                           const float* place_3x4, float* bones_3x4, uint32_t bone_count);
 

@@ -1,6 +1,7 @@
 #include "sdk/src/character/clip_set_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
@@ -93,6 +94,31 @@ void check_clip_set(const ClipSet& set, nook_result code) {
   }
 }
 
+namespace {
+
+// The vertices that are farthest along some directions, which tell the order of the welded vertices. Numbers
+// of vertices are the same on every machine, where positions may differ in the last digit.
+std::array<std::uint32_t, 16> farthest_vertices(const CharacterModel& model) {
+  std::array<std::uint32_t, 16> farthest{};
+  for (std::size_t d = 0; d < farthest.size(); ++d) {
+    // Directions of a spiral, without symmetries that the two halves of a body could share.
+    const double z = 1 - (2 * double(d) + 1) / double(farthest.size()), r = std::sqrt(1 - z * z),
+                 turn = 2.399963229728653 * double(d) + 0.3;
+    const double x = r * std::cos(turn), y = r * std::sin(turn);
+    double most = -INFINITY;
+    for (std::size_t i = 0; i < model.rest.position.size(); ++i) {
+      const Vec3 p = model.rest.position[i];
+      const double along = x * double(p.x) + y * double(p.y) + z * double(p.z);
+      if (!(along > most)) continue;
+      most = along;
+      farthest[d] = static_cast<std::uint32_t>(i);
+    }
+  }
+  return farthest;
+}
+
+}  // namespace
+
 std::uint64_t clip_model_hash(const CharacterModel& model) {
   Hash64 hash;
   const auto add = [&](std::uint32_t number) {
@@ -101,7 +127,7 @@ std::uint64_t clip_model_hash(const CharacterModel& model) {
     hash.add(bytes);
   };
   add(static_cast<std::uint32_t>(model.vertex_count()));
-  for (const std::uint32_t welded : model.file_to_welded) add(welded);
+  for (const std::uint32_t vertex : farthest_vertices(model)) add(vertex);
   for (const String& name : model.bone_names) {
     add(static_cast<std::uint32_t>(name.size()));
     hash.add({reinterpret_cast<const std::byte*>(name.data()), name.size()});

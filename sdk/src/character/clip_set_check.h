@@ -14,8 +14,8 @@ void check_clip_set(const ClipSet& set, nook_result code);
 // The same for the counts alone, before an array is read.
 void check_clip_counts(const ClipSet& set, nook_result code);
 
-// The hash of what a set takes from the model: the order of vertices and bones. A new bake of the same
-// character keeps it.
+// The hash of what a set takes from the model: the order of welded vertices and bones. A new bake of the same
+// character keeps it, and so does a model in the order of a host's mesh.
 std::uint64_t clip_model_hash(const CharacterModel& model);
 
 // Throws Failure(INVALID_ARGUMENT) unless the set was baked from the character of the model.

@@ -134,7 +134,7 @@ TEST_CASE("the same seed gives the same bytes on any number of threads") {
     });
     return bytes;
   };
-  CHECK(baked(1) == baked(3));
+  CHECK(baked(1) == baked(2));
 }
 
 TEST_CASE("traced AO of a clip is kept below the noise of its rays, within the bytes") {
@@ -159,9 +159,10 @@ TEST_CASE("traced AO of a clip is kept below the noise of its rays, within the b
 TEST_CASE("a small byte bound limits the modes, and a clip of one frame is kept") {
   const SkinnedMesh mesh = bending_tube();
   ClipFrames frames = swaying(mesh);
-  const AoTargets targets = planted(mesh.vertex_count());
+  // The noise of few rays has no modes of its own, so that the error alone would take all of them.
+  const AoTargets targets = trace_character_ao(mesh, frames.poses, 16, 3);
   ClipTableSettings settings;
-  settings.max_error = 1e-6;
+  settings.max_error = 1e-3;
   settings.max_bytes = 0.3;
   ClipTableReport report;
   const ClipSet tight = make_clip_set(mesh, orders_of(mesh), frames, targets, 0, settings, report);
