@@ -125,7 +125,7 @@ struct BodyPlan {
   LimbPlan limb[2];         // left, right
   float bend, lean, twist;  // of the whole spine, radians
   Vec3 neck;
-  // What follows motion capture instead, where a part is chosen to.
+  // A pose of motion capture, and the parts of the body that take it in place of the plan above.
   PriorPose motion;
   bool trunk_of_motion = false, arms_of_motion = false, legs_of_motion = false;
 };
@@ -168,7 +168,7 @@ BodyPlan plan_body(PoseRandom& random) {
   plan.lean = 12 * degree * random.normal();
   plan.twist = 20 * degree * random.normal();
   plan.neck = {28 * degree * random.normal(), 32 * degree * random.normal(), 14 * degree * random.normal()};
-  // Who bends forwards looks ahead by raising the head.
+  // A head over a bent trunk is raised to look ahead.
   plan.neck.x -= 0.7f * std::max(0.0f, plan.bend) * random.unit();
   return plan;
 }
@@ -439,7 +439,7 @@ class Rig {
       if (joints_[b].role == JointRole::hand && palm_[joints_[b].side == Side::right].bone == std::int32_t(b))
         rest = normalised(palm_[joints_[b].side == Side::right].point - joint_origin(mesh_.bones[b]));
       if (dot(rest, rest) == 0) continue;
-      // What the joints between the trunk and this one turn already.
+      // The turn of the joints between the trunk and this one.
       Mat3x4 above;
       for (std::int32_t p = tree_.parent[b]; p >= 0; p = tree_.parent[std::size_t(p)]) {
         const JointRole role = joints_[std::size_t(p)].role;

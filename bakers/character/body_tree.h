@@ -19,7 +19,7 @@ struct BodyTree {
 BodyTree body_tree(const SkinnedMesh& mesh, std::span<const Joint> joints);
 BodyTree body_tree(const SkinnedMesh& mesh);
 
-// Whether a bone hangs below another.
+// Returns true where a bone hangs below another.
 bool is_below(const BodyTree& tree, std::size_t bone, std::size_t ancestor);
 
 }  // namespace nook::bake

@@ -10,7 +10,7 @@
 
 namespace nook::bake {
 
-// What a joint does beyond its parent's motion in the body's tree, in rest-space axes.
+// The motion of a joint beyond that of its parent in the body's tree, in rest-space axes.
 struct JointMotion {
   Vec3 turn;   // about the joint's rest origin: axis times angle, radians
   Vec3 shift;  // of the joint's origin, metres

@@ -25,7 +25,7 @@ Vec3 reflected_point(Vec3 point, const Plane& plane) {
   return point - 2 * (dot(point, plane.normal) - plane.offset) * plane.normal;
 }
 
-// What tells joints at one place apart: the joints behind them.
+// A joint with all below it, by which joints at one place differ.
 struct Branch {
   Vec3 middle;  // of the joint and all below it, metres
   float count = 1;

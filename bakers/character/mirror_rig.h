@@ -15,9 +15,9 @@ struct MirrorRig {
   std::vector<std::uint32_t> twin;  // a bone's mirror image; its own index in the middle of the body
 };
 
-// The symmetry about an upright plane across x or z: every joint has a twin whose rest position is its own,
-// mirrored, within 2 % of the rig's extent, twins have twin parents, and not all are their own. Nothing where
-// there is none.
+// The symmetry about an upright plane across x or z: the mirrored rest position of every joint is that of
+// its twin, within 2 % of the rig's extent, twins have twin parents, and not all joints are their own twins.
+// Nothing where there is none.
 std::optional<MirrorRig> find_mirror(const SkinnedMesh& mesh, const BodyTree& tree);
 
 // The mirror image of a pose. Twice gives the pose back.

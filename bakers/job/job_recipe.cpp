@@ -169,7 +169,7 @@ Recipe recipe_of(const nook_bake_job_desc& desc, const ImportedCharacter& charac
     recipe.auto_poses = desc.auto_pose_count ? desc.auto_pose_count : preset.auto_poses;
   if (recipe.poses == PoseMode::all) {
     recipe.variant_poses = recipe.clips.size() * recipe.samples_per_clip;
-    // They take the place of automatic poses, so that a bake takes no longer.
+    // They take the place of automatic poses, so that the time of a bake does not grow with them.
     if (!desc.auto_pose_count) recipe.auto_poses -= std::min(recipe.variant_poses, recipe.auto_poses / 2);
   }
   if (recipe.poses == PoseMode::single_joint) recipe.single_joint_steps = preset.single_joint_steps;
