@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   nook::tool::add_evaluate_casters(*evaluate);
   nook::tool::add_evaluate_lods(*evaluate);
   nook::tool::add_evaluate_nnao(*evaluate);
+  nook::tool::add_evaluate_grid(*evaluate);
   nook::tool::add_evaluate_probe(*evaluate);
   nook::tool::add_evaluate_material(*evaluate);
   nook::tool::add_evaluate_transfer(*evaluate);
