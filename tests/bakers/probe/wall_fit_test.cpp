@@ -172,8 +172,9 @@ TEST_CASE("places to fit to lie on surfaces and in the air, the same on any numb
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Vec3 p = places.position_ws[i];
     const float edge = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    CHECK((places.on_surface[i] ? std::abs(edge - 1) < 1e-4f : edge < 1));
-    if (places.on_surface[i]) CHECK(dot(p, places.normal[i]) < -0.99f);
+    // The box reaches a hundredth beyond the room, where its walls have a second face.
+    CHECK((places.on_surface[i] ? std::abs(edge - 1) < 1e-4f : edge < 1.011f));
+    if (places.on_surface[i]) CHECK(std::abs(dot(p, places.normal[i])) > 0.99f);
   }
   const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
   const TrainingPlaces again = training_places(scene, grid, settings);
