@@ -1,10 +1,13 @@
 // nook evaluate grid: ways to look up a grid of probes, in a building of closed rooms or in a scene.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bakers/images/picture.h"
 #include "bakers/job/probe_bake.h"
 #include "bakers/measure/probe/lookup_report.h"
 #include "bakers/tool/commands.h"
@@ -13,6 +16,7 @@
 #include "bakers/tool/probe/grid_arguments.h"
 #include "bakers/tool/probe/scene.h"
 #include "bakers/tool/tool_error.h"
+#include "platform/output_file.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {
@@ -29,12 +33,32 @@ struct Options {
   std::string direct = "all";
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   bool no_textures = false;
+  std::filesystem::path picture;
 };
 
 constexpr std::array<std::uint32_t, 3> eight_a_room{6, 2, 5};
 
+// Traced, trilinear and with walls, one below the other; a logarithm of the light, so that dim rooms show.
+bake::Picture picture_of(const measure::FloorPlan& plan) {
+  constexpr int enlarged = 4;
+  constexpr float darkest = 0.01f, brightest = 10;  // irradiance
+  bake::Picture picture;
+  picture.width = enlarged * plan.width;
+  picture.height = 3 * enlarged * plan.height;
+  for (const std::vector<Vec3>* panel : {&plan.traced, &plan.trilinear, &plan.walls})
+    for (int row = 0; row < enlarged * plan.height; ++row)
+      for (int column = 0; column < picture.width; ++column) {
+        const Vec3 e = (*panel)[std::size_t(row / enlarged * plan.width + column / enlarged)];
+        for (const float channel : {e.x, e.y, e.z}) {
+          const float value = std::log(std::max(channel, darkest) / darkest) / std::log(brightest / darkest);
+          picture.rgb.push_back(std::uint8_t(255 * std::clamp(value, 0.0f, 1.0f)));
+        }
+      }
+  return picture;
+}
+
 Json rows_of(const Options& options, const measure::LookupScene& scene, float origin_offset, Vec3 low_ws,
-             Vec3 high_ws) {
+             Vec3 high_ws, measure::FloorPlan* plan = nullptr) {
   measure::LookupSettings settings = options.settings;
   settings.seed = options.common.seed;
   settings.path.origin_offset = origin_offset;
@@ -45,12 +69,14 @@ Json rows_of(const Options& options, const measure::LookupScene& scene, float or
       scene,
       bake::probe::grid_in_box(counts, options.box.given ? options.box.low_ws : low_ws,
                                options.box.given ? options.box.high_ws : high_ws),
-      settings, [&bar](const char* step) {
+      settings,
+      [&bar](const char* step) {
         return [&bar, step = std::string(step)](std::size_t done, std::size_t total) {
           bar.show(step, "done", done, total);
           return !interrupted();
         };
-      });
+      },
+      plan);
 }
 
 Json evaluate(const Options& options) {
@@ -60,8 +86,11 @@ Json evaluate(const Options& options) {
   Json report;
   if (options.scene.empty()) {
     const measure::Rooms rooms = measure::make_rooms();
+    measure::FloorPlan plan;
     report["rows"] = rows_of(options, {"rooms", *rooms.lit, rooms.soup, &rooms}, rooms.origin_offset,
-                             rooms.low_ws, rooms.high_ws);
+                             rooms.low_ws, rooms.high_ws, options.picture.empty() ? nullptr : &plan);
+    if (!options.picture.empty())
+      platform::OutputFile(options.picture).commit(bake::png_bytes(picture_of(plan)));
   } else {
     const bake::ProbeScene scene =
         read_probe_scene(options.scene, options.light, !options.no_textures, options.linked);
@@ -111,11 +140,15 @@ void add_evaluate_grid(CLI::App& evaluate_command) {
                    "or all")
       ->check(CLI::IsMember(measure::direct_names()))
       ->capture_default_str();
+  command->add_option(
+      "--picture", o.picture,
+      "of the rooms: write the light on their floor as one .png, path traced, trilinear and with walls");
   add_linked_files_option(*command, o.linked);
   command->add_flag("--no-textures", o.no_textures, "colour factors stand for textures");
   add_common_options(*command, o.common);
   command->callback([options] {
-    const CommandFiles files{{{"--scene", options->scene}, {"--light", options->light}}, {}, {}};
+    const CommandFiles files{
+        {{"--scene", options->scene}, {"--light", options->light}}, {{"--picture", options->picture}}, {}};
     run_evaluation(options->common, files, [&] { return evaluate(*options); });
   });
 }

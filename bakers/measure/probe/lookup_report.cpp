@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "bakers/measure/probe/grid_error.h"
@@ -125,8 +126,8 @@ double relative_error(const LookupScene& scene, const Measured& m, const std::ve
   return std::sqrt(square / rooms);
 }
 
-// The irradiance that is looked up in the sealed room, on its surfaces and in its air, over the light on surfaces of its
-// bright neighbour.
+// The irradiance that is looked up in the sealed room, on its surfaces and in its air, over the light on
+// surfaces of its bright neighbour.
 double leak_of(const Rooms& rooms, const Measured& surfaces, const std::vector<Vec3>& on_surfaces,
                const Measured& open, const std::vector<Vec3>& in_open) {
   double sum = 0;
@@ -152,10 +153,33 @@ double mean_of_all_light(const LookupScene& scene, const LookupSettings& setting
   return sum / double(places.normal.size());
 }
 
+FloorPlan floor_plan(const LookupScene& scene, const LookupSettings& settings, const Form& trilinear,
+                     const Form& walls, const bake::Progress& progress) {
+  constexpr float pixels_per_metre = 12;
+  constexpr std::uint32_t paths = 128;
+  const Vec3 low = scene.rooms->low_ws, size = scene.rooms->high_ws - low;
+  FloorPlan plan;
+  plan.width = int(size.x * pixels_per_metre);
+  plan.height = int(size.z * pixels_per_metre);
+  Places floor;
+  for (int row = 0; row < plan.height; ++row)
+    for (int column = 0; column < plan.width; ++column) {
+      floor.position_ws.push_back({low.x + (float(column) + 0.5f) / pixels_per_metre, 0,
+                                   low.z + (float(row) + 0.5f) / pixels_per_metre});
+      floor.normal.push_back({0, 1, 0});
+    }
+  const TracedPlaces traced =
+      trace_places(scene.lit, floor, paths, settings.seed + 11, settings.path, progress);
+  for (std::size_t i = 0; i < floor.normal.size(); ++i) plan.traced.push_back(traced.mean(i));
+  plan.trilinear = found_by(trilinear, floor, {}, 0);
+  plan.walls = found_by(walls, floor, {}, 0);
+  return plan;
+}
+
 }  // namespace
 
 Json lookup_rows(const LookupScene& scene, const Grid& grid, const LookupSettings& settings,
-                 const PlacesProgress& progress) {
+                 const PlacesProgress& progress, FloorPlan* plan) {
   const Baked plain = bake_grid(scene, grid, settings, false, progress("probes")),
               moved = bake_grid(scene, grid, settings, true, progress("moved probes"));
   TrainingSettings training;
@@ -199,6 +223,8 @@ Json lookup_rows(const LookupScene& scene, const Grid& grid, const LookupSetting
       {"walls", 67, own_lookup(walls)},
       {"walls, fitted to surfaces", 67, own_lookup(both)},
       {"walls, fitted to surfaces, ZH3", 40, own_lookup(zonal), zonal_count}};
+  if (plan && scene.rooms)
+    *plan = floor_plan(scene, settings, forms[0], *std::prev(std::end(forms)), progress("floor"));
   Json rows = Json::array();
   double trilinear = 0;
   for (const Form& form : forms) {

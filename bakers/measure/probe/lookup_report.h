@@ -26,8 +26,15 @@ struct LookupSettings {
   bake::PathSettings path;
 };
 
-// Bakes the grid as harmonics of order 2 and measures: one row for each way.
+// Irradiance on the floor of the rooms, pixel by pixel: x to the right, z downwards.
+struct FloorPlan {
+  int width = 0, height = 0;
+  std::vector<Vec3> traced, trilinear, walls;
+};
+
+// Bakes the grid as harmonics of order 2 and measures: one row for each way. plan: of rooms only.
 nlohmann::ordered_json lookup_rows(const LookupScene& scene, const probe::Grid& grid,
-                                   const LookupSettings& settings, const PlacesProgress& progress);
+                                   const LookupSettings& settings, const PlacesProgress& progress,
+                                   FloorPlan* plan = nullptr);
 
 }  // namespace nook::measure

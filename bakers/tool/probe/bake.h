@@ -31,7 +31,7 @@ struct BakeProbeOptions {
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   std::string direct = "all";
   bool walls = false;
-  std::uint32_t training_paths = 256;
+  std::uint32_t training_paths = 2048;
 };
 
 void bake_probe_of_map(const BakeProbeOptions& options);
