@@ -1,5 +1,7 @@
 #include "bakers/job/probe_bake.h"
 
+#include "bakers/probe/surface_fit.h"
+#include "bakers/probe/wall_fit.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
 
@@ -36,6 +38,13 @@ double refine_grid(probe::GridBake& bake, const GridRefinement& refinement) {
     }
   }
   return bake.error();
+}
+
+void add_walls(nook::probe::Probes& probes, const LitScene& scene, const probe::TrainingSettings& settings,
+               const Progress& progress) {
+  const probe::TrainingPlaces places = probe::training_places(scene, probes.grid, settings, progress);
+  probes.walls = probe::fit_walls(probes, places);
+  probe::fit_to_surfaces(probes, places);
 }
 
 }  // namespace nook::bake

@@ -5,6 +5,7 @@
 
 #include "bakers/probe/grid_bake.h"
 #include "bakers/probe/map_bake.h"
+#include "bakers/probe/training_places.h"
 #include "bakers/raytrace/lit_scene.h"
 #include "sdk/src/probe/probe_file.h"
 
@@ -27,5 +28,10 @@ struct GridRefinement {
 };
 // Adds passes until the error is small enough or all passes are done; returns the error that is left.
 double refine_grid(probe::GridBake& bake, const GridRefinement& refinement);
+
+// Gives a baked grid walls, and fits its coefficients to surfaces behind them. probes: of harmonics of
+// order 2. progress counts places.
+void add_walls(nook::probe::Probes& probes, const LitScene& scene, const probe::TrainingSettings& settings,
+               const Progress& progress = {});
 
 }  // namespace nook::bake

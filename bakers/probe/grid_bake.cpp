@@ -7,6 +7,7 @@
 
 #include "bakers/probe/inside_probes.h"
 #include "bakers/probe/map_samples.h"
+#include "bakers/probe/moved_probes.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::probe {
@@ -31,7 +32,8 @@ GridBake::GridBake(const LitScene& scene, const GridBakeSettings& settings)
                   nook::probe::max_probes);
   nook::probe::check_grid(settings.grid, NOOK_ERROR_INVALID_ARGUMENT);
   for (std::size_t i = 0; i < settings.grid.size(); ++i) fits_.emplace_back(settings);
-  inside_ = inside_probes(scene, settings.grid);
+  positions_ws_ = settings.move_probes ? moved_probes(scene, settings.grid) : grid_probes(settings.grid);
+  inside_ = inside_probes(scene, positions_ws_);
 }
 
 void GridBake::pass() {
@@ -39,7 +41,7 @@ void GridBake::pass() {
   tbb::parallel_for(std::size_t(0), fits_.size(), [&](std::size_t p) {
     if (inside_[p]) return;
     const FlushDenormals flush;
-    const Vec3 origin = settings_.grid.position_ws(p);
+    const Vec3 origin = positions_ws_[p];
     Samples traced;
     for (std::uint32_t s = 0; s < settings_.samples_per_pass; ++s) {
       Random random(mix_bits(settings_.seed ^ mix_bits(p)) + mix_bits(samples() + s));

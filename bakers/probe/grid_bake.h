@@ -17,6 +17,7 @@ struct GridBakeSettings {
   nook::probe::Basis basis;
   nook::probe::FitSettings fit;
   nook::probe::Grid grid;
+  bool move_probes = false;             // out of solids and away from walls, see moved_probes.h
   std::uint32_t samples_per_pass = 64;  // of each probe
   std::uint64_t seed = 1;
   PathSettings path;
@@ -42,6 +43,7 @@ class GridBake {
   // As far as it has come; at any time between passes. Probes inside solids, which get no paths, have the
   // mean of those round them.
   nook::probe::Probes probes();
+  const std::vector<Vec3>& positions_ws() const { return positions_ws_; }
   std::size_t inside_count() const { return std::size_t(std::count(inside_.begin(), inside_.end(), true)); }
 
  private:
@@ -56,6 +58,7 @@ class GridBake {
   LightSampler light_;
   Vector<double> gram_;
   std::vector<ProbeFits> fits_;
+  std::vector<Vec3> positions_ws_;
   std::vector<bool> inside_;
   std::uint32_t passes_ = 0;
 };

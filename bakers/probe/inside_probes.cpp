@@ -1,5 +1,7 @@
 #include "bakers/probe/inside_probes.h"
 
+#include "bakers/probe/moved_probes.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -28,15 +30,19 @@ bool is_inside(const LitScene& scene, Vec3 position_ws) {
   return from_behind > directions / 2;
 }
 
-std::vector<bool> inside_probes(const LitScene& scene, const Grid& grid) {
-  std::vector<char> found(grid.size());
-  tbb::parallel_for(std::size_t(0), grid.size(), [&](std::size_t p) {
+std::vector<bool> inside_probes(const LitScene& scene, const std::vector<Vec3>& positions_ws) {
+  std::vector<char> found(positions_ws.size());
+  tbb::parallel_for(std::size_t(0), positions_ws.size(), [&](std::size_t p) {
     const FlushDenormals flush;
-    found[p] = is_inside(scene, grid.position_ws(p));
+    found[p] = is_inside(scene, positions_ws[p]);
   });
   std::vector<bool> inside(found.begin(), found.end());
-  if (std::find(inside.begin(), inside.end(), false) == inside.end()) inside.assign(grid.size(), false);
+  if (std::find(inside.begin(), inside.end(), false) == inside.end()) inside.assign(inside.size(), false);
   return inside;
+}
+
+std::vector<bool> inside_probes(const LitScene& scene, const Grid& grid) {
+  return inside_probes(scene, grid_probes(grid));
 }
 
 void fill_inside(nook::probe::Probes& probes, std::vector<bool> inside) {

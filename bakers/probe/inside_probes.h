@@ -14,6 +14,7 @@ namespace nook::bake::probe {
 bool is_inside(const LitScene& scene, Vec3 position_ws);
 
 // One answer a probe. Where all of them are inside, the vertices' order says nothing, and none is.
+std::vector<bool> inside_probes(const LitScene& scene, const std::vector<Vec3>& positions_ws);
 std::vector<bool> inside_probes(const LitScene& scene, const nook::probe::Grid& grid);
 
 // Gives each probe inside the mean of its neighbours outside, six at most, and so on from there inwards.

@@ -16,34 +16,6 @@
 namespace nook::tool {
 namespace {
 
-std::array<std::uint32_t, 3> parse_grid(const std::string& text) {
-  std::array<std::uint32_t, 3> counts{};
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%ux%ux%u%n", &counts[0], &counts[1], &counts[2], &used) != 3 ||
-      std::size_t(used) != text.size() || counts[0] < 1 || counts[1] < 1 || counts[2] < 1 ||
-      counts[0] > 1024 || counts[1] > 1024 || counts[2] > 1024)
-    throw ToolError(exit_bad_arguments,
-                    "--grid: got " + text + ", need AxBxC, probes along x, y and z, each 1 to 1024");
-  return counts;
-}
-
-void parse_box(const std::string& text, BakeProbeOptions& options) {
-  float v[6];
-  int used = 0;
-  bool good =
-      std::sscanf(text.c_str(), "%f,%f,%f,%f,%f,%f%n", v, v + 1, v + 2, v + 3, v + 4, v + 5, &used) == 6 &&
-      std::size_t(used) == text.size();
-  good = good && is_place({v[0], v[1], v[2]}) && is_place({v[3], v[4], v[5]});
-  for (int i = 0; good && i < 3; ++i) good = v[i] <= v[i + 3];
-  if (!good)
-    throw ToolError(exit_bad_arguments, "--box: got " + text +
-                                            ", need x0,y0,z0,x1,y1,z1: the low corner, then the high one, in "
-                                            "metres up to 1e6");
-  options.has_box = true;
-  options.box_low_ws = {v[0], v[1], v[2]};
-  options.box_high_ws = {v[3], v[4], v[5]};
-}
-
 void run(const BakeProbeOptions& options) {
   require_distinct_files(
       {{{"the input", options.input}, {"--light", options.light}},
@@ -53,6 +25,9 @@ void run(const BakeProbeOptions& options) {
   if (is_grid != !options.light.empty())
     throw ToolError(exit_bad_arguments,
                     "bake probe: a scene needs both --grid and --light, a map needs neither");
+  if (options.walls && (!is_grid || options.probe.basis != "harmonics" || options.probe.order != 2 ||
+                        options.probe.hemisphere))
+    throw ToolError(exit_bad_arguments, "--walls: needs a grid of --basis harmonics --order 2 on the sphere");
   try {
     bake::run_with_threads(options.common.threads, [&] {
       if (is_grid)
@@ -97,13 +72,13 @@ void add_bake_probe(CLI::App& bake_command) {
       "of a map: write its picture, the probe's radiance and irradiance and the error as one .png");
   command
       ->add_option_function<std::string>(
-          "--grid", [&o](const std::string& text) { o.grid = parse_grid(text); },
+          "--grid", [&o](const std::string& text) { o.grid = parse_grid_counts(text); },
           "of a scene: probes along x, y and z, AxBxC")
       ->type_name("AxBxC");
   command->add_option("--light", o.light, "of a scene: the map round it");
   command
       ->add_option_function<std::string>(
-          "--box", [&o](const std::string& text) { parse_box(text, o); },
+          "--box", [&o](const std::string& text) { o.box = parse_grid_box(text); },
           "of a scene: what the grid fills, x0,y0,z0,x1,y1,z1 in metres; default all of it")
       ->type_name("BOX");
   command
@@ -123,6 +98,15 @@ void add_bake_probe(CLI::App& bake_command) {
           "suns, "
           "or all; reflected light always counts, and the report names the suns that are left to the host")
       ->check(CLI::IsMember(measure::direct_names()))
+      ->capture_default_str();
+  command->add_flag(
+      "--walls", o.walls,
+      "of a scene: move probes out of solids, learn at which side of a wall which probe counts, and "
+      "fit the probes to the light on surfaces; needs --basis harmonics --order 2");
+  command
+      ->add_option("--training-paths", o.training_paths,
+                   "with --walls: for each place that walls and probes are fitted to")
+      ->check(CLI::Range(1u, 1u << 24))
       ->capture_default_str();
   add_linked_files_option(*command, o.linked);
   command->add_flag("--no-textures", o.no_textures,

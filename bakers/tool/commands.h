@@ -20,6 +20,7 @@ void add_evaluate_casters(CLI::App& evaluate);
 void add_evaluate_clips(CLI::App& evaluate);
 void add_evaluate_lods(CLI::App& evaluate);
 void add_evaluate_nnao(CLI::App& evaluate);
+void add_evaluate_grid(CLI::App& evaluate);
 void add_evaluate_probe(CLI::App& evaluate);
 void add_evaluate_material(CLI::App& evaluate);
 void add_evaluate_transfer(CLI::App& evaluate);

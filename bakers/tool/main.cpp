@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   nook::tool::add_evaluate_clips(*evaluate);
   nook::tool::add_evaluate_lods(*evaluate);
   nook::tool::add_evaluate_nnao(*evaluate);
+  nook::tool::add_evaluate_grid(*evaluate);
   nook::tool::add_evaluate_probe(*evaluate);
   nook::tool::add_evaluate_material(*evaluate);
   nook::tool::add_evaluate_transfer(*evaluate);

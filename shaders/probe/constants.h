@@ -21,7 +21,7 @@
 #define NOOK_GRID_PLANES 3
 #define NOOK_GRID_SIDES 8
 #define NOOK_GRID_LEAST_SHARE 0.00390625
-// Texels of a probe: bands 0 to 2, and ZH3. Those of a cell: its planes, and the masks of its sides by fours.
+// Texels of a probe: bands 0 to 2, and ZH3. Those of a cell: its planes, and the masks of four sides each.
 #define NOOK_GRID_HARMONICS_TEXELS 7
 #define NOOK_GRID_ZONAL_TEXELS 4
 #define NOOK_GRID_WALL_TEXELS 5

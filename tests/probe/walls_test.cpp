@@ -54,7 +54,7 @@ TEST_CASE("a wall lets each side see its own probe, right up to it and beyond th
   // On the wall itself the normal tells the side.
   CHECK(first_at(probes, {1.5f, 0, 0}, {-1, 0, 0}) == 1);
   CHECK(first_at(probes, {1.5f, 0, 0}, {1, 0, 0}) == 8);
-  // Without walls the light is that of both.
+  // Both lights are mixed in a grid without walls.
   probes.walls.cell.clear();
   CHECK(std::abs(first_at(probes, {1.5f, 0, 0}, {1, 0, 0}) - (0.25f + 0.75f * 8)) < 1e-5f);
 }

@@ -111,40 +111,59 @@ Places places_in_the_open(const LitScene& scene, const Grid& grid, std::size_t c
   return places;
 }
 
-GridError grid_error(const LitScene& scene, const nook::probe::Probes& probes, const Places& places,
-                     std::uint32_t paths, std::uint64_t seed, const PathSettings& path,
-                     const Progress& progress) {
-  std::array<std::vector<Vec3>, 2> half;
+TracedPlaces trace_places(const LitScene& scene, const Places& places, std::uint32_t paths,
+                          std::uint64_t seed, const PathSettings& path, const Progress& progress) {
+  TracedPlaces traced;
   const std::size_t count = places.normal.size();
-  for (std::size_t h = 0; h < 2; ++h) {
+  const auto half = [&](std::size_t h) {
     const IrradianceSettings settings{std::max(paths / 2, 1u), mix_bits(seed) + h, path};
-    half[h] = trace_irradiance(
+    return trace_irradiance(
         scene, {places.position_ws, places.normal}, settings,
         [&](std::size_t done, std::size_t) { return !progress || progress(h * count + done, 2 * count); });
-  }
+  };
+  traced.first = half(0);
+  traced.second = half(1);
+  return traced;
+}
+
+GridError error_of(const TracedPlaces& truth, const std::vector<Vec3>& found,
+                   const std::vector<std::size_t>& which) {
   GridError error;
   double square = 0, noise = 0;
-  std::vector<Vec3> coefficients(probes.basis.count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 step = by_channel(places.normal[i], probes.grid.spacing_ws) * places.lookup_offset;
-    nook::probe::interpolate(probes, places.position_ws[i] + step, coefficients);
-    const Vec3 found = nook::probe::irradiance(probes.basis, coefficients, nook::probe::IrradianceForm::bands,
-                                               places.normal[i]);
-    const Vec3 truth = 0.5f * (half[0][i] + half[1][i]), apart = 0.5f * (half[0][i] - half[1][i]);
-    const Vec3 off = found - truth;
-    error.mean += double(truth.x + truth.y + truth.z);
+  for (const std::size_t i : which) {
+    const Vec3 traced = truth.mean(i), apart = 0.5f * (truth.first[i] - truth.second[i]);
+    const Vec3 off = found[i] - traced;
+    error.mean += double(traced.x + traced.y + traced.z);
     error.bias += double(off.x + off.y + off.z);
     square += double(dot(off, off));
     noise += double(dot(apart, apart));
     error.worst =
         std::max({error.worst, double(std::abs(off.x)), double(std::abs(off.y)), double(std::abs(off.z))});
   }
-  const double numbers = 3 * double(count);
+  const double numbers = 3 * double(which.size());
   error.mean /= numbers;
   error.bias /= numbers;
   error.noise = std::sqrt(noise / numbers);
   error.rms = std::sqrt(std::max(square - noise, 0.0) / numbers);
   return error;
+}
+
+GridError grid_error(const LitScene& scene, const nook::probe::Probes& probes, const Places& places,
+                     std::uint32_t paths, std::uint64_t seed, const PathSettings& path,
+                     const Progress& progress) {
+  const TracedPlaces truth = trace_places(scene, places, paths, seed, path, progress);
+  const std::size_t count = places.normal.size();
+  std::vector<Vec3> found(count), coefficients(probes.basis.count);
+  std::vector<std::size_t> all(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 normal = places.normal[i];
+    const Vec3 step = by_channel(normal, probes.grid.spacing_ws) * places.lookup_offset;
+    nook::probe::interpolate(probes, places.position_ws[i] + step, normal, coefficients);
+    found[i] =
+        nook::probe::irradiance(probes.basis, coefficients, nook::probe::IrradianceForm::bands, normal);
+    all[i] = i;
+  }
+  return error_of(truth, found, all);
 }
 
 }  // namespace nook::bake::probe

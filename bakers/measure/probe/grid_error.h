@@ -35,6 +35,17 @@ struct GridError {
   double noise = 0;  // rms error of the path traced irradiance itself
 };
 
+// Path-traced irradiance at places, twice with half of the paths each, whose difference is the noise.
+struct TracedPlaces {
+  std::vector<Vec3> first, second;
+  Vec3 mean(std::size_t i) const { return 0.5f * (first[i] + second[i]); }
+};
+TracedPlaces trace_places(const LitScene& scene, const Places& places, std::uint32_t paths,
+                          std::uint64_t seed, const PathSettings& path, const Progress& progress = {});
+// The error of what was found at some of the places.
+GridError error_of(const TracedPlaces& truth, const std::vector<Vec3>& found,
+                   const std::vector<std::size_t>& which);
+
 // paths: for each place, 2 or more; in two halves, whose difference is the noise.
 GridError grid_error(const LitScene& scene, const nook::probe::Probes& probes, const Places& places,
                      std::uint32_t paths, std::uint64_t seed, const PathSettings& path,

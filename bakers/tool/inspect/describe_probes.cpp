@@ -38,6 +38,12 @@ Row describe_probes(std::span<const std::byte> bytes) {
     row["sharpness_highest"] = *high;
   }
   row["packing"] = packing_names[std::size_t(probe::packing_of(bytes))];
+  if (probes.walls.any()) {
+    row["cells"] = grid.cells();
+    row["wall_cells"] =
+        std::ranges::count_if(probes.walls.cell, [](const auto& cell) { return !cell.open(); });
+    row["wall_bias_m"] = probes.walls.bias;
+  }
   add_recipe(row, probes.recipe);
   return row;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "bakers/tool/common_options.h"
+#include "bakers/tool/probe/grid_arguments.h"
 #include "bakers/tool/probe/options.h"
 #include "sdk/src/core/vec.h"
 
@@ -23,13 +24,14 @@ struct BakeProbeOptions {
   // A scene.
   std::array<std::uint32_t, 3> grid{0, 0, 0};
   std::filesystem::path light;
-  bool has_box = false;
-  Vec3 box_low_ws, box_high_ws;
+  BoxArgument box;
   double error = 0.01, preview_every_s = 0;
   std::uint32_t max_bounces = ~0u;
   bool no_textures = false;
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   std::string direct = "all";
+  bool walls = false;
+  std::uint32_t training_paths = 2048;
 };
 
 void bake_probe_of_map(const BakeProbeOptions& options);

@@ -25,12 +25,30 @@ using bake::probe::GridBakeSettings;
 
 constexpr std::uint32_t default_samples = 65536;
 
-std::vector<std::byte> file_of(const BakeProbeOptions& options, GridBake& grid, double error) {
+// The probes of a finished bake, with walls if the options ask for them.
+probe::Probes complete(const BakeProbeOptions& options, const bake::LitScene& scene,
+                       const bake::PathSettings& path, GridBake& grid) {
   probe::Probes probes = grid.probes();
+  if (!options.walls) return probes;
+  bake::probe::TrainingSettings training;
+  training.paths = options.training_paths;
+  training.seed = options.common.seed;
+  training.path = path;
+  platform::ProgressBar bar(options.common.quiet);
+  bake::add_walls(probes, scene, training, [&](std::size_t done, std::size_t total) {
+    bar.show("light on surfaces", "places", done, total);
+    return !interrupted();
+  });
+  return probes;
+}
+
+std::vector<std::byte> file_of(const BakeProbeOptions& options, const GridBake& grid, probe::Probes probes,
+                               double error) {
   Json recipe = describe(options.probe, probes.basis);
   recipe["source"] = options.input.filename().string();
   recipe["light"] = options.light.filename().string();
   recipe["direct"] = options.direct;
+  recipe["walls"] = options.walls;
   recipe["samples"] = grid.samples();
   recipe["error"] = error;
   recipe["seed"] = options.common.seed;
@@ -50,7 +68,7 @@ double refine(const BakeProbeOptions& options, GridBake& grid, std::uint32_t max
     return !interrupted();
   };
   refinement.preview = [&](double error) {
-    platform::OutputFile(options.output).commit(file_of(options, grid, error));
+    platform::OutputFile(options.output).commit(file_of(options, grid, grid.probes(), error));
     char label[64];
     std::snprintf(label, sizeof label, "preview written, error %.3g", error);
     bar.show(label, "passes at most", grid.passes(), max_passes);
@@ -74,8 +92,10 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   GridBakeSettings settings;
   settings.basis = basis_of(options.probe);
   settings.fit = fit_of(options.probe);
-  settings.grid = bake::probe::grid_in_box(options.grid, options.has_box ? options.box_low_ws : scene.low_ws,
-                                           options.has_box ? options.box_high_ws : scene.high_ws);
+  settings.grid =
+      bake::probe::grid_in_box(options.grid, options.box.given ? options.box.low_ws : scene.low_ws,
+                               options.box.given ? options.box.high_ws : scene.high_ws);
+  settings.move_probes = options.walls;
   settings.seed = options.common.seed;
   settings.path.max_bounces = options.max_bounces;
   settings.path.origin_offset = scene.origin_offset;
@@ -86,7 +106,8 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   const std::uint32_t samples = options.samples > 0 ? options.samples : default_samples;
   const std::uint32_t passes = (samples + settings.samples_per_pass - 1) / settings.samples_per_pass;
   const double error = refine(options, bake, passes);
-  const std::vector<std::byte> bytes = file_of(options, bake, error);
+  const std::vector<std::byte> bytes =
+      file_of(options, bake, complete(options, *scene.lit, settings.path, bake), error);
   Json row;
   row["scene"] = options.input.stem().string();
   row["light"] = options.light.stem().string();

@@ -18,7 +18,7 @@
  * largest value. Every name in it begins with nook_ or Nook.
  *
  * A grid for diffuse light alone is smaller and faster as spherical harmonics in a 3D texture of half floats,
- * which the hardware filters: 7 fetches a pixel, 4 as ZH3, and 40 at most where walls choose among the probes
+ * which the hardware filters: 7 fetches per pixel, 4 for ZH3, at most 40 where walls choose among the probes
  * of ZH3. An engine calls nook_gl_probe_grid_create, puts the GLSL of nook_gl_probe_grid_describe into its
  * shader, sets the uniform nook_grid_texels to a texture unit and the uniform nook_grid_frame to the info's
  * frame, and binds the texture to GL_TEXTURE_3D of that unit, without a sampler object.
@@ -75,7 +75,7 @@ NOOK_API nook_result nook_gl_probe_describe(nook_gl_probe gl_probe, nook_gl_prob
 
 typedef struct nook_gl_probe_grid_s* nook_gl_probe_grid;
 
-/* What a texel of a probe holds. */
+/* The numbers that a grid holds for each probe. */
 enum {
   /* Bands 0 to 2 of spherical harmonics, 27 half floats. */
   NOOK_GL_PROBE_GRID_HARMONICS = 0,

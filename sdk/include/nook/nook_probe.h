@@ -326,7 +326,7 @@ typedef struct nook_probe_info {
   float origin_ws[3];
   /* Metres between neighbours along x, y and z. */
   float spacing_ws[3];
-  /* The number of cells between probes in which walls choose among the probes; 0: the grid knows no walls. */
+  /* The number of cells between probes in which walls choose among the probes; 0: the grid has no walls. */
   uint32_t wall_cells;
 } nook_probe_info;
 

@@ -38,7 +38,7 @@ Between between(float position, float origin, float spacing, std::uint32_t count
 }
 
 float between(float value, float least) {
-  return value > least ? std::min(value, 1 - least) : least;  // least also for NaN
+  return value > least ? std::min(value, 1 - least) : least;  // the bound also for NaN
 }
 
 // Whole files and textures hold planes as half floats, far below whose largest this is.

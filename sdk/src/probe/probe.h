@@ -52,8 +52,8 @@ struct GridPlace {
 };
 GridPlace place_in(const Grid& grid, Vec3 position_ws);
 
-// The trilinear weights of the eight corners, clamped at the cell's ends; least: each share along an axis is
-// between it and 1 - it.
+// The trilinear weights of the eight corners. Shares along an axis are clamped: from the second argument to 1
+// minus that.
 std::array<float, 8> corner_weights(Vec3 in_cell, float least);
 
 struct Probes {

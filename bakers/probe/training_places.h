@@ -1,0 +1,33 @@
+// Places in the cells of a grid with their path-traced irradiance: what walls and coefficients are fitted to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bakers/raytrace/path_tracer.h"
+#include "sdk/src/probe/probe.h"
+
+namespace nook::bake::probe {
+
+struct TrainingSettings {
+  std::uint32_t origins = 24;  // of rays, in each cell
+  std::uint32_t rays =
+      8;  // from each origin; every hit is a place on a surface, every fourth ray one in the open
+  std::uint32_t paths = 128;  // for each place
+  std::uint64_t seed = 1;
+  PathSettings path;
+};
+
+struct TrainingPlaces {
+  std::vector<Vec3> position_ws, normal, irradiance;
+  std::vector<char> on_surface;
+  std::size_t size() const { return normal.size(); }
+};
+
+// Places on surfaces that open space in the grid's box sees, and in the open with random normals. The result
+// does not depend on the number of threads. progress counts places.
+TrainingPlaces training_places(const LitScene& scene, const nook::probe::Grid& grid,
+                               const TrainingSettings& settings, const Progress& progress = {});
+
+}  // namespace nook::bake::probe
