@@ -17,8 +17,9 @@ inline constexpr std::uint32_t min_exemplar_side = 16;
 
 struct SynthesisSettings {
   std::uint32_t side = 512;  // texels along a side of the plane
-  // Random movement at each level but the two finest, relative to the spacing of its texels: 0 to 1.
-  float jitter = 0.4f;
+  // Random movement, 0 to 1: of the first blocks relative to the exemplar, and at each level but the two
+  // finest relative to the spacing of its texels.
+  float jitter = 0.8f;
   std::uint32_t passes = 4;  // corrections at each level
   std::uint64_t seed = 1;
 };

@@ -1,0 +1,2 @@
+extern nook_synthesis synthesis;
+extern nook_gl_synthesis coordinates;
