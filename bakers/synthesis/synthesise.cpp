@@ -28,7 +28,7 @@ struct Plane {
   }
 };
 
-// What a level of the exemplar offers to the plane of that level.
+// A level of the exemplar, for the plane of that level.
 struct Level {
   ExemplarShape shape;
   std::int32_t spacing = 1;

@@ -20,7 +20,7 @@ struct SynthesisSettings {
   // Random movement, 0 to 1: of the first blocks relative to the exemplar, and at each level but the two
   // finest relative to the spacing of its texels.
   float jitter = 0.8f;
-  std::uint32_t passes = 4;  // corrections at each level
+  std::uint32_t passes = 8;  // corrections at each level
   std::uint64_t seed = 1;
 };
 

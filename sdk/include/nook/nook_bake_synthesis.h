@@ -31,7 +31,7 @@ typedef struct nook_bake_synthesis_desc {
   uint32_t side;
   /* Random movement, 0 to 1; default 0.8. More of it repeats less and has more seams. */
   float jitter;
-  /* Corrections at each level, 1 to 16; default 4. */
+  /* Corrections at each level, 1 to 16; default 8. */
   uint32_t passes;
   /* Default 1. The same seed gives the same bytes on any number of threads. */
   uint64_t seed;
