@@ -174,10 +174,10 @@ std::uint32_t level_count(const ExemplarShape& shape) {
   return levels - 1;
 }
 
-// Returns the shape of a level whose texels have a spacing: the neighbours of a texel that is shown lie in
-// the exemplar, except where that would leave less than half of it.
+// Returns the shape of a level whose texels have a spacing. The windows of texels nearer to the border than
+// two spacings are mirror images in part, and a plane of such texels repeats the border.
 ExemplarShape shape_of_level(ExemplarShape shape, std::int32_t spacing) {
-  if (!shape.is_tiling) shape.margin = std::min(spacing, std::min(shape.width, shape.height) / 4);
+  if (!shape.is_tiling) shape.margin = std::min(2 * spacing, std::min(shape.width, shape.height) / 4);
   return shape;
 }
 

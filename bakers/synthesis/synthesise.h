@@ -27,9 +27,9 @@ struct SynthesisSettings {
 // Throws Failure(INVALID_ARGUMENT) that names the first fault.
 void check_synthesis(const Exemplar& exemplar, const SynthesisSettings& settings);
 
-// Returns side x side texels of the exemplar, row by row, of a plane that repeats. The outermost texels of an
-// exemplar that does not tile are not shown, so that a filter of 3 x 3 texels never reaches beyond it. Gives
-// the same bits on any number of threads. Throws Failure: INVALID_ARGUMENT, CANCELLED.
+// Returns side x side texels of the exemplar, row by row, of a plane that repeats. Two texels along the
+// border of an exemplar that does not tile are not shown, so that a filter of 3 x 3 texels never reaches
+// beyond it. Gives the same bits on any number of threads. Throws Failure: INVALID_ARGUMENT, CANCELLED.
 std::vector<Texel> synthesise(const Exemplar& exemplar, const SynthesisSettings& settings,
                               const Progress& progress = {});
 

@@ -28,6 +28,7 @@ struct Options {
   std::vector<std::uint32_t> sweep;
   std::vector<std::string> methods;  // baselines; empty: all, where baselines are requested
   bool peers = false, seeding = false, jumps = false;
+  std::uint32_t votf_refits = 2;
 };
 
 void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, const Options& o,
@@ -76,6 +77,7 @@ Json evaluate(const Options& o) {
   if (request.names.empty() && o.peers) request.names = measure::material_baseline_names();
   request.unseen = unseen;
   request.jumps = o.jumps;
+  request.votf_refits = o.votf_refits;
   request.progress = progress;
   if (!o.images.empty())
     request.keep = [&](const std::string& name, const Material& compressed) {
@@ -87,7 +89,8 @@ Json evaluate(const Options& o) {
     };
   for (const Json& row : measure::material_baseline_rows(raw, file, o.common.seed, request))
     rows.push_back(row);
-  const CompressionSettings settings = measure::settings_of(material, o.common.seed);
+  CompressionSettings settings = measure::settings_of(material, o.common.seed);
+  settings.votf_refits = o.votf_refits;
   Json report;
   report["rows"] = rows;
   report["settings"] = describe(settings);
@@ -118,6 +121,11 @@ void add_evaluate_material(CLI::App& evaluate_command) {
   command->add_option(
       "--unseen", o.unseen,
       "a raw material of the same lights and other views, for the error between sampled views");
+  command
+      ->add_option("--votf-refits", o.votf_refits,
+                   "further fits of the VOTF of the methods beside the file, as in bake material")
+      ->check(CLI::Range(0, 16))
+      ->capture_default_str();
   command->add_flag("--jumps", o.jumps,
                     "measure jumps as the view moves by 0.1 degrees; with --images a picture of the largest");
   command->add_flag("--compare-seeding", o.seeding,

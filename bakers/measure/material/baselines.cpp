@@ -104,7 +104,8 @@ Json material_file_row(const RawMaterial& raw, const MaterialFile& file, const R
 
 Json material_baseline_rows(const RawMaterial& raw, const MaterialFile& file, std::uint64_t seed,
                             const BaselineRequest& request) {
-  const CompressionSettings settings = settings_of(file.material, seed);
+  CompressionSettings settings = settings_of(file.material, seed);
+  settings.votf_refits = request.votf_refits;
   Json rows = Json::array();
   for (const Baseline& baseline : baselines) {
     CompressionSettings s = settings;

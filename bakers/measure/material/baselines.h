@@ -26,6 +26,7 @@ struct BaselineRequest {
   std::vector<std::string> names;                       // of material_baseline_names
   const bake::material::RawMaterial* unseen = nullptr;  // views that no fit has seen; null: none
   bool jumps = false;                                   // measure jumps as the view moves
+  std::uint32_t votf_refits = 2;                        // of the new fits
   MethodProgress progress;
   // Receives each material after it was measured, for pictures. May be empty.
   std::function<void(const std::string& name, const nook::material::Material& material)> keep;

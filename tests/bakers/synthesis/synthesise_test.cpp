@@ -134,9 +134,10 @@ TEST_CASE("a plane shows all parts of an exemplar and does not repeat with its p
       ++shown[std::size_t(t.y * 64 + t.x)];
       repeats += plane[std::size_t(y * 256 + (x + 64) % 256)] == t;
     }
-  // A tiled plane would show each texel 16 times and repeat everywhere. Chance repeats 1 texel of 4,096.
+  // A tiled plane would show each texel 16 times and repeat everywhere. Pieces that lie beside each other as
+  // in the exemplar repeat, where two neighbours were moved alike.
   CHECK(double(std::count(shown.begin(), shown.end(), 0)) / 4096 < 0.4);
-  CHECK(repeats / (256 * 256) < 0.05);
+  CHECK(repeats / (256 * 256) < 0.2);
   // From afar the plane looks as the exemplar: the mean differs by less than a tenth of the deviation.
   double mean = 0;
   for (const Texel t : plane) mean += exemplar.values(exemplar.shape.row(t), 0);
@@ -149,8 +150,8 @@ TEST_CASE("a plane shows all parts of an exemplar and does not repeat with its p
 TEST_CASE("texels of an exemplar that does not tile keep off its border") {
   const Exemplar exemplar = waves(40, false, 4.3f);
   for (const Texel t : synthesise(exemplar, settings_of(128))) {
-    CHECK((t.x >= 1 && t.x <= 38));
-    CHECK((t.y >= 1 && t.y <= 38));
+    CHECK((t.x >= 2 && t.x <= 37));
+    CHECK((t.y >= 2 && t.y <= 37));
   }
 }
 
