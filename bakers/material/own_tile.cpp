@@ -1,7 +1,9 @@
 #include "bakers/material/own_tile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "bakers/import/skinning.h"
 #include "sdk/src/core/failure.h"
@@ -56,6 +58,34 @@ std::vector<Vec3> colours_of(const StaticScene& scene) {
   return colours;
 }
 
+// A place of the torus, in steps of 1e-5 tiles.
+using Place = std::array<long, 3>;
+Place place_of(Vec3 p) {
+  constexpr double steps = 1e5;
+  const auto on_circle = [](float x) {
+    const long at = std::lround((double(x) - std::floor(double(x))) * steps);
+    return at == long(steps) ? 0 : at;
+  };
+  return {on_circle(p.x), on_circle(p.y), std::lround(double(p.z) * steps)};
+}
+
+// Adds to each normal those of the vertices that lie a whole tile away, so that a surface that goes on there
+// has no edge; normals more than 60 degrees apart belong to other faces.
+void join_across_border(MesoSurface& surface) {
+  std::map<Place, std::vector<std::size_t>> vertices_at;
+  for (std::size_t v = 0; v < surface.position.size(); ++v)
+    vertices_at[place_of(surface.position[v])].push_back(v);
+  const std::vector<Vec3> own = surface.normal;
+  for (const auto& [place, vertices] : vertices_at)
+    for (const std::size_t v : vertices) {
+      Vec3 sum = own[v];
+      for (const std::size_t other : vertices)
+        if (length(surface.position[other] - surface.position[v]) > 0.5f && dot(own[v], own[other]) > 0.5f)
+          sum += own[other];
+      surface.normal[v] = normalised(sum);
+    }
+}
+
 }  // namespace
 
 MesoSurface tile_of_scene(const StaticScene& scene, float side_m) {
@@ -71,6 +101,7 @@ MesoSurface tile_of_scene(const StaticScene& scene, float side_m) {
   for (Vec3& p : surface.position) p += shift;
   surface.triangle = scene.triangle;
   vertex_normals(surface.triangle, surface.position, surface.normal);
+  join_across_border(surface);
   surface.albedo = colours_of(scene);
   return surface;
 }

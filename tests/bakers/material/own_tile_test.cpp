@@ -2,6 +2,7 @@
 #include "bakers/material/own_tile.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -29,7 +30,8 @@ StaticScene box(Vec3 low, Vec3 high) {
     scene.triangle.push_back({f[0], f[2], f[3]});
   }
   scene.triangle_surface.assign(12, 0);
-  scene.surface.push_back({{0.25f, 0.5f, 0.75f}});
+  scene.surface.resize(1);
+  scene.surface[0].base_colour = {0.25f, 0.5f, 0.75f};
   return scene;
 }
 
@@ -63,6 +65,22 @@ TEST_CASE("a mesh becomes a tile: scaled, z up, around the middle height, its fr
   CHECK(hit(0.1f, 0.6f).triangle == SurfaceHit::nothing);
   CHECK(hit(0.4f, 0.8f).triangle == SurfaceHit::nothing);
   CHECK(surface.albedo[0] == Vec3{0.25f, 0.5f, 0.75f});
+}
+
+TEST_CASE("normals of a surface that goes on across the border of the tile agree on both sides") {
+  // A strip along x, bent at its ends: its slope is 0.2 at x = 0 and -0.2 at x = 1, so that they meet in a
+  // ridge whose normal is upright.
+  StaticScene strip;
+  strip.surface.push_back({});
+  for (const auto& [x, y] : {std::pair{0.0f, 0.1f}, std::pair{0.5f, 0.0f}, std::pair{1.0f, 0.1f}})
+    for (const float z : {0.25f, 0.75f}) strip.position.push_back({x, y, z});
+  strip.triangle = {{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}};
+  strip.triangle_surface.assign(4, 0);
+  const MesoSurface surface = tile_of_scene(strip, 1);
+  for (const std::size_t v : {0u, 1u, 4u, 5u}) {
+    CHECK(surface.normal[v].x == Approx(0).margin(1e-5));
+    CHECK(std::abs(surface.normal[v].z) == Approx(1).margin(1e-5));
+  }
 }
 
 TEST_CASE("a mesh that is no tile is refused") {
