@@ -13,7 +13,7 @@ PAGE = ROOT / "docs/messages.md"
 # The rooms, each with a title; the first that contains a file takes its messages.
 ROOMS = [("sdk/src/api", "The C interface"), ("sdk/src/core", "Files and memory"), ("sdk/src/character", "Characters"),
          ("sdk/src/nnao", "Networks and recorded frames"), ("sdk/src/probe", "Probes"), ("sdk/src/material", "Materials"),
-         ("sdk/src/world", "The world"), ("sdk/src/transfer", "Transfer"), ("sdk/src/isa", "Instruction sets"), ("sdk/src/gl", "OpenGL"),
+         ("sdk/src/world", "The world"), ("sdk/src/synthesis", "Synthesis"), ("sdk/src/transfer", "Transfer"), ("sdk/src/isa", "Instruction sets"), ("sdk/src/gl", "OpenGL"),
          ("sdk/src", "The library, other"), ("bakers/import", "Import of glTF and arrays"), ("bakers/images", "Images and measured materials"),
          ("bakers/tool", "The tool"), ("bakers/api", "The bakers' C interface"), ("bakers/measure", "Measurements"), ("bakers", "Bakes")]
 CALL = re.compile(r"\b(Failure|ToolError|std::runtime_error|refuse|fault|warn|log|require|need|say|warnings\.push_back)\s*\(")

@@ -2,18 +2,21 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "bakers/material/builtin_ranks.h"
 #include "bakers/material/compression.h"
 #include "bakers/material/directions.h"
 #include "bakers/material/meso_surface.h"
+#include "bakers/material/own_tile.h"
 #include "bakers/material/raw_file.h"
 #include "bakers/material/trace_material.h"
 
 namespace nook::bake {
 
 struct MesoSource {
-  material::MesoParameters meso;
+  material::MesoParameters meso;                        // of a built-in structure
+  std::optional<material::MesoSurface> tile;            // in its place
   std::uint32_t views = 100, lights = 0;                // directions; lights 0: as many as views
   float max_tilt_deg = material::default_max_tilt_deg;  // their largest angle to the normal, degrees
   material::TraceSettings trace;

@@ -4,6 +4,7 @@
 
 #include "bakers/material/signed_distance.h"
 #include "bakers/material/view_spline.h"
+#include "bakers/material/visibility_margin.h"
 #include "bakers/tensor/nsvd.h"
 #include "bakers/tensor/rank_choice.h"
 #include "bakers/tensor/resample.h"
@@ -219,15 +220,23 @@ ClusteredTensor compress_votf(const RawMaterial& raw, const std::vector<float>& 
   check_settings(s, raw);
   // A small tensor, for which the better search costs little: a fifth fewer error texels on fiber. The BTF
   // gains nothing by it.
-  const FitTask task{raw,
-                     votf_view(raw, values),
-                     0,
-                     {s.rank_view, s.votf_rank_x, s.votf_rank_y},
-                     tensor::Pursuit::exchange,
-                     s,
-                     progress,
-                     "VOTF"};
-  return with_map(fit(task), task);
+  FitTask task{raw,
+               votf_view(raw, values),
+               0,
+               {s.rank_view, s.votf_rank_x, s.votf_rank_y},
+               tensor::Pursuit::exchange,
+               s,
+               progress,
+               "VOTF"};
+  tensor::ClusteredFit fitted = fit(task);
+  const float threshold = s.visibility == VisibilityForm::binary ? 0.5f : 0.0f;
+  std::vector<float> targets;
+  for (std::uint32_t refit = 0; refit < s.votf_refits; ++refit) {
+    targets = margin_targets(values, tensor::reconstruct(fitted).data, threshold);
+    task.values = votf_view(raw, targets);
+    fitted = fit(task);
+  }
+  return with_map(fitted, task);
 }
 
 std::vector<float> votf_values(const RawMaterial& raw, VisibilityForm form) {

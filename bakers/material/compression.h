@@ -29,6 +29,8 @@ struct CompressionSettings {
   std::uint32_t cluster_rank_view = 4;
   std::uint32_t clusters = 0;  // C; 0: rank_view / cluster_rank_view
   std::uint32_t mixture = 3;   // K of K-CTA
+  // Fits of the VOTF after the first, to targets that count the sides of values; see visibility_margin.h.
+  std::uint32_t votf_refits = 2;
   Seeding seeding = Seeding::directions;
   nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;
   std::optional<nook::material::VisibilityMapping> mapping;  // none: default_mapping() below

@@ -28,7 +28,7 @@ struct Plane {
   }
 };
 
-// What a level of the exemplar offers to the plane of that level.
+// A level of the exemplar, for the plane of that level.
 struct Level {
   ExemplarShape shape;
   std::int32_t spacing = 1;
@@ -43,29 +43,30 @@ std::array<float, 2> random_pair(std::uint64_t seed, std::uint32_t level, Texel 
   return {2 * unit_float(bits) - 1, 2 * unit_float(mix_bits(bits)) - 1};
 }
 
-// Returns the first place of a block of `length` texels of the exemplar in a row of `size`, for a random
-// number in [-1, 1).
-std::int32_t random_place(float random, std::int32_t size, std::int32_t margin, std::int32_t length) {
-  return margin + std::int32_t((random + 1) / 2 * float(std::max(size - 2 * margin - length, 0) + 1));
+// Returns the place in a row of the exemplar that a texel of the coarsest plane shows. random is in [-1, 1).
+std::int32_t coarsest_place(const ExemplarShape& shape, std::int32_t size, std::int32_t texel,
+                            std::int32_t block, std::int32_t spacing, float random, float jitter) {
+  const float moved = jitter * random / 2;
+  if (shape.is_tiling) return wrapped(texel * spacing + std::int32_t(std::lround(moved * float(size))), size);
+  const std::int32_t room = size - 2 * shape.margin - (block - 1) * spacing - 1;
+  return shape.margin + std::int32_t(std::lround((0.5f + moved) * float(room))) + texel % block * spacing;
 }
 
-// Puts square blocks of the exemplar beside each other, each from a random place, as large as the part of it
-// that a plane may show allows, but no larger than half of it: without any order to begin with, the
-// corrections would find the mean of everything.
-Plane coarsest_plane(const Level& level, std::int32_t side, std::uint32_t number, std::uint64_t seed) {
-  const ExemplarShape& shape = level.shape;
-  const std::int32_t margin = shape.is_tiling ? 0 : shape.margin,
-                     shorter = std::min(shape.width, shape.height) - 2 * margin,
-                     block = std::max(shorter / 2 / level.spacing, 1),
-                     length = (block - 1) * level.spacing + 1;
+// Covers the plane with square blocks of half the exemplar's size, each moved at random: an exemplar that
+// tiles goes on from block to block without the movement, and another one is put beside itself. Without any
+// order to begin with, the corrections would find the mean of everything.
+Plane coarsest_plane(const Level& level, std::int32_t side, std::uint32_t number, float jitter,
+                     std::uint64_t seed) {
+  const ExemplarShape& s = level.shape;
+  const std::int32_t h = level.spacing, margin = s.is_tiling ? 0 : s.margin,
+                     block = std::max((std::min(s.width, s.height) - 2 * margin) / 2 / h, 1);
   Plane plane{side, std::vector<Texel>(std::size_t(side) * std::size_t(side))};
   for (std::int32_t y = 0; y < side; ++y)
     for (std::int32_t x = 0; x < side; ++x) {
       const auto [a, b] = random_pair(seed, number, {x / block, y / block});
-      const Texel first{random_place(a, shape.width, margin, length),
-                        random_place(b, shape.height, margin, length)};
-      plane.texels[std::size_t(y) * std::size_t(side) + std::size_t(x)] =
-          first + Texel{x % block, y % block} * level.spacing;
+      plane.texels[std::size_t(y) * std::size_t(side) + std::size_t(x)] = {
+          coarsest_place(s, s.width, x, block, h, a, jitter),
+          coarsest_place(s, s.height, y, block, h, b, jitter)};
     }
   return plane;
 }
@@ -173,10 +174,10 @@ std::uint32_t level_count(const ExemplarShape& shape) {
   return levels - 1;
 }
 
-// Returns the shape of a level whose texels have a spacing: the neighbours of a texel that is shown lie in
-// the exemplar, except where that would leave less than half of it.
+// Returns the shape of a level whose texels have a spacing. The windows of texels nearer to the border than
+// two spacings are mirror images in part, and a plane of such texels repeats the border.
 ExemplarShape shape_of_level(ExemplarShape shape, std::int32_t spacing) {
-  if (!shape.is_tiling) shape.margin = std::min(spacing, std::min(shape.width, shape.height) / 4);
+  if (!shape.is_tiling) shape.margin = std::min(2 * spacing, std::min(shape.width, shape.height) / 4);
   return shape;
 }
 
@@ -236,8 +237,9 @@ std::vector<Texel> synthesise(const Exemplar& exemplar, const SynthesisSettings&
     level.similar = similar_texels(level.appearance, level.shape, level.spacing);
     count.add(std::size_t(exemplar.shape.texels()));
     const float jitter = l >= 2 ? settings.jitter : 0.0f;
-    plane = l == levels ? coarsest_plane(level, std::int32_t(settings.side >> l), l, settings.seed)
-                        : upsampled(plane, level, l, jitter, settings.seed);
+    plane = l == levels
+                ? coarsest_plane(level, std::int32_t(settings.side >> l), l, settings.jitter, settings.seed)
+                : upsampled(plane, level, l, jitter, settings.seed);
     correct_passes(level, settings.passes, plane, count);
   }
   return std::move(plane.texels);

@@ -17,18 +17,19 @@ inline constexpr std::uint32_t min_exemplar_side = 16;
 
 struct SynthesisSettings {
   std::uint32_t side = 512;  // texels along a side of the plane
-  // Random movement at each level but the two finest, relative to the spacing of its texels: 0 to 1.
-  float jitter = 0.4f;
-  std::uint32_t passes = 4;  // corrections at each level
+  // Random movement, 0 to 1: of the first blocks relative to the exemplar, and at each level but the two
+  // finest relative to the spacing of its texels.
+  float jitter = 0.8f;
+  std::uint32_t passes = 8;  // corrections at each level
   std::uint64_t seed = 1;
 };
 
 // Throws Failure(INVALID_ARGUMENT) that names the first fault.
 void check_synthesis(const Exemplar& exemplar, const SynthesisSettings& settings);
 
-// Returns side x side texels of the exemplar, row by row, of a plane that repeats. The outermost texels of an
-// exemplar that does not tile are not shown, so that a filter of 3 x 3 texels never reaches beyond it. Gives
-// the same bits on any number of threads. Throws Failure: INVALID_ARGUMENT, CANCELLED.
+// Returns side x side texels of the exemplar, row by row, of a plane that repeats. Two texels along the
+// border of an exemplar that does not tile are not shown, so that a filter of 3 x 3 texels never reaches
+// beyond it. Gives the same bits on any number of threads. Throws Failure: INVALID_ARGUMENT, CANCELLED.
 std::vector<Texel> synthesise(const Exemplar& exemplar, const SynthesisSettings& settings,
                               const Progress& progress = {});
 

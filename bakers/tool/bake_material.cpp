@@ -1,5 +1,6 @@
 // nook bake material: ray traces a meso-structure, or reads a measured BTF, and compresses it.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -37,6 +38,8 @@ struct Options {
   std::uint32_t directions = 100, lights = 0, texels = 0;
   float max_tilt_deg = bake::material::default_max_tilt_deg;
   TraceSettings trace;
+  float tile_side_m = 1;  // of a mesh that --meso names
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
   std::optional<std::uint32_t> count;
   std::optional<float> radius, thickness, roughness;
   float detail = 1;
@@ -53,24 +56,40 @@ MesoParameters meso_of(const Options& o) {
   return p;
 }
 
+// --meso names a mesh where it is no built-in structure.
+bool is_mesh(const std::string& meso) {
+  return !meso.empty() && std::ranges::count(meso_names(), std::string_view(meso)) == 0;
+}
+
+bake::MesoSource source_of(const Options& o) {
+  if (!is_mesh(o.meso)) return {meso_of(o), {}, o.directions, o.lights, o.max_tilt_deg, o.trace};
+  MesoSurface tile = naming_file(o.meso, [&] {
+    return tile_of_scene(bake::import_static_scene(o.meso, bake::SceneTextures::skip, o.linked),
+                         o.tile_side_m);
+  });
+  return {{}, std::move(tile), o.directions, o.lights, o.max_tilt_deg, o.trace};
+}
+
 Json recipe_of_trace(const Options& o) {
   if (!o.btf.empty()) return {{"btf", o.btf.filename().string()}, {"texels", o.texels}};
   if (!o.raw.empty()) return {{"raw", o.raw.filename().string()}};
-  const MesoParameters p = meso_of(o);
-  return {{"meso", p.name},
-          {"count", p.count},
-          {"radius", p.radius},
-          {"thickness", p.thickness},
-          {"roughness", p.roughness},
-          {"detail", p.detail},
-          {"directions", o.directions},
-          {"lights", o.lights ? o.lights : o.directions},
-          {"max_tilt_deg", o.max_tilt_deg},
-          {"texels", o.trace.width},
-          {"samples", o.trace.samples},
-          {"bounces", o.trace.bounces},
-          {"bounce_rays", o.trace.bounce_rays},
-          {"seed", o.common.seed}};
+  Json recipe;
+  if (is_mesh(o.meso)) {
+    recipe = {{"tile", std::filesystem::path(o.meso).filename().string()}, {"tile_side", o.tile_side_m}};
+  } else {
+    const MesoParameters p = meso_of(o);
+    recipe = {{"meso", p.name},           {"count", p.count},         {"radius", p.radius},
+              {"thickness", p.thickness}, {"roughness", p.roughness}, {"detail", p.detail}};
+  }
+  recipe.update({{"directions", o.directions},
+                 {"lights", o.lights ? o.lights : o.directions},
+                 {"max_tilt_deg", o.max_tilt_deg},
+                 {"texels", o.trace.width},
+                 {"samples", o.trace.samples},
+                 {"bounces", o.trace.bounces},
+                 {"bounce_rays", o.trace.bounce_rays},
+                 {"seed", o.common.seed}});
+  return recipe;
 }
 
 RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
@@ -84,9 +103,8 @@ RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
   if (!o.btf.empty())
     return naming_file(o.btf,
                        [&] { return read_ubo_folder(o.btf, o.texels, progress("reading", "images")); });
-  RawMaterial raw = bake::trace_meso_source({meso_of(o), o.directions, o.lights, o.max_tilt_deg, o.trace},
-                                            progress("ray tracing", "views"));
-  raw.name = o.meso;
+  RawMaterial raw = bake::trace_meso_source(source_of(o), progress("ray tracing", "views"));
+  raw.name = is_mesh(o.meso) ? std::filesystem::path(o.meso).stem().string() : o.meso;
   return raw;
 }
 
@@ -133,10 +151,10 @@ Json bake(const Options& o, platform::OutputFile& output, std::optional<platform
 void run(Options& o) {
   if (int(!o.meso.empty()) + int(!o.btf.empty()) + int(!o.raw.empty()) != 1)
     throw ToolError(exit_bad_arguments, "bake material: one of --meso, --btf and --raw is needed");
-  require_distinct_files({{{"--btf", o.btf}, {"--raw", o.raw}},
+  require_distinct_files({{{"--btf", o.btf}, {"--raw", o.raw}, {"--meso", is_mesh(o.meso) ? o.meso : ""}},
                           {{"-o", o.output}, {"--keep-raw", o.keep_raw}, {"--report", o.common.report}},
                           o.images});
-  if (!o.meso.empty()) meso_parameters(o.meso);
+  if (is_mesh(o.meso) && !std::filesystem::exists(o.meso)) meso_parameters(o.meso);
   if (o.texels) o.trace.width = o.trace.height = o.texels;
   o.trace.seed = o.common.seed;
   platform::OutputFile output(o.output);
@@ -162,11 +180,19 @@ void add_bake_material(CLI::App& bake) {
       bake.add_subcommand("material", "compress a meso-structure or a measured BTF for real-time decoding");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  std::vector<std::string> names;
-  for (const std::string_view name : meso_names()) names.emplace_back(name);
-  command->add_option("--meso", o.meso, "a built-in meso-structure, ray traced")
-      ->check(CLI::IsMember(names))
-      ->type_name("NAME");
+  std::string names;
+  for (const std::string_view name : meso_names()) names.append(names.empty() ? "" : ", ").append(name);
+  command
+      ->add_option(
+          "--meso", o.meso,
+          "a meso-structure, ray traced: " + names + ", or one tile as a closed mesh, y up, .glb or .gltf")
+      ->type_name("NAME|TILE.glb");
+  command
+      ->add_option("--tile-size", o.tile_side_m,
+                   "metres after which the mesh of --meso repeats along x and z")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_linked_files_option(*command, o.linked);
   command->add_option("--btf", o.btf, "a folder of measured images, tl pl tv pv in their names (UBO 2003)");
   command->add_option("--raw", o.raw, "a raw material that --keep-raw wrote");
   command->add_option("-o,--output", o.output, "the .nook file to write")->required();

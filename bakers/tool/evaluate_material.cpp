@@ -27,7 +27,8 @@ struct Options {
   std::filesystem::path raw, material, unseen, images;
   std::vector<std::uint32_t> sweep;
   std::vector<std::string> methods;  // baselines; empty: all, where baselines are requested
-  bool peers = false, seeding = false;
+  bool peers = false, seeding = false, jumps = false;
+  std::uint32_t votf_refits = 2;
 };
 
 void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, const Options& o,
@@ -64,8 +65,8 @@ Json evaluate(const Options& o) {
     unseen_material = read_raw(o.unseen);
     unseen = &unseen_material;
   }
-  Json rows =
-      Json::array({naming_file(o.material, [&] { return measure::material_file_row(raw, file, unseen); })});
+  Json rows = Json::array(
+      {naming_file(o.material, [&] { return measure::material_file_row(raw, file, unseen, o.jumps); })});
   if (!o.images.empty()) {
     bake::write_png(o.images / (as_file_name(raw.name) + "_raw.png"), measure::raw_sheet(raw));
     bake::write_png(o.images / (as_file_name(raw.name) + "_file.png"),
@@ -75,15 +76,21 @@ Json evaluate(const Options& o) {
   request.names = o.methods;
   if (request.names.empty() && o.peers) request.names = measure::material_baseline_names();
   request.unseen = unseen;
+  request.jumps = o.jumps;
+  request.votf_refits = o.votf_refits;
   request.progress = progress;
   if (!o.images.empty())
     request.keep = [&](const std::string& name, const Material& compressed) {
       bake::write_png(o.images / (as_file_name(raw.name) + "_" + name + ".png"),
                       measure::difference_sheet(raw, compressed));
+      if (o.jumps)
+        bake::write_png(o.images / (as_file_name(raw.name) + "_" + name + "_jump.png"),
+                        measure::jump_strip(compressed));
     };
   for (const Json& row : measure::material_baseline_rows(raw, file, o.common.seed, request))
     rows.push_back(row);
-  const CompressionSettings settings = measure::settings_of(material, o.common.seed);
+  CompressionSettings settings = measure::settings_of(material, o.common.seed);
+  settings.votf_refits = o.votf_refits;
   Json report;
   report["rows"] = rows;
   report["settings"] = describe(settings);
@@ -114,6 +121,13 @@ void add_evaluate_material(CLI::App& evaluate_command) {
   command->add_option(
       "--unseen", o.unseen,
       "a raw material of the same lights and other views, for the error between sampled views");
+  command
+      ->add_option("--votf-refits", o.votf_refits,
+                   "further fits of the VOTF of the methods beside the file, as in bake material")
+      ->check(CLI::Range(0, 16))
+      ->capture_default_str();
+  command->add_flag("--jumps", o.jumps,
+                    "measure jumps as the view moves by 0.1 degrees; with --images a picture of the largest");
   command->add_flag("--compare-seeding", o.seeding,
                     "CTA and K-CTA from clusters of directions and of values");
   command->add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")

@@ -36,6 +36,15 @@ void add_unseen(const RawMaterial* unseen, const Material& material, MethodRow& 
   row.error_texels_unseen = error.error_texels;
 }
 
+void add_jumps(const Material& material, MethodRow& row) {
+  constexpr std::uint64_t seed = 1;  // the same arcs for all methods
+  row.jumps = measure_view_jumps(material, seed);
+  if (material.btf.map.side == 0) return;
+  Material without = material;
+  without.btf.map = nook::material::ViewMap();
+  row.jumps_without_map = measure_view_jumps(without, seed);
+}
+
 // The view rank at which an N-SVD takes as many bytes as a file, its recipe counted: the text of the greatest
 // rank is the longest.
 std::uint32_t filling_view_rank(const RawMaterial& raw, CompressionSettings s, std::size_t file_bytes) {
@@ -50,6 +59,7 @@ MethodRow measure_baseline(const RawMaterial& raw, const CompressionSettings& s,
   Material compressed;
   MethodRow row = measure_method(raw, s, request.progress(name + ", "), &compressed);
   add_unseen(request.unseen, compressed, row);
+  if (request.jumps) add_jumps(compressed, row);
   if (request.keep) request.keep(name, compressed);
   return row;
 }
@@ -82,17 +92,20 @@ CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
   return s;
 }
 
-Json material_file_row(const RawMaterial& raw, const MaterialFile& file, const RawMaterial* unseen) {
+Json material_file_row(const RawMaterial& raw, const MaterialFile& file, const RawMaterial* unseen,
+                       bool jumps) {
   MethodRow own = measure_material(raw, file.material);
   own.method = "file: " + own.method;
   own.file_bytes = file.bytes.size();
   add_unseen(unseen, file.material, own);
+  if (jumps) add_jumps(file.material, own);
   return report_row(raw.name, own);
 }
 
 Json material_baseline_rows(const RawMaterial& raw, const MaterialFile& file, std::uint64_t seed,
                             const BaselineRequest& request) {
-  const CompressionSettings settings = settings_of(file.material, seed);
+  CompressionSettings settings = settings_of(file.material, seed);
+  settings.votf_refits = request.votf_refits;
   Json rows = Json::array();
   for (const Baseline& baseline : baselines) {
     CompressionSettings s = settings;

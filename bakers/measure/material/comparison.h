@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bakers/material/compression.h"
+#include "bakers/measure/material/view_jumps.h"
 
 namespace nook::bake::material {
 
@@ -21,6 +22,8 @@ struct MethodRow {
   // Errors in views that were not fitted.
   std::optional<double> se_db_unseen;
   std::optional<std::size_t> error_texels_unseen;
+  // Jumps as the view moves, see view_jumps.h, and those of the material without its view map.
+  std::optional<ViewJumps> jumps, jumps_without_map;
   double seconds = 0;  // of the BTF and of one VOTF
   int iterations = 0;  // of the BTF
 };

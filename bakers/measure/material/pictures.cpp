@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "bakers/measure/material/measures.h"
+#include "bakers/measure/material/view_jumps.h"
+#include "sdk/src/material/evaluate.h"
 
 namespace nook::measure {
 namespace {
@@ -137,6 +139,28 @@ Picture difference_sheet(const RawMaterial& raw, const nook::material::Material&
   const Picture views[] = {compare_view(raw, material, light, of_tilt(raw.views, 15)),
                            compare_view(raw, material, light, of_tilt(raw.views, 55))};
   return bake::side_by_side(views);
+}
+
+Picture jump_strip(const nook::material::Material& material) {
+  const bake::material::ViewJumps jumps = bake::material::measure_view_jumps(material, 1);
+  const auto tables = nook::material::make_tables(material, {}, default_memory());
+  const auto radiance = [&](Vec3 view, std::size_t x, std::size_t y) {
+    const nook::material::Radiance r = evaluate_btf(
+        tables, {(float(x) + 0.5f) / float(tables.btf.width), (float(y) + 0.5f) / float(tables.btf.height), 0,
+                 view, material.lights[of_tilt({material.lights.begin(), material.lights.end()}, 45)]});
+    return Colour{r.red, r.green, r.blue};
+  };
+  const auto draw = [&](const auto& colour) { return cell(tables.btf.width, tables.btf.height, 2, colour); };
+  const Picture frames[] = {
+      draw([&](std::size_t x, std::size_t y) { return shown(radiance(jumps.before, x, y), true); }),
+      draw([&](std::size_t x, std::size_t y) { return shown(radiance(jumps.after, x, y), true); }),
+      draw([&](std::size_t x, std::size_t y) {
+        const Colour a = radiance(jumps.before, x, y), b = radiance(jumps.after, x, y);
+        Colour c;
+        for (std::size_t i = 0; i < 3; ++i) c[i] = 10 * std::numbers::pi_v<float> * std::abs(a[i] - b[i]);
+        return c;
+      })};
+  return bake::side_by_side(frames);
 }
 
 }  // namespace nook::measure

@@ -18,4 +18,8 @@ bake::Picture raw_sheet(const bake::material::RawMaterial& raw);
 bake::Picture difference_sheet(const bake::material::RawMaterial& raw,
                                const nook::material::Material& material);
 
+// The largest jump of view_jumps.h: the material before and after the step of the view, and the absolute
+// difference ten times, for a light tilted by 45 degrees; two tiles each way.
+bake::Picture jump_strip(const nook::material::Material& material);
+
 }  // namespace nook::measure

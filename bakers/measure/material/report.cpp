@@ -17,6 +17,14 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   texels("votf_error_texels_distance", row.error_texels_distance);
   if (row.se_db_unseen) json["se_db_unseen"] = *row.se_db_unseen;
   if (row.error_texels_unseen) json["votf_error_texels_unseen"] = *row.error_texels_unseen;
+  if (row.jumps) {
+    json["jump_largest"] = row.jumps->largest;
+    json["jump_99"] = row.jumps->percentile_99;
+  }
+  if (row.jumps_without_map) {
+    json["jump_largest_without_map"] = row.jumps_without_map->largest;
+    json["jump_99_without_map"] = row.jumps_without_map->percentile_99;
+  }
   json["seconds"] = row.seconds;
   json["peak_bytes"] = platform::peak_bytes();
   return json;
@@ -33,6 +41,7 @@ nlohmann::ordered_json describe(const CompressionSettings& s) {
           {"votf", s.visibility == nook::material::VisibilityForm::none     ? "none"
                    : s.visibility == nook::material::VisibilityForm::binary ? "binary"
                                                                             : "distance"},
+          {"votf_refits", s.votf_refits},
           {"view_map", s.method == Method::k_cta ? s.map_side : 0},
           {"seed", s.seed}};
 }

@@ -57,6 +57,11 @@ void add_compression_options(CLI::App& command, CompressionOptions& o) {
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
   command
+      .add_option("--votf-refits", s.votf_refits,
+                  "further fits of the VOTF, which count on which side of the threshold values lie")
+      ->check(CLI::Range(0, 16))
+      ->capture_default_str();
+  command
       .add_option_function<std::string>(
           "--seeding",
           [&s](const std::string& v) { s.seeding = v == "values" ? Seeding::values : Seeding::directions; },

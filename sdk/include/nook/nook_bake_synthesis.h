@@ -29,9 +29,9 @@ typedef struct nook_bake_synthesis_desc {
   /* Texels along a side of the plane, which repeats after them: a multiple of 64 up to 4096; default 512. The
    * file has 4 bytes for each texel. */
   uint32_t side;
-  /* Random movement, 0 to 1; default 0.4. More of it repeats less and has more seams. */
+  /* Random movement, 0 to 1; default 0.8. More of it repeats less and has more seams. */
   float jitter;
-  /* Corrections at each level, 1 to 16; default 4. */
+  /* Corrections at each level, 1 to 16; default 8. */
   uint32_t passes;
   /* Default 1. The same seed gives the same bytes on any number of threads. */
   uint64_t seed;

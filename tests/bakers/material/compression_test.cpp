@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "bakers/material/visibility_margin.h"
 #include "bakers/measure/material/comparison.h"
 #include "bakers/measure/material/measures.h"
 #include "sdk/src/core/failure.h"
@@ -236,4 +237,40 @@ TEST_CASE("the visibility mapping is half a texel's, or that of the settings") {
   CHECK(material.mapping.weight == 12);
   s.mapping->weight = -1;
   CHECK_THROWS_AS(compress(raw, s), Failure);
+}
+
+TEST_CASE("targets of a refit keep what is right by a margin and push the rest beyond it") {
+  // The threshold is 0, the margin 0.8 of the smallest value, 0.4.
+  const std::vector<float> values{1, -1, 0.5f, -0.5f, 0.5f, 1};
+  const std::vector<float> decoded{1.2f, -0.7f, 0.3f, 0.2f, -0.1f, 9};
+  const std::vector<float> wanted{1.2f, -0.7f, 0.5f, -1.0f, 0.9f, 1.5f};
+  const std::vector<float> targets = margin_targets(values, decoded, 0);
+  for (std::size_t i = 0; i < values.size(); ++i) CHECK(targets[i] == Approx(wanted[i]));
+  // The same shifted by a threshold of 0.5, as masks have it.
+  std::vector<float> shifted = values, shifted_decoded = decoded;
+  for (float& value : shifted) value += 0.5f;
+  for (float& value : shifted_decoded) value += 0.5f;
+  const std::vector<float> again = margin_targets(shifted, shifted_decoded, 0.5f);
+  for (std::size_t i = 0; i < values.size(); ++i) CHECK(again[i] == Approx(wanted[i] + 0.5f));
+}
+
+TEST_CASE("refits of the VOTF lower its error texels in either form") {
+  const RawMaterial raw = test::small_material();
+  for (const auto form : {nook::material::VisibilityForm::distance, nook::material::VisibilityForm::binary}) {
+    CompressionSettings s;
+    s.rank_light = s.rank_x = s.rank_y = 4;
+    s.rank_view = 8;
+    s.cluster_rank_view = 2;
+    s.mixture = 2;
+    s.votf_rank_x = s.votf_rank_y = 4;
+    s.map_side = 0;
+    s.visibility = form;
+    s.votf_refits = 0;
+    const std::vector<float> values = votf_values(raw, form);
+    const std::size_t before = count_error_texels(raw, compress_votf(raw, values, s), form);
+    s.votf_refits = 2;
+    const std::size_t after = count_error_texels(raw, compress_votf(raw, values, s), form);
+    CHECK(before > 0);
+    CHECK(after < before);
+  }
 }

@@ -44,7 +44,7 @@ RawMaterial decoded(const nook::material::Material& material) {
 }
 
 // The correlation of the squared distances of pairs of texels in the looks with those in all radiances.
-double correlation(const tensor::Matrix& looks, const RawMaterial& raw) {
+double correlation(const bake::tensor::Matrix& looks, const RawMaterial& raw) {
   double a = 0, b = 0, aa = 0, bb = 0, ab = 0, n = 0;
   const std::size_t images = raw.light_rows() * raw.views.size();
   for (std::size_t i = 0; i < raw.texels(); ++i)

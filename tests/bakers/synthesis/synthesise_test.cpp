@@ -93,19 +93,25 @@ nook_result result_of(const Exemplar& exemplar, const SynthesisSettings& setting
 
 TEST_CASE("a checker comes back") {
   const bool is_tiling = GENERATE(true, false);
-  const Exemplar exemplar = checker(32, 4, is_tiling);
-  const std::vector<Texel> plane = synthesise(exemplar, settings_of(128));
-  // Every window of the plane is one of the checker. Squares of 4 texels fit a plane of 128, so that a
-  // synthesis without seams exists.
-  CHECK(share_of_known_windows(exemplar, plane, 128) == 1);
+  const Exemplar exemplar = checker(40, 4, is_tiling);
+  SynthesisSettings settings = settings_of(256);
+  settings.jitter = 0;
+  // Every window of the plane is one of the checker: the corrections join the blocks of one that does not
+  // tile in its period of 8 texels, which divides the plane's 256.
+  CHECK(share_of_known_windows(exemplar, synthesise(exemplar, settings), 256) == 1);
+  // Blocks that were moved at random meet in another phase in places. Squares of 4 texels are as small as the
+  // finest two levels, so that nothing coarser brings them into line.
+  settings.jitter = 0.2f;
+  CHECK(share_of_known_windows(exemplar, synthesise(exemplar, settings), 256) > 0.75);
 }
 
 TEST_CASE("stripes come back with their direction") {
   const Exemplar exemplar =
       exemplar_of(48, 48, true, [](std::int32_t x, std::int32_t y) { return float((x + y) / 6 % 2); });
-  const std::vector<Texel> plane = synthesise(exemplar, settings_of(192));
+  SynthesisSettings settings = settings_of(192);
+  settings.jitter = 0.4f;
   // The stripes may meet with an offset in a few places.
-  CHECK(share_of_known_windows(exemplar, plane, 192) > 0.97);
+  CHECK(share_of_known_windows(exemplar, synthesise(exemplar, settings), 192) > 0.95);
 }
 
 TEST_CASE("a crop that does not tile has less seam energy than its repetition") {
@@ -128,9 +134,10 @@ TEST_CASE("a plane shows all parts of an exemplar and does not repeat with its p
       ++shown[std::size_t(t.y * 64 + t.x)];
       repeats += plane[std::size_t(y * 256 + (x + 64) % 256)] == t;
     }
-  // A tiled plane would show each texel 16 times and repeat everywhere. Chance repeats 1 texel of 4,096.
+  // A tiled plane would show each texel 16 times and repeat everywhere. Pieces that lie beside each other as
+  // in the exemplar repeat, where two neighbours were moved alike.
   CHECK(double(std::count(shown.begin(), shown.end(), 0)) / 4096 < 0.4);
-  CHECK(repeats / (256 * 256) < 0.05);
+  CHECK(repeats / (256 * 256) < 0.2);
   // From afar the plane looks as the exemplar: the mean differs by less than a tenth of the deviation.
   double mean = 0;
   for (const Texel t : plane) mean += exemplar.values(exemplar.shape.row(t), 0);
@@ -143,8 +150,8 @@ TEST_CASE("a plane shows all parts of an exemplar and does not repeat with its p
 TEST_CASE("texels of an exemplar that does not tile keep off its border") {
   const Exemplar exemplar = waves(40, false, 4.3f);
   for (const Texel t : synthesise(exemplar, settings_of(128))) {
-    CHECK((t.x >= 1 && t.x <= 38));
-    CHECK((t.y >= 1 && t.y <= 38));
+    CHECK((t.x >= 2 && t.x <= 37));
+    CHECK((t.y >= 2 && t.y <= 37));
   }
 }
 

@@ -9,12 +9,14 @@
 #include <nook/nook_gl_clips.h>
 #include <nook/nook_gl_material.h>
 #include <nook/nook_gl_probe.h>
+#include <nook/nook_gl_synthesis.h>
 #include <nook/nook_gl_transfer.h>
 #include <nook/nook_gl_world.h>
 #include <nook/nook_material.h>
 #include <nook/nook_nnao.h>
 #include <nook/nook_pose.h>
 #include <nook/nook_probe.h>
+#include <nook/nook_synthesis.h>
 #include <nook/nook_transfer.h>
 #include <nook/nook_vertices.h>
 #include <nook/nook_world.h>

@@ -1,0 +1,104 @@
+#include "bakers/measure/material/view_jumps.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "bakers/raytrace/random.h"
+#include "sdk/src/material/evaluate.h"
+
+namespace nook::bake::material {
+namespace {
+
+using nook::material::Material;
+using nook::material::MaterialTables;
+using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr std::size_t arcs = 64, steps = 60;
+constexpr std::uint32_t grid = 16;  // texels along a side
+constexpr float radians = std::numbers::pi_v<float> / 180, most_tilt = 70 * radians;
+
+// The views of an arc: both ends within the largest tilt.
+std::vector<Vec3> arc_of(std::uint64_t seed) {
+  RandomFrom<MixedCounter> random(seed);
+  const float lowest = std::cos(most_tilt), arc = jump_step_deg * radians * float(steps);
+  for (;;) {
+    const float z = lowest + (1 - lowest) * random.unit(),
+                azimuth = 2 * std::numbers::pi_v<float> * random.unit(), r = std::sqrt(1 - z * z);
+    const Vec3 first{r * std::cos(azimuth), r * std::sin(azimuth), z};
+    const Vec3 any{random.normal(), random.normal(), random.normal()};
+    const Vec3 along = normalised(any - first * dot(any, first));
+    if ((first * std::cos(arc) + along * std::sin(arc)).z < lowest) continue;
+    std::vector<Vec3> views;
+    for (std::size_t i = 0; i <= steps; ++i) {
+      const float angle = arc * float(i) / float(steps);
+      views.push_back(first * std::cos(angle) + along * std::sin(angle));
+    }
+    return views;
+  }
+}
+
+// The light modes of the grid's texels for a view, a row each.
+Rows modes_of(const MaterialTables& tables, Vec3 view) {
+  const std::uint32_t width = std::min(grid, tables.btf.width), height = std::min(grid, tables.btf.height);
+  Rows out(Eigen::Index(width) * height, tables.btf.light_modes);
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x) {
+      // Middles of texels, which no filter blurs.
+      const auto middle = [](std::uint32_t i, std::uint32_t count, std::uint32_t size) {
+        return (float(i * size / count) + 0.5f) / float(size);
+      };
+      const nook::material::Sample sample{
+          middle(x, width, tables.btf.width), middle(y, height, tables.btf.height), 0, view, {0, 0, 1}};
+      const Eigen::Index row = Eigen::Index(y) * width + x;
+      decode_modes(tables, sample, {out.row(row).data(), std::size_t(out.cols())});
+    }
+  return out;
+}
+
+// Returns G = U^T U of the light basis, in which m^T G m is the sum of squares of all radiances of the modes
+// m.
+Rows gram_of(const Material& material, std::uint32_t modes) {
+  const Eigen::Index rank = material.btf.shape.rank_light;
+  const Eigen::Map<const Rows> basis(material.light_basis.data(),
+                                     Eigen::Index(material.light_basis.size()) / rank, rank);
+  Rows gram = Rows::Zero(modes, modes);
+  gram.topLeftCorner(rank, rank) = basis.transpose() * basis;
+  return gram;
+}
+
+double square(const Rows& modes, const Rows& gram) {
+  return (modes * gram).cwiseProduct(modes).cast<double>().sum();
+}
+
+struct Jump {
+  double size = 0;
+  Vec3 before, after;
+};
+
+}  // namespace
+
+ViewJumps measure_view_jumps(const Material& material, std::uint64_t seed) {
+  const MaterialTables tables = make_tables(material, {}, default_memory());
+  const Rows gram = gram_of(material, tables.btf.light_modes);
+  std::vector<Jump> jumps(arcs * steps);
+  tbb::parallel_for(std::size_t{0}, arcs, [&](std::size_t arc) {
+    const std::vector<Vec3> views = arc_of(seed + arc);
+    Rows before = modes_of(tables, views[0]);
+    for (std::size_t i = 0; i < steps; ++i) {
+      Rows after = modes_of(tables, views[i + 1]);
+      const double change = square(after - before, gram), size = square(before, gram);
+      jumps[arc * steps + i] = {size > 0 ? std::sqrt(change / size) : 0, views[i], views[i + 1]};
+      before = std::move(after);
+    }
+  });
+  std::sort(jumps.begin(), jumps.end(), [](const Jump& a, const Jump& b) { return a.size < b.size; });
+  const Jump& largest = jumps.back();
+  return {largest.size, jumps[jumps.size() * 99 / 100].size, largest.before, largest.after};
+}
+
+}  // namespace nook::bake::material
