@@ -1,5 +1,5 @@
-// AO of the casters at what the host's depth shows: of every pixel, or of every second pixel of every second row, which
-// resolve.frag spreads.
+// AO of the casters at what the host's depth shows: of every pixel; or of every second pixel of every second row, which
+// resolve.frag spreads, by the bodies that are near, times that of the far ones, which has been computed of every eighth.
 #include "shaders/nnao/host_depth.glsl"
 #include "shaders/world/casters.glsl"
 #if !NOOK_HALF
@@ -22,6 +22,34 @@ vec3 nook_world_position(ivec2 pixel) {
   ivec2 inside = clamp(pixel, ivec2(0), nook_screen_size - 1);
   return nook_position(nook_screen_rays, vec2(pixel), nook_screen_depth(inside));
 }
+
+#if NOOK_BODIES == NOOK_NEAR_BODIES
+uniform sampler2D nook_far_open;
+uniform int nook_world_far;  // 0: no far body reaches the view
+
+// Returns the openness by far bodies, from the four texels of every eighth pixel round this one, by how near their points
+// lie to its plane. In the counting view a pixel has its share of their casters.
+vec4 nook_world_far_open(ivec2 pixel, vec3 point, vec3 normal, bool counts) {
+  if (nook_world_far == 0) return counts ? vec4(0.0) : vec4(1.0);
+  ivec2 low = pixel / NOOK_FAR_STEP, last = (nook_screen_size - 1) / NOOK_FAR_STEP;
+  vec2 place = vec2(pixel - NOOK_FAR_STEP * low) / float(NOOK_FAR_STEP);
+  // A step off the plane of a fiftieth of the distance weighs half.
+  float inverse_off = 50.0 * inversesqrt(dot(point, point) + 1.0e-12);
+  vec4 sum = vec4(0.0);
+  float weights = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 step = ivec2(i & 1, i >> 1), texel = min(low + step, last), there = NOOK_FAR_STEP * texel;
+    float depth = nook_screen_depth(there);
+    vec2 near = mix(1.0 - place, place, vec2(step));
+    float off = dot(normal, nook_position(nook_screen_rays, vec2(there), depth) - point) * inverse_off;
+    float weight = depth == nook_no_surface ? 0.0 : (near.x * near.y + 1.0e-3) / (1.0 + off * off * off * off);
+    sum += weight * texelFetch(nook_far_open, texel, 0);
+    weights += weight;
+  }
+  vec4 open = weights > 0.0 ? sum / weights : vec4(1.0);
+  return counts ? open / float(NOOK_FAR_STEP * NOOK_FAR_STEP / 4) : open;
+}
+#endif
 
 // The tangent along an axis from the steps to both neighbours, each weighted by the inverse square of its change of
 // depth: past a silhouette depth changes more steeply than on the pixel's own surface.
@@ -91,9 +119,14 @@ bool nook_world_replaced(ivec2 pixel) {
 #endif
 }
 
+// The share of the far bodies in the counting view.
+float nook_world_seen = 0.0;
+
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
-#if NOOK_HALF
+#if NOOK_BODIES == NOOK_FAR_BODIES
+  ivec2 pixel = NOOK_FAR_STEP * texel;
+#elif NOOK_HALF
   ivec2 pixel = 2 * texel;
 #else
   ivec2 pixel = texel - nook_origin;
@@ -106,13 +139,22 @@ void main() {
     vec3 normal = nook_world_normal(pixel, position);
     open = nook_world_tile_open(pixel, position, normal);
 #ifdef NOOK_COLOURED
-    light = vec4(nook_world_open_light(normal, open), nook_world_tile_light(pixel, position));
+    light.rgb = nook_world_open_light(normal, open);
+#if NOOK_BODIES != NOOK_FAR_BODIES
+    light.a = nook_world_tile_light(pixel, position);
+#endif
+#else
+    light.rgb = vec3(open);
+#endif
+#if NOOK_BODIES == NOOK_NEAR_BODIES
+    vec4 far = nook_world_far_open(pixel, position, normal, nook_world_counts == 1);
+    if (nook_world_counts == 1)
+      nook_world_seen = far.r;
+    else
+      light.rgb *= far.rgb;
 #endif
   }
-#ifndef NOOK_COLOURED
-  light.rgb = vec3(open);
-#endif
-  if (nook_world_counts == 1) light = vec4(vec3(float(nook_world_evaluated) / 255.0), 1.0);
+  if (nook_world_counts == 1) light = vec4(vec3(float(nook_world_evaluated) / 255.0 + nook_world_seen), 1.0);
 #if NOOK_HALF
   nook_out = light;
 #else
