@@ -51,8 +51,11 @@
 #define NOOK_NEAR_BODIES 1
 #define NOOK_FAR_BODIES 2
 #define NOOK_FAR_FROM 0.6
-// Pixels along a side for each texel of the far bodies' AO.
+// Pixels along a side for each texel of the far bodies' AO, in a pass of the highest images; a pass of smaller ones
+// defines less.
+#ifndef NOOK_FAR_STEP
 #define NOOK_FAR_STEP 8
+#endif
 
 // The weight of a layer from which on no more than a step of 8 bits is left of what it replaces.
 #define NOOK_REPLACED 0.998

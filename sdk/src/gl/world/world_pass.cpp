@@ -39,8 +39,14 @@ TextureFormat result_format(bool coloured) {
   return coloured ? TextureFormat::bent_ao : TextureFormat::ao;
 }
 
-constexpr int far_length(int length) {
-  return (length + NOOK_FAR_STEP - 1) / NOOK_FAR_STEP;
+// Pixels along a side for each texel of the far bodies' AO. A texel stands for about so much of the picture
+// that a body's merging distance has several, also where the floor is seen at a grazing angle.
+constexpr int far_step(int max_height) {
+  return max_height >= 1000 ? NOOK_FAR_STEP : max_height >= 500 ? 4 : 2;
+}
+
+constexpr int far_length(int length, int step) {
+  return (length + step - 1) / step;
 }
 
 // A capsule counts as a rectangle in each part of a cone, whose corners reach beyond its round ends by less
@@ -66,6 +72,7 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
       max_height_(desc.max_height),
       half_(desc.half_resolution != 0),
       coloured_(desc.coloured != 0),
+      far_step_(far_step(desc.max_height)),
       casters_(device.memory, caster_unit),
       kept_(device.memory),
       ranges_(device.memory),
@@ -114,7 +121,8 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
 WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines) {
   Stage stage;
   char all[160];
-  std::snprintf(all, sizeof all, "%s%s", defines, coloured_ ? "#define NOOK_COLOURED 1\n" : "");
+  std::snprintf(all, sizeof all, "#define NOOK_FAR_STEP %d\n%s%s", far_step_, defines,
+                coloured_ ? "#define NOOK_COLOURED 1\n" : "");
   stage.program = draw_program(device_, "nnao/screen.vert", fragment, all);
   const auto at = [&](const char* name) { return uniform_location(device_, stage.program, name); };
   stage.frame = at("nook_frame");
@@ -156,8 +164,8 @@ void WorldPass::make_half(const nook_world_pass_desc& desc) {
   const int width = surface_length(desc.max_width, true), height = surface_length(desc.max_height, true);
   depth_ = RenderTexture(device_, TextureFormat::depth, width, height, "nook: depth of every fourth pixel");
   ao_ = RenderTexture(device_, result_format(coloured_), width, height, "nook: AO of every fourth pixel");
-  far_texture_ = RenderTexture(device_, result_format(coloured_), far_length(desc.max_width),
-                               far_length(desc.max_height), "nook: AO by far bodies");
+  far_texture_ = RenderTexture(device_, result_format(coloured_), far_length(desc.max_width, far_step_),
+                               far_length(desc.max_height, far_step_), "nook: AO by far bodies");
 }
 
 std::uint64_t WorldPass::bytes() const {
@@ -167,7 +175,8 @@ std::uint64_t WorldPass::bytes() const {
   if (half_)
     sum += texels(surface_length(max_width_, true), surface_length(max_height_, true)) *
                (bytes_per_texel(result) + bytes_per_texel(TextureFormat::depth)) +
-           texels(far_length(max_width_), far_length(max_height_)) * bytes_per_texel(result);
+           texels(far_length(max_width_, far_step_), far_length(max_height_, far_step_)) *
+               bytes_per_texel(result);
   return sum + casters_.bytes();
 }
 
@@ -367,7 +376,8 @@ void WorldPass::draw_far(const WorldFrame& frame, const FrameConstants& constant
   if (!far_) return;
   const Viewport viewport = viewport_of(frame.screen);
   set_frame(far_ao_, frame, constants);
-  draw(far_texture_.framebuffer(), {0, 0, far_length(viewport.width), far_length(viewport.height)});
+  draw(far_texture_.framebuffer(),
+       {0, 0, far_length(viewport.width, far_step_), far_length(viewport.height, far_step_)});
 }
 
 void WorldPass::draw_half(const WorldFrame& frame, const FrameConstants& constants) {

@@ -1,6 +1,6 @@
 // Casters darken what a depth buffer shows.
 //   full resolution  host depth -> AO and result
-//   half resolution  host depth -> depth of every fourth pixel; AO by far bodies of every 64th; AO of every
+//   half resolution  host depth -> depth of every fourth pixel; AO by far bodies of fewer still; AO of every
 //                    fourth by near bodies, times that -> upsample and result
 #pragma once
 
@@ -113,6 +113,7 @@ class WorldPass {
   Device& device_;
   int max_width_, max_height_;
   bool half_, coloured_;
+  int far_step_;                                                     // pixels
   Stage output_, layered_output_;                                    // at half resolution the upsample
   Stage half_depth_, half_ao_, masked_half_depth_, masked_half_ao_;  // masked: without replaced pixels
   Stage far_ao_;
