@@ -22,6 +22,7 @@ int nook_world_evaluated = 0;
 
 // The share of a body's casters that counts in this stage.
 float nook_world_weight = 1.0;
+bool nook_world_far_bodies = NOOK_BODIES == NOOK_FAR_BODIES;
 
 float nook_world_left(float share, vec3 phi, vec3 normal) {
   ++nook_world_evaluated;
@@ -76,11 +77,12 @@ float nook_world_body_open(int body, vec3 point, vec3 normal) {
   vec4 parts = nook_texel(nook_world_casters, texel + 1);
 #if NOOK_BODIES != NOOK_ALL_BODIES
   float far = clamp((distance2 / parts.z - NOOK_FAR_FROM) / (1.0 - NOOK_FAR_FROM), 0.0, 1.0);
-  nook_world_weight = NOOK_BODIES == NOOK_FAR_BODIES ? far : 1.0 - far;
+  nook_world_weight = nook_world_far_bodies ? far : 1.0 - far;
   if (nook_world_weight == 0.0) return 1.0;
+  if (nook_world_far_bodies) return nook_world_merged_open(texel + 2, point, normal);
 #endif
 #if NOOK_BODIES == NOOK_FAR_BODIES
-  return nook_world_merged_open(texel + 2, point, normal);
+  return 1.0;
 #else
   int first = int(parts.x), last = first + NOOK_PART_TEXELS * int(parts.y);
 #if NOOK_BODIES == NOOK_ALL_BODIES

@@ -133,6 +133,7 @@ WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines
   stage.composition = at("nook_world_composition");
   stage.counts = at("nook_world_counts");
   stage.far = at("nook_world_far");
+  stage.first_far_tile = at("nook_world_first_far_tile");
   stage.bands = at("nook_world_bands");
   stage.cone = at("nook_world_cone");
   stage.light_columns = at("nook_world_light_columns");
@@ -326,6 +327,7 @@ void WorldPass::set_frame(const Stage& stage, const WorldFrame& frame,
   const bool near = &stage == &half_ao_ || &stage == &masked_half_ao_;
   gl.Uniform1i(stage.first_tile, static_cast<GLint>(near ? first_near_tile_ : first_tile_));
   gl.Uniform1i(stage.far, far_);
+  gl.Uniform1i(stage.first_far_tile, static_cast<GLint>(first_tile_));
   gl.Uniform1i(stage.composition, frame.ao_texture ? 1 + frame.composition : 0);
   gl.Uniform1i(stage.counts, frame.counts);
   if (coloured_) set_light(stage, frame);

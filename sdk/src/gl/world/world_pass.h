@@ -88,7 +88,7 @@ class WorldPass {
     GLint frame = -1, groups = -1, columns = -1, first_tile = -1, tile_size = -1, composition = -1,
           counts = -1;
     // Only coloured passes have these.
-    GLint far = -1;  // of half resolution
+    GLint far = -1, first_far_tile = -1;  // of half resolution
     GLint bands = -1, cone = -1, light_columns = -1, first_light_tile = -1, first_shade = -1;
   };
   Stage make_stage(const char* fragment, const char* defines);
