@@ -114,7 +114,7 @@ vec4 nook_world_far_open(ivec2 pixel, vec3 point, vec3 normal) {
     sum += weight * texelFetch(nook_far_open, texel, 0).rgb;
     weights += weight;
   }
-  // Less than this is what texels that lie off the plane weigh together.
+  // Texels that lie off the plane weigh less together.
   return weights > 5.0e-4 ? vec4(sum / weights, 1.0) : vec4(0.0);
 }
 

@@ -23,5 +23,7 @@ inline constexpr double casters_of_part = 0.2;
 // At half resolution the lists of near bodies have fewer, more of which a pixel evaluates.
 inline constexpr double near_bodies_of_tile = 9;
 inline constexpr double parts_of_near_body = 0.6;
+// The share of pixels that lie between characters so that no texel of far bodies is on their surface.
+inline constexpr double alone = 0.03;
 
 }  // namespace nook::measure::trips

@@ -27,11 +27,11 @@ std::vector<ShaderCase> world_shaders() {
       {"bodies of a tile",
        trips::bodies_of_tile,
        {{"parts of a body", trips::parts_of_body, {{"casters of a part", trips::casters_of_part, {}}}}}}};
-  const std::vector<Loop> near_loops{{"near bodies of a tile",
-                                      trips::near_bodies_of_tile,
-                                      {{"parts of a body",
-                                        trips::parts_of_near_body,
-                                        {{"casters of a part", trips::casters_of_part, {}}}}}}};
+  const std::vector<Loop> near_loops{
+      {"near bodies of a tile",
+       trips::near_bodies_of_tile,
+       {{"parts of a body", trips::parts_of_near_body, {{"casters of a part", trips::casters_of_part, {}}}}}},
+      {"bodies of a tile, where no texel of far bodies is near", trips::alone * trips::bodies_of_tile, {}}};
   const std::vector<Loop> far_loops{{"bodies of a tile", trips::bodies_of_tile, {}}};
   const char* const path = "shaders/world/darken.frag";
   const char* const resolve = "shaders/world/resolve.frag";
