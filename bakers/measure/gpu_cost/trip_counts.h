@@ -24,6 +24,6 @@ inline constexpr double casters_of_part = 0.2;
 inline constexpr double near_bodies_of_tile = 9;
 inline constexpr double parts_of_near_body = 0.6;
 // The share of pixels that lie between characters so that no texel of far bodies is on their surface.
-inline constexpr double alone = 0.03;
+inline constexpr double alone = 0.004;
 
 }  // namespace nook::measure::trips
