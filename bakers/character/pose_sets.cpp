@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
+#include <numbers>
 
 #include "bakers/character/clip_families.h"
 #include "bakers/character/rotation.h"
@@ -82,6 +84,16 @@ ClipSplit split_families(const ImportedCharacter& character, std::span<const std
     (family % 2 == 0 ? split.fitted : split.measured).push_back(clips[i]);
   }
   return split;
+}
+
+std::vector<Pose> turned_poses(std::size_t count, float shift) {
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float angle = 2 * std::numbers::pi_v<float> * (float(i) + shift) / float(count);
+    const float c = std::cos(angle), s = std::sin(angle);
+    poses.push_back({Mat3x4{{c, 0, s, 0, 0, 1, 0, 0, -s, 0, c, 0}}});
+  }
+  return poses;
 }
 
 std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh) {

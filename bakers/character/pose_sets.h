@@ -36,6 +36,9 @@ ClipSplit split_clips(std::span<const std::size_t> clips);
 // motion are on both sides. With one family nothing is measured.
 ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips);
 
+// An object of one bone, turned about the vertical axis to `count` directions, evenly; `shift` of a step.
+std::vector<Pose> turned_poses(std::size_t count, float shift);
+
 // Keeps at most so many items, evenly picked; 0 keeps all.
 template <class Item>
 void thin_out(std::vector<Item>& items, std::size_t max_count) {

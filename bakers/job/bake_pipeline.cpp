@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bakers/character/bind_data.h"
+#include "bakers/character/pose_sets.h"
 #include "bakers/world/fit_casters.h"
 #include "platform/peak_memory.h"
 #include "sdk/src/character/model_file.h"
@@ -91,8 +92,11 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
                                       return progress(stage_of(stage), done, total);
                                     });
   WorldCasterReport caster_report;
+  // An object of one bone has no poses but places: it is turned before walls and lights.
+  const std::vector<Pose> caster_poses =
+      character.mesh.bones.size() == 1 ? turned_poses(caster_settings(recipe).poses, 0) : std::move(poses);
   const std::vector<WorldCaster> casters = fit_world_casters(
-      character.mesh, poses, caster_settings(recipe), &caster_report,
+      character.mesh, caster_poses, caster_settings(recipe), &caster_report,
       [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_CASTERS, done, total); });
   baked.model.world_casters.assign(casters.begin(), casters.end());
   baked.model.bind = bind_data_of(character);

@@ -57,6 +57,8 @@ Json composite_report(const Options& options, const measure::BakedCharacter& bak
   measure::CompositeStudy study = options.rooms;
   study.truth.seed = options.common.seed;
   study.truth.rays = options.study.rays;
+  study.images = options.images;
+  if (!options.images.empty()) std::filesystem::create_directories(options.images);
   platform::ProgressBar bar(options.common.quiet);
   return measure::composite_rows(*context, rooms_of(options), baked.character.mesh, baked.model,
                                  baked.model_bytes, poses, study, [&](std::size_t done, std::size_t total) {
@@ -86,7 +88,7 @@ Json evaluate(const Options& options) {
                                  return !interrupted();
                                });
   });
-  if (!options.images.empty())
+  if (!options.images.empty() && !options.composite)
     measure::write_world_pictures(options.images, baked.character.mesh, baked.model, measured.poses,
                                   options.image_count, study.rays, study.seed);
   report["protocol"] = measured.protocol;
@@ -124,7 +126,8 @@ void add_evaluate_world(CLI::App& evaluate_command) {
       ->capture_default_str();
   command->add_option(
       "--images", o.images,
-      "draw floor and wall by ray tracing, Nook, capsules and blobs: PNG files in this directory");
+      "draw floor and wall by ray tracing, Nook, capsules and blobs, with --composite a view of each room by "
+      "ray tracing, Nook and the screen pass alone: PNG files in this directory");
   command->add_option("--image-count", o.image_count, "poses to draw")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -11,6 +11,7 @@
 #include "bakers/world/dual.h"
 #include "bakers/world/initial_casters.h"
 #include "bakers/world/posed_casters.h"
+#include "bakers/world/refined_mesh.h"
 #include "bakers/world/training_points.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
@@ -246,8 +247,11 @@ std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<co
                                            const WorldCasterSettings& settings, WorldCasterReport* report,
                                            const CasterProgress& progress) {
   const platform::Stopwatch watch;
-  const std::vector<float> area = vertex_areas(mesh, mesh.position);
-  std::vector<WorldCaster> casters = initial_casters(mesh, area, settings.casters);
+  // A mesh of one bone is an object, such as a table, whose triangles may be large.
+  const SkinnedMesh fine = mesh.bones.size() == 1 ? refined(mesh) : SkinnedMesh{};
+  const SkinnedMesh& begin = mesh.bones.size() == 1 ? fine : mesh;
+  std::vector<WorldCaster> casters =
+      initial_casters(begin, vertex_areas(begin, begin.position), settings.casters);
   const std::size_t total = std::min(settings.poses, poses.size()) + settings.steps;
   const TrainingPoints set = trace_training_points(mesh, poses, settings, [&](std::size_t done, std::size_t) {
     return !progress || progress(done, total);

@@ -146,6 +146,7 @@ void run(const Options& o) {
                   {"screen_space", ms.screen_space},
                   {"draw", ms.draw},
                   {"read", ms.read}};
+  if (screen_space && o.measure_world) report["world_rms"] = screen_space->rms_to_every_caster(scene.gl());
   if (screen_space) report["world_casters_per_pixel"] = screen_space->mean_casters();
   report["screen_space"] = screen_space ? describe(screen_space->quality()) : nlohmann::ordered_json();
   report["rows"] = nlohmann::ordered_json::array();

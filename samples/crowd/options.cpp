@@ -63,6 +63,9 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
       "--record", o.record,
       "folder for recorded frames of the screen-space pass, frame_0000.nook and so on; in a window "
       "a button records one (default there: --out)");
+  app.add_flag(
+      "--measure-world", o.measure_world,
+      "compare the world pass of the last frame with every caster at every pixel; slow without a GPU");
   app.add_option("--seed", o.seed, "seed of the places, the clips and the rays");
   app.add_option("--cache", o.cache, "folder where baked characters are kept");
   app.add_flag("!--no-sheets", o.sheets, "no comparison sheets, and no ray tracing except for --light");

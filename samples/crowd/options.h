@@ -21,6 +21,7 @@ struct Options {
   std::vector<std::filesystem::path> lights;  // probes (.nook) or maps of the environment (.hdr, .exr)
   bool probe_light = true;                    // the frames have the first of the lights, or the built-in sky
   bool screen_space = true, sheets = true, quiet = false;
+  bool measure_world = false;
 };
 
 // Fills options. Returns false with exit_code set if the program should end at once.

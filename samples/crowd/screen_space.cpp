@@ -1,6 +1,7 @@
 #include "samples/crowd/screen_space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
 #include <vector>
@@ -96,6 +97,26 @@ ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> 
   return {world_.info().texture, textures_[kDepth]};
 }
 
+std::vector<float> ScreenSpaceAo::read_red(GLuint texture) const {
+  std::vector<float> values(std::size_t(width_px_) * std::size_t(height_px_));
+  gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, texture);
+  gl_.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, values.data());
+  return values;
+}
+
+std::vector<bool> ScreenSpaceAo::read_surfaces() const {
+  std::vector<float> depth(std::size_t(width_px_) * std::size_t(height_px_));
+  gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, textures_[kDepth]);
+  gl_.GetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+  std::vector<bool> surfaces;
+  for (const float d : depth) surfaces.push_back(d < 1);
+  return surfaces;
+}
+
 double ScreenSpaceAo::mean_casters() {
   nook_world_frame_desc frame = world_frame_;
   frame.show = NOOK_WORLD_VIEW_CASTERS;
@@ -104,21 +125,37 @@ double ScreenSpaceAo::mean_casters() {
   frame.lobe_count = 0;
   frame.light_degrees = 0;
   world_.render(frame);
-  const std::size_t pixels = std::size_t(width_px_) * std::size_t(height_px_);
-  std::vector<float> counts(pixels), depth(pixels);
-  gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
-  gl_.ActiveTexture(GL_TEXTURE0);
-  gl_.BindTexture(GL_TEXTURE_2D, world_.info().texture);
-  gl_.GetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, counts.data());
-  gl_.BindTexture(GL_TEXTURE_2D, textures_[kDepth]);
-  gl_.GetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+  const std::vector<float> counts = read_red(world_.info().texture);
+  const std::vector<bool> there = read_surfaces();
   double sum = 0, surfaces = 0;
-  for (std::size_t i = 0; i < pixels; ++i)
-    if (depth[i] < 1) {
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (there[i]) {
       sum += 255 * double(counts[i]);
       surfaces += 1;
     }
   return sum / std::max(surfaces, 1.0);
+}
+
+double ScreenSpaceAo::rms_to_every_caster(const nook::Gl& gl) {
+  nook_world_frame_desc frame = world_frame_;
+  frame.lobes = nullptr;
+  frame.lobe_count = 0;
+  frame.light_degrees = 0;
+  frame.ao_texture = 0;
+  world_.render(frame);
+  const std::vector<float> found = read_red(world_.info().texture);
+  frame.cutoff_error = frame.level_error = 0;
+  nook::WorldPass exact(gl, world_settings(width_px_, height_px_, {}));
+  exact.render(frame);
+  const std::vector<float> wanted = read_red(exact.info().texture);
+  const std::vector<bool> there = read_surfaces();
+  double sum = 0, surfaces = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (there[i]) {
+      sum += double(found[i] - wanted[i]) * double(found[i] - wanted[i]);
+      surfaces += 1;
+    }
+  return std::sqrt(sum / std::max(surfaces, 1.0));
 }
 
 ScreenAo ScreenSpaceAo::draw_screen(Renderer& renderer, std::span<const DrawnInstance> instances,

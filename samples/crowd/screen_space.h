@@ -47,11 +47,19 @@ class ScreenSpaceAo {
   // GPU.
   double mean_casters();
 
+  // The rms of the difference between the world pass in the last frame of draw and one of full resolution
+  // that evaluates every caster everywhere, over pixels with a surface. Waits for the GPU.
+  double rms_to_every_caster(const nook::Gl& gl);
+
   // Records the frame that was drawn last. Waits for the GPU.
   nook::Recording record(const char* note) { return pass_.record(frame_, note); }
 
  private:
   enum Texture { kDepth, kNormals, kLayer, kTextures };
+
+  // One number of each pixel of a frame, and whether a surface is there.
+  std::vector<float> read_red(GLuint texture) const;
+  std::vector<bool> read_surfaces() const;
 
   const GladGLContext& gl_;
   int width_px_, height_px_;

@@ -176,7 +176,7 @@ uniform vec3 background;
 out vec4 colour;
 void main() {
 #ifdef GROUND
-  // What characters and the screen leave of soft light, and in alpha of the sun.
+  // The open shares of soft light, and in alpha that of the sun, behind characters and the screen.
   vec4 open = mix(vec4(1.0), use_screen_ao ? fetch_screen_light() : vec4(1.0), ao_strength);
   vec3 irradiance = ground_irradiance * open.rgb + ground_sun_irradiance * open.a;
 #else

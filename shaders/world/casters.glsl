@@ -10,14 +10,25 @@
 #include "shaders/world/light.glsl"
 #endif
 
+#ifndef NOOK_BODIES
+#define NOOK_BODIES NOOK_ALL_BODIES
+#endif
+
 uniform NOOK_TEXELS nook_world_casters;
 uniform int nook_world_groups;
 
 // The casters that the point has evaluated so far.
 int nook_world_evaluated = 0;
 
+// The share of a body's casters that counts in this stage.
+float nook_world_weight = 1.0;
+bool nook_world_far_bodies = NOOK_BODIES == NOOK_FAR_BODIES;
+
 float nook_world_left(float share, vec3 phi, vec3 normal) {
   ++nook_world_evaluated;
+#if NOOK_BODIES != NOOK_ALL_BODIES
+  share *= nook_world_weight;
+#endif
 #ifdef NOOK_COLOURED
   nook_world_gather(phi, normal, share);
 #endif
@@ -64,9 +75,21 @@ float nook_world_body_open(int body, vec3 point, vec3 normal) {
   float top = dot(d, normal) + radius;
   if (top < 0.0 || (gap > 0.0 && bound.w * min(top, gap) < NOOK_STRENGTH_STEPS * gap * gap * gap)) return 1.0;
   vec4 parts = nook_texel(nook_world_casters, texel + 1);
+#if NOOK_BODIES != NOOK_ALL_BODIES
+  float far = clamp((distance2 / parts.z - NOOK_FAR_FROM) / (1.0 - NOOK_FAR_FROM), 0.0, 1.0);
+  nook_world_weight = nook_world_far_bodies ? far : 1.0 - far;
+  if (nook_world_weight == 0.0) return 1.0;
+  if (nook_world_far_bodies) return nook_world_merged_open(texel + 2, point, normal);
+#endif
+#if NOOK_BODIES == NOOK_FAR_BODIES
+  return 1.0;
+#else
   int first = int(parts.x), last = first + NOOK_PART_TEXELS * int(parts.y);
+#if NOOK_BODIES == NOOK_ALL_BODIES
   if (distance2 > parts.z) return nook_world_merged_open(texel + 2, point, normal);
+#endif
   return nook_world_parts_open(first, last, point, normal);
+#endif
 }
 
 float nook_world_open(vec3 point, vec3 normal) {

@@ -1,5 +1,5 @@
-// AO of the casters at what the host's depth shows: of every pixel, or of every second pixel of every second row, which
-// resolve.frag spreads.
+// AO of the casters at what the host's depth shows: of every pixel; or of every second pixel of every second row, which
+// resolve.frag spreads, by the bodies that are near, times that of the far ones, which has been computed of every eighth.
 #include "shaders/nnao/host_depth.glsl"
 #include "shaders/world/casters.glsl"
 #if !NOOK_HALF
@@ -67,11 +67,11 @@ float nook_world_tile_light(ivec2 pixel, vec3 point) {
 }
 #endif
 
-float nook_world_tile_open(ivec2 pixel, vec3 point, vec3 normal) {
+float nook_world_list_open(int first_tile, ivec2 pixel, vec3 point, vec3 normal) {
   if (nook_world_tile_columns == 0) return 1.0;
   ivec2 tile = pixel / nook_world_tile_size;
-  vec4 range = nook_texel(nook_world_casters, nook_world_first_tile + tile.y * nook_world_tile_columns + tile.x);
-  int first = nook_world_first_tile + int(range.x), count = int(range.y);
+  vec4 range = nook_texel(nook_world_casters, first_tile + tile.y * nook_world_tile_columns + tile.x);
+  int first = first_tile + int(range.x), count = int(range.y);
   float open = 1.0;
   vec4 bodies = vec4(0.0);
   for (int i = 0; i < count; ++i) {
@@ -91,9 +91,57 @@ bool nook_world_replaced(ivec2 pixel) {
 #endif
 }
 
+#if NOOK_BODIES == NOOK_NEAR_BODIES
+uniform sampler2D nook_far_open;
+uniform int nook_world_far;  // 0: no far body reaches the view
+
+// Returns the openness by far bodies, from the four texels of every eighth pixel round this one, by how near their points
+// lie to its plane. Alpha is 0 where none of them does.
+vec4 nook_world_far_open(ivec2 pixel, vec3 point, vec3 normal) {
+  ivec2 low = pixel / NOOK_FAR_STEP, last = (nook_screen_size - 1) / NOOK_FAR_STEP;
+  vec2 place = vec2(pixel - NOOK_FAR_STEP * low) / float(NOOK_FAR_STEP);
+  // A step off the plane of a hundredth of the distance weighs half.
+  float inverse_off = 100.0 * inversesqrt(dot(point, point) + 1.0e-12);
+  vec3 sum = vec3(0.0);
+  float weights = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 corner = ivec2(i & 1, i >> 1), texel = min(low + corner, last), there = NOOK_FAR_STEP * texel;
+    float depth = nook_screen_depth(there);
+    vec2 share = mix(1.0 - place, place, vec2(corner));
+    float off = dot(normal, nook_position(nook_screen_rays, vec2(there), depth) - point) * inverse_off;
+    bool none = depth == nook_no_surface || nook_world_replaced(there);
+    float weight = none ? 0.0 : (share.x * share.y + 1.0e-3) / (1.0 + off * off * off * off);
+    sum += weight * texelFetch(nook_far_open, texel, 0).rgb;
+    weights += weight;
+  }
+  // Texels that lie off the plane weigh less together.
+  return weights > 5.0e-4 ? vec4(sum / weights, 1.0) : vec4(0.0);
+}
+
+uniform int nook_world_first_far_tile;
+
+vec3 nook_world_far_here(ivec2 pixel, vec3 point, vec3 normal) {
+  nook_world_far_bodies = true;
+#ifdef NOOK_COLOURED
+  nook_world_taken = NookTaken(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
+#endif
+  float open = nook_world_list_open(nook_world_first_far_tile, pixel, point, normal);
+#ifdef NOOK_COLOURED
+  return nook_world_open_light(normal, open);
+#else
+  return vec3(open);
+#endif
+}
+#endif
+
+// The share of the far bodies in the counting view.
+float nook_world_seen = 0.0;
+
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
-#if NOOK_HALF
+#if NOOK_BODIES == NOOK_FAR_BODIES
+  ivec2 pixel = NOOK_FAR_STEP * texel;
+#elif NOOK_HALF
   ivec2 pixel = 2 * texel;
 #else
   ivec2 pixel = texel - nook_origin;
@@ -104,15 +152,27 @@ void main() {
   if (depth != nook_no_surface && !nook_world_replaced(pixel)) {
     vec3 position = nook_position(nook_screen_rays, vec2(pixel), depth);
     vec3 normal = nook_world_normal(pixel, position);
-    open = nook_world_tile_open(pixel, position, normal);
+    open = nook_world_list_open(nook_world_first_tile, pixel, position, normal);
 #ifdef NOOK_COLOURED
-    light = vec4(nook_world_open_light(normal, open), nook_world_tile_light(pixel, position));
+    light.rgb = nook_world_open_light(normal, open);
+#if NOOK_BODIES != NOOK_FAR_BODIES
+    light.a = nook_world_tile_light(pixel, position);
+#endif
+#else
+    light.rgb = vec3(open);
+#endif
+#if NOOK_BODIES == NOOK_NEAR_BODIES
+    if (nook_world_far == 1) {
+      vec4 far = nook_world_far_open(pixel, position, normal);
+      if (far.a == 0.0)
+        far.rgb = nook_world_far_here(pixel, position, normal);
+      else if (nook_world_counts == 1)
+        nook_world_seen = far.r / float(NOOK_FAR_STEP * NOOK_FAR_STEP / 4);
+      light.rgb *= far.rgb;
+    }
 #endif
   }
-#ifndef NOOK_COLOURED
-  light.rgb = vec3(open);
-#endif
-  if (nook_world_counts == 1) light = vec4(vec3(float(nook_world_evaluated) / 255.0), 1.0);
+  if (nook_world_counts == 1) light = vec4(vec3(float(nook_world_evaluated) / 255.0 + nook_world_seen), 1.0);
 #if NOOK_HALF
   nook_out = light;
 #else

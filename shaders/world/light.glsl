@@ -6,7 +6,7 @@
 // The light's bands in view space: scalar; vector x, y, z; tensor xx, yy, zz, twice xy, yz, zx; the darkest hemisphere.
 uniform vec4 nook_world_bands[NOOK_LIGHT_VEC4S];
 
-// What the casters of a point take, each by its share: the sums of the bands.
+// The sums of the bands of the casters of a point, each by its share.
 struct NookTaken {
   float scalar;
   vec3 vector, straight, mixed;  // straight: xx, yy, zz; mixed: xy, yz, zx

@@ -28,7 +28,7 @@ std::vector<nook_probe_lobe> window_light() {
           lobe({0, 1, 0}, 0, {0.1f, 0.1f, 0.12f})};
 }
 
-// Four numbers a pixel: what nook_world_sample gives.
+// Returns four numbers for each pixel, by nook_world_sample.
 std::vector<float> sampled_light(const Picture& picture, const View& view, nook_scene scene,
                                  const std::vector<nook_world_capsule>& casters,
                                  const std::vector<nook_probe_lobe>& lobes, Vec3 towards, float degrees) {
@@ -70,7 +70,7 @@ std::vector<float> sampled_light(const Picture& picture, const View& view, nook_
 struct LightFixture : WorldFixture {
   explicit LightFixture(platform::Context& made_in) : WorldFixture(made_in) {}
 
-  // Four numbers a pixel.
+  // Returns four numbers for each pixel.
   std::vector<float> drawn(const nook_world_frame_desc& frame) {
     NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
     nook_world_pass_info info{};

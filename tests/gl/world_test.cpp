@@ -321,6 +321,32 @@ TEST_CASE("world: half resolution comes close to full resolution") {
     if (!std::isfinite(fixture.picture.depth[i])) REQUIRE(half[i] == 1);
 }
 
+TEST_CASE(
+    "world: half resolution with levels stays near every caster, also where near and far bodies blend") {
+  NOOK_NEED_CONTEXT(context);
+  CrowdFixture fixture(context);
+  nook_world_pass_desc desc = world_desc();
+  desc.half_resolution = 1;
+  fixture.made(desc);
+  const nook_nnao_frame_desc screen = fixture.screen();
+  nook_world_frame_desc frame = fixture.frame(screen);
+  std::vector<float> before;
+  for (int step = 0; step < 8; ++step) {
+    frame.view[14] = -0.4f * float(step);
+    frame.level_error = 0;
+    const std::vector<float> all = fixture.drawn(frame);
+    frame.level_error = 1.0f / 64;
+    const std::vector<float> levels = fixture.drawn(frame);
+    // Seven bodies of that rms; a body that blends has up to three times its error; two steps of 8 bits.
+    CHECK(std::sqrt(mean_square(levels, all)) < 3 * std::sqrt(7.0) / 64 + 2.0 / 255);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      if (!std::isfinite(fixture.picture.depth[i])) REQUIRE(levels[i] == 1);
+    // The crowd moves on, and what it darkens changes little by little.
+    if (step > 0) CHECK(difference(levels, before, 0.25f).beyond < 0.02f);
+    before = levels;
+  }
+}
+
 TEST_CASE("world: AO of another kind is composed by product and by minimum") {
   NOOK_NEED_CONTEXT(context);
   CrowdFixture fixture(context);

@@ -35,6 +35,12 @@ EvaluatedPoses choose_poses(const ImportedCharacter& character, const Recipe* re
     thin_out(result.poses, choice.most);
     return result;
   }
+  if (choice.clips.empty() && character.mesh.bones.size() == 1 && motion_clips(character).empty()) {
+    // The turns of the bake lie between these.
+    result.poses = turned_poses(choice.most ? choice.most : choice.samples_per_clip, 0.5f);
+    result.protocol = "turned";
+    return result;
+  }
   std::vector<std::size_t> clips;
   if (!choice.clips.empty()) {
     clips = named_clips(character, choice.clips);

@@ -20,13 +20,14 @@ struct PoseChoice {
 
 struct EvaluatedPoses {
   std::vector<bake::Pose> poses;
-  std::string protocol;            // "unseen clips", "all clips", "named clips", "training poses"
+  std::string protocol;            // "unseen clips", "all clips", "named clips", "training poses", "turned"
   std::vector<std::string> clips;  // measured
   std::vector<std::size_t> clip;   // of each pose, an index into clips; empty for training poses
 };
 
 // Without names: the motion clips that the recipe did not fit, or all of them if it fitted all. recipe may be
-// null when none could be read; then all motion clips are measured. Throws Failure (INVALID_ARGUMENT).
+// null when none could be read; then all motion clips are measured. An object of one bone without clips is
+// turned about the vertical axis instead. Throws Failure (INVALID_ARGUMENT).
 EvaluatedPoses choose_poses(const bake::ImportedCharacter& character, const bake::Recipe* recipe,
                             const PoseChoice& choice);
 

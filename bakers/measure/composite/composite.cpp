@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "bakers/measure/composite/room_picture.h"
 #include "bakers/measure/composite/shipped_pass.h"
 #include "bakers/measure/nnao/network_pass.h"
 #include "bakers/raytrace/random.h"
@@ -113,6 +114,16 @@ struct Passes {
   ShippedPass full, half;
 };
 
+// Ray tracing, Nook, the screen pass alone.
+void write_picture(const std::filesystem::path& file, const RoomView& view, Passes& passes) {
+  const RoomPixels& p = view.pixels;
+  std::vector<float> traced(view.view.depth.size(), 1.0f);
+  for (std::size_t i = 0; i < p.pixel.size(); ++i)
+    traced[p.pixel[i]] = 0.5f * (p.together[0][i] + p.together[1][i]);
+  const std::vector<float> panels[] = {traced, passes.full.ao(view), passes.screen.ao(view.view)};
+  write_room_picture(file, view, panels);
+}
+
 RoomSums sums_of(const RoomView& view, Passes& passes, std::span<const Capsule> casters) {
   const std::vector<float> screen = passes.screen.ao(view.view),
                            room = passes.screen.ao(without_figures(view)), full = passes.full.ao(view),
@@ -195,7 +206,13 @@ Json composite_rows(platform::Context& context, std::span<const MeasuredRoom> ro
         throw Failure(NOOK_ERROR_CANCELLED, "cancelled while measuring rooms");
       RoomTruth truth = study.truth;
       truth.seed = mix_bits(study.truth.seed + done);
-      const RoomSums s = sums_of(trace_room_view(room, all, camera, truth), passes, casters);
+      const RoomView view = trace_room_view(room, all, camera, truth);
+      const RoomSums s = sums_of(view, passes, casters);
+      if (!study.images.empty() && &camera == &cameras.front()) {
+        truth.every = 1;
+        write_picture(study.images / (measured.name + ".png"), trace_room_view(room, all, camera, truth),
+                      passes);
+      }
       add(sums.darkened, s.darkened);
       add(sums.elsewhere, s.elsewhere);
     }

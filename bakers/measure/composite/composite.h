@@ -21,6 +21,7 @@ struct CompositeStudy {
   std::size_t figures = 5, views = 8;  // of each room
   int taps = 9;                        // of the screen pass
   RoomTruth truth;
+  std::filesystem::path images;  // empty, or where a picture of each room goes
 };
 
 struct MeasuredRoom {

@@ -111,6 +111,12 @@ std::vector<PassCase> all_passes() {
     passes.push_back(
         nnao("NNAO, paper's form, " + taps, "occlusion.frag, paper's form, " + taps, false, true));
   }
+  constexpr double far = 1.0 / 64;
+  passes.push_back({"world, half resolution",
+                    {{"depth.frag, half", quarter},
+                     {"darken.frag, far bodies", far},
+                     {"darken.frag, half resolution, near bodies", quarter},
+                     {"resolve.frag of the world pass", 1}}});
   add_baselines(passes);
   return passes;
 }

@@ -17,8 +17,13 @@ inline constexpr double light_lobes = 12;  // of an instance's light
 inline constexpr double sides = 2;
 
 // The world pass at a pixel of the crowd sample with 100 characters.
-inline constexpr double bodies_of_tile = 68;
+inline constexpr double bodies_of_tile = 100;
 inline constexpr double parts_of_body = 0.08;
 inline constexpr double casters_of_part = 0.2;
+// At half resolution the lists of near bodies have fewer, more of which a pixel evaluates.
+inline constexpr double near_bodies_of_tile = 9;
+inline constexpr double parts_of_near_body = 0.6;
+// The share of pixels that lie between characters so that no texel of far bodies is on their surface.
+inline constexpr double alone = 0.004;
 
 }  // namespace nook::measure::trips

@@ -69,7 +69,7 @@ View look(const RayScene& scene, std::span<const Vec3> body, float offset) {
 
 Picture drawn(const View& view, std::span<const float> value) {
   Picture picture{width_px, height_px, std::vector<std::uint8_t>(std::size_t(width_px) * height_px * 3, 255)};
-  const auto put = [&](std::size_t pixel, Colour colour) {
+  const auto put = [&](std::size_t pixel, bake::Colour colour) {
     for (std::size_t c = 0; c < 3; ++c)
       picture.rgb[3 * pixel + c] = std::uint8_t(std::lround(255 * std::clamp(colour[c], 0.0f, 1.0f)));
   };

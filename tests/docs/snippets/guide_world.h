@@ -2,3 +2,5 @@ extern nook_world_pass pass;
 extern nook_nnao nnao;
 extern nook_nnao_frame_desc frame;
 extern float open_share_of_light[4];
+extern nook_probe_lobe lobes[12];
+extern uint32_t lobe_count;

@@ -64,6 +64,11 @@ Vec3 turned(const float* m, Vec3 d) {
           m[2] * d.x + m[6] * d.y + m[10] * d.z};
 }
 
+float ReachingGroup::merging_distance(float level_error) const {
+  // One caster has no level below it.
+  return world::merging_distance(strength, radius, parts ? level_error : 0);
+}
+
 std::uint64_t texels_of(const ReachingGroup& group) {
   const std::uint64_t parts = group.parts ? group.parts->count : 1;
   return NOOK_BODY_TEXELS + parts * NOOK_PART_TEXELS + group.casters.size() * NOOK_CASTER_TEXELS;
@@ -98,10 +103,8 @@ void CasterTexels::put(std::uint32_t body, const ReachingGroup& group, float lev
   const std::uint64_t texel = std::uint64_t{body} * NOOK_BODY_TEXELS;
   put_place(texel, group.centre, packed_bound(group));
   const world::CasterParts& parts = group.parts ? *group.parts : one_caster;
-  // One caster has no level below it.
+  put(texel + 1, float(next_), float(parts.count), squared(group.merging_distance(level_error)), 0);
   if (!group.parts) level_error = 0;
-  const float far = world::merging_distance(group.strength, group.radius, level_error);
-  put(texel + 1, float(next_), float(parts.count), squared(far), 0);
   put_capsule(texel + 2, world::merged(group.casters, {every_caster.data(), group.casters.size()}), 1);
   put_parts(group, parts, level_error);
 }

@@ -23,7 +23,8 @@ constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE
 
 // Textures that only this pass has. Those that are not read by the same stage share a unit.
 constexpr GLuint caster_unit = filter_unit, half_ao_unit = filter_unit;
-constexpr GLuint half_depth_unit = NOOK_UNIT_NORMAL, other_ao_unit = NOOK_UNIT_MOTION;
+constexpr GLuint half_depth_unit = NOOK_UNIT_NORMAL, other_ao_unit = NOOK_UNIT_MOTION,
+                 far_unit = NOOK_UNIT_MOTION;
 
 // The frame's constants of the screen pass that this pass does not use have the values of such a pass.
 nook_nnao_desc plain_pass(bool half) {
@@ -36,6 +37,16 @@ nook_nnao_desc plain_pass(bool half) {
 
 TextureFormat result_format(bool coloured) {
   return coloured ? TextureFormat::bent_ao : TextureFormat::ao;
+}
+
+// Pixels along a side for each texel of the far bodies' AO. A texel stands for about so much of the picture
+// that a body's merging distance has several, also where the floor is seen at a grazing angle.
+constexpr int far_step(int max_height) {
+  return max_height >= 1000 ? NOOK_FAR_STEP : max_height >= 500 ? 4 : 2;
+}
+
+constexpr int far_length(int length, int step) {
+  return (length + step - 1) / step;
 }
 
 // A capsule counts as a rectangle in each part of a cone, whose corners reach beyond its round ends by less
@@ -61,10 +72,13 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
       max_height_(desc.max_height),
       half_(desc.half_resolution != 0),
       coloured_(desc.coloured != 0),
+      far_step_(far_step(desc.max_height)),
       casters_(device.memory, caster_unit),
       kept_(device.memory),
       ranges_(device.memory),
       lists_(device.memory),
+      near_ranges_(device.memory),
+      near_lists_(device.memory),
       shades_(device.memory),
       shade_ranges_(device.memory),
       shade_lists_(device.memory) {
@@ -107,7 +121,8 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
 WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines) {
   Stage stage;
   char all[160];
-  std::snprintf(all, sizeof all, "%s%s", defines, coloured_ ? "#define NOOK_COLOURED 1\n" : "");
+  std::snprintf(all, sizeof all, "#define NOOK_FAR_STEP %d\n%s%s", far_step_, defines,
+                coloured_ ? "#define NOOK_COLOURED 1\n" : "");
   stage.program = draw_program(device_, "nnao/screen.vert", fragment, all);
   const auto at = [&](const char* name) { return uniform_location(device_, stage.program, name); };
   stage.frame = at("nook_frame");
@@ -117,6 +132,8 @@ WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines
   stage.first_tile = at("nook_world_first_tile");
   stage.composition = at("nook_world_composition");
   stage.counts = at("nook_world_counts");
+  stage.far = at("nook_world_far");
+  stage.first_far_tile = at("nook_world_first_far_tile");
   stage.bands = at("nook_world_bands");
   stage.cone = at("nook_world_cone");
   stage.light_columns = at("nook_world_light_columns");
@@ -126,13 +143,10 @@ WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines
   const struct {
     const char* name;
     GLint unit;
-  } samplers[] = {{"nook_host_depth", NOOK_UNIT_DEPTH},
-                  {"nook_host_normal", NOOK_UNIT_NORMAL},
-                  {"nook_world_casters", caster_unit},
-                  {"nook_layer", NOOK_UNIT_LAYER},
-                  {"nook_other_ao", other_ao_unit},
-                  {"nook_depth", half_depth_unit},
-                  {"nook_ao", half_ao_unit}};
+  } samplers[] = {{"nook_host_depth", NOOK_UNIT_DEPTH}, {"nook_host_normal", NOOK_UNIT_NORMAL},
+                  {"nook_world_casters", caster_unit},  {"nook_layer", NOOK_UNIT_LAYER},
+                  {"nook_other_ao", other_ao_unit},     {"nook_far_open", far_unit},
+                  {"nook_depth", half_depth_unit},      {"nook_ao", half_ao_unit}};
   // Where a stage has no such sampler the location is -1, which OpenGL ignores.
   for (const auto& sampler : samplers) device_.gl.Uniform1i(at(sampler.name), sampler.unit);
   return stage;
@@ -140,14 +154,19 @@ WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines
 
 void WorldPass::make_half(const nook_world_pass_desc& desc) {
   half_depth_ = make_stage("nnao/depth.frag", "#define NOOK_HALF 1\n");
-  half_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n");
+  half_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n#define NOOK_BODIES NOOK_NEAR_BODIES\n");
+  far_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n#define NOOK_BODIES NOOK_FAR_BODIES\n");
   char masked[80];
   std::snprintf(masked, sizeof masked, "#define NOOK_HALF 1\n#define NOOK_APART %g\n", NOOK_REPLACED);
   masked_half_depth_ = make_stage("nnao/depth.frag", masked);
-  masked_half_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n#define NOOK_LAYERED 1\n");
+  masked_half_ao_ = make_stage("world/darken.frag",
+                               "#define NOOK_HALF 1\n#define NOOK_LAYERED 1\n"
+                               "#define NOOK_BODIES NOOK_NEAR_BODIES\n");
   const int width = surface_length(desc.max_width, true), height = surface_length(desc.max_height, true);
   depth_ = RenderTexture(device_, TextureFormat::depth, width, height, "nook: depth of every fourth pixel");
   ao_ = RenderTexture(device_, result_format(coloured_), width, height, "nook: AO of every fourth pixel");
+  far_texture_ = RenderTexture(device_, result_format(coloured_), far_length(desc.max_width, far_step_),
+                               far_length(desc.max_height, far_step_), "nook: AO by far bodies");
 }
 
 std::uint64_t WorldPass::bytes() const {
@@ -156,7 +175,9 @@ std::uint64_t WorldPass::bytes() const {
   std::uint64_t sum = texels(max_width_, max_height_) * bytes_per_texel(result);
   if (half_)
     sum += texels(surface_length(max_width_, true), surface_length(max_height_, true)) *
-           (bytes_per_texel(result) + bytes_per_texel(TextureFormat::depth));
+               (bytes_per_texel(result) + bytes_per_texel(TextureFormat::depth)) +
+           texels(far_length(max_width_, far_step_), far_length(max_height_, far_step_)) *
+               bytes_per_texel(result);
   return sum + casters_.bytes();
 }
 
@@ -184,6 +205,9 @@ std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& g
   kept_.clear();
   ranges_.clear();
   lists_.clear();
+  near_ranges_.clear();
+  near_lists_.clear();
+  far_ = false;
   caster_count_ = 0;
   std::uint64_t texels = 0;
   for (std::uint32_t g = 0; g < groups.count; ++g) {
@@ -192,9 +216,7 @@ std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& g
     if (group.casters.empty()) continue;
     const world::TileRange tiles = world::covered_tiles(grid, viewed(frame.view, group.centre), group.reach);
     if (tiles.empty) continue;
-    kept_.push_back(g);
-    ranges_.push_back(tiles);
-    caster_count_ += static_cast<std::uint32_t>(group.casters.size());
+    keep(frame, grid, g, group, tiles);
     texels += texels_of(group);
   }
   tile_columns_ = 0;
@@ -203,12 +225,13 @@ std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& g
   first_tile_ = static_cast<std::uint32_t>(texels);
   if (kept_.empty() && shades_.empty()) return 0;
   const auto most_texels = [&] {
-    return texels + world::most_list_texels(grid, ranges_) + world::most_list_texels(grid, shade_ranges_);
+    return texels + world::most_list_texels(grid, ranges_) + world::most_list_texels(grid, near_ranges_) +
+           world::most_list_texels(grid, shade_ranges_);
   };
   // Larger tiles have shorter lists, down to one list of all bodies.
   while (most_texels() > device_.max_texels && grid.columns() * grid.rows() > 1) {
     grid.tile_px *= 2;
-    for (auto* const ranges : {&ranges_, &shade_ranges_})
+    for (auto* const ranges : {&ranges_, &near_ranges_, &shade_ranges_})
       for (world::TileRange& range : *ranges) {
         range.first_column /= 2;
         range.last_column /= 2;
@@ -222,6 +245,9 @@ std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& g
     world::write_tile_lists(grid, ranges_, lists_);
     texels += lists_.size() / 4;
     tile_columns_ = grid.columns();
+    first_near_tile_ = static_cast<std::uint32_t>(texels);
+    if (half_) world::write_tile_lists(grid, near_ranges_, near_lists_);
+    texels += near_lists_.size() / 4;
   }
   first_light_tile_ = static_cast<std::uint32_t>(texels);
   if (!shades_.empty()) {
@@ -230,6 +256,18 @@ std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& g
     light_columns_ = grid.columns();
   }
   return texels;
+}
+
+void WorldPass::keep(const WorldFrame& frame, const world::TileGrid& grid, std::uint32_t index,
+                     const ReachingGroup& group, const world::TileRange& tiles) {
+  kept_.push_back(index);
+  ranges_.push_back(tiles);
+  caster_count_ += static_cast<std::uint32_t>(group.casters.size());
+  if (!half_) return;
+  const float merging = group.merging_distance(frame.level_error);
+  const bool far = merging < group.reach;
+  near_ranges_.push_back(far ? world::covered_tiles(grid, viewed(frame.view, group.centre), merging) : tiles);
+  far_ = far_ || far;
 }
 
 std::uint64_t WorldPass::choose_shades(const WorldFrame& frame, const world::TileGrid& grid,
@@ -273,6 +311,7 @@ void WorldPass::upload(const WorldFrame& frame, const ReachingGroups& groups) {
     }
     float* const table = static_cast<float*>(memory);
     std::copy(lists_.begin(), lists_.end(), table + 4 * std::size_t{first_tile_});
+    std::copy(near_lists_.begin(), near_lists_.end(), table + 4 * std::size_t{first_near_tile_});
     std::copy(shade_lists_.begin(), shade_lists_.end(), table + 4 * std::size_t{first_light_tile_});
   });
 }
@@ -285,7 +324,10 @@ void WorldPass::set_frame(const Stage& stage, const WorldFrame& frame,
   gl.Uniform1i(stage.groups, static_cast<GLint>(group_count()));
   gl.Uniform1i(stage.columns, static_cast<GLint>(tile_columns_));
   gl.Uniform1i(stage.tile_size, static_cast<GLint>(tile_px_));
-  gl.Uniform1i(stage.first_tile, static_cast<GLint>(first_tile_));
+  const bool near = &stage == &half_ao_ || &stage == &masked_half_ao_;
+  gl.Uniform1i(stage.first_tile, static_cast<GLint>(near ? first_near_tile_ : first_tile_));
+  gl.Uniform1i(stage.far, far_);
+  gl.Uniform1i(stage.first_far_tile, static_cast<GLint>(first_tile_));
   gl.Uniform1i(stage.composition, frame.ao_texture ? 1 + frame.composition : 0);
   gl.Uniform1i(stage.counts, frame.counts);
   if (coloured_) set_light(stage, frame);
@@ -330,6 +372,14 @@ void WorldPass::draw(GLuint framebuffer, const Viewport& viewport) const {
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void WorldPass::draw_far(const WorldFrame& frame, const FrameConstants& constants) {
+  if (!far_) return;
+  const Viewport viewport = viewport_of(frame.screen);
+  set_frame(far_ao_, frame, constants);
+  draw(far_texture_.framebuffer(),
+       {0, 0, far_length(viewport.width, far_step_), far_length(viewport.height, far_step_)});
 }
 
 void WorldPass::draw_half(const WorldFrame& frame, const FrameConstants& constants) {
@@ -387,7 +437,10 @@ void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
   if (layered) bind(NOOK_UNIT_LAYER, screen.layer_texture);
   const FrameConstants constants = frame_constants(screen, plain_pass(half_), 0);
   if (half_) {
+    draw_far(frame, constants);
+    bind(far_unit, far_texture_.texture());
     draw_half(frame, constants);
+    bind(far_unit, frame.ao_texture);
     bind(half_depth_unit, depth_.texture());
     bind(half_ao_unit, ao_.texture());
   }

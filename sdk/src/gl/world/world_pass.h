@@ -1,6 +1,7 @@
 // Casters darken what a depth buffer shows.
 //   full resolution  host depth -> AO and result
-//   half resolution  host depth -> depth of every fourth pixel; AO of these -> upsample and result
+//   half resolution  host depth -> depth of every fourth pixel; AO by far bodies of fewer still; AO of every
+//                    fourth by near bodies, times that -> upsample and result
 #pragma once
 
 #include <nook/nook_gl_world.h>
@@ -29,6 +30,9 @@ struct ReachingGroup {
   // Square metres; the AO that they take at the distance d is at most cutoff_error times this / d^2.
   float strength_over_cutoff = 0;
   const world::CasterParts* parts = nullptr;  // NULL: one caster
+
+  // Metres from the centre where one capsule begins to stand for the casters.
+  float merging_distance(float level_error) const;
 };
 
 // The groups of a frame. group(index) is called for each at most twice, and what it returns lives until the
@@ -83,7 +87,8 @@ class WorldPass {
     Object program;
     GLint frame = -1, groups = -1, columns = -1, first_tile = -1, tile_size = -1, composition = -1,
           counts = -1;
-    // Of coloured passes.
+    // Only coloured passes have these.
+    GLint far = -1, first_far_tile = -1;  // of half resolution
     GLint bands = -1, cone = -1, light_columns = -1, first_light_tile = -1, first_shade = -1;
   };
   Stage make_stage(const char* fragment, const char* defines);
@@ -91,6 +96,9 @@ class WorldPass {
   void check(const WorldFrame& frame);
   // Chooses the groups of a frame and returns the texels of their table.
   std::uint64_t choose(const WorldFrame& frame, const ReachingGroups& groups);
+  // Puts a group that reaches tiles into the lists.
+  void keep(const WorldFrame& frame, const world::TileGrid& grid, std::uint32_t index,
+            const ReachingGroup& group, const world::TileRange& tiles);
   // Chooses the groups whose shadow falls into the view, with their texels.
   std::uint64_t choose_shades(const WorldFrame& frame, const world::TileGrid& grid,
                               const ReachingGroups& groups);
@@ -98,20 +106,28 @@ class WorldPass {
   void set_light(const Stage& stage, const WorldFrame& frame) const;
   void set_frame(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) const;
   void draw(GLuint framebuffer, const Viewport& viewport) const;
+  void draw_far(const WorldFrame& frame, const FrameConstants& constants);
   void draw_half(const WorldFrame& frame, const FrameConstants& constants);
   void draw_output(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants);
 
   Device& device_;
   int max_width_, max_height_;
   bool half_, coloured_;
+  int far_step_;                                                     // pixels
   Stage output_, layered_output_;                                    // at half resolution the upsample
   Stage half_depth_, half_ao_, masked_half_depth_, masked_half_ao_;  // masked: without replaced pixels
-  RenderTexture own_, depth_, ao_;                                   // depth and AO of every fourth pixel
+  Stage far_ao_;
+  RenderTexture far_texture_;
+  RenderTexture own_, depth_, ao_;  // depth and AO of every fourth pixel
   Object sampler_, vertex_array_, target_framebuffer_;
   TexelTable casters_;          // and behind them the lists of tiles
   Vector<std::uint32_t> kept_;  // the groups that reach the view
   Vector<world::TileRange> ranges_;
   Vector<float> lists_;
+  Vector<world::TileRange> near_ranges_;  // at half resolution: of what is nearer than its merging distance
+  Vector<float> near_lists_;
+  std::uint32_t first_near_tile_ = 0;
+  bool far_ = false;              // a body may be beyond its merging distance
   Vector<std::uint32_t> shades_;  // the groups whose shadow in the cone falls into the view
   Vector<world::TileRange> shade_ranges_;
   Vector<float> shade_lists_;
