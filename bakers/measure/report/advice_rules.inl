@@ -65,7 +65,8 @@ RULE(probes, "irradiance_relative", at_most, 0.02, "error of irradiance, in unit
      "The light on surfaces is off by {percent} only. Fewer lobes would do for diffuse surfaces; reflections "
      "use the rest.")
 RULE(probes, "below_share", at_least, 0.005, "directions of all probes whose irradiance is below 0",
-     "Irradiance is below 0 in {percent} of the directions, which shows as black patches. A strong light in few "
+     "Irradiance is below 0 in {percent} of the directions, which shows as black patches. A strong light in "
+     "few "
      "directions does it: more lobes (`--lobes`), or the sun as a light of its own (`--direct`).")
 RULE(probes, "dark_share", at_least, 0.2, "probes with less than a hundredth of the mean light",
      "A share of {percent} of the probes is black. They may be inside walls: change "

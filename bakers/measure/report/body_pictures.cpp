@@ -126,7 +126,7 @@ Picture compare_pose(const SkinnedMesh& mesh, const MeasuredBody& body, std::siz
       is_whole ? std::span<const std::uint32_t>(whole) : vertices;
   const Vec3 towards = view_of_error(mesh, posed, looked_at, error);
   BodyCamera camera = camera_at(towards, points_of(posed, looked_at), width, height);
-  // The surroundings tell where on the body a place is.
+  // With its surroundings, a place is recognised.
   if (!is_whole) camera.metres_per_pixel *= 2.2f;
   const BodyView view(mesh.triangle, posed, camera, width, height);
   const std::vector<Picture> panels{view.draw(traced, grey), view.draw(body.model[pose], grey),
