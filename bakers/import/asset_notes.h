@@ -1,4 +1,4 @@
-// What a glTF file says of itself: whose it is, and under which licence.
+// The words of a glTF file about itself: whose it is, and under which licence.
 #pragma once
 
 #include <filesystem>

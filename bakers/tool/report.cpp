@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
+#include "bakers/job/material_source.h"
 #include "bakers/job/worker_arena.h"
-#include "bakers/material/raw_file.h"
 #include "bakers/measure/report/body_page.h"
 #include "bakers/measure/report/frame_page.h"
 #include "bakers/measure/report/material_page.h"

@@ -73,7 +73,7 @@ class Characters(unittest.TestCase):
 
     def test_the_model_is_nearer_to_ray_tracing_than_a_static_bake(self):
         error = nook.model_error(self.character, self.model, [bent(1.5), bent(-1.3)], rays=256)
-        # The static bake knows no bend, and a fit that were as bad would have learned nothing.
+        # The static bake has the rest pose alone; a fit must be better than that in the poses that it was given.
         self.assertLess(error.mse_visible, error.mse_static_visible)
 
     def test_a_neighbour_and_the_ground_darken(self):

@@ -23,7 +23,7 @@ struct Rule {
   const char* advice;   // {name} is one of Measures::name, {percent} and {value} are the measure
 };
 
-// What was measured. A rule whose measure is not here says nothing.
+// Measured numbers. A rule whose measure is not here says nothing.
 struct Measures {
   std::map<std::string, double, std::less<>> value;
   std::map<std::string, std::string, std::less<>> name;

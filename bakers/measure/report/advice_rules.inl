@@ -64,9 +64,13 @@ RULE(probes, "irradiance_relative", at_least, 0.1, "error of irradiance, in unit
 RULE(probes, "irradiance_relative", at_most, 0.02, "error of irradiance, in units of the map's mean",
      "The light on surfaces is off by {percent} only. Fewer lobes would do for diffuse surfaces; reflections "
      "use the rest.")
+RULE(probes, "below_share", at_least, 0.005, "directions of all probes whose irradiance is below 0",
+     "Irradiance is below 0 in {percent} of the directions, which shows as black patches. A strong light in "
+     "few "
+     "directions does it: more lobes (`--lobes`), or the sun as a light of its own (`--direct`).")
 RULE(probes, "dark_share", at_least, 0.2, "probes with less than a hundredth of the mean light",
-     "A share of {percent} of the probes is black. They may be inside walls: shift the grid (`--grid`, "
-     "`--origin`) or its counts.")
+     "A share of {percent} of the probes is black. They may be inside walls: change "
+     "the counts of `--grid`.")
 RULE(probes, "probes", at_least, 20000, "probes in the file",
      "The grid has {value} probes. Twice the spacing takes an eighth of the memory; try it where rooms are "
      "large.")
@@ -76,7 +80,7 @@ RULE(material, "se_db", at_most, 25, "signal to error, decibels",
      "`--clusters` help.")
 RULE(material, "bytes", at_least, 16e6, "bytes of the file",
      "The file is large. Lower `--ranks` first: bytes grow with each of them.")
-RULE(material, "negative_share", at_least, 0.02, "texels of the pictures whose radiance is below 0",
+RULE(material, "negative_share", at_least, 0.02, "texels of the pictures that are darker than -0.02 of white",
      "A share of {percent} of the texels of these pictures has negative radiance, which shaders clamp to "
      "black. Higher `--ranks` help.")
 

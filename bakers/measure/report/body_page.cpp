@@ -221,7 +221,7 @@ Html lead(const CharacterEvaluation& e, const std::string& protocol, std::size_t
             number(std::sqrt(e.static_bake.mse_visible)) + Html("</strong>");
   return html + Html(". Measured in ") + text(std::to_string(pose_count)) + Html(" poses (") +
          text(protocol) + Html(") with ") + text(std::to_string(e.rays)) +
-         Html(" rays a vertex; the rays' own noise is ") + number(std::sqrt(e.noise_floor_mse)) + Html(".");
+         Html(" rays for each vertex; their noise is ") + number(std::sqrt(e.noise_floor_mse)) + Html(".");
 }
 
 Html warnings_of(const ImportedCharacter& character) {

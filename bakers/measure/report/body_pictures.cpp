@@ -126,8 +126,13 @@ Picture compare_pose(const SkinnedMesh& mesh, const MeasuredBody& body, std::siz
       is_whole ? std::span<const std::uint32_t>(whole) : vertices;
   const Vec3 towards = view_of_error(mesh, posed, looked_at, error);
   BodyCamera camera = camera_at(towards, points_of(posed, looked_at), width, height);
-  // The surroundings tell where on the body a place is.
-  if (!is_whole) camera.metres_per_pixel *= 2.2f;
+  if (!is_whole) {
+    // With its surroundings, a place is recognised; a place of one vertex also has some.
+    Box body_box;
+    for (const Vec3 p : posed) body_box.add(p);
+    camera.metres_per_pixel =
+        std::max(2.2f * camera.metres_per_pixel, 0.15f * length(body_box.high - body_box.low) / float(width));
+  }
   const BodyView view(mesh.triangle, posed, camera, width, height);
   const std::vector<Picture> panels{view.draw(traced, grey), view.draw(body.model[pose], grey),
                                     view.draw(shown, viridis, relief)};

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -21,6 +22,8 @@ using nook::material::MaterialTables;
 
 constexpr int panel_px = 180;
 constexpr float pi = std::numbers::pi_v<float>;
+// Of the light of a white plane; what is nearer to 0 is rounding that nobody sees.
+constexpr float visibly_negative = -0.02f;
 constexpr std::array<float, 3> view_tilts{0, 0.7f, 1.2f};      // radians from the normal, along x
 constexpr std::array<float, 3> light_tilts{0.2f, 0.9f, 1.3f};  // along y
 
@@ -48,7 +51,7 @@ Sheet sheet_of(const MaterialTables& tables) {
       sample.view = tilted_x(view_tilts[std::size_t(x / panel_px)]);
       sample.light = tilted_y(light_tilts[std::size_t(y / panel_px)]);
       const nook::material::Radiance c = nook::material::evaluate_btf(tables, sample);
-      if (c.red < 0 || c.green < 0 || c.blue < 0) ++negative;
+      if (pi * std::min({c.red, c.green, c.blue}) < visibly_negative) ++negative;
       set_pixel(sheet.picture, x, y, display(pi * Vec3{c.red, c.green, c.blue}));
     }
   });

@@ -23,7 +23,7 @@ struct PageSource {
   std::string licence;  // what the user says of all of them; may be empty
 };
 
-// What a kind of file adds.
+// The part of a page that depends on the kind of its file.
 struct PageParts {
   Html lead;      // one or two sentences: the result
   Html advice;    // of advice_list

@@ -29,13 +29,26 @@ Vec3 irradiance_of(const Probes& probes, std::size_t index, Vec3 normal) {
   return nook::probe::irradiance(probes.basis, probes.of(index), nook::probe::IrradianceForm::bands, normal);
 }
 
-// The mean luminance of irradiance over six directions.
-float mean_light(const Probes& probes, std::size_t index) {
-  float sum = 0;
-  for (const Vec3 n :
-       {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})
-    sum += bake::luminance(irradiance_of(probes, index, n));
-  return sum / 6;
+// The irradiance over the fourteen directions of the faces and corners of a cube.
+struct BallLight {
+  float mean = 0;      // luminance
+  int below_zero = 0;  // directions with a luminance below 0
+};
+constexpr int ball_directions = 14;
+
+BallLight ball_light(const Probes& probes, std::size_t index) {
+  BallLight light;
+  const auto add = [&](Vec3 direction) {
+    const float value = bake::luminance(irradiance_of(probes, index, normalised(direction)));
+    light.mean += value / ball_directions;
+    light.below_zero += value < 0 ? 1 : 0;
+  };
+  for (const float side : {-1.0f, 1.0f}) {
+    for (const Vec3 face : {Vec3{side, 0, 0}, Vec3{0, side, 0}, Vec3{0, 0, side}}) add(face);
+    for (const float y : {-1.0f, 1.0f})
+      for (const float z : {-1.0f, 1.0f}) add({side, y, z});
+  }
+  return light;
 }
 
 // A white ball in the light of a probe, seen from +z with +y up.
@@ -98,20 +111,25 @@ Html layers(const Probes& probes, float exposure) {
 
 struct Lit {
   float mean = 0;
-  double dark_share = 0;
+  double dark_share = 0;   // of the probes
+  double below_share = 0;  // of the directions of all probes
 };
 
 Lit light_of(const Probes& probes) {
   std::vector<float> light;
-  double sum = 0;
+  double sum = 0, below = 0;
   for (std::size_t i = 0; i < probes.grid.size(); ++i) {
-    light.push_back(mean_light(probes, i));
-    sum += double(light.back());
+    const BallLight ball = ball_light(probes, i);
+    light.push_back(ball.mean);
+    sum += double(ball.mean);
+    below += ball.below_zero;
   }
   Lit lit;
-  lit.mean = float(sum / double(light.size()));
-  lit.dark_share = double(std::ranges::count_if(light, [&](float l) { return l < 0.01f * lit.mean; })) /
-                   double(light.size());
+  const auto count = double(light.size());
+  lit.mean = float(sum / count);
+  lit.below_share = below / (count * ball_directions);
+  lit.dark_share =
+      double(std::ranges::count_if(light, [&](float l) { return l < 0.01f * lit.mean; })) / count;
   return lit;
 }
 
@@ -142,6 +160,7 @@ PageParts probe_parts(const Probes& probes, const Environment* map) {
   const Lit lit = light_of(probes);
   Measures measures;
   measures.value["probes"] = double(probes.grid.size());
+  measures.value["below_share"] = lit.below_share;
   if (is_grid) measures.value["dark_share"] = lit.dark_share;
   PageParts parts;
   if (map) add_map(parts, measures, probes, *map);

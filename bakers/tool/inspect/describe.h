@@ -11,7 +11,7 @@ namespace nook::tool {
 
 using Row = nlohmann::ordered_json;
 
-// Of the kind that the bytes name. Throws BAD_FILE for one that this version does not know.
+// The row of the kind that the bytes name. Throws BAD_FILE for one that this version does not know.
 Row describe(std::span<const std::byte> bytes);
 Row describe_character(std::span<const std::byte> bytes);
 Row describe_clips(std::span<const std::byte> bytes);
