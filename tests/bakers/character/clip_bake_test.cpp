@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "bakers/character/clip_bake.h"
 #include "bakers/character/low_rank.h"
@@ -80,11 +81,11 @@ TEST_CASE("the leading modes of a matrix are found, and their weights") {
   for (int k = 0; k < 3; ++k) {
     Eigen::VectorXf left(rows), right(columns);
     for (Eigen::Index r = 0; r < rows; ++r)
-      left[r] =
-          float(std::sqrt(2.0 / double(rows)) * std::cos(M_PI * (double(r) + 0.5) * (k + 1) / double(rows)));
+      left[r] = float(std::sqrt(2.0 / double(rows)) *
+                      std::cos(std::numbers::pi * (double(r) + 0.5) * (k + 1) / double(rows)));
     for (Eigen::Index c = 0; c < columns; ++c)
       right[c] = float(std::sqrt(2.0 / double(columns)) *
-                       std::cos(M_PI * (double(c) + 0.5) * (2 * k + 1) / double(columns)));
+                       std::cos(std::numbers::pi * (double(c) + 0.5) * (2 * k + 1) / double(columns)));
     values += float(sizes[k]) * left * right.transpose();
   }
   const LowRank low = factorise(values, 2, 7);
