@@ -504,7 +504,7 @@ std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> ver
     // A few tries give the first that keeps out of itself, or the best: limbs may touch, and must not
     // intersect.
     constexpr int tries = 12;
-    constexpr float allowed = 0.6f, reaching = 0.4f;
+    constexpr float allowed = 0.6f, reaching = 0.7f;
     // Half of the poses follow motion capture; of these, a share has other arms, and a share other legs.
     constexpr float of_motion = 0.5f, other_part = 0.2f;
     float best = 0;
