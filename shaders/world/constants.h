@@ -45,14 +45,14 @@
 #define NOOK_LARGEST_STRENGTH 4096.0
 #define NOOK_ENDLESS_BOUND 1e15
 
-// Which bodies a stage evaluates, NOOK_BODIES: all; those that are nearer than the distance from which one capsule
-// stands for them; those that are farther. From this share of the squared distance on both blend.
+// Which bodies a stage evaluates, NOOK_BODIES: all; those that are nearer than the distance from which one
+// capsule stands for them; those that are farther. From this share of the squared distance on both blend.
 #define NOOK_ALL_BODIES 0
 #define NOOK_NEAR_BODIES 1
 #define NOOK_FAR_BODIES 2
 #define NOOK_FAR_FROM 0.6
-// Pixels along a side for each texel of the far bodies' AO, in a pass of the highest images; a pass of smaller ones
-// defines less.
+// Pixels along a side for each texel of the far bodies' AO, in a pass of the highest images; a pass of
+// smaller ones defines less.
 #ifndef NOOK_FAR_STEP
 #define NOOK_FAR_STEP 8
 #endif
