@@ -21,9 +21,11 @@ using nook::probe::WallPlane;
 constexpr std::size_t most_candidates = 24;
 constexpr std::size_t least_places = 4;  // on a side that has a mask of its own
 constexpr double plane_gain = 0.92;      // a plane must bring the error below this share of what it was
-constexpr double corner_gain = 0.01;     // a mask without a corner must bring as much of it
-constexpr double small_error = 2.5e-5;   // mean square of relative errors, 0.5 %, which no wall explains
-constexpr float dark_share = 0.1f;       // of a cell's mean light, below which errors count alike
+// A mask must bring the error down by this share for each corner that it leaves out; with less, neighbouring
+// cells choose differently, and seams show between them.
+constexpr double corner_gain = 0.1;
+constexpr double small_error = 2.5e-5;  // mean square of relative errors, 0.5 %, which no wall explains
+constexpr float dark_share = 0.1f;      // of a cell's mean light, below which errors count alike
 constexpr float same_normal = 0.999f, same_offset = 0.02f;  // cosine, and spacings
 
 // A place, and what each corner's probe alone would give there.
