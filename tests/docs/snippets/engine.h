@@ -29,13 +29,20 @@ typedef unsigned GLuint;
 typedef unsigned GLenum;
 typedef int GLint;
 typedef int GLsizei;
-enum { GL_ARRAY_BUFFER = 0x8892, GL_TEXTURE_BUFFER = 0x8C2A, GL_FLOAT = 0x1406, GL_FALSE = 0 };
+enum {
+  GL_ARRAY_BUFFER = 0x8892,
+  GL_TEXTURE_3D = 0x806F,
+  GL_TEXTURE_BUFFER = 0x8C2A,
+  GL_FLOAT = 0x1406,
+  GL_FALSE = 0
+};
 void glBindBuffer(GLenum target, GLuint buffer);
 void glBindTexture(GLenum target, GLuint texture);
 void glVertexAttribPointer(GLuint slot, GLint size, GLenum type, unsigned char normalized, GLsizei stride,
                            const void* at);
 GLint glGetUniformLocation(GLuint program, const char* name);
 void glUniform1i(GLint location, GLint value);
+void glUniform4fv(GLint location, GLsizei count, const float* values);
 
 extern nook_context context;
 extern nook_character_model model;
