@@ -252,6 +252,7 @@ class nook_probe_info(ctypes.Structure):
         ("counts", ctypes.c_uint32 * 3),
         ("origin_ws", ctypes.c_float * 3),
         ("spacing_ws", ctypes.c_float * 3),
+        ("wall_cells", ctypes.c_uint32),
     ]
 
 
@@ -860,6 +861,7 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "nook_probe_read_lobes": (nook_result, [nook_probe, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(nook_probe_lobe), ctypes.c_uint32]),
     "nook_probe_radiance": (nook_result, [nook_probe, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
     "nook_probe_irradiance": (nook_result, [nook_probe, ctypes.POINTER(ctypes.c_float), nook_probe_irradiance_form, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
+    "nook_probe_surface_irradiance": (nook_result, [nook_probe, nook_probe_irradiance_form, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
     "nook_probe_lobes_radiance": (nook_result, [ctypes.POINTER(nook_probe_lobe), ctypes.c_uint32, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
     "nook_probe_lobes_irradiance": (nook_result, [ctypes.POINTER(nook_probe_lobe), ctypes.c_uint32, nook_probe_irradiance_form, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
     "nook_probe_lobes_specular": (nook_result, [ctypes.POINTER(nook_probe_lobe), ctypes.c_uint32, nook_probe_specular_form, ctypes.POINTER(nook_probe_surface), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
