@@ -81,6 +81,31 @@ TEST_CASE("caster parts: one capsule of even ends stays as it is") {
   CHECK(std::abs(c.a.x - 0.2f) < 1e-5f);
 }
 
+TEST_CASE("caster parts: the capsule of a bent part ends where the part does") {
+  // A lower leg over a foot: the variance along the axis is that of a longer segment, which would reach
+  // through the floor at y = 0.
+  const std::vector<PosedCaster> leg{{{{0, 0.45f, 0}, {0, 0.28f, 0}, 0.06f, 0.055f}, 1},
+                                     {{{0, 0.28f, 0}, {0, 0.1f, 0}, 0.05f, 0.04f}, 1},
+                                     {{{0, 0.04f, -0.04f}, {0, 0.04f, 0.12f}, 0.04f, 0.035f}, 1},
+                                     {{{0, 0.02f, 0.14f}, {0, 0.02f, 0.22f}, 0.02f, 0.015f}, 1}};
+  const Capsule one = world::merged(leg, all_of(leg.size()));
+  const Vec3 axis = normalised(one.b - one.a);
+  float low = 1e9f, high = -1e9f;
+  for (const PosedCaster& c : leg)
+    for (const auto& [end, radius] :
+         {std::pair(c.capsule.a, c.capsule.radius_a), std::pair(c.capsule.b, c.capsule.radius_b)}) {
+      low = std::min(low, dot(axis, end) - radius);
+      high = std::max(high, dot(axis, end) + radius);
+    }
+  // Three steps towards the radius of the shortened segment leave a millimetre.
+  CHECK(dot(axis, one.a) - one.radius_a > low - 1e-3f);
+  CHECK(dot(axis, one.b) + one.radius_b < high + 1e-3f);
+  // Without that end it would be at -0.05 m; the radius of the leg is more than that of the toes.
+  CHECK(std::min(one.a.y, one.b.y) - one.radius_a > -0.03f);
+  // The leg is about as long as it was.
+  CHECK(length(one.b - one.a) > 0.3f);
+}
+
 TEST_CASE("caster parts: beyond the merging distance the rms of the difference is about the error") {
   Numbers numbers(5);
   for (const float error : {1.0f / 64, 1.0f / 256, 1.0f / 1024})

@@ -98,8 +98,25 @@ Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_
   }
   // The variance along the axis beyond that across it is that of a segment.
   const float along2 = dot(axis, spread.times(axis)), across2 = 0.5f * (spread.trace() - along2);
-  const float extent = std::sqrt(12 * std::max(along2 - across2, 0.0f));
-  const float radius = 0.5f * (std::sqrt(0.25f * extent * extent + 4 * area / pi) - 0.5f * extent);
+  // A bent part has a longer segment than itself. The capsule ends where the casters do, lest it reach
+  // through the surface that they stand on, and keeps their centre.
+  float reach_below = 0, reach_above = 0;
+  for (const std::uint8_t i : order) {
+    const PosedCaster& c = casters[i];
+    const float a = dot(axis, c.capsule.a - centre), b = dot(axis, c.capsule.b - centre);
+    const float ra = c.ao_scale * c.capsule.radius_a, rb = c.ao_scale * c.capsule.radius_b;
+    reach_below = std::max({reach_below, ra - a, rb - b});
+    reach_above = std::max({reach_above, ra + a, rb + b});
+  }
+  const float reach = std::min(reach_below, reach_above);
+  const auto radius_of_length = [area](float length) {
+    return 0.5f * (std::sqrt(0.25f * length * length + 4 * area / pi) - 0.5f * length);
+  };
+  float extent = std::sqrt(12 * std::max(along2 - across2, 0.0f));
+  // A shorter segment has a larger radius, which shortens it again.
+  for (int step = 0; step < 3; ++step)
+    extent = std::min(extent, 2 * std::max(reach - radius_of_length(extent), 0.0f));
+  const float radius = radius_of_length(extent);
   const Vec3 half = 0.5f * extent * axis;
   return {centre - half, centre + half, radius, radius};
 }
