@@ -38,6 +38,7 @@ int nook_call_every_synthesis_function(const void* synthesis_bytes, size_t synth
   EXPECT_OK(nook_synthesis_check_material(synthesis, material));
   EXPECT_OK(nook_synthesis_material_uvs(synthesis, plane, 2, uvs));
   for (i = 0; i < 4; ++i) EXPECT(uvs[i] >= 0 && uvs[i] <= 1);
+  nook_synthesis_destroy(&synthesis);
   EXPECT(nook_synthesis_load(context, material_bytes, material_size, &synthesis) == NOOK_ERROR_BAD_FILE);
   EXPECT(!synthesis);
   EXPECT_OK(nook_synthesis_load(context, synthesis_bytes, synthesis_size, &synthesis));
