@@ -10,8 +10,8 @@ namespace nook::bake {
 namespace {
 
 // The bounds are far above any sensible bake, and keep hostile numbers from allocating all memory.
-constexpr std::uint32_t most_spheres = 1024, most_key_points = 4096, most_rays = 65536,
-                        most_poses = 1'000'000, most_threads = 1024, most_steps = 10'000'000;
+constexpr std::uint32_t most_spheres = 1024, most_key_points = 4096, most_rays = 65536, max_poses = 1'000'000,
+                        most_threads = 1024, most_steps = 10'000'000;
 
 [[noreturn]] void unknown(const char* name, int value) {
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -148,9 +148,9 @@ Recipe recipe_of(const nook_bake_job_desc& desc, const ImportedCharacter& charac
   recipe.source_hash = character.source_hash;
   recipe.extra_poses = desc.extra_pose_count;
   if (desc.extra_pose_count) need(desc.extra_poses_3x4, "desc.extra_poses_3x4");
-  at_most("desc.auto_pose_count", desc.auto_pose_count, most_poses);
-  at_most("desc.samples_per_clip", desc.samples_per_clip, most_poses);
-  at_most("desc.extra_pose_count", desc.extra_pose_count, most_poses);
+  at_most("desc.auto_pose_count", desc.auto_pose_count, max_poses);
+  at_most("desc.samples_per_clip", desc.samples_per_clip, max_poses);
+  at_most("desc.extra_pose_count", desc.extra_pose_count, max_poses);
 
   const bool clips = recipe.poses == PoseMode::clips || recipe.poses == PoseMode::all;
   if (!clips && desc.clip_count > 0)

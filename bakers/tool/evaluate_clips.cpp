@@ -99,10 +99,10 @@ void add_evaluate_clips(CLI::App& evaluate_command) {
   command->add_option("--rays", o.study.rays, "rays for each vertex and pose")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
-  command->add_option("--max-poses", o.study.most_poses, "poses at the frames and half-way, evenly picked")
+  command->add_option("--max-poses", o.study.max_poses, "poses at the frames and half-way, evenly picked")
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();
-  command->add_option("--pairs", o.study.most_pairs, "poses with a neighbour at each distance")
+  command->add_option("--pairs", o.study.max_pairs, "poses with a neighbour at each distance")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command->add_option("--distances", o.study.distances_m, "metres from body to body")

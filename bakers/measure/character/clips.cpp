@@ -225,11 +225,11 @@ std::vector<ClipErrorRow> measure_clips(const ImportedCharacter& character, cons
                                         const Progress& progress) {
   Pair pair(model, set);
   std::vector<ClipErrorRow> rows;
-  rows.push_back(measure_alone("frames", character.mesh, timed_poses(character, set, 0, study.most_poses),
+  rows.push_back(measure_alone("frames", character.mesh, timed_poses(character, set, 0, study.max_poses),
                                pair, study, progress));
-  rows.push_back(measure_alone("half_way", character.mesh, timed_poses(character, set, 0.5, study.most_poses),
+  rows.push_back(measure_alone("half_way", character.mesh, timed_poses(character, set, 0.5, study.max_poses),
                                pair, study, progress));
-  const std::vector<TimedPose> pairs = timed_poses(character, set, 0.5, study.most_pairs);
+  const std::vector<TimedPose> pairs = timed_poses(character, set, 0.5, study.max_pairs);
   for (const float distance_m : study.distances_m)
     rows.push_back(measure_neighbour(character.mesh, model, pairs, distance_m, pair, study, progress));
   return rows;

@@ -16,9 +16,9 @@ namespace nook::bake {
 struct ClipStudy {
   std::uint32_t rays = 128;
   std::uint64_t seed = 1;
-  std::size_t most_poses = 200;  // of each row, evenly picked
+  std::size_t max_poses = 200;  // of each row, evenly picked
   std::vector<float> distances_m{0.75f, 1.5f};
-  std::size_t most_pairs = 24;  // of each distance, evenly picked
+  std::size_t max_pairs = 24;  // of each distance, evenly picked
 };
 
 struct ClipErrors {
