@@ -10,8 +10,8 @@ namespace nook::bake {
 namespace {
 
 // The bounds are far above any sensible bake, and keep hostile numbers from allocating all memory.
-constexpr std::uint32_t most_spheres = 1024, most_key_points = 4096, most_rays = 65536, max_poses = 1'000'000,
-                        most_threads = 1024, most_steps = 10'000'000;
+constexpr std::uint32_t max_spheres = 1024, max_key_points = 4096, max_rays = 65536, max_poses = 1'000'000,
+                        max_threads = 1024, max_steps = 10'000'000;
 
 [[noreturn]] void unknown(const char* name, int value) {
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -109,11 +109,11 @@ std::vector<std::size_t> chosen_clips(const nook_bake_job_desc& desc, const Impo
 }
 
 void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
-  at_most("desc.spheres", desc.spheres, most_spheres);
-  at_most("desc.key_points", desc.key_points, most_key_points);
-  at_most("desc.rays", desc.rays, most_rays);
-  at_most("desc.steps", desc.steps, most_steps);
-  at_most("desc.threads", desc.threads, most_threads);
+  at_most("desc.spheres", desc.spheres, max_spheres);
+  at_most("desc.key_points", desc.key_points, max_key_points);
+  at_most("desc.rays", desc.rays, max_rays);
+  at_most("desc.steps", desc.steps, max_steps);
+  at_most("desc.threads", desc.threads, max_threads);
   if (desc.spheres) settings.spheres = desc.spheres;
   if (desc.key_points) settings.key_points = desc.key_points;
   if (desc.rays) settings.rays = desc.rays;

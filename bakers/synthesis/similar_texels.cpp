@@ -14,7 +14,7 @@ using tensor::Matrix;
 constexpr Eigen::Index block = 256;
 // Bounds the comparisons of a large exemplar.
 constexpr double max_pairs = 1.5e9;
-constexpr Eigen::Index most_candidates = 16384, fewest_candidates = 1024;
+constexpr Eigen::Index max_candidates = 16384, fewest_candidates = 1024;
 
 Texel texel_of(const ExemplarShape& shape, Eigen::Index row) {
   return {std::int32_t(row % shape.width), std::int32_t(row / shape.width)};
@@ -51,7 +51,7 @@ std::vector<Texel> similar_texels(const Matrix& appearance, const ExemplarShape&
   const Eigen::Index texels = shape.texels();
   const Matrix all = surroundings(appearance, shape, spacing);
   const Eigen::Index offered =
-      std::clamp(Eigen::Index(max_pairs / double(texels)), fewest_candidates, most_candidates);
+      std::clamp(Eigen::Index(max_pairs / double(texels)), fewest_candidates, max_candidates);
   const Eigen::Index stride = (texels + offered - 1) / offered, count = (texels + stride - 1) / stride;
   Matrix candidates(count, all.cols());
   std::vector<char> is_offered(static_cast<std::size_t>(count));
