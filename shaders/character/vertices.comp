@@ -31,16 +31,18 @@ layout(location = NOOK_LOCATION_VERTEX_SHADOW_STRIDE) uniform uint nook_shadow_s
 layout(location = NOOK_LOCATION_VERTEX_SELF) uniform int nook_self;
 
 #if NOOK_OUTPUT == NOOK_OUTPUT_COLOUR
-#define NOOK_SUM vec3
+#define NOOK_SHADOW vec4
+#define NOOK_ADDED vec3
 #else
-#define NOOK_SUM float
+#define NOOK_SHADOW float
+#define NOOK_ADDED float
 #endif
 
 // Adds a key point; weights are alpha and blend weight.
-void nook_add(inout NOOK_SUM shadow, inout NOOK_SUM added, uint key_point, vec2 weights) {
+void nook_add(inout NOOK_SHADOW shadow, inout NOOK_ADDED added, uint key_point, vec2 weights) {
 #if NOOK_OUTPUT == NOOK_OUTPUT_COLOUR
   vec4 coloured = nook_colour[uint(NOOK_COLOUR_VEC4S) * key_point];
-  shadow += weights.x * coloured.w * coloured.xyz;
+  shadow += weights.x * coloured.w * vec4(coloured.xyz, 1.0);
   added += weights.y * nook_colour[uint(NOOK_COLOUR_VEC4S) * key_point + 1u].xyz;
 #else
   vec2 point = nook_shadow[key_point];
@@ -61,7 +63,8 @@ void main() {
   uint first_key_point = record.place * nook_shadow_stride;
   uint word = nook_file_vertex_count + nook_linear[file_vertex];
   float bias = nook_self != 0 ? uintBitsToFloat(nook_linear[word]) : 0.0;
-  NOOK_SUM shadow = NOOK_SUM(0.0), added = NOOK_SUM(0.0);
+  NOOK_SHADOW shadow = NOOK_SHADOW(0.0);
+  NOOK_ADDED added = NOOK_ADDED(0.0);
   for (uint i = 0u; i < nook_influence_pairs; ++i) {
     uint pair = nook_linear[word + (1u + i) * nook_vertex_count];
     uint alpha = word + (1u + nook_influence_pairs + 2u * i) * nook_vertex_count;
@@ -79,6 +82,7 @@ void main() {
   float ao = nook_combine(shadow, added, bias);
   for (uint c = 0u; c < 3u; ++c) nook_ao[3u * vertex + c] = ao;
 #else
-  for (uint c = 0u; c < 3u; ++c) nook_ao[3u * vertex + c] = nook_combine(shadow[c], added[c], bias);
+  vec3 open = nook_combine_light(shadow, added, bias);
+  for (uint c = 0u; c < 3u; ++c) nook_ao[3u * vertex + c] = open[c];
 #endif
 }

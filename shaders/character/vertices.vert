@@ -14,7 +14,7 @@ layout(location = NOOK_ATTRIBUTE_ALPHA_1) in vec4 nook_alpha_1;
 layout(location = NOOK_ATTRIBUTE_BLEND_1) in vec4 nook_blend_1;
 #endif
 
-// One texel: shadow and added occlusion; with NOOK_LIGHT two texels, by channel.
+// One texel: shadow and added occlusion; with NOOK_LIGHT two texels: coloured shadow and shadow, added occlusion.
 uniform NOOK_TEXELS nook_shadows;
 uniform int nook_first_key_point;    // of the draw's first instance, in the page
 uniform int nook_key_point_count;
@@ -24,11 +24,12 @@ uniform int nook_self;
 out vec3 nook_directional_ao;
 
 struct NookSum {
-  vec3 shadow, added;
+  vec4 shadow;
+  vec3 added;
 };
 
 void nook_add(inout NookSum sum, int key_point, float alpha, float blend) {
-  sum.shadow += alpha * nook_texel(nook_shadows, NOOK_COLOUR_VEC4S * key_point).xyz;
+  sum.shadow += alpha * nook_texel(nook_shadows, NOOK_COLOUR_VEC4S * key_point);
   sum.added += blend * nook_texel(nook_shadows, NOOK_COLOUR_VEC4S * key_point + 1).xyz;
 }
 #else
@@ -53,7 +54,7 @@ void main() {
   int first = nook_first_key_point + gl_InstanceID * nook_key_point_count;
   float bias = nook_self != 0 ? nook_bias : 0.0;
 #if NOOK_LIGHT
-  NookSum sum = NookSum(vec3(0.0), vec3(0.0));
+  NookSum sum = NookSum(vec4(0.0), vec3(0.0));
 #else
   NookSum sum = NookSum(0.0, 0.0);
 #endif
@@ -62,7 +63,7 @@ void main() {
   nook_add_four(sum, nook_key_points_1, nook_alpha_1, nook_blend_1, first);
 #endif
 #if NOOK_LIGHT
-  for (int c = 0; c < 3; ++c) nook_directional_ao[c] = nook_combine(sum.shadow[c], sum.added[c], bias);
+  nook_directional_ao = nook_combine_light(sum.shadow, sum.added, bias);
 #else
   nook_ao = nook_combine(sum.shadow, sum.added, bias);
 #endif

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sdk/src/core/failure.h"
+#include "shaders/character/constants.h"
 #include "tests/catch.h"
 #include "tests/character/kernel_reference.h"
 
@@ -41,21 +42,26 @@ struct Inputs {
   std::vector<float> shadow = std::vector<float>(padded_key_points(key_points));
   std::vector<float> occlusion = shadow;
 
-  Inputs() {
-    std::mt19937 random(4);
+  explicit Inputs(std::uint32_t seed = 4) {
+    std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
     for (float& s : shadow) s = unit(random);
     for (float& o : occlusion) o = unit(random);
   }
 };
 
+// The sum of a vertex' weights times values at its key points.
+double shaded(const CharacterModel& model, const std::vector<float>& values, const auto& weights,
+              std::uint32_t v) {
+  double sum = 0;
+  for (std::uint32_t e = v * influences; e < (v + 1) * influences; ++e)
+    sum += double(weights[e]) * values[model.influence[e]];
+  return sum;
+}
+
 double truth(const CharacterModel& model, const Inputs& in, std::uint32_t v, bool added) {
-  double shaded = model.bias[v], dark = 0;
-  for (std::uint32_t e = v * influences; e < (v + 1) * influences; ++e) {
-    shaded += double(model.alpha[e]) * in.shadow[model.influence[e]];
-    dark += double(model.blend[e]) * in.occlusion[model.influence[e]];
-  }
-  const double self = std::clamp(1 - shaded, 0.0, 1.0);
+  const double dark = shaded(model, in.occlusion, model.blend, v);
+  const double self = std::clamp(1 - shaded(model, in.shadow, model.alpha, v) - model.bias[v], 0.0, 1.0);
   return added ? self * std::clamp(1 - dark, 0.0, 1.0) : self;
 }
 
@@ -86,6 +92,40 @@ TEST_CASE("the linear layer gives the model's AO in file order") {
           CHECK(std::abs(ao[i] - truth(model, in, model.file_to_welded[i], added)) < 1e-6);
       }
   }
+}
+
+TEST_CASE("the light of a vertex' shadow is the mean of its key points', in proportion to their shadows") {
+  const Inputs in;
+  const Inputs other(5);
+  // Red takes none of the light, green as much as of all directions, blue twice as much.
+  std::vector<float> none(in.shadow.size(), 0.0f), twice = in.shadow;
+  for (float& s : twice) s *= 2;
+  const float* const coloured[] = {none.data(), in.shadow.data(), twice.data()};
+  const float* const occlusion[] = {in.occlusion.data(), other.occlusion.data(), in.occlusion.data()};
+  const CharacterModel model = random_model(333);
+  const LinearLayer layer(model);
+  for (const ShadowKernels* kernels : available_kernels())
+    for (const bool added : {false, true}) {
+      INFO(kernels->name << " added " << added);
+      std::vector<float> slots[3];
+      for (auto& channel : slots) channel.resize(layer.padded_slots());
+      float* const rgb[] = {slots[0].data(), slots[1].data(), slots[2].data()};
+      kernels->directional_linear_layer(layer.view(), in.shadow.data(), coloured, added ? occlusion : nullptr,
+                                        rgb);
+      for (std::size_t i = 0; i < layer.file_to_slot().size(); ++i) {
+        const std::uint32_t v = model.file_to_welded[i], slot = layer.file_to_slot()[i];
+        const double sum = shaded(model, in.shadow, model.alpha, v),
+                     dark = std::max(sum + model.bias[v], 0.0);
+        const double small = NOOK_SMALLEST_SHARE;
+        for (int c = 0; c < 3; ++c) {
+          const double self = std::clamp(1 - dark * (c * sum + small) / (sum + small), 0.0, 1.0);
+          const Inputs& from = c == 1 ? other : in;
+          const double left = std::clamp(1 - shaded(model, from.occlusion, model.blend, v), 0.0, 1.0);
+          // As for the linear layer of AO, and a quotient.
+          CHECK(std::abs(slots[c][slot] - (added ? self * left : self)) < 2e-6);
+        }
+      }
+    }
 }
 
 TEST_CASE("vertices that share key points share a block") {

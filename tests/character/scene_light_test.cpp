@@ -88,6 +88,33 @@ TEST_CASE("a caster on the bright side darkens more than one on the dark side") 
   CHECK(west_caster.g < east_caster.g - 0.05f);
 }
 
+// Key points in a crease that darken a vertex beside it: their shadows are large, and the bias takes most of
+// them away again.
+TEST_CASE("a bias takes the same light as the key points from which it takes away") {
+  CharacterModel data = sample_model();
+  for (float& alpha : data.alpha) alpha *= 3;
+  for (float& bias : data.bias) bias -= 0.8f;
+  const auto model = load(std::move(data));
+  Scene scene = make_scene();
+  const nook_instance_id id = place(scene, model, {0, 1, 0});
+  set_light(scene, id, std::vector<SphericalGaussian>{{{1, 0, 0}, 4, {1, 1, 1}}, {{0, -1, 0}, 4, {1, 1, 1}}});
+  update(scene);
+  const std::vector<Rgb> lit = directional_ao_of(scene, id);
+  const std::vector<float> ao = ao_of(scene, id);
+  // A vertex takes no larger part of its shadow's light than the key point that takes the largest.
+  const Instance& instance = instance_of(scene, id);
+  float largest = 0;
+  for (std::uint32_t k = 0; k < model->model.key_points.size(); ++k)
+    if (const float shadow = instance.result.arrays.points.shadow[k]; shadow > 0)
+      largest = std::max(largest, instance.light.shadow[0][k] / shadow);
+  std::size_t cancelled = 0;
+  for (std::size_t i = 0; i < ao.size(); ++i) {
+    cancelled += ao[i] > 0.5f && ao[i] < 1;
+    CHECK(1 - lit[i].r <= largest * (1 - ao[i]) + simd_tolerance);
+  }
+  CHECK(cancelled > 3);
+}
+
 TEST_CASE("a light taken away leaves AO") {
   const auto model = load(sample_model());
   Scene scene = make_scene();

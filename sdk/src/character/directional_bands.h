@@ -37,4 +37,11 @@ Colour<F> coloured_sum(const GatheredBands<F>& gathered, const LightBands& bands
   return {channel(&Vec3::x), channel(&Vec3::y), channel(&Vec3::z)};
 }
 
+// Returns the light that a vertex' self-shadow takes, relative to its share of all directions: sums over its
+// key points, of the coloured shadow and of the shadow. Without shadow it is 1.
+template <class F>
+F vertex_light_ratio(F coloured, F shadow) {
+  return (coloured + F(smallest_share)) / (max(shadow, F(0.0f)) + F(smallest_share));
+}
+
 }  // namespace nook

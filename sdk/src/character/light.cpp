@@ -175,14 +175,4 @@ void evaluate_directional(const Scene& scene, Instance& instance) noexcept {
   light.evaluated = true;
 }
 
-void read_directional_ao(const Scene& scene, const Instance& instance, float* out,
-                         std::size_t stride_bytes) noexcept {
-  const InstanceLight& light = instance.light;
-  for (int c = 0; c < 3; ++c)
-    if (light.evaluated)
-      read_ao(scene, instance, light.shadow[c], light.added[c], out + c, stride_bytes);
-    else
-      read_ao(scene, instance, out + c, stride_bytes);
-}
-
 }  // namespace nook

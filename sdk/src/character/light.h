@@ -59,8 +59,4 @@ void prepare_light(const Scene& scene, Instance& instance) noexcept;
 // light.
 void evaluate_directional(const Scene& scene, Instance& instance) noexcept;
 
-// Writes three floats for each vertex as read_ao does; all of them are AO if the last update found no light.
-void read_directional_ao(const Scene& scene, const Instance& instance, float* out,
-                         std::size_t stride_bytes) noexcept;
-
 }  // namespace nook

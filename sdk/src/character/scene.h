@@ -262,9 +262,9 @@ void read_ao(const Scene& scene, const Instance& instance, float* out, std::size
 // The same as numbers of `format`.
 void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format format, void* out,
                 std::size_t stride_bytes) noexcept;
-// The AO from given shadows and added occlusions at the key points, which are those of the model's own
-// self-shadow also where the instance has a clip.
-void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
-             float* out, std::size_t stride_bytes) noexcept;
+// Writes three floats for each vertex as read_ao does: directional occlusion, by channel. All of them are AO
+// if the last update found no light. The self-shadow is the model's also where the instance has a clip.
+void read_directional_ao(const Scene& scene, const Instance& instance, float* out,
+                         std::size_t stride_bytes) noexcept;
 
 }  // namespace nook

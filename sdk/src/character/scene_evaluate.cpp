@@ -148,39 +148,59 @@ Self self_of(const Scene& scene, const Instance& instance) {
   return instance.input.clip.is_used() ? Self::clip : Self::shadow;
 }
 
+constexpr std::uint32_t chunk_blocks = 16, chunk_slots = chunk_blocks * linear_block_vertices;
+static_assert(LoadedClips::block_slots % chunk_slots == 0);
+using ChunkAo = std::array<float, chunk_slots>;
+
+// Calls evaluate(layer, first_slot) for each chunk of the model's linear layer, then put(place, slot) for its
+// file vertices, place being a pointer stride_bytes further for each and the slot that within the chunk.
+template <class Evaluate, class Put>
+void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out, std::size_t stride_bytes,
+                    Evaluate&& evaluate, Put&& put) noexcept {
+  const LinearView& view = loaded.linear.view();
+  auto* const bytes = static_cast<unsigned char*>(out);
+  for (std::uint32_t block = 0; block < view.block_count; block += chunk_blocks) {
+    const std::uint32_t first_slot = block * linear_block_vertices;
+    const LinearView chunk{view.blocks + block, std::min(chunk_blocks, view.block_count - block),
+                           view.key_point,      view.alpha,
+                           view.blend,          open_bias + first_slot};
+    evaluate(chunk, first_slot);
+    const std::uint32_t end = first_slot + chunk.block_count * linear_block_vertices;
+    for (std::uint32_t slot = first_slot; slot < end; ++slot)
+      for (std::uint32_t i = loaded.slot_begin[slot]; i < loaded.slot_begin[slot + 1]; ++i)
+        put(bytes + loaded.slot_file_vertex[i] * stride_bytes, slot - first_slot);
+  }
+}
+
+const float* open_bias_of(const LoadedModel& loaded, Self self) {
+  return self == Self::shadow ? loaded.linear.view().open_bias : loaded.open_without_bias.data();
+}
+
 // Calls put(place, ao) for each file vertex, place being a pointer stride_bytes further for each.
 template <class Put>
-void for_each_ao(const Scene& scene, const Instance& instance, Self self, const float* shadow,
-                 const float* added, void* out, std::size_t stride_bytes, Put&& put) noexcept {
+void for_each_ao(const Scene& scene, const Instance& instance, void* out, std::size_t stride_bytes,
+                 Put&& put) noexcept {
   const LoadedModel& loaded = *instance.model;
-  LinearView view = loaded.linear.view();
-  if (self != Self::shadow) view.open_bias = loaded.open_without_bias.data();
-  if (scene.settings.combine != NOOK_COMBINE_COMPOSED) added = nullptr;
-
-  constexpr std::uint32_t chunk_blocks = 16;
-  alignas(64) std::array<float, chunk_blocks * linear_block_vertices> ao, own;
-  static_assert(LoadedClips::block_slots % (chunk_blocks * linear_block_vertices) == 0);
   auto* const bytes = static_cast<unsigned char*>(out);
   if (instance.result.evaluated_frame == 0) {
     for (std::size_t i = 0; i < loaded.model.file_to_welded.size(); ++i) put(bytes + i * stride_bytes, 1.0f);
     return;
   }
-  for (std::uint32_t block = 0; block < view.block_count; block += chunk_blocks) {
-    const std::uint32_t first_slot = block * linear_block_vertices;
-    const LinearView chunk{view.blocks + block, std::min(chunk_blocks, view.block_count - block),
-                           view.key_point,      view.alpha,
-                           view.blend,          view.open_bias + first_slot};
-    scene.kernels->linear_layer(chunk, shadow, added, ao.data());
-    const std::uint32_t count = chunk.block_count * linear_block_vertices, end = first_slot + count;
-    if (self == Self::clip) {
-      const InstanceClip& clip = instance.input.clip;
-      decode_ao(*clip.clips, clip.weights.data(), first_slot, count, own.data());
-      for (std::uint32_t i = 0; i < count; ++i) ao[i] *= own[i];
-    }
-    for (std::uint32_t slot = first_slot; slot < end; ++slot)
-      for (std::uint32_t i = loaded.slot_begin[slot]; i < loaded.slot_begin[slot + 1]; ++i)
-        put(bytes + loaded.slot_file_vertex[i] * stride_bytes, ao[slot - first_slot]);
-  }
+  const Self self = self_of(scene, instance);
+  const PointLanes& points = instance.result.arrays.points;
+  const float* const added = scene.settings.combine == NOOK_COMBINE_COMPOSED ? points.added : nullptr;
+  alignas(64) ChunkAo ao, own;
+  for_each_chunk(
+      loaded, open_bias_of(loaded, self), out, stride_bytes,
+      [&](const LinearView& chunk, std::uint32_t first_slot) {
+        scene.kernels->linear_layer(chunk, points.shadow, added, ao.data());
+        if (self != Self::clip) return;
+        const InstanceClip& clip = instance.input.clip;
+        const std::uint32_t count = chunk.block_count * linear_block_vertices;
+        decode_ao(*clip.clips, clip.weights.data(), first_slot, count, own.data());
+        for (std::uint32_t i = 0; i < count; ++i) ao[i] *= own[i];
+      },
+      [&](unsigned char* place, std::uint32_t slot) { put(place, ao[slot]); });
 }
 
 void put_float(unsigned char* place, float ao) noexcept {
@@ -190,36 +210,50 @@ void put_float(unsigned char* place, float ao) noexcept {
 }  // namespace
 
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept {
-  const PointLanes& points = instance.result.arrays.points;
-  for_each_ao(scene, instance, self_of(scene, instance), points.shadow, points.added, out, stride_bytes,
-              put_float);
-}
-
-void read_ao(const Scene& scene, const Instance& instance, const float* shadow, const float* added,
-             float* out, std::size_t stride_bytes) noexcept {
-  for_each_ao(scene, instance, scene.terms & NOOK_TERM_SELF ? Self::shadow : Self::none, shadow, added, out,
-              stride_bytes, put_float);
+  for_each_ao(scene, instance, out, stride_bytes, put_float);
 }
 
 void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format format, void* out,
                 std::size_t stride_bytes) noexcept {
-  const float* const shadow = instance.result.arrays.points.shadow;
-  const float* const added = instance.result.arrays.points.added;
-  const Self self = self_of(scene, instance);
   switch (format) {
     case NOOK_AO_HALF:
-      return for_each_ao(scene, instance, self, shadow, added, out, stride_bytes,
-                         [](unsigned char* place, float ao) {
-                           const std::uint16_t half = to_half(ao);
-                           std::memcpy(place, &half, sizeof half);
-                         });
+      return for_each_ao(scene, instance, out, stride_bytes, [](unsigned char* place, float ao) {
+        const std::uint16_t half = to_half(ao);
+        std::memcpy(place, &half, sizeof half);
+      });
     case NOOK_AO_UNORM8:
-      return for_each_ao(
-          scene, instance, self, shadow, added, out, stride_bytes,
-          [](unsigned char* place, float ao) { *place = static_cast<unsigned char>(ao * 255 + 0.5f); });
+      return for_each_ao(scene, instance, out, stride_bytes, [](unsigned char* place, float ao) {
+        *place = static_cast<unsigned char>(ao * 255 + 0.5f);
+      });
     default:
-      return for_each_ao(scene, instance, self, shadow, added, out, stride_bytes, put_float);
+      return for_each_ao(scene, instance, out, stride_bytes, put_float);
   }
+}
+
+void read_directional_ao(const Scene& scene, const Instance& instance, float* out,
+                         std::size_t stride_bytes) noexcept {
+  const auto put_three = [](unsigned char* place, float r, float g, float b) {
+    const float rgb[] = {r, g, b};
+    std::memcpy(place, rgb, sizeof rgb);
+  };
+  const InstanceLight& light = instance.light;
+  if (!light.evaluated)
+    return for_each_ao(scene, instance, out, stride_bytes,
+                       [&](unsigned char* place, float ao) { put_three(place, ao, ao, ao); });
+  const LoadedModel& loaded = *instance.model;
+  const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  alignas(64) std::array<ChunkAo, 3> ao;
+  float* const rgb[] = {ao[0].data(), ao[1].data(), ao[2].data()};
+  for_each_chunk(
+      loaded, open_bias_of(loaded, scene.terms & NOOK_TERM_SELF ? Self::shadow : Self::none), out,
+      stride_bytes,
+      [&](const LinearView& chunk, std::uint32_t) {
+        scene.kernels->directional_linear_layer(chunk, instance.result.arrays.points.shadow, light.shadow,
+                                                composed ? light.added : nullptr, rgb);
+      },
+      [&](unsigned char* place, std::uint32_t slot) {
+        put_three(place, ao[0][slot], ao[1][slot], ao[2][slot]);
+      });
 }
 
 }  // namespace nook

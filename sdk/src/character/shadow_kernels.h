@@ -165,6 +165,12 @@ struct ShadowKernels {
   // The same for the sphere of a ground whose plane has the unit normal up.
   void (*directional_ground)(const SphereSoa& ground, const KeyPointSoa& points, const LightView& light,
                              Vec3 up, float* const* rgb);
+  // The coloured form of linear_layer. A vertex' self-shadow is that of linear_layer, times the ratio of the
+  // sum of alpha * coloured to the sum of alpha * shadow (vertex_light_ratio): the bias takes the same light
+  // as the key points, because where they are darker than their vertex it is the small difference of large
+  // numbers. occlusion NULL evaluates self-shadow only. For any input the results are numbers in [0, 1].
+  void (*directional_linear_layer)(const LinearView& layer, const float* shadow, const float* const* coloured,
+                                   const float* const* occlusion, float* const* rgb);
 };
 
 // Returns the table of one instruction set, or NULL if the processor or the build lacks it. The scalar table

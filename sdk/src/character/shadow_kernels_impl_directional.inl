@@ -148,4 +148,55 @@ void directional_ground(const SphereSoa& ground, const KeyPointSoa& points, cons
   }
 }
 
+// The sums over the key points of `width` vertices.
+struct DirectionalSum {
+  Float shadow = broadcast(0.0f);
+  Float coloured[3] = {shadow, shadow, shadow}, occlusion[3] = {shadow, shadow, shadow};
+};
+
+template <bool Added>
+DirectionalSum directional_sum(const LinearView& layer, const LinearBlock& block, std::uint32_t lane,
+                               const float* shadow, const float* const* coloured,
+                               const float* const* occlusion) {
+  DirectionalSum sum;
+  const std::uint32_t end = block.first_column + block.columns;
+  for (std::uint32_t c = block.first_column; c < end; ++c) {
+    const std::uint32_t k = layer.key_point[c], at = c * linear_block_vertices + lane;
+    const Float alpha = load(layer.alpha + at);
+    sum.shadow = fma(alpha, broadcast(shadow[k]), sum.shadow);
+    for (int i = 0; i < 3; ++i) sum.coloured[i] = fma(alpha, broadcast(coloured[i][k]), sum.coloured[i]);
+    if constexpr (Added) {
+      const Float blend = load(layer.blend + at);
+      for (int i = 0; i < 3; ++i) sum.occlusion[i] = fma(blend, broadcast(occlusion[i][k]), sum.occlusion[i]);
+    }
+  }
+  return sum;
+}
+
+template <bool Added>
+void directional_blocks(const LinearView& layer, const float* shadow, const float* const* coloured,
+                        const float* const* occlusion, float* const* rgb) {
+  const Float one = broadcast(1.0f);
+  for (std::uint32_t b = 0; b < layer.block_count; ++b)
+    for (std::uint32_t lane = 0; lane < linear_block_vertices; lane += width) {
+      const DirectionalSum sum =
+          directional_sum<Added>(layer, layer.blocks[b], lane, shadow, coloured, occlusion);
+      const std::uint32_t slot = b * linear_block_vertices + lane;
+      const Float dark = max(sum.shadow + (one - load(layer.open_bias + slot)), broadcast(0.0f));
+      for (int c = 0; c < 3; ++c) {
+        Float open = clamped_open(one - dark * vertex_light_ratio(sum.coloured[c], sum.shadow));
+        if constexpr (Added) open = open * clamped_open(one - sum.occlusion[c]);
+        store(rgb[c] + slot, open);
+      }
+    }
+}
+
+void directional_linear_layer(const LinearView& layer, const float* shadow, const float* const* coloured,
+                              const float* const* occlusion, float* const* rgb) {
+  if (occlusion)
+    directional_blocks<true>(layer, shadow, coloured, occlusion, rgb);
+  else
+    directional_blocks<false>(layer, shadow, coloured, nullptr, rgb);
+}
+
 }  // namespace

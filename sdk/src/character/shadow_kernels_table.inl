@@ -17,7 +17,8 @@ constexpr ShadowKernels table{isa,
                               directional_hemisphere,
                               directional_depth,
                               directional_open,
-                              directional_ground};
+                              directional_ground,
+                              directional_linear_layer};
 
 }  // namespace
 

@@ -153,6 +153,7 @@ void check_floor_and_body(const Picture& on, const Picture& off) {
   // Farther away than the screen-space pass would darken the casters do.
   points.clear();
   drawn = 0;
+  float half_step = 0;  // AO that half a step of the picture's 8 bits is worth
   const glm::vec3 aside(forward.z, 0, -forward.x);
   for (float ahead_m = 0.5f; ahead_m < 2.5f; ahead_m += 0.1f)
     for (float aside_m = -2; aside_m < 2; aside_m += 0.1f) {
@@ -160,11 +161,20 @@ void check_floor_and_body(const Picture& on, const Picture& off) {
       const auto pixel = scene.pixel(p);
       if (!pixel || scene.distance_to_body_m(p) < 1.2f * kRadius_m) continue;
       points.push_back(p);
-      drawn += 1 - (linear_of(off.at(*pixel)) - linear_of(on.at(*pixel))) / kAmbient;
+      const float open = off.at(*pixel);
+      drawn += 1 - (linear_of(open) - linear_of(on.at(*pixel))) / kAmbient;
+      half_step += (linear_of(open + 0.5f / 255) - linear_of(open)) / kAmbient;
     }
   CHECK(points.size() > 50);
-  // A step of the 8 bits of AO, and as much for those of the pictures.
-  CHECK(std::abs(drawn / float(points.size()) - traced_floor_ao(scene, points)) < 2.0f / 255);
+  drawn /= float(points.size());
+  half_step /= float(points.size());
+  const float traced_far = traced_floor_ao(scene, points);
+  CAPTURE(drawn, traced_far, half_step);
+  // The open floor is nearly of one colour, so that its rounding does not vanish from the mean. Beside it
+  // stand a step of the 8 bits of AO, and what casters of a draft are off by: their mse is 0.016 of that of
+  // no darkening (nook evaluate world), its root an eighth.
+  CHECK(std::abs(drawn - traced_far) < half_step + 1.0f / 255 + 0.13f * (1 - traced_far));
+  CHECK(drawn < 1 - 0.5f * (1 - traced_far));
 
   // The pass is exactly 1 on characters. Only above the hands: between fingers and at the feet a pixel holds
   // some of the floor.

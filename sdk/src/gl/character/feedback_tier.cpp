@@ -37,7 +37,8 @@ struct Colours {
         out[c] = light.evaluated ? light.shadow[c][k] : points.shadow[k];
         out[4 + c] = !composed ? 0.0f : light.evaluated ? light.added[c][k] : points.added[k];
       }
-      out[3] = out[7] = 0;
+      out[3] = points.shadow[k];
+      out[7] = 0;
     }
   }
 };
