@@ -28,6 +28,13 @@ void require_same_character(const CharacterModel& model, const SkinnedMesh& mesh
                   model.vertex_count(), model.bone_count(), mesh.vertex_count(), mesh.bones.size());
 }
 
+// A NaN is out of every range; the lower bounds have room for the rounding of 0.1f and 1e-4f.
+void require_between(const char* name, double value, double low, double high) {
+  if (!(value >= low * (1 - 1e-6) && value <= high))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %g, need %g to %g)", name, value, low,
+                  high);
+}
+
 std::string recipe_of(const ImportedCharacter& character, const ClipTask& task) {
   Json recipe;
   recipe["frames_per_second"] = task.frames_per_second;
@@ -54,16 +61,46 @@ std::vector<std::size_t> chosen_clips(const ImportedCharacter& character,
   return clips;
 }
 
-BakedFile bake_clips_file(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
-                          const ClipTask& task, const StageReport& progress) {
-  const platform::Stopwatch watch;
-  const CharacterModel model = read_character_model(model_bytes);
+ClipTask clip_task_of(const nook_bake_clips_desc& desc) {
+  ClipTask task;
+  task.frames_per_second = double(desc.frames_per_second);
+  task.rays = desc.rays;
+  task.tables.seed = desc.seed;
+  task.tables.max_error = double(desc.max_error);
+  task.tables.max_bytes = double(desc.max_bytes);
+  task.tables.max_modes = desc.max_modes;
+  require_between("desc.rays", desc.rays, 1, 65536);
+  require_between("desc.frames_per_second", task.frames_per_second, 0.1, 1000);
+  require_between("desc.max_error", task.tables.max_error, 1e-4, 1);
+  require_between("desc.max_bytes", task.tables.max_bytes, 1e-4, 100);
+  require_between("desc.max_modes", desc.max_modes, 4, ClipSet::max_ao_modes);
+  if (desc.max_modes % 4 != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.max_modes is no multiple of 4 (got %u)", desc.max_modes);
+  if (desc.clip_count > 0) need(desc.clip_names, "desc.clip_names");
+  for (std::uint32_t i = 0; i < desc.clip_count; ++i) {
+    need(desc.clip_names[i], "desc.clip_names[i]");
+    task.clips.emplace_back(desc.clip_names[i]);
+  }
+  return task;
+}
+
+CharacterModel model_of_character(std::span<const std::byte> bytes, const ImportedCharacter& character) {
+  CharacterModel model = read_character_model(bytes);
   require_same_character(model, character.mesh);
-  const std::vector<std::size_t> clips = chosen_clips(character, task.clips);
-  const ClipFrames frames = clip_frames(character, clips, task.frames_per_second);
+  return model;
+}
+
+ClipFrames frames_of(const ImportedCharacter& character, const ClipTask& task) {
+  ClipFrames frames = clip_frames(character, chosen_clips(character, task.clips), task.frames_per_second);
   if (frames.poses.size() > ClipSet::max_frames)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the clips have too many frames (got %zu, need at most %u)",
                   frames.poses.size(), ClipSet::max_frames);
+  return frames;
+}
+
+BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterModel& model,
+                          const ClipFrames& frames, const ClipTask& task, const StageReport& progress) {
+  const platform::Stopwatch watch;
   const AoTargets targets = trace_character_ao(
       character.mesh, frames.poses, task.rays, task.tables.seed,
       [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_RAYTRACE, done, total); });

@@ -1,6 +1,8 @@
 // Baked clips of a character as a file.
 #pragma once
 
+#include <nook/nook_bake_clips.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -23,9 +25,20 @@ struct ClipTask {
 // not have, or where it has no clip.
 std::vector<std::size_t> chosen_clips(const ImportedCharacter& character, std::span<const std::string> names);
 
-// The model is that of the character. The stage is NOOK_BAKE_STAGE_RAYTRACE and counts frames. Throws
-// Failure: BAD_FILE (no model, or that of another character), INVALID_ARGUMENT, CANCELLED.
-BakedFile bake_clips_file(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
-                          const ClipTask& task, const StageReport& progress);
+// Throws Failure(INVALID_ARGUMENT) for a number out of its range or a NULL name.
+ClipTask clip_task_of(const nook_bake_clips_desc& desc);
+
+// Reads the character's baked model. Throws Failure: BAD_FILE (no model, or that of another character),
+// FILE_VERSION.
+CharacterModel model_of_character(std::span<const std::byte> bytes, const ImportedCharacter& character);
+
+// The frames of the task's clips. Throws what chosen_clips throws, and Failure(INVALID_ARGUMENT) for too many
+// frames.
+ClipFrames frames_of(const ImportedCharacter& character, const ClipTask& task);
+
+// model and frames are those of the character and the task. The stage is NOOK_BAKE_STAGE_RAYTRACE and counts
+// frames. Throws Failure: CANCELLED.
+BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterModel& model,
+                          const ClipFrames& frames, const ClipTask& task, const StageReport& progress);
 
 }  // namespace nook::bake

@@ -43,14 +43,18 @@ bake::ImportedCharacter read_character(const Options& o) {
   return character;
 }
 
-bake::BakedFile bake(const Options& o, const std::vector<std::byte>& model,
-                     const bake::ImportedCharacter& character) {
-  platform::ProgressBar bar(o.common.quiet);
-  return bake::bake_clips_file(character, model, o.task,
-                               [&](nook_bake_stage, std::size_t done, std::size_t total) {
-                                 bar.show("ray tracing", "frames", done, total);
-                                 return !interrupted();
-                               });
+bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character) {
+  const CharacterModel model =
+      naming_file(o.model, [&] { return bake::model_of_character(read_file(o.model), character); });
+  return naming_file(o.input, [&] {
+    const bake::ClipFrames frames = bake::frames_of(character, o.task);
+    platform::ProgressBar bar(o.common.quiet);
+    return bake::bake_clips_file(character, model, frames, o.task,
+                                 [&](nook_bake_stage, std::size_t done, std::size_t total) {
+                                   bar.show("ray tracing", "frames", done, total);
+                                   return !interrupted();
+                                 });
+  });
 }
 
 void run(Options o) {
@@ -61,12 +65,10 @@ void run(Options o) {
   std::optional<platform::OutputFile> report_file;
   if (!o.common.report.empty()) report_file.emplace(o.common.report);
   o.task.tables.seed = o.common.seed;
-  const std::vector<std::byte> model = read_file(o.model);
   const bake::ImportedCharacter character = read_character(o);
   bake::BakedFile file;
   try {
-    bake::run_with_threads(o.common.threads,
-                           [&] { file = naming_file(o.model, [&] { return bake(o, model, character); }); });
+    bake::run_with_threads(o.common.threads, [&] { file = bake(o, character); });
   } catch (const ToolError&) {
     if (interrupted()) throw ToolError(exit_other, "stopped; nothing was written");
     throw;

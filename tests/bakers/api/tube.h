@@ -4,6 +4,7 @@
 #define NOOK_TESTS_TUBE_H
 
 #include <nook/nook_bake_character.h>
+#include <nook/nook_bake_clips.h>
 #include <nook/nook_bake_material.h>
 #include <nook/nook_bake_synthesis.h>
 #include <nook/nook_bake_trace.h>

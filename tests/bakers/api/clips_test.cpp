@@ -1,0 +1,163 @@
+// Jobs of clips, and their files in the runtime.
+#include <nook/nook_bake_clips.h>
+#include <nook/nook_clips.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/bakers/api/handles.h"
+#include "tests/bakers/tool/glb_tube.h"
+#include "tests/catch.h"
+
+namespace {
+
+Character tube_with_clips() {
+  const std::string glb = glb_tube({"bend", "T-pose", "wave"});
+  nook_bake_character character = nullptr;
+  REQUIRE(nook_bake_import_gltf_bytes(glb.data(), glb.size(), &character) == NOOK_OK);
+  return Character(character);
+}
+
+std::string bytes_of(nook_bake_job job) {
+  INFO(nook_bake_last_message());
+  REQUIRE(nook_bake_job_wait(job) == NOOK_OK);
+  const void* bytes = nullptr;
+  std::size_t size = 0;
+  REQUIRE(nook_bake_job_model(job, &bytes, &size) == NOOK_OK);
+  return {static_cast<const char*>(bytes), size};
+}
+
+std::string model_of(const Character& character) {
+  nook_bake_job_desc desc;
+  REQUIRE(nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  desc.preset = NOOK_BAKE_PRESET_DRAFT;
+  desc.pose_mode = NOOK_BAKE_POSES_AUTO;
+  desc.auto_pose_count = 40;
+  desc.spheres = 8;
+  desc.key_points = 24;
+  desc.rays = 4;
+  desc.steps = 40;
+  nook_bake_job job = nullptr;
+  REQUIRE(nook_bake_job_start(character.get(), &desc, &job) == NOOK_OK);
+  const Job owner(job);
+  return bytes_of(job);
+}
+
+nook_bake_clips_desc desc_of(const std::string& model) {
+  nook_bake_clips_desc desc;
+  REQUIRE(nook_bake_clips_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  desc.model = model.data();
+  desc.model_size = model.size();
+  desc.rays = 32;
+  desc.frames_per_second = 10;
+  return desc;
+}
+
+nook_result start_result(const Character& character, const nook_bake_clips_desc& desc) {
+  nook_bake_job job = nullptr;
+  const nook_result result = nook_bake_clips_start(character.get(), &desc, &job);
+  CHECK((job != nullptr) == (result == NOOK_OK));
+  nook_bake_job_destroy(&job);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a job of clips gives a file for the model, the same on any number of threads") {
+  const std::string model_bytes = model_of(tube_with_clips());
+  nook_bake_clips_desc desc = desc_of(model_bytes);
+  std::string first;
+  for (const std::uint32_t threads : {1u, 3u}) {
+    desc.threads = threads;
+    nook_bake_job started = nullptr;
+    // The job keeps the character.
+    REQUIRE(nook_bake_clips_start(tube_with_clips().get(), &desc, &started) == NOOK_OK);
+    const Job job(started);
+    const std::string bytes = bytes_of(job.get());
+    const char* report = nullptr;
+    REQUIRE(nook_bake_job_report(job.get(), &report) == NOOK_OK);
+    CHECK(nlohmann::json::parse(report)["clips"] == 2);
+    if (first.empty()) first = bytes;
+    CHECK(bytes == first);
+  }
+  nook_context_desc context_desc;
+  nook_context context = nullptr;
+  nook_character_model model = nullptr;
+  nook_clips clips = nullptr;
+  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
+  REQUIRE(nook_character_model_load(context, model_bytes.data(), model_bytes.size(), &model) == NOOK_OK);
+  REQUIRE(nook_clips_load(context, model, first.data(), first.size(), &clips) == NOOK_OK);
+  nook_clips_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_clips_describe(clips, &info) == NOOK_OK);
+  CHECK(info.clip_count == 2);    // the T-pose shows no motion
+  CHECK(info.frame_count == 22);  // one second each, at 10 frames and both ends
+  nook_clips_destroy(&clips);
+  nook_character_model_destroy(&model);
+  nook_context_destroy(&context);
+}
+
+TEST_CASE("faults of a job of clips come before it starts, with their cause") {
+  const Character character = tube_with_clips();
+  const std::string model = model_of(character);
+  nook_bake_clips_desc desc = desc_of(model);
+  SECTION("an unknown clip") {
+    const char* const names[] = {"wave", "fly"};
+    desc.clip_names = names;
+    desc.clip_count = 2;
+    CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("fly"));
+    CHECK(message_has("bend"));
+  }
+  SECTION("a NULL among the names") {
+    const char* const names[] = {nullptr};
+    desc.clip_names = names;
+    desc.clip_count = 1;
+    CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc.clip_names[i]"));
+  }
+  SECTION("modes that are no multiple of 4") {
+    desc.max_modes = 6;
+    CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc.max_modes is no multiple of 4 (got 6)"));
+  }
+  SECTION("numbers out of range") {
+    for (float nook_bake_clips_desc::*field :
+         {&nook_bake_clips_desc::frames_per_second, &nook_bake_clips_desc::max_error,
+          &nook_bake_clips_desc::max_bytes})
+      for (const float bad : {0.0f, -1.0f, 1e9f, std::numeric_limits<float>::quiet_NaN()}) {
+        nook_bake_clips_desc wrong = desc;
+        wrong.*field = bad;
+        CHECK(start_result(character, wrong) == NOOK_ERROR_INVALID_ARGUMENT);
+        CHECK(message_has("is out of range"));
+      }
+    desc.rays = 0;
+    CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc.rays is out of range (got 0, need 1 to 65536)"));
+  }
+  SECTION("no model") {
+    desc.model = nullptr;
+    CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+    const char bytes[40] = {};
+    desc.model = bytes;
+    desc.model_size = sizeof bytes;
+    CHECK(start_result(character, desc) == NOOK_ERROR_BAD_FILE);
+  }
+  SECTION("the model of another character") {
+    const std::string other = model_of(tube_character());
+    desc.model = other.data();
+    desc.model_size = other.size();
+    CHECK(start_result(character, desc) == NOOK_ERROR_BAD_FILE);
+    CHECK(message_has("another character"));
+  }
+  SECTION("a character without clips") {
+    const std::string plain = model_of(tube_character());
+    desc.model = plain.data();
+    desc.model_size = plain.size();
+    CHECK(start_result(tube_character(), desc) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("no clip that shows motion"));
+  }
+}
