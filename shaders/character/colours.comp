@@ -64,7 +64,7 @@ void main() {
 
   float norm = 0.0;
   vec3 coloured = vec3(0.0), depth = vec3(0.0), open = vec3(1.0);
-  if (nook_self != 0) {
+  if (record.self) {
     NookBands own = nook_gather_spheres(record.first_sphere + nook_first_sphere, nook_sphere_count, fitted);
     norm = own.scalar;
     coloured = nook_coloured_sum(light, own, fitted.normal);

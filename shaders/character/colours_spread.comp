@@ -14,7 +14,6 @@ layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookSpread {
 layout(location = NOOK_LOCATION_SPREAD_FIRST_RECORD) uniform uint nook_first_record;
 layout(location = NOOK_LOCATION_SPREAD_KEY_POINT_COUNT) uniform uint nook_key_point_count;
 layout(location = NOOK_LOCATION_SPREAD_SHADOW_STRIDE) uniform uint nook_shadow_stride;
-layout(location = NOOK_LOCATION_SPREAD_SELF) uniform int nook_self;
 layout(location = NOOK_LOCATION_SPREAD_LEVEL) uniform uint nook_level;
 
 void main() {
@@ -28,7 +27,7 @@ void main() {
   uint to = uint(NOOK_COLOUR_VEC4S) * (first + k), from = uint(NOOK_COLOUR_VEC4S) * source;
   vec4 shadow = nook_colour[from];
   // Scale and offset apply to self-shadow only, as in spread.comp.
-  if (nook_self != 0)
+  if (record.self)
     shadow.w = max(uintBitsToFloat(nook_spread[rule + 1u]) * shadow.w + uintBitsToFloat(nook_spread[rule + 2u]), 0.0);
   nook_colour[to] = shadow;
   nook_colour[to + 1u] = nook_colour[from + 1u];

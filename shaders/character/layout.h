@@ -26,22 +26,19 @@
 #define NOOK_LOCATION_FIRST_KEY_POINT 3
 #define NOOK_LOCATION_KEY_POINT_COUNT 4
 #define NOOK_LOCATION_GAMMA 5
-#define NOOK_LOCATION_SELF 6
-#define NOOK_LOCATION_COMPOSED 7
-#define NOOK_LOCATION_SHADOW_STRIDE 8
-#define NOOK_LOCATION_SHADOW_OFFSET 9
+#define NOOK_LOCATION_COMPOSED 6
+#define NOOK_LOCATION_SHADOW_STRIDE 7
+#define NOOK_LOCATION_SHADOW_OFFSET 8
 // of those that spread a level's key points (spread.comp, colours_spread.comp),
 #define NOOK_LOCATION_SPREAD_FIRST_RECORD 0
 #define NOOK_LOCATION_SPREAD_KEY_POINT_COUNT 1
 #define NOOK_LOCATION_SPREAD_SHADOW_STRIDE 2
-#define NOOK_LOCATION_SPREAD_SELF 3
-#define NOOK_LOCATION_SPREAD_LEVEL 4
+#define NOOK_LOCATION_SPREAD_LEVEL 3
 // and of vertices.comp.
 #define NOOK_LOCATION_FILE_VERTEX_COUNT 0
 #define NOOK_LOCATION_VERTEX_COUNT 1
 #define NOOK_LOCATION_INFLUENCE_PAIRS 2
 #define NOOK_LOCATION_VERTEX_SHADOW_STRIDE 3
-#define NOOK_LOCATION_VERTEX_SELF 4
 
 // Attributes of vertices.vert: a bias, then for each quad of influences its key points, alphas and blend
 // weights. OpenGL 3.3 wants a literal for each location.
@@ -57,6 +54,9 @@
 #define NOOK_OUTPUT_AO 0
 #define NOOK_OUTPUT_COLOUR 1
 #define NOOK_OUTPUT_GREY 2
+
+// The bit beside the place of an instance whose own spheres darken it.
+#define NOOK_RECORD_SELF 0x80000000u
 
 // Elements of the arrays in storage buffers.
 #define NOOK_RECORD_UVEC4S 2      // of an instance

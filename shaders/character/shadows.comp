@@ -41,7 +41,7 @@ void main() {
   nook_pose(nook_first_key_point + key_point, record.first_bone, fitted, surface);
 
   float norm = 0.0, depth = 0.0, open = 1.0;
-  if (nook_self != 0) norm = nook_norm_sum(record.first_sphere + nook_first_sphere, nook_sphere_count, fitted);
+  if (record.self) norm = nook_norm_sum(record.first_sphere + nook_first_sphere, nook_sphere_count, fitted);
   for (uint c = 0u; c < record.caster_count; ++c) {
     uint at = record.first_caster + uint(NOOK_CASTER_UVEC4S) * c;
     uvec4 caster = nook_stream[at];

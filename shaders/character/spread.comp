@@ -14,7 +14,6 @@ layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookSpread {
 layout(location = NOOK_LOCATION_SPREAD_FIRST_RECORD) uniform uint nook_first_record;
 layout(location = NOOK_LOCATION_SPREAD_KEY_POINT_COUNT) uniform uint nook_key_point_count;
 layout(location = NOOK_LOCATION_SPREAD_SHADOW_STRIDE) uniform uint nook_shadow_stride;
-layout(location = NOOK_LOCATION_SPREAD_SELF) uniform int nook_self;
 layout(location = NOOK_LOCATION_SPREAD_LEVEL) uniform uint nook_level;
 
 void main() {
@@ -25,7 +24,7 @@ void main() {
   uint rule = uint(NOOK_SPREAD_WORDS) * (nook_level * nook_key_point_count + k);
   vec2 source = nook_shadow[first + nook_key_point_count + nook_spread[rule]];
   // Scale and offset apply to self-shadow only.
-  if (nook_self != 0)
+  if (record.self)
     source.x = max(uintBitsToFloat(nook_spread[rule + 1u]) * source.x + uintBitsToFloat(nook_spread[rule + 2u]), 0.0);
   nook_shadow[first + k] = source;
 }

@@ -28,7 +28,6 @@ layout(location = NOOK_LOCATION_FILE_VERTEX_COUNT) uniform uint nook_file_vertex
 layout(location = NOOK_LOCATION_VERTEX_COUNT) uniform uint nook_vertex_count;
 layout(location = NOOK_LOCATION_INFLUENCE_PAIRS) uniform uint nook_influence_pairs;
 layout(location = NOOK_LOCATION_VERTEX_SHADOW_STRIDE) uniform uint nook_shadow_stride;
-layout(location = NOOK_LOCATION_VERTEX_SELF) uniform int nook_self;
 
 #if NOOK_OUTPUT == NOOK_OUTPUT_COLOUR
 #define NOOK_SHADOW vec4
@@ -62,7 +61,7 @@ void main() {
 #endif
   uint first_key_point = record.place * nook_shadow_stride;
   uint word = nook_file_vertex_count + nook_linear[file_vertex];
-  float bias = nook_self != 0 ? uintBitsToFloat(nook_linear[word]) : 0.0;
+  float bias = record.self ? uintBitsToFloat(nook_linear[word]) : 0.0;
   NOOK_SHADOW shadow = NOOK_SHADOW(0.0);
   NOOK_ADDED added = NOOK_ADDED(0.0);
   for (uint i = 0u; i < nook_influence_pairs; ++i) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/light.h"
 #include "sdk/src/character/loaded_clips.h"
 #include "sdk/src/character/vertex_match.h"
 #include "sdk/src/core/failure.h"
@@ -155,6 +156,15 @@ TEST_CASE("an instance with a clip has the AO of its formula, and links multiply
     darkest = std::min(darkest, added[i]);
   }
   CHECK(darkest < 0.9f);
+
+  // Under constant light the channels are AO; two estimates of roots in each term, as in
+  // scene_light_test.cpp.
+  scene.terms = NOOK_TERM_ALL;
+  set_light(scene, id, std::vector<SphericalGaussian>{{{0, 1, 0}, 0, {0.5f, 1, 2}}});
+  update(scene);
+  std::vector<float> lit(3 * all.size());
+  read_directional_ao(scene, instance_of(scene, id), lit.data(), 12);
+  for (std::size_t i = 0; i < lit.size(); ++i) REQUIRE(std::abs(lit[i] - all[i / 3]) < 2e-3f);
 }
 
 TEST_CASE("the poses of a set are those that were planted, at a place, and mixed between frames") {

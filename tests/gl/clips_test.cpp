@@ -123,3 +123,51 @@ TEST_CASE("clips in a vertex shader agree with the CPU") {
   gl.DeleteTextures(1, &weights);
   gl.ActiveTexture(GL_TEXTURE0);
 }
+
+TEST_CASE("an update on OpenGL leaves the whole AO of bones, and of clips what the others leave open") {
+  NOOK_NEED_CONTEXT(context);
+  Loaded loaded;
+  const std::uint32_t count = loaded.info.file_vertex_count;
+  Numbers numbers(5);
+  nook_scene_desc desc;
+  NOOK_OK_OR_FAIL(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  nook_scene scene = nullptr;
+  NOOK_OK_OR_FAIL(nook_scene_create(loaded.host.handle, &desc, &scene));
+  // Runs of both kinds, and a change between them.
+  constexpr bool has_clip[] = {false, true, true, false, true, false};
+  std::vector<nook_instance_id> ids(std::size(has_clip));
+  const float ground[] = {0, 1, 0, 0.4f};
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    NOOK_OK_OR_FAIL(nook_scene_add_instance(scene, loaded.model, &ids[i]));
+    NOOK_OK_OR_FAIL(nook_scene_set_ground(scene, ids[i], ground));
+    if (i > 0) NOOK_OK_OR_FAIL(nook_scene_link(scene, ids[i], ids[i - 1]));
+    const float x = 0.4f * float(i);
+    if (has_clip[i]) {
+      const float place[] = {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0};
+      const nook_clip_time time{1, NOOK_CLIP_LOOP, 0.6};
+      NOOK_OK_OR_FAIL(nook_scene_set_clip(scene, ids[i], loaded.clips, &time, place));
+    } else {
+      const std::vector<Mat3x4> pose = random_pose(numbers, loaded.info.bone_count, {x, 0, 0});
+      NOOK_OK_OR_FAIL(nook_scene_set_pose(scene, ids[i], pose[0].m, loaded.info.bone_count));
+    }
+  }
+  for (const int tier : tiers_of(context)) {
+    INFO("tier " << tier);
+    nook_gl gl = create_gl(loaded.host.handle, platform::Context::loader, &context, tier);
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, scene));
+    std::vector<std::vector<float>> drawn(ids.size(), std::vector<float>(count));
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      NOOK_OK_OR_FAIL(nook_gl_scene_read_ao(gl, scene, ids[i], drawn[i].data(), count));
+    nook_gl_destroy(&gl);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      NOOK_OK_OR_FAIL(
+          nook_scene_set_terms(scene, has_clip[i] ? NOOK_TERM_ALL - NOOK_TERM_SELF : NOOK_TERM_ALL));
+      NOOK_OK_OR_FAIL(nook_scene_update(scene));
+      std::vector<float> ao(count);
+      NOOK_OK_OR_FAIL(nook_scene_read_ao(scene, ids[i], ao.data(), count, 0));
+      CHECK(largest_difference(drawn[i], ao) < promised_difference);
+    }
+    NOOK_OK_OR_FAIL(nook_scene_set_terms(scene, NOOK_TERM_ALL));
+  }
+  nook_scene_destroy(&scene);
+}

@@ -10,8 +10,9 @@
  * of the clip * (1 - added), where the added casters are evaluated at key points in the pose of the clip.
  *
  * On the GPU a vertex shader decodes the AO itself (nook_gl_clips.h), without work for each vertex on the
- * CPU. A scene whose terms leave out NOOK_TERM_SELF then gives 1 - added, in the buffers of
- * nook_gl_scene_update or from nook_scene_read_ao, by which the shader multiplies. */
+ * CPU, and multiplies by what nook_gl_scene_update leaves in its buffers for an instance with a clip:
+ * 1 - added. Where the CPU updates the scene, nook_scene_read_ao gives the same if the scene's terms leave
+ * out NOOK_TERM_SELF. */
 #ifndef NOOK_CLIPS_H
 #define NOOK_CLIPS_H
 
@@ -122,10 +123,11 @@ NOOK_API nook_result nook_clips_read_casters(nook_clips clips, const nook_clip_t
 
 /* Sets the pose of an instance from a clip, at a place as in nook_clips_read_pose, and takes its own AO from
  * the clip until the next nook_scene_set_pose or nook_scene_set_model. nook_scene_read_ao then multiplies the
- * AO of the clip at this time by what the added casters of the last update leave open. Under a light
- * (nook_scene_set_light), and in nook_gl_scene_update, the instance keeps the model's own self-shadow in the
- * pose of the clip. The clips must have been loaded for the instance's model. The call allocates at the first
- * clip of an instance. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
+ * AO of the clip at this time by what the added casters of the last update leave open, and
+ * nook_scene_read_directional_ao by what they leave of each channel. The buffers of nook_gl_scene_update have
+ * what the casters leave open alone. The clips must have been loaded for the instance's model. The call
+ * allocates at the first clip of an instance. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE,
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_clip(nook_scene scene, nook_instance_id instance, nook_clips clips,
                                          const nook_clip_time* time, const float* place_3x4);
 

@@ -18,6 +18,11 @@ inline SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
   return {s.x, s.y, s.z, s.inverse_radius, rest.caster_weight(), s.count};
 }
 
+// True where the spheres of the instance darken its own key points; a clip has its AO instead.
+inline bool has_self_shadow(const Scene& scene, const Instance& instance) {
+  return (scene.terms & NOOK_TERM_SELF) && !instance.input.clip.is_used();
+}
+
 inline const RestKeyPoints& rest_points_of(const Instance& instance) {
   return instance.plan.level == 0 ? instance.model->rest_key_points
                                   : instance.model->levels[instance.plan.level - 1].rest_key_points;

@@ -166,7 +166,7 @@ void evaluate_directional(const Scene& scene, Instance& instance) noexcept {
   const PointLanes points = evaluated_points(instance);
   const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
   fill(light.sum, points.padded_count, 0.0f);
-  if (scene.terms & NOOK_TERM_SELF)
+  if (has_self_shadow(scene, instance))
     scene.kernels->directional_norm_sum(spheres_of(instance, instance.plan.level), fitted_points(points),
                                         instance.model->model.kernel, light.bands, light.sum);
   if (!composed) join_paper_norm(scene, instance, points, light);

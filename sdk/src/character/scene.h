@@ -263,7 +263,7 @@ void read_ao(const Scene& scene, const Instance& instance, float* out, std::size
 void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format format, void* out,
                 std::size_t stride_bytes) noexcept;
 // Writes three floats for each vertex as read_ao does: directional occlusion, by channel. All of them are AO
-// if the last update found no light. The self-shadow is the model's also where the instance has a clip.
+// if the last update found no light.
 void read_directional_ao(const Scene& scene, const Instance& instance, float* out,
                          std::size_t stride_bytes) noexcept;
 

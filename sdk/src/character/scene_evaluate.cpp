@@ -36,11 +36,6 @@ void join_paper_norm(const Scene& scene, const Instance& instance, const PointLa
   std::fill_n(points.optical_depth, points.padded_count, 0.0f);
 }
 
-// True where the spheres of the instance darken its own key points; a clip has its AO instead.
-bool has_self_shadow(const Scene& scene, const Instance& instance) {
-  return (scene.terms & NOOK_TERM_SELF) && !instance.input.clip.is_used();
-}
-
 std::uint64_t count_evaluations(const Scene& scene, const Instance& instance, std::uint32_t points) {
   std::uint64_t spheres =
       (has_self_shadow(scene, instance) ? spheres_of(instance, instance.plan.level).count : 0) +
@@ -172,6 +167,13 @@ void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out
   }
 }
 
+// Fills the part of own that the chunk has.
+void decode_clip(const Instance& instance, const LinearView& chunk, std::uint32_t first_slot, ChunkAo& own) {
+  const InstanceClip& clip = instance.input.clip;
+  decode_ao(*clip.clips, clip.weights.data(), first_slot, chunk.block_count * linear_block_vertices,
+            own.data());
+}
+
 const float* open_bias_of(const LoadedModel& loaded, Self self) {
   return self == Self::shadow ? loaded.linear.view().open_bias : loaded.open_without_bias.data();
 }
@@ -189,16 +191,14 @@ void for_each_ao(const Scene& scene, const Instance& instance, void* out, std::s
   const Self self = self_of(scene, instance);
   const PointLanes& points = instance.result.arrays.points;
   const float* const added = scene.settings.combine == NOOK_COMBINE_COMPOSED ? points.added : nullptr;
-  alignas(64) ChunkAo ao, own;
+  alignas(64) ChunkAo ao{}, own{};
   for_each_chunk(
       loaded, open_bias_of(loaded, self), out, stride_bytes,
       [&](const LinearView& chunk, std::uint32_t first_slot) {
         scene.kernels->linear_layer(chunk, points.shadow, added, ao.data());
         if (self != Self::clip) return;
-        const InstanceClip& clip = instance.input.clip;
-        const std::uint32_t count = chunk.block_count * linear_block_vertices;
-        decode_ao(*clip.clips, clip.weights.data(), first_slot, count, own.data());
-        for (std::uint32_t i = 0; i < count; ++i) ao[i] *= own[i];
+        decode_clip(instance, chunk, first_slot, own);
+        for (std::uint32_t i = 0; i < chunk_slots; ++i) ao[i] *= own[i];
       },
       [&](unsigned char* place, std::uint32_t slot) { put(place, ao[slot]); });
 }
@@ -242,14 +242,19 @@ void read_directional_ao(const Scene& scene, const Instance& instance, float* ou
                        [&](unsigned char* place, float ao) { put_three(place, ao, ao, ao); });
   const LoadedModel& loaded = *instance.model;
   const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
-  alignas(64) std::array<ChunkAo, 3> ao;
+  const Self self = self_of(scene, instance);
+  alignas(64) std::array<ChunkAo, 3> ao{};
+  alignas(64) ChunkAo own{};
   float* const rgb[] = {ao[0].data(), ao[1].data(), ao[2].data()};
   for_each_chunk(
-      loaded, open_bias_of(loaded, scene.terms & NOOK_TERM_SELF ? Self::shadow : Self::none), out,
-      stride_bytes,
-      [&](const LinearView& chunk, std::uint32_t) {
+      loaded, open_bias_of(loaded, self), out, stride_bytes,
+      [&](const LinearView& chunk, std::uint32_t first_slot) {
         scene.kernels->directional_linear_layer(chunk, instance.result.arrays.points.shadow, light.shadow,
                                                 composed ? light.added : nullptr, rgb);
+        if (self != Self::clip) return;
+        decode_clip(instance, chunk, first_slot, own);
+        for (ChunkAo& channel : ao)
+          for (std::uint32_t i = 0; i < chunk_slots; ++i) channel[i] *= own[i];
       },
       [&](unsigned char* place, std::uint32_t slot) {
         put_three(place, ao[0][slot], ao[1][slot], ao[2][slot]);

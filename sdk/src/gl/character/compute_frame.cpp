@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "sdk/src/character/instance_views.h"
 #include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/character/light_texels.h"
@@ -144,7 +145,7 @@ void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, Word4* p
     InstanceRecord record{};
     record.first_bone = frame.bones + written * chunk.model->bones() * NOOK_BONE_ROWS;
     record.first_sphere = first_sphere(placed, slot);
-    record.place = placed.placements[slot].place;
+    record.place = placed.placements[slot].place | (has_self_shadow(scene, instance) ? NOOK_RECORD_SELF : 0u);
     if (instance.plan.due) {
       write_casters(placed, instance, piece, next_caster, record);
       if (instance.light.count > 0) {

@@ -12,7 +12,7 @@ namespace nook::gl {
 struct InstanceRecord {
   std::uint32_t first_bone;                  // element of the chunk's piece of the stream
   std::uint32_t first_sphere;                // in the scene's spheres
-  std::uint32_t place;                       // in the chunk
+  std::uint32_t place;                       // in the chunk, with NOOK_RECORD_SELF
   std::uint32_t light;                       // element of the piece; 0: none
   std::uint32_t first_caster, caster_count;  // element of the piece
   std::uint32_t first_exact, exact_count;

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "sdk/src/character/instance_views.h"
 #include "sdk/src/gl/character/compute_frame.h"
 #include "sdk/src/gl/program.h"
 #include "shaders/character/layout.h"
@@ -48,7 +49,7 @@ std::uint64_t count_evaluations(const ComputeScene& placed, const Scene& scene, 
   const auto level_of = [&](std::uint32_t of) -> const LevelRange& {
     return placed.placements[of].chunk->model->level(instance.plan.level);
   };
-  std::uint64_t spheres = (scene.terms & NOOK_TERM_SELF ? level_of(slot).spheres : 0) +
+  std::uint64_t spheres = (has_self_shadow(scene, instance) ? level_of(slot).spheres : 0) +
                           instance.plan.occluders.size() + (instance.plan.ground_sphere.radius > 0);
   for (const std::uint32_t caster : instance.plan.casters) spheres += level_of(caster).spheres;
   return spheres * level_of(slot).key_points;
@@ -124,8 +125,7 @@ void ComputeTier::update(Scene& scene) {
   ComputeScene& placed = *placed_scene(scenes_, scene);
   decide(placed, scene);
   placed.lights.upload(device_, scene);
-  if (upload_frame(device_, placed))
-    run({placed, (scene.terms & NOOK_TERM_SELF) != 0, scene.settings.combine == NOOK_COMBINE_COMPOSED});
+  if (upload_frame(device_, placed)) run({placed, scene.settings.combine == NOOK_COMBINE_COMPOSED});
   remember_update(placed, scene);
   count_update(placed, scene);
 }
@@ -196,7 +196,6 @@ void ComputeTier::run_key_points(const Update& update, const ComputeChunk& chunk
   bind_whole(gl, NOOK_BINDING_SPHERES, update.placed.spheres);
   bind_whole(gl, NOOK_BINDING_MODEL, model.key_points_rest);
   gl.Uniform1f(NOOK_LOCATION_GAMMA, model.model->model.kernel.gamma);
-  gl.Uniform1i(NOOK_LOCATION_SELF, update.self);
   gl.Uniform1i(NOOK_LOCATION_COMPOSED, update.composed);
   gl.Uniform1ui(NOOK_LOCATION_SHADOW_STRIDE, model.shadows());
   std::uint32_t first = 0;
@@ -242,7 +241,6 @@ void ComputeTier::spread_levels(const Update& update, const ComputeChunk& chunk)
   bind_whole(gl, NOOK_BINDING_MODEL, model.spread);
   gl.Uniform1ui(NOOK_LOCATION_SPREAD_KEY_POINT_COUNT, model.key_points());
   gl.Uniform1ui(NOOK_LOCATION_SPREAD_SHADOW_STRIDE, model.shadows());
-  gl.Uniform1i(NOOK_LOCATION_SPREAD_SELF, update.self);
   std::uint32_t first = chunk.frame.due_at_level[0];
   for (std::uint32_t l = 1; l < model.level_count(); ++l) {
     const std::uint32_t count = chunk.frame.due_at_level[l];
@@ -286,7 +284,6 @@ void ComputeTier::blend_vertices(const Update& update, const ComputeChunk& chunk
   gl.Uniform1ui(NOOK_LOCATION_VERTEX_COUNT, model.vertices());
   gl.Uniform1ui(NOOK_LOCATION_INFLUENCE_PAIRS, model.influence_pairs());
   gl.Uniform1ui(NOOK_LOCATION_VERTEX_SHADOW_STRIDE, model.shadows());
-  gl.Uniform1i(NOOK_LOCATION_VERTEX_SELF, update.self);
   gl.DispatchCompute(groups(model.file_vertices(), NOOK_VERTEX_GROUP_SIZE), chunk.frame.due, 1);
 }
 

@@ -24,7 +24,6 @@ class ComputeTier final : public Tier {
   // The decisions of the scene's update that the passes need.
   struct Update {
     const ComputeScene& placed;
-    bool self;      // the term of the instance's own spheres counts
     bool composed;  // NOOK_COMBINE_COMPOSED
   };
   void run(const Update& update) const;

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "sdk/src/character/instance_views.h"
 #include "sdk/src/gl/program.h"
 #include "sdk/src/gl/state_guard.h"
 #include "shaders/character/layout.h"
@@ -178,7 +179,6 @@ void FeedbackTier::draw_chunk(const FeedbackScene& placed, const FeedbackChunk& 
   target.page->bind(device_);
   device_.gl.UseProgram(program.object.name());
   device_.gl.Uniform1i(program.key_point_count, static_cast<GLint>(chunk.model->key_points()));
-  device_.gl.Uniform1i(program.self, (placed.scene->terms & NOOK_TERM_SELF) != 0);
   device_.gl.BindVertexArray(chunk.model->vertex_array.name());
   std::uint32_t first = 0, end;
   while ((end = fill_page<Kind>(device_, placed, *target.page, chunk, first)) > first) {
@@ -187,19 +187,27 @@ void FeedbackTier::draw_chunk(const FeedbackScene& placed, const FeedbackChunk& 
   }
 }
 
-// Neighbouring places are neighbours in the page as well, and one draw serves a whole run of them.
+// Neighbouring places are neighbours in the page as well, and one draw serves a run of them that all have, or
+// all lack, self-shadow.
 void FeedbackTier::draw_page(const FeedbackScene& placed, const FeedbackChunk& chunk, std::uint32_t first,
                              std::uint32_t end, const Program& program, const Target& target) const {
+  const auto has_self = [&](std::uint32_t place) {
+    return has_self_shadow(*placed.scene, placed.scene->instances[chunk.slots[place]]);
+  };
   std::uint32_t drawn = 0;
   while (first < end) {
-    std::uint32_t run_end = first;
-    while (run_end < end && placed.waits(chunk, run_end)) ++run_end;
-    if (run_end > first) {
-      device_.gl.Uniform1i(program.first_key_point, static_cast<GLint>(drawn * chunk.model->key_points()));
-      draw(chunk, first, run_end, target);
+    if (!placed.waits(chunk, first)) {
+      ++first;
+      continue;
     }
+    const bool self = has_self(first);
+    std::uint32_t run_end = first + 1;
+    while (run_end < end && placed.waits(chunk, run_end) && has_self(run_end) == self) ++run_end;
+    device_.gl.Uniform1i(program.self, self);
+    device_.gl.Uniform1i(program.first_key_point, static_cast<GLint>(drawn * chunk.model->key_points()));
+    draw(chunk, first, run_end, target);
     drawn += run_end - first;
-    first = run_end + 1;
+    first = run_end;
   }
 }
 
