@@ -101,8 +101,9 @@ windows_sdk() {
 }
 
 debian_packages() {
-  # tests/packaging.sh builds them from the commit, checks them by lintian and links a program.
-  (cd "$out" && NOOK_PACKAGES_DIR="$out/packages" "$root/tests/packaging.sh")
+  # tests/packaging.sh builds them from the commit, checks them by lintian and runs programs against them.
+  (cd "$out" && CMAKE_C_COMPILER_LAUNCHER=${NOOK_LAUNCHER:-} CMAKE_CXX_COMPILER_LAUNCHER=${NOOK_LAUNCHER:-} \
+    NOOK_PACKAGES_DIR="$out/packages" "$root/tests/packaging.sh")
   cp "$out"/packages/debian/*.deb "$out/release/"
 }
 
