@@ -26,7 +26,7 @@ def check(holds, text):
 
 
 def fails_with(operator, words):
-    """Whether an operator ends with an error that has all words; errors of operators are exceptions in scripts."""
+    """Checks that an operator fails with a text that has all words; such errors are exceptions in scripts."""
     try:
         operator()
     except RuntimeError as error:
@@ -87,10 +87,12 @@ def test_bake(preferences):
     armature, body, cuff = character.make()
     names = [o.data.name for o in (body, cuff)]
     bpy.context.scene.nook.folder = str(FOLDER)
+    bpy.ops.object.mode_set(mode="POSE")
     check(bpy.ops.nook.bake() == {"FINISHED"}, "the limb was baked with the draft preset")
     check([o.data.name for o in (body, cuff)] == names and len(bpy.data.meshes) == 2 and "NOOK_VERTEX" not in body.data.attributes,
           "the artist's meshes are untouched but for the colours")
-    check(bpy.context.selected_objects == [armature], "the selection is as it was")
+    check(bpy.context.selected_objects == [armature] and armature.mode == "POSE", "selection and mode are as they were")
+    bpy.ops.object.mode_set(mode="OBJECT")
 
     from nook_ao import nook, shown
     entry = shown.get(armature)
@@ -171,6 +173,20 @@ def test_switch(scene, body):
     scene.frame_set(1)
     check((colours(body) <= before + 1e-6).all(), "a floor makes nothing lighter")
     scene.nook.ground = False
+    scene.frame_set(1)
+    test_posing(body)
+
+
+def test_posing(body):
+    """A pose that no key has, in pose mode, as an artist makes it."""
+    straight = colours(body)
+    bpy.ops.object.mode_set(mode="POSE")
+    bpy.data.objects["Rig"].pose.bones["lower"].rotation_euler = (character.BEND_RADIANS, 0, 0)
+    bpy.context.view_layer.update()
+    inner, _ = elbow(body)
+    check(colours(body)[inner, 0].mean() < straight[inner, 0].mean() - 0.3, "colours follow while a bone is turned")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.context.scene.frame_set(1)
 
 
 def test_saved_scene(folder):

@@ -1,5 +1,4 @@
 """A rigged character of the scene: an armature and the meshes that it deforms."""
-import bpy
 import numpy as np
 
 from .faults import Fault
@@ -81,11 +80,3 @@ def shown_points(meshes, depsgraph):
 def has_other_modifiers(meshes):
     """Names of modifiers that change vertices behind or before the armature's."""
     return sorted({m.name for o in meshes for m in o.modifiers if m.type != "ARMATURE" and m.show_viewport})
-
-
-def is_alive(thing):
-    """Whether Blender still has what a reference means."""
-    try:
-        return thing.name in bpy.data.objects
-    except ReferenceError:
-        return False

@@ -27,8 +27,6 @@ def export_character(context, armature, meshes, path, with_clips):
         raise Fault(f"the character has {count} vertices; at most {vertex_numbers.LARGEST} can be numbered")
     if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
         raise Fault("the exporter of glTF is switched off; switch on the add-on glTF 2.0 format in Blender's preferences")
-    if context.mode != "OBJECT":
-        bpy.ops.object.mode_set(mode="OBJECT")
     selected, active = list(context.selected_objects), context.view_layer.objects.active
     own = [o.data for o in meshes]
     copies = []

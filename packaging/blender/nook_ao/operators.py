@@ -1,4 +1,5 @@
 """The operators: bake, show, ray trace a frame, open the report."""
+import contextlib
 import pathlib
 import tempfile
 import webbrowser
@@ -11,6 +12,20 @@ from .faults import Fault
 PAGE_FILE = "report.html"
 # Of the size of the body: what is further away is another pose.
 ALLOWED_DEVIATION = 0.01
+
+
+@contextlib.contextmanager
+def object_mode(context):
+    """Edits of a mesh reach its data when its mode is left; afterwards the artist is in the same mode again."""
+    active = context.view_layer.objects.active
+    mode = active.mode if active is not None else "OBJECT"
+    if mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    try:
+        yield
+    finally:
+        if mode != "OBJECT":
+            bpy.ops.object.mode_set(mode=mode)
 
 
 def error_text(error):
@@ -74,6 +89,10 @@ class CommandOperator(bpy.types.Operator):
             return {"CANCELLED"}
         return {"FINISHED"}
 
+    def cancel(self, _context):
+        """Blender ends."""
+        self._run.cancel()
+
     def _end(self, context):
         context.window_manager.event_timer_remove(self._timer)
         context.workspace.status_text_set(None)
@@ -89,23 +108,28 @@ class NOOK_OT_bake(CommandOperator):
         settings = context.scene.nook
         command = tool.find(preferences.of(context).tool)
         library.load(preferences.of(context).library)  # a bake that cannot be shown is not begun
-        self._armature = character.armature_of(context)
-        meshes = character.meshes_of(self._armature, context.view_layer)
+        armature = character.armature_of(context)
+        self._armature_name = armature.name
         folder = bpy.path.abspath(settings.folder) if settings.folder else tempfile.mkdtemp(prefix="nook-")
         self._folder = pathlib.Path(folder)
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise Fault(f"the folder {folder} cannot be made ({error.strerror}); choose another one") from error
-        shown.hide(self._armature)
-        self._armature[shown.COUNTS_PROPERTY] = shown.vertex_counts(meshes)
+        shown.hide(armature)
         glb = self._folder / shown.CHARACTER_FILE
-        export.export_character(context, self._armature, meshes, str(glb), settings.poses != "auto")
+        with object_mode(context):
+            meshes = character.meshes_of(armature, context.view_layer)
+            armature[shown.COUNTS_PROPERTY] = shown.vertex_counts(meshes)
+            export.export_character(context, armature, meshes, str(glb), settings.poses != "auto")
         return [command, "bake", "character", str(glb), "-o", str(self._folder / shown.MODEL_FILE), "--preset", settings.preset,
                 "--poses", settings.poses]
 
     def finish(self, context):
-        entry = shown.show(context, self._armature, self._folder)
+        armature = bpy.data.objects.get(self._armature_name)
+        if armature is None:
+            raise Fault(f"the armature {self._armature_name} is gone; its bake is in {self._folder}")
+        entry = shown.show(context, armature, self._folder)
         show_colours(context)
         self._warn_of_other_shapes(context, entry)
 

@@ -19,7 +19,9 @@ class Shown:
     """A baked character with what leads from its pose in Blender to colours on its meshes."""
 
     def __init__(self, armature, meshes, folder, nook):
-        self.armature, self.meshes, self.folder, self.nook = armature, meshes, pathlib.Path(folder), nook
+        # Names: an undo replaces the objects themselves.
+        self.armature_name, self.mesh_names = armature.name, [o.name for o in meshes]
+        self.folder, self.nook, self.painted = pathlib.Path(folder), nook, None
         data = (self.folder / CHARACTER_FILE).read_bytes()
         self.character = nook.Character(data=data)
         self.model = nook.CharacterModel((self.folder / MODEL_FILE).read_bytes())
@@ -35,6 +37,14 @@ class Shown:
         self.rest = poses.find_rest_matrix(character.bind_points(armature, meshes)[self.numbers], rest.astype(np.float64))
         self.scene = nook.Scene()
         self.instance = self.scene.add_instance(self.model)
+
+    @property
+    def armature(self):
+        return bpy.data.objects[self.armature_name]
+
+    @property
+    def meshes(self):
+        return [bpy.data.objects[name] for name in self.mesh_names]
 
     def pose(self):
         """The matrices of the pose that Blender has now."""
@@ -73,9 +83,18 @@ class Shown:
             write_colours(data, name, grey[first:first + count])
             first += count
 
+    def follow(self, ground):
+        """Paints the pose of now, if it is another one than the last; meshes that are being edited wait."""
+        if any(o.data.is_editmode for o in self.meshes):
+            return
+        now = (ground, self.pose().tobytes())
+        if now != self.painted:
+            self.painted = now
+            self.paint(AO, self.evaluate(ground))
+
     def is_alive(self):
-        return character.is_alive(self.armature) and all(character.is_alive(o) for o in self.meshes) and \
-            self.count == sum(len(o.data.vertices) for o in self.meshes)
+        return all(name in bpy.data.objects for name in (self.armature_name, *self.mesh_names)) and \
+            (any(o.data.is_editmode for o in self.meshes) or self.count == sum(vertex_counts(self.meshes)))
 
 
 def vertex_counts(meshes):
@@ -101,7 +120,7 @@ _shown = {}
 def get(armature):
     """The shown character of an armature, or None."""
     found = _shown.get(armature.name)
-    if found is not None and (not found.is_alive() or found.armature != armature):
+    if found is not None and not found.is_alive():
         del _shown[armature.name]
         return None
     return found
@@ -120,7 +139,7 @@ def show(context, armature, folder):
         raise Fault(str(error)) from error
     _shown[armature.name] = entry
     armature[FOLDER_PROPERTY] = str(folder)
-    entry.paint(AO, entry.evaluate(context.scene.nook.ground))
+    entry.follow(context.scene.nook.ground)
     return entry
 
 
@@ -130,17 +149,24 @@ def hide(armature):
 
 @bpy.app.handlers.persistent
 def follow(scene, _depsgraph=None):
-    """Paints all shown characters at a new frame."""
+    """Paints all shown characters at a new frame, and in a new pose."""
     for name in list(_shown):
         entry = _shown[name]
         if not entry.is_alive():
             del _shown[name]
             continue
         try:
-            entry.paint(AO, entry.evaluate(scene.nook.ground))
+            entry.follow(scene.nook.ground)
         except entry.nook.NookError as error:
             del _shown[name]
             print(f"Nook: {name} is no longer shown: {error}")
+
+
+@bpy.app.handlers.persistent
+def follow_posing(scene, depsgraph=None):
+    """The same while an artist poses. A render reads the meshes meanwhile; it has frames of its own."""
+    if _shown and not bpy.app.is_job_running("RENDER"):
+        follow(scene, depsgraph)
 
 
 @bpy.app.handlers.persistent
@@ -151,10 +177,12 @@ def forget(*_):
 
 def register():
     bpy.app.handlers.frame_change_post.append(follow)
+    bpy.app.handlers.depsgraph_update_post.append(follow_posing)
     bpy.app.handlers.load_pre.append(forget)
 
 
 def unregister():
     bpy.app.handlers.frame_change_post.remove(follow)
+    bpy.app.handlers.depsgraph_update_post.remove(follow_posing)
     bpy.app.handlers.load_pre.remove(forget)
     _shown.clear()
