@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Makes a release of the committed tree in a clean folder, and runs programs of consumers against what it made.
 #   packaging/release.sh [--only PART,...] [FOLDER]
-# Parts: source, python, windows, debian, web, in this order; checksums and third-party notices always. A part whose tools are
+# Parts: source, python, blender, windows, debian, web, in this order; checksums and third-party notices always. A part whose tools are
 # missing is left out and named at the end; a part that fails ends the script. FOLDER (default: build-release) is emptied; the
 # files of the release end in FOLDER/release. NOOK_RELEASE (default: the project's version) is the version in their names, such as 1.0.0-rc1.
 # Files are the same on each run: their times are SOURCE_DATE_EPOCH, by default the time of the commit.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-parts=source,python,windows,debian,web
+parts=source,python,blender,windows,debian,web
 if [ "${1:-}" = --only ]; then
   parts=$2
   shift 2
@@ -84,6 +84,15 @@ python_module() {
   if [ -n "${NOOK_LIBRARY:-}" ]; then (cd "$module" && PYTHONPATH=$module "$python" "$tree/tests/python/module_test.py"); fi
 }
 
+blender_addon() {
+  python3 "$tree/packaging/blender/make_addon.py" "$version" "$out/release"
+  # With a built command and library, Blender installs it, bakes a character and compares the colours.
+  if [ -n "${NOOK_TOOL:-}" ] && [ -n "${NOOK_LIBRARY:-}" ] && command -v blender > /dev/null; then
+    "$root/tests/blender.sh" --addon "$out/release/nook-blender-$version.zip" > "$out/blender.log" 2>&1 || { tail -20 "$out/blender.log"; return 1; }
+    tail -1 "$out/blender.log"
+  fi
+}
+
 windows_sdk() {
   local build=$out/windows-build folder=$name-windows-x86_64
   cmake -S "$tree" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FILE="$tree/cmake/toolchains/mingw-w64.cmake" \
@@ -101,8 +110,9 @@ windows_sdk() {
 }
 
 debian_packages() {
-  # tests/packaging.sh builds them from the commit, checks them by lintian and links a program.
-  (cd "$out" && NOOK_PACKAGES_DIR="$out/packages" "$root/tests/packaging.sh")
+  # tests/packaging.sh builds them from the commit, checks them by lintian and runs programs against them.
+  (cd "$out" && CMAKE_C_COMPILER_LAUNCHER=${NOOK_LAUNCHER:-} CMAKE_CXX_COMPILER_LAUNCHER=${NOOK_LAUNCHER:-} \
+    NOOK_PACKAGES_DIR="$out/packages" "$root/tests/packaging.sh")
   cp "$out"/packages/debian/*.deb "$out/release/"
 }
 
@@ -118,6 +128,7 @@ web_package() {
 notices
 if has source tar gzip; then source_archive; fi
 if has python python3; then python_module; fi
+if has blender python3; then blender_addon; fi
 if has windows x86_64-w64-mingw32-g++ cmake ninja wine; then windows_sdk; fi
 if has debian dpkg-buildpackage dh lintian pkg-config; then debian_packages; fi
 if has web emcmake node npm; then web_package; fi

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the packages of the committed tree, as far as this machine has their tools: Debian's, checked by lintian, whose
-# library a C program then links; the vcpkg port; the Conan recipe. The folder is NOOK_PACKAGES_DIR, by default
+# Builds the packages of the committed tree, as far as this machine has their tools: Debian's, checked by lintian and by the
+# programs of debian/tests against the unpacked packages; the vcpkg port; the Conan recipe. The folder is NOOK_PACKAGES_DIR, by default
 # build-packages.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -16,24 +16,40 @@ has() {  # what, commands...
   echo "== $what"
 }
 
+# Unpacks the packages, so that no root is needed, and runs what debian/tests has for installed ones.
+test_packages() {  # SOURCE FOLDER
+  local prefix=$2/installed package test library
+  rm -rf "$prefix"
+  for package in "$2"/*.deb; do
+    case $package in *dbgsym*) ;; *)
+      dpkg-deb -x "$package" "$prefix"
+      # Each package states its licence.
+      [ -e "$prefix/usr/share/doc/$(dpkg-deb -f "$package" Package)/copyright" ] || { echo "$package has no copyright file"; return 1; } ;;
+    esac
+  done
+  library=$(dirname "$(find "$prefix" -name libnook.so)")
+  for test in $(sed -n 's/^Tests: //p' "$1/debian/tests/control"); do
+    echo "== debian/tests/$test"
+    mkdir -p "$2/tests/$test"
+    (cd "$1" && AUTOPKGTEST_TMP="$2/tests/$test" PATH="$prefix/usr/bin:$PATH" LD_LIBRARY_PATH="$library" \
+      PKG_CONFIG_PATH="$library/pkgconfig" PYTHONPATH="$prefix/usr/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 \
+      "debian/tests/$test")
+  done
+  MANPATH="$prefix/usr/share/man" man nook-bake-character > "$2/tests/man_page"
+  grep -q preset "$2/tests/man_page"
+  [ -e "$prefix/usr/share/doc/nook-doc/html/index.html" ]
+}
+
 debian() {
   rm -rf "$out/debian"
   mkdir -p "$out/debian"
   cd "$out/debian"
   git -C "$root" archive --prefix="nook-$version/" HEAD -- . ':!debian' | gzip -n > "nook_$version.orig.tar.gz"
   git -C "$root" archive --prefix="nook-$version/" HEAD | tar x
-  (cd "nook-$version" && dpkg-buildpackage -us -uc)
+  (cd "nook-$version" && dpkg-buildpackage -us -uc ${NOOK_JOBS:+-j$NOOK_JOBS})
   # The first upload to Debian closes a bug, which has a number then only.
   lintian --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs "nook_${version}"-*.changes
-  for package in lib*.deb; do
-    case $package in *dbgsym*) ;; *) dpkg-deb -x "$package" installed ;; esac
-  done
-  local libraries
-  libraries=$(dirname "$(find "$PWD/installed" -name libnook.so)")
-  # shellcheck disable=SC2046
-  cc "$root/tests/install/consumer/main.c" -o consumer \
-    $(PKG_CONFIG_PATH="$libraries/pkgconfig" pkg-config --cflags --libs nook)
-  LD_LIBRARY_PATH="$libraries" ./consumer
+  test_packages "$PWD/nook-$version" "$PWD"
 }
 
 if has Debian dpkg-buildpackage dh lintian pkg-config; then debian; fi

@@ -1,0 +1,25 @@
+"""Nook in Blender: bakes the ambient occlusion of a rigged character by the command `nook`, shows it over the timeline, and opens the
+report for artists."""
+bl_info = {
+    "name": "Nook: ambient occlusion of characters",
+    "author": "the authors of Nook",
+    "version": (0, 2, 0),
+    "blender": (3, 4, 0),
+    "location": "3D view > sidebar > Nook",
+    "description": "Bakes dynamic ambient occlusion of a rigged character and shows it as a colour attribute over the timeline",
+    "category": "Bake",
+}
+
+from . import operators, panel, preferences, shown  # noqa: E402
+
+PARTS = (preferences, operators, panel, shown)
+
+
+def register():
+    for part in PARTS:
+        part.register()
+
+
+def unregister():
+    for part in reversed(PARTS):
+        part.unregister()

@@ -1,0 +1,28 @@
+"""The Python module of Nook: the copy inside of the add-on, or the installed one."""
+import os
+
+from .faults import Fault
+
+try:
+    from . import nook
+except ImportError:
+    try:
+        import nook
+    except ImportError:
+        nook = None
+
+
+def load(paths):
+    """The module, whose shared libraries are at the given paths or, without any, where the system has them."""
+    if nook is None:
+        raise Fault("the Python module nook is missing; install the add-on from the .zip file of a release, which holds it")
+    if paths:
+        for path in paths.split(os.pathsep):
+            if not os.path.isfile(path):
+                raise Fault(f"the shared library {path} does not exist; set its path in the preferences of the add-on")
+        os.environ["NOOK_LIBRARY"] = paths
+    try:
+        nook.Context()
+    except nook.MissingLibrary as error:
+        raise Fault(f"{error}; or set the path in the preferences of the add-on") from error
+    return nook

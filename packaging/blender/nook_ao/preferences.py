@@ -1,0 +1,51 @@
+"""Where the command and the libraries are, and the settings of a scene."""
+import bpy
+
+PRESETS = (("draft", "Draft", "About 20 seconds"), ("standard", "Standard", "Up to 5 minutes"), ("production", "Production", "About half an hour"))
+POSES = (("all", "Generated and actions", "Generated poses, and those of the character's actions"), ("auto", "Generated", "Generated poses alone"),
+         ("clips", "Actions", "Poses of the character's actions alone"))
+
+
+class NookPreferences(bpy.types.AddonPreferences):
+    bl_idname = __package__
+
+    tool: bpy.props.StringProperty(name="Command", subtype="FILE_PATH", description="The command nook; empty: on the search path of the system")
+    library: bpy.props.StringProperty(name="Library", subtype="FILE_PATH",
+                                      description="libnook_python, or libnook and libnook_bake; empty: where the system has them")
+
+    def draw(self, _context):
+        self.layout.prop(self, "tool")
+        self.layout.prop(self, "library")
+
+
+class NookSettings(bpy.types.PropertyGroup):
+    preset: bpy.props.EnumProperty(name="Preset", items=PRESETS, default="draft", description="How long the bake may take")
+    poses: bpy.props.EnumProperty(name="Poses", items=POSES, default="all", description="Poses that the bake learns from")
+    ground: bpy.props.BoolProperty(name="Ground", default=False, description="A floor at the height of zero darkens the character from below")
+    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="",
+                                     description="Where character.glb and character.nook are kept; empty: a temporary folder")
+    rays: bpy.props.IntProperty(name="Rays", default=256, min=16, max=16384, description="Rays for each vertex of a traced frame")
+
+
+class Unregistered:
+    """What the preferences are where the add-on runs from a folder, as its tests do."""
+
+    tool = ""
+    library = ""
+
+
+def of(context):
+    addon = context.preferences.addons.get(__package__)
+    return addon.preferences if addon is not None and addon.preferences is not None else Unregistered
+
+
+def register():
+    bpy.utils.register_class(NookPreferences)
+    bpy.utils.register_class(NookSettings)
+    bpy.types.Scene.nook = bpy.props.PointerProperty(type=NookSettings)
+
+
+def unregister():
+    del bpy.types.Scene.nook
+    bpy.utils.unregister_class(NookSettings)
+    bpy.utils.unregister_class(NookPreferences)

@@ -1,0 +1,61 @@
+"""Which of Blender's vertices each vertex of a glTF file is.
+
+The exporter splits a vertex where its corners differ in normal or UV, and puts what is left in an order of its own. Positions alone do
+not tell which is which: the two sides of a cloth and the shells of hair lie at one place. Each vertex therefore carries its number as
+an attribute through the file. A float holds whole numbers up to 2^24 exactly, and the attribute is the same at all corners of a
+vertex, so that it splits nothing.
+"""
+import json
+import struct
+
+import numpy as np
+
+from .faults import Fault
+
+NAME = "NOOK_VERTEX"
+LARGEST = 1 << 24
+GLB_MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
+FORMATS = {5121: "u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+TRIANGLES, TRIANGLE_FAN = 4, 6
+
+
+def read_glb(data):
+    """The JSON and the binary chunk of a .glb file."""
+    chunks, at = {}, 12
+    if len(data) < 12 or struct.unpack_from("<I", data)[0] != GLB_MAGIC:
+        raise Fault("the exported file is no .glb")
+    while at + 8 <= len(data):
+        length, kind = struct.unpack_from("<II", data, at)
+        chunks[kind] = data[at + 8:at + 8 + length]
+        at += 8 + length
+    return json.loads(chunks.get(JSON_CHUNK, b"{}")), chunks.get(BINARY_CHUNK, b"")
+
+
+def read_scalars(document, binary, accessor_number):
+    """The values of an accessor of single numbers."""
+    accessor = document["accessors"][accessor_number]
+    view = document["bufferViews"][accessor["bufferView"]]
+    kind = np.dtype(FORMATS[accessor["componentType"]])
+    begin = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    stride = view.get("byteStride", kind.itemsize)
+    return np.ndarray((accessor["count"],), kind, binary, begin, (stride,))
+
+
+def read_vertex_numbers(data):
+    """The numbers of a file's vertices, in Nook's order: mesh nodes in the order of the file, their primitives one after another."""
+    document, binary = read_glb(data)
+    numbers = []
+    for node in document.get("nodes", []):
+        if "mesh" not in node:
+            continue
+        for primitive in document["meshes"][node["mesh"]]["primitives"]:
+            if not TRIANGLES <= primitive.get("mode", TRIANGLES) <= TRIANGLE_FAN:
+                continue
+            # Exporters put one underscore or two before the names of their users' attributes.
+            found = [a for name, a in primitive["attributes"].items() if name.strip("_").upper() == NAME]
+            if not found:
+                raise Fault(f"the exported file has no attribute {NAME}; this exporter of glTF writes no attributes, use that of Blender 3.4 or newer")
+            numbers.append(np.rint(read_scalars(document, binary, found[0])).astype(np.int64))
+    if not numbers:
+        raise Fault("the exported file has no triangles")
+    return np.concatenate(numbers)
