@@ -97,13 +97,14 @@ void run(const Response& response, Isa isa, std::span<const float> amplitudes, s
   const AlignedArray<float> padded = padded_amplitudes(response, amplitudes, memory);
   const LightView light = view_of(response, padded);
   const VectorKernels* const kernels = vector_kernels(isa);
+  const std::uint32_t at_once = block_vertices(response.side);
   const auto body = [&](std::uint32_t index) noexcept {
     alignas(64) float scratch[scratch_floats];
-    float axes[9 * block_vertices];
+    float axes[9 * max_block_vertices];
     const std::uint32_t end = std::min(count, (index + 1) * piece);
-    for (std::uint32_t i = index * piece; i < end; i += block_vertices) {
+    for (std::uint32_t i = index * piece; i < end; i += at_once) {
       VertexBlock block;
-      block.count = std::min(end - i, block_vertices);
+      block.count = std::min(end - i, at_once);
       for (std::uint32_t v = 0; v < block.count; ++v) write_axes(frame_at(i + v), axes + 9 * v);
       block.shares = shares_at(i);
       block.frames = axes;
