@@ -40,7 +40,7 @@ class LitScene {
 
   const Environment& environment() const { return environment_; }
   const LightSampler& light() const { return light_; }
-  float sun_limit() const { return sun_limit_; }  // of the environment, see suns.h
+  double sun_limit() const { return sun_limit_; }  // of the environment, see suns.h
 
  private:
   const Surface& surface(const RayHit& hit) const { return surface_[triangle_surface_[hit.triangle]]; }
@@ -56,7 +56,7 @@ class LitScene {
   bool masked_ = false;
   Environment environment_;
   LightSampler light_;
-  float sun_limit_;
+  double sun_limit_;
 };
 
 // textures are the decoded ones of scene.image.

@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path mesh, transfer, material, images;
+  std::filesystem::path mesh, transfer, material, raw, images;
   std::vector<std::filesystem::path> lights;
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   measure::PictureSettings picture;
@@ -46,8 +46,8 @@ struct TruthOf {
   TruthOf(const Options& o, const transfer::Transfer& baked, const material::MaterialTables& tables) {
     settings.bounces = o.truth_bounces.value_or(baked.bounces);
     settings.tiles = o.tiles;
-    name = settings.bounces == 0 ? "decoded material, direct light"
-                                 : "decoded material, " + std::to_string(settings.bounces) + " bounces";
+    name = o.raw.empty() ? "decoded material, " : "raw material, ";
+    name += settings.bounces == 0 ? "direct light" : std::to_string(settings.bounces) + " bounces";
     if (baked.votf_hash == 0 && !o.truth_holes) return;
     name += ", holes of the VOTF";
     if (baked.votf_hash != 0 && baked.votf_hash != tables.votf_hash && !o.common.quiet)
@@ -64,6 +64,11 @@ struct TruthOf {
   measure::TruthSettings settings;
   std::string name;
 };
+
+std::optional<measure::RawReflectance> read_raw(const Options& o) {
+  if (o.raw.empty() || o.no_pictures) return std::nullopt;
+  return naming_file(o.raw, [&] { return measure::read_raw_reflectance(read_file(o.raw)); });
+}
 
 Json evaluate(const Options& o) {
   platform::ProgressBar bar(o.common.quiet);
@@ -94,6 +99,7 @@ Json evaluate(const Options& o) {
   };
   const measure::VectorMeasure vectors = measure::measure_vectors(mesh, baked, tables, lights, truth.settings,
                                                                   progress("summing light", "vertices"));
+  const std::optional<measure::RawReflectance> raw = read_raw(o);
   measure::PictureSettings picture = o.picture;
   picture.truth = truth.settings;
   picture.seed = o.common.seed;
@@ -101,7 +107,7 @@ Json evaluate(const Options& o) {
   for (std::size_t l = 0; l < lights.size(); ++l) {
     measure::PictureError error;
     if (!o.no_pictures) {
-      const measure::PictureSource source{mesh, tables, vectors, l, lights[l].map};
+      const measure::PictureSource source{mesh, tables, vectors, l, lights[l].map, raw ? &*raw : nullptr};
       error = measure::measure_pictures(source, picture, progress("path tracing", "rows"));
       if (!o.images.empty()) bake::write_png(o.images / (as_file_name(lights[l].name) + ".png"), error.sheet);
     }
@@ -143,6 +149,10 @@ void add_evaluate_transfer(CLI::App& evaluate_command) {
   command->add_option("mesh", o.mesh, "the shape, .glb or .gltf")->required();
   command->add_option("transfer", o.transfer, "the .nook file that was baked from it")->required();
   command->add_option("--material", o.material, "the .nook file of the material that it wears")->required();
+  command->add_option(
+      "--raw", o.raw,
+      "the raw material, written by `bake material --keep-raw`: pictures are compared with it in "
+      "place of the decoded material");
   command->add_option("--light", o.lights, "latitude-longitude maps, .hdr or .exr")->required();
   command->add_flag("--without-suns", o.without_suns,
                     "take suns out of the maps first, as a host does that draws them with shadow maps");
@@ -173,6 +183,7 @@ void add_evaluate_transfer(CLI::App& evaluate_command) {
         {{"the mesh", options->mesh}, {"the transfer", options->transfer}, {"--material", options->material}},
         {},
         options->images};
+    if (!options->raw.empty()) files.inputs.push_back({"--raw", options->raw});
     for (const std::filesystem::path& light : options->lights) files.inputs.push_back({"--light", light});
     run_evaluation(options->common, files, [&] { return evaluate(*options); });
   });

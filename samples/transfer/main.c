@@ -212,7 +212,7 @@ static GLuint make_program(const App* a) {
   static const float eye[3] = {0.85F, 1.35F, 1.75F}, centre[3] = {0, 0.04F, 0};
   const float tall = 1 / tanf(0.5F * 0.75F);
   nook_gl_material_info material = {sizeof material, 0, 0, NULL};
-  nook_gl_transfer_info transfer = {sizeof transfer, 0, 0, NULL};
+  nook_gl_transfer_info transfer = {sizeof transfer, 0, 0, NULL, 0, 0};
   char *vertex, *fragment;
   GLuint program;
   float forward[3], right[3], up[3], size = 0, flat;

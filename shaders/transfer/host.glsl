@@ -1,10 +1,45 @@
-// The functions of a host's shaders for radiance transfer. sdk/src/gl/transfer/transfer_texture.cpp defines
-// NOOK_LIGHT_VEC4_COUNT before this text, where the material's text has not done so. Vertex v has the texels
-// 3 NOOK_LIGHT_VEC4_COUNT v and following: its light modes of red, then of green, then of blue.
+// The functions of a host's shaders for radiance transfer. sdk/src/gl/transfer/ defines
+// NOOK_LIGHT_VEC4_COUNT before this text, where the material's text has not done so. A vector has 3
+// NOOK_LIGHT_VEC4_COUNT texels: its light modes of red, then of green, then of blue.
 #include "shaders/core/texels.glsl"
 
 uniform NOOK_TEXELS nook_transfer_texels;
 
+#ifdef NOOK_TRANSFER_CLUSTERS
+// The paper's form: the texels are vectors of the light, NOOK_TRANSFER_VERTEX_RANK for each cluster and then
+// NOOK_TRANSFER_BANDS of reflected light. A vertex has NOOK_TRANSFER_VERTEX_TEXELS texels: the number of its
+// cluster, its weights of the cluster's vectors, and those of the reflected ones.
+uniform NOOK_TEXELS nook_transfer_vertices;
+
+// Mixes the vectors of a vertex; gl_VertexID is its number where the host draws with the baked order.
+void nook_transfer_vectors(int vertex, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
+  int first = vertex * NOOK_TRANSFER_VERTEX_TEXELS;
+  vec4 numbers = nook_texel(nook_transfer_vertices, first);
+  int of_cluster = int(numbers.x) * NOOK_TRANSFER_VERTEX_RANK;
+  for (int i = 0; i < 3 * NOOK_LIGHT_VEC4_COUNT; ++i) vectors[i] = vec4(0.0);
+  for (int k = 1; k <= NOOK_TRANSFER_VERTEX_RANK + NOOK_TRANSFER_BANDS; ++k) {
+    if ((k & 3) == 0) numbers = nook_texel(nook_transfer_vertices, first + (k >> 2));
+    int mode = k - 1;
+    int row = mode < NOOK_TRANSFER_VERTEX_RANK
+                  ? of_cluster + mode
+                  : (NOOK_TRANSFER_CLUSTERS - 1) * NOOK_TRANSFER_VERTEX_RANK + mode;
+    row *= 3 * NOOK_LIGHT_VEC4_COUNT;
+    for (int i = 0; i < 3 * NOOK_LIGHT_VEC4_COUNT; ++i)
+      vectors[i] += numbers[k & 3] * nook_texel(nook_transfer_texels, row + i);
+  }
+}
+
+// The same in a fragment shader, for materials with more light modes than varyings have room for: mixes the
+// vectors of a triangle's three vertices.
+void nook_transfer_mix(ivec3 vertices, vec3 weights, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
+  vec4 corner[3 * NOOK_LIGHT_VEC4_COUNT];
+  for (int i = 0; i < 3 * NOOK_LIGHT_VEC4_COUNT; ++i) vectors[i] = vec4(0.0);
+  for (int k = 0; k < 3; ++k) {
+    nook_transfer_vectors(vertices[k], corner);
+    for (int i = 0; i < 3 * NOOK_LIGHT_VEC4_COUNT; ++i) vectors[i] += weights[k] * corner[i];
+  }
+}
+#else
 // Fetches the vectors of a vertex; gl_VertexID is its number where the host draws with the baked order.
 void nook_transfer_vectors(int vertex, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
   int first = vertex * 3 * NOOK_LIGHT_VEC4_COUNT;
@@ -20,6 +55,7 @@ void nook_transfer_mix(ivec3 vertices, vec3 weights, out vec4 vectors[3 * NOOK_L
                  weights.y * nook_texel(nook_transfer_texels, first.y + i) +
                  weights.z * nook_texel(nook_transfer_texels, first.z + i);
 }
+#endif
 
 // Turns a direction to the tangent space of a pixel, from the interpolated normal and tangent. The bake has
 // the same frame: y points along growing v.

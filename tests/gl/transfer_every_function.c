@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-int nook_transfer_call_everything(const void* material_bytes, size_t material_size, nook_gl_proc_fn get_proc,
+int nook_transfer_call_everything(const void* material_bytes, size_t material_size,
+                                  const void* transfer_bytes, size_t transfer_size, nook_gl_proc_fn get_proc,
                                   void* user);
 
 static int failures;
@@ -19,7 +20,8 @@ static void expect(int condition, const char* what, int line) {
 
 enum { VERTICES = 3 };
 
-int nook_transfer_call_everything(const void* material_bytes, size_t material_size, nook_gl_proc_fn get_proc,
+int nook_transfer_call_everything(const void* material_bytes, size_t material_size,
+                                  const void* transfer_bytes, size_t transfer_size, nook_gl_proc_fn get_proc,
                                   void* user) {
   nook_context_desc context_desc;
   nook_gl_desc gl_desc;
@@ -30,7 +32,9 @@ int nook_transfer_call_everything(const void* material_bytes, size_t material_si
   nook_gl gl = NULL;
   nook_material material = NULL;
   nook_transfer_response response = NULL;
-  nook_gl_transfer on_gpu = NULL;
+  nook_transfer transfer = NULL;
+  nook_gl_transfer on_gpu = NULL, of_paper = NULL;
+  float amplitudes[36] = {1, 2, 3};
   float* vectors;
   uint64_t count;
 
@@ -50,8 +54,16 @@ int nook_transfer_call_everything(const void* material_bytes, size_t material_si
   info.struct_size = sizeof info;
   EXPECT_OK(nook_transfer_response_describe(response, &info));
   EXPECT_OK(nook_gl_transfer_create(gl, response, VERTICES, &on_gpu));
+  EXPECT_OK(nook_transfer_load(context, transfer_bytes, transfer_size, &transfer));
+  EXPECT_OK(nook_gl_transfer_create_paper(gl, transfer, response, &of_paper));
+  nook_transfer_destroy(&transfer);
   nook_transfer_response_destroy(&response);
   nook_material_destroy(&material);
+  EXPECT_OK(nook_gl_transfer_update_light(of_paper, amplitudes, 12));
+  EXPECT(nook_gl_transfer_update_light(of_paper, amplitudes, 11) == NOOK_ERROR_INVALID_ARGUMENT);
+  EXPECT(nook_gl_transfer_update_light(of_paper, NULL, 12) == NOOK_ERROR_INVALID_ARGUMENT);
+  EXPECT(nook_gl_transfer_update_light(on_gpu, amplitudes, 12) == NOOK_ERROR_INVALID_ARGUMENT);
+  EXPECT(nook_gl_transfer_update(of_paper, amplitudes, 36) == NOOK_ERROR_INVALID_ARGUMENT);
   count = (uint64_t)VERTICES * info.vector_floats;
   vectors = calloc((size_t)count, sizeof *vectors);
   EXPECT_OK(nook_gl_transfer_update(on_gpu, vectors, count));
@@ -62,9 +74,14 @@ int nook_transfer_call_everything(const void* material_bytes, size_t material_si
   EXPECT_OK(nook_gl_transfer_describe(on_gpu, &uploaded));
   EXPECT(uploaded.texture != 0 && uploaded.bytes >= count * sizeof(float));
   EXPECT(strstr(uploaded.glsl, "nook_transfer_radiance") != NULL);
+  EXPECT(uploaded.form == NOOK_TRANSFER_FORM_SEPARATED && uploaded.vertex_texture == 0);
+  EXPECT_OK(nook_gl_transfer_describe(of_paper, &uploaded));
+  EXPECT(uploaded.form == NOOK_TRANSFER_FORM_PAPER && uploaded.vertex_texture != 0);
+  EXPECT(strstr(uploaded.glsl, "nook_transfer_vertices") != NULL);
   nook_gl_destroy(&gl);
   nook_context_destroy(&context);
   nook_gl_transfer_destroy(&on_gpu);
+  nook_gl_transfer_destroy(&of_paper);
   EXPECT(!on_gpu);
   return failures;
 }

@@ -19,6 +19,7 @@ using namespace nook;
 using namespace nook::test;
 
 extern "C" int nook_transfer_call_everything(const void* material_bytes, std::size_t material_size,
+                                             const void* transfer_bytes, std::size_t transfer_size,
                                              nook_gl_proc_fn get_proc, void* user);
 
 namespace {
@@ -119,9 +120,13 @@ Drawn draw(const GladGLContext& gl, nook_gl_material material, nook_gl_transfer 
     gl.Uniform1i(gl.GetUniformLocation(program, texture.uniform), unit++);
   }
   const GLenum target = is_es(gl) ? GL_TEXTURE_2D : GL_TEXTURE_BUFFER;
-  gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
-  gl.BindTexture(target, info.texture);
-  gl.Uniform1i(gl.GetUniformLocation(program, "nook_transfer_texels"), unit++);
+  const auto bind_texels = [&](GLuint texture, const char* uniform) {
+    gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
+    gl.BindTexture(target, texture);
+    gl.Uniform1i(gl.GetUniformLocation(program, uniform), unit++);
+  };
+  bind_texels(info.texture, "nook_transfer_texels");
+  if (info.vertex_texture != 0) bind_texels(info.vertex_texture, "nook_transfer_vertices");
   gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
   gl.BindTexture(GL_TEXTURE_2D, given);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -152,15 +157,21 @@ Drawn draw(const GladGLContext& gl, nook_gl_material material, nook_gl_transfer 
   return {read_texture(gl, value, count, 1, 4), read_texture(gl, mixed, count, 1, 4)};
 }
 
-// Draws vectors and compares them with what nook_transfer_shade makes of them.
-void check_agreement(platform::Context& context, MaterialFixture& fixture, nook_material material,
-                     nook_transfer_response response, const std::vector<float>& vectors) {
-  nook_transfer_response_info info{};
-  info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_transfer_response_describe(response, &info));
+nook_gl_transfer upload(MaterialFixture& fixture, nook_transfer_response response,
+                        const std::vector<float>& vectors) {
   nook_gl_transfer transfer = nullptr;
   NOOK_OK_OR_FAIL(nook_gl_transfer_create(fixture.gl, response, count, &transfer));
   NOOK_OK_OR_FAIL(nook_gl_transfer_update(transfer, vectors.data(), vectors.size()));
+  return transfer;
+}
+
+// Draws what was uploaded and compares it with what nook_transfer_shade makes of the vectors.
+void check_agreement(platform::Context& context, MaterialFixture& fixture, nook_material material,
+                     nook_transfer_response response, nook_gl_transfer transfer,
+                     const std::vector<float>& vectors) {
+  nook_transfer_response_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_transfer_response_describe(response, &info));
   const std::vector<nook_material_sample> samples = views_of(info_of(material));
   const Drawn drawn = draw(context.gl(), fixture.upload(material), transfer, samples);
 
@@ -193,7 +204,12 @@ void check_agreement(platform::Context& context, MaterialFixture& fixture, nook_
 TEST_CASE("transfer: a C program calls every function of nook_gl_transfer.h") {
   NOOK_NEED_CONTEXT(context);
   const std::vector<std::byte> bytes = material::write_material(material::test::sample_material(2));
-  CHECK(nook_transfer_call_everything(bytes.data(), bytes.size(), platform::Context::loader, &context) == 0);
+  const material::MaterialTables tables =
+      material::make_tables(material::read_material(bytes), {}, default_memory(), 16);
+  const std::vector<std::byte> baked = transfer::write_transfer(
+      transfer::test::sample_paper(5, 12, tables.btf.light_modes, tables.light_hash));
+  CHECK(nook_transfer_call_everything(bytes.data(), bytes.size(), baked.data(), baked.size(),
+                                      platform::Context::loader, &context) == 0);
 }
 
 TEST_CASE("transfer: the GLSL agrees with the CPU reference to 1/255") {
@@ -208,11 +224,12 @@ TEST_CASE("transfer: the GLSL agrees with the CPU reference to 1/255") {
   material::test::Numbers numbers(9);
   std::vector<float> vectors(std::size_t(count) * info.vector_floats);
   for (float& number : vectors) number = numbers.between(-0.3f, 0.3f);
-  check_agreement(context, fixture, material, response, vectors);
+  check_agreement(context, fixture, material, response, upload(fixture, response, vectors), vectors);
   nook_transfer_response_destroy(&response);
 }
 
-TEST_CASE("transfer: the paper's form with reflected light is drawn as the CPU reference shades it") {
+TEST_CASE(
+    "transfer: the paper's form is drawn as the CPU reference shades it, from vectors and from clusters") {
   NOOK_NEED_CONTEXT(context);
   MaterialFixture fixture(context);
   const material::Material made = material::test::sample_material(4, agreement_size());
@@ -220,16 +237,43 @@ TEST_CASE("transfer: the paper's form with reflected light is drawn as the CPU r
   nook_transfer_response response = make_response(fixture.host.handle, material);
   const material::MaterialTables tables = material::make_tables(
       material::read_material(material::write_material(made)), {}, default_memory(), 16);
-  const std::vector<std::byte> bytes = transfer::write_transfer(
-      transfer::test::sample_paper(count, 42, tables.btf.light_modes, tables.light_hash, 1));
-  nook_transfer transfer = nullptr;
-  NOOK_OK_OR_FAIL(nook_transfer_load(fixture.host.handle, bytes.data(), bytes.size(), &transfer));
-  std::vector<float> amplitudes(3 * 42), vectors(std::size_t(count) * 3 * tables.btf.light_modes);
-  for (std::size_t i = 0; i < amplitudes.size(); ++i) amplitudes[i] = 0.3f * std::sin(float(i));
-  NOOK_OK_OR_FAIL(
-      nook_transfer_vectors(transfer, response, amplitudes.data(), 42, 0, count, vectors.data(), 0));
-  check_agreement(context, fixture, material, response, vectors);
-  nook_transfer_destroy(&transfer);
+  for (const std::uint32_t bounces : {0u, 1u, 2u}) {
+    CAPTURE(bounces);
+    const std::vector<std::byte> bytes = transfer::write_transfer(
+        transfer::test::sample_paper(count, 42, tables.btf.light_modes, tables.light_hash, bounces));
+    nook_transfer transfer = nullptr;
+    NOOK_OK_OR_FAIL(nook_transfer_load(fixture.host.handle, bytes.data(), bytes.size(), &transfer));
+    std::vector<float> amplitudes(3 * 42), vectors(std::size_t(count) * 3 * tables.btf.light_modes);
+    for (std::size_t i = 0; i < amplitudes.size(); ++i) amplitudes[i] = 0.3f * std::sin(float(i));
+    NOOK_OK_OR_FAIL(
+        nook_transfer_vectors(transfer, response, amplitudes.data(), 42, 0, count, vectors.data(), 0));
+    check_agreement(context, fixture, material, response, upload(fixture, response, vectors), vectors);
+    nook_gl_transfer clusters = nullptr;
+    NOOK_OK_OR_FAIL(nook_gl_transfer_create_paper(fixture.gl, transfer, response, &clusters));
+    NOOK_OK_OR_FAIL(nook_gl_transfer_update_light(clusters, amplitudes.data(), 42));
+    check_agreement(context, fixture, material, response, clusters, vectors);
+    nook_transfer_destroy(&transfer);
+  }
+  nook_transfer_response_destroy(&response);
+}
+
+TEST_CASE("transfer: what is not the paper's form of the response is refused") {
+  NOOK_NEED_CONTEXT(context);
+  MaterialFixture fixture(context);
+  const nook_material material = fixture.load(material::test::sample_material(4));
+  nook_transfer_response response = make_response(fixture.host.handle, material);
+  const auto refused = [&](const transfer::Transfer& made) {
+    const std::vector<std::byte> bytes = transfer::write_transfer(made);
+    nook_transfer transfer = nullptr;
+    NOOK_OK_OR_FAIL(nook_transfer_load(fixture.host.handle, bytes.data(), bytes.size(), &transfer));
+    nook_gl_transfer created = nullptr;
+    CHECK(nook_gl_transfer_create_paper(fixture.gl, transfer, response, &created) ==
+          NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(created == nullptr);
+    nook_transfer_destroy(&transfer);
+  };
+  refused(transfer::test::sample_transfer(5, 42));      // the separated form
+  refused(transfer::test::sample_paper(5, 42, 4, 77));  // other light modes
   nook_transfer_response_destroy(&response);
 }
 

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "sdk/src/core/map_suns.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/material/evaluate.h"
 #include "sdk/src/transfer/lobe_fit.h"
-#include "sdk/src/transfer/map_suns.h"
 #include "sdk/src/transfer/vectors.h"
 #include "tests/catch.h"
 #include "tests/material/material_sample.h"
@@ -211,24 +211,56 @@ TEST_CASE("a single lobe and share give the row of the response") {
 
 TEST_CASE("every instruction set gives the vectors of the scalar kernels") {
   const material::MaterialTables tables = sample_tables();
-  const Response response = response_of(tables, 19);
-  const Transfer transfer = transfer::test::sample_transfer(9);
-  std::vector<float> amplitudes(3 * 19);
-  for (std::size_t i = 0; i < amplitudes.size(); ++i) amplitudes[i] = std::sin(float(i)) + 0.5f;
+  // Vertices are summed four at once with 642 lobes and two at once with 1,284; three are left over.
+  constexpr std::uint32_t vertices = 11;
+  for (const std::uint32_t lobes_here : {19u, 642u, 1284u}) {
+    CAPTURE(lobes_here);
+    const Response response = response_of(tables, lobes_here);
+    const Transfer transfer = transfer::test::sample_transfer(vertices, lobes_here);
+    std::vector<float> amplitudes(std::size_t(3) * lobes_here);
+    for (std::size_t i = 0; i < amplitudes.size(); ++i) amplitudes[i] = std::sin(float(i)) + 0.5f;
+    const std::size_t size = std::size_t(3) * tables.btf.light_modes;
+    const auto vectors = [&](Isa isa) {
+      std::vector<float> out(2 * vertices * size);
+      baked_vectors(response, isa, amplitudes, transfer, 0, vertices, {out.data(), size}, {},
+                    default_memory());
+      open_vectors(response, isa, amplitudes, frames_of(vertices), {&out[vertices * size], size}, {},
+                   default_memory());
+      return out;
+    };
+    const std::vector<float> wanted = vectors(Isa::scalar);
+    float largest = 0;
+    for (const float value : wanted) largest = std::max(largest, std::abs(value));
+    for (const Isa isa : all_isas) {
+      if (!isa_available(isa)) continue;
+      CAPTURE(isa_name(isa));
+      const std::vector<float> got = vectors(isa);
+      // Sums in another order, and roots by an estimate of 22 bits.
+      for (std::size_t i = 0; i < got.size(); ++i) CHECK(std::abs(got[i] - wanted[i]) < 1e-4f * largest);
+      // A part of the vertices has the same bits, whichever others are summed beside them.
+      std::vector<float> part(5 * size);
+      baked_vectors(response, isa, amplitudes, transfer, 3, 5, {part.data(), size}, {}, default_memory());
+      CHECK(std::equal(part.begin(), part.end(), got.begin() + std::ptrdiff_t(3 * size)));
+    }
+  }
+}
+
+TEST_CASE("lobes on the rim of the grid, and those far below the horizon, stay inside it") {
+  const material::MaterialTables tables = sample_tables();
+  const Response response = response_of(tables, 642);
+  const LobeFit fit(642);
   const std::size_t size = std::size_t(3) * tables.btf.light_modes;
-  const auto vectors = [&](Isa isa) {
-    std::vector<float> out(9 * size);
-    baked_vectors(response, isa, amplitudes, transfer, 0, 9, {out.data(), size}, {}, default_memory());
-    return out;
-  };
-  const std::vector<float> wanted = vectors(Isa::scalar);
-  float largest = 0;
-  for (const float value : wanted) largest = std::max(largest, std::abs(value));
+  const std::vector<float> amplitudes(std::size_t(3) * 642, 1.0f);
+  // Normals along lobes and against them, where the map of directions has its singular point.
+  std::vector<Frame> frames;
+  for (std::size_t j = 0; j < 642; j += 7)
+    for (const float sign : {1.0f, -1.0f})
+      frames.push_back(orthonormal_frame(fit.axes()[j] * sign, {0.3f, 1, 0.2f}, 1));
   for (const Isa isa : all_isas) {
     if (!isa_available(isa)) continue;
-    const std::vector<float> got = vectors(isa);
-    // Sums in another order, and roots by an estimate of 22 bits.
-    for (std::size_t i = 0; i < got.size(); ++i) CHECK(std::abs(got[i] - wanted[i]) < 1e-4f * largest);
+    std::vector<float> out(frames.size() * size);
+    open_vectors(response, isa, amplitudes, frames, {out.data(), size}, {}, default_memory());
+    CHECK(std::all_of(out.begin(), out.end(), [](float value) { return std::isfinite(value); }));
   }
 }
 
@@ -248,6 +280,25 @@ TEST_CASE("suns are taken out of a map, and nothing is lost") {
       after += double(rest[3 * (row * 64 + column) + 1]) * angle;
     }
   CHECK(after + double(suns[0].irradiance.y) == Approx(before).epsilon(1e-5));
+}
+
+TEST_CASE("a sun of a cube map has the light of its texel, and the limit is that of the whole sphere") {
+  constexpr std::uint32_t side = 16;
+  std::vector<float> rgb(std::size_t(3) * side * side * 6, 1.0f);
+  const std::uint32_t row = 3 * side + 2, column = 5;
+  for (std::size_t c = 0; c < 3; ++c) rgb[3 * (row * side + column) + c] = 9000;
+  const MapView map{MapLayout::cube, side, 6 * side, rgb};
+  const MapTexel texel = map_texel(map, column, row);
+  // The sky of 1 and the texel at the limit together are a hundredth of the limit.
+  const double share = texel.solid_angle / (4 * std::numbers::pi);
+  const double limit = 100 * (1 - share) / (1 - 100 * share);
+  // The rounds end within a thousandth of it.
+  CHECK(sun_limit(map, default_memory()) == Approx(limit).epsilon(2e-3));
+  Vector<float> rest(rgb.begin(), rgb.end());
+  const Vector<MapSun> suns = take_suns(map, rest, default_memory());
+  REQUIRE(suns.size() == 1);
+  CHECK(dot(suns[0].direction, texel.direction) == Approx(1).epsilon(1e-6));
+  CHECK(double(suns[0].irradiance.x) == Approx((9000 - limit) * texel.solid_angle).epsilon(1e-3));
 }
 
 TEST_CASE("reflected light is the light's bands times the baked ones, for the material's reflectance") {

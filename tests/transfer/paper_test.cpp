@@ -4,6 +4,7 @@
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/half.h"
 #include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/lit_rows.h"
 #include "sdk/src/transfer/transfer_file.h"
 #include "sdk/src/transfer/vectors.h"
 #include "tests/catch.h"
@@ -70,6 +71,41 @@ TEST_CASE("vectors of the paper's form are the product of light, bases, core and
       CHECK(double(vectors[(v - 1) * stride + i]) == Approx(sum * 0.25).margin(1e-4));
     }
     for (std::size_t i = 24; i < stride; ++i) CHECK(vectors[(v - 1) * stride + i] == -7.0f);
+  }
+}
+
+TEST_CASE("the rows of a light, weighed with a vertex's numbers, are its vector") {
+  for (const std::uint32_t bounces : {0u, 1u, 2u}) {
+    CAPTURE(bounces);
+    const Transfer transfer = test::sample_paper(7, 19, 8, 5, bounces);
+    Response response(default_memory());
+    response.lobes = 19;
+    response.light_modes = 8;
+    response.light_hash = 5;
+    response.reflectance = {0.5f, 0.25f, 0.8f};
+    for (int i = 0; i < 24; ++i) response.even.push_back(0.1f * float(i) - 1);
+    std::vector<float> amplitudes(3 * 19);
+    for (std::size_t i = 0; i < amplitudes.size(); ++i) amplitudes[i] = std::sin(float(i));
+    std::vector<float> vectors(7 * 24), rows(lit_row_count(transfer) * 24);
+    baked_vectors(response, Isa::scalar, amplitudes, transfer, 0, 7, {vectors.data(), 24}, {},
+                  default_memory());
+    write_lit_rows(response, amplitudes, transfer, {}, default_memory(), rows);
+    const std::size_t rank = transfer.paper.vertex_rank, count = vertex_number_count(transfer);
+    CHECK(count % 4 == 0);
+    for (std::size_t v = 0; v < 7; ++v) {
+      std::vector<float> numbers(count, -1.0f);
+      write_vertex_numbers(transfer, v, numbers.data());
+      for (std::size_t i = 0; i < 24; ++i) {
+        double sum = 0;
+        for (std::size_t q = 0; q < rank; ++q)
+          sum += double(numbers[1 + q]) * double(rows[(std::size_t(numbers[0]) * rank + q) * 24 + i]);
+        for (std::size_t k = 0; k < bounces * band_count; ++k)
+          sum += double(numbers[1 + rank + k]) * double(rows[(transfer.paper.clusters * rank + k) * 24 + i]);
+        // Sums of floats in another order.
+        CHECK(double(vectors[v * 24 + i]) == Approx(sum).margin(1e-4));
+      }
+      for (std::size_t k = 1 + rank + bounces * band_count; k < count; ++k) CHECK(numbers[k] == 0);
+    }
   }
 }
 

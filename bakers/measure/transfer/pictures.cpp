@@ -61,6 +61,7 @@ struct PixelHit {
   Vec3 origin;  // of rays to the light
   Frame frame;
   std::vector<float> modes;  // of the material, decoded for the pixel's view
+  std::vector<float> raw;    // of the raw material, where the truth is that
 };
 
 class Renderer {
@@ -146,6 +147,11 @@ class Renderer {
     sample.v = v * settings_.truth.tiles;
     sample.level = is_pixel ? level(hit, direction, found.distance) : 0;
     sample.view = local(hit.frame, -direction);
+    if (source_.raw) {
+      hit.raw.resize(source_.raw->number_count());
+      source_.raw->decode(sample, hit.raw);
+      if (!is_pixel) return hit;
+    }
     hit.modes.resize(source_.tables.btf.light_modes);
     nook::material::decode_modes(source_.tables, sample, hit.modes);
     return hit;
@@ -191,6 +197,7 @@ class Renderer {
     if (!(at.z > 0) || (radiance.x == 0 && radiance.y == 0 && radiance.z == 0)) return {};
     const float density = light_density + at.z / pi;
     if (!(density > 0)) return {};
+    if (source_.raw) return by_channel(source_.raw->radiance(hit.raw, at), radiance) * (1 / density);
     const std::size_t modes = hit.modes.size();
     float basis[3 * 1024];
     nook::material::light_basis_at(source_.tables, at, std::span(basis, 3 * modes));

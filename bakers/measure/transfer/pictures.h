@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "bakers/images/picture.h"
+#include "bakers/measure/material/raw_reflectance.h"
 #include "bakers/measure/transfer/vector_error.h"
 
 namespace nook::measure {
@@ -22,6 +23,8 @@ struct PictureSource {
   const VectorMeasure& vectors;
   std::size_t light = 0;  // of the vectors
   const bake::Environment& map;
+  // The surface of the truth; null: the material as it is decoded.
+  const RawReflectance* raw = nullptr;
 };
 
 struct PictureError {
@@ -35,7 +38,7 @@ struct PictureError {
 // The camera looks at the middle of the bounding box from 35 degrees above its horizon. A pixel has one ray
 // through its middle. The truth is the light of the map on the material as it is decoded at the pixel, half
 // of the samples by luminance and half cosine-weighted, with multiple importance sampling, and after
-// reflections on the material as it is decoded at each surface on the way. Rays to the light pass through the
+// reflections on the same at each surface on the way. Rays to the light pass through the
 // holes of the VOTF if the settings have them; those of the camera do not. Throws Failure(CANCELLED) if
 // progress returns false.
 PictureError measure_pictures(const PictureSource& source, const PictureSettings& settings,

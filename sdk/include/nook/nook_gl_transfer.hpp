@@ -19,6 +19,14 @@ class GlTransfer : public Unique<nook_gl_transfer, nook_gl_transfer_destroy> {
   GlTransfer(const Gl& gl, const TransferResponse& response, std::uint32_t vertex_count)
       : Unique(create(gl, response, vertex_count)) {}
 
+  // A transfer in the paper's form, whose vertices the GPU keeps.
+  GlTransfer(const Gl& gl, const Transfer& transfer, const TransferResponse& response)
+      : Unique(create(gl, transfer, response)) {}
+
+  // Of amplitudes of lobes, in the paper's form.
+  void update_light(const std::vector<float>& amplitudes) {
+    check(nook_gl_transfer_update_light(get(), amplitudes.data(), std::uint32_t(amplitudes.size() / 3)));
+  }
   void update(const std::vector<float>& vectors) {
     check(nook_gl_transfer_update(get(), vectors.data(), vectors.size()));
   }
@@ -33,6 +41,11 @@ class GlTransfer : public Unique<nook_gl_transfer, nook_gl_transfer_destroy> {
   static nook_gl_transfer create(const Gl& gl, const TransferResponse& response, std::uint32_t vertex_count) {
     nook_gl_transfer handle = nullptr;
     check(nook_gl_transfer_create(gl.get(), response.get(), vertex_count, &handle));
+    return handle;
+  }
+  static nook_gl_transfer create(const Gl& gl, const Transfer& transfer, const TransferResponse& response) {
+    nook_gl_transfer handle = nullptr;
+    check(nook_gl_transfer_create_paper(gl.get(), transfer.get(), response.get(), &handle));
     return handle;
   }
 };

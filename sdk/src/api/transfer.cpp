@@ -24,7 +24,6 @@ constexpr std::size_t first_mesh = offsetof(nook_transfer_mesh, uvs) + sizeof(co
 constexpr std::size_t first_response = offsetof(nook_transfer_response_desc, isa) + sizeof(nook_isa);
 constexpr std::size_t first_response_info =
     offsetof(nook_transfer_response_info, table_bytes) + sizeof(std::uint64_t);
-constexpr float max_amplitude = 1e22f;
 
 nook_transfer_response_desc default_response() {
   nook_transfer_response_desc desc{};
@@ -44,18 +43,6 @@ Response response_of(const nook::material::MaterialTables& tables, std::uint32_t
                        {values, tables.btf.light_modes, nook::material::mean_reflectance(tables),
                         tables.light_hash, tables.votf_hash},
                        memory);
-}
-
-void check_amplitudes(const float* amplitudes, std::uint32_t got, std::uint32_t lobes) {
-  need(amplitudes, "amplitudes");
-  if (got != lobes)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is not that of the response (got %u, need %u)",
-                  got, lobes);
-  for (std::uint32_t i = 0; i < 3 * lobes; ++i)
-    if (!(std::abs(amplitudes[i]) <= max_amplitude))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "the amplitude of lobe %u is out of range (got %g, need finite numbers up to 1e22)",
-                    i / 3, double(amplitudes[i]));
 }
 
 VectorOutput output_of(float* vectors, std::uint32_t stride, const Response& response) {
@@ -229,12 +216,9 @@ nook_result nook_transfer_vectors(nook_transfer transfer, nook_transfer_response
     need(transfer, "transfer");
     need(response, "response");
     const Transfer& baked = transfer->transfer;
+    need(amplitudes, "amplitudes");
     check_amplitudes(amplitudes, lobe_count, response->response.lobes);
-    if (baked.lobes != lobe_count)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "lobe_count is not that of the transfer (got %u, need %u); make the response and the fit "
-                    "with as many",
-                    lobe_count, baked.lobes);
+    check_same_lobes(baked, lobe_count);
     if (first_vertex > baked.vertex_count() || vertex_count > baked.vertex_count() - first_vertex)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "vertices are out of range (got %u from %u on, the transfer has %u)", vertex_count,
@@ -252,6 +236,7 @@ nook_result nook_transfer_open_vectors(nook_transfer_response response, const fl
                                        uint32_t vertex_count, float* vectors, uint32_t stride_floats) {
   return api::enter("nook_transfer_open_vectors", [&] {
     need(response, "response");
+    need(amplitudes, "amplitudes");
     check_amplitudes(amplitudes, lobe_count, response->response.lobes);
     const VectorOutput output = output_of(vectors, stride_floats, response->response);
     need(normals, "normals");

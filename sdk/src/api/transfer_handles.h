@@ -7,9 +7,9 @@
 
 #include "sdk/src/api/handles.h"
 #include "sdk/src/core/isa.h"
+#include "sdk/src/core/map_suns.h"
 #include "sdk/src/transfer/light_cube.h"
 #include "sdk/src/transfer/lobe_fit.h"
-#include "sdk/src/transfer/map_suns.h"
 #include "sdk/src/transfer/response.h"
 #include "sdk/src/transfer/transfer.h"
 
@@ -29,7 +29,7 @@ struct nook_transfer_light_s : nook::RefCounted {
 
   nook::transfer::CubeCells cells;
   nook::Vector<nook::Vec3> radiance;  // of each cell
-  nook::Vector<nook::transfer::MapSun> suns;
+  nook::Vector<nook::MapSun> suns;
 };
 
 struct nook_transfer_fit_s : nook::RefCounted {

@@ -6,6 +6,7 @@
 #include "sdk/src/core/half.h"
 #include "sdk/src/core/hash.h"
 #include "sdk/src/material/direction_mesh.h"
+#include "sdk/src/material/low_light.h"
 #include "sdk/src/material/spatial_modes.h"
 #include "sdk/src/material/view_cells.h"
 
@@ -109,20 +110,6 @@ void make_spatial(const ClusteredTensor& tensor, std::uint32_t light_modes, int 
   tables.spatial.resize(tables.level_offset(tables.levels));
   for (std::uint32_t c = 0; c < s.clusters; ++c)
     ClusterPacking(tensor, c, std::ldexp(1.0f, exponent), tables, memory).run(parallel);
-}
-
-// Returns the ratio of the cosine of a light beyond the outermost sampled lights to that of the nearest
-// direction between them, `mix`, so that light fades to 0 at the horizon. It is 1 between the samples.
-float low_light_share(std::span<const Vec3> lights, const DirectionMix& mix, float z) {
-  ParabolicPoint nearest{};
-  for (int i = 0; i < 3; ++i) {
-    const ParabolicPoint p = to_parabolic(lights[mix.index[i]]);
-    nearest.x += mix.weight[i] * p.x;
-    nearest.y += mix.weight[i] * p.y;
-  }
-  const float cosine = from_parabolic(nearest).z;
-  // Between the samples both cosines are equal up to rounding.
-  return z < cosine - 1e-5f ? std::max(z, 0.0f) / cosine : 1.0f;
 }
 
 void make_light_map(const Material& material, float scale, MaterialTables& tables, Memory* memory) {

@@ -157,4 +157,25 @@ void check_same_light(const Transfer& transfer, std::uint32_t light_modes, std::
       static_cast<unsigned long long>(paper.light_hash));
 }
 
+void check_same_lobes(const Transfer& transfer, std::uint32_t lobes) {
+  if (transfer.lobes == lobes) return;
+  throw Failure(
+      NOOK_ERROR_INVALID_ARGUMENT,
+      "lobe_count is not that of the transfer (got %u, need %u); make the response and the fit with "
+      "as many",
+      lobes, transfer.lobes);
+}
+
+void check_amplitudes(const float* amplitudes, std::uint32_t got, std::uint32_t lobes) {
+  constexpr float max_amplitude = 1e22f;
+  if (got != lobes)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is not that of the response (got %u, need %u)",
+                  got, lobes);
+  for (std::uint32_t i = 0; i < 3 * lobes; ++i)
+    if (!(std::abs(amplitudes[i]) <= max_amplitude))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "the amplitude of lobe %u is out of range (got %g, need finite numbers up to 1e22)",
+                    i / 3, double(amplitudes[i]));
+}
+
 }  // namespace nook::transfer

@@ -35,5 +35,10 @@ void check_same_material(const Transfer& transfer, std::uint64_t votf_hash);
 // Throws Failure(INVALID_ARGUMENT) if the transfer has the paper's form for the light modes of another
 // material.
 void check_same_light(const Transfer& transfer, std::uint32_t light_modes, std::uint64_t light_hash);
+// Throws Failure(INVALID_ARGUMENT) unless the transfer has as many lobes.
+void check_same_lobes(const Transfer& transfer, std::uint32_t lobes);
+// Throws Failure(INVALID_ARGUMENT) unless amplitudes, `got` x RGB, are those of as many lobes and small
+// enough for vectors to be finite.
+void check_amplitudes(const float* amplitudes, std::uint32_t got, std::uint32_t lobes);
 
 }  // namespace nook::transfer

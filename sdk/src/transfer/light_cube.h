@@ -2,17 +2,13 @@
 // any rotation.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <span>
 
 #include "sdk/src/core/containers.h"
+#include "sdk/src/core/light_map.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook::transfer {
-
-// The maximum radiance of a texel, with which sums over any map stay far below the maximum of a float.
-inline constexpr float max_radiance = 1e15f;
 
 // The cells of a cube of side x side cells a face, the faces +x, -x, +y, -y, +z, -z. Cells are squares of a
 // face; their solid angles differ by up to a factor of 5.
@@ -25,36 +21,6 @@ struct CubeCells {
 
   std::size_t size() const { return direction.size(); }
 };
-
-// Returns the number of the cell that holds a direction.
-std::size_t cube_cell_at(Vec3 direction, std::uint32_t side);
-
-// A map in host memory, 3 floats for each texel.
-enum class MapLayout : std::int32_t {
-  // Rows from +y down to -y; the middle column looks along +x, the column a quarter of the width to its right
-  // along +z.
-  latlong = 0,
-  // Six faces of width x width texels, below each other in the order and with the axes of OpenGL.
-  cube = 1,
-};
-struct MapView {
-  MapLayout layout = MapLayout::latlong;
-  std::uint32_t width = 0, height = 0;
-  std::span<const float> rgb;
-
-  Vec3 texel(std::size_t index) const { return {rgb[3 * index], rgb[3 * index + 1], rgb[3 * index + 2]}; }
-  std::size_t texel_count() const { return std::size_t(width) * height; }
-};
-// Throws Failure(INVALID_ARGUMENT) for sizes that are out of range and texels that are not in
-// [0, max_radiance].
-void check_map(const MapView& map);
-
-// The centre of a texel and its solid angle.
-struct MapTexel {
-  Vec3 direction;  // unit
-  double solid_angle = 0;
-};
-MapTexel map_texel(const MapView& map, std::uint32_t column, std::uint32_t row);
 
 // Returns the mean radiance of each cell: that of the texels in it, or of the nearest texel where a map has
 // fewer texels than there are cells.

@@ -27,11 +27,18 @@ struct LightView {
 // The largest number of nodes along a side of a response.
 inline constexpr std::uint32_t max_side = 48;
 
-inline constexpr std::uint32_t block_vertices = 2;
-// The floats of the scratch of a block, 72 KiB.
-inline constexpr std::uint32_t scratch_floats = block_vertices * max_side * max_side * 4;
+// The floats of the scratch of a block, 80 KiB: a thread of a host has room for them on its stack.
+inline constexpr std::uint32_t scratch_floats = 20 * 1024;
+inline constexpr std::uint32_t max_block_vertices = 4;
+static_assert(max_side * max_side * 4 * 2 <= scratch_floats);
 
-// Up to block_vertices vertices.
+// Returns how many vertices of a response's side fit into the scratch: 4 with 642 lobes, 2 with 700 and more.
+constexpr std::uint32_t block_vertices(std::uint32_t side) {
+  const std::uint32_t fitting = scratch_floats / (side * side * 4);
+  return fitting < max_block_vertices ? 2 : max_block_vertices;
+}
+
+// Up to block_vertices(side) vertices.
 struct VertexBlock {
   const std::uint8_t* shares = nullptr;  // of each vertex, `lobes` bytes; null: all 255
   const float* frames = nullptr;         // the axes x, y and z of each vertex, 9 floats

@@ -7,16 +7,39 @@ namespace {
 using transfer::LightView;
 using transfer::VertexBlock;
 
-// The places of some lobes in the grid; few enough to stay in the first-level cache beside the grid.
+// The places of some lobes in the grid; few enough to stay in the first-level cache beside the grid, and one
+// bit each in a word.
 inline constexpr std::uint32_t chunk = 64;
 struct alignas(64) Places {
-  float column[chunk], row[chunk];
-  float effect[chunk];        // 1 where a lobe has an effect, else 0
-  std::uint32_t lobe[chunk];  // those that are not dark, counted from the first of the chunk
+  float node[chunk];                 // the number of the upper left of four nodes
+  float right[chunk];                // of that node, [0, 1]
+  float upper[chunk], lower[chunk];  // the lobe's share in the row of that node and in the next one
 };
 
-void place_lobes(const LightView& light, const float* frame, std::uint32_t first, std::uint32_t count,
-                 Places& places) {
+// Returns the nearest whole number of places in the grid: additions round to whole numbers at this magnitude.
+Float to_whole(Float place) {
+  const Float magnitude = broadcast(12582912.0f);  // 1.5 x 2^23
+  return (place + magnitude) - magnitude;
+}
+
+void read_shares(const std::uint8_t* shares, std::uint32_t count, float* out) {
+  if (shares && count == chunk) {
+    for (std::uint32_t i = 0; i < chunk; ++i) out[i] = float(shares[i]);
+    return;
+  }
+  for (std::uint32_t i = 0; i < chunk; ++i) out[i] = i >= count ? 0.0f : shares ? float(shares[i]) : 255.0f;
+}
+
+// Returns a bit for each lobe that is not dark. The places of dark ones are of no use, and may be NaN.
+std::uint64_t place_lobes(const LightView& light, const float* frame, const std::uint8_t* shares,
+                          std::uint32_t first, std::uint32_t count, Places& places) {
+  alignas(64) float share[chunk];
+  read_shares(shares, count, share);
+  float across[6];  // the axes x and y in steps of the grid
+  for (std::uint32_t i = 0; i < 6; ++i) across[i] = frame[i] * light.scale;
+  const Float zero = broadcast(0.0f), half = broadcast(0.5f), last = broadcast(float(light.side - 2));
+  const Float centre = broadcast(light.centre), lowest = broadcast(light.lowest_z);
+  std::uint64_t bright = 0;
   for (std::uint32_t i = 0; i < count; i += width) {
     const std::uint32_t j = first + i;
     const Float x = load(light.axis_x + j), y = load(light.axis_y + j), z = load(light.axis_z + j);
@@ -24,44 +47,36 @@ void place_lobes(const LightView& light, const float* frame, std::uint32_t first
       return fma(broadcast(axis[0]), x, fma(broadcast(axis[1]), y, broadcast(axis[2]) * z));
     };
     const Float up = along(frame + 6);
-    const Float scale = rsqrt(max(broadcast(1.0f) + up, broadcast(1e-3f))) * broadcast(light.scale);
-    const Float low = broadcast(0.0f), high = broadcast(float(light.side - 1) - 1e-3f);
-    const Float centre = broadcast(light.centre);
-    store(places.column + i, min(max(fma(along(frame), scale, centre), low), high));
-    store(places.row + i, min(max(fma(along(frame + 3), scale, centre), low), high));
-    store(places.effect + i, select(less(up, broadcast(light.lowest_z)), broadcast(0.0f), broadcast(1.0f)));
+    const Float scale = rsqrt(broadcast(1.0f) + up);
+    const Float column = fma(along(across), scale, centre), row = fma(along(across + 3), scale, centre);
+    const Float left = min(max(to_whole(column - half), zero), last);
+    const Float top = min(max(to_whole(row - half), zero), last);
+    const Float used = select(less(up, lowest), zero, load(share + i));
+    const Float lower = used * (row - top);
+    store(places.node + i, fma(top, broadcast(float(light.side)), left));
+    store(places.right + i, column - left);
+    store(places.upper + i, used - lower);
+    store(places.lower + i, lower);
+    bright |= std::uint64_t(bits(less(zero, used))) << i;
   }
+  return bright;
 }
 
-// Lists the lobes of a chunk that are not dark, without a branch that no processor could predict.
-std::uint32_t list_lobes(const std::uint8_t* shares, std::uint32_t chunk_lobes, Places& places) {
-  std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < chunk_lobes; ++i) {
-    places.lobe[count] = i;
-    count += (!shares || shares[i] != 0) && places.effect[i] != 0;
-  }
-  return count;
-}
-
-// Adds the light of lobes to the nodes of one vertex; a node has red, green, blue and 0.
-void add_lobes(const LightView& light, const Places& places, std::uint32_t count, std::uint32_t first,
-               const std::uint8_t* shares, float* nodes) {
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t j = places.lobe[i];
-    const float share = shares ? float(shares[j]) : 255.0f;
-    const auto column = std::uint32_t(std::int32_t(places.column[j])),
-               row = std::uint32_t(std::int32_t(places.row[j]));
-    const float right = places.column[j] - float(std::int32_t(column));
-    const float below = places.row[j] - float(std::int32_t(row));
-    const Four amplitude = load_four(light.amplitudes + 4 * std::size_t(first + j)) * Four(share);
-    const Four bottom = amplitude * Four(below), top = amplitude - bottom;
-    float* const upper = nodes + 4 * std::size_t(row * light.side + column);
+// Adds the light of lobes to the nodes of one vertex; a node has red, green, blue and 0. Two nodes of a row
+// are added to at once.
+void add_lobes(const LightView& light, const Places& places, std::uint64_t bright, std::uint32_t first,
+               float* nodes) {
+  alignas(32) constexpr float slopes[8] = {-1, -1, -1, -1, 1, 1, 1, 1}, starts[8] = {1, 1, 1, 1, 0, 0, 0, 0};
+  const Eight slope = load_eight(slopes), start = load_eight(starts);
+  const float* const amplitudes = light.amplitudes + 4 * std::size_t(first);
+  for (; bright != 0; bright &= bright - 1) {
+    const auto i = std::size_t(std::countr_zero(bright));
+    float* const upper = nodes + 4 * std::ptrdiff_t(std::int32_t(places.node[i]));
     float* const lower = upper + 4 * std::size_t(light.side);
-    const Four top_right = top * Four(right), bottom_right = bottom * Four(right);
-    store(upper, load_four(upper) + (top - top_right));
-    store(upper + 4, load_four(upper + 4) + top_right);
-    store(lower, load_four(lower) + (bottom - bottom_right));
-    store(lower + 4, load_four(lower + 4) + bottom_right);
+    const Eight amplitude =
+        load_four_twice(amplitudes + 4 * i) * product_plus(slope, Eight(places.right[i]), start);
+    store(upper, product_plus(amplitude, Eight(places.upper[i]), load_eight(upper)));
+    store(lower, product_plus(amplitude, Eight(places.lower[i]), load_eight(lower)));
   }
 }
 
@@ -70,35 +85,74 @@ void spread(const LightView& light, const std::uint8_t* shares, const float* fra
   for (std::uint32_t first = 0; first < light.lobes; first += chunk) {
     const std::uint32_t rest = light.lobes - first, lobes = rest < chunk ? rest : chunk;
     const std::uint8_t* const some = shares ? shares + first : nullptr;
-    place_lobes(light, frame, first, lobes, places);
-    add_lobes(light, places, list_lobes(some, lobes, places), first, some, nodes);
+    add_lobes(light, places, place_lobes(light, frame, some, first, lobes, places), first, nodes);
   }
 }
 
-// Vectors of the table that are weighed at once: with two vertices and three channels, 12 sums fit into 16
-// registers.
+// Vectors of the table that are weighed at once.
 inline constexpr std::uint32_t group = width >= 16 ? 1 : 2;
+
+// A product needs its row of the table and a node's number from memory, and processors load no more than two
+// values for two products. Four vertices share the rows, so that a channel takes two rows and four numbers
+// for eight products. Wide vectors, and blocks of fewer vertices, take all channels at once, so that there
+// are enough sums in the works to hide the latency of each.
+template <std::uint32_t Vertices>
+inline constexpr std::uint32_t channels_at_once = width >= 16 || Vertices < 4 ? 3 : 1;
 
 template <std::uint32_t Vertices>
 struct Sums {
-  Float of[Vertices][3][group];
+  Float of[Vertices][channels_at_once<Vertices>][group];
 };
 
-// Adds one row of the table, weighed with the nodes of Vertices vertices, for the lanes from `first` on.
+// The nodes of a row that have any light at some of the vertices: [begin, end).
+struct Columns {
+  std::uint32_t begin = 0, end = 0;
+};
+
 template <std::uint32_t Vertices>
-void weigh_row(const LightView& light, const float* nodes, std::uint32_t node_floats, std::uint32_t row,
-               std::uint32_t first, Sums<Vertices>& out) {
+bool is_dark(const float* node, std::size_t node_floats) {
+  std::uint64_t any = 0;
+  for (std::uint32_t v = 0; v < Vertices; ++v) {
+    std::uint64_t half[2];
+    std::memcpy(half, node + v * node_floats, sizeof half);
+    any |= half[0] | half[1];
+  }
+  return any == 0;
+}
+
+template <std::uint32_t Vertices>
+Columns lit_columns(const LightView& light, const float* nodes, std::size_t node_floats, std::uint32_t row) {
+  Columns lit{light.row_begin[row], light.row_end[row]};
+  const float* const first = nodes + 4 * std::size_t(row) * light.side;
+  while (lit.begin < lit.end && is_dark<Vertices>(first + 4 * std::size_t(lit.begin), node_floats))
+    ++lit.begin;
+  while (lit.begin < lit.end && is_dark<Vertices>(first + 4 * std::size_t(lit.end - 1), node_floats))
+    --lit.end;
+  return lit;
+}
+
+// Adds one row of the table, weighed with the nodes of the vertices, for channels from `channel` and lanes
+// from `first` on.
+template <std::uint32_t Vertices>
+void weigh_row(const LightView& light, const float* nodes, std::size_t node_floats, std::uint32_t row,
+               Columns columns, std::uint32_t channel, std::uint32_t first, Sums<Vertices>& out) {
+  constexpr std::uint32_t channels = channels_at_once<Vertices>;
   Sums<Vertices> sums = out;
-  for (std::uint32_t column = light.row_begin[row]; column < light.row_end[row]; ++column) {
-    const std::size_t node = std::size_t(row) * light.side + column;
-    const float* const table = light.table + node * 3 * light.lanes + first;
-    for (std::uint32_t c = 0; c < 3; ++c)
-      for (std::uint32_t k = 0; k < group; ++k) {
-        const Float response = load(table + std::size_t(c) * light.lanes + k * width);
-        for (std::uint32_t v = 0; v < Vertices; ++v)
-          sums.of[v][c][k] =
-              fma(broadcast(nodes[v * node_floats + 4 * node + c]), response, sums.of[v][c][k]);
+  const std::size_t begin = std::size_t(row) * light.side + columns.begin, lanes = light.lanes;
+  const float* table = light.table + (3 * begin + channel) * lanes + first;
+  const float* node = nodes + 4 * begin + channel;
+  for (std::uint32_t column = columns.begin; column < columns.end; ++column) {
+    for (std::uint32_t c = 0; c < channels; ++c) {
+      Float response[group];
+      for (std::uint32_t k = 0; k < group; ++k) response[k] = load(table + c * lanes + k * width);
+      for (std::uint32_t v = 0; v < Vertices; ++v) {
+        const Float weight = broadcast(node[v * node_floats + c]);
+        for (std::uint32_t k = 0; k < group; ++k)
+          sums.of[v][c][k] = fma(weight, response[k], sums.of[v][c][k]);
       }
+    }
+    table += 3 * lanes;
+    node += 4;
   }
   out = sums;
 }
@@ -111,47 +165,49 @@ void clear(Sums<Vertices>& sums) {
 }
 
 template <std::uint32_t Vertices>
-void write(const LightView& light, const Sums<Vertices>& sums, std::uint32_t first, const VertexBlock& block,
-           std::uint32_t first_vertex) {
+void write(const LightView& light, const Sums<Vertices>& sums, std::uint32_t channel, std::uint32_t first,
+           const VertexBlock& block, std::uint32_t first_vertex) {
   const std::uint32_t rest = light.light_modes - first, used = rest < group * width ? rest : group * width;
   for (std::uint32_t v = 0; v < Vertices; ++v)
-    for (std::uint32_t c = 0; c < 3; ++c) {
+    for (std::uint32_t c = 0; c < channels_at_once<Vertices>; ++c) {
       alignas(64) float lanes[group * width];
       for (std::uint32_t k = 0; k < group; ++k) store(lanes + k * width, sums.of[v][c][k]);
-      std::memcpy(
-          block.vectors + (first_vertex + v) * block.stride + std::size_t(c) * light.light_modes + first,
-          lanes, used * sizeof(float));
+      std::memcpy(block.vectors + (first_vertex + v) * block.stride +
+                      std::size_t(channel + c) * light.light_modes + first,
+                  lanes, used * sizeof(float));
     }
 }
 
-// Row by row over all vertices of the block, so that a row of the table is read from the second-level cache
-// once.
-void weigh(const LightView& light, const VertexBlock& block, std::uint32_t node_floats) {
-  const std::uint32_t pairs = block.count / 2, single = block.count % 2;
+// Row by row over all channels, so that a row of nodes is read from the second-level cache once.
+template <std::uint32_t Vertices>
+void weigh(const LightView& light, const VertexBlock& block, std::size_t node_floats,
+           std::uint32_t first_vertex) {
+  constexpr std::uint32_t channels = channels_at_once<Vertices>;
+  const float* const nodes = block.scratch + first_vertex * node_floats;
+  Columns lit[transfer::max_side];
+  for (std::uint32_t row = 0; row < light.side; ++row)
+    lit[row] = lit_columns<Vertices>(light, nodes, node_floats, row);
   for (std::uint32_t first = 0; first < light.light_modes; first += group * width) {
-    Sums<2> sums[transfer::block_vertices / 2];
-    Sums<1> last;
-    for (std::uint32_t p = 0; p < pairs; ++p) clear(sums[p]);
-    clear(last);
-    const float* const odd = block.scratch + 2 * std::size_t(pairs) * node_floats;
-    for (std::uint32_t row = 0; row < light.side; ++row) {
-      for (std::uint32_t p = 0; p < pairs; ++p)
-        weigh_row<2>(light, block.scratch + 2 * std::size_t(p) * node_floats, node_floats, row, first,
-                     sums[p]);
-      if (single) weigh_row<1>(light, odd, node_floats, row, first, last);
-    }
-    for (std::uint32_t p = 0; p < pairs; ++p) write(light, sums[p], first, block, 2 * p);
-    if (single) write(light, last, first, block, 2 * pairs);
+    Sums<Vertices> sums[3 / channels];
+    for (Sums<Vertices>& of_channels : sums) clear(of_channels);
+    for (std::uint32_t row = 0; row < light.side; ++row)
+      for (std::uint32_t c = 0; c < 3; c += channels)
+        weigh_row<Vertices>(light, nodes, node_floats, row, lit[row], c, first, sums[c / channels]);
+    for (std::uint32_t c = 0; c < 3; c += channels)
+      write<Vertices>(light, sums[c / channels], c, first, block, first_vertex);
   }
 }
 
 void vectors(const LightView& light, const VertexBlock& block) {
-  const std::uint32_t node_floats = light.side * light.side * 4;
-  std::memset(block.scratch, 0, std::size_t(block.count) * node_floats * sizeof(float));
+  const std::size_t node_floats = std::size_t(light.side) * light.side * 4;
+  std::memset(block.scratch, 0, block.count * node_floats * sizeof(float));
   for (std::uint32_t v = 0; v < block.count; ++v)
     spread(light, block.shares ? block.shares + std::size_t(v) * light.lobes : nullptr,
-           block.frames + 9 * std::size_t(v), block.scratch + std::size_t(v) * node_floats);
-  weigh(light, block, node_floats);
+           block.frames + 9 * std::size_t(v), block.scratch + v * node_floats);
+  std::uint32_t v = 0;
+  for (; v + 4 <= block.count; v += 4) weigh<4>(light, block, node_floats, v);
+  for (; v + 2 <= block.count; v += 2) weigh<2>(light, block, node_floats, v);
+  if (v < block.count) weigh<1>(light, block, node_floats, v);
 }
 
 constexpr transfer::VectorKernels vector_table{isa, isa_name(isa), vectors};

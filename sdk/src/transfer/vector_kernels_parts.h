@@ -1,6 +1,8 @@
 // The headers of vector_kernels_impl.inl, which is included inside a namespace.
 #pragma once
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 

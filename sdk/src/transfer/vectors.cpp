@@ -1,11 +1,10 @@
 #include "sdk/src/transfer/vectors.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "sdk/src/core/aligned_array.h"
 #include "sdk/src/core/half.h"
-#include "sdk/src/transfer/light_bands.h"
+#include "sdk/src/transfer/reflected_light.h"
 #include "sdk/src/transfer/vector_kernels.h"
 
 namespace nook::transfer {
@@ -54,20 +53,9 @@ class ReflectedLight {
  public:
   ReflectedLight(const Response& response, std::span<const float> amplitudes, const Transfer& transfer,
                  Memory* memory)
-      : response_(response), transfer_(transfer) {
-    if (transfer.bounces == 0) return;
-    Vector<Vec3> axes(response.lobes, Vec3{}, memory);
-    lobe_axes(axes);
-    const auto light = bands_of_lobes(axes, sharpness_of(response.lobes), amplitudes);
-    const Vec3 share = response.reflectance;
-    Vec3 reflected = share * (1 / std::numbers::pi_v<float>);
-    for (std::uint32_t b = 0; b < transfer.bounces; ++b) {
-      for (std::uint32_t k = 0; k < band_count; ++k)
-        light_[b * band_count + k] = {light[k].x * reflected.x, light[k].y * reflected.y,
-                                      light[k].z * reflected.z};
-      reflected = {reflected.x * share.x, reflected.y * share.y, reflected.z * share.z};
-    }
-  }
+      : response_(response),
+        transfer_(transfer),
+        light_(reflected_light(response, amplitudes, transfer.bounces, memory)) {}
 
   // Adds to the vector of a vertex.
   void add(std::size_t vertex, float* vector) const noexcept {
@@ -85,7 +73,7 @@ class ReflectedLight {
  private:
   const Response& response_;
   const Transfer& transfer_;
-  std::array<Vec3, max_bounces * band_count> light_{};  // radiance of each harmonic, by the reflection
+  const ReflectedBands light_;
 };
 
 // frame_at(i) gives the frame and shares_at(i) the bytes of vertex i, or null; after(i, vector) may
@@ -97,13 +85,14 @@ void run(const Response& response, Isa isa, std::span<const float> amplitudes, s
   const AlignedArray<float> padded = padded_amplitudes(response, amplitudes, memory);
   const LightView light = view_of(response, padded);
   const VectorKernels* const kernels = vector_kernels(isa);
+  const std::uint32_t at_once = block_vertices(response.side);
   const auto body = [&](std::uint32_t index) noexcept {
     alignas(64) float scratch[scratch_floats];
-    float axes[9 * block_vertices];
+    float axes[9 * max_block_vertices];
     const std::uint32_t end = std::min(count, (index + 1) * piece);
-    for (std::uint32_t i = index * piece; i < end; i += block_vertices) {
+    for (std::uint32_t i = index * piece; i < end; i += at_once) {
       VertexBlock block;
-      block.count = std::min(end - i, block_vertices);
+      block.count = std::min(end - i, at_once);
       for (std::uint32_t v = 0; v < block.count; ++v) write_axes(frame_at(i + v), axes + 9 * v);
       block.shares = shares_at(i);
       block.frames = axes;

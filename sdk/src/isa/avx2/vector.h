@@ -58,6 +58,10 @@ struct Mask {
 inline Mask less(Float a, Float b) {
   return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)};
 }
+// Returns one bit for each lane, the first lowest.
+inline std::uint32_t bits(Mask m) {
+  return std::uint32_t(_mm256_movemask_ps(m.v));
+}
 inline Float select(Mask m, Float yes, Float no) {
   return _mm256_blendv_ps(no.v, yes.v, m.v);
 }
@@ -118,5 +122,7 @@ inline float sum(Float a) {
 }
 
 #include "sdk/src/isa/x86_four.inl"
+
+#include "sdk/src/isa/x86_eight.inl"
 
 }  // namespace nook::isa_avx2

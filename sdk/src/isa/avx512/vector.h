@@ -55,6 +55,10 @@ inline Float max(Float a, Float b) {
 inline __mmask16 less(Float a, Float b) {
   return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ);
 }
+// Returns one bit for each lane, the first lowest.
+inline std::uint32_t bits(__mmask16 m) {
+  return m;
+}
 inline Float select(__mmask16 m, Float yes, Float no) {
   return _mm512_mask_blend_ps(m, no.v, yes.v);
 }
@@ -112,5 +116,7 @@ inline float sum(Float a) {
 }
 
 #include "sdk/src/isa/x86_four.inl"
+
+#include "sdk/src/isa/x86_eight.inl"
 
 }  // namespace nook::isa_avx512

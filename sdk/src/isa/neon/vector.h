@@ -60,6 +60,11 @@ struct Mask {
 inline Mask less(Float a, Float b) {
   return {vcltq_f32(a.v, b.v)};
 }
+// Returns one bit for each lane, the first lowest.
+inline std::uint32_t bits(Mask m) {
+  const std::uint32_t of_lanes[4] = {1, 2, 4, 8};
+  return vaddvq_u32(vandq_u32(m.v, vld1q_u32(of_lanes)));
+}
 inline Float select(Mask m, Float yes, Float no) {
   return vbslq_f32(m.v, yes.v, no.v);
 }
@@ -145,5 +150,7 @@ inline void transpose(Four& a, Four& b, Four& c, Four& d) {
   c = high(ab_even, cd_even);
   d = high(ab_odd, cd_odd);
 }
+
+#include "sdk/src/isa/eight_of_fours.inl"
 
 }  // namespace nook::isa_neon

@@ -23,6 +23,10 @@ inline Float load(const float* p) {
 inline void store(float* p, Float a) {
   *p = a;
 }
+// Returns one bit for each lane.
+inline std::uint32_t bits(bool m) {
+  return m ? 1 : 0;
+}
 
 struct Four {
   float v[4];
@@ -49,5 +53,7 @@ inline Four operator*(Four a, const Four& b) {
   for (int i = 0; i < 4; ++i) a.v[i] *= b.v[i];
   return a;
 }
+
+#include "sdk/src/isa/eight_of_fours.inl"
 
 }  // namespace nook::isa_scalar

@@ -58,6 +58,10 @@ struct Mask {
 inline Mask less(Float a, Float b) {
   return {_mm_cmplt_ps(a.v, b.v)};
 }
+// Returns one bit for each lane, the first lowest.
+inline std::uint32_t bits(Mask m) {
+  return std::uint32_t(_mm_movemask_ps(m.v));
+}
 inline Float select(Mask m, Float yes, Float no) {
   return _mm_or_ps(_mm_and_ps(m.v, yes.v), _mm_andnot_ps(m.v, no.v));
 }
@@ -114,5 +118,7 @@ inline float sum(Float a) {
 }
 
 #include "sdk/src/isa/x86_four.inl"
+
+#include "sdk/src/isa/eight_of_fours.inl"
 
 }  // namespace nook::isa_sse2

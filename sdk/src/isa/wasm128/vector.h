@@ -60,6 +60,10 @@ struct Mask {
 inline Mask less(Float a, Float b) {
   return {wasm_f32x4_lt(a.v, b.v)};
 }
+// Returns one bit for each lane, the first lowest.
+inline std::uint32_t bits(Mask m) {
+  return wasm_i32x4_bitmask(m.v);
+}
 inline Float select(Mask m, Float yes, Float no) {
   return wasm_v128_bitselect(yes.v, no.v, m.v);
 }
@@ -126,5 +130,7 @@ inline void transpose(Four& a, Four& b, Four& c, Four& d) {
   c = wasm_i32x4_shuffle(ab_high, cd_high, 0, 1, 4, 5);
   d = wasm_i32x4_shuffle(ab_high, cd_high, 2, 3, 6, 7);
 }
+
+#include "sdk/src/isa/eight_of_fours.inl"
 
 }  // namespace nook::isa_wasm128

@@ -1,13 +1,13 @@
 // The suns of a map: sources so small and bright that a host draws them as lights of their own, with shadow
-// maps, while lobes hold the rest. bakers/raytrace/suns.h has the same rule for latitude-longitude maps.
+// maps, while lobes or probes hold the rest.
 #pragma once
 
 #include <cstdint>
 
 #include "sdk/src/core/containers.h"
-#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/core/light_map.h"
 
-namespace nook::transfer {
+namespace nook {
 
 // Texels are sun where their luminance is above this many times the mean of the map without its suns.
 inline constexpr double sun_ratio = 100;
@@ -18,8 +18,14 @@ struct MapSun {
   float solid_angle = 0;  // steradians
 };
 
+// Returns the luminance where suns begin: sun_ratio times the mean of what lies below it.
+double sun_limit(const MapView& map, Memory* memory);
+
+// Returns the sky's share of a texel: its colour at a luminance of the limit or less.
+Vec3 without_sun(Vec3 rgb, double limit);
+
 // Takes the suns out of `rgb`, a copy of the texels of `map`: texels above the limit keep their colour at
 // the luminance of the limit. Returns groups of touching texels, the brightest first.
 Vector<MapSun> take_suns(const MapView& map, Vector<float>& rgb, Memory* memory);
 
-}  // namespace nook::transfer
+}  // namespace nook

@@ -1,41 +1,40 @@
-#include "sdk/src/transfer/map_suns.h"
+#include "sdk/src/core/map_suns.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
-namespace nook::transfer {
+namespace nook {
 namespace {
 
+// Rec. 709.
 double luminance(Vec3 rgb) {
   return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z);
 }
 
-double mean_below(const MapView& map, double limit) {
+// The texels whose solid angles differ: those of a column of a latitude-longitude map, or of a face of a cube
+// map.
+Vector<double> solid_angles(const MapView& map, Memory* memory) {
+  const std::uint32_t columns = map.layout == MapLayout::cube ? map.width : 1,
+                      rows = map.layout == MapLayout::cube ? map.width : map.height;
+  Vector<double> angles(memory);
+  angles.reserve(std::size_t(columns) * rows);
+  for (std::uint32_t row = 0; row < rows; ++row)
+    for (std::uint32_t column = 0; column < columns; ++column)
+      angles.push_back(map_texel(map, column, row).solid_angle);
+  return angles;
+}
+
+double mean_below(const MapView& map, std::span<const double> angles, double limit) {
+  const bool is_cube = map.layout == MapLayout::cube;
   double sum = 0;
   for (std::uint32_t row = 0; row < map.height; ++row)
     for (std::uint32_t column = 0; column < map.width; ++column)
       sum += std::min(luminance(map.texel(std::size_t(row) * map.width + column)), limit) *
-             map_texel(map, column, row).solid_angle;
+             angles[is_cube ? std::size_t(row % map.width) * map.width + column : row];
   return sum / (4 * std::numbers::pi);
-}
-
-// Each round takes away light that was above the limit; it ends with the suns outside the mean, or with no
-// light at all where all of it is sun.
-double limit_of(const MapView& map) {
-  double limit = sun_ratio * mean_below(map, std::numeric_limits<double>::infinity());
-  for (int round = 0; round < 32; ++round) {
-    const double next = sun_ratio * mean_below(map, limit);
-    if (next > 0.999 * limit) return next;
-    limit = next;
-  }
-  return limit;
-}
-
-Vec3 below_limit(Vec3 rgb, double limit) {
-  const double bright = luminance(rgb);
-  return bright > limit ? rgb * float(limit / bright) : rgb;
 }
 
 // Adds the neighbours of a texel; faces of a cube map count as separate pictures, so that a sun on an edge
@@ -54,8 +53,26 @@ void neighbours(const MapView& map, std::size_t at, Add&& add) {
 
 }  // namespace
 
+double sun_limit(const MapView& map, Memory* memory) {
+  const Vector<double> angles = solid_angles(map, memory);
+  // Each round takes away light that was above the limit; it ends with the suns outside the mean, or with no
+  // light at all where all of it is sun.
+  double limit = sun_ratio * mean_below(map, angles, std::numeric_limits<double>::infinity());
+  for (int round = 0; round < 32; ++round) {
+    const double next = sun_ratio * mean_below(map, angles, limit);
+    if (next > 0.999 * limit) return next;
+    limit = next;
+  }
+  return limit;
+}
+
+Vec3 without_sun(Vec3 rgb, double limit) {
+  const double bright = luminance(rgb);
+  return bright > limit ? rgb * float(limit / bright) : rgb;
+}
+
 Vector<MapSun> take_suns(const MapView& map, Vector<float>& rgb, Memory* memory) {
-  const double limit = limit_of(map);
+  const double limit = sun_limit(map, memory);
   Vector<std::uint8_t> open(map.texel_count(), std::uint8_t(0), memory);
   for (std::size_t i = 0; i < open.size(); ++i) open[i] = luminance(map.texel(i)) > limit;
   Vector<MapSun> suns(memory);
@@ -70,7 +87,7 @@ Vector<MapSun> take_suns(const MapView& map, Vector<float>& rgb, Memory* memory)
       const std::size_t at = stack.back();
       stack.pop_back();
       const MapTexel texel = map_texel(map, std::uint32_t(at % map.width), std::uint32_t(at / map.width));
-      const Vec3 kept = below_limit(map.texel(at), limit), light = map.texel(at) - kept;
+      const Vec3 kept = without_sun(map.texel(at), limit), light = map.texel(at) - kept;
       rgb[3 * at] = kept.x;
       rgb[3 * at + 1] = kept.y;
       rgb[3 * at + 2] = kept.z;
@@ -92,4 +109,4 @@ Vector<MapSun> take_suns(const MapView& map, Vector<float>& rgb, Memory* memory)
   return suns;
 }
 
-}  // namespace nook::transfer
+}  // namespace nook

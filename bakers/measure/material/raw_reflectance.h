@@ -1,0 +1,49 @@
+// A raw material as a surface for path tracing: what no compression has touched, between the sampled lights,
+// views and texels.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "bakers/material/raw_material.h"
+#include "bakers/tensor/tensor.h"
+#include "sdk/src/material/direction_mesh.h"
+#include "sdk/src/material/evaluate.h"
+
+namespace nook::measure {
+
+// Interpolates as decoding does: between views by the thin-plate spline, between lights linearly, between
+// texels and levels linearly, where a level halves the one before.
+class RawReflectance {
+ public:
+  // Takes the BTF over, and needs 4/3 of its memory beside it for a moment.
+  explicit RawReflectance(bake::material::RawMaterial raw);
+
+  std::size_t number_count() const { return numbers_; }
+  // Writes the radiance of the sample's point for its view under each sampled light, lights x RGB; the light
+  // is not read.
+  void decode(const nook::material::Sample& sample, std::span<float> numbers) const;
+  // Returns the radiance for an irradiance of 1 on a plane that faces the light; it is black for light from
+  // below the horizon.
+  Vec3 radiance(std::span<const float> numbers, Vec3 light) const;
+
+ private:
+  struct Level {
+    std::uint32_t width = 0, height = 0;
+    std::vector<float> texels;  // texel x view x numbers
+  };
+  void add(const Level& level, const nook::material::Sample& sample, float share,
+           std::span<float> numbers) const;
+
+  std::vector<Vec3> lights_;
+  std::size_t views_ = 0, numbers_ = 0;
+  std::vector<Level> levels_;
+  bake::tensor::Matrix view_weights_;  // of each cell of a parabolic map
+  nook::material::DirectionMesh light_mesh_;
+};
+
+// Of a file of `bake material --keep-raw`. Throws Failure(NOOK_ERROR_BAD_FILE).
+RawReflectance read_raw_reflectance(std::span<const std::byte> bytes);
+
+}  // namespace nook::measure

@@ -1,0 +1,49 @@
+// Maps of distant light in the memory of a host.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "sdk/src/core/vec.h"
+
+namespace nook {
+
+// The maximum radiance of a texel, with which sums over any map stay far below the maximum of a float.
+inline constexpr float max_map_radiance = 1e15f;
+
+// A map in host memory, 3 floats for each texel.
+enum class MapLayout : std::int32_t {
+  // Rows from +y down to -y; the middle column looks along +x, the column a quarter of the width to its right
+  // along +z.
+  latlong = 0,
+  // Six faces of width x width texels, below each other in the order and with the axes of OpenGL.
+  cube = 1,
+};
+struct MapView {
+  MapLayout layout = MapLayout::latlong;
+  std::uint32_t width = 0, height = 0;
+  std::span<const float> rgb;
+
+  Vec3 texel(std::size_t index) const { return {rgb[3 * index], rgb[3 * index + 1], rgb[3 * index + 2]}; }
+  std::size_t texel_count() const { return std::size_t(width) * height; }
+};
+// Throws Failure(INVALID_ARGUMENT) for sizes that are out of range and texels that are not in
+// [0, max_map_radiance].
+void check_map(const MapView& map);
+
+// The centre of a texel and its solid angle.
+struct MapTexel {
+  Vec3 direction;  // unit
+  double solid_angle = 0;
+};
+MapTexel map_texel(const MapView& map, std::uint32_t column, std::uint32_t row);
+
+// The cells of a cube of side x side cells a face, as texels of a cube map: direction through the centre,
+// unit, and solid angle, steradians.
+Vec3 cube_cell_direction(std::uint32_t face, std::uint32_t column, std::uint32_t row, std::uint32_t side);
+double cube_cell_angle(std::uint32_t column, std::uint32_t row, std::uint32_t side);
+// Returns the number of the cell that holds a direction.
+std::size_t cube_cell_at(Vec3 direction, std::uint32_t side);
+
+}  // namespace nook

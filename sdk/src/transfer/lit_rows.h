@@ -1,0 +1,26 @@
+// The paper's form as what a shader mixes: under a light, every vertex has the sum of a few vectors, which
+// its cluster and the reflected light have in common, times numbers of its own that no light changes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "sdk/src/core/containers.h"
+#include "sdk/src/core/parallel.h"
+#include "sdk/src/transfer/response.h"
+#include "sdk/src/transfer/transfer.h"
+
+namespace nook::transfer {
+
+// The vectors: vertex_rank for each cluster, then one for each reflection and band.
+std::size_t lit_row_count(const Transfer& transfer);
+// Writes lit_row_count vectors of 3 light_modes numbers. amplitudes has lobes x RGB.
+void write_lit_rows(const Response& response, std::span<const float> amplitudes, const Transfer& transfer,
+                    const Parallel& parallel, Memory* memory, std::span<float> rows);
+
+// The numbers of a vertex: its cluster, vertex_rank weights, one weight for each reflection and band, and
+// zeros up to a multiple of four.
+std::size_t vertex_number_count(const Transfer& transfer);
+void write_vertex_numbers(const Transfer& transfer, std::size_t vertex, float* numbers);
+
+}  // namespace nook::transfer
