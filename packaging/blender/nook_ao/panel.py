@@ -30,9 +30,9 @@ class NOOK_PT_panel(bpy.types.Panel):
         column.enabled = baked
         column.prop(settings, "ground")
         column.operator("nook.show", text="Stop showing it" if shown.get(armature) else "Show over the timeline", icon="HIDE_OFF")
-        row = column.row(align=True)
-        row.operator("nook.trace")
-        row.prop(settings, "rays")
+        tracing = column.column(align=True)
+        tracing.operator("nook.trace", icon="LIGHT")
+        tracing.prop(settings, "rays")
         column.operator("nook.report", icon="URL")
 
 
