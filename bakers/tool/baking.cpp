@@ -27,7 +27,7 @@ bake::BakedFile baked(const CommonOptions& options, const std::function<bake::Ba
     if (failure.code() == NOOK_ERROR_CANCELLED) throw stopped();
     throw;
   } catch (const ToolError&) {
-    // Of a failure that was given the name of an input.
+    // A failure that was given the name of an input comes as this.
     if (interrupted()) throw stopped();
     throw;
   }
