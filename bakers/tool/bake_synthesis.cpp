@@ -1,21 +1,14 @@
 // nook bake synthesis: a coordinate texture that spreads a material over a plane.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <optional>
 
 #include "bakers/job/synthesis_bake.h"
-#include "bakers/job/worker_arena.h"
 #include "bakers/measure/synthesis/plane_picture.h"
+#include "bakers/tool/baking.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/image_folder.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/table.h"
-#include "platform/output_file.h"
 #include "platform/progress_bar.h"
 #include "sdk/src/core/container.h"
 #include "sdk/src/material/material_file.h"
@@ -23,8 +16,6 @@
 
 namespace nook::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   CommonOptions common;
@@ -47,38 +38,23 @@ void write_pictures(const Options& o, std::span<const std::byte> material, const
 }
 
 void run(Options& o) {
-  require_distinct_files(
-      {{{"the input", o.input}}, {{"-o", o.output}, {"--report", o.common.report}}, o.images});
-  platform::OutputFile output(o.output);
-  std::optional<platform::OutputFile> report_file;
-  if (!o.common.report.empty()) report_file.emplace(o.common.report);
-  make_image_folder(o.images);
   o.settings.seed = o.common.seed;
   const bake::Crop crop =
       o.crop.empty() ? bake::Crop{} : bake::Crop{o.crop[0], o.crop[1], o.crop[2], o.crop[3]};
-  const std::vector<std::byte> material = read_file(o.input);
-  bake::BakedFile file;
-  try {
-    bake::run_with_threads(o.common.threads, [&] {
-      bake::SynthesisTask task =
-          naming_file(o.input, [&] { return bake::synthesis_task(material, crop, o.is_tiling, o.settings); });
-      task.source = o.input.filename().string();
-      platform::ProgressBar bar(o.common.quiet);
-      file = bake::bake_synthesis_file(task, [&](nook_bake_stage, std::size_t done, std::size_t total) {
-        bar.show("synthesis", "texels", done, total);
-        return !interrupted();
-      });
-      write_pictures(o, material, task.crop, file);
-    });
-  } catch (const Failure& failure) {
-    if (failure.code() != NOOK_ERROR_CANCELLED) throw;
-    throw ToolError(exit_other, "stopped; nothing was written");
-  }
-  output.commit(file.model);
-  const Json rows = Json::array({Json::parse(file.report)});
-  if (report_file)
-    report_file->commit(Json{{"rows", rows}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (!o.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+  run_bake(o.common, o.output, {{{"the input", o.input}}, {}, o.images}, [&] {
+    const std::vector<std::byte> material = read_file(o.input);
+    bake::SynthesisTask task =
+        naming_file(o.input, [&] { return bake::synthesis_task(material, crop, o.is_tiling, o.settings); });
+    task.source = o.input.filename().string();
+    platform::ProgressBar bar(o.common.quiet);
+    bake::BakedFile file =
+        bake::bake_synthesis_file(task, [&](nook_bake_stage, std::size_t done, std::size_t total) {
+          bar.show("synthesis", "texels", done, total);
+          return !interrupted();
+        });
+    write_pictures(o, material, task.crop, file);
+    return file;
+  });
 }
 
 }  // namespace

@@ -2,26 +2,18 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <optional>
 
 #include "bakers/job/transfer_bake.h"
-#include "bakers/job/worker_arena.h"
+#include "bakers/tool/baking.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/table.h"
-#include "platform/output_file.h"
 #include "platform/printable.h"
 #include "platform/progress_bar.h"
 #include "sdk/src/transfer/transfer.h"
 
 namespace nook::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   CommonOptions common;
@@ -56,36 +48,21 @@ bake::TransferTask read_task(const Options& o) {
 }
 
 void run(const Options& o) {
-  CommandFiles files{{{"the input", o.input}}, {{"-o", o.output}, {"--report", o.common.report}}, {}};
-  if (!o.material.empty()) files.inputs.push_back({"--material", o.material});
-  if (!o.votf.empty()) files.inputs.push_back({"--votf", o.votf});
-  require_distinct_files(files);
   if ((o.form == "paper") != !o.material.empty())
     throw ToolError(exit_bad_arguments, o.form == "paper" ? "--form paper needs --material"
                                                           : "--material is of --form paper only");
-  platform::OutputFile output(o.output);
-  std::optional<platform::OutputFile> report_file;
-  if (!o.common.report.empty()) report_file.emplace(o.common.report);
-  const bake::TransferTask task = read_task(o);
-  bake::BakedFile file;
-  try {
-    bake::run_with_threads(o.common.threads, [&] {
-      platform::ProgressBar bar(o.common.quiet);
-      file = bake::bake_transfer_file(task, [&](nook_bake_stage stage, std::size_t done, std::size_t total) {
-        const bool is_fit = stage == NOOK_BAKE_STAGE_FIT;
-        bar.show(is_fit ? "fitting" : "ray tracing", is_fit ? "clusters" : "vertices", done, total);
-        return !interrupted();
-      });
+  CommandFiles files{{{"the input", o.input}}, {}, {}};
+  if (!o.material.empty()) files.inputs.push_back({"--material", o.material});
+  if (!o.votf.empty()) files.inputs.push_back({"--votf", o.votf});
+  run_bake(o.common, o.output, files, [&] {
+    const bake::TransferTask task = read_task(o);
+    platform::ProgressBar bar(o.common.quiet);
+    return bake::bake_transfer_file(task, [&](nook_bake_stage stage, std::size_t done, std::size_t total) {
+      const bool is_fit = stage == NOOK_BAKE_STAGE_FIT;
+      bar.show(is_fit ? "fitting" : "ray tracing", is_fit ? "clusters" : "vertices", done, total);
+      return !interrupted();
     });
-  } catch (const Failure& failure) {
-    if (failure.code() != NOOK_ERROR_CANCELLED) throw;
-    throw ToolError(exit_other, "stopped; nothing was written");
-  }
-  output.commit(file.model);
-  const Json rows = Json::array({Json::parse(file.report)});
-  if (report_file)
-    report_file->commit(Json{{"rows", rows}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (!o.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+  });
 }
 
 }  // namespace

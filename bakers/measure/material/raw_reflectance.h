@@ -43,7 +43,7 @@ class RawReflectance {
   nook::material::DirectionMesh light_mesh_;
 };
 
-// Of a file of `bake material --keep-raw`. Throws Failure(NOOK_ERROR_BAD_FILE).
+// Reads a file of `bake material --keep-raw`. Throws Failure(NOOK_ERROR_BAD_FILE).
 RawReflectance read_raw_reflectance(std::span<const std::byte> bytes);
 
 }  // namespace nook::measure

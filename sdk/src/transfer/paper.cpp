@@ -3,31 +3,66 @@
 #include <algorithm>
 #include <array>
 
+#include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/half.h"
 
 namespace nook::transfer {
+namespace {
+
+// Sums run in this many parts, which compilers turn into vectors.
+constexpr std::size_t parts = 8;
+
+// Rows of halves as floats, padded with zeros to whole parts.
+struct alignas(32) FloatRow {
+  std::array<float, max_lobe_rank> at{};
+};
+static_assert(max_lobe_rank % parts == 0);
+
+// The value of a finite half, without branches.
+inline float from_finite_half(std::uint16_t half) {
+  const std::uint32_t magnitude = half & 0x7fffu;
+  const float normal = bit_cast<float>((magnitude << 13) + (112u << 23));
+  const float small = float(std::int32_t(magnitude)) * 0x1p-24f;
+  const float value = magnitude >= 0x400u ? normal : small;
+  return bit_cast<float>(bit_cast<std::uint32_t>(value) | std::uint32_t(half & 0x8000u) << 16);
+}
+
+void to_floats(const std::uint16_t* halves, std::size_t count, FloatRow& row) {
+  for (std::size_t k = 0; k < count; ++k) row.at[k] = from_finite_half(halves[k]);
+}
+
+float dot_of(const FloatRow& a, const FloatRow& b, std::size_t padded) {
+  std::array<float, parts> sums{};
+  for (std::size_t k = 0; k < padded; k += parts)
+    for (std::size_t i = 0; i < parts; ++i) sums[i] += a.at[k + i] * b.at[k + i];
+  return ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7]));
+}
+
+}  // namespace
 
 Vector<float> paper_light(const PaperTransfer& paper, std::span<const float> amplitudes,
                           const Parallel& parallel, Memory* memory) {
-  const std::size_t rank = paper.lobe_rank, lobes = amplitudes.size() / 3;
-  const std::size_t modes = paper.light_modes, entries = 3 * modes * paper.vertex_rank;
+  const std::size_t rank = paper.lobe_rank, padded = (rank + parts - 1) / parts * parts;
+  const std::size_t lobes = amplitudes.size() / 3, modes = paper.light_modes;
+  const std::size_t entries = 3 * modes * paper.vertex_rank;
   Vector<float> lit(paper.clusters * entries, 0.0f, memory);
   const auto body = [&](std::uint32_t cluster) noexcept {
     // The light in the cluster's lobe basis.
-    std::array<std::array<float, max_lobe_rank>, 3> light{};
+    std::array<FloatRow, 3> light;
+    FloatRow row;
     const std::uint16_t* basis = &paper.lobe_basis[cluster * lobes * rank];
-    for (std::size_t j = 0; j < lobes; ++j, basis += rank)
-      for (std::size_t k = 0; k < rank; ++k) {
-        const float value = from_half(basis[k]);
-        for (std::size_t c = 0; c < 3; ++c) light[c][k] += value * amplitudes[3 * j + c];
+    for (std::size_t j = 0; j < lobes; ++j, basis += rank) {
+      to_floats(basis, rank, row);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float amplitude = amplitudes[3 * j + c];
+        for (std::size_t k = 0; k < padded; ++k) light[c].at[k] += row.at[k] * amplitude;
       }
+    }
     const std::uint16_t* core = &paper.cores[cluster * entries * rank];
     float* const out = &lit[cluster * entries];
     for (std::size_t i = 0; i < entries; ++i, core += rank) {
-      const float* const channel = light[i / (modes * paper.vertex_rank)].data();
-      float sum = 0;
-      for (std::size_t k = 0; k < rank; ++k) sum += from_half(core[k]) * channel[k];
-      out[i] = sum * paper.scale;
+      to_floats(core, rank, row);
+      out[i] = dot_of(row, light[i / (modes * paper.vertex_rank)], padded) * paper.scale;
     }
   };
   parallel_for(parallel, paper.clusters, body);

@@ -43,7 +43,8 @@ TEST_CASE("bake and evaluate transfer: files, reports, pictures, and better erro
 
   const ToolRun material =
       folder.run({"bake", "material", "--meso", "weave", "--directions", "12", "--texels", "12", "--bounces",
-                  "0", "--view-map", "8", "-o", folder.path("weave.nook"), "--quiet"});
+                  "0", "--view-map", "8", "-o", folder.path("weave.nook"), "--keep-raw",
+                  folder.path("weave.raw"), "--quiet"});
   INFO(material.error);
   REQUIRE(material.exit_code == 0);
   const ToolRun run = folder.run({"evaluate", "transfer", folder.path("ball.glb"), folder.path("ball.nook"),
@@ -59,6 +60,24 @@ TEST_CASE("bake and evaluate transfer: files, reports, pictures, and better erro
   CHECK(rows[1].at("se_db") > rows[2].at("se_db"));
   CHECK(rows[0].at("mse") < rows[2].at("mse"));
   CHECK(read_text(folder.path("pictures/sky.png")).substr(1, 3) == "PNG");
+  CHECK(rows[0].at("truth") == "decoded material, direct light");
+
+  // Against the raw material the error of compression comes on top, and the vectors are the same.
+  const auto evaluate_raw = [&](const std::string& raw) {
+    return folder.run({"evaluate", "transfer", folder.path("ball.glb"), folder.path("ball.nook"),
+                       "--material", folder.path("weave.nook"), "--raw", raw, "--light",
+                       folder.path("sky.hdr"), "--width", "64", "--height", "48", "--paths", "32", "--report",
+                       folder.path("r.json")});
+  };
+  const ToolRun against_raw = evaluate_raw(folder.path("weave.raw"));
+  INFO(against_raw.error);
+  REQUIRE(against_raw.exit_code == 0);
+  const Json raw_rows = Json::parse(read_text(folder.path("r.json"))).at("rows");
+  CHECK(raw_rows[0].at("truth") == "raw material, direct light");
+  CHECK(raw_rows[0].at("se_db") == rows[0].at("se_db"));
+  CHECK(raw_rows[0].at("mse") > rows[0].at("mse"));
+  CHECK(raw_rows[0].at("mse") < raw_rows[2].at("mse"));
+  CHECK(evaluate_raw(folder.path("weave.nook")).exit_code == 3);
 }
 
 TEST_CASE("bake and evaluate transfer: reflections, holes and the paper's form") {
