@@ -16,11 +16,15 @@ export NOOK_REQUIRE_RADV=1
 # The quotes are for a path with spaces, which would end the option.
 export LSAN_OPTIONS="suppressions=\"$root/tests/lsan.supp\":print_suppressions=0"
 
+# ccache takes precompiled headers with these, and in its depend mode it does without a run of the preprocessor for each source.
+export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}
+export CCACHE_DEPEND=1
+
 configure() {  # folder, options...
   local folder=$1
   shift
   cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
-    -DNOOK_WERROR=ON "$@" \
+    -DNOOK_WERROR=ON -DNOOK_PRECOMPILE=ON "$@" \
     >"$folder.configure.log" 2>&1 || { cat "$folder.configure.log"; exit 1; }
 }
 mkdir -p "$(dirname "$build")"

@@ -1,0 +1,115 @@
+# Precompiled headers for everything but the product. Most of what a translation unit costs is the parsing of the standard
+# library, of Catch2, of Eigen and of nlohmann-json. The library itself is compiled plainly, as who builds it does, but under the
+# sanitizers.
+#
+# One precompiled header serves all targets whose flags are the same: position-independent code of libraries is not that of
+# programs. Each target below compiles one empty source, from which the others take the header.
+
+# nook_precompiled(NAME TYPE HEADER...): the headers, compiled with the flags of all targets. CMake wants a header for C as well
+# where targets have sources in C.
+function(nook_precompiled name type)
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/precompiled/${name}.cpp CONTENT "int main() { return 0; }\n")
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/precompiled/${name}.c CONTENT "typedef int ${name};\n")
+  set(sources ${CMAKE_CURRENT_BINARY_DIR}/precompiled/${name}.cpp ${CMAKE_CURRENT_BINARY_DIR}/precompiled/${name}.c)
+  if(type STREQUAL "EXECUTABLE")
+    add_executable(${name} ${sources})
+  else()
+    add_library(${name} OBJECT ${sources})
+  endif()
+  nook_target_options(${name})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  list(TRANSFORM ARGN REPLACE ">" "$<ANGLE-R>")
+  list(TRANSFORM ARGN REPLACE "(.+)" "$<$<COMPILE_LANGUAGE:CXX>:\\1>")
+  target_precompile_headers(${name} PRIVATE ${ARGN} $<$<COMPILE_LANGUAGE:C>:<stddef.h$<ANGLE-R>>)
+endfunction()
+
+# nook_cxx_options(RESULT TARGET): the target's options for C++. Those of both languages in bakers/ and tests/bakers under the
+# sanitizers are in CMAKE_CXX_FLAGS as well.
+function(nook_cxx_options result target)
+  get_target_property(options ${target} COMPILE_OPTIONS)
+  string(REGEX REPLACE "\\$<\\$<COMPILE_LANGUAGE:C>:[^>]*>" "" options "${options}")
+  list(REMOVE_ITEM options "" -O1 -g1)
+  set(${result} "${options}" PARENT_SCOPE)
+endfunction()
+
+# nook_precompiled_name(RESULT TARGET): the target that has the precompiled headers of this one, or nothing where none has its
+# options.
+function(nook_precompiled_name result target)
+  set(${result} "" PARENT_SCOPE)
+  get_target_property(standard ${target} CXX_STANDARD)
+  get_target_property(type ${target} TYPE)
+  get_target_property(libraries ${target} LINK_LIBRARIES)
+  if(type MATCHES "LIBRARY")
+    set(candidates nook_precompiled_rooms nook_precompiled_fuzzed)
+  elseif("Catch2::Catch2WithMain" IN_LIST libraries)
+    set(candidates nook_precompiled_tests)
+  else()
+    set(candidates nook_precompiled_programs)
+  endif()
+  foreach(candidate IN LISTS candidates)
+    if(standard EQUAL 20 AND TARGET ${candidate})
+      nook_cxx_options(wanted ${target})
+      nook_cxx_options(options ${candidate})
+      if(options STREQUAL wanted)
+        set(${result} ${candidate} PARENT_SCOPE)
+      endif()
+    endif()
+  endforeach()
+endfunction()
+
+# nook_precompile_directory(DIRECTORY): the targets of this directory and of those below take precompiled headers.
+function(nook_precompile_directory directory)
+  get_property(targets DIRECTORY ${directory} PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target IN LISTS targets)
+    nook_precompiled_name(precompiled ${target})
+    if(NOT precompiled)
+      continue()
+    endif()
+    set_target_properties(${target} PROPERTIES PRECOMPILE_HEADERS_REUSE_FROM ${precompiled}
+                          PCH_WARN_INVALID OFF)
+    add_dependencies(${target} ${precompiled})
+    # Not those in C, and not those with flags of their own.
+    get_target_property(sources ${target} SOURCES)
+    list(FILTER sources INCLUDE REGEX "\\.(c|cpp)$")
+    foreach(source IN LISTS sources)
+      get_source_file_property(options ${source} TARGET_DIRECTORY ${target} COMPILE_OPTIONS)
+      if(options OR source MATCHES "\\.c$")
+        set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+      endif()
+    endforeach()
+  endforeach()
+  get_property(subdirectories DIRECTORY ${directory} PROPERTY SUBDIRECTORIES)
+  foreach(subdirectory IN LISTS subdirectories)
+    nook_precompile_directory(${subdirectory})
+  endforeach()
+endfunction()
+
+set(standard <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <numbers> <numeric>
+             <optional> <random> <span> <stdexcept> <string> <vector>)
+if(NOOK_BAKERS)
+  nook_precompiled(nook_precompiled_rooms OBJECT ${standard} <nlohmann/json.hpp> <Eigen/Dense> <tbb/parallel_for.h>)
+  target_link_libraries(nook_precompiled_rooms PRIVATE Eigen3::Eigen TBB::tbb nlohmann_json::nlohmann_json)
+  nook_precompiled(nook_precompiled_programs EXECUTABLE ${standard} <nlohmann/json.hpp> <CLI/CLI.hpp>)
+  target_link_libraries(nook_precompiled_programs PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
+else()
+  nook_precompiled(nook_precompiled_rooms OBJECT ${standard})
+  nook_precompiled(nook_precompiled_programs EXECUTABLE ${standard})
+endif()
+if(NOOK_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  nook_precompiled(nook_precompiled_fuzzed OBJECT ${standard})
+  target_compile_options(nook_precompiled_fuzzed PRIVATE -fsanitize=fuzzer-no-link)
+endif()
+if(NOOK_TESTS)
+  nook_precompiled(nook_precompiled_tests EXECUTABLE ${standard} <nlohmann/json.hpp> ${PROJECT_SOURCE_DIR}/tests/catch.h)
+  target_link_libraries(nook_precompiled_tests PRIVATE nlohmann_json::nlohmann_json Catch2::Catch2)
+endif()
+
+set(directories platform bakers samples tests)
+if(NOOK_SANITIZE OR NOOK_SANITIZE_THREAD)
+  list(APPEND directories sdk)
+endif()
+foreach(directory IN LISTS directories)
+  if(IS_DIRECTORY ${PROJECT_BINARY_DIR}/${directory})
+    nook_precompile_directory(${PROJECT_SOURCE_DIR}/${directory})
+  endif()
+endforeach()
