@@ -19,12 +19,13 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 FULL = {"fiber": [], "roughhole": []}
 SMALL = {"weave": ["--directions", "49", "--texels", "48"],
          "small roughhole": ["--directions", "100", "--lights", "8", "--texels", "48"],
-         "small fiber": ["--directions", "49", "--texels", "48"]}
+         "49 x 49 fiber": ["--directions", "49", "--texels", "48"],
+         "49 x 49 roughhole": ["--directions", "49", "--texels", "48"]}
 # The tables compare methods by the paper's fits and half floats.
 NO_REFITS = ["--votf-refits", "0"]
 PAPER = [*NO_REFITS, "--bits", "16"]
 # Materials of the tables of numbers, with ranks that are compared with those of N-SVD.
-NUMBERS = {"wood": ["--ranks", "12,20,24,24"], "small fiber": [], "weave": [], "small roughhole": []}
+NUMBERS = {"wood": ["--ranks", "12,20,24,24"], "49 x 49 fiber": [], "weave": [], "49 x 49 roughhole": []}
 SWEEP = [12, 20, 28, 36, 44, 60, 76]
 # The smallest ranks of `bake material`, for a raw material that is only a reference.
 REST = ["--ranks", "4,8,8,8", "--votf-ranks", "8,8"]
@@ -51,10 +52,10 @@ class Bench:
         return self.run(f"{material} bake", "bake", "material", "--meso", material.split()[-1], *options, *PAPER, "-o",
                         self.path(f"{material}.nook"), "--keep-raw", self.path(f"{material}.raw"))
 
-    def compress(self, material, variant, options):
+    def compress(self, material, variant, options, common=PAPER):
         """Compresses a kept raw material once more."""
         return self.run(f"{material} {variant}", "bake", "material", "--raw", self.path(f"{material}.raw"),
-                        *(NO_REFITS if "--bits" in options else PAPER), *options, "-o", self.path(f"{material} {variant}.nook"))
+                        *common, *options, "-o", self.path(f"{material} {variant}.nook"))
 
     def write_wood(self):
         if not pathlib.Path(self.path("wood.raw")).exists():
@@ -134,18 +135,19 @@ def seeding_table(report):
 
 def numbers_table(rows):
     """A row for each material, method and number of bits."""
-    return table(["material", "method", "bits", "file, KiB", "S/E, dB", "drawn", "GPU, bytes a texel"],
-                 [[material, r["method"].replace("file: ", ""), bits, f"{r['file_bytes'] / 1024:.0f}", f"{r['se_db']:.2f}",
-                   f"{r['se_db_drawn']:.2f}", f"{r['gpu_bytes_texel']:.0f}"] for material, bits, r in rows])
+    return table(["material", "method", "bits", "file, KiB", "of 8 bits a number", "S/E, dB", "drawn", "GPU, bytes a texel"],
+                 [[material, r["method"].replace("file: ", ""), bits, f"{r['file_bytes'] / 1024:.0f}",
+                   f"{r['bytes'] * 8 / int(bits) / 1024:.0f}", f"{r['se_db']:.2f}", f"{r['se_db_drawn']:.2f}",
+                   f"{r['gpu_bytes_texel']:.0f}"] for material, bits, r in rows])
 
 
 def numbers_rows(bench):
     bench.write_wood()
     for material, ranks in NUMBERS.items():
-        for method in ("k-cta", "n-svd"):
+        for method, refits in (("k-cta", []), ("n-svd", NO_REFITS)):
             for bits in ("16", "8"):
                 name = f"{method} {bits} bits"
-                bench.compress(material, name, [*ranks, "--method", method, "--bits", bits])
+                bench.compress(material, name, [*ranks, "--method", method, "--bits", bits], refits)
                 report = bench.run(f"{material} {name} evaluated", "evaluate", "material", bench.path(f"{material}.raw"),
                                    bench.path(f"{material} {name}.nook"))
                 yield material, bits, report["rows"][0]
