@@ -135,7 +135,7 @@ def seeding_table(report):
 
 def numbers_table(rows):
     """A row for each material, method and number of bits."""
-    return table(["material", "method", "bits", "file, KiB", "of 8 bits a number", "S/E, dB", "drawn", "GPU, bytes a texel"],
+    return table(["material", "method", "bits", "file, KiB", "a byte each, KiB", "S/E, dB", "drawn", "GPU, bytes for each texel"],
                  [[material, r["method"].replace("file: ", ""), bits, f"{r['file_bytes'] / 1024:.0f}",
                    f"{r['bytes'] * 8 / int(bits) / 1024:.0f}", f"{r['se_db']:.2f}", f"{r['se_db_drawn']:.2f}",
                    f"{r['gpu_bytes_texel']:.0f}"] for material, bits, r in rows])

@@ -98,7 +98,7 @@ inline const SampleSize sample_forms[] = {
     {.map_side = 5},
     {.map_side = 4, .visibility = VisibilityForm::none},
     {.rank_view = 8, .clusters = 1, .mixture = 1, .bits = 8},
-    {.rank_view = 5, .clusters = 9, .map_side = 5, .bits = 8},
+    {.rank_view = 5, .clusters = 4, .map_side = 5, .bits = 8},
     {.rank_x = 6, .visibility = VisibilityForm::none, .bits = 8},
 };
 

@@ -51,7 +51,6 @@ void add_jumps(const Material& material, MethodRow& row) {
 std::uint32_t filling_view_rank_of_integers(const RawMaterial& raw, CompressionSettings s,
                                             std::size_t file_bytes, const StageProgress& progress) {
   s.method = Method::n_svd;
-  s.visibility = VisibilityForm::none;
   const auto views = std::uint32_t(raw.views.size());
   for (int tries = 0; tries < 6 && s.rank_view > 0; ++tries) {
     const std::size_t bytes = measure_method(raw, s, progress).file_bytes;
