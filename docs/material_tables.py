@@ -18,9 +18,14 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Name: options of its bake.
 FULL = {"fiber": [], "roughhole": []}
 SMALL = {"weave": ["--directions", "49", "--texels", "48"],
-         "small roughhole": ["--directions", "100", "--lights", "8", "--texels", "48"]}
-# The tables compare methods by the paper's fits.
+         "small roughhole": ["--directions", "100", "--lights", "8", "--texels", "48"],
+         "49 x 49 fiber": ["--directions", "49", "--texels", "48"],
+         "49 x 49 roughhole": ["--directions", "49", "--texels", "48"]}
+# The tables compare methods by the paper's fits and half floats.
 NO_REFITS = ["--votf-refits", "0"]
+PAPER = [*NO_REFITS, "--bits", "16"]
+# Materials of the tables of numbers, with ranks that are compared with those of N-SVD.
+NUMBERS = {"wood": ["--ranks", "12,20,24,24"], "49 x 49 fiber": [], "weave": [], "49 x 49 roughhole": []}
 SWEEP = [12, 20, 28, 36, 44, 60, 76]
 # The smallest ranks of `bake material`, for a raw material that is only a reference.
 REST = ["--ranks", "4,8,8,8", "--votf-ranks", "8,8"]
@@ -44,13 +49,17 @@ class Bench:
 
     def bake(self, material, options):
         """Bakes, with the raw material kept."""
-        return self.run(f"{material} bake", "bake", "material", "--meso", material.split()[-1], *options, *NO_REFITS, "-o",
+        return self.run(f"{material} bake", "bake", "material", "--meso", material.split()[-1], *options, *PAPER, "-o",
                         self.path(f"{material}.nook"), "--keep-raw", self.path(f"{material}.raw"))
 
-    def compress(self, material, variant, options):
+    def compress(self, material, variant, options, common=PAPER):
         """Compresses a kept raw material once more."""
-        return self.run(f"{material} {variant}", "bake", "material", "--raw", self.path(f"{material}.raw"), *options, *NO_REFITS,
-                        "-o", self.path(f"{material} {variant}.nook"))
+        return self.run(f"{material} {variant}", "bake", "material", "--raw", self.path(f"{material}.raw"),
+                        *common, *options, "-o", self.path(f"{material} {variant}.nook"))
+
+    def write_wood(self):
+        if not pathlib.Path(self.path("wood.raw")).exists():
+            subprocess.run([sys.executable, str(ROOT / "docs/material_wood.py"), self.path("wood.raw")], check=True)
 
     def evaluate(self, material, variant, options):
         return self.run(f"{material} {variant} evaluated", "evaluate", "material", self.path(f"{material}.raw"),
@@ -124,6 +133,26 @@ def seeding_table(report):
                   for r in report["seeding"]])
 
 
+def numbers_table(rows):
+    """A row for each material, method and number of bits."""
+    return table(["material", "method", "bits", "file, KiB", "a byte each, KiB", "S/E, dB", "drawn", "GPU, bytes for each texel"],
+                 [[material, r["method"].replace("file: ", ""), bits, f"{r['file_bytes'] / 1024:.0f}",
+                   f"{r['bytes'] * 8 / int(bits) / 1024:.0f}", f"{r['se_db']:.2f}", f"{r['se_db_drawn']:.2f}",
+                   f"{r['gpu_bytes_texel']:.0f}"] for material, bits, r in rows])
+
+
+def numbers_rows(bench):
+    bench.write_wood()
+    for material, ranks in NUMBERS.items():
+        for method, refits in (("k-cta", []), ("n-svd", NO_REFITS)):
+            for bits in ("16", "8"):
+                name = f"{method} {bits} bits"
+                bench.compress(material, name, [*ranks, "--method", method, "--bits", bits], refits)
+                report = bench.run(f"{material} {name} evaluated", "evaluate", "material", bench.path(f"{material}.raw"),
+                                   bench.path(f"{material} {name}.nook"))
+                yield material, bits, report["rows"][0]
+
+
 def summary_table(reports):
     """Signal to error of the methods, each with its file."""
     def cell(rows, method, mixture):
@@ -146,6 +175,7 @@ def main():
     for material, its in SMALL.items():
         bench.bake(material, its)
     weave = bench.evaluate("weave", "peers", ["--peers"])
+    numbers = numbers_table(list(numbers_rows(bench)))
     small = "small roughhole"
     sweep = bench.evaluate(small, "sweep", ["--sweep", ",".join(map(str, SWEEP)), "--images", bench.path("images")])
     seeding = bench.evaluate(small, "seeding", ["--compare-seeding"])
@@ -168,7 +198,7 @@ def main():
     show(ROOT / "docs/materials.md", pathlib.Path(__file__).name,
          {"methods": methods_table({**methods, "weave": weave}), "unseen views": unseen_table(methods, 100, 37),
           "view maps": maps_table(maps), "view ranks": sweep_table(sweep), "thresholds": thresholds_table(thresholds),
-          "first clusters": seeding_table(seeding)}, options.write)
+          "first clusters": seeding_table(seeding), "numbers": numbers}, options.write)
     show(ROOT / "docs/evidence.md", pathlib.Path(__file__).name, {"materials": summary_table(methods)}, options.write)
 
 

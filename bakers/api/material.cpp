@@ -33,6 +33,7 @@ nook_bake_material_desc default_material_desc() {
   desc.cluster_rank_view = compression.cluster_rank_view;
   desc.mixture = compression.mixture;
   desc.view_map_side = compression.map_side;
+  desc.bits = bake::material::default_bits;
   desc.rank_threshold = 0.01f;
   desc.seed = 1;
   return desc;

@@ -81,6 +81,7 @@ BakedFile bake_material(MaterialTask& task, const StageReport& progress) {
   const double seconds = watch.seconds();
   const Json recipe = {{"source", source_of(task, raw)}, {"compression", describe(settings)}};
   material.recipe = recipe.dump().c_str();
+  set_core_rounding(raw, material);
   BakedFile file;
   file.model = nook::material::write_material(material);
   MethodRow row = measure_material(raw, nook::material::read_material(file.model));

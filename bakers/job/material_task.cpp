@@ -136,6 +136,11 @@ CompressionSettings settings_of(const nook_bake_material_desc& desc) {
   s.clusters = desc.clusters;
   s.mixture = desc.mixture;
   s.map_side = desc.view_map_side;
+  if (desc.bits != 8 && desc.bits != 16)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.bits is out of range (got %u, need 8 or 16)", desc.bits);
+  s.bits = desc.bits;
+  if (desc.reserved != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved must be 0 (got %u)", desc.reserved);
   s.seed = desc.seed;
   return s;
 }

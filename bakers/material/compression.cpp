@@ -175,6 +175,8 @@ nook::material::VisibilityMapping default_mapping(VisibilityForm form, std::uint
 }
 
 void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
+  if (s.bits != 8 && s.bits != 16)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the form of numbers is %u bits; need 8 or 16", s.bits);
   const auto check = [](std::size_t got, std::size_t most, const char* what, const char* of) {
     if (got < 1 || got > most)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is %zu; %s allows 1 to %zu", what, got, of, most);
@@ -245,6 +247,7 @@ std::vector<float> votf_values(const RawMaterial& raw, VisibilityForm form) {
 
 Material compress(const RawMaterial& raw, const CompressionSettings& s, const StageProgress& progress) {
   Material material;
+  material.bits = s.bits;
   material.lights.assign(raw.lights.begin(), raw.lights.end());
   material.views.assign(raw.views.begin(), raw.views.end());
   CompressedBtf btf = compress_btf(raw, s, progress);

@@ -20,6 +20,9 @@ enum class Seeding : std::uint8_t {
   values,      // k-means of the views' sub-tensors
 };
 
+// The form of numbers of a bake that sets none.
+inline constexpr std::uint32_t default_bits = 8;
+
 struct CompressionSettings {
   Method method = Method::k_cta;
   std::uint32_t rank_light = 16;
@@ -35,6 +38,7 @@ struct CompressionSettings {
   nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;
   std::optional<nook::material::VisibilityMapping> mapping;  // none: default_mapping() below
   std::uint32_t map_side = 64;  // cells of the resampled view maps of K-CTA; 0: none
+  std::uint32_t bits = 16;      // form of the numbers, see Material in sdk's material/material.h
   std::uint64_t seed = 1;
 
   std::uint32_t cluster_count() const {
@@ -73,8 +77,8 @@ nook::material::ClusteredTensor compress_votf(const RawMaterial& raw, const std:
 // The VOTF's values in a form: the mask, or its signed distances.
 std::vector<float> votf_values(const RawMaterial& raw, nook::material::VisibilityForm form);
 
-// Both, and the directions, as a whole; without a mask in raw there is no VOTF. Numbers are not yet rounded
-// to half floats: quantise() in sdk's material/material_file.h does.
+// Both, and the directions, as a whole; without a mask in raw there is no VOTF. Numbers are not yet rounded:
+// quantise() in sdk's material/material_file.h does.
 nook::material::Material compress(const RawMaterial& raw, const CompressionSettings& settings,
                                   const StageProgress& progress = {});
 

@@ -127,6 +127,7 @@ Json bake(const Options& o, platform::OutputFile& output, std::optional<platform
                  std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);
   const Json recipe = {{"source", recipe_of_trace(o)}, {"compression", describe(settings)}};
   material.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
+  set_core_rounding(raw, material);
   const std::vector<std::byte> file = nook::material::write_material(material);
   material = nook::material::read_material(file);
   MethodRow row = measure_material(raw, material);

@@ -14,19 +14,53 @@ float nook_mipmap_level(vec2 dx, vec2 dy, vec2 texels) {
   return 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-30));
 }
 
+// A cell of a view map, with the neighbours along x and y that it blends with and their weights.
+struct nook_material_cell {
+  ivec2 cell, x, y;
+  float weight_x, weight_y;
+};
+
+// Finds the cell of a view and its neighbours, whose steps are two bits for each half of the cell, plus 1.
+// sdk/src/material/view_cells.h has the same function.
+nook_material_cell nook_material_blend(vec2 place, ivec2 cell, int neighbours) {
+  vec2 at = place - vec2(cell) - 0.5;
+  int x = (neighbours >> (at.x > 0.0 ? 2 : 0) & 3) - 1, y = (neighbours >> (at.y > 0.0 ? 6 : 4) & 3) - 1;
+  return nook_material_cell(cell, cell + ivec2(x, 0), cell + ivec2(0, y), at.x * float(x), at.y * float(y));
+}
+
+vec4 nook_material_blended(highp sampler2DArray coefficients, nook_material_cell c, int layer) {
+  return texelFetch(coefficients, ivec3(c.cell, layer), 0) * (1.0 - c.weight_x - c.weight_y) +
+         texelFetch(coefficients, ivec3(c.x, layer), 0) * c.weight_x +
+         texelFetch(coefficients, ivec3(c.y, layer), 0) * c.weight_y;
+}
+
 // Computes the light modes of the point uv for the view, filtered over the pixel with the sides dx and dy.
 void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
-  ivec2 cell = nook_parabolic_cell(view, NOOK_BTF_SIDE);
+  vec2 place = nook_parabolic_place(view, NOOK_BTF_SIDE);
+  ivec2 cell = min(ivec2(place), ivec2(NOOK_BTF_SIDE - 1));
   float level = nook_mipmap_level(dx, dy, NOOK_BTF_TEXELS);
   for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) modes[a] = vec4(0.0);
   uvec4 clusters = uvec4(0u);
+#if NOOK_BTF_BLENDED
+  uvec4 last = texelFetch(nook_btf_membership, ivec3(cell, NOOK_BTF_TERMS / 4), 0);
+  nook_material_cell blend = nook_material_blend(place, cell, int(last[NOOK_BTF_TERMS % 4]));
+#endif
   for (int k = 0; k < NOOK_BTF_TERMS; ++k) {
 #if NOOK_BTF_CLUSTERS > 1
+#if NOOK_BTF_BLENDED
+    if (k % 4 == 0)
+      clusters = k / 4 == NOOK_BTF_TERMS / 4 ? last : texelFetch(nook_btf_membership, ivec3(cell, k / 4), 0);
+#else
     if (k % 4 == 0) clusters = texelFetch(nook_btf_membership, ivec3(cell, k / 4), 0);
+#endif
 #endif
     int first = int(clusters[k % 4]) * NOOK_LIGHT_VEC4_COUNT * 4 * NOOK_BTF_VIEW_VEC4_COUNT;
     for (int b = 0; b < NOOK_BTF_VIEW_VEC4_COUNT; ++b) {
+#if NOOK_BTF_BLENDED
+      vec4 coefficients = nook_material_blended(nook_btf_coefficients, blend, k * NOOK_BTF_VIEW_VEC4_COUNT + b);
+#else
       vec4 coefficients = texelFetch(nook_btf_coefficients, ivec3(cell, k * NOOK_BTF_VIEW_VEC4_COUNT + b), 0);
+#endif
       for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) {
         int layer = first + a * 4 * NOOK_BTF_VIEW_VEC4_COUNT + b;
         modes[a] += vec4(dot(coefficients, nook_btf_mode(layer, uv, level)),
@@ -55,18 +89,33 @@ float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
 #if NOOK_VOTF_TERMS == 0
   return 1.0;
 #else
-  ivec2 cell = nook_parabolic_cell(view, NOOK_VOTF_SIDE);
+  vec2 place = nook_parabolic_place(view, NOOK_VOTF_SIDE);
+  ivec2 cell = min(ivec2(place), ivec2(NOOK_VOTF_SIDE - 1));
   float level = nook_mipmap_level(dx, dy, NOOK_VOTF_TEXELS);
   float value = 0.0;
   uvec4 clusters = uvec4(0u);
+#if NOOK_VOTF_BLENDED
+  uvec4 last = texelFetch(nook_votf_membership, ivec3(cell, NOOK_VOTF_TERMS / 4), 0);
+  nook_material_cell blend = nook_material_blend(place, cell, int(last[NOOK_VOTF_TERMS % 4]));
+#endif
   for (int k = 0; k < NOOK_VOTF_TERMS; ++k) {
 #if NOOK_VOTF_CLUSTERS > 1
+#if NOOK_VOTF_BLENDED
+    if (k % 4 == 0)
+      clusters = k / 4 == NOOK_VOTF_TERMS / 4 ? last : texelFetch(nook_votf_membership, ivec3(cell, k / 4), 0);
+#else
     if (k % 4 == 0) clusters = texelFetch(nook_votf_membership, ivec3(cell, k / 4), 0);
 #endif
+#endif
     int first = int(clusters[k % 4]) * NOOK_VOTF_VIEW_VEC4_COUNT;
-    for (int b = 0; b < NOOK_VOTF_VIEW_VEC4_COUNT; ++b)
-      value += dot(texelFetch(nook_votf_coefficients, ivec3(cell, k * NOOK_VOTF_VIEW_VEC4_COUNT + b), 0),
-                   nook_votf_mode(first + b, uv, level));
+    for (int b = 0; b < NOOK_VOTF_VIEW_VEC4_COUNT; ++b) {
+#if NOOK_VOTF_BLENDED
+      vec4 coefficients = nook_material_blended(nook_votf_coefficients, blend, k * NOOK_VOTF_VIEW_VEC4_COUNT + b);
+#else
+      vec4 coefficients = texelFetch(nook_votf_coefficients, ivec3(cell, k * NOOK_VOTF_VIEW_VEC4_COUNT + b), 0);
+#endif
+      value += dot(coefficients, nook_votf_mode(first + b, uv, level));
+    }
   }
   return value;
 #endif

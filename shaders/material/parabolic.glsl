@@ -4,8 +4,7 @@ vec2 nook_parabolic(vec3 d) {
   return d.xy / (d.z > 0.0 ? 1.0 + d.z : max(length(d.xy), 1e-6));
 }
 
-// Returns the cell of a side x side map that contains the direction.
-ivec2 nook_parabolic_cell(vec3 d, int side) {
-  vec2 place = clamp(0.5 * nook_parabolic(d) + 0.5, 0.0, 1.0) * float(side);
-  return min(ivec2(place), ivec2(side - 1));
+// Returns the place of a direction in a side x side map, in cells.
+vec2 nook_parabolic_place(vec3 d, int side) {
+  return clamp(0.5 * nook_parabolic(d) + 0.5, 0.0, 1.0) * float(side);
 }

@@ -16,7 +16,7 @@ namespace {
 constexpr float bound = 1.0f / 255;
 
 // N-SVD, CTA, K-CTA, K-CTA resampled, ranks that are no multiples of four, more terms than one texel of the
-// membership holds, one texel, no VOTF.
+// membership holds, one texel, no VOTF; integers of several of these.
 const Size forms[] = {
     {.width = 16, .height = 16, .rank_view = 8, .clusters = 1, .mixture = 1},
     {.width = 16, .height = 8, .clusters = 5, .mixture = 1},
@@ -26,6 +26,10 @@ const Size forms[] = {
     {.views = 14, .rank_view = 1, .clusters = 9, .mixture = 6},
     {.width = 1, .height = 1, .rank_x = 1, .rank_y = 1},
     {.visibility = material::VisibilityForm::none},
+    {.width = 16, .height = 16, .clusters = 6, .mixture = 3, .map_side = 24, .bits = 8},
+    {.width = 12, .height = 8, .rank_light = 8, .rank_view = 8, .clusters = 1, .mixture = 1, .bits = 8},
+    {.views = 14, .rank_view = 5, .clusters = 9, .mixture = 4, .map_side = 6, .bits = 8},
+    {.visibility = material::VisibilityForm::none, .bits = 8},
 };
 
 void put(float (&out)[3], Vec3 v) {
@@ -34,8 +38,8 @@ void put(float (&out)[3], Vec3 v) {
   out[2] = v.z;
 }
 
-// Views lie inside cells of the view map, off their borders: there another order of rounding may choose the
-// other cell. Levels are whole, since OpenGL leaves how they mix to the driver.
+// Views lie inside cells of the view map, or of its parts, off their borders: there another order of rounding
+// may choose the other cell. Levels are whole, since OpenGL leaves how they mix to the driver.
 std::vector<nook_material_sample> samples_of(const nook_material_info& info, std::size_t count) {
   material::test::Numbers numbers(17);
   const std::uint32_t side =

@@ -122,7 +122,7 @@ TEST_CASE("decoding gives the sums of equations (24) and (25)") {
     const Material material = test::sample_material(11, size);
     const MaterialTables tables = tables_of(material);
     const std::uint32_t cells = refined_side(size.map_side);
-    CHECK(tables.btf.side == cells);
+    CHECK(tables.btf.side == (size.map_side ? size.map_side : side));
     const TensorShape& s = material.btf.shape;
     test::Numbers numbers(2);
     for (int i = 0; i < 40; ++i) {
@@ -136,16 +136,18 @@ TEST_CASE("decoding gives the sums of equations (24) and (25)") {
       sample.light = from_parabolic(cell_centre(20 + numbers.below(24), 20 + numbers.below(24), 64));
       const Radiance got = evaluate_btf(tables, sample);
       const float channels[3] = {got.red, got.green, got.blue};
-      // Two half floats, mode and coefficient, in each of some 30 products of size up to one.
+      // Two half floats, mode and coefficient, in each of some 40 products of size up to one. Integers are
+      // within half of 1/127 of their scale, 0.002 rms in each of two factors: four times the sum's 0.02.
+      const double bound = size.bits == 16 ? 4e-3 : 0.08;
       for (std::uint32_t channel = 0; channel < 3; ++channel)
         CHECK(std::abs(channels[channel] - expected(material, material.btf, column, row,
                                                     light_modes(material, sample.light, channel), x, y)) <
-              4e-3);
+              bound);
       if (size.visibility == VisibilityForm::none)
         CHECK(evaluate_votf(tables, sample) == 1);
       else
         CHECK(std::abs(evaluate_votf(tables, sample) -
-                       expected(material, material.votf, column, row, std::array{1.0f}, x, y)) < 4e-3);
+                       expected(material, material.votf, column, row, std::array{1.0f}, x, y)) < bound);
     }
   }
 }
@@ -255,14 +257,61 @@ TEST_CASE("the visibility mapping is equation (26) with both sets of parameters"
   CHECK(visibility_of(VisibilityForm::none, {}, -1) == 1);
 }
 
+TEST_CASE("integers decode numbers of any size as half floats do") {
+  // Sums of some 40 products of integers are within 8 per cent, as above, of the largest.
+  for (const float size : {1e-9f, 1.0f, 1e9f}) {
+    Material material = test::sample_material(12, {.map_side = 4});
+    for (float& core : material.btf.cores) core *= size;
+    for (float& light : material.light_basis) light /= size;
+    const MaterialTables halves = tables_of(material);
+    material.bits = 8;
+    const MaterialTables integers = tables_of(material);
+    CHECK(integers.btf.spatial.empty());
+    CHECK(integers.light.empty());
+    CHECK(2 * integers.btf.spatial_8.size() == 2 * halves.btf.spatial.size());
+    const Sample sample{0.3f, 0.4f, 0, normalised({0.2f, 0.1f, 1}), normalised({0.1f, -0.3f, 1})};
+    CHECK(std::abs(evaluate_btf(integers, sample).green - evaluate_btf(halves, sample).green) < 0.08f);
+    CHECK(std::abs(evaluate_votf(integers, sample) - evaluate_votf(halves, sample)) < 0.08f);
+  }
+}
+
+TEST_CASE("a view map decodes without steps where the clusters stay the same") {
+  // One cluster: all cells blend, and coefficients that are linear over the map stay linear from rim to rim.
+  Material material = test::sample_material(5, {.clusters = 1, .mixture = 1, .map_side = 4});
+  for (std::size_t cell = 0; cell < 16; ++cell)
+    for (std::size_t b = 0; b < 4; ++b)
+      material.btf.map.rows.coefficients[4 * cell + b] =
+          0.3f + float(b) * 0.2f * float(cell % 4) - 0.1f * float(cell / 4);
+  const MaterialTables tables = tables_of(material);
+  Sample sample{0.3f, 0.4f, 0, {}, {0, 0, 1}};
+  float before = 0, largest = 0, total = 0;
+  constexpr int steps = 4000;
+  for (int i = 0; i <= steps; ++i) {
+    const float at = 1.6f * float(i) / float(steps) - 0.8f;
+    sample.view = from_parabolic({at, 0.3f * at + 0.1f});
+    const float now = evaluate_btf(tables, sample).green;
+    if (i > 0) largest = std::max(largest, std::abs(now - before)), total += std::abs(now - before);
+    before = now;
+  }
+  REQUIRE(total > 0.1f);
+  // The way of 3.2 cells is a straight line on the map, so that all steps have the same size, up to half
+  // floats of 11 bits.
+  CHECK(largest < 1.2f * total / float(steps) + 1e-4f);
+}
+
 TEST_CASE("tables are the same on any number of threads") {
-  const Material material = test::sample_material(9, {.rank_view = 8, .clusters = 2});
-  const MaterialTables alone = tables_of(material), together = tables_of(material, {on_threads, nullptr});
-  CHECK(alone.btf.spatial == together.btf.spatial);
-  CHECK(alone.btf.coefficients == together.btf.coefficients);
-  CHECK(alone.btf.membership == together.btf.membership);
-  CHECK(alone.votf.spatial == together.votf.spatial);
-  CHECK(alone.light == together.light);
+  for (const std::uint32_t bits : {8u, 16u}) {
+    const Material material = test::sample_material(9, {.rank_view = 8, .clusters = 2, .bits = bits});
+    const MaterialTables alone = tables_of(material), together = tables_of(material, {on_threads, nullptr});
+    CHECK(alone.btf.spatial == together.btf.spatial);
+    CHECK(alone.btf.coefficients == together.btf.coefficients);
+    CHECK(alone.btf.membership == together.btf.membership);
+    CHECK(alone.votf.spatial == together.votf.spatial);
+    CHECK(alone.light == together.light);
+    CHECK(alone.btf.spatial_8 == together.btf.spatial_8);
+    CHECK(alone.votf.spatial_8 == together.votf.spatial_8);
+    CHECK(alone.light_8 == together.light_8);
+  }
 }
 
 TEST_CASE("numbers beyond a half float's range decode correctly") {

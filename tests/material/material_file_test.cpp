@@ -5,6 +5,7 @@
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/check.h"
+#include "sdk/src/material/map_rows.h"
 #include "tests/catch.h"
 #include "tests/material/material_sample.h"
 
@@ -57,6 +58,35 @@ void check_near(const nook::Vector<float>& got, const nook::Vector<float>& want)
     CHECK(std::abs(got[i] - want[i]) <= std::max(std::abs(want[i]), 0x1p-28f * largest) * 0x1p-11f);
 }
 
+// Integers: 511 steps make the largest number of an array, and steps have at most four digits fewer; cores
+// have the step whose squares are `share` of the cores' mean square: half a step is sqrt(3 share) of its
+// root.
+void check_rounded(const nook::Vector<float>& got, const nook::Vector<float>& want, float share) {
+  REQUIRE(got.size() == want.size());
+  float largest = 0;
+  double square = 0;
+  for (const float value : want) {
+    largest = std::max(largest, std::abs(value));
+    square += double(value) * value;
+  }
+  const double step = share > 0 ? std::sqrt(12 * share * square / double(want.size())) : largest / 511;
+  // The largest number may be rounded down instead of to the nearest.
+  for (std::size_t i = 0; i < got.size(); ++i)
+    REQUIRE(std::abs(got[i] - want[i]) <= (std::abs(want[i]) > largest - step ? 1.0 : 0.5) * step * 1.0001);
+}
+
+void check_rounded(const ClusteredTensor& got, const ClusteredTensor& want, float share) {
+  CHECK(got.shape == want.shape);
+  check_rounded(got.cores, want.cores, share);
+  check_rounded(got.x_bases, want.x_bases, 0);
+  check_rounded(got.y_bases, want.y_bases, 0);
+  CHECK(got.rows.membership == want.rows.membership);
+  check_rounded(got.rows.coefficients, want.rows.coefficients, 0);
+  const ViewRows map = sorted_rows(want.map.rows, want.shape);
+  CHECK(got.map.rows.membership == map.membership);
+  check_rounded(got.map.rows.coefficients, map.coefficients, 0);
+}
+
 void check_near(const ClusteredTensor& got, const ClusteredTensor& want) {
   CHECK(got.shape == want.shape);
   check_near(got.cores, want.cores);
@@ -81,10 +111,19 @@ TEST_CASE("a material comes back from its file within a half float's step") {
     CHECK(read.mapping.threshold == material.mapping.threshold);
     CHECK(read.mapping.weight == material.mapping.weight);
     CHECK(read.recipe == material.recipe);
+    CHECK(read.bits == size.bits);
+    CHECK(write_material(read) == write_material(quantise(read)));
+    // Rounded again, to the same steps.
+    CHECK(write_material(read) == write_material(material));
+    if (size.bits == 8) {
+      check_rounded(read.light_basis, material.light_basis, 0);
+      check_rounded(read.btf, material.btf, material.core_rounding);
+      check_rounded(read.votf, material.votf, 0x1p-16f);
+      continue;
+    }
     check_near(read.light_basis, material.light_basis);
     check_near(read.btf, material.btf);
     check_near(read.votf, material.votf);
-    CHECK(write_material(read) == write_material(quantise(read)));
   }
 }
 
@@ -103,12 +142,13 @@ TEST_CASE("numbers of any size keep a half float's digits in the file") {
 
 TEST_CASE("a file is as long as the formula says, but for directions, heads and the view maps") {
   for (const test::SampleSize& size : test::sample_forms) {
+    if (size.bits == 8) continue;  // as long as its numbers need
     const Material material = test::sample_material(1, size);
     const std::size_t tensors = size.visibility == VisibilityForm::none ? 1 : 2;
     const std::size_t sections = 5 + tensors - 1 + (size.map_side ? tensors : 0);
     // Container, section table, HEAD, directions, recipe; of each tensor a head of 15 bytes and an exponent
     // for each of four arrays; one exponent more for the light basis.
-    std::size_t around = 40 + 24 * sections + 13 + 12 * (material.lights.size() + material.views.size()) +
+    std::size_t around = 40 + 24 * sections + 14 + 12 * (material.lights.size() + material.views.size()) +
                          material.recipe.size() + 19 * tensors + 1;
     if (size.map_side)
       around +=
@@ -117,47 +157,106 @@ TEST_CASE("a file is as long as the formula says, but for directions, heads and 
   }
 }
 
+TEST_CASE("integers take the bits that their sizes need") {
+  // Numbers as of a normal distribution, in steps of a quarter of their deviation: an entropy of 2.05 -
+  // log2(1/4) = 4.05 bits, of which Rice's code may exceed by 0.3.
+  Material material =
+      test::sample_material(1, {.width = 48, .height = 48, .rank_x = 48, .rank_y = 48, .bits = 8});
+  test::Numbers numbers(3);
+  for (float& core : material.btf.cores) {
+    core = 0;
+    for (int i = 0; i < 12; ++i) core += numbers.between(-0.5f, 0.5f);
+  }
+  material.core_rounding = 1.0f / (12 * 16);
+  Material none = material;
+  std::fill(none.btf.cores.begin(), none.btf.cores.end(), 0.0f);
+  // Zeros take a bit each.
+  const double bits = 8 * double(write_material(material).size() - write_material(none).size()) /
+                          double(material.btf.cores.size()) +
+                      1;
+  CHECK(bits > 4);
+  CHECK(bits < 4.4);
+}
+
+TEST_CASE("a material of the first version loads") {
+  const Material material = test::sample_material(1, {.map_side = 3});
+  const std::vector<std::byte> file = write_material(material);
+  const Container now(file, material_kind);
+  std::vector<ContainerSection> sections;
+  const auto add = [&](const char(&name)[5], std::size_t left_out) {
+    ByteReader in = now.section(name);
+    const std::string_view text = in.text(in.remaining() - left_out);
+    const auto* first = reinterpret_cast<const std::byte*>(text.data());
+    sections.push_back({four_letters(name), {first, first + text.size()}});
+  };
+  add("HEAD", 1);  // without the form of numbers
+  add("DIRS", 0);
+  add("LGHT", 0);
+  add("BTF_", 0);
+  add("BMAP", 0);
+  add("VOTF", 0);
+  add("VMAP", 0);
+  add("RECP", 0);
+  const Material read = read_material(write_container({material_kind.kind, "material", 1, 1}, sections));
+  CHECK(read.bits == 16);
+  CHECK(write_material(read) == file);
+}
+
+TEST_CASE("a form of numbers that is neither 8 nor 16 is refused") {
+  Material material = test::sample_material();
+  material.bits = 9;
+  CHECK(outcome_of([&] { write_material(material); }).says("got 9, need 8 or 16"));
+}
+
 TEST_CASE("a file cut at any byte is refused") {
-  const std::vector<std::byte> good = write_material(test::sample_material(1, {.map_side = 3}));
-  REQUIRE(read_outcome(good).code == NOOK_OK);
-  for (std::size_t size = 0; size < good.size(); ++size) {
-    // An exact copy on the heap, so that the address sanitizer sees one byte too far.
-    const std::vector<std::byte> cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
-    REQUIRE(read_outcome(cut).code == NOOK_ERROR_BAD_FILE);
+  for (const std::uint32_t bits : {8u, 16u}) {
+    const std::vector<std::byte> good =
+        write_material(test::sample_material(1, {.map_side = 3, .bits = bits}));
+    REQUIRE(read_outcome(good).code == NOOK_OK);
+    for (std::size_t size = 0; size < good.size(); ++size) {
+      // An exact copy on the heap, so that the address sanitizer sees one byte too far.
+      const std::vector<std::byte> cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
+      REQUIRE(read_outcome(cut).code == NOOK_ERROR_BAD_FILE);
+    }
   }
 }
 
 TEST_CASE("a file flipped at any byte is refused, or with its checksum repaired loads soundly") {
-  const std::vector<std::byte> good = write_material(test::sample_material(1, {.map_side = 3}));
-  std::size_t refused = 0;
-  for (std::size_t i = 0; i < good.size(); ++i)
-    for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
-      auto file = good;
-      file[i] ^= std::byte(flip);
-      REQUIRE(read_outcome(file).code != NOOK_OK);
-      repair_checksum(file);
-      const Outcome outcome = outcome_of([&] { check_material(read_material(file), NOOK_ERROR_INTERNAL); });
-      refused += outcome.code != NOOK_OK;
-      REQUIRE((outcome.code == NOOK_OK || outcome.code == NOOK_ERROR_BAD_FILE ||
-               outcome.code == NOOK_ERROR_FILE_VERSION));
-    }
-  // Heads, directions and memberships are a part of so small a file.
-  CHECK(refused > good.size() / 4);
+  for (const std::uint32_t bits : {8u, 16u}) {
+    const std::vector<std::byte> good =
+        write_material(test::sample_material(1, {.map_side = 3, .bits = bits}));
+    std::size_t refused = 0;
+    for (std::size_t i = 0; i < good.size(); ++i)
+      for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
+        auto file = good;
+        file[i] ^= std::byte(flip);
+        REQUIRE(read_outcome(file).code != NOOK_OK);
+        repair_checksum(file);
+        const Outcome outcome = outcome_of([&] { check_material(read_material(file), NOOK_ERROR_INTERNAL); });
+        refused += outcome.code != NOOK_OK;
+        REQUIRE((outcome.code == NOOK_OK || outcome.code == NOOK_ERROR_BAD_FILE ||
+                 outcome.code == NOOK_ERROR_FILE_VERSION));
+      }
+    // Heads, directions and memberships are a part of so small a file.
+    CHECK(refused > good.size() / 4);
+  }
 }
 
 TEST_CASE("memory for a hostile file is bounded by its size") {
-  const std::vector<std::byte> good = write_material(test::sample_material());
-  for (std::size_t i = 40; i < good.size(); ++i) {
-    auto file = good;
-    file[i] ^= std::byte{0xff};
-    repair_checksum(file);
-    CountingMemory memory;
-    try {
-      read_material(file, &memory);
-    } catch (const Failure&) {
+  for (const std::uint32_t bits : {8u, 16u}) {
+    const std::vector<std::byte> good = write_material(test::sample_material(1, {.bits = bits}));
+    for (std::size_t i = 40; i < good.size(); ++i) {
+      auto file = good;
+      file[i] ^= std::byte{0xff};
+      repair_checksum(file);
+      CountingMemory memory;
+      try {
+        read_material(file, &memory);
+      } catch (const Failure&) {
+      }
+      // Half floats become floats, a byte of membership two. Of integers a bit becomes a float.
+      REQUIRE(memory.total < (bits == 8 ? 33 : 3) * file.size());
     }
-    // Half floats become floats, a byte of membership two.
-    REQUIRE(memory.total < 3 * file.size());
   }
 }
 

@@ -39,6 +39,7 @@ struct SampleSize {
   std::uint32_t clusters = 3, mixture = 2;
   std::uint32_t map_side = 0;
   VisibilityForm visibility = VisibilityForm::distance;
+  std::uint32_t bits = 16;
 };
 
 inline void fill(Vector<float>& values, std::size_t count, float size, Numbers& numbers) {
@@ -71,6 +72,7 @@ inline void fill_tensor(ClusteredTensor& tensor, const TensorShape& shape, std::
 inline Material sample_material(std::uint32_t seed = 1, const SampleSize& size = {}) {
   Numbers numbers(seed);
   Material material;
+  material.bits = size.bits;
   material.lights = hemisphere(size.lights);
   material.views = hemisphere(size.views);
   const TensorShape shape{size.views,  size.width,  size.height,   size.rank_light, size.rank_view,
@@ -88,11 +90,16 @@ inline Material sample_material(std::uint32_t seed = 1, const SampleSize& size =
   return material;
 }
 
-// N-SVD, CTA, K-CTA, and a resampled K-CTA.
+// N-SVD, CTA, K-CTA, a resampled K-CTA, and integers of three forms.
 inline const SampleSize sample_forms[] = {
-    {.rank_view = 8, .clusters = 1, .mixture = 1},       {.clusters = 4, .mixture = 1},
-    {.rank_x = 6, .visibility = VisibilityForm::binary}, {.map_side = 5},
+    {.rank_view = 8, .clusters = 1, .mixture = 1},
+    {.clusters = 4, .mixture = 1},
+    {.rank_x = 6, .visibility = VisibilityForm::binary},
+    {.map_side = 5},
     {.map_side = 4, .visibility = VisibilityForm::none},
+    {.rank_view = 8, .clusters = 1, .mixture = 1, .bits = 8},
+    {.rank_view = 5, .clusters = 4, .map_side = 5, .bits = 8},
+    {.rank_x = 6, .visibility = VisibilityForm::none, .bits = 8},
 };
 
 }  // namespace nook::material::test

@@ -10,6 +10,8 @@ namespace {
 
 // Layers of a texture array: the minimum of OpenGL 4.5.
 constexpr std::uint32_t max_layers = 2048;
+// Cells of the view maps that K-CTA is baked with.
+constexpr std::uint32_t file_map_side = 64;
 
 struct Size {
   const char* name;
@@ -32,7 +34,8 @@ void set_tensor(material::TensorTables& t, std::uint32_t texels, std::uint32_t l
   t.view_vec4_count = view_vec4s;
   t.clusters = clusters;
   t.terms = terms;
-  t.side = material::default_map_side;
+  t.blended = clusters > 1;
+  t.side = t.blended ? file_map_side : material::default_map_side;
 }
 
 // The library's declarations before shaders/material/host.glsl, whose text is that of the counted tree.

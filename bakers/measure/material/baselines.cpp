@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bakers/measure/material/table_error.h"
 #include "bakers/measure/material/unseen_views.h"
 #include "bakers/measure/material/whole_file.h"
 
@@ -43,6 +44,22 @@ void add_jumps(const Material& material, MethodRow& row) {
   Material without = material;
   without.btf.map = nook::material::ViewMap();
   row.jumps_without_map = measure_view_jumps(without, seed);
+}
+
+// The view rank at which an N-SVD of integers takes no more bytes than a file: they depend on the values, so
+// that ranks are tried from where those of the first are in proportion.
+std::uint32_t filling_view_rank_of_integers(const RawMaterial& raw, CompressionSettings s,
+                                            std::size_t file_bytes, const StageProgress& progress) {
+  s.method = Method::n_svd;
+  const auto views = std::uint32_t(raw.views.size());
+  for (int tries = 0; tries < 6 && s.rank_view > 0; ++tries) {
+    const std::size_t bytes = measure_method(raw, s, progress).file_bytes;
+    const auto next = std::uint32_t(double(s.rank_view) * double(file_bytes) / double(bytes));
+    if (next == s.rank_view || (bytes <= file_bytes && (next <= s.rank_view || s.rank_view == views)))
+      return s.rank_view;
+    s.rank_view = std::min(next, views);
+  }
+  return s.rank_view;
 }
 
 // The view rank at which an N-SVD takes as many bytes as a file, its recipe counted: the text of the greatest
@@ -88,6 +105,7 @@ CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
     s.votf_rank_y = votf.rank_y;
   }
   if (btf.clusters > 1 && btf.mixture > 1) s.map_side = material.btf.map.side;
+  s.bits = material.bits;
   s.seed = seed;
   return s;
 }
@@ -97,6 +115,10 @@ Json material_file_row(const RawMaterial& raw, const MaterialFile& file, const R
   MethodRow own = measure_material(raw, file.material);
   own.method = "file: " + own.method;
   own.file_bytes = file.bytes.size();
+  const nook::material::MaterialTables tables =
+      nook::material::make_tables(file.material, {}, default_memory());
+  own.se_db_drawn = measure_tables(raw, tables).se_db();
+  own.gpu_bytes_texel = table_bytes_texel(tables);
   add_unseen(unseen, file.material, own);
   if (jumps) add_jumps(file.material, own);
   return report_row(raw.name, own);
@@ -116,8 +138,13 @@ Json material_baseline_rows(const RawMaterial& raw, const MaterialFile& file, st
       continue;
     rows.push_back(report_row(raw.name, measure_baseline(raw, s, baseline.name, request)));
   }
-  const std::uint32_t filling = filling_view_rank(raw, settings, file.bytes.size());
-  if (contains(request.names, n_svd_filled_name) && filling > 0) {
+  const bool fills = contains(request.names, n_svd_filled_name);
+  const std::uint32_t filling =
+      !fills                ? 0
+      : settings.bits == 16 ? filling_view_rank(raw, settings, file.bytes.size())
+                            : filling_view_rank_of_integers(raw, settings, file.bytes.size(),
+                                                            request.progress("N-SVD of equal bytes, "));
+  if (filling > 0) {
     CompressionSettings s = settings;
     s.method = Method::n_svd;
     s.rank_view = filling;

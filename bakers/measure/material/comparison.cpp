@@ -1,5 +1,7 @@
 #include "bakers/measure/material/comparison.h"
 
+#include <algorithm>
+
 #include "bakers/measure/material/measures.h"
 #include "bakers/measure/material/pca.h"
 #include "bakers/measure/material/report.h"
@@ -22,6 +24,15 @@ std::vector<float> plain(const Vector<float>& values) {
 
 const char* method_name(Method method) {
   return method == Method::n_svd ? "N-SVD" : method == Method::cta ? "CTA" : "K-CTA";
+}
+
+void set_core_rounding(const RawMaterial& raw, Material& material) {
+  if (material.bits == 16) return;
+  constexpr double added = 0.01, least = 0x1p-30, largest = 0x1p-7;
+  const BtfError error = measure_btf(raw, plain(material.light_basis), material.btf);
+  const double share =
+      error.squared_signal > 0 ? added * error.squared_error / error.squared_signal : largest;
+  material.core_rounding = float(std::clamp(share, least, largest));
 }
 
 MethodRow measure_material(const RawMaterial& raw, const Material& material) {
@@ -47,11 +58,13 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
                          Material* material) {
   const std::uint32_t map_side = settings.method == Method::k_cta ? settings.map_side : 0;
   const nlohmann::ordered_json recipe = describe(settings);
-  if (!material) settings.map_side = 0;
+  // Rows of half floats take the same room whatever they hold.
+  if (!material && settings.bits == 16) settings.map_side = 0;
   const platform::Stopwatch watch;
   Material whole = compress(raw, settings, progress);
   const double seconds = watch.seconds();
   whole.recipe = recipe.dump().c_str();
+  set_core_rounding(raw, whole);
   whole = nook::material::quantise(whole);
   MethodRow row = measure_material(raw, whole);
   row.file_bytes = whole_file_bytes(whole, map_side);
@@ -64,6 +77,7 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
     other.visibility =
         settings.visibility == VisibilityForm::binary ? VisibilityForm::distance : VisibilityForm::binary;
     Material second;
+    second.bits = whole.bits;
     second.lights = whole.lights;
     second.views = whole.views;
     second.light_basis = whole.light_basis;

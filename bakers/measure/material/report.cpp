@@ -15,6 +15,8 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   };
   texels("votf_error_texels_binary", row.error_texels_binary);
   texels("votf_error_texels_distance", row.error_texels_distance);
+  if (row.se_db_drawn) json["se_db_drawn"] = *row.se_db_drawn;
+  if (row.gpu_bytes_texel) json["gpu_bytes_texel"] = *row.gpu_bytes_texel;
   if (row.se_db_unseen) json["se_db_unseen"] = *row.se_db_unseen;
   if (row.error_texels_unseen) json["votf_error_texels_unseen"] = *row.error_texels_unseen;
   if (row.jumps) {
@@ -43,6 +45,7 @@ nlohmann::ordered_json describe(const CompressionSettings& s) {
                                                                             : "distance"},
           {"votf_refits", s.votf_refits},
           {"view_map", s.method == Method::k_cta ? s.map_side : 0},
+          {"bits", s.bits},
           {"seed", s.seed}};
 }
 

@@ -18,16 +18,22 @@ using nook::material::VisibilityForm;
 void replace_views(ClusteredTensor& tensor, const Material& material, const std::vector<Vec3>& views) {
   const nook::material::ViewCells cells =
       nook::material::view_cells(tensor, material.views, nook::material::default_map_side, default_memory());
-  const std::size_t terms = cells.terms, rank = tensor.shape.rank_view;
+  const std::size_t terms = cells.terms, count = terms * tensor.shape.rank_view;
   nook::material::ViewRows rows;
   for (const Vec3 view : views) {
+    const nook::material::ParabolicPoint p = nook::material::to_parabolic(view);
+    const auto place = [&](float at) { return std::clamp(0.5f * at + 0.5f, 0.0f, 1.0f) * float(cells.side); };
     const std::size_t cell = nook::material::cell_of(view, cells.side);
-    const auto copy = [&](const auto& from, auto& to, std::size_t count) {
-      const auto first = from.begin() + std::ptrdiff_t(cell * count);
-      to.insert(to.end(), first, first + std::ptrdiff_t(count));
-    };
-    copy(cells.rows.membership, rows.membership, terms);
-    copy(cells.rows.coefficients, rows.coefficients, terms * rank);
+    const nook::material::CellBlend blend = nook::material::blend_at(
+        place(p.x), place(p.y), cells.side,
+        cells.neighbours.empty() ? nook::material::no_neighbours : cells.neighbours[cell]);
+    const auto first = cells.rows.membership.begin() + std::ptrdiff_t(cell * terms);
+    rows.membership.insert(rows.membership.end(), first, first + std::ptrdiff_t(terms));
+    for (std::size_t i = 0; i < count; ++i) {
+      float sum = 0;
+      for (int n = 0; n < 3; ++n) sum += blend.weight[n] * cells.rows.coefficients[blend.cell[n] * count + i];
+      rows.coefficients.push_back(sum);
+    }
   }
   tensor.rows = std::move(rows);
   tensor.map = nook::material::ViewMap();

@@ -60,15 +60,17 @@ Rows modes_of(const MaterialTables& tables, Vec3 view) {
   return out;
 }
 
-// Returns G = U^T U of the light basis, in which m^T G m is the sum of squares of all radiances of the modes
-// m.
-Rows gram_of(const Material& material, std::uint32_t modes) {
-  const Eigen::Index rank = material.btf.shape.rank_light;
-  const Eigen::Map<const Rows> basis(material.light_basis.data(),
-                                     Eigen::Index(material.light_basis.size()) / rank, rank);
-  Rows gram = Rows::Zero(modes, modes);
-  gram.topLeftCorner(rank, rank) = basis.transpose() * basis;
-  return gram;
+// Returns G = U^T U of the light basis of the tables, in which m^T G m is the sum of squares of all radiances
+// of the modes m.
+Rows gram_of(const Material& material, const MaterialTables& tables) {
+  const Eigen::Index modes = tables.btf.light_modes;
+  Rows basis(3 * Eigen::Index(material.lights.size()), modes);
+  std::vector<float> rows(3 * std::size_t(modes));
+  for (std::size_t light = 0; light < material.lights.size(); ++light) {
+    nook::material::light_basis_at(tables, material.lights[light], rows);
+    std::copy(rows.begin(), rows.end(), basis.data() + light * rows.size());
+  }
+  return basis.transpose() * basis;
 }
 
 double square(const Rows& modes, const Rows& gram) {
@@ -84,7 +86,7 @@ struct Jump {
 
 ViewJumps measure_view_jumps(const Material& material, std::uint64_t seed) {
   const MaterialTables tables = make_tables(material, {}, default_memory());
-  const Rows gram = gram_of(material, tables.btf.light_modes);
+  const Rows gram = gram_of(material, tables);
   std::vector<Jump> jumps(arcs * steps);
   tbb::parallel_for(std::size_t{0}, arcs, [&](std::size_t arc) {
     const std::vector<Vec3> views = arc_of(seed + arc);

@@ -27,6 +27,7 @@ Row describe_material(std::span<const std::byte> bytes) {
   row["kind"] = "material";
   row["format_version"] = Container(bytes, material::material_kind).version();
   row["bytes"] = bytes.size();
+  row["bits"] = material.bits;
   row["compressed_bytes"] = material::compressed_bytes(material);
   row["lights"] = material.lights.size();
   row["views"] = material.views.size();

@@ -36,6 +36,7 @@ std::vector<std::uint32_t> read_numbers(const std::string& text, std::size_t cou
 
 void add_compression_options(CLI::App& command, CompressionOptions& o) {
   CompressionSettings& s = o.settings;
+  s.bits = default_bits;
   command
       .add_option(
           "--ranks", o.ranks,
@@ -60,6 +61,12 @@ void add_compression_options(CLI::App& command, CompressionOptions& o) {
       .add_option("--votf-refits", s.votf_refits,
                   "further fits of the VOTF, which count on which side of the threshold values lie")
       ->check(CLI::Range(0, 16))
+      ->capture_default_str();
+  command
+      .add_option("--bits", s.bits,
+                  "of a number: 8, integers in the file and in textures, or 16, half floats, for twice the "
+                  "room and 0.1 dB")
+      ->check(CLI::IsMember({8, 16}))
       ->capture_default_str();
   command
       .add_option_function<std::string>(

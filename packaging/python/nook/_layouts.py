@@ -737,6 +737,8 @@ class nook_bake_material_desc(ctypes.Structure):
         ("seed", ctypes.c_uint64),
         ("progress", nook_bake_progress_fn),
         ("progress_user", ctypes.c_void_p),
+        ("bits", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
     ]
 
 

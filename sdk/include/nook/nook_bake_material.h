@@ -99,6 +99,11 @@ typedef struct nook_bake_material_desc {
   /* NULL (default): the host polls instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
+  /* Of a number: 8 (default) for integers in the file and in textures, or 16 for half floats, which take
+   * twice the room for about 0.1 dB. */
+  uint32_t bits;
+  /* Must be 0. */
+  uint32_t reserved;
 } nook_bake_material_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does.

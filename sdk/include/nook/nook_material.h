@@ -94,7 +94,8 @@ typedef struct nook_material_info {
   /* The same for nook_material_occlusion. */
   uint32_t occlusion_fetches;
   uint32_t occlusion_multiply_adds;
-  /* The size of cores, bases, memberships and coefficients, stored as half floats and bytes. */
+  /* The size of cores, bases, memberships and coefficients with half floats or 8-bit integers; the integers
+   * of a file take less room. */
   uint64_t compressed_bytes;
   /* The size of the view maps, which compressed_bytes does not include. */
   uint64_t view_map_bytes;

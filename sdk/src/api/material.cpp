@@ -20,8 +20,8 @@ nook_material_tensor tensor_info(const ClusteredTensor& tensor, const TensorTabl
           s.clusters,   s.mixture,   tensor.map.side, tables.terms};
 }
 
-std::uint64_t map_bytes(const ClusteredTensor& tensor) {
-  return view_rows_bytes(tensor.shape, std::size_t(tensor.map.side) * tensor.map.side);
+std::uint64_t map_bytes(const ClusteredTensor& tensor, std::uint32_t bits) {
+  return view_rows_bytes(tensor.shape, std::size_t(tensor.map.side) * tensor.map.side, bits);
 }
 
 nook_material_info info_of(const Material& material, const MaterialTables& tables) {
@@ -41,13 +41,13 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   info.occlusion_fetches = occlusion.fetches;
   info.occlusion_multiply_adds = occlusion.multiply_adds;
   info.compressed_bytes = compressed_bytes(material);
-  info.view_map_bytes = map_bytes(material.btf);
+  info.view_map_bytes = map_bytes(material.btf, material.bits);
   info.table_bytes = table_bytes(tables);
   if (material.visibility == VisibilityForm::none) return info;
   info.visibility_threshold = material.mapping.threshold;
   info.visibility_weight = material.mapping.weight;
   info.votf = tensor_info(material.votf, tables.votf);
-  info.view_map_bytes += map_bytes(material.votf);
+  info.view_map_bytes += map_bytes(material.votf, material.bits);
   return info;
 }
 

@@ -106,6 +106,11 @@ void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views
 }
 
 void check_material(const Material& material, nook_result code) {
+  if (material.bits != 8 && material.bits != 16)
+    throw Failure(code, "the form of numbers is unknown (got %u, need 8 or 16)", material.bits);
+  if (!(material.core_rounding > 0 && material.core_rounding < 1))
+    throw Failure(code, "the rounding of cores is out of range (got %g, need more than 0 and less than 1)",
+                  double(material.core_rounding));
   check_directions(material.lights, {code, "lights"});
   check_directions(material.views, {code, "views"});
   const std::size_t lights = material.lights.size(), views = material.views.size();

@@ -8,6 +8,7 @@
 #include "sdk/src/material/check.h"
 #include "sdk/src/material/parabolic.h"
 #include "sdk/src/material/spatial_modes.h"
+#include "sdk/src/material/view_cells.h"
 
 namespace nook::material {
 namespace {
@@ -16,6 +17,13 @@ using Four = std::array<float, 4>;
 
 Four four(const std::uint16_t* halves) {
   return {from_half(halves[0]), from_half(halves[1]), from_half(halves[2]), from_half(halves[3])};
+}
+Four four(const std::int8_t* integers) {
+  return {float(integers[0]) / 127, float(integers[1]) / 127, float(integers[2]) / 127,
+          float(integers[3]) / 127};
+}
+Four four(const float* numbers) {
+  return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 Four mix(const Four& a, const Four& b, float t) {
   Four out;
@@ -42,16 +50,22 @@ Between clamped(float at, std::uint32_t size) {
   return {first, std::min(first + 1, size - 1), place - low};
 }
 
-Four bilinear(const TensorTables& tables, std::uint32_t layer, float u, float v, std::uint32_t level) {
+template <class Number>
+Four bilinear(const TensorTables& tables, const Vector<Number>& spatial, std::uint32_t layer, float u,
+              float v, std::uint32_t level) {
   const std::uint32_t w = level_size(tables.width, level), h = level_size(tables.height, level);
   const Between x = repeated(u, w), y = repeated(v, h);
-  const std::uint16_t* const image =
-      &tables.spatial[tables.level_offset(level) + std::size_t(layer) * w * h * 4];
+  const Number* const image = &spatial[tables.level_offset(level) + std::size_t(layer) * w * h * 4];
   const auto texel = [&](std::uint32_t column, std::uint32_t row) {
     return four(image + (std::size_t(row) * w + column) * 4);
   };
   return mix(mix(texel(x.low, y.low), texel(x.high, y.low), x.t),
              mix(texel(x.low, y.high), texel(x.high, y.high), x.t), y.t);
+}
+
+Four bilinear(const TensorTables& tables, std::uint32_t layer, float u, float v, std::uint32_t level) {
+  return tables.bits == 16 ? bilinear(tables, tables.spatial, layer, u, v, level)
+                           : bilinear(tables, tables.spatial_8, layer, u, v, level);
 }
 
 Four trilinear(const TensorTables& tables, std::uint32_t layer, const Sample& sample) {
@@ -62,17 +76,38 @@ Four trilinear(const TensorTables& tables, std::uint32_t layer, const Sample& sa
   return mix(fine, bilinear(tables, layer, sample.u, sample.v, low + 1), level - float(low));
 }
 
+std::uint32_t member(const TensorTables& tables, std::size_t cell, std::uint32_t k) {
+  const std::size_t count = std::size_t(tables.side) * tables.side;
+  return tables.membership[(k / 4 * count + cell) * 4 + k % 4];
+}
+
+CellBlend blend_of(const TensorTables& tables, Vec3 view) {
+  const ParabolicPoint p = to_parabolic(view);
+  const auto place = [&](float at) { return std::clamp(0.5f * at + 0.5f, 0.0f, 1.0f) * float(tables.side); };
+  const std::uint32_t neighbours =
+      tables.blended ? member(tables, cell_of(view, tables.side), tables.terms) : no_neighbours;
+  return blend_at(place(p.x), place(p.y), tables.side, neighbours);
+}
+
+Four blended(const TensorTables& tables, std::size_t layer, const CellBlend& blend) {
+  const std::size_t count = std::size_t(tables.side) * tables.side;
+  Four sum{};
+  for (int i = 0; i < (tables.blended ? 3 : 1); ++i) {
+    const Four value = four(&tables.coefficients[(layer * count + blend.cell[i]) * 4]);
+    for (int b = 0; b < 4; ++b) sum[b] += blend.weight[i] * value[b];
+  }
+  return sum;
+}
+
 // Decodes the light modes of a texel for a view: each of the light_modes numbers is a sum over terms and view
 // modes.
 void decode(const TensorTables& tables, const Sample& sample, float* modes) {
-  const std::size_t count = std::size_t(tables.side) * tables.side, cell = cell_of(sample.view, tables.side);
+  const CellBlend blend = blend_of(tables, sample.view);
   std::fill_n(modes, tables.light_modes, 0.0f);
   for (std::uint32_t k = 0; k < tables.terms; ++k) {
-    const std::uint32_t cluster =
-        tables.clusters > 1 ? tables.membership[(k / 4 * count + cell) * 4 + k % 4] : 0;
+    const std::uint32_t cluster = tables.clusters > 1 ? member(tables, blend.cell[0], k) : 0;
     for (std::uint32_t f = 0; f < tables.view_vec4_count; ++f) {
-      const Four coefficients =
-          four(&tables.coefficients[((std::size_t(k) * tables.view_vec4_count + f) * count + cell) * 4]);
+      const Four coefficients = blended(tables, std::size_t(k) * tables.view_vec4_count + f, blend);
       for (std::uint32_t a = 0; a < tables.light_modes; ++a) {
         const std::uint32_t layer = (cluster * tables.light_modes + a) * tables.view_vec4_count + f;
         modes[a] += dot(coefficients, trilinear(tables, layer, sample));
@@ -94,8 +129,8 @@ LightPlace light_place(Vec3 light) {
 Four light_texel(const MaterialTables& tables, std::uint32_t layer, const Between& x, const Between& y) {
   constexpr std::size_t side = MaterialTables::light_side;
   const auto texel = [&](std::uint32_t column, std::uint32_t row) {
-    const float* const at = &tables.light[((layer * side + row) * side + column) * 4];
-    return Four{at[0], at[1], at[2], at[3]};
+    const std::size_t at = ((layer * side + row) * side + column) * 4;
+    return tables.light_8.empty() ? four(&tables.light[at]) : four(&tables.light_8[at]);
   };
   return mix(mix(texel(x.low, y.low), texel(x.high, y.low), x.t),
              mix(texel(x.low, y.high), texel(x.high, y.high), x.t), y.t);

@@ -93,15 +93,22 @@ struct Material {
   VisibilityMapping mapping;  // not read if visibility is none
   ClusteredTensor votf;       // empty if visibility is none
 
+  // The form of numbers in the file and in the tables of the decoder: 16 for half floats, 8 for small
+  // integers. The file's integers have steps, and those of the tables have 8 bits and scales.
+  std::uint32_t bits = 16;
+  // The squared error of rounding cores to integers in the file, relative to their squared norm.
+  float core_rounding = 0x1p-14f;
+
   String recipe;  // settings of the bake, JSON; the runtime does not read it
 };
 
 // Returns the bytes of all compressed numbers without resampled view maps and directions, as Table I of the
-// paper counts them.
+// paper counts them; integers are counted without their scales.
 inline std::size_t compressed_bytes(const Material& material) {
-  return light_basis_bytes(material.lights.size(), material.btf.shape) +
-         compressed_bytes(material.btf.shape) +
-         (material.visibility == VisibilityForm::none ? 0 : compressed_bytes(material.votf.shape));
+  const std::uint32_t bits = material.bits;
+  return light_basis_bytes(material.lights.size(), material.btf.shape, bits) +
+         compressed_bytes(material.btf.shape, bits) +
+         (material.visibility == VisibilityForm::none ? 0 : compressed_bytes(material.votf.shape, bits));
 }
 
 }  // namespace nook::material

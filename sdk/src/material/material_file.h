@@ -1,5 +1,6 @@
-// Materials as .nook files. Version 1 of the kind "MATL" has the sections
-//   HEAD  u16 lights, views; u8 form of visibility, f32 threshold and weight of its mapping
+// Materials as .nook files. Version 2 of the kind "MATL" has the sections
+//   HEAD  u16 lights, views; u8 form of visibility, f32 threshold and weight of its mapping; u8 form of
+//         numbers, 8 or 16 (version 1: always 16)
 //   DIRS  lights, then views, three 32-bit floats each
 //   LGHT  the light basis, packed
 //   BTF_  the BTF: u16 width, height, rank_light, rank_view, rank_x, rank_y, clusters, u8 mixture; packed
@@ -8,9 +9,11 @@
 //   BMAP  the BTF's resampled view map (optional): u16 side; its rows
 //   VMAP  the VOTF's resampled view map (optional)
 //   RECP  recipe
-// Packed numbers are an i8 exponent e, then each number as a half float h with the value h 2^e. Rows are
-// memberships in u8, or u16 above 256 clusters, and packed coefficients; with a single cluster there are no
-// memberships.
+// Packed numbers of the form 16 are an i8 exponent e, then each number as a half float h with the value
+// h 2^e. Those of the form 8 are multiples of a step, see packed_numbers.h; the slabs are those of the cores'
+// last two modes, a cluster's basis, or everything. Rows are memberships in u8, or u16 above 256 clusters,
+// and packed coefficients; with a single cluster there are no memberships. The rows of the maps of form 8 are
+// those of map_rows.h.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +26,7 @@
 
 namespace nook::material {
 
-inline constexpr ContainerKind material_kind{four_letters("MATL"), "material", 1, 1};
+inline constexpr ContainerKind material_kind{four_letters("MATL"), "material", 1, 2};
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_material finds a fault.
 std::vector<std::byte> write_material(const Material& material);

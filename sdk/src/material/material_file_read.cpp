@@ -1,5 +1,6 @@
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/check.h"
+#include "sdk/src/material/map_rows.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/material/packed_numbers.h"
 
@@ -10,7 +11,7 @@ struct Head {
   std::uint32_t lights = 0, views = 0;
 };
 
-Head read_head(ByteReader in, Material& material) {
+Head read_head(ByteReader in, std::uint32_t version, Material& material) {
   Head head;
   head.lights = in.u16();
   head.views = in.u16();
@@ -21,6 +22,11 @@ Head read_head(ByteReader in, Material& material) {
   material.visibility = VisibilityForm(form);
   material.mapping.threshold = in.f32();
   material.mapping.weight = in.f32();
+  if (version >= 2) material.bits = in.u8();
+  if (material.bits != 8 && material.bits != 16)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the form of numbers is unknown (got %u, need 8 or 16); use a newer library",
+                  material.bits);
   in.check_end();
   return head;
 }
@@ -35,18 +41,24 @@ void read_directions(ByteReader& in, std::uint32_t count, Vector<Vec3>& directio
   }
 }
 
-// Throws if the section cannot hold count numbers, so that nothing is allocated for them.
-void read_numbers(ByteReader& in, std::size_t count, const char* what, Vector<float>& values) {
-  if (count > in.remaining() / 2)
+// Reads count numbers of a form; slab is that of integers, whose step it returns. Throws if the section
+// cannot hold them, so that nothing is allocated for them.
+float read_numbers(ByteReader& in, std::uint32_t bits, std::size_t count, std::size_t slab, const char* what,
+                   Vector<float>& values) {
+  if (bits == 16 ? count > in.remaining() / 2 : min_multiples_bytes(count) > in.remaining())
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "section %s is too short for its %s (got %zu bytes for %zu); bake the file again",
                   in.name(), what, in.remaining(), count);
   values.resize(count);
+  if (bits == 8) return read_multiples(in, values, slab);
   read_packed(in, values);
+  return 0;
 }
 
-void read_rows(ByteReader& in, const TensorShape& shape, std::size_t count, ViewRows& rows) {
-  if (view_rows_bytes(shape, count) > in.remaining())
+void read_rows(ByteReader& in, std::uint32_t bits, const TensorShape& shape, std::size_t count,
+               ViewRows& rows) {
+  const std::size_t numbers = coefficient_count(shape, count), members = view_rows_bytes(shape, count, 0);
+  if (members + (bits == 16 ? 2 * numbers : min_multiples_bytes(numbers)) > in.remaining())
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "section %s is too short for its rows (got %zu bytes for %zu); bake the file again",
                   in.name(), in.remaining(), count);
@@ -54,11 +66,12 @@ void read_rows(ByteReader& in, const TensorShape& shape, std::size_t count, View
   if (shape.clusters > 1)
     for (std::uint16_t& cluster : rows.membership)
       cluster = std::uint16_t(shape.clusters > 256 ? in.u16() : in.u8());
-  read_numbers(in, coefficient_count(shape, count), "coefficients", rows.coefficients);
+  read_numbers(in, bits, numbers, numbers, "coefficients", rows.coefficients);
 }
 
-void read_tensor(ByteReader in, const Material& material, std::size_t lights, const char* name,
-                 ClusteredTensor& tensor) {
+// Returns the step of integer cores.
+float read_tensor(ByteReader in, const Material& material, std::size_t lights, const char* name,
+                  ClusteredTensor& tensor) {
   TensorShape& s = tensor.shape;
   s.views = static_cast<std::uint32_t>(material.views.size());
   for (std::uint32_t* size :
@@ -66,16 +79,28 @@ void read_tensor(ByteReader in, const Material& material, std::size_t lights, co
     *size = in.u16();
   s.mixture = in.u8();
   check_shape(s, lights, material.views.size(), name, NOOK_ERROR_BAD_FILE);
-  read_numbers(in, s.clusters * core_size(s), "cores", tensor.cores);
-  read_numbers(in, s.clusters * x_basis_size(s), "x bases", tensor.x_bases);
-  read_numbers(in, s.clusters * y_basis_size(s), "y bases", tensor.y_bases);
-  read_rows(in, s, s.views, tensor.rows);
+  const std::uint32_t bits = material.bits;
+  const float step = read_numbers(in, bits, s.clusters * core_size(s), core_slab(s), "cores", tensor.cores);
+  read_numbers(in, bits, s.clusters * x_basis_size(s), x_basis_size(s), "x bases", tensor.x_bases);
+  read_numbers(in, bits, s.clusters * y_basis_size(s), y_basis_size(s), "y bases", tensor.y_bases);
+  read_rows(in, bits, s, s.views, tensor.rows);
   in.check_end();
+  return step;
 }
 
-void read_map(ByteReader in, ClusteredTensor& tensor) {
+void read_map(ByteReader in, std::uint32_t bits, ClusteredTensor& tensor) {
   tensor.map.side = in.u16();
-  read_rows(in, tensor.shape, std::size_t(tensor.map.side) * tensor.map.side, tensor.map.rows);
+  const TensorShape& s = tensor.shape;
+  const std::size_t cells = std::size_t(tensor.map.side) * tensor.map.side;
+  if (bits == 16) {
+    read_rows(in, bits, s, cells, tensor.map.rows);
+  } else {
+    if (min_map_bytes(s, cells) > in.remaining())
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "section %s is too short for its rows (got %zu bytes for %zu); bake the file again",
+                    in.name(), in.remaining(), cells);
+    read_map_rows(in, s, tensor.map);
+  }
   in.check_end();
 }
 
@@ -84,20 +109,23 @@ void read_map(ByteReader in, ClusteredTensor& tensor) {
 Material read_material(std::span<const std::byte> bytes, Memory* memory) {
   const Container file(bytes, material_kind);
   Material material(memory);
-  const Head head = read_head(file.section("HEAD"), material);
+  const Head head = read_head(file.section("HEAD"), file.version(), material);
   ByteReader directions = file.section("DIRS");
   read_directions(directions, head.lights, material.lights);
   read_directions(directions, head.views, material.views);
   directions.check_end();
-  read_tensor(file.section("BTF_"), material, head.lights, "BTF", material.btf);
+  const float step = read_tensor(file.section("BTF_"), material, head.lights, "BTF", material.btf);
+  // A hundredth more, so that a material that is written again has the same step.
+  if (const float error = error_of_step(material.btf.cores, step); error > 0 && error < 0.9f)
+    material.core_rounding = 1.01f * error;
   ByteReader light = file.section("LGHT");
-  read_numbers(light, std::size_t(3) * head.lights * material.btf.shape.rank_light, "basis",
-               material.light_basis);
+  const std::size_t light_numbers = std::size_t(3) * head.lights * material.btf.shape.rank_light;
+  read_numbers(light, material.bits, light_numbers, light_numbers, "basis", material.light_basis);
   light.check_end();
-  if (file.has("BMAP")) read_map(file.section("BMAP"), material.btf);
+  if (file.has("BMAP")) read_map(file.section("BMAP"), material.bits, material.btf);
   if (material.visibility != VisibilityForm::none) {
     read_tensor(file.section("VOTF"), material, 0, "VOTF", material.votf);
-    if (file.has("VMAP")) read_map(file.section("VMAP"), material.votf);
+    if (file.has("VMAP")) read_map(file.section("VMAP"), material.bits, material.votf);
   }
   ByteReader recipe = file.section("RECP");
   material.recipe = recipe.text(recipe.remaining());

@@ -1,36 +1,51 @@
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/check.h"
+#include "sdk/src/material/map_rows.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/material/packed_numbers.h"
 
 namespace nook::material {
 namespace {
 
-void write_rows(ByteWriter& out, const ViewRows& rows, const TensorShape& shape) {
+void write_numbers(ByteWriter& out, std::uint32_t bits, std::span<const float> values, std::size_t slab) {
+  bits == 16 ? write_packed(out, values)
+             : write_multiples(out, values, slab, step_of_largest(values, steps_of_largest));
+}
+
+// The rounding of the VOTF's cores, which are small: far below the error of its compression.
+constexpr float votf_rounding = 0x1p-16f;
+
+void write_rows(ByteWriter& out, std::uint32_t bits, const ViewRows& rows, const TensorShape& shape) {
   if (shape.clusters > 1)
     for (const std::uint16_t cluster : rows.membership)
       shape.clusters > 256 ? out.u16(cluster) : out.u8(cluster);
-  write_packed(out, rows.coefficients);
+  write_numbers(out, bits, rows.coefficients, rows.coefficients.size());
 }
 
-ByteWriter write_tensor(const ClusteredTensor& tensor) {
+ByteWriter write_tensor(std::uint32_t bits, const ClusteredTensor& tensor, float core_rounding) {
   ByteWriter out;
   const TensorShape& s = tensor.shape;
   for (const std::uint32_t size :
        {s.width, s.height, s.rank_light, s.rank_view, s.rank_x, s.rank_y, s.clusters})
     out.u16(size);
   out.u8(s.mixture);
-  write_packed(out, tensor.cores);
-  write_packed(out, tensor.x_bases);
-  write_packed(out, tensor.y_bases);
-  write_rows(out, tensor.rows, s);
+  if (bits == 16)
+    write_packed(out, tensor.cores);
+  else
+    write_multiples(out, tensor.cores, core_slab(s), step_of_error(tensor.cores, core_rounding));
+  write_numbers(out, bits, tensor.x_bases, x_basis_size(s));
+  write_numbers(out, bits, tensor.y_bases, y_basis_size(s));
+  write_rows(out, bits, tensor.rows, s);
   return out;
 }
 
-ByteWriter write_map(const ClusteredTensor& tensor) {
+ByteWriter write_map(std::uint32_t bits, const ClusteredTensor& tensor) {
   ByteWriter out;
   out.u16(tensor.map.side);
-  write_rows(out, tensor.map.rows, tensor.shape);
+  if (bits == 16)
+    write_rows(out, bits, tensor.map.rows, tensor.shape);
+  else
+    write_map_rows(out, tensor.map, tensor.shape);
   return out;
 }
 
@@ -48,6 +63,7 @@ std::vector<std::byte> write_material(const Material& material) {
   head.u8(static_cast<std::uint32_t>(material.visibility));
   head.f32(material.mapping.threshold);
   head.f32(material.mapping.weight);
+  head.u8(material.bits);
   add("HEAD", head);
   for (const auto* set : {&material.lights, &material.views})
     for (const Vec3 d : *set) {
@@ -56,13 +72,13 @@ std::vector<std::byte> write_material(const Material& material) {
       directions.f32(d.z);
     }
   add("DIRS", directions);
-  write_packed(light, material.light_basis);
+  write_numbers(light, material.bits, material.light_basis, material.light_basis.size());
   add("LGHT", light);
-  add("BTF_", write_tensor(material.btf));
-  if (material.btf.map.side) add("BMAP", write_map(material.btf));
+  add("BTF_", write_tensor(material.bits, material.btf, material.core_rounding));
+  if (material.btf.map.side) add("BMAP", write_map(material.bits, material.btf));
   if (material.visibility != VisibilityForm::none) {
-    add("VOTF", write_tensor(material.votf));
-    if (material.votf.map.side) add("VMAP", write_map(material.votf));
+    add("VOTF", write_tensor(material.bits, material.votf, votf_rounding));
+    if (material.votf.map.side) add("VMAP", write_map(material.bits, material.votf));
   }
   recipe.text(material.recipe);
   add("RECP", recipe);

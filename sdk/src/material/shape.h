@@ -26,6 +26,10 @@ struct TensorShape {
 constexpr std::size_t core_size(const TensorShape& s) {
   return std::size_t(s.rank_light) * s.rank_view * s.rank_x * s.rank_y;
 }
+// Returns the number of entries of a core's last two modes, R_x R_y.
+constexpr std::size_t core_slab(const TensorShape& s) {
+  return std::size_t(s.rank_x) * s.rank_y;
+}
 // Returns the number of entries of one cluster's basis of a spatial mode; 0 at full rank, where the basis is
 // the identity.
 constexpr std::size_t x_basis_size(const TensorShape& s) {
@@ -39,22 +43,23 @@ constexpr std::size_t coefficient_count(const TensorShape& s, std::size_t rows) 
   return rows * s.mixture * s.rank_view;
 }
 
-// Returns the bytes of `rows` rows of the view bases: coefficients as half floats, and cluster indices in one
-// byte, or two above 256 clusters. With a single cluster there are no indices.
-constexpr std::size_t view_rows_bytes(const TensorShape& s, std::size_t rows) {
+// Returns the bytes of `rows` rows of the view bases: coefficients as half floats or 8-bit integers, and
+// cluster indices in one byte, or two above 256 clusters. With a single cluster there are no indices.
+constexpr std::size_t view_rows_bytes(const TensorShape& s, std::size_t rows, std::uint32_t bits = 16) {
   const std::size_t index_bytes = s.clusters == 1 ? 0 : s.clusters <= 256 ? 1 : 2;
-  return 2 * coefficient_count(s, rows) + index_bytes * rows * s.mixture;
+  return bits / 8 * coefficient_count(s, rows) + index_bytes * rows * s.mixture;
 }
 
-// Returns the bytes of core tensors, spatial bases and the views' rows as half floats, as Table I of the
-// paper counts them (there in MiB). A resampled view map takes view_rows_bytes(shape, side * side) in
+// Returns the bytes of core tensors, spatial bases and the views' rows, as Table I of the paper counts them
+// for half floats (there in MiB). A resampled view map takes view_rows_bytes(shape, side * side, bits) in
 // addition.
-constexpr std::size_t compressed_bytes(const TensorShape& s) {
-  return 2 * s.clusters * (core_size(s) + x_basis_size(s) + y_basis_size(s)) + view_rows_bytes(s, s.views);
+constexpr std::size_t compressed_bytes(const TensorShape& s, std::uint32_t bits = 16) {
+  return bits / 8 * s.clusters * (core_size(s) + x_basis_size(s) + y_basis_size(s)) +
+         view_rows_bytes(s, s.views, bits);
 }
 // Returns the bytes of the light basis of all clusters; red, green and blue are rows of it.
-constexpr std::size_t light_basis_bytes(std::size_t lights, const TensorShape& s) {
-  return 2 * 3 * lights * s.rank_light;
+constexpr std::size_t light_basis_bytes(std::size_t lights, const TensorShape& s, std::uint32_t bits = 16) {
+  return bits / 8 * 3 * lights * s.rank_light;
 }
 
 }  // namespace nook::material

@@ -17,58 +17,48 @@ std::uint16_t finite_half(float value) {
   return to_half(std::clamp(value, -65504.0f, 65504.0f));
 }
 
-// Expands and packs the modes of one cluster, `batch` at a time.
-class ClusterPacking {
- public:
-  static constexpr std::uint32_t batch = 16;
+// Calls body(place, cluster, a, b, image, other, scratch) for all modes, `batch` at a time, with the expanded
+// mode in image and room for another. Bodies of different places run at once.
+constexpr std::uint32_t batch = 16;
 
-  ClusterPacking(const ClusteredTensor& tensor, std::uint32_t cluster, float scale, TensorTables& tables,
-                 Memory* memory)
-      : tensor_(tensor),
-        cluster_(cluster),
-        scale_(scale),
-        tables_(tables),
-        expansion_(tensor, cluster, memory),
-        texels_(std::size_t(tables.width) * tables.height),
-        work_(batch * (expansion_.scratch_size() + 2 * texels_), memory) {}
-
-  void run(const Parallel& parallel) {
-    const TensorShape& s = tensor_.shape;
-    const std::uint32_t modes = s.rank_light * s.rank_view;
+template <class Body>
+void for_each_mode(const ClusteredTensor& tensor, const Parallel& parallel, Memory* memory, Body&& body) {
+  const TensorShape& s = tensor.shape;
+  const std::uint32_t modes = s.rank_light * s.rank_view;
+  const std::size_t texels = std::size_t(s.width) * s.height;
+  Vector<float> work(memory);
+  for (std::uint32_t c = 0; c < s.clusters; ++c) {
+    const ModeExpansion expansion(tensor, c, memory);
+    const std::size_t each = expansion.scratch_size() + 2 * texels;
+    work.resize(batch * each);
     for (std::uint32_t first = 0; first < modes; first += batch) {
-      auto body = [&](std::uint32_t i) noexcept { pack(first + i, i); };
-      parallel_for(parallel, std::min(batch, modes - first), body);
+      auto one = [&](std::uint32_t i) noexcept {
+        const std::uint32_t a = (first + i) / s.rank_view, b = (first + i) % s.rank_view;
+        const std::span<float> room(work.data() + i * each, each);
+        const std::span<float> image = room.subspan(0, texels), other = room.subspan(texels, texels);
+        expansion.expand(a, b, room.subspan(2 * texels), image);
+        body(c, a, b, image, other);
+      };
+      parallel_for(parallel, std::min(batch, modes - first), one);
     }
   }
+}
 
- private:
-  void pack(std::uint32_t mode, std::uint32_t place) noexcept {
-    const std::uint32_t a = mode / tensor_.shape.rank_view, b = mode % tensor_.shape.rank_view;
-    const std::size_t each = expansion_.scratch_size() + 2 * texels_;
-    const std::span<float> work(work_.data() + place * each, each);
-    std::span<float> image = work.subspan(0, texels_), other = work.subspan(texels_, texels_);
-    expansion_.expand(a, b, work.subspan(2 * texels_), image);
-    const std::size_t layer =
-        (std::size_t(cluster_) * tables_.light_modes + a) * tables_.view_vec4_count + b / 4;
-    for (std::uint32_t level = 0;; ++level) {
-      const std::uint32_t w = level_size(tables_.width, level), h = level_size(tables_.height, level);
-      const std::size_t texels = std::size_t(w) * h;
-      std::uint16_t* const out = &tables_.spatial[tables_.level_offset(level) + layer * texels * 4 + b % 4];
-      for (std::size_t i = 0; i < texels; ++i) out[4 * i] = finite_half(image[i] * scale_);
-      if (level + 1 == tables_.levels) return;
-      halve(image, w, h, other);
-      std::swap(image, other);
-    }
+// Calls write(texel, value) for all texels of all levels of a mode; texel is an index of `spatial`.
+template <class Write>
+void for_each_texel(const TensorTables& tables, std::uint32_t cluster, std::uint32_t a, std::uint32_t b,
+                    std::span<float> image, std::span<float> other, Write&& write) {
+  const std::size_t layer = (std::size_t(cluster) * tables.light_modes + a) * tables.view_vec4_count + b / 4;
+  for (std::uint32_t level = 0;; ++level) {
+    const std::uint32_t w = level_size(tables.width, level), h = level_size(tables.height, level);
+    const std::size_t texels = std::size_t(w) * h;
+    const std::size_t first = tables.level_offset(level) + layer * texels * 4 + b % 4;
+    for (std::size_t i = 0; i < texels; ++i) write(first + 4 * i, image[i]);
+    if (level + 1 == tables.levels) return;
+    halve(image, w, h, other);
+    std::swap(image, other);
   }
-
-  const ClusteredTensor& tensor_;
-  std::uint32_t cluster_;
-  float scale_;
-  TensorTables& tables_;
-  ModeExpansion expansion_;
-  std::size_t texels_;
-  Vector<float> work_;
-};
+}
 
 // Returns the exponent that scales the largest bound of a spatial mode to [2^14, 2^15), which is within a
 // half's range and far from its smallest numbers.
@@ -80,39 +70,143 @@ int spatial_exponent(const ClusteredTensor& tensor, Memory* memory) {
   return bound > 0 ? std::clamp(14 - std::ilogb(bound), -100, 100) : 0;
 }
 
-// scale multiplies the coefficients.
-void pack_cells(const ViewCells& cells, std::uint32_t rank, float scale, TensorTables& tables) {
+// p_c[b] multiplies the coefficients of the clusters' view modes, and r[a] the columns of the light map.
+struct ModeScales {
+  explicit ModeScales(Memory* memory) : p(memory), r(memory) {}
+  Vector<float> p;  // clusters x R_v
+  Vector<float> r;  // R_l
+};
+
+// The magnitudes below which a number counts as 0, so that no quotient overflows.
+constexpr float smallest_scale = 1e-30f;
+
+float quotient(float value, float scale) {
+  return scale > smallest_scale ? value / scale : 0;
+}
+
+// Sets p to the smallest for which no |mode| is above p r.
+void tighten(std::span<const float> largest, const TensorShape& s, ModeScales& scales) {
+  std::fill(scales.p.begin(), scales.p.end(), 0.0f);
+  for (std::uint32_t c = 0; c < s.clusters; ++c)
+    for (std::uint32_t a = 0; a < s.rank_light; ++a)
+      for (std::uint32_t b = 0; b < s.rank_view; ++b) {
+        float& p = scales.p[std::size_t(c) * s.rank_view + b];
+        p = std::max(p,
+                     quotient(largest[(std::size_t(c) * s.rank_light + a) * s.rank_view + b], scales.r[a]));
+      }
+}
+
+// Returns scales for which p_c[b] r[a] is close to the largest magnitude of each mode S_c[a, b], and not
+// below it. r starts with the means of these magnitudes. light has those of the columns of the light basis: r
+// goes half of the way, in logarithms, to where the columns times r are equal, because the rounding of the
+// light map counts as that of the modes does. Only sums, products and square roots, which all machines round
+// alike.
+ModeScales mode_scales(const TensorShape& s, std::span<const float> largest, std::span<const float> light,
+                       Memory* memory) {
+  ModeScales scales(memory);
+  scales.p.resize(std::size_t(s.clusters) * s.rank_view);
+  scales.r.resize(s.rank_light);
+  for (std::size_t i = 0; i < largest.size(); ++i) scales.r[i / s.rank_view % s.rank_light] += largest[i];
+  tighten(largest, s, scales);
+  std::fill(scales.r.begin(), scales.r.end(), 0.0f);
+  for (std::size_t i = 0; i < largest.size(); ++i) {
+    const std::size_t c = i / s.rank_view / s.rank_light, a = i / s.rank_view % s.rank_light,
+                      b = i % s.rank_view;
+    scales.r[a] = std::max(scales.r[a], quotient(largest[i], scales.p[c * s.rank_view + b]));
+  }
+  for (std::size_t a = 0; a < light.size(); ++a)
+    if (light[a] > smallest_scale) scales.r[a] = std::sqrt(scales.r[a]) / std::sqrt(light[a]);
+  tighten(largest, s, scales);
+  return scales;
+}
+
+// Returns the largest magnitude of each mode, clusters x R_l x R_v.
+Vector<float> largest_of_modes(const ClusteredTensor& tensor, const Parallel& parallel, Memory* memory) {
+  const TensorShape& s = tensor.shape;
+  Vector<float> largest(std::size_t(s.clusters) * s.rank_light * s.rank_view, memory);
+  for_each_mode(tensor, parallel, memory,
+                [&](std::uint32_t c, std::uint32_t a, std::uint32_t b, std::span<float> image,
+                    std::span<float>) noexcept {
+                  float& out = largest[(std::size_t(c) * s.rank_light + a) * s.rank_view + b];
+                  for (const float value : image) out = std::max(out, std::abs(value));
+                });
+  return largest;
+}
+
+Vector<float> largest_of_columns(std::span<const float> matrix, std::size_t columns, Memory* memory) {
+  Vector<float> largest(columns, memory);
+  for (std::size_t i = 0; i < matrix.size(); ++i)
+    largest[i % columns] = std::max(largest[i % columns], std::abs(matrix[i]));
+  return largest;
+}
+
+// scale(cluster, b) multiplies the coefficients.
+template <class Scale>
+void pack_cells(const ViewCells& cells, std::uint32_t rank, Scale&& scale, TensorTables& tables) {
   const std::size_t count = std::size_t(cells.side) * cells.side;
   tables.side = cells.side;
   tables.terms = cells.terms;
+  tables.blended = !cells.neighbours.empty();
   tables.coefficients.resize(count * 4 * cells.terms * tables.view_vec4_count);
-  if (tables.clusters > 1) tables.membership.resize(count * 4 * vec4_count(cells.terms));
-  for (std::size_t cell = 0; cell < count; ++cell)
+  if (tables.has_membership()) tables.membership.resize(count * 4 * vec4_count(tables.memberships()));
+  const auto member = [&](std::size_t cell, std::uint32_t k) -> std::uint16_t& {
+    return tables.membership[(k / 4 * count + cell) * 4 + k % 4];
+  };
+  for (std::size_t cell = 0; cell < count; ++cell) {
     for (std::uint32_t k = 0; k < cells.terms; ++k) {
       const std::size_t term = cell * cells.terms + k;
+      const std::uint32_t cluster = cells.rows.membership[term];
       for (std::uint32_t b = 0; b < rank; ++b)
         tables.coefficients[((std::size_t(k) * tables.view_vec4_count + b / 4) * count + cell) * 4 + b % 4] =
-            finite_half(cells.rows.coefficients[term * rank + b] * scale);
-      if (tables.clusters > 1)
-        tables.membership[(k / 4 * count + cell) * 4 + k % 4] = cells.rows.membership[term];
+            finite_half(cells.rows.coefficients[term * rank + b] * scale(cluster, b));
+      if (tables.has_membership()) member(cell, k) = std::uint16_t(cluster);
     }
+    if (tables.blended) member(cell, cells.terms) = cells.neighbours[cell];
+  }
 }
 
-void make_spatial(const ClusteredTensor& tensor, std::uint32_t light_modes, int exponent,
-                  const Parallel& parallel, TensorTables& tables, Memory* memory) {
-  const TensorShape& s = tensor.shape;
+void set_sizes(const TensorShape& s, std::uint32_t light_modes, std::uint32_t bits, TensorTables& tables) {
   tables.width = s.width;
   tables.height = s.height;
   tables.levels = level_count(s.width, s.height);
   tables.light_modes = light_modes;
   tables.view_vec4_count = vec4_count(s.rank_view);
   tables.clusters = s.clusters;
-  tables.spatial.resize(tables.level_offset(tables.levels));
-  for (std::uint32_t c = 0; c < s.clusters; ++c)
-    ClusterPacking(tensor, c, std::ldexp(1.0f, exponent), tables, memory).run(parallel);
+  tables.bits = bits;
 }
 
-void make_light_map(const Material& material, float scale, MaterialTables& tables, Memory* memory) {
+void make_spatial(const ClusteredTensor& tensor, float scale, const Parallel& parallel, TensorTables& tables,
+                  Memory* memory) {
+  tables.spatial.resize(tables.level_offset(tables.levels));
+  for_each_mode(tensor, parallel, memory,
+                [&](std::uint32_t c, std::uint32_t a, std::uint32_t b, std::span<float> image,
+                    std::span<float> other) noexcept {
+                  for_each_texel(tables, c, a, b, image, other, [&](std::size_t at, float value) {
+                    tables.spatial[at] = finite_half(value * scale);
+                  });
+                });
+}
+
+std::int8_t as_integer(float value) {
+  return std::int8_t(std::nearbyint(std::clamp(value, -1.0f, 1.0f) * 127));
+}
+
+void make_spatial_8(const ClusteredTensor& tensor, const ModeScales& scales, const Parallel& parallel,
+                    TensorTables& tables, Memory* memory) {
+  tables.spatial_8.resize(tables.level_offset(tables.levels));
+  for_each_mode(tensor, parallel, memory,
+                [&](std::uint32_t c, std::uint32_t a, std::uint32_t b, std::span<float> image,
+                    std::span<float> other) noexcept {
+                  const float p = scales.p[std::size_t(c) * tensor.shape.rank_view + b];
+                  for_each_texel(tables, c, a, b, image, other, [&](std::size_t at, float value) {
+                    tables.spatial_8[at] = as_integer(quotient(quotient(value, p), scales.r[a]));
+                  });
+                });
+}
+
+// scale(a) multiplies the columns of the light basis.
+template <class Scale>
+void make_light_map(const Material& material, Scale&& scale, MaterialTables& tables, Memory* memory) {
   const std::uint32_t side = MaterialTables::light_side, rank = material.btf.shape.rank_light;
   const std::size_t count = std::size_t(side) * side, light_vec4_count = vec4_count(rank);
   const DirectionMesh mesh(material.lights, memory);
@@ -129,7 +223,7 @@ void make_light_map(const Material& material, float scale, MaterialTables& table
           for (int i = 0; i < 3; ++i)
             sum += mix.weight[i] * material.light_basis[(3 * std::size_t(mix.index[i]) + channel) * rank + a];
           const std::size_t layer = channel * light_vec4_count + a / 4;
-          tables.light[((layer * side + row) * side + column) * 4 + a % 4] = sum * scale * share;
+          tables.light[((layer * side + row) * side + column) * 4 + a % 4] = sum * scale(a) * share;
         }
     }
 }
@@ -143,11 +237,11 @@ void add_floats(Hash64& hash, std::span<const float> values) {
   }
 }
 
-// The exponent scales the light map, and so belongs to what was baked with it.
-std::uint64_t hash_of_light(const Material& material, int exponent) {
+// The scales are those of the light map, and so belong to what was baked with it.
+std::uint64_t hash_of_light(const Material& material, std::span<const float> columns, float scale) {
   Hash64 hash;
-  const float scale = float(exponent);
   add_floats(hash, {&scale, 1});
+  add_floats(hash, columns);
   for (const Vec3 light : material.lights) {
     const float xyz[3] = {light.x, light.y, light.z};
     add_floats(hash, xyz);
@@ -167,7 +261,76 @@ std::uint64_t hash_of_votf(const Material& material) {
 }
 
 std::uint64_t tensor_bytes(const TensorTables& tables) {
-  return 2 * (std::uint64_t(tables.spatial.size()) + tables.coefficients.size() + tables.membership.size());
+  return tables.spatial_8.size() +
+         2 * (std::uint64_t(tables.spatial.size()) + tables.coefficients.size() + tables.membership.size());
+}
+
+// Replaces the light map by integers and returns the number that 127 stands for.
+float round_light_map(MaterialTables& tables, Memory* memory) {
+  float largest = 0;
+  for (const float value : tables.light) largest = std::max(largest, std::abs(value));
+  tables.light_8.resize(tables.light.size());
+  for (std::size_t i = 0; i < tables.light.size(); ++i)
+    tables.light_8[i] = as_integer(quotient(tables.light[i], largest));
+  tables.light = Vector<float>(memory);
+  return largest;
+}
+
+void make_btf(const Material& material, std::uint32_t map_side, const Parallel& parallel,
+              MaterialTables& tables, Memory* memory) {
+  const ClusteredTensor& btf = material.btf;
+  const ViewCells cells = view_cells(btf, material.views, map_side, memory);
+  set_sizes(btf.shape, 4 * vec4_count(btf.shape.rank_light), material.bits, tables.btf);
+  if (material.bits == 16) {
+    const int exponent = spatial_exponent(btf, memory);
+    tables.light_hash = hash_of_light(material, {}, float(exponent));
+    make_spatial(btf, std::ldexp(1.0f, exponent), parallel, tables.btf, memory);
+    pack_cells(
+        cells, btf.shape.rank_view, [](std::uint32_t, std::uint32_t) { return 1.0f; }, tables.btf);
+    make_light_map(
+        material, [scale = std::ldexp(1.0f, -exponent)](std::uint32_t) { return scale; }, tables, memory);
+    return;
+  }
+  const ModeScales scales =
+      mode_scales(btf.shape, largest_of_modes(btf, parallel, memory),
+                  largest_of_columns(material.light_basis, btf.shape.rank_light, memory), memory);
+  make_spatial_8(btf, scales, parallel, tables.btf, memory);
+  make_light_map(
+      material, [&](std::uint32_t a) { return scales.r[a]; }, tables, memory);
+  const float unit = round_light_map(tables, memory);
+  pack_cells(
+      cells, btf.shape.rank_view,
+      [&](std::uint32_t c, std::uint32_t b) {
+        return scales.p[std::size_t(c) * btf.shape.rank_view + b] * unit;
+      },
+      tables.btf);
+  tables.light_hash = hash_of_light(material, scales.r, unit);
+}
+
+void make_votf(const Material& material, std::uint32_t map_side, const Parallel& parallel,
+               MaterialTables& tables, Memory* memory) {
+  const ClusteredTensor& votf = material.votf;
+  const ViewCells cells = view_cells(votf, material.views, map_side, memory);
+  set_sizes(votf.shape, 1, material.bits, tables.votf);
+  tables.votf_hash = hash_of_votf(material);
+  if (material.bits == 16) {
+    // The inverse power of two multiplies the coefficients, so that it is used only where a half would
+    // overflow.
+    const int exponent = std::min(spatial_exponent(votf, memory), 0);
+    make_spatial(votf, std::ldexp(1.0f, exponent), parallel, tables.votf, memory);
+    pack_cells(
+        cells, votf.shape.rank_view,
+        [scale = std::ldexp(1.0f, -exponent)](std::uint32_t, std::uint32_t) { return scale; }, tables.votf);
+    return;
+  }
+  const ModeScales scales = mode_scales(votf.shape, largest_of_modes(votf, parallel, memory), {}, memory);
+  make_spatial_8(votf, scales, parallel, tables.votf, memory);
+  pack_cells(
+      cells, votf.shape.rank_view,
+      [&](std::uint32_t c, std::uint32_t b) {
+        return scales.p[std::size_t(c) * votf.shape.rank_view + b] * scales.r[0];
+      },
+      tables.votf);
 }
 
 }  // namespace
@@ -182,27 +345,16 @@ std::size_t TensorTables::level_offset(std::uint32_t level) const {
 MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
                            std::uint32_t map_side) {
   MaterialTables tables(memory);
-  const ClusteredTensor &btf = material.btf, &votf = material.votf;
-  const int exponent = spatial_exponent(btf, memory);
-  make_spatial(btf, 4 * vec4_count(btf.shape.rank_light), exponent, parallel, tables.btf, memory);
-  pack_cells(view_cells(btf, material.views, map_side, memory), btf.shape.rank_view, 1, tables.btf);
-  make_light_map(material, std::ldexp(1.0f, -exponent), tables, memory);
+  make_btf(material, map_side, parallel, tables, memory);
   tables.visibility = material.visibility;
   tables.mapping = material.mapping;
-  tables.light_hash = hash_of_light(material, exponent);
-  if (material.visibility == VisibilityForm::none) return tables;
-  // The inverse power of two multiplies the coefficients, so that it is used only where a half would
-  // overflow.
-  tables.votf_hash = hash_of_votf(material);
-  const int votf_exponent = std::min(spatial_exponent(votf, memory), 0);
-  make_spatial(votf, 1, votf_exponent, parallel, tables.votf, memory);
-  pack_cells(view_cells(votf, material.views, map_side, memory), votf.shape.rank_view,
-             std::ldexp(1.0f, -votf_exponent), tables.votf);
+  if (material.visibility != VisibilityForm::none) make_votf(material, map_side, parallel, tables, memory);
   return tables;
 }
 
 std::uint64_t table_bytes(const MaterialTables& tables) {
-  return tensor_bytes(tables.btf) + tensor_bytes(tables.votf) + 4 * std::uint64_t(tables.light.size());
+  return tensor_bytes(tables.btf) + tensor_bytes(tables.votf) + tables.light_8.size() +
+         4 * std::uint64_t(tables.light.size());
 }
 
 }  // namespace nook::material

@@ -16,10 +16,10 @@ constexpr std::uint32_t vec4_count(std::uint32_t rank) {
   return (rank + 3) / 4;
 }
 
-// All numbers are half floats, except for the membership.
+// All numbers are half floats, except for the membership, and for spatial modes of 8 bits.
 struct TensorTables {
   explicit TensorTables(Memory* memory = default_memory())
-      : spatial(memory), coefficients(memory), membership(memory) {}
+      : spatial(memory), spatial_8(memory), coefficients(memory), membership(memory) {}
 
   std::uint32_t width = 0, height = 0;  // of level 0
   std::uint32_t levels = 0;
@@ -28,23 +28,31 @@ struct TensorTables {
   std::uint32_t clusters = 0;
   std::uint32_t side = 0;   // cells of the view map
   std::uint32_t terms = 0;  // of a cell; see ViewCells
+  bool blended = false;     // cells blend with their neighbours; see ViewCells
+  std::uint32_t bits = 16;  // of a spatial mode
 
   // One level after another: layers x height x width x 4. Number b % 4 of layer (c light_modes + a)
   // view_vec4_count + b / 4 is the mode S_c[a, b] of spatial_modes.h, times a power of two for the whole
-  // tensor.
+  // tensor. With 8 bits it is instead, times 127, an integer of -127 to 127, after a division by the mode's
+  // scale p_c[b] r[a], of which the coefficients and the light map have their factors.
   Vector<std::uint16_t> spatial;
+  Vector<std::int8_t> spatial_8;
   // terms x view_vec4_count layers of side x side x 4.
   Vector<std::uint16_t> coefficients;
-  // Layers of side x side x 4, with four terms each; empty if there is a single cluster.
+  // Layers of side x side x 4, with four terms each, and the neighbours of ViewCells as the last of the terms
+  // if the cells blend. Empty if there is a single cluster and no cell blends.
   Vector<std::uint16_t> membership;
 
+  std::uint32_t memberships() const { return terms + (blended ? 1 : 0); }
+  bool has_membership() const { return clusters > 1 || blended; }
   std::uint32_t layers() const { return clusters * light_modes * view_vec4_count; }
   // Returns the offset of a level in `spatial`.
   std::size_t level_offset(std::uint32_t level) const;
 };
 
 struct MaterialTables {
-  explicit MaterialTables(Memory* memory = default_memory()) : btf(memory), votf(memory), light(memory) {}
+  explicit MaterialTables(Memory* memory = default_memory())
+      : btf(memory), votf(memory), light(memory), light_8(memory) {}
 
   TensorTables btf;
   TensorTables votf;  // empty if visibility is none
@@ -57,6 +65,9 @@ struct MaterialTables {
   // side x 4 floats, with layer channel light_modes / 4 + a / 4. It is divided by the power of two of the
   // BTF's spatial modes.
   Vector<float> light;
+  // With 8 bits in place of `light`: integers of -127 to 127, which are 127 times the light map whose columns
+  // are multiplied by r[a], over its largest number. The coefficients are multiplied by that number.
+  Vector<std::int8_t> light_8;
 
   // XXH64 of the numbers that the light basis and the VOTF were made from, for data that was baked with them;
   // votf_hash is 0 without a VOTF.
@@ -65,8 +76,8 @@ struct MaterialTables {
 
 inline constexpr std::uint32_t default_map_side = 256;
 
-// Makes the tables of a material that passed check_material. map_side is the side of the view maps in cells;
-// see view_cells.h.
+// Makes the tables of a material that passed check_material. map_side is the side in cells of the view maps
+// of a material without any; see view_cells.h.
 MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
                            std::uint32_t map_side = default_map_side);
 

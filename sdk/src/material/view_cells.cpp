@@ -1,9 +1,9 @@
 #include "sdk/src/material/view_cells.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sdk/src/material/direction_mesh.h"
+#include "sdk/src/material/map_rows.h"
 
 namespace nook::material {
 namespace {
@@ -47,73 +47,30 @@ void mix_three(const ClusteredTensor& tensor, std::span<const Vec3> views, ViewC
     }
 }
 
-// The terms of one cell of a tensor's map.
-struct MapCell {
-  const std::uint16_t* membership;
-  const float* coefficients;
-};
-
-MapCell map_cell(const ClusteredTensor& tensor, std::uint32_t column, std::uint32_t row) {
-  const std::size_t first = (std::size_t(row) * tensor.map.side + column) * tensor.shape.mixture;
-  return {&tensor.map.rows.membership[first], &tensor.map.rows.coefficients[first * tensor.shape.rank_view]};
-}
-
-// Adds `weight` times the coefficients of `from` to a cell of the given clusters. Does nothing and gives
-// false where the clusters are others, in any order.
-bool add_same_clusters(const TensorShape& s, MapCell from, float weight, Cell cell) {
-  const auto* const end = from.membership + s.mixture;
-  for (std::uint32_t term = 0; term < s.mixture; ++term)
-    if (std::find(from.membership, end, cell.membership[term]) == end) return false;
-  for (std::uint32_t term = 0; term < s.mixture; ++term) {
-    const auto* const at = std::find(from.membership, end, cell.membership[term]);
-    const float* const coefficients = from.coefficients + (at - from.membership) * s.rank_view;
-    for (std::uint32_t b = 0; b < s.rank_view; ++b)
-      cell.coefficients[term * s.rank_view + b] += weight * coefficients[b];
+// Returns the step + 1 along one axis for the half of a cell that lies towards `towards`. at is the cell's
+// place along the axis and distance the one to the next cell of the arrays.
+std::uint32_t step_code(const ViewCells& cells, std::size_t number, std::int64_t at, std::int64_t distance,
+                        int towards) {
+  const std::uint16_t* const own = &cells.rows.membership[number * cells.terms];
+  for (const int step : {towards, -towards}) {
+    if (at + step < 0 || at + step >= std::int64_t(cells.side)) continue;
+    const auto other = std::size_t(std::int64_t(number) + step * distance) * cells.terms;
+    if (std::equal(own, own + cells.terms, &cells.rows.membership[other])) return std::uint32_t(step + 1);
   }
-  return true;
+  return 1;
 }
 
-// Where the centre of a finer cell lies in a row or column of the map: the map's cell, and the way from its
-// centre in cells, -0.5 to 0.5.
-struct Place {
-  std::uint32_t cell;
-  float offset;
-};
-
-Place place_of(std::uint32_t fine, std::uint32_t factor) {
-  return {fine / factor, (float(fine % factor) + 0.5f) / float(factor) - 0.5f};
-}
-
-// Adds what a finer cell takes from the neighbours of its map cell along one direction, and gives the weight
-// that it took: from the one it lies towards or, where that has other clusters, from the opposite one with
-// the sign turned.
-float add_neighbour(const ClusteredTensor& tensor, Place x, Place y, bool along_x, Cell cell) {
-  const Place along = along_x ? x : y;
-  const int towards = along.offset > 0 ? 1 : -1;
-  const float weight = std::abs(along.offset);
-  for (const int sign : {1, -1}) {
-    const std::int64_t neighbour = std::int64_t(along.cell) + sign * towards;
-    if (neighbour < 0 || neighbour >= std::int64_t(tensor.map.side)) continue;
-    const auto at = static_cast<std::uint32_t>(neighbour);
-    const MapCell from = along_x ? map_cell(tensor, at, y.cell) : map_cell(tensor, x.cell, at);
-    if (add_same_clusters(tensor.shape, from, float(sign) * weight, cell)) return float(sign) * weight;
+void copy_map(const ClusteredTensor& tensor, ViewCells& cells, Memory* memory) {
+  const std::size_t side = cells.side;
+  cells.rows = sorted_rows(tensor.map.rows, tensor.shape, memory);
+  cells.neighbours.resize(side * side);
+  for (std::size_t cell = 0; cell < side * side; ++cell) {
+    const auto x = std::int64_t(cell % side), y = std::int64_t(cell / side);
+    const auto below = std::int64_t(side);
+    cells.neighbours[cell] =
+        std::uint8_t(step_code(cells, cell, x, 1, -1) | step_code(cells, cell, x, 1, 1) << 2 |
+                     step_code(cells, cell, y, below, -1) << 4 | step_code(cells, cell, y, below, 1) << 6);
   }
-  return 0;
-}
-
-// Each cell of a map becomes factor x factor, of its own clusters, with coefficients linear between the
-// centres of cells that have the same clusters. Where its neighbours have others it goes on as it comes from
-// the opposite side.
-void refine(const ClusteredTensor& tensor, std::uint32_t factor, ViewCells& cells) {
-  for (std::uint32_t row = 0; row < cells.side; ++row)
-    for (std::uint32_t column = 0; column < cells.side; ++column) {
-      const Place x = place_of(column, factor), y = place_of(row, factor);
-      const MapCell own = map_cell(tensor, x.cell, y.cell);
-      const Cell cell = cell_at(cells, std::size_t(row) * cells.side + column, tensor.shape.rank_view);
-      std::copy_n(own.membership, tensor.shape.mixture, cell.membership);
-      const float taken = add_neighbour(tensor, x, y, true, cell) + add_neighbour(tensor, x, y, false, cell);
-      add_same_clusters(tensor.shape, own, 1 - taken, cell);
-    }
 }
 
 }  // namespace
@@ -127,22 +84,30 @@ ViewCells view_cells(const ClusteredTensor& tensor, std::span<const Vec3> views,
                      Memory* memory) {
   ViewCells cells(memory);
   cells.terms = cell_terms(tensor);
-  const std::uint32_t own = tensor.map.side, factor = own == 0 ? 0 : side / own;
-  if (own != 0 && factor < 2) {
-    cells.side = own;
-    cells.rows.membership = tensor.map.rows.membership;
-    cells.rows.coefficients = tensor.map.rows.coefficients;
+  const std::uint32_t own = tensor.map.side;
+  cells.side = own == 0 ? side : own;
+  if (own != 0) {
+    copy_map(tensor, cells, memory);
     return cells;
   }
-  cells.side = own == 0 ? side : factor * own;
-  const std::size_t terms = std::size_t(cells.side) * cells.side * cells.terms;
+  const std::size_t terms = std::size_t(side) * side * cells.terms;
   cells.rows.membership.resize(terms);
   cells.rows.coefficients.resize(terms * tensor.shape.rank_view);
-  if (own == 0)
-    mix_three(tensor, views, cells, memory);
-  else
-    refine(tensor, factor, cells);
+  mix_three(tensor, views, cells, memory);
   return cells;
+}
+
+CellBlend blend_at(float place_x, float place_y, std::uint32_t side, std::uint32_t neighbours) {
+  const auto column = std::min(static_cast<std::uint32_t>(place_x), side - 1),
+             row = std::min(static_cast<std::uint32_t>(place_y), side - 1);
+  const float x = place_x - float(column) - 0.5f, y = place_y - float(row) - 0.5f;
+  const int step_x = neighbour_step(neighbours, x > 0 ? CellHalf::right : CellHalf::left),
+            step_y = neighbour_step(neighbours, y > 0 ? CellHalf::upper : CellHalf::lower);
+  const float weight_x = x * float(step_x), weight_y = y * float(step_y);
+  const std::size_t cell = std::size_t(row) * side + column;
+  return {{cell, std::size_t(std::int64_t(cell) + step_x),
+           std::size_t(std::int64_t(cell) + step_y * std::int64_t(side))},
+          {1 - weight_x - weight_y, weight_x, weight_y}};
 }
 
 }  // namespace nook::material

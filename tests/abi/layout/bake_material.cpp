@@ -38,3 +38,5 @@ NOOK_AT(nook_bake_material_desc, threads, 148);
 NOOK_AT(nook_bake_material_desc, seed, 152);
 NOOK_AT(nook_bake_material_desc, progress, 160);
 NOOK_AT(nook_bake_material_desc, progress_user, 168);
+NOOK_AT(nook_bake_material_desc, bits, 176);
+NOOK_AT(nook_bake_material_desc, reserved, 180);

@@ -11,9 +11,9 @@ namespace {
 std::vector<std::string> small_bake(const TestFolder& folder, const std::string& output,
                                     const std::map<std::string, std::string>& more = {}) {
   std::map<std::string, std::string> options = {
-      {"--meso", "fiber"},     {"-o", folder.path(output)}, {"--texels", "12"},   {"--directions", "12"},
-      {"--detail", "0.3"},     {"--bounce-rays", "8"},      {"--view-map", "16"}, {"--ranks", "8,8,8,8"},
-      {"--votf-ranks", "8,8"}, {"--mixture", "2"}};
+      {"--meso", "fiber"}, {"-o", folder.path(output)}, {"--texels", "12"},   {"--directions", "12"},
+      {"--detail", "0.3"}, {"--bounce-rays", "8"},      {"--view-map", "16"}, {"--ranks", "8,8,8,8"},
+      {"--bits", "16"},    {"--votf-ranks", "8,8"},     {"--mixture", "2"}};
   for (const auto& [name, value] : more) options[name] = value;
   std::vector<std::string> arguments = {"bake", "material"};
   for (const auto& [name, value] : options) arguments.insert(arguments.end(), {name, value});
@@ -72,8 +72,8 @@ TEST_CASE(
   // From the raw file comes the same material again.
   REQUIRE(folder
               .run({"bake", "material", "--raw", folder.path("a.raw"), "-o", folder.path("c.nook"),
-                    "--view-map", "16", "--ranks", "8,8,8,8", "--votf-ranks", "8,8", "--mixture", "2",
-                    "--report", folder.path("c.json")})
+                    "--view-map", "16", "--bits", "16", "--ranks", "8,8,8,8", "--votf-ranks", "8,8",
+                    "--mixture", "2", "--report", folder.path("c.json")})
               .exit_code == 0);
   const auto again = nlohmann::json::parse(read_text(folder.path("c.json")));
   CHECK(again.at("rows").at(0).at("se_db") == row.at("se_db"));

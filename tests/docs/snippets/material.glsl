@@ -3,12 +3,14 @@
 #define NOOK_BTF_TERMS 3
 #define NOOK_BTF_VIEW_VEC4_COUNT 1
 #define NOOK_BTF_CLUSTERS 20
-#define NOOK_BTF_SIDE 256
+#define NOOK_BTF_SIDE 64
+#define NOOK_BTF_BLENDED 1
 #define NOOK_BTF_TEXELS vec2(96.0, 96.0)
 #define NOOK_VOTF_TERMS 3
 #define NOOK_VOTF_VIEW_VEC4_COUNT 1
 #define NOOK_VOTF_CLUSTERS 20
-#define NOOK_VOTF_SIDE 256
+#define NOOK_VOTF_SIDE 64
+#define NOOK_VOTF_BLENDED 1
 #define NOOK_VOTF_TEXELS vec2(96.0, 96.0)
 uniform sampler2DArray nook_btf_coefficients, nook_votf_coefficients, nook_light_map;
 uniform usampler2DArray nook_btf_membership, nook_votf_membership;

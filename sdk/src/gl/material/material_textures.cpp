@@ -17,7 +17,7 @@ using material::TensorTables;
 constexpr std::uint32_t guaranteed_layers = 256;  // guaranteed by OpenGL 3.3
 
 std::size_t texture_count(const TensorTables& t, std::uint32_t max_layers) {
-  return t.terms == 0 ? 0 : array_count(t, max_layers) + 1 + (t.clusters > 1);
+  return t.terms == 0 ? 0 : array_count(t, max_layers) + 1 + t.has_membership();
 }
 
 // Checks the sizes and layers of the textures against the limits of this OpenGL.
@@ -62,10 +62,14 @@ MaterialTextures::MaterialTextures(Device& device, const MaterialTables& tables,
   set_plain_unpacking(gl);
   const auto light_layers = GLsizei(3 * tables.btf.light_modes / 4),
              light_side = GLsizei(MaterialTables::light_side);
-  textures_.push_back(
-      {make_texture_array(device, {ArrayUse::light, light_side, light_side, 0, light_layers, light_layers, 1},
-                          tables.light.data(), "nook: light map"),
-       "nook_light_map"});
+  const bool is_integer = !tables.light_8.empty();
+  const void* const light =
+      is_integer ? static_cast<const void*>(tables.light_8.data()) : tables.light.data();
+  textures_.push_back({make_texture_array(device,
+                                          {is_integer ? ArrayUse::light_8 : ArrayUse::light, light_side,
+                                           light_side, 0, light_layers, light_layers, 1},
+                                          light, "nook: light map"),
+                       "nook_light_map"});
   add_tensor(device, tables.btf, "btf", max_layers);
   if (tables.votf.terms != 0) add_tensor(device, tables.votf, "votf", max_layers);
   bytes_ = material::table_bytes(tables);
@@ -81,17 +85,17 @@ void MaterialTextures::add_tensor(Device& device, const TensorTables& t, const c
     textures_.push_back(std::move(texture));
   };
   const auto side = GLsizei(t.side), coefficient_layers = GLsizei(t.terms * t.view_vec4_count),
-             membership_layers = GLsizei(material::vec4_count(t.terms)), layers = GLsizei(t.layers());
+             membership_layers = GLsizei(material::vec4_count(t.memberships())), layers = GLsizei(t.layers());
   add({ArrayUse::coefficients, side, side, 0, coefficient_layers, coefficient_layers, 1},
       t.coefficients.data(), "coefficients", -1);
-  if (t.clusters > 1)
+  if (t.has_membership())
     add({ArrayUse::membership, side, side, 0, membership_layers, membership_layers, 1}, t.membership.data(),
         "membership", -1);
   int number = 0;
   for (GLsizei first = 0; first < layers; first += GLsizei(max_layers))
-    add({ArrayUse::spatial, GLsizei(t.width), GLsizei(t.height), first,
+    add({t.bits == 8 ? ArrayUse::spatial_8 : ArrayUse::spatial, GLsizei(t.width), GLsizei(t.height), first,
          std::min(layers - first, GLsizei(max_layers)), layers, GLsizei(t.levels)},
-        t.spatial.data(), "spatial", number++);
+        t.bits == 8 ? static_cast<const void*>(t.spatial_8.data()) : t.spatial.data(), "spatial", number++);
 }
 
 }  // namespace nook::gl

@@ -27,10 +27,11 @@ void add_tensor(Text& out, const material::TensorTables& t, const char* name, co
   add(out, "#define %s_TERMS %u\n#define %s_VIEW_VEC4_COUNT %u\n", prefix, t.terms, prefix,
       t.view_vec4_count);
   add(out, "#define %s_CLUSTERS %u\n#define %s_SIDE %u\n", prefix, t.clusters, prefix, t.side);
+  add(out, "#define %s_BLENDED %u\n", prefix, std::uint32_t(t.blended));
   if (t.terms == 0) return;
   add(out, "#define %s_TEXELS vec2(%u.0, %u.0)\n", prefix, t.width, t.height);
   add(out, "uniform highp sampler2DArray nook_%s_coefficients;\n", name);
-  if (t.clusters > 1) add(out, "uniform highp usampler2DArray nook_%s_membership;\n", name);
+  if (t.has_membership()) add(out, "uniform highp usampler2DArray nook_%s_membership;\n", name);
   const std::uint32_t arrays = array_count(t, max_layers);
   for (std::uint32_t i = 0; i < arrays; ++i)
     add(out, "uniform highp sampler2DArray nook_%s_spatial_%u;\n", name, i);

@@ -24,6 +24,10 @@ Layout layout_of(const Functions& gl, ArrayUse use) {
       return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
     case ArrayUse::membership:
       return {GL_RGBA16UI, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, 8, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
+    case ArrayUse::spatial_8:
+      return {GL_RGBA8_SNORM, GL_RGBA, GL_BYTE, 4, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT};
+    case ArrayUse::light_8:
+      return {GL_RGBA8_SNORM, GL_RGBA, GL_BYTE, 4, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE};
     case ArrayUse::coordinates:
       return {GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, 4, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
     default:

@@ -10,6 +10,8 @@ enum class ArrayUse {
   coefficients,  // half floats, nearest
   membership,    // 16-bit integers, nearest
   light,         // floats, linear, clamped to the edge
+  spatial_8,     // signed 8-bit integers as -1 to 1, else as spatial
+  light_8,       // signed 8-bit integers as -1 to 1, else as light
   coordinates    // pairs of 16-bit integers, nearest
 };
 
