@@ -1,5 +1,6 @@
 // The functions of a host's shader for the light of a scene's instances. `light` is that of nook_gl_light_view;
 // normals are unit vectors in world space; colours are linear RGB.
+#include "shaders/character/bent_normal.glsl"
 #include "shaders/character/light_layout.h"
 #include "shaders/core/texels.glsl"
 #include "shaders/probe/irradiance.glsl"

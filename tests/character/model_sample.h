@@ -87,6 +87,14 @@ inline void add_world_casters(CharacterModel& model, Numbers& numbers) {
     }
 }
 
+// Vectors of any length up to 1.
+inline void add_blocked(CharacterModel& model, Numbers& numbers) {
+  for (std::size_t v = 0; v < model.vertex_count(); ++v) {
+    const Vec3 dark = numbers.direction() * numbers.between(0, 0.6f);
+    model.blocked.push_back({dark, numbers.direction() * numbers.between(0, 0.2f)});
+  }
+}
+
 // Spheres, key points and weights at random in a box of a metre; `repeats` file vertices are second copies.
 inline CharacterModel sample_model(std::uint32_t seed = 1, SampleSize size = {}) {
   Numbers numbers(seed);

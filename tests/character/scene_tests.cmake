@@ -1,4 +1,5 @@
 add_executable(nook_scene_tests
+  bent_normal_test.cpp
   clips_test.cpp
   model_file_test.cpp
   pose_source_test.cpp

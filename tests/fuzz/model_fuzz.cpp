@@ -297,6 +297,8 @@ void ask_about(const Crowd& crowd) {
   require(next == crowd.info.file_vertex_count);
   std::vector<float> ao(crowd.info.file_vertex_count);
   ok(nook_character_model_static_ao(crowd.model, ao.data(), crowd.info.file_vertex_count));
+  std::vector<std::int8_t> blocked(std::size_t(8) * crowd.info.file_vertex_count);
+  ok(nook_character_model_blocked_vectors(crowd.model, blocked.data(), crowd.info.file_vertex_count, 0));
   for (const float value : ao) require(value >= 0 && value <= 1);
 }
 

@@ -16,11 +16,17 @@ std::vector<Seed> seeds() {
   levels.levels.push_back(level);
   Numbers numbers(5);
   add_world_casters(levels, numbers);
+  CharacterModel bent = sample_model(6, {3, 4, 6, 14, 3, 4});
+  add_blocked(bent, numbers);
   CharacterModel paper = sample_model(4, {2, 3, 5, 9, 1, 2});
   paper.kernel.form = KernelForm(1);
   paper.kernel.gamma = 2;
-  const CharacterModel models[] = {sample_model(1), sample_model(2, {2, 2, 3, 5, 2, 3}),
-                                   single_model({0, 1, 0}, 0.5f), levels, paper};
+  const CharacterModel models[] = {sample_model(1),
+                                   sample_model(2, {2, 2, 3, 5, 2, 3}),
+                                   single_model({0, 1, 0}, 0.5f),
+                                   levels,
+                                   paper,
+                                   bent};
   std::vector<Seed> made;
   for (const CharacterModel& model : models)
     made.push_back({"model_" + std::to_string(made.size()) + ".nook", write_character_model(model)});

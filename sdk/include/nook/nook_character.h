@@ -91,6 +91,25 @@ NOOK_API nook_result nook_character_model_primitive(nook_character_model model, 
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model was baked without static AO). */
 NOOK_API nook_result nook_character_model_static_ao(nook_character_model model, float* out, uint32_t count);
 
+/* ---- Bent normals: the mean direction of the light that reaches a vertex ----
+ *
+ * Glossy reflections are occluded by what stands in their direction. The bent normal points to where a vertex
+ * is open; a specular occlusion takes it with AO. A model has bent normals after `nook bake bent`. For each
+ * vertex it holds two blocked vectors, the cosine-weighted means of the directions that the body blocks, at AO
+ * 0 and at AO 1. With AO from any call of this library, the normal n and both vectors turned as the normal is,
+ * a vertex shader has
+ *   bent normal = normalize(2/3 n - mix(dark, open, AO)),
+ * which is nook_scene_bent_normal of nook_gl_scene_light's text. It costs no update and is the same on all
+ * tiers. AO by neighbours and the ground counts as if the body itself darkened the vertex. */
+
+/* Copies the blocked vectors in the file's vertex order, 8 bytes for each vertex: x, y, z at AO 0, a 0, x, y,
+ * z at AO 1, a 0, as signed bytes of which 127 is 1: two attributes of GL_BYTE, normalised. They are in the
+ * space of the file's NORMAL attribute where the model has bind data, otherwise in rest space. count must be
+ * file_vertex_count; stride is in bytes (0: 8).
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model was baked without bent normals). */
+NOOK_API nook_result nook_character_model_blocked_vectors(nook_character_model model, int8_t* out,
+                                                          uint32_t count, size_t stride);
+
 /* ---- Scenes ---- */
 
 /* The combination of self-shadow with casters that were not part of the bake. */
@@ -273,6 +292,15 @@ NOOK_API nook_result nook_scene_update(nook_scene scene);
  * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, float* out,
                                         uint32_t count, size_t stride);
+
+/* Writes the bent normals of an instance for hosts without a skinning shader, in the imported file's vertex
+ * order, 4 bytes for each vertex: x, y, z in world space and AO, as signed bytes of which 127 is 1. AO is
+ * that of the last nook_scene_update, and normals follow the pose that is set; each vertex turns with the key
+ * point that it takes most from. count must be the model's file_vertex_count; stride is in bytes (0: 4). The
+ * call does not allocate. Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT,
+ * INVALID_HANDLE, UNSUPPORTED (the model was baked without bent normals or rest normals). */
+NOOK_API nook_result nook_scene_read_bent_normals(nook_scene scene, nook_instance_id instance, int8_t* out,
+                                                  uint32_t count, size_t stride);
 
 /* The numbers of an AO value. */
 enum {

@@ -2,6 +2,7 @@
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
+#include "sdk/src/character/blocked_vectors.h"
 #include "sdk/src/character/memory_use.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/descriptors.h"
@@ -94,5 +95,26 @@ nook_result nook_character_model_static_ao(nook_character_model model, float* ou
       throw Failure(NOOK_ERROR_UNSUPPORTED, "the model was baked without static AO; bake it with it");
     std::transform(m.file_to_welded.begin(), m.file_to_welded.end(), out,
                    [&](std::uint32_t welded) { return m.static_ao[welded]; });
+  });
+}
+
+nook_result nook_character_model_blocked_vectors(nook_character_model model, int8_t* out, uint32_t count,
+                                                 size_t stride) {
+  return api::enter("nook_character_model_blocked_vectors", [&] {
+    need(model, "model");
+    need(out, "out");
+    const CharacterModel& m = model->model;
+    if (count != m.file_to_welded.size())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "count is not the model's file_vertex_count (got %u, need %zu)", count,
+                    m.file_to_welded.size());
+    if (stride == 0) stride = blocked_bytes;
+    if (stride < blocked_bytes)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "stride is too small (got %zu, need 0 or at least %zu)",
+                    stride, blocked_bytes);
+    if (m.blocked.empty())
+      throw Failure(NOOK_ERROR_UNSUPPORTED,
+                    "the model was baked without bent normals; add them with `nook bake bent`");
+    copy_blocked_vectors(m, out, stride);
   });
 }

@@ -3,6 +3,7 @@
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
+#include "sdk/src/character/blocked_vectors.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/core/isa.h"
 
@@ -221,6 +222,17 @@ nook_result nook_scene_read_ao_as(nook_scene scene, nook_instance_id instance, n
     const std::size_t bytes = sizeof(float) >> format;
     check_output(found, count, stride, bytes);
     read_ao_as(s, found, format, out, stride ? stride : bytes);
+  });
+}
+
+nook_result nook_scene_read_bent_normals(nook_scene scene, nook_instance_id instance, int8_t* out,
+                                         uint32_t count, size_t stride) {
+  return with_scene("nook_scene_read_bent_normals", scene, [&](const Scene& s) {
+    const Instance& found = instance_of(s, instance);
+    need(out, "out");
+    check_output(found, count, stride, bent_normal_bytes);
+    check_bent_normals(found.model->model);
+    read_bent_normals(s, found, out, stride ? stride : bent_normal_bytes);
   });
 }
 

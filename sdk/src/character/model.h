@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sdk/src/character/bent_normal.h"
 #include "sdk/src/character/bind_data.h"
 #include "sdk/src/character/kernel.h"
 #include "sdk/src/core/capsule.h"
@@ -89,6 +90,7 @@ struct CharacterModel {
         bias(memory),
         blend(memory),
         static_ao(memory),
+        blocked(memory),
         file_to_welded(memory),
         primitives(memory),
         levels(memory),
@@ -116,6 +118,9 @@ struct CharacterModel {
   Vector<float> blend;
   // AO of the rest pose for each welded vertex, as in a static bake; may be empty.
   Vector<float> static_ao;
+
+  // For each welded vertex, in rest space; may be empty: the model was baked without.
+  Vector<BlockedEnds> blocked;
 
   Vector<std::uint32_t> file_to_welded;  // the welded vertex of each vertex in file order
   Vector<PrimitiveRange> primitives;

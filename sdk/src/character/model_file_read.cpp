@@ -321,6 +321,24 @@ void read_world_casters(ByteReader in, CharacterModel& model) {
   in.check_end();
 }
 
+void read_blocked(ByteReader in, CharacterModel& model) {
+  const std::size_t vertices = model.vertex_count();
+  in.check_count(static_cast<std::uint32_t>(vertices), 6 * 8, "vertices");
+  model.blocked.reserve(vertices);
+  const auto coordinate = [&] {
+    return decode_coordinate(static_cast<std::int8_t>(static_cast<std::uint8_t>(in.u8())));
+  };
+  const auto vector = [&] {
+    const float x = coordinate(), y = coordinate();
+    return Vec3{x, y, coordinate()};
+  };
+  for (std::size_t i = 0; i < vertices; ++i) {
+    const Vec3 dark = vector();
+    model.blocked.push_back({dark, vector()});
+  }
+  in.check_end();
+}
+
 }  // namespace
 
 CharacterModel read_character_model(std::span<const std::byte> bytes, Memory* memory) {
@@ -340,6 +358,7 @@ CharacterModel read_character_model(std::span<const std::byte> bytes, Memory* me
   if (file.has("BIND")) read_bind_data(file.section("BIND"), model);
   if (file.has("REST")) read_rest_surface(file.section("REST"), model);
   if (file.has("WCAS")) read_world_casters(file.section("WCAS"), model);
+  if (file.has("BENT")) read_blocked(file.section("BENT"), model);
   ByteReader recipe = file.section("RECP");
   model.recipe = recipe.text(recipe.remaining());
   check_model(model, NOOK_ERROR_BAD_FILE);

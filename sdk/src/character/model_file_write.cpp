@@ -337,6 +337,15 @@ ByteWriter write_world_casters(const CharacterModel& model) {
   return out;
 }
 
+ByteWriter write_blocked(const CharacterModel& model) {
+  ByteWriter out;
+  for (const BlockedEnds& ends : model.blocked)
+    for (const Vec3 end : {ends.dark, ends.open})
+      for (const float coordinate : {end.x, end.y, end.z})
+        out.u8(static_cast<std::uint8_t>(encode_coordinate(coordinate)));
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::byte> write_character_model(const CharacterModel& model) {
@@ -364,6 +373,7 @@ std::vector<std::byte> write_character_model(const CharacterModel& model) {
   if (!model.bind.empty()) add("BIND", write_bind_data(model));
   if (!model.rest.position.empty()) add("REST", write_rest_surface(model.rest));
   if (!model.world_casters.empty()) add("WCAS", write_world_casters(model));
+  if (!model.blocked.empty()) add("BENT", write_blocked(model));
   ByteWriter recipe;
   recipe.text(model.recipe);
   add("RECP", recipe);

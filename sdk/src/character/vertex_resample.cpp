@@ -140,6 +140,10 @@ class LayerMean {
   void add(std::uint32_t welded, float weight) {
     bias_ += weight * model_.bias[welded];
     if (!model_.static_ao.empty()) static_ao_ += weight * model_.static_ao[welded];
+    if (!model_.blocked.empty()) {
+      blocked_.dark += weight * model_.blocked[welded].dark;
+      blocked_.open += weight * model_.blocked[welded].open;
+    }
     const std::size_t first = std::size_t(welded) * model_.influences;
     for (std::size_t s = first; s < first + model_.influences; ++s)
       if (model_.alpha[s] > 0) {
@@ -169,6 +173,7 @@ class LayerMean {
     }
     out.bias.push_back(bias_);
     if (!model_.static_ao.empty()) out.static_ao.push_back(static_ao_);
+    if (!model_.blocked.empty()) out.blocked.push_back(blocked_);
   }
 
  private:
@@ -181,6 +186,7 @@ class LayerMean {
   const CharacterModel& model_;
   Vector<Influence> sum_;
   float bias_ = 0, static_ao_ = 0;
+  BlockedEnds blocked_;
 };
 
 // The host's vertex and its normal in rest space.
@@ -240,6 +246,7 @@ CharacterModel resampled(const CharacterModel& model, const HostVertices& host, 
   out.blend.clear();
   out.bias.clear();
   out.static_ao.clear();
+  out.blocked.clear();
   out.file_to_welded.clear();
   out.rest.position.clear();
   out.rest.normal.clear();
