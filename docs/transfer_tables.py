@@ -2,9 +2,9 @@
 """Bakes radiance transfer of the tests' shapes, measures it under the maps of the assets, and prints the tables of
 docs/transfer.md.
 
-    docs/transfer_tables.py --out out/transfer_tables [--material FIBER.nook] [--write]
+    docs/transfer_tables.py --out out/transfer_tables [--material FIBER.nook --raw FIBER.raw] [--write]
 
---only NAME,... makes some of the tables: vectors, pictures, lights, times, reflections, holes, paper. A step whose report is in the output folder already is not repeated: remove the folder to measure anew. Without --material
+--only NAME,... makes some of the tables: vectors, pictures, raw, lights, times, reflections, holes, paper. A step whose report is in the output folder already is not repeated: remove the folder to measure anew. Without --material
 the fiber is baked first, which takes two minutes. Maps are those of NOOK_ASSETS, or of ../shared/assets.
 """
 import argparse
@@ -23,9 +23,9 @@ CASES = [("knot", 162), ("knot", 642), ("knot", 1284), ("cloth", 642)]
 
 
 class Bench:
-    def __init__(self, build, out, assets, material):
+    def __init__(self, build, out, assets, material, raw):
         self.nook, self.shape_tool = build / "bakers/tool/nook", build / "tests/transfer/transfer_shape"
-        self.out, self.material = out, material
+        self.out, self.material, self.raw = out, material, raw
         self.maps = [str(next((assets / "hdr").glob(f"{name}*.hdr"))) for name in MAPS]
         out.mkdir(parents=True, exist_ok=True)
 
@@ -91,6 +91,15 @@ def pictures_table(bench):
         rows.append([shape, str(lobes), "noise of the truth",
                      *[f"{value:.1e}" for value in of_form(report, "separated", "noise_floor_mse")]])
     return table(["shape", "lobes", "form", *MAPS], rows)
+
+
+def raw_table(bench):
+    report = bench.evaluate("knot", 642, "raw", "--raw", bench.raw, *FEW)
+    decoded = bench.evaluate("knot", 642, "decoded", *FEW)
+    rows = [[truth, form, *mse_row(of, form)] for truth, of in [("raw", report), ("decoded", decoded)]
+            for form in ["separated", "ao", "none"]]
+    rows.append(["raw", "noise of the truth", *mse_row(report, key="noise_floor_mse")])
+    return table(["truth", "form", *MAPS], rows)
 
 
 def light_table(bench):
@@ -188,14 +197,16 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/transfer_tables")
     parser.add_argument("--material", help="a baked fiber")
+    parser.add_argument("--raw", help="the raw material of that fiber, of bake material --keep-raw")
     parser.add_argument("--only", help="names of tables, separated by commas")
     parser.add_argument("--write", action="store_true", help="put the tables into the document")
     arguments = parser.parse_args()
     assets = pathlib.Path(os.environ.get("NOOK_ASSETS", ROOT.parent / "shared/assets"))
-    bench = Bench(arguments.build, arguments.out, assets, arguments.material or str(arguments.out / "fiber.nook"))
+    bench = Bench(arguments.build, arguments.out, assets, arguments.material or str(arguments.out / "fiber.nook"),
+                  arguments.raw or str(arguments.out / "fiber.raw"))
     if not arguments.material:
-        bench.run("fiber", "bake", "material", "--meso", "fiber", "-o", bench.material)
-    makers = {"vectors": vectors_table, "pictures": pictures_table, "lights": light_table, "times": times_table,
+        bench.run("fiber", "bake", "material", "--meso", "fiber", "-o", bench.material, "--keep-raw", bench.raw)
+    makers = {"vectors": vectors_table, "pictures": pictures_table, "raw": raw_table, "lights": light_table, "times": times_table,
               "reflections": reflections_table, "holes": holes_table, "paper": paper_table}
     names = arguments.only.split(",") if arguments.only else list(makers)
     tables = {name: makers[name](bench) for name in names}

@@ -290,27 +290,39 @@ TEST_CASE("transfer: vectors that do not fit are refused") {
   nook_transfer_response_destroy(&response);
 }
 
-TEST_CASE("transfer: uploading vectors keeps the promises on OpenGL state") {
+TEST_CASE("transfer: uploads of vectors and of clusters keep the promises on OpenGL state") {
   NOOK_NEED_CONTEXT(context);
   for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_DEFAULTS}) {
     MaterialFixture fixture(context, mode);
-    const nook_material material = fixture.load(material::test::sample_material(4));
+    const material::Material made = material::test::sample_material(4);
+    const nook_material material = fixture.load(made);
+    const material::MaterialTables tables = material::make_tables(
+        material::read_material(material::write_material(made)), {}, default_memory(), 16);
+    const std::vector<std::byte> bytes = transfer::write_transfer(
+        transfer::test::sample_paper(3, 42, tables.btf.light_modes, tables.light_hash, 1));
+    nook_transfer baked = nullptr;
+    NOOK_OK_OR_FAIL(nook_transfer_load(fixture.host.handle, bytes.data(), bytes.size(), &baked));
     nook_transfer_response response = make_response(fixture.host.handle, material);
     nook_transfer_response_info info{};
     info.struct_size = sizeof info;
     NOOK_OK_OR_FAIL(nook_transfer_response_describe(response, &info));
     const std::vector<float> vectors(std::size_t(3) * info.vector_floats, 0.5f);
-    nook_gl_transfer transfer = nullptr;
+    const std::vector<float> amplitudes(3 * 42, 0.5f);
+    nook_gl_transfer transfer = nullptr, clusters = nullptr;
     {
       Poison poison(context, is_es(context.gl()) ? gl::probes | gl::texel_uploads : unsigned{gl::probes});
       const StateValues touched = poison.touched(), untouched = poison.untouched();
       NOOK_OK_OR_FAIL(nook_gl_transfer_create(fixture.gl, response, 3, &transfer));
       NOOK_OK_OR_FAIL(nook_gl_transfer_update(transfer, vectors.data(), vectors.size()));
+      NOOK_OK_OR_FAIL(nook_gl_transfer_create_paper(fixture.gl, baked, response, &clusters));
+      NOOK_OK_OR_FAIL(nook_gl_transfer_update_light(clusters, amplitudes.data(), 42));
       CHECK(poison.untouched() == untouched);
       if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);
       if (mode == NOOK_GL_STATE_DEFAULTS) CHECK(poison.touched() == poison.defaults());
     }
     nook_gl_transfer_destroy(&transfer);
+    nook_gl_transfer_destroy(&clusters);
+    nook_transfer_destroy(&baked);
     nook_transfer_response_destroy(&response);
   }
 }
