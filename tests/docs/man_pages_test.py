@@ -8,19 +8,29 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "packaging/man"))
+sys.dont_write_bytecode = True
+import man_pages  # noqa: E402
 
 
 def main():
-    tool = sys.argv[1]
+    help_texts, read = {}, man_pages.run_help
+
+    def run_help(tool, command):
+        page = "-".join(("nook", *command))
+        help_texts[page] = read(tool, command)
+        return help_texts[page]
+
+    man_pages.run_help = run_help
     faults = []
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([sys.executable, ROOT / "packaging/man/man_pages.py", tool, folder], check=True)
+        sys.argv = ["man_pages.py", sys.argv[1], folder]
+        man_pages.main()
         pages = sorted(pathlib.Path(folder).iterdir())
         for path in pages:
             text = path.read_text(encoding="utf-8")
             plain = text.replace("\\-", "-")
-            command = path.stem.split("-")[1:]
-            help_text = subprocess.run([tool, *command, "--help"], check=True, capture_output=True, text=True).stdout
+            help_text = help_texts[path.stem]
             for option in re.findall(r"^  (?:-\w,)?(--[a-z0-9-]+)", help_text, re.M):
                 if f"\\fB{option}\\fR" not in plain:
                     faults.append(f"{path.name} lacks {option}")
