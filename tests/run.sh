@@ -16,7 +16,8 @@ export NOOK_REQUIRE_RADV=1
 # The quotes are for a path with spaces, which would end the option.
 export LSAN_OPTIONS="suppressions=\"$root/tests/lsan.supp\":print_suppressions=0"
 
-# ccache takes precompiled headers with these, and in its depend mode it does without a run of the preprocessor for each source.
+# ccache takes precompiled headers with pch_defines and time_macros, and its depend mode leaves out a run of the preprocessor
+# for each source.
 export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}
 export CCACHE_DEPEND=1
 

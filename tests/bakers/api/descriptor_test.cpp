@@ -37,6 +37,7 @@ TEST_CASE("descriptors of every release are read, and what a newer one adds is r
   nook_bake_job_desc job_desc;
   REQUIRE(nook_bake_job_desc_init(&job_desc, sizeof job_desc, NOOK_VERSION) == NOOK_OK);
   job_desc.preset = NOOK_BAKE_PRESET_DRAFT;
+  job_desc.auto_pose_count = 8;  // poses are made before a job can be cancelled
   check_use(job_desc, 128, [&](const nook_bake_job_desc* desc) {
     nook_bake_job job = nullptr;
     const nook_result result = nook_bake_job_start(character.get(), desc, &job);
@@ -67,6 +68,7 @@ TEST_CASE("descriptors of every release are read, and what a newer one adds is r
   nook_bake_material_desc material_desc;
   REQUIRE(nook_bake_material_desc_init(&material_desc, sizeof material_desc, NOOK_VERSION) == NOOK_OK);
   material_desc.meso = "weave";
+  material_desc.bounce_rays = 2;  // reflections are traced before a job can be cancelled
   check_use(material_desc, 176, [](const nook_bake_material_desc* desc) {
     nook_bake_job job = nullptr;
     const nook_result result = nook_bake_material_start(desc, &job);
