@@ -95,12 +95,11 @@ NOOK_API nook_result nook_character_model_static_ao(nook_character_model model, 
  *
  * Glossy reflections are occluded by what stands in their direction. The bent normal points to where a vertex
  * is open; a specular occlusion takes it with AO. A model has bent normals after `nook bake bent`. For each
- * vertex it holds two blocked vectors, the cosine-weighted means of the directions that the body blocks, at AO
- * 0 and at AO 1. With AO from any call of this library, the normal n and both vectors turned as the normal is,
- * a vertex shader has
- *   bent normal = normalize(2/3 n - mix(dark, open, AO)),
- * which is nook_scene_bent_normal of nook_gl_scene_light's text. It costs no update and is the same on all
- * tiers. AO by neighbours and the ground counts as if the body itself darkened the vertex. */
+ * vertex it holds two blocked vectors, the cosine-weighted means of the directions that the body blocks, at
+ * AO 0 and at AO 1. With AO from any call of this library, the normal n and both vectors turned as the normal
+ * is, a vertex shader has bent normal = normalize(2/3 n - mix(dark, open, AO)), which is
+ * nook_scene_bent_normal of nook_gl_scene_light's text. It costs no update and is the same on all tiers. AO
+ * by neighbours and the ground counts as if the body itself darkened the vertex. */
 
 /* Copies the blocked vectors in the file's vertex order, 8 bytes for each vertex: x, y, z at AO 0, a 0, x, y,
  * z at AO 1, a 0, as signed bytes of which 127 is 1: two attributes of GL_BYTE, normalised. They are in the
