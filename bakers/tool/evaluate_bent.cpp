@@ -7,8 +7,6 @@
 #include "bakers/measure/character/bent_study.h"
 #include "bakers/measure/character/evaluated_poses.h"
 #include "bakers/measure/character/report.h"
-#include "bakers/raytrace/specular_visibility.h"
-#include "bakers/raytrace/suns.h"
 #include "bakers/tool/character/clip_names.h"
 #include "bakers/tool/character/evaluated_files.h"
 #include "bakers/tool/commands.h"
@@ -41,8 +39,7 @@ Json evaluate(const Options& options) {
   require_clips(options.poses.clips, present);
   std::vector<measure::GlossyMap> maps;
   for (const std::filesystem::path& path : options.maps)
-    maps.push_back(
-        {path.stem().string(), measure::coarse_map(bake::without_suns(read_map(path)), map_columns)});
+    maps.push_back({path.stem().string(), measure::coarse_map(read_map(path), map_columns)});
   const std::optional<bake::Recipe> recipe = measure::recipe_of(baked);
   const measure::EvaluatedPoses measured =
       measure::choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);

@@ -15,6 +15,7 @@
 #include "bakers/raytrace/random.h"
 #include "bakers/raytrace/ray_scene.h"
 #include "bakers/raytrace/specular_visibility.h"
+#include "bakers/raytrace/suns.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/nnao/lighting.h"
 
@@ -268,7 +269,8 @@ std::vector<bake::nnao::SpecularSample> bent_samples(const bake::SkinnedMesh& me
   return samples;
 }
 
-bake::Environment coarse_map(const bake::Environment& map, std::uint32_t width) {
+bake::Environment coarse_map(const bake::Environment& with_suns, std::uint32_t width) {
+  const bake::Environment map = bake::without_suns(with_suns);
   const std::uint32_t height = width / 2;
   std::vector<double> sum(std::size_t(width) * height * 3, 0.0), weight(std::size_t(width) * height, 0.0);
   for (std::uint32_t y = 0; y < map.height(); ++y)

@@ -12,6 +12,7 @@
 #include "bakers/nnao/specular_fit.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/environment.h"
+#include "bakers/raytrace/specular_visibility.h"
 #include "sdk/src/character/model.h"
 
 namespace nook::measure {
@@ -47,7 +48,7 @@ std::vector<bake::nnao::SpecularSample> bent_samples(const bake::SkinnedMesh& me
                                                      const BentStudy& study,
                                                      const bake::Progress& progress = {});
 
-// A map of a few texels: each is the mean of those that it covers.
-bake::Environment coarse_map(const bake::Environment& map, std::uint32_t width);
+// A map of a few texels without its suns: each is the mean of those that it covers.
+bake::Environment coarse_map(const bake::Environment& with_suns, std::uint32_t width);
 
 }  // namespace nook::measure
