@@ -31,10 +31,10 @@ float hidden_slopes(float cosine, float alpha) {
   return 0.5f * (std::sqrt(1 + alpha * alpha * tangent2) - 1);
 }
 
-}  // namespace
-
-float trace_specular_visibility(const RayScene& scene, const GlossyPoint& point, float roughness,
-                                std::uint32_t rays, std::uint64_t seed) {
+// Calls add(direction, weight, open) for each ray; the direction is in world space.
+template <class Add>
+void for_each_reflection(const RayScene& scene, const GlossyPoint& point, float roughness, std::uint32_t rays,
+                         std::uint64_t seed, Add&& add) {
   const float alpha = roughness * roughness;
   Random random(seed);
   const Frame frame = turned_frame(point.normal, 1, 0);
@@ -42,19 +42,51 @@ float trace_specular_visibility(const RayScene& scene, const GlossyPoint& point,
                   std::max(dot(point.to_viewer, frame.z), 1e-3f)};
   const Vec3 origin = point.position + point.origin_offset * point.normal;
   const float towards_viewer = 1 + hidden_slopes(view.z, alpha);
-  double open = 0, all = 0;
   for (std::uint32_t i = 0; i < rays; ++i) {
     const float u = (float(i) + random.unit()) / float(rays), v = random.unit();
     const Vec3 normal = visible_normal(view, alpha, u, v);
     const Vec3 light = 2 * dot(view, normal) * normal - view;
     if (light.z <= 0) continue;
     const double weight = double(towards_viewer / (towards_viewer + hidden_slopes(light.z, alpha)));
-    all += weight;
-    const float distance = scene.nearest(origin, to_world(frame, light)).distance;
+    const Vec3 direction = to_world(frame, light);
+    const float distance = scene.nearest(origin, direction).distance;
     const bool hidden = std::isfinite(distance) && distance <= point.radius;
-    if (!hidden) open += weight;
+    add(direction, weight, !hidden);
   }
+}
+
+}  // namespace
+
+float trace_specular_visibility(const RayScene& scene, const GlossyPoint& point, float roughness,
+                                std::uint32_t rays, std::uint64_t seed) {
+  double open = 0, all = 0;
+  for_each_reflection(scene, point, roughness, rays, seed, [&](Vec3, double weight, bool is_open) {
+    all += weight;
+    if (is_open) open += weight;
+  });
   return all > 0 ? float(open / all) : 1;
+}
+
+GlossyLight trace_glossy_light(const RayScene& scene, const GlossyPoint& point, float roughness,
+                               std::uint32_t rays, std::uint64_t seed, std::span<const Environment> maps) {
+  GlossyLight light;
+  double open = 0, all = 0;
+  for_each_reflection(scene, point, roughness, rays, seed, [&](Vec3 direction, double weight, bool is_open) {
+    all += weight;
+    if (is_open) open += weight;
+    for (std::size_t m = 0; m < maps.size(); ++m) {
+      const Vec3 radiance = float(weight) * maps[m].radiance(direction);
+      light.open[m] += radiance;
+      if (is_open) light.seen[m] += radiance;
+    }
+  });
+  if (!(all > 0)) return light;
+  light.visible = float(open / all);
+  for (std::size_t m = 0; m < maps.size(); ++m) {
+    light.open[m] = light.open[m] * float(1 / all);
+    light.seen[m] = light.seen[m] * float(1 / all);
+  }
+  return light;
 }
 
 }  // namespace nook::bake

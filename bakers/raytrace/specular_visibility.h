@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
+#include "bakers/raytrace/environment.h"
 #include "bakers/raytrace/ray_scene.h"
 
 namespace nook::bake {
@@ -22,5 +24,18 @@ struct GlossyPoint {
 // The same seed gives the same result. Needs FlushDenormals on the calling thread.
 float trace_specular_visibility(const RayScene& scene, const GlossyPoint& point, float roughness,
                                 std::uint32_t rays, std::uint64_t seed);
+
+inline constexpr std::size_t max_glossy_maps = 8;
+
+// The same reflection under maps: the mean radiance that the viewer sees, and what it would be if nothing
+// were hidden.
+struct GlossyLight {
+  float visible = 1;  // trace_specular_visibility
+  Vec3 seen[max_glossy_maps], open[max_glossy_maps];
+};
+
+// There are at most max_glossy_maps maps. Needs FlushDenormals on the calling thread.
+GlossyLight trace_glossy_light(const RayScene& scene, const GlossyPoint& point, float roughness,
+                               std::uint32_t rays, std::uint64_t seed, std::span<const Environment> maps);
 
 }  // namespace nook::bake

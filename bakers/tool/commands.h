@@ -8,6 +8,7 @@ class App;
 
 namespace nook::tool {
 
+void add_bake_bent(CLI::App& bake);
 void add_bake_character(CLI::App& bake);
 void add_bake_clips(CLI::App& bake);
 void add_bake_lod(CLI::App& bake);
@@ -15,6 +16,7 @@ void add_bake_probe(CLI::App& bake);
 void add_bake_material(CLI::App& bake);
 void add_bake_synthesis(CLI::App& bake);
 void add_bake_transfer(CLI::App& bake);
+void add_evaluate_bent(CLI::App& evaluate);
 void add_evaluate_character(CLI::App& evaluate);
 void add_evaluate_casters(CLI::App& evaluate);
 void add_evaluate_clips(CLI::App& evaluate);
@@ -25,6 +27,7 @@ void add_evaluate_probe(CLI::App& evaluate);
 void add_evaluate_material(CLI::App& evaluate);
 void add_evaluate_transfer(CLI::App& evaluate);
 void add_evaluate_world(CLI::App& evaluate);
+void add_train_bent(CLI::App& train);
 void add_train_nnao(CLI::App& train);
 void add_train_specular(CLI::App& train);
 void add_export_casters(CLI::App& export_command);

@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
   CLI::App* evaluate =
       tool.add_subcommand("evaluate", "measure .nook files against ray tracing")->require_subcommand(1);
   nook::tool::add_bake_character(*bake);
+  nook::tool::add_bake_bent(*bake);
   nook::tool::add_bake_clips(*bake);
   nook::tool::add_bake_lod(*bake);
   nook::tool::add_bake_probe(*bake);
@@ -33,6 +34,7 @@ int run(int argc, char** argv) {
   nook::tool::add_bake_synthesis(*bake);
   nook::tool::add_bake_transfer(*bake);
   nook::tool::add_evaluate_character(*evaluate);
+  nook::tool::add_evaluate_bent(*evaluate);
   nook::tool::add_evaluate_casters(*evaluate);
   nook::tool::add_evaluate_clips(*evaluate);
   nook::tool::add_evaluate_lods(*evaluate);
@@ -43,6 +45,7 @@ int run(int argc, char** argv) {
   nook::tool::add_evaluate_transfer(*evaluate);
   nook::tool::add_evaluate_world(*evaluate);
   CLI::App* train = tool.add_subcommand("train", "train networks")->require_subcommand(1);
+  nook::tool::add_train_bent(*train);
   nook::tool::add_train_nnao(*train);
   nook::tool::add_train_specular(*train);
   CLI::App* write =

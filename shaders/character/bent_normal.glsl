@@ -1,6 +1,26 @@
+#include "shaders/character/specular_numbers.h"
+
 // The bent normal of a vertex, from its unit normal and its two blocked vectors (sdk/src/character/bent_normal.h),
 // all in one space. ao is 1 where open.
 vec3 nook_scene_bent_normal(vec3 normal, vec3 blocked_dark, vec3 blocked_open, float ao) {
   vec3 left = normal * (2.0 / 3.0) - mix(blocked_dark, blocked_open, ao);
   return dot(left, left) > 1.0e-12 ? normalize(left) : normal;
+}
+
+// Returns the share of a glossy reflection that reaches the viewer. Directions are unit vectors in one space; ao is
+// 1 where open; roughness is perceptual: the GGX width is its square. The network of sdk/src/nnao/lighting.h with
+// numbers for characters, whose bodies hide light at any distance: exactly 1 where AO is 1.
+float nook_scene_specular_occlusion(vec3 bent_normal, float ao, vec3 normal, vec3 to_viewer, float roughness) {
+  float facing = clamp(dot(normal, to_viewer), 0.0, 1.0), cone = sqrt(clamp(1.0 - ao, 0.0, 1.0));
+  float towards = dot(bent_normal, 2.0 * facing * normal - to_viewer), bend = dot(normal, bent_normal);
+  vec4 low = cone * vec4(NOOK_SCENE_SPECULAR_0) + towards * vec4(NOOK_SCENE_SPECULAR_2) +
+             facing * vec4(NOOK_SCENE_SPECULAR_4) + bend * vec4(NOOK_SCENE_SPECULAR_6) +
+             roughness * vec4(NOOK_SCENE_SPECULAR_8) + vec4(NOOK_SCENE_SPECULAR_10);
+  vec4 high = cone * vec4(NOOK_SCENE_SPECULAR_1) + towards * vec4(NOOK_SCENE_SPECULAR_3) +
+              facing * vec4(NOOK_SCENE_SPECULAR_5) + bend * vec4(NOOK_SCENE_SPECULAR_7) +
+              roughness * vec4(NOOK_SCENE_SPECULAR_9) + vec4(NOOK_SCENE_SPECULAR_11);
+  float hidden = dot(max(low, 0.0), vec4(NOOK_SCENE_SPECULAR_12)) +
+                 dot(max(high, 0.0), vec4(NOOK_SCENE_SPECULAR_13)) + NOOK_SCENE_SPECULAR_BIAS;
+  float squared = roughness * roughness;
+  return clamp(mix(1.0 - cone * hidden, ao, squared * squared), 0.0, 1.0);
 }

@@ -80,7 +80,9 @@ set(makers bakers/character bakers/world bakers/nnao bakers/probe bakers/materia
     bakers/transfer ${ground} ${systems})
 room(bakers/images bakers/images platform ${makers})
 room(bakers/measure/truth bakers/measure/truth sdk/src/core)
-room(bakers/measure/character bakers/measure/character bakers/measure/truth bakers/images bakers/character ${ground} sdk/src/character)
+# Glossy characters are lit by the form of the screen pass with numbers of their own.
+room(bakers/measure/character bakers/measure/character bakers/measure/truth bakers/images bakers/character bakers/nnao ${ground} sdk/src/character
+     sdk/src/nnao shaders/character/specular_numbers.h)
 room(bakers/measure/synthesis bakers/measure/synthesis bakers/images sdk/src/core sdk/src/material sdk/src/synthesis)
 room(bakers/measure/transfer bakers/measure/transfer bakers/measure/material/raw_reflectance.h bakers/images bakers/transfer
      ${stopwatch} ${ground} sdk/src/material sdk/src/transfer)

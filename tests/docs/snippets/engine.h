@@ -46,6 +46,8 @@ void glUniform4fv(GLint location, GLsizei count, const float* values);
 
 extern nook_context context;
 extern nook_character_model model;
+extern int8_t* blocked;
+extern uint32_t file_vertex_count;
 extern nook_scene scene;
 extern nook_gl gl;
 extern void* get_proc(void* user, const char* name);

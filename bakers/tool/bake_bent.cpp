@@ -1,0 +1,100 @@
+// nook bake bent: bent normals for a model that is already baked.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/job/bent_bake.h"
+#include "bakers/job/worker_arena.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/common_options.h"
+#include "bakers/tool/distinct_files.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/table.h"
+#include "platform/output_file.h"
+#include "platform/printable.h"
+#include "platform/progress_bar.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::filesystem::path model, input, output;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::BentTask task;
+};
+
+bake::BakedFile bake(const Options& o, const std::vector<std::byte>& model,
+                     const bake::ImportedCharacter& character) {
+  platform::ProgressBar bar(o.common.quiet);
+  return bake::bake_bent_file(character, model, o.task,
+                              [&](nook_bake_stage, std::size_t done, std::size_t total) {
+                                bar.show("ray tracing", "poses", done, total);
+                                return !interrupted();
+                              });
+}
+
+void run(Options o) {
+  require_distinct_files({{{"the character", o.input}, {"the model", o.model}},
+                          {{"-o", o.output}, {"--report", o.common.report}},
+                          {}});
+  platform::OutputFile output(o.output);
+  std::optional<platform::OutputFile> report_file;
+  if (!o.common.report.empty()) report_file.emplace(o.common.report);
+  o.task.seed = o.common.seed;
+  const std::vector<std::byte> model = read_file(o.model);
+  const bake::ImportedCharacter character =
+      naming_file(o.input, [&] { return bake::import_gltf(o.input, o.linked); });
+  if (!o.common.quiet)
+    for (const std::string& warning : character.warnings)
+      std::fprintf(stderr, "%s: %s\n", platform::printable(o.input.string()).c_str(),
+                   platform::printable_lines(warning).c_str());
+  bake::BakedFile file;
+  try {
+    bake::run_with_threads(o.common.threads,
+                           [&] { file = naming_file(o.model, [&] { return bake(o, model, character); }); });
+  } catch (const ToolError&) {
+    if (interrupted()) throw ToolError(exit_other, "stopped; nothing was written");
+    throw;
+  }
+  output.commit(file.model);
+  const Json rows = Json::array({Json::parse(file.report)});
+  if (report_file) report_file->commit(Json{{"rows", rows}}.dump(2) + "\n");
+  if (!o.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+}
+
+}  // namespace
+
+void add_bake_bent(CLI::App& bake_command) {
+  CLI::App* command =
+      bake_command.add_subcommand("bent",
+                                  "bent normals for a baked character: for each vertex two vectors of the "
+                                  "directions that its body blocks, "
+                                  "by ray tracing in a few poses. All else in the model stays as it is");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command->add_option("character", o.input, "the rigged character, .glb or .gltf")->required();
+  command->add_option("model", o.model, "its model, .nook")->required();
+  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  command->add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
+      ->check(CLI::Range(8, 100000))
+      ->capture_default_str();
+  command
+      ->add_option("--samples-per-clip", o.task.samples_per_clip,
+                   "poses of each clip that the model was fitted to")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--rays", o.task.rays, "rays for each vertex and pose")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  add_linked_files_option(*command, o.linked);
+  add_common_options(*command, o.common);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,97 @@
+// nook evaluate bent: bent normals of a character, and what they do for glossy reflections.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/measure/character/bent_study.h"
+#include "bakers/measure/character/evaluated_poses.h"
+#include "bakers/measure/character/report.h"
+#include "bakers/tool/character/clip_names.h"
+#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/evaluation.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/probe/scene.h"
+#include "platform/progress_bar.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Texels of a map that is measured under, without its suns, which hosts draw as lights with shadows of their
+// own: what is left is smooth enough for the rays of a reflection.
+constexpr std::uint32_t map_columns = 64;
+
+struct Options {
+  CommonOptions common;
+  EvaluatedFiles files;
+  measure::PoseChoice poses;
+  measure::BentStudy study;
+  std::vector<std::filesystem::path> maps;
+};
+
+Json evaluate(const Options& options) {
+  const measure::BakedCharacter baked = read_evaluated_files(options.files);
+  std::vector<std::string> present;
+  for (const bake::Clip& clip : baked.character.clips) present.push_back(clip.name);
+  require_clips(options.poses.clips, present);
+  std::vector<measure::GlossyMap> maps;
+  for (const std::filesystem::path& path : options.maps)
+    maps.push_back({path.stem().string(), measure::coarse_map(read_map(path), map_columns)});
+  const std::optional<bake::Recipe> recipe = measure::recipe_of(baked);
+  const measure::EvaluatedPoses measured =
+      measure::choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);
+  measure::BentStudy study = options.study;
+  study.seed = measure::evaluation_ray_seed(options.common.seed);
+  platform::ProgressBar bar(options.common.quiet);
+  Json report;
+  report["rows"] = measure::bent_rows(baked.character.mesh, baked.model, measured.poses, maps, study,
+                                      [&](std::size_t done, std::size_t total) {
+                                        bar.show("ray tracing", "poses", done, total);
+                                        return !interrupted();
+                                      });
+  report["protocol"] = measured.protocol;
+  report["clips"] = measured.clips;
+  report["rays"] = study.rays;
+  report["seed"] = options.common.seed;
+  return report;
+}
+
+}  // namespace
+
+void add_evaluate_bent(CLI::App& evaluate_command) {
+  CLI::App* command = evaluate_command.add_subcommand(
+      "bent",
+      "bent normals of a character against ray tracing, and specular occlusion from them beside S. Lagarde's "
+      "form of the same AO, at five values of roughness, under uniform light and under maps");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  o.poses.most = 24;
+  add_evaluated_files(*command, o.files);
+  command->add_option("--maps", o.maps, "latitude-longitude maps to be glossy under, at most 8")
+      ->delimiter(',')
+      ->expected(1, int(bake::max_glossy_maps));
+  command->add_option("--clips", o.poses.clips, "measure only these clips")->delimiter(',');
+  command->add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str();
+  command->add_option("--points", o.study.points, "vertices of each pose")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str();
+  command->add_option("--rays", o.study.rays, "rays for the AO of a vertex; a reflection takes a quarter")
+      ->check(CLI::Range(8, 65536))
+      ->capture_default_str();
+  add_common_options(*command, o.common);
+  command->callback([options] {
+    std::vector<NamedFile> read = named_files(options->files);
+    for (const std::filesystem::path& map : options->maps) read.push_back({"a map", map});
+    run_evaluation(options->common, {read, {}, {}}, [&] { return evaluate(*options); });
+  });
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,83 @@
+// nook train bent: fits the specular occlusion of characters and writes its numbers as a header.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bakers/measure/character/bent_study.h"
+#include "bakers/measure/character/evaluated_poses.h"
+#include "bakers/measure/character/specular_numbers.h"
+#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/commands.h"
+#include "bakers/tool/evaluation.h"
+#include "bakers/tool/interrupt.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
+
+namespace nook::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  EvaluatedFiles files;
+  std::filesystem::path output;
+  std::size_t poses = 20;  // evenly picked over the clips
+  measure::BentStudy study{.points = 1500};
+  bake::nnao::SpecularFitSettings fit;
+};
+
+Json train(const Options& options) {
+  platform::OutputFile output(options.output);
+  const measure::BakedCharacter baked = read_evaluated_files(options.files);
+  measure::PoseChoice choice;
+  choice.most = options.poses;
+  const measure::EvaluatedPoses measured = measure::choose_poses(baked.character, nullptr, choice);
+  platform::ProgressBar bar(options.common.quiet);
+  const auto samples = measure::bent_samples(baked.character.mesh, baked.model, measured.poses, options.study,
+                                             [&](std::size_t done, std::size_t total) {
+                                               bar.show("ray tracing", "poses", done, total);
+                                               return !interrupted();
+                                             });
+  const nook::nnao::SpecularNumbers numbers = bake::nnao::fit_specular(samples, options.fit);
+  const bake::nnao::SpecularError error = bake::nnao::specular_error(samples, numbers);
+  output.commit(measure::character_specular_header(numbers));
+  Json row{{"poses", measured.poses.size()},
+           {"points", samples.size()},
+           {"rays", options.study.rays},
+           {"mse", error.fitted},
+           {"mse_lagarde", error.lagarde}};
+  return {{"rows", Json::array({std::move(row)})}, {"seed", options.common.seed}};
+}
+
+}  // namespace
+
+void add_train_bent(CLI::App& train_command) {
+  CLI::App* command = train_command.add_subcommand("bent",
+                                                   "fit the specular occlusion by AO and bent normals of "
+                                                   "characters to ray tracing of one with bent normals");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  add_evaluated_files(*command, o.files);
+  command->add_option("-o,--output", o.output, "the header to write, shaders/character/specular_numbers.h")
+      ->required();
+  command->add_option("--max-poses", o.poses, "poses, evenly picked over the clips")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--points", o.study.points, "vertices of each pose")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str();
+  command->add_option("--steps", o.fit.steps, "steps of the fit")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  add_common_options(*command, o.common);
+  command->callback([options] {
+    options->study.seed = options->fit.seed = options->common.seed;
+    run_evaluation(options->common, {named_files(options->files), {{"-o", options->output.string()}}, {}},
+                   [&] { return train(*options); });
+  });
+}
+
+}  // namespace nook::tool
