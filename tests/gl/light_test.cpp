@@ -7,6 +7,9 @@
 #include <cstdio>
 
 #include "platform/program.h"
+#include "sdk/src/character/bent_normal.h"
+#include "sdk/src/nnao/lighting.h"
+#include "shaders/character/specular_numbers.h"
 #include "tests/gl/crowd.h"
 #include "tests/gl/host_textures.h"
 #include "tests/gl/test_context.h"
@@ -177,6 +180,35 @@ std::string probe_glsl(nook_context context, nook_gl gl) {
   return info.glsl;
 }
 
+// The blocked vectors and the AO of a point are functions of its normal, so that one texel holds its inputs.
+const char* const bent_text =
+    "uniform highp sampler2D normals; out vec4 answer;\n"
+    "void main() {\n"
+    "  vec3 n = texelFetch(normals, ivec2(gl_FragCoord.x, 0), 0).xyz;\n"
+    "  float ao = 0.5 + 0.5 * n.x;\n"
+    "  vec3 bent = nook_scene_bent_normal(n, 0.6 * n.yzx, 0.2 * n.zxy, ao);\n"
+    "  float roughness = 0.5 + 0.5 * n.y;\n"
+    "  vec3 viewer = normalize(n + 0.5 * n.yzx);\n"
+    "  answer = vec4(bent, nook_scene_specular_occlusion(bent, ao, n, viewer, roughness));\n"
+    "}\n";
+
+nnao::SpecularNumbers specular_numbers_of_characters() {
+  constexpr float rows[7][8] = {
+      {NOOK_SCENE_SPECULAR_0, NOOK_SCENE_SPECULAR_1},   {NOOK_SCENE_SPECULAR_2, NOOK_SCENE_SPECULAR_3},
+      {NOOK_SCENE_SPECULAR_4, NOOK_SCENE_SPECULAR_5},   {NOOK_SCENE_SPECULAR_6, NOOK_SCENE_SPECULAR_7},
+      {NOOK_SCENE_SPECULAR_8, NOOK_SCENE_SPECULAR_9},   {NOOK_SCENE_SPECULAR_10, NOOK_SCENE_SPECULAR_11},
+      {NOOK_SCENE_SPECULAR_12, NOOK_SCENE_SPECULAR_13},
+  };
+  nnao::SpecularNumbers numbers;
+  for (std::size_t u = 0; u < 8; ++u) {
+    for (std::size_t i = 0; i < 5; ++i) numbers.weights[i][u] = rows[i][u];
+    numbers.bias[u] = rows[5][u];
+    numbers.out[u] = rows[6][u];
+  }
+  numbers.out_bias = NOOK_SCENE_SPECULAR_BIAS;
+  return numbers;
+}
+
 }  // namespace
 
 TEST_CASE("GPU and CPU agree on directional occlusion for every kernel and way to combine") {
@@ -245,6 +277,39 @@ TEST_CASE("the GLSL for hosts gives the irradiance of an instance's lobes") {
           }
     }
     nook_gl_destroy(&gl);
+  }
+}
+
+TEST_CASE("the GLSL for hosts gives the bent normal of blocked vectors and its specular occlusion") {
+  NOOK_NEED_CONTEXT(context);
+  const Cast cast(KernelForm::nook, 1);
+  Crowd crowd(cast.context.handle, cast.models, cast.bone_counts, {});
+  Numbers numbers(7);
+  std::vector<Vec3> normals;
+  std::vector<float> texels;
+  for (int i = 0; i < 64; ++i) {
+    // The first is open, and its reflection loses nothing.
+    const Vec3 n = i == 0 ? Vec3{1, 0, 0} : numbers.direction();
+    normals.push_back(n);
+    texels.insert(texels.end(), {n.x, n.y, n.z, 0});
+  }
+  nook_gl gl = create_gl(cast.context.handle, platform::Context::loader, &context, tiers_of(context).front());
+  light(crowd, 1, lobes_of(3));
+  NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+  const nook_gl_light_view view = view_of(gl, crowd, 1);
+  const std::vector<float> found =
+      ask(context.gl(), view, texels, {glsl_header(context.gl()), view.glsl, bent_text});
+  nook_gl_destroy(&gl);
+  CHECK(found[3] == 1);
+  const nnao::SpecularNumbers network = specular_numbers_of_characters();
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Vec3 n = normals[i], turned{n.y, n.z, n.x};
+    const float ao = 0.5f + 0.5f * n.x;
+    const Vec3 bent = bent_normal(n, BlockedEnds{0.6f * turned, 0.2f * Vec3{n.z, n.x, n.y}}.at(ao));
+    const nnao::LitPixel pixel{bent, n, normalised(n + 0.5f * turned), ao};
+    // Sums of eight products of numbers below 8, in float.
+    CHECK(length(Vec3{found[4 * i], found[4 * i + 1], found[4 * i + 2]} - bent) < 1e-5f);
+    CHECK(std::abs(found[4 * i + 3] - nnao::specular_occlusion(network, pixel, 0.5f + 0.5f * n.y)) < 1e-4f);
   }
 }
 

@@ -45,12 +45,12 @@ std::string declarations(const Size& size) {
   set_tensor(tables.btf, size.texels, size.light_modes, size.view_vec4s, size.clusters, size.terms);
   set_tensor(tables.votf, size.texels, 1, size.votf_view_vec4s, size.votf_clusters, size.votf_terms);
   const String source = gl::material_source(tables, max_layers, default_memory());
-  std::string text(source.data(), source.size());
+  std::string_view text(source.data(), source.size());
   for (const gl::EmbeddedShader* shader = gl::embedded_shaders_begin(); shader != gl::embedded_shaders_end();
        ++shader)
     if (std::string_view(shader->path) == "material/host.glsl")
-      text.resize(text.size() - std::string_view(shader->text).size());
-  return text;
+      text.remove_suffix(std::string_view(shader->text).size());
+  return std::string(text);
 }
 
 constexpr char decode[] = R"(#include "shaders/material/host.glsl"
