@@ -2,7 +2,7 @@
 
 #include "tests/abi/layout/layout.h"
 
-NOOK_SIZE(nook_bake_material_desc, 176);
+NOOK_SIZE(nook_bake_material_desc, 184);
 NOOK_AT(nook_bake_material_desc, struct_size, 0);
 NOOK_AT(nook_bake_material_desc, header_version, 4);
 NOOK_AT(nook_bake_material_desc, next, 8);
