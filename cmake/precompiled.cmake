@@ -73,7 +73,10 @@ function(nook_precompile_directory directory)
     # Not those in C, and not those with flags of their own.
     get_target_property(sources ${target} SOURCES)
     list(FILTER sources INCLUDE REGEX "\\.(c|cpp)$")
-    foreach(source IN LISTS sources)
+    # Properties of relative names would be those of files in the folder of this script.
+    get_target_property(folder ${target} SOURCE_DIR)
+    foreach(name IN LISTS sources)
+      cmake_path(ABSOLUTE_PATH name BASE_DIRECTORY ${folder} OUTPUT_VARIABLE source)
       get_source_file_property(options ${source} TARGET_DIRECTORY ${target} COMPILE_OPTIONS)
       if(options OR source MATCHES "\\.c$")
         set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
