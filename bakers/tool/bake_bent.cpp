@@ -2,25 +2,17 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <optional>
 
 #include "bakers/job/bent_bake.h"
-#include "bakers/job/worker_arena.h"
+#include "bakers/tool/baking.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/table.h"
-#include "platform/output_file.h"
 #include "platform/printable.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   CommonOptions common;
@@ -40,32 +32,17 @@ bake::BakedFile bake(const Options& o, const std::vector<std::byte>& model,
 }
 
 void run(Options o) {
-  require_distinct_files({{{"the character", o.input}, {"the model", o.model}},
-                          {{"-o", o.output}, {"--report", o.common.report}},
-                          {}});
-  platform::OutputFile output(o.output);
-  std::optional<platform::OutputFile> report_file;
-  if (!o.common.report.empty()) report_file.emplace(o.common.report);
   o.task.seed = o.common.seed;
-  const std::vector<std::byte> model = read_file(o.model);
-  const bake::ImportedCharacter character =
-      naming_file(o.input, [&] { return bake::import_gltf(o.input, o.linked); });
-  if (!o.common.quiet)
-    for (const std::string& warning : character.warnings)
-      std::fprintf(stderr, "%s: %s\n", platform::printable(o.input.string()).c_str(),
-                   platform::printable_lines(warning).c_str());
-  bake::BakedFile file;
-  try {
-    bake::run_with_threads(o.common.threads,
-                           [&] { file = naming_file(o.model, [&] { return bake(o, model, character); }); });
-  } catch (const ToolError&) {
-    if (interrupted()) throw ToolError(exit_other, "stopped; nothing was written");
-    throw;
-  }
-  output.commit(file.model);
-  const Json rows = Json::array({Json::parse(file.report)});
-  if (report_file) report_file->commit(Json{{"rows", rows}}.dump(2) + "\n");
-  if (!o.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+  run_bake(o.common, o.output, {{{"the character", o.input}, {"the model", o.model}}, {}, {}}, [&] {
+    const std::vector<std::byte> model = read_file(o.model);
+    const bake::ImportedCharacter character =
+        naming_file(o.input, [&] { return bake::import_gltf(o.input, o.linked); });
+    if (!o.common.quiet)
+      for (const std::string& warning : character.warnings)
+        std::fprintf(stderr, "%s: %s\n", platform::printable(o.input.string()).c_str(),
+                     platform::printable_lines(warning).c_str());
+    return naming_file(o.model, [&] { return bake(o, model, character); });
+  });
 }
 
 }  // namespace
