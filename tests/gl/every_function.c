@@ -48,6 +48,26 @@ static void light_instance(nook_gl gl, nook_scene scene, nook_instance_id instan
   free(rgb);
 }
 
+/* A capture without a map: no name is that of a cube map here. */
+static void capture_probe(nook_gl gl, nook_gl_probe probe) {
+  nook_gl_probe_capture_desc desc;
+  nook_gl_probe_capture capture = NULL;
+  nook_gl_probe_capture_result result;
+  nook_probe solved = NULL;
+  EXPECT_OK(nook_gl_probe_capture_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.probe = probe;
+  EXPECT_OK(nook_gl_probe_capture_create(gl, &desc, &capture));
+  EXPECT(nook_gl_probe_capture_add(capture, 0, 0) == NOOK_ERROR_INVALID_ARGUMENT);
+  EXPECT_OK(nook_gl_probe_capture_reset(capture, 0));
+  memset(&result, 0, sizeof result);
+  result.struct_size = sizeof result;
+  EXPECT_OK(nook_gl_probe_capture_read(capture, 0, &result));
+  EXPECT(result.maps == 0);
+  EXPECT_OK(nook_gl_probe_capture_solve(capture, &solved));
+  nook_probe_destroy(&solved);
+  nook_gl_probe_capture_destroy(&capture);
+}
+
 static void upload_probe(nook_context context, nook_gl gl) {
   const float coefficients[3 * 12] = {1};
   nook_probe_fit_desc fit_desc;
@@ -71,6 +91,7 @@ static void upload_probe(nook_context context, nook_gl gl) {
   EXPECT_OK(nook_gl_probe_describe(uploaded, &info));
   /* OpenGL ES has 2D textures with whole rows. */
   EXPECT(info.texture != 0 && info.bytes >= 16 * (3 + 12 * 2) && strstr(info.glsl, "nook_probe_irradiance"));
+  capture_probe(gl, uploaded);
   nook_gl_probe_destroy(&uploaded);
   EXPECT(!uploaded);
   EXPECT_OK(nook_gl_probe_grid_create(gl, probe, NOOK_GL_PROBE_GRID_ZONAL, &grid));

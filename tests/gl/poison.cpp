@@ -11,8 +11,8 @@ namespace nook::test {
 
 struct Poison::Objects {
   GLuint buffers[4] = {};
-  GLuint texture = 0, other_texture = 0, texture_2d = 0, texture_array = 0, volume = 0, sample_texture = 0,
-         sampler = 0, framebuffer = 0, renderbuffer = 0, vertex_array = 0, program = 0;
+  GLuint texture = 0, other_texture = 0, texture_2d = 0, texture_array = 0, volume = 0, cube = 0,
+         sample_texture = 0, sampler = 0, framebuffer = 0, renderbuffer = 0, vertex_array = 0, program = 0;
   GLuint feedback = 0;
 };
 
@@ -107,6 +107,10 @@ struct Readers {
   }
   Values texture_2d_array() const { return of_unit(0, GL_TEXTURE_BINDING_2D_ARRAY); }
   Values texture_3d() const { return of_unit(0, GL_TEXTURE_BINDING_3D); }
+  Values cube_map() const { return of_unit(gl::cube_map_unit, GL_TEXTURE_BINDING_CUBE_MAP); }
+  Values capture_samplers() const {
+    return {of_unit(0, GL_SAMPLER_BINDING)[0], of_unit(1, GL_SAMPLER_BINDING)[0]};
+  }
   Values layer_textures() const {
     Values values;
     for (const int unit : gl::layer_units)
@@ -259,6 +263,9 @@ Poison::Poison(platform::Context& context, unsigned users)
   gl.BindTexture(GL_TEXTURE_2D_ARRAY, o.texture_array);
   gl.GenTextures(1, &o.volume);
   gl.BindTexture(GL_TEXTURE_3D, o.volume);
+  gl.GenTextures(1, &o.cube);
+  gl.ActiveTexture(GL_TEXTURE0 + gl::cube_map_unit);
+  gl.BindTexture(GL_TEXTURE_CUBE_MAP, o.cube);
   // OpenGL ES binds immutable textures alone as images.
   if (!has.desktop) gl.TexStorage3D(GL_TEXTURE_2D_ARRAY, 2, GL_RGBA16F, 4, 4, 4);
   for (const int unit : gl::layer_units) {
@@ -329,6 +336,7 @@ void Poison::reset_touched() {
     if (has.desktop) gl.BindTexture(GL_TEXTURE_BUFFER, 0);
     gl.BindTexture(GL_TEXTURE_2D_ARRAY, 0);
     gl.BindTexture(GL_TEXTURE_3D, 0);
+    gl.BindTexture(GL_TEXTURE_CUBE_MAP, 0);
     if (has.sample_textures()) gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
     gl.BindSampler(unit, 0);
   }
@@ -386,6 +394,7 @@ Poison::~Poison() {
   gl.DeleteTextures(1, &o.texture_2d);
   gl.DeleteTextures(1, &o.texture_array);
   gl.DeleteTextures(1, &o.volume);
+  gl.DeleteTextures(1, &o.cube);
   if (o.sample_texture) gl.DeleteTextures(1, &o.sample_texture);
   gl.DeleteSamplers(1, &o.sampler);
   gl.DeleteFramebuffers(1, &o.framebuffer);
@@ -441,9 +450,12 @@ StateValues Poison::untouched() const {
 #undef NOOK_X
   const Has has(gl_);
   // On OpenGL ES these bind their tables of texels to the first unit's 2D texture.
-  if (!has.desktop && users_ & (gl::characters | gl::probes) && values.contains("texture_2d"))
+  if (!has.desktop && users_ & (gl::characters | gl::probes | gl::captures) && values.contains("texture_2d"))
     values["texture_2d"].erase(values["texture_2d"].begin());
   if (!has.desktop && users_ & (gl::screen | gl::outputs)) values.erase("texture_unit_0");
+  // Captures have their own item of the first two units' samplers, which are among those of the screen pass.
+  if (users_ & gl::captures) values["samplers"] = {values["samplers"].begin() + 2, values["samplers"].end()};
+  if (users_ & gl::screen) values.erase("capture_samplers");
   // Further viewports and draw buffers are the host's, whoever sets the first.
   if (has.desktop && has.version >= 41) {
     GLfloat box[4] = {};

@@ -18,6 +18,7 @@ std::string names_of(unsigned users) {
                                                   {nook::gl::materials, "material"},
                                                   {nook::gl::probes, "probe"},
                                                   {nook::gl::grids, "grid"},
+                                                  {nook::gl::captures, "capture"},
                                                   {nook::gl::screen_compute, "nnao, compute path"},
                                                   {nook::gl::outputs, "output"},
                                                   {nook::gl::outputs_compute, "output with a stride"},
@@ -50,7 +51,8 @@ std::string table() {
          "nook_nnao_create "
          "and nook_nnao_render; its compute path is that of nook_nnao_render if nook_nnao_info.path is "
          "NOOK_NNAO_PATH_COMPUTE. material is nook_gl_material_create. probe is nook_gl_probe_create and "
-         "nook_gl_probe_update. grid is nook_gl_probe_grid_create and nook_gl_probe_grid_update. "
+         "nook_gl_probe_update. grid is nook_gl_probe_grid_create and nook_gl_probe_grid_update. capture is "
+         "nook_gl_probe_capture_create and _add; _read and _solve touch a part of it. "
          "nook_nnao_record touches what nnao does as well. output is "
          "nook_gl_scene_write_ao.\n\n"
          "No other state changes: no parameter of a host's texture or sampler, no other pixel-store value, "

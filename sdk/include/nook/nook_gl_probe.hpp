@@ -53,6 +53,41 @@ class GlProbeGrid : public Unique<nook_gl_probe_grid, nook_gl_probe_grid_destroy
   }
 };
 
+// Cube maps that the host renders become probes of a GlProbe, a GlProbeGrid or both; the same holds.
+class GlProbeCapture : public Unique<nook_gl_probe_capture, nook_gl_probe_capture_destroy> {
+ public:
+  // Defaults, for the caller to change.
+  static nook_gl_probe_capture_desc defaults() {
+    nook_gl_probe_capture_desc desc;
+    check(nook_gl_probe_capture_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    return desc;
+  }
+  GlProbeCapture(const Gl& gl, const nook_gl_probe_capture_desc& desc) : Unique(create(gl, desc)) {}
+
+  void add(std::uint32_t index, std::uint32_t cube_map) {
+    check(nook_gl_probe_capture_add(get(), index, cube_map));
+  }
+  void reset(std::uint32_t index) { check(nook_gl_probe_capture_reset(get(), index)); }
+  nook_gl_probe_capture_result read(std::uint32_t index) const {
+    nook_gl_probe_capture_result result{};
+    result.struct_size = sizeof result;
+    check(nook_gl_probe_capture_read(get(), index, &result));
+    return result;
+  }
+  Probe solve() const {
+    nook_probe handle = nullptr;
+    check(nook_gl_probe_capture_solve(get(), &handle));
+    return Probe(handle);
+  }
+
+ private:
+  static nook_gl_probe_capture create(const Gl& gl, const nook_gl_probe_capture_desc& desc) {
+    nook_gl_probe_capture handle = nullptr;
+    check(nook_gl_probe_capture_create(gl.get(), &desc, &handle));
+    return handle;
+  }
+};
+
 }  // namespace wrapper
 }  // namespace nook
 #endif

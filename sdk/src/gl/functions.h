@@ -29,6 +29,7 @@ namespace nook::gl {
   X(ClearBufferfv)                       \
   X(ColorMask)                           \
   X(CompileShader)                       \
+  X(CopyBufferSubData)                   \
   X(CreateProgram)                       \
   X(CreateShader)                        \
   X(DeleteBuffers)                       \
@@ -87,11 +88,14 @@ namespace nook::gl {
   X(TexImage3D)                          \
   X(TexParameteri)                       \
   X(TexSubImage2D)                       \
+  X(TexSubImage3D)                       \
   X(TransformFeedbackVaryings)           \
   X(Uniform1f)                           \
   X(Uniform1i)                           \
   X(Uniform1ui)                          \
+  X(Uniform2f)                           \
   X(Uniform2i)                           \
+  X(Uniform4i)                           \
   X(Uniform4fv)                          \
   X(UseProgram)                          \
   X(VertexAttribIPointer)                \

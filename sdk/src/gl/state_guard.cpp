@@ -1,5 +1,6 @@
 #include "sdk/src/gl/state_guard.h"
 
+#include <iterator>
 #include <utility>
 
 #include "sdk/src/gl/state_access.h"
@@ -90,6 +91,29 @@ void restore_texture_3d(const Functions& gl, const SavedState& s) {
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_3D, s.texture_3d);
   gl.ActiveTexture(s.active_texture);
+}
+
+void query_cube_map(const Functions& gl, SavedState& s) {
+  gl.ActiveTexture(GL_TEXTURE0 + cube_map_unit);
+  s.cube_map = integer(gl, GL_TEXTURE_BINDING_CUBE_MAP);
+  gl.ActiveTexture(s.active_texture);
+}
+void restore_cube_map(const Functions& gl, const SavedState& s) {
+  gl.ActiveTexture(GL_TEXTURE0 + cube_map_unit);
+  gl.BindTexture(GL_TEXTURE_CUBE_MAP, s.cube_map);
+  gl.ActiveTexture(s.active_texture);
+}
+
+void query_capture_samplers(const Functions& gl, SavedState& s) {
+  for (GLuint unit = 0; unit < std::size(s.capture_samplers); ++unit) {
+    gl.ActiveTexture(GL_TEXTURE0 + unit);
+    s.capture_samplers[unit] = integer(gl, GL_SAMPLER_BINDING);
+  }
+  gl.ActiveTexture(s.active_texture);
+}
+void restore_capture_samplers(const Functions& gl, const SavedState& s) {
+  for (GLuint unit = 0; unit < std::size(s.capture_samplers); ++unit)
+    gl.BindSampler(unit, s.capture_samplers[unit]);
 }
 
 void query_image_unit(const Functions& gl, SavedState& s) {

@@ -80,6 +80,8 @@ struct SavedState {
   ImageUnit image_unit;
   GLint texture_2d_array = 0;
   GLint texture_3d = 0;
+  GLint cube_map = 0;
+  GLint capture_samplers[2] = {};
   GLint layer_textures[std::size(layer_units)] = {};
   GLint sample_texture = 0;
   GLint pixel_unpack_buffer = 0, pixel_pack_buffer = 0;

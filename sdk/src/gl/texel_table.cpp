@@ -86,4 +86,39 @@ void TexelTable::upload(const Device& device, std::uint64_t texels) const {
   send(whole, texels % width, 1);
 }
 
+void TexelTable::copy(const Device& device, GLuint buffer, std::uint64_t offset_bytes,
+                      std::uint64_t first_texel, std::uint64_t texels) const {
+  const Functions& gl = device.gl;
+  if (device.gl.can.texture_buffers) {
+    gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer);
+    gl.BindBuffer(GL_ARRAY_BUFFER, buffer_.name());
+    gl.CopyBufferSubData(GL_PIXEL_UNPACK_BUFFER, GL_ARRAY_BUFFER, static_cast<GLintptr>(offset_bytes),
+                         static_cast<GLintptr>(first_texel * bytes_of_texel()),
+                         static_cast<GLsizeiptr>(texels * bytes_of_texel()));
+  } else {
+    bind(device);
+    gl.BindBuffer(GL_ARRAY_BUFFER, 0);
+    gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer);
+    set_pixel_store(gl, {});
+    copy_rows(device, offset_bytes, first_texel, texels);
+  }
+  gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+}
+
+// The rest of the row in which the texels begin, whole rows, and the beginning of the last one.
+void TexelTable::copy_rows(const Device& device, std::uint64_t offset_bytes, std::uint64_t first_texel,
+                           std::uint64_t texels) const {
+  std::uint64_t done = 0;
+  while (done < texels) {
+    const std::uint64_t x = (first_texel + done) % width, left = texels - done;
+    const bool whole = x == 0 && left >= width;
+    const std::uint64_t across = whole ? width : std::min(width - x, left), rows = whole ? left / width : 1;
+    device.gl.TexSubImage2D(
+        GL_TEXTURE_2D, 0, static_cast<GLint>(x), static_cast<GLint>((first_texel + done) / width),
+        static_cast<GLsizei>(across), static_cast<GLsizei>(rows), components(format_), GL_FLOAT,
+        reinterpret_cast<const void*>(static_cast<std::uintptr_t>(offset_bytes + done * bytes_of_texel())));
+    done += across * rows;
+  }
+}
+
 }  // namespace nook::gl

@@ -46,6 +46,11 @@ class TexelTable {
   // Throws Failure.
   void replace(Device& device, GLenum format, std::uint64_t texels, const float* data, const char* label);
 
+  // Copies texels from a buffer of the GPU, which no transform feedback may hold bound; nothing waits. The
+  // texels lie within the capacity. Binds GL_PIXEL_UNPACK_BUFFER, and GL_ARRAY_BUFFER or the table.
+  void copy(const Device& device, GLuint buffer, std::uint64_t offset_bytes, std::uint64_t first_texel,
+            std::uint64_t texels) const;
+
   void bind(const Device& device) const {
     device.gl.ActiveTexture(GL_TEXTURE0 + unit_);
     device.gl.BindTexture(target(device), texture_.name());
@@ -59,6 +64,8 @@ class TexelTable {
   void make_texture_buffer(Device& device, std::uint64_t texels, const float* data, GLenum usage);
   void make_texture_2d(Device& device, std::uint64_t texels);
   void upload(const Device& device, std::uint64_t texels) const;
+  void copy_rows(const Device& device, std::uint64_t offset_bytes, std::uint64_t first_texel,
+                 std::uint64_t texels) const;
 
   GLuint unit_ = 0;
   GLenum format_ = 0;

@@ -4,14 +4,15 @@
 
 #include "shaders/character/layout.h"
 #include "shaders/nnao/layout.h"
+#include "shaders/probe/capture/layout.h"
 
 namespace nook::gl {
 
 // The users of an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload
 // of probes and materials, the screen-space pass if its network is a compute shader, the writing of AO to
 // buffers and textures of the host, the recording of frames, and the screen-space pass with
-// nook_nnao_desc.layers and depth_samples, and the upload of grids. OpenGL ES has tables of texels in 2D
-// textures, whose upload is another user.
+// nook_nnao_desc.layers and depth_samples, the upload of grids, and captures of probes. OpenGL ES has tables
+// of texels in 2D textures, whose upload is another user.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
@@ -27,6 +28,7 @@ enum : unsigned {
   screen_layers = 2048,
   screen_samples = 4096,
   grids = 8192,
+  captures = 16384,
   characters = tier_33 | tier_43,
   everyone = characters | screen,
   draws = tier_33 | screen,
@@ -35,14 +37,14 @@ enum : unsigned {
 // X(name, users, the state as OpenGL names it, its purpose and default). An item needs a member of SavedState
 // and a query, a restore and a reset of that name in state_guard.cpp or state_guard_draw.cpp.
 #define NOOK_GL_TOUCHED_STATE(X)                                                                            \
-  X(program, everyone | outputs, "GL_CURRENT_PROGRAM", "runs the passes; default 0")                        \
-  X(array_buffer, everyone | probes | outputs, "GL_ARRAY_BUFFER_BINDING",                                   \
+  X(program, everyone | outputs | captures, "GL_CURRENT_PROGRAM", "runs the passes; default 0")             \
+  X(array_buffer, everyone | probes | outputs | captures, "GL_ARRAY_BUFFER_BINDING",                        \
     "every upload goes through it; default 0")                                                              \
-  X(vertex_array, draws | outputs, "GL_VERTEX_ARRAY_BINDING",                                               \
+  X(vertex_array, draws | outputs | captures, "GL_VERTEX_ARRAY_BINDING",                                    \
     "inputs of the vertex pass, or none; default 0")                                                        \
-  X(active_texture, everyone | probes | grids | materials | outputs, "GL_ACTIVE_TEXTURE",                   \
+  X(active_texture, everyone | probes | grids | materials | outputs | captures, "GL_ACTIVE_TEXTURE",        \
     "selects units; default GL_TEXTURE0")                                                                   \
-  X(texture_unit_0, characters | probes,                                                                    \
+  X(texture_unit_0, characters | probes | captures,                                                         \
     "GL_TEXTURE_BINDING_BUFFER of unit 0; on OpenGL ES GL_TEXTURE_BINDING_2D",                              \
     "shadows at key points, texels of probes and lights; default 0")                                        \
   X(texture_2d, screen | outputs, "GL_TEXTURE_BINDING_2D of units 0 to 4",                                  \
@@ -58,26 +60,29 @@ enum : unsigned {
   X(image_unit, screen_compute, "GL_IMAGE_BINDING_NAME, LEVEL, LAYERED, LAYER, ACCESS, FORMAT of unit 0",   \
     "what a compute shader writes; default 0, GL_READ_ONLY, GL_R8 (OpenGL ES: GL_R32UI)")                   \
   X(texture_2d_array, materials, "GL_TEXTURE_BINDING_2D_ARRAY of unit 0", "uploads; default 0")             \
-  X(texture_3d, grids, "GL_TEXTURE_BINDING_3D of unit 0", "uploads; default 0")                             \
-  X(pixel_unpack_buffer, screen | materials | grids | outputs | texel_uploads,                              \
+  X(texture_3d, grids | captures, "GL_TEXTURE_BINDING_3D of unit 0", "uploads; default 0")                  \
+  X(cube_map, captures, "GL_TEXTURE_BINDING_CUBE_MAP of unit 1", "the host's cube map; default 0")          \
+  X(capture_samplers, captures, "GL_SAMPLER_BINDING of units 0 and 1",                                      \
+    "so that no parameter of a texture counts; default 0")                                                  \
+  X(pixel_unpack_buffer, screen | materials | grids | outputs | texel_uploads | captures,                   \
     "GL_PIXEL_UNPACK_BUFFER_BINDING",                                                                       \
     "in nook_nnao_create, nook_gl_material_create, nook_gl_probe_grid_create and _update and "              \
     "nook_gl_scene_write_ao only; on OpenGL ES in updates "                                                 \
     "and probes "                                                                                           \
     "too; default 0")                                                                                       \
-  X(pixel_store, materials | grids | outputs | texel_uploads,                                               \
+  X(pixel_store, materials | grids | outputs | texel_uploads | captures,                                    \
     "GL_UNPACK_SWAP_BYTES, LSB_FIRST, ROW_LENGTH, IMAGE_HEIGHT, SKIP_ROWS, SKIP_PIXELS, SKIP_IMAGES, "      \
     "ALIGNMENT; the first two not on OpenGL ES",                                                            \
     "uploads without gaps; default 0, alignment 4")                                                         \
-  X(draw_framebuffer, draws | outputs, "GL_DRAW_FRAMEBUFFER_BINDING",                                       \
+  X(draw_framebuffer, draws | outputs | captures, "GL_DRAW_FRAMEBUFFER_BINDING",                            \
     "a draw needs a complete framebuffer; default 0")                                                       \
   X(read_framebuffer, screen_reads, "GL_READ_FRAMEBUFFER_BINDING", "what is read back; default 0")          \
   X(pixel_pack_buffer, screen_reads, "GL_PIXEL_PACK_BUFFER_BINDING", "texels go to host memory; default 0") \
   X(pixel_pack, screen_reads,                                                                               \
     "GL_PACK_ALIGNMENT, ROW_LENGTH, SKIP_ROWS, SKIP_PIXELS, SWAP_BYTES; the last not on OpenGL ES",         \
     "texels without gaps; default alignment 4, else 0")                                                     \
-  X(renderbuffer, tier_33 | outputs, "GL_RENDERBUFFER_BINDING",                                             \
-    "in nook_gl_create and nook_gl_scene_write_ao only; default 0")                                         \
+  X(renderbuffer, tier_33 | outputs | captures, "GL_RENDERBUFFER_BINDING",                                  \
+    "in nook_gl_create, nook_gl_scene_write_ao and nook_gl_probe_capture_create only; default 0")           \
   X(viewport, screen, "GL_VIEWPORT, of index 0 from OpenGL 4.1 on",                                         \
     "the stages' size; left at the frame's viewport in place of a default")                                 \
   X(blend, screen,                                                                                          \
@@ -94,14 +99,14 @@ enum : unsigned {
     "GL_SAMPLE_ALPHA_TO_COVERAGE, GL_CLIP_DISTANCE0 to GL_CLIP_DISTANCE7; on OpenGL ES those that it has",  \
     "off; default disabled")                                                                                \
   X(dither, screen, "GL_DITHER", "off; default enabled")                                                    \
-  X(rasterizer_discard, draws | outputs, "GL_RASTERIZER_DISCARD",                                           \
+  X(rasterizer_discard, draws | outputs | captures, "GL_RASTERIZER_DISCARD",                                \
     "on in tier 33, where nothing is drawn, off in the screen-space pass; default disabled")                \
-  X(primitive_restart, draws | outputs, "GL_PRIMITIVE_RESTART, not on OpenGL ES",                           \
+  X(primitive_restart, draws | outputs | captures, "GL_PRIMITIVE_RESTART, not on OpenGL ES",                \
     "every index is a vertex; default disabled")                                                            \
-  X(transform_feedback, tier_33 | outputs, "GL_TRANSFORM_FEEDBACK_BINDING",                                 \
+  X(transform_feedback, tier_33 | outputs | captures, "GL_TRANSFORM_FEEDBACK_BINDING",                      \
     "from OpenGL 4.0 and OpenGL ES 3.0 on; default 0")                                                      \
-  X(feedback_buffer, tier_33 | outputs, "GL_TRANSFORM_FEEDBACK_BUFFER_BINDING and its range, index 0",      \
-    "AO; default 0")                                                                                        \
+  X(feedback_buffer, tier_33 | outputs | captures,                                                          \
+    "GL_TRANSFORM_FEEDBACK_BUFFER_BINDING and its range, index 0", "AO; default 0")                         \
   X(query_buffer, screen_timers, "GL_QUERY_BUFFER_BINDING",                                                 \
     "from OpenGL 4.4 on, in nook_nnao_read_timings only; default 0")                                        \
   X(storage_buffer, tier_43 | outputs_compute, "GL_SHADER_STORAGE_BUFFER_BINDING",                          \
@@ -111,6 +116,7 @@ enum : unsigned {
 
 inline constexpr int storage_binding_count = NOOK_BINDING_COUNT;
 inline constexpr int texture_unit_count = NOOK_UNIT_COUNT;  // of the screen-space pass
+inline constexpr int cube_map_unit = NOOK_CAPTURE_UNIT_CUBE;
 inline constexpr int host_depth_unit = NOOK_UNIT_HOST_DEPTH;
 // The units that the pass with layers binds arrays to.
 inline constexpr int layer_units[] = {NOOK_UNIT_HOST_DEPTH, NOOK_UNIT_LAYER, NOOK_UNIT_MOTION};

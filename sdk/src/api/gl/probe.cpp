@@ -1,23 +1,11 @@
 #include <nook/nook_gl_probe.h>
 
 #include "sdk/src/api/entry.h"
-#include "sdk/src/api/gl/handle.h"
+#include "sdk/src/api/gl/probe_handles.h"
 #include "sdk/src/api/probe_handles.h"
 #include "sdk/src/core/descriptors.h"
-#include "sdk/src/gl/probe/probe_texture.h"
 
 using namespace nook;
-
-// The OpenGL objects outlive the handle nook_gl, because this object holds a reference to its owner.
-struct nook_gl_probe_s : RefCounted {
-  nook_gl_probe_s(nook_gl_s* made_by, const probe::Probes& probes) : gl(made_by) {
-    gl->device.report_host_errors();
-    gl->guarded(gl::probe_users(gl->device.gl), [&] { texture.emplace(gl->device, probes); });
-  }
-
-  nook_gl_s* gl;
-  std::optional<gl::ProbeTexture> texture;
-};
 
 namespace {
 

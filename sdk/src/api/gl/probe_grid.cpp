@@ -1,26 +1,13 @@
 #include <nook/nook_gl_probe.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "sdk/src/api/entry.h"
-#include "sdk/src/api/gl/handle.h"
+#include "sdk/src/api/gl/probe_handles.h"
 #include "sdk/src/api/probe_handles.h"
 #include "sdk/src/core/descriptors.h"
-#include "sdk/src/gl/probe/grid_volume.h"
 
 using namespace nook;
-
-// The OpenGL objects outlive the handle nook_gl, because this object holds a reference to its owner.
-struct nook_gl_probe_grid_s : RefCounted {
-  nook_gl_probe_grid_s(nook_gl_s* made_by, const probe::Probes& probes, gl::GridForm form) : gl(made_by) {
-    gl->device.report_host_errors();
-    gl->guarded(gl::grids, [&] { volume.emplace(gl->device, probes, form); });
-  }
-
-  nook_gl_s* gl;
-  std::optional<gl::GridVolume> volume;
-};
 
 namespace {
 

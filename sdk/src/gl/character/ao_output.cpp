@@ -61,19 +61,10 @@ void AoOutput::write(const VertexValues& source, const BufferTarget& target) {
   device_.check("writing AO to the host's buffer");
 }
 
-// A draw needs a complete framebuffer even if nothing is rasterised, and a surfaceless context has none.
 void AoOutput::make_draw_objects() {
   if (vertex_array_.name()) return;
   const Functions& gl = device_.gl;
-  framebuffer_ = Object::make(device_, Object::Kind::framebuffer);
-  renderbuffer_ = Object::make(device_, Object::Kind::renderbuffer);
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
-  gl.BindRenderbuffer(GL_RENDERBUFFER, renderbuffer_.name());
-  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 1, 1);
-  gl.FramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                             renderbuffer_.name());
-  if (gl.BindTransformFeedback && gl.GenTransformFeedbacks && gl.DeleteTransformFeedbacks)
-    feedback_ = Object::make(device_, Object::Kind::transform_feedback);
+  feedback_ = FeedbackTarget(device_);
   vertex_array_ = Object::make(device_, Object::Kind::vertex_array);
   gl.BindVertexArray(vertex_array_.name());
   gl.EnableVertexAttribArray(0);
@@ -89,10 +80,7 @@ void AoOutput::write_packed(const VertexValues& source, const BufferTarget& targ
   make_draw_objects();
   gl.UseProgram(program.name());
   gl.BindVertexArray(vertex_array_.name());
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
-  if (feedback_.name()) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback_.name());
-  gl.Enable(GL_RASTERIZER_DISCARD);
-  set_primitive_restart(gl, false);
+  feedback_.begin(device_);
   gl.BindBuffer(GL_ARRAY_BUFFER, source.buffer);
   const std::uint32_t each = values_per_word(target.format), whole = source.vertices / each;
   const auto draw = [&](std::uint32_t first_word, std::uint32_t words, std::uint32_t values) {
@@ -109,9 +97,8 @@ void AoOutput::write_packed(const VertexValues& source, const BufferTarget& targ
   };
   draw(0, whole, each);
   draw(whole, 1, source.vertices - whole * each);
-  gl.Disable(GL_RASTERIZER_DISCARD);
   // The vertex array must not keep the host's or a chunk's buffer in use.
-  gl.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+  FeedbackTarget::end(device_);
 }
 
 void AoOutput::write_strided(const VertexValues& source, const BufferTarget& target) {

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "sdk/src/gl/character/tier.h"
+#include "sdk/src/gl/feedback_target.h"
 #include "sdk/src/gl/object.h"
 
 namespace nook::gl {
@@ -50,7 +51,8 @@ class AoOutput {
   Device& device_;
   std::array<Object, format_count> packing_;  // programs, by format
   std::array<Object, format_count> strided_;
-  Object vertex_array_, framebuffer_, renderbuffer_, feedback_;
+  Object vertex_array_;
+  FeedbackTarget feedback_;
   Buffer packed_;  // of a texture on OpenGL ES
 };
 

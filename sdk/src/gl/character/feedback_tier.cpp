@@ -69,27 +69,12 @@ std::uint32_t fill_page(Device& device, const FeedbackScene& placed, TexelTable&
 
 }  // namespace
 
-FeedbackTier::FeedbackTier(Device& device) : device_(device), models_(device.memory), scenes_(device.memory) {
-  const Functions& gl = device.gl;
+FeedbackTier::FeedbackTier(Device& device)
+    : device_(device), target_(device), models_(device.memory), scenes_(device.memory) {
   for (int quads = 1; quads <= 2; ++quads) {
     programs_[quads - 1] = make_program(quads, false);
     lit_programs_[quads - 1] = make_program(quads, true);
   }
-  // A draw needs a complete framebuffer even if nothing is rasterised, and a surfaceless context has none.
-  framebuffer_ = Object::make(device, Object::Kind::framebuffer);
-  renderbuffer_ = Object::make(device, Object::Kind::renderbuffer);
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
-  gl.BindRenderbuffer(GL_RENDERBUFFER, renderbuffer_.name());
-  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 1, 1);
-  gl.FramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                             renderbuffer_.name());
-  const GLenum status = gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE)
-    throw Failure(NOOK_ERROR_GL, "a framebuffer with an RGBA8 renderbuffer is not complete (status 0x%04x)",
-                  status);
-  device.label(GL_FRAMEBUFFER, framebuffer_.name(), "nook: transform feedback");
-  if (gl.BindTransformFeedback && gl.GenTransformFeedbacks && gl.DeleteTransformFeedbacks)
-    feedback_ = Object::make(device, Object::Kind::transform_feedback);
 }
 
 FeedbackTier::Program FeedbackTier::make_program(int quads, bool lit) {
@@ -155,12 +140,9 @@ void FeedbackTier::release(const Scene& scene) {
 
 void FeedbackTier::draw_scene(FeedbackScene& placed) const {
   const Functions& gl = device_.gl;
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
-  if (feedback_.name()) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback_.name());
-  gl.Enable(GL_RASTERIZER_DISCARD);
+  target_.begin(device_);
   // WebGL lets no buffer be written while it is bound to another point.
   gl.BindBuffer(GL_ARRAY_BUFFER, 0);
-  set_primitive_restart(gl, false);
   gl.ActiveTexture(GL_TEXTURE0);
   for (const FeedbackChunk& chunk : placed.chunks) {
     draw_chunk<Shadows>(placed, chunk, {programs_, &placed.shadows, &chunk.ao, 1});
@@ -169,7 +151,7 @@ void FeedbackTier::draw_scene(FeedbackScene& placed) const {
     for (const std::uint32_t slot : chunk.slots)
       if (slot != FeedbackChunk::empty) placed.placements[slot].evaluated = true;
   }
-  gl.Disable(GL_RASTERIZER_DISCARD);
+  FeedbackTarget::end(device_);
 }
 
 template <class Kind>

@@ -3,6 +3,7 @@
 
 #include "sdk/src/gl/character/feedback_scene.h"
 #include "sdk/src/gl/character/tier.h"
+#include "sdk/src/gl/feedback_target.h"
 
 namespace nook::gl {
 
@@ -44,8 +45,7 @@ class FeedbackTier final : public Tier {
 
   Device& device_;
   Program programs_[2], lit_programs_[2];  // for one and two quads of influences
-  Object framebuffer_, renderbuffer_;
-  Object feedback_;  // name 0 before OpenGL 4.0
+  FeedbackTarget target_;
   List<FeedbackModel> models_;
   List<FeedbackScene> scenes_;  // destroyed before the models that their chunks use
 };

@@ -17,10 +17,6 @@ namespace {
 constexpr std::size_t harmonics_count = 9;  // bands 0 to 2
 using Harmonics = std::array<Vec3, harmonics_count>;
 
-std::uint32_t probe_texels_of(GridForm form) {
-  return form == GridForm::harmonics ? NOOK_GRID_HARMONICS_TEXELS : NOOK_GRID_ZONAL_TEXELS;
-}
-
 Harmonics harmonics_of(const probe::Probes& probes, std::size_t index) {
   Harmonics harmonics{};
   const std::span<const Vec3> coefficients = probes.of(index);
@@ -76,8 +72,12 @@ void write_walls(Writer& writer, std::size_t layer, std::size_t place, const pro
 
 }  // namespace
 
+std::uint32_t texels_of(GridForm form) {
+  return form == GridForm::harmonics ? NOOK_GRID_HARMONICS_TEXELS : NOOK_GRID_ZONAL_TEXELS;
+}
+
 GridTexelPlan plan_grid(const probe::Probes& probes, GridForm form) {
-  GridTexelPlan plan{form, probe_texels_of(form), probes.grid.counts};
+  GridTexelPlan plan{form, texels_of(form), probes.grid.counts};
   if (probes.walls.any()) plan.layers += NOOK_GRID_WALL_TEXELS;
   plan.size[2] *= plan.layers;
   return plan;
@@ -103,8 +103,7 @@ Vector<std::uint16_t> grid_texels(const probe::Probes& probes, const GridTexelPl
   const auto& counts = probes.grid.counts;
   for (std::size_t c = 0; c < probes.walls.cell.size(); ++c) {
     const std::size_t x = c % cells[0], y = c / cells[0] % cells[1], z = c / cells[0] / cells[1];
-    write_walls(writer, probe_texels_of(plan.form), (z * counts[1] + y) * counts[0] + x,
-                probes.walls.cell[c]);
+    write_walls(writer, texels_of(plan.form), (z * counts[1] + y) * counts[0] + x, probes.walls.cell[c]);
   }
   return texels;
 }

@@ -10,6 +10,8 @@
 namespace nook::gl {
 
 enum class GridForm : std::uint8_t { harmonics = 0, zonal = 1 };
+// The texels of a probe.
+std::uint32_t texels_of(GridForm form);
 
 // Layers as large as the grid, one behind the other along z: those of a probe's numbers, four a texel, then,
 // if there are walls, those of a cell's planes and of its sides' masks.

@@ -65,6 +65,25 @@ void GridVolume::update(const probe::Probes& probes) {
   source_ = std::move(source);
   frame_ = grid_frame(probes, plan);
   walls_ = probes.walls.any();
+  grid_ = probes.grid;
+}
+
+// The texels of a probe are one in each layer.
+void GridVolume::copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const {
+  const Functions& gl = device_.gl;
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_3D, texture_.name());
+  gl.BindBuffer(GL_ARRAY_BUFFER, 0);
+  gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer);
+  set_pixel_store(gl, {});
+  const auto& counts = grid_.counts;
+  const std::size_t x = index % counts[0], y = index / counts[0] % counts[1],
+                    z = index / counts[0] / counts[1];
+  for (std::uint32_t layer = 0; layer < texels_of(form_); ++layer)
+    gl.TexSubImage3D(
+        GL_TEXTURE_3D, 0, GLint(x), GLint(y), GLint(layer * counts[2] + z), 1, 1, 1, GL_RGBA, GL_FLOAT,
+        reinterpret_cast<const void*>(static_cast<std::uintptr_t>(offset_bytes + layer * 4 * sizeof(float))));
+  gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
 
 }  // namespace nook::gl

@@ -6,6 +6,10 @@ std::uint64_t probe_texel_count(const probe::Probes& probes) {
   return 3 + std::uint64_t(probes.basis.count) * (1 + probes.grid.size());
 }
 
+std::uint64_t first_amplitude_texel(std::uint32_t lobes, std::size_t probe) {
+  return 3 + std::uint64_t(lobes) * (1 + probe);
+}
+
 Vector<float> probe_texels(const probe::Probes& probes, Memory* memory) {
   Vector<float> texels(memory);
   texels.reserve(4 * probe_texel_count(probes));

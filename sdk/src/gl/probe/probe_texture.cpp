@@ -26,6 +26,12 @@ void ProbeTexture::update(const probe::Probes& probes) {
         probes.basis.count, probes.grid.size(), static_cast<unsigned long long>(count), device_.max_texels);
   const Vector<float> texels = probe_texels(probes, device_.memory);
   table_.replace(device_, GL_RGBA32F, count, texels.data(), "nook: probe");
+  basis_ = probes.basis;
+  grid_ = probes.grid;
+}
+
+void ProbeTexture::copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const {
+  table_.copy(device_, buffer, offset_bytes, first_amplitude_texel(basis_.count, index), basis_.count);
 }
 
 const char* probe_glsl() {

@@ -13,12 +13,19 @@ class ProbeTexture {
   ProbeTexture(Device& device, const probe::Probes& probes);
   void update(const probe::Probes& probes);
 
+  // Replaces the amplitudes of one probe by texels of a buffer of the GPU, as TexelTable::copy does.
+  void copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const;
+
+  const probe::Basis& basis() const { return basis_; }
+  const probe::Grid& grid() const { return grid_; }
   GLuint name() const { return table_.texture(); }
   std::uint64_t bytes() const { return table_.bytes(); }
 
  private:
   Device& device_;
   TexelTable table_;
+  probe::Basis basis_;
+  probe::Grid grid_;
 };
 
 // Returns the text for the host's shaders: shaders/probe/host.glsl with everything that it includes.

@@ -1,0 +1,194 @@
+#include <nook/nook_gl_probe.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/gl/probe_handles.h"
+#include "sdk/src/api/probe_handles.h"
+#include "sdk/src/core/descriptors.h"
+#include "sdk/src/gl/probe/probe_capture.h"
+
+using namespace nook;
+
+// Keeps the textures alive that it writes.
+struct nook_gl_probe_capture_s : RefCounted {
+  nook_gl_probe_capture_s(nook_gl_s* made_by, const nook_gl_probe_capture_desc& desc,
+                          const gl::CaptureSettings& settings)
+      : gl(made_by),
+        probe(Ref<nook_gl_probe_s>::share(desc.probe)),
+        grid(Ref<nook_gl_probe_grid_s>::share(desc.grid)) {
+    gl->device.report_host_errors();
+    gl->guarded(gl::captures, [&] {
+      capture.emplace(gl->device,
+                      gl::CaptureTargets{probe ? &*probe->texture : nullptr, grid ? &*grid->volume : nullptr},
+                      settings);
+    });
+  }
+
+  nook_gl_s* gl;
+  Ref<nook_gl_probe_s> probe;
+  Ref<nook_gl_probe_grid_s> grid;
+  std::optional<gl::ProbeCapture> capture;
+};
+
+namespace {
+
+constexpr std::uint32_t min_face_px = 4, max_face_px = 512, max_level = 15, max_history = 65536;
+
+nook_gl_probe_capture_desc default_desc() {
+  nook_gl_probe_capture_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.header_version = NOOK_VERSION;
+  desc.face_size_px = 64;
+  desc.history = 1;
+  return desc;
+}
+constexpr std::size_t first_desc = offsetof(nook_gl_probe_capture_desc, reserved) + sizeof(std::uint32_t);
+constexpr std::size_t first_result = offsetof(nook_gl_probe_capture_result, reserved) + sizeof(std::uint32_t);
+
+void need_range(const char* field, std::uint32_t value, std::uint32_t least, std::uint32_t most) {
+  if (value < least || value > most)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is out of range (got %u, need %u to %u)", field,
+                  value, least, most);
+}
+
+gl::CaptureSettings settings_of(const nook_gl_probe_capture_desc& desc) {
+  need_range("face_size_px", desc.face_size_px, min_face_px, max_face_px);
+  need_range("level", desc.level, 0, max_level);
+  need_range("history", desc.history, 1, max_history);
+  if (desc.light != NOOK_GL_PROBE_CAPTURE_ALL && desc.light != NOOK_GL_PROBE_CAPTURE_SKY)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.light is unknown (got %d, need 0 or %d)", desc.light,
+                  NOOK_GL_PROBE_CAPTURE_SKY);
+  if (desc.constraint != NOOK_PROBE_CONSTRAINT_BANDS && desc.constraint != NOOK_PROBE_CONSTRAINT_NONE)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.constraint is unknown (got %d, need 0 or %d)",
+                  desc.constraint, NOOK_PROBE_CONSTRAINT_NONE);
+  if (desc.reserved != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", desc.reserved);
+  gl::CaptureSettings settings;
+  settings.face_size_px = desc.face_size_px;
+  settings.level = desc.level;
+  settings.history = desc.history;
+  settings.sky = desc.light == NOOK_GL_PROBE_CAPTURE_SKY;
+  settings.constraint = static_cast<probe::Constraint>(desc.constraint);
+  return settings;
+}
+
+void check_targets(nook_gl gl, const nook_gl_probe_capture_desc& desc) {
+  if (!desc.probe && !desc.grid)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.probe and desc.grid are NULL; at least one texture must receive the light");
+  if ((desc.probe && desc.probe->gl != gl) || (desc.grid && desc.grid->gl != gl))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.probe or desc.grid belongs to another nook_gl; create both with this one");
+  if (desc.probe && desc.probe->texture->basis().domain != probe::Domain::sphere)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the lobes of desc.probe are those of a hemisphere; a cube map needs NOOK_PROBE_SPHERE");
+  if (desc.probe && desc.grid && !(desc.probe->texture->grid() == desc.grid->volume->grid()))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.probe and desc.grid are different grids; both need the same counts, origin and "
+                  "spacing");
+}
+
+void need_index(const gl::ProbeCapture& capture, std::uint32_t index) {
+  if (index >= capture.size())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "index is out of range (got %u, need less than %zu)", index,
+                  capture.size());
+}
+
+void write_vec3(float* out, Vec3 v) {
+  out[0] = v.x;
+  out[1] = v.y;
+  out[2] = v.z;
+}
+
+nook_gl_probe_capture_result to_public(const gl::CaptureResult& result) {
+  nook_gl_probe_capture_result answer{};
+  answer.maps = result.maps;
+  for (std::size_t i = 0; i < result.harmonics.size(); ++i)
+    write_vec3(answer.harmonics + 3 * i, result.harmonics[i]);
+  write_vec3(answer.sun_irradiance, result.sun_irradiance);
+  write_vec3(answer.sun_direction, result.sun_direction);
+  answer.sun_solid_angle = result.sun_solid_angle;
+  answer.used_solid_angle = result.used_solid_angle;
+  return answer;
+}
+
+}  // namespace
+
+nook_result nook_gl_probe_capture_desc_init(nook_gl_probe_capture_desc* desc, size_t size,
+                                            uint32_t header_version) {
+  return api::enter("nook_gl_probe_capture_desc_init",
+                    [&] { init_descriptor(desc, size, header_version, first_desc, default_desc()); });
+}
+
+nook_result nook_gl_probe_capture_create(nook_gl gl, const nook_gl_probe_capture_desc* desc,
+                                         nook_gl_probe_capture* out) {
+  return api::enter("nook_gl_probe_capture_create", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(gl, "gl");
+    const nook_gl_probe_capture_desc known =
+        read_descriptor(desc, "nook_gl_probe_capture_desc_init", first_desc, default_desc());
+    const gl::CaptureSettings settings = settings_of(known);
+    gl->device.need_alive();
+    check_targets(gl, known);
+    *out = Owned<nook_gl_probe_capture_s>::make(gl->device.memory, Ref<nook_gl_s>::share(gl), gl, known,
+                                                settings)
+               .detach();
+  });
+}
+
+nook_result nook_gl_probe_capture_add(nook_gl_probe_capture capture, uint32_t index, uint32_t cube_map) {
+  return api::enter("nook_gl_probe_capture_add", [&] {
+    need(capture, "capture");
+    nook_gl_s& gl = *capture->gl;
+    gl.device.need_alive();
+    need_index(*capture->capture, index);
+    gl.device.report_host_errors();
+    gl.guarded(gl::captures, [&] { capture->capture->add(index, cube_map); });
+  });
+}
+
+nook_result nook_gl_probe_capture_reset(nook_gl_probe_capture capture, uint32_t index) {
+  return api::enter("nook_gl_probe_capture_reset", [&] {
+    need(capture, "capture");
+    need_index(*capture->capture, index);
+    capture->capture->forget(index);
+  });
+}
+
+nook_result nook_gl_probe_capture_read(nook_gl_probe_capture capture, uint32_t index,
+                                       nook_gl_probe_capture_result* result) {
+  return api::enter("nook_gl_probe_capture_read", [&] {
+    need(capture, "capture");
+    need_index(*capture->capture, index);
+    nook_gl_s& gl = *capture->gl;
+    gl.device.need_alive();
+    gl.device.report_host_errors();
+    gl.guarded(gl::captures,
+               [&] { write_info(result, first_result, to_public(capture->capture->read(index))); });
+  });
+}
+
+nook_result nook_gl_probe_capture_solve(nook_gl_probe_capture capture, nook_probe* out) {
+  return api::enter("nook_gl_probe_capture_solve", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(capture, "capture");
+    nook_gl_s& gl = *capture->gl;
+    gl.device.need_alive();
+    gl.device.report_host_errors();
+    gl.guarded(gl::captures, [&] {
+      *out = Owned<nook_probe_s>::make(gl.device.memory, Ref<const Context>::share(&gl.device.context),
+                                       capture->capture->read_all())
+                 .detach();
+    });
+  });
+}
+
+void nook_gl_probe_capture_destroy(nook_gl_probe_capture* capture) {
+  if (!capture || !*capture) return;
+  (*capture)->release();
+  *capture = nullptr;
+}

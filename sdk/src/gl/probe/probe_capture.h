@@ -1,0 +1,100 @@
+// Cube maps that a host renders become probes on the GPU: sums over texels by transform feedback, which every
+// OpenGL and OpenGL ES has in 32 bits, then the solution of the fit as a matrix, then copies to the textures
+// that shaders read. Nothing is read back.
+//
+// A map is summed in three kinds of draws: a point for each row of a face and group of functions
+// (rows.vert), a point for each sum (mean.vert), which also takes the running average over maps, and a point
+// for each texel of the result (solve.vert).
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "sdk/src/gl/feedback_target.h"
+#include "sdk/src/gl/probe/capture_table.h"
+#include "sdk/src/gl/probe/cube_map.h"
+#include "sdk/src/gl/probe/grid_volume.h"
+#include "sdk/src/gl/probe/probe_texture.h"
+
+namespace nook::gl {
+
+// The textures that a capture writes; one of both may be null, and neither dies before the capture.
+struct CaptureTargets {
+  const ProbeTexture* lobes = nullptr;
+  const GridVolume* grid = nullptr;
+
+  const probe::Grid& places() const { return lobes ? lobes->grid() : grid->grid(); }
+};
+
+struct CaptureSettings {
+  std::uint32_t face_size_px = 64;
+  std::uint32_t level = 0;
+  std::uint32_t history = 1;  // maps
+  bool sky = false;           // suns stay out
+  probe::Constraint constraint = probe::Constraint::bands;
+};
+
+// The light of a probe, as means over its maps.
+struct CaptureResult {
+  std::uint32_t maps = 0;
+  std::array<Vec3, probe::band_functions> harmonics{};
+  Vec3 sun_irradiance, sun_direction;
+  float sun_solid_angle = 0;  // steradians
+  float used_solid_angle = 0;
+};
+
+class ProbeCapture {
+ public:
+  // The functions change the state of the user `captures` in touched_state.h. All throw Failure.
+  ProbeCapture(Device& device, const CaptureTargets& targets, const CaptureSettings& settings);
+
+  // Replaces what the targets hold of a probe, which exists, by its average over maps with this one.
+  void add(std::size_t probe, GLuint cube_map);
+  // The next map of the probe is its first one.
+  void forget(std::size_t probe) { maps_[probe] = 0; }
+  // Both wait for the GPU. Without lobes the probes are of harmonics. Probes without a map are 0.
+  CaptureResult read(std::size_t probe) const;
+  probe::Probes read_all() const;
+
+  std::size_t size() const { return maps_.size(); }
+  std::uint64_t bytes() const { return table_.bytes() + rows_.bytes() + sums_.bytes() + numbers_.bytes(); }
+
+ private:
+  struct RowProgram {
+    Object object;
+    GLint first_lobe = -1, limited = -1;
+  };
+  struct Draw {
+    const Object& program;
+    const Buffer& out;
+    std::uint64_t first_texel, texels;  // of out
+    std::uint32_t points;
+  };
+  RowProgram make_row_program(int kind) const;
+  Object make_solve_program(int form) const;
+  void check_targets() const;
+  void use(const Object& program) const;
+  void draw(const Draw& draw) const;
+  void find_limit() const;
+  void sum_rows(const RowProgram& program, std::uint32_t group, std::uint32_t entries) const;
+  void average(std::size_t probe, std::uint32_t group) const;
+  void solve(std::size_t probe) const;
+
+  Device& device_;
+  const CaptureTargets targets_;
+  const CaptureSettings settings_;
+  const probe::Basis basis_;  // of the lobes, else harmonics of order 2
+  const probe::Grid grid_;
+  const CapturePlan plan_;
+  FeedbackTarget feedback_;
+  Object vertex_array_;
+  Object sampler_;
+  RowProgram lobe_rows_, band_rows_, luminance_rows_;
+  Object mean_, amplitudes_, texels_;
+  GLint mean_rows_ = -1, mean_scale_share_ = -1;
+  TexelTable table_;
+  Buffer rows_, sums_, numbers_;
+  Vector<std::uint32_t> maps_;  // of each probe
+};
+
+}  // namespace nook::gl

@@ -1,0 +1,21 @@
+// The mean over a cube map from the sums over its rows, and its part in the average over maps. One point a sum.
+#include "shaders/core/texels.glsl"
+#include "shaders/probe/capture/layout.h"
+
+uniform NOOK_TEXELS nook_table;
+uniform ivec4 nook_rows;        // the texel of the first row's first sum, sums a row, rows, the texel of the average so far
+uniform vec2 nook_scale_share;  // a factor of the mean, and the share of this map in the average
+
+out vec4 nook_mean;  // w: the solid angle of the texels that counted, steradians
+
+void main() {
+  vec4 sum = vec4(0.0);
+  int texel = nook_rows.x + gl_VertexID;
+  for (int row = 0; row < nook_rows.z; ++row, texel += nook_rows.y) sum += nook_texel(nook_table, texel);
+  vec4 before = nook_texel(nook_table, nook_rows.w + gl_VertexID);
+  // A map without a finite texel leaves the average as it is.
+  float share = sum.w > 0.0 ? nook_scale_share.y : 0.0;
+  nook_mean.xyz = mix(before.xyz, sum.xyz * (nook_scale_share.x / max(sum.w, 1e-30)), share);
+  nook_mean.w = mix(before.w, sum.w, nook_scale_share.y);
+  gl_Position = vec4(0.0);
+}

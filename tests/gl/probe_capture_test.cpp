@@ -1,0 +1,689 @@
+// Cube maps that become probes on the GPU: closed forms, the CPU's fit of the same texels, suns, averages
+// over maps, the textures that shaders read, the state contract, and what is refused.
+#include <nook/nook_gl_probe.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "platform/program.h"
+#include "sdk/src/core/light_map.h"
+#include "sdk/src/core/map_suns.h"
+#include "sdk/src/gl/touched_state.h"
+#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/fit.h"
+#include "sdk/src/probe/harmonics.h"
+#include "sdk/src/probe/probe_file.h"
+#include "sdk/src/probe/zonal_harmonics.h"
+#include "tests/gl/crowd.h"
+#include "tests/gl/host_textures.h"
+#include "tests/gl/poison.h"
+#include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
+
+using namespace nook;
+using namespace nook::test;
+using nook::probe::Probes;
+
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+template <class Handle, void (*destroy)(Handle*)>
+struct Destroy {
+  void operator()(Handle handle) const { destroy(&handle); }
+};
+using Probe = std::unique_ptr<nook_probe_s, Destroy<nook_probe, nook_probe_destroy>>;
+using GlProbe = std::unique_ptr<nook_gl_probe_s, Destroy<nook_gl_probe, nook_gl_probe_destroy>>;
+using Grid = std::unique_ptr<nook_gl_probe_grid_s, Destroy<nook_gl_probe_grid, nook_gl_probe_grid_destroy>>;
+using Capture =
+    std::unique_ptr<nook_gl_probe_capture_s, Destroy<nook_gl_probe_capture, nook_gl_probe_capture_destroy>>;
+using Gl = std::unique_ptr<nook_gl_s, Destroy<nook_gl, nook_gl_destroy>>;
+
+// A cube map in host memory.
+struct Cube {
+  explicit Cube(std::uint32_t face_size) : size(face_size), rgb(18 * std::size_t(size) * size) {}
+  template <class Light>
+  Cube(std::uint32_t face_size, Light&& light) : Cube(face_size) {
+    for (std::size_t i = 0; i < rgb.size() / 3; ++i) set(i, light(texel(i).direction));
+  }
+  MapView view() const { return {MapLayout::cube, size, 6 * size, rgb}; }
+  MapTexel texel(std::size_t i) const {
+    return map_texel(view(), std::uint32_t(i % size), std::uint32_t(i / size));
+  }
+  void set(std::size_t i, Vec3 light) {
+    rgb[3 * i] = light.x;
+    rgb[3 * i + 1] = light.y;
+    rgb[3 * i + 2] = light.z;
+  }
+
+  std::uint32_t size;
+  std::vector<float> rgb;
+};
+
+// Uneven light: a gradient, noise in every texel, and a few lamps.
+Cube uneven_cube(std::uint32_t size, std::uint64_t seed) {
+  Numbers numbers(seed);
+  Cube cube(size, [&](Vec3 d) {
+    const float r = numbers.between(0, 1), g = numbers.between(0, 1);
+    return Vec3{r + 0.5f * d.y + 0.5f, g, numbers.between(0, 2)};
+  });
+  for (int lamp = 0; lamp < 5; ++lamp) {
+    const float bright = numbers.between(5, 40);
+    cube.set(cube_cell_at(numbers.direction(), size), {bright, 0.7f * bright, 0.3f * bright});
+  }
+  return cube;
+}
+
+// Cube maps of OpenGL that are deleted with it.
+class CubeTextures {
+ public:
+  explicit CubeTextures(const GladGLContext& gl) : gl_(gl) {}
+  ~CubeTextures() { gl_.DeleteTextures(GLsizei(names_.size()), names_.data()); }
+  CubeTextures(const CubeTextures&) = delete;
+  CubeTextures& operator=(const CubeTextures&) = delete;
+
+  // The parameters stay those of a new texture, whose filter wants mipmaps that it has not.
+  GLuint make(const Cube& cube) {
+    GLuint name = 0;
+    gl_.GenTextures(1, &name);
+    names_.push_back(name);
+    fill(name, cube, 0);
+    return name;
+  }
+  void fill(GLuint name, const Cube& cube, GLint level) {
+    gl_.BindTexture(GL_TEXTURE_CUBE_MAP, name);
+    const std::size_t face = std::size_t(cube.size) * cube.size;
+    std::vector<float> rgba(4 * face, 1.0f);
+    for (GLenum f = 0; f < 6; ++f) {
+      for (std::size_t i = 0; i < face; ++i) std::copy_n(&cube.rgb[3 * (f * face + i)], 3, &rgba[4 * i]);
+      gl_.TexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + f, level, GL_RGBA32F, GLsizei(cube.size),
+                     GLsizei(cube.size), 0, GL_RGBA, GL_FLOAT, rgba.data());
+    }
+    gl_.BindTexture(GL_TEXTURE_CUBE_MAP, 0);
+  }
+
+ private:
+  const GladGLContext& gl_;
+  std::vector<GLuint> names_;
+};
+
+Probes black_grid(const probe::Basis& basis, std::array<std::uint32_t, 3> counts = {1, 1, 1}) {
+  Probes probes;
+  probes.basis = basis;
+  probes.grid = {counts, {0, 0, 0}, {1, 1, 1}};
+  probes.coefficients.assign(probes.grid.size() * basis.count, Vec3{});
+  return probes;
+}
+
+Probe loaded(nook_context context, const Probes& probes) {
+  const std::vector<std::byte> file = probe::write_probes(probes, probe::Packing::float32);
+  nook_probe probe = nullptr;
+  NOOK_OK_OR_FAIL(nook_probe_load(context, file.data(), file.size(), &probe));
+  return Probe(probe);
+}
+
+nook_gl_probe_capture_desc default_desc() {
+  nook_gl_probe_capture_desc desc;
+  NOOK_OK_OR_FAIL(nook_gl_probe_capture_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
+struct Fixture {
+  explicit Fixture(platform::Context& context, nook_gl_state_mode mode = NOOK_GL_STATE_PRESERVE)
+      : gl(create_gl(host.handle, platform::Context::loader, &context, 0, mode)), cubes(context.gl()) {}
+  Fixture(platform::Context& context, Trace& trace)
+      : gl(create_gl(host.handle, Trace::loader, &trace, 0)), cubes(context.gl()) {}
+
+  GlProbe upload(const Probes& probes) {
+    nook_gl_probe made = nullptr;
+    NOOK_OK_OR_FAIL(nook_gl_probe_create(gl.get(), loaded(host.handle, probes).get(), &made));
+    return GlProbe(made);
+  }
+  Grid upload_grid(const Probes& probes, nook_gl_probe_grid_form form) {
+    nook_gl_probe_grid made = nullptr;
+    NOOK_OK_OR_FAIL(nook_gl_probe_grid_create(gl.get(), loaded(host.handle, probes).get(), form, &made));
+    return Grid(made);
+  }
+  Capture capture(const nook_gl_probe_capture_desc& desc) {
+    nook_gl_probe_capture made = nullptr;
+    NOOK_OK_OR_FAIL(nook_gl_probe_capture_create(gl.get(), &desc, &made));
+    return Capture(made);
+  }
+  CountedContext host;
+  Gl gl;
+  CubeTextures cubes;
+};
+
+void add(const Capture& capture, std::uint32_t index, GLuint cube) {
+  NOOK_OK_OR_FAIL(nook_gl_probe_capture_add(capture.get(), index, cube));
+}
+
+nook_gl_probe_capture_result read(const Capture& capture, std::uint32_t index = 0) {
+  nook_gl_probe_capture_result result{};
+  result.struct_size = sizeof result;
+  NOOK_OK_OR_FAIL(nook_gl_probe_capture_read(capture.get(), index, &result));
+  return result;
+}
+
+std::vector<Vec3> solved(const Capture& capture, std::uint32_t functions, std::uint32_t index = 0) {
+  nook_probe probe = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_probe_capture_solve(capture.get(), &probe));
+  const Probe owner(probe);
+  std::vector<Vec3> coefficients(functions);
+  NOOK_OK_OR_FAIL(nook_probe_read_coefficients(probe, index, &coefficients[0].x, functions));
+  return coefficients;
+}
+
+// The CPU's fit of a cube map's texels.
+std::vector<Vec3> fitted(const probe::Basis& basis, const Cube& cube, probe::FitMethod method) {
+  probe::FitSettings settings;
+  settings.method = method;
+  probe::Fit fit(basis, settings);
+  for (std::size_t i = 0; i < cube.rgb.size() / 3; ++i) {
+    const MapTexel texel = cube.texel(i);
+    const float weight = float(texel.solid_angle);
+    fit.add_samples(&texel.direction.x, &cube.rgb[3 * i], &weight, 1);
+  }
+  std::vector<Vec3> coefficients(basis.count);
+  fit.read(coefficients);
+  return coefficients;
+}
+
+std::vector<Vec3> projected(const Cube& cube) {
+  return fitted(probe::harmonic_basis(2), cube, probe::FitMethod::moments);
+}
+
+// The largest difference of a channel of radiance or irradiance over 500 directions, relative to the mean
+// radiance, or to pi times it.
+struct Difference {
+  float radiance = 0, irradiance = 0;
+};
+Difference difference(const probe::Basis& basis, const std::vector<Vec3>& a, const std::vector<Vec3>& b,
+                      float mean) {
+  Numbers numbers(77);
+  std::vector<Vec3> delta(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) delta[i] = a[i] - b[i];
+  Difference worst;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 d = numbers.direction(), l = probe::radiance(basis, delta, d),
+               e = probe::irradiance(basis, delta, probe::IrradianceForm::bands, d);
+    for (const float channel : {l.x, l.y, l.z})
+      worst.radiance = std::max(worst.radiance, std::abs(channel) / mean);
+    for (const float channel : {e.x, e.y, e.z})
+      worst.irradiance = std::max(worst.irradiance, std::abs(channel) / (pi * mean));
+  }
+  return worst;
+}
+
+float mean_radiance(const Cube& cube) {
+  const std::vector<Vec3> harmonics = projected(cube);
+  return (harmonics[0].x + harmonics[0].y + harmonics[0].z) / 3 / std::sqrt(4 * pi);
+}
+
+// Texels of the table that shaders read, through the GLSL of the library.
+std::vector<float> table_texels(const GladGLContext& gl, nook_gl_probe probe, int count) {
+  nook_gl_probe_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_gl_probe_describe(probe, &info));
+  Textures textures(gl);
+  const GLuint answers = textures.floats(GL_RGBA32F, 4, count, 1, {});
+  GLuint framebuffer, array;
+  gl.GenFramebuffers(1, &framebuffer);
+  gl.GenVertexArrays(1, &array);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, answers, 0);
+  gl.Viewport(0, 0, count, 1);
+  const GLuint program = platform::link_program(
+      gl,
+      {glsl_header(gl),
+       "void main() { gl_Position = vec4(4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0.0, 1.0); "
+       "}\n"},
+      {glsl_header(gl), info.glsl,
+       "out vec4 answer; void main() { answer = nook_texel(nook_probe_texels, int(gl_FragCoord.x)); }\n"});
+  gl.UseProgram(program);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(table_target(gl), info.texture);
+  gl.Uniform1i(gl.GetUniformLocation(program, "nook_probe_texels"), 0);
+  gl.BindVertexArray(array);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  std::vector<float> texels = read_texture(gl, answers, count, 1, 4);
+  gl.BindTexture(table_target(gl), 0);
+  gl.UseProgram(0);
+  gl.BindVertexArray(0);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl.DeleteProgram(program);
+  gl.DeleteVertexArrays(1, &array);
+  gl.DeleteFramebuffers(1, &framebuffer);
+  return texels;
+}
+
+}  // namespace
+
+TEST_CASE("constant light and one cosine become their closed forms") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const probe::Basis basis = probe::vogel_basis(12);
+  const GlProbe probe = fixture.upload(black_grid(basis));
+  for (const std::uint32_t size : {4u, 64u, 65u}) {
+    nook_gl_probe_capture_desc desc = default_desc();
+    desc.probe = probe.get();
+    desc.face_size_px = size;
+    const Capture capture = fixture.capture(desc);
+    INFO("faces of " << size);
+    // Solid angles are exact, whatever the size: sums of a few hundred floats of 24 bits.
+    add(capture, 0, fixture.cubes.make(Cube(size, [](Vec3) { return Vec3{1, 2, 0.5f}; })));
+    nook_gl_probe_capture_result result = read(capture);
+    CHECK(result.maps == 1);
+    CHECK(std::abs(result.used_solid_angle - 4 * pi) < 4 * pi * 2e-6f);
+    CHECK(std::abs(result.harmonics[0] - std::sqrt(4 * pi)) < 1e-5f);
+    CHECK(std::abs(result.harmonics[1] - 2 * std::sqrt(4 * pi)) < 2e-5f);
+    for (int i = 3; i < 18; ++i) CHECK(std::abs(result.harmonics[i]) < 2e-5f);
+
+    // Radiance 1 + z / 2: irradiance pi + (2 pi / 3) n.z / 2. A texel's light is that of its centre: the
+    // error of the rule of midpoints is the square of half a texel.
+    add(capture, 0, fixture.cubes.make(Cube(size, [](Vec3 d) { return Vec3{1, 1, 1} * (1 + 0.5f * d.z); })));
+    result = read(capture);
+    const float midpoint = 1.0f / float(size * size);
+    CHECK(std::abs(result.harmonics[6] - 0.5f * std::sqrt(4 * pi / 3)) < midpoint);
+    const std::vector<Vec3> lobes = solved(capture, 12);
+    for (const Vec3 n : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{0, 0.6f, 0.8f}}) {
+      const Vec3 e = probe::irradiance(basis, lobes, probe::IrradianceForm::bands, n);
+      // Lobes that have the light's bands 0 to 2 may have a band 4, a 24th of which counts.
+      CHECK(std::abs(e.x - (pi + pi / 3 * n.z)) < 0.01f * pi + midpoint);
+    }
+  }
+}
+
+TEST_CASE("a cube map becomes the CPU's fit of its texels, in lobes and harmonics") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  for (const auto& [lobes, ambient] : {std::pair{12u, false}, {6u, true}, {31u, true}})
+    for (const std::uint32_t size : {16u, 64u}) {
+      const probe::Basis basis = probe::vogel_basis(lobes, ambient);
+      const Cube cube = uneven_cube(size, 9 + lobes);
+      const GlProbe probe = fixture.upload(black_grid(basis));
+      nook_gl_probe_capture_desc desc = default_desc();
+      desc.probe = probe.get();
+      desc.face_size_px = size;
+      const Capture capture = fixture.capture(desc);
+      add(capture, 0, fixture.cubes.make(cube));
+      const float mean = mean_radiance(cube);
+      const std::vector<Vec3> found = solved(capture, basis.count);
+      const Difference moments =
+          difference(basis, found, fitted(basis, cube, probe::FitMethod::moments), mean);
+      const Difference squares =
+          difference(basis, found, fitted(basis, cube, probe::FitMethod::least_squares), mean);
+      INFO("lobes " << lobes << ", faces of " << size << ": moments " << moments.radiance << ", "
+                    << moments.irradiance << ", least squares " << squares.radiance << ", "
+                    << squares.irradiance);
+      // The promise, 0.2 % of the mean; floats have a hundred times more digits than that.
+      CHECK(moments.radiance < 2e-3f);
+      CHECK(moments.irradiance < 2e-4f);
+      // Least squares takes the Gram matrix of the texels, which is that of the sphere but for the rule of
+      // midpoints.
+      if (size == 64) CHECK(squares.irradiance < 2e-3f);
+      const std::vector<Vec3> harmonics = projected(cube);
+      const nook_gl_probe_capture_result result = read(capture);
+      for (std::size_t i = 0; i < 9; ++i)
+        CHECK(std::abs(result.harmonics[3 * i + 1] - harmonics[i].y) < 1e-4f * mean);
+    }
+}
+
+TEST_CASE("shaders find the light of a capture in the textures of its probe and grid") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const probe::Basis basis = probe::vogel_basis(12);
+  Probes baked = black_grid(basis, {3, 2, 2});
+  for (std::size_t i = 0; i < baked.coefficients.size(); ++i) baked.coefficients[i] = {float(i), 1, 2};
+  const Cube cube = uneven_cube(16, 4);
+  const std::uint32_t index = 7;  // x 1, y 0, z 1
+  for (const nook_gl_probe_grid_form form : {NOOK_GL_PROBE_GRID_HARMONICS, NOOK_GL_PROBE_GRID_ZONAL}) {
+    const GlProbe probe = fixture.upload(baked);
+    const Grid grid = fixture.upload_grid(baked, form);
+    nook_gl_probe_capture_desc desc = default_desc();
+    desc.probe = probe.get();
+    desc.grid = grid.get();
+    desc.face_size_px = 16;
+    const Capture capture = fixture.capture(desc);
+    add(capture, index, fixture.cubes.make(cube));
+
+    const int texel_count = 3 + 12 * 13;
+    const std::vector<float> texels = table_texels(context.gl(), probe.get(), texel_count);
+    const std::vector<Vec3> lobes = solved(capture, 12, index);
+    for (std::size_t p = 0; p < 12; ++p)
+      for (std::size_t i = 0; i < 12; ++i) {
+        const Vec3 expected = p == index ? lobes[i] : baked.coefficients[12 * p + i];
+        // The reading of the CPU multiplies in another order.
+        CHECK(std::abs(texels[4 * (3 + 12 * (1 + p) + i)] - expected.x) <=
+              1e-4f * std::abs(expected.x) + 1e-4f);
+      }
+
+    nook_gl_probe_grid_info info{};
+    info.struct_size = sizeof info;
+    NOOK_OK_OR_FAIL(nook_gl_probe_grid_describe(grid.get(), &info));
+    const std::vector<Vec3> harmonics = projected(cube);
+    std::vector<Vec3> expected(harmonics.begin(), harmonics.end());
+    if (form == NOOK_GL_PROBE_GRID_ZONAL) {
+      const auto zonal = probe::to_zonal(harmonics);
+      expected.assign(zonal.begin(), zonal.end());
+    }
+    const int layers = form == NOOK_GL_PROBE_GRID_ZONAL ? 4 : 7;
+    for (int layer = 0; layer < layers; ++layer) {
+      const std::vector<float> slice = read_texture(context.gl(), info.texture, 3, 2, 4, 2 * layer + 1);
+      for (int c = 0; c < 4 && 4 * layer + c < int(3 * expected.size()); ++c) {
+        const int number = 4 * layer + c;
+        const Vec3 colour = expected[std::size_t(number / 3)];
+        const float value = number % 3 == 0 ? colour.x : number % 3 == 1 ? colour.y : colour.z;
+        // Half floats have 11 bits.
+        CHECK(std::abs(slice[std::size_t(4 + c)] - value) < std::abs(value) / 1024 + 1e-4f);
+      }
+    }
+  }
+}
+
+TEST_CASE("a grid alone takes captures, and solves to harmonics") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const Grid grid = fixture.upload_grid(black_grid(probe::harmonic_basis(2), {1, 1, 3}), 0);
+  nook_gl_probe_capture_desc desc = default_desc();
+  desc.grid = grid.get();
+  desc.face_size_px = 8;
+  const Capture capture = fixture.capture(desc);
+  const Cube cube = uneven_cube(8, 12);
+  add(capture, 2, fixture.cubes.make(cube));
+  const std::vector<Vec3> expected = projected(cube), found = solved(capture, 9, 2);
+  for (std::size_t i = 0; i < 9; ++i) CHECK(std::abs(found[i].z - expected[i].z) < 1e-4f);
+  for (const Vec3 dark : solved(capture, 9, 1)) CHECK(dark.x == 0);
+}
+
+TEST_CASE("maps are averaged as long as the history, and a reset forgets them") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const GlProbe probe = fixture.upload(black_grid(probe::vogel_basis(12), {2, 1, 1}));
+  nook_gl_probe_capture_desc desc = default_desc();
+  desc.probe = probe.get();
+  desc.face_size_px = 4;
+  desc.history = 3;
+  const Capture capture = fixture.capture(desc);
+  const auto add_light = [&](float light) {
+    add(capture, 1, fixture.cubes.make(Cube(4, [&](Vec3) { return Vec3{light, light, light}; })));
+    return read(capture, 1).harmonics[0] / std::sqrt(4 * pi);
+  };
+  // The mean of all maps so far, then two thirds of it and a third of the new one.
+  CHECK(std::abs(add_light(3) - 3) < 1e-5f);
+  CHECK(std::abs(add_light(5) - 4) < 1e-5f);
+  CHECK(std::abs(add_light(10) - 6) < 1e-5f);
+  CHECK(std::abs(add_light(0) - 4) < 1e-5f);
+  CHECK(read(capture, 1).maps == 3);
+  NOOK_OK_OR_FAIL(nook_gl_probe_capture_reset(capture.get(), 1));
+  CHECK(read(capture, 1).maps == 0);
+  CHECK(std::abs(add_light(7) - 7) < 1e-5f);
+  CHECK(read(capture, 0).maps == 0);
+}
+
+TEST_CASE("texels that are not finite do not count") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const GlProbe probe = fixture.upload(black_grid(probe::vogel_basis(12)));
+  nook_gl_probe_capture_desc desc = default_desc();
+  desc.probe = probe.get();
+  desc.face_size_px = 16;
+  const Capture capture = fixture.capture(desc);
+  Cube cube = uneven_cube(16, 6);
+  const float infinite = std::numeric_limits<float>::infinity();
+  double lost = 0;
+  for (const std::size_t i : {5u, 300u, 901u, 1400u}) {
+    cube.set(i, i == 300 ? Vec3{1, infinite, 1} : i == 901 ? Vec3{-2e18f, 0, 0} : Vec3{0, 0, not_a_number});
+    lost += cube.texel(i).solid_angle;
+  }
+  add(capture, 0, fixture.cubes.make(cube));
+  const nook_gl_probe_capture_result result = read(capture);
+  CHECK(std::abs(result.used_solid_angle - (4 * pi - float(lost))) < 1e-4f);
+  const std::vector<Vec3> expected = projected(cube);  // the fit skips the same texels
+  for (std::size_t i = 0; i < 9; ++i)
+    CHECK(std::abs(result.harmonics[3 * i] - expected[i].x) < 1e-4f * (1 + std::abs(expected[i].x)));
+
+  add(capture, 0, fixture.cubes.make(Cube(16, [](Vec3) { return Vec3{not_a_number, 0, 0}; })));
+  const nook_gl_probe_capture_result kept = read(capture);
+  CHECK(std::equal(kept.harmonics, kept.harmonics + 27, result.harmonics));
+  CHECK(kept.used_solid_angle == 0);
+}
+
+TEST_CASE("the sky of a cube map is that of the CPU, and its sun is reported") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const GlProbe probe = fixture.upload(black_grid(probe::vogel_basis(12)));
+  nook_gl_probe_capture_desc desc = default_desc();
+  desc.probe = probe.get();
+  desc.light = NOOK_GL_PROBE_CAPTURE_SKY;
+  const Capture capture = fixture.capture(desc);
+  Cube cube = uneven_cube(64, 8);
+  const Vec3 towards = normalised(Vec3{0.3f, 0.9f, -0.4f});
+  const std::size_t sun = cube_cell_at(towards, 64);
+  for (const std::size_t i : {sun, sun + 1, sun + 64}) cube.set(i, {40000, 30000, 20000});
+  add(capture, 0, fixture.cubes.make(cube));
+
+  Vector<float> sky(cube.rgb.begin(), cube.rgb.end(), default_memory());
+  const Vector<MapSun> suns = take_suns(cube.view(), sky, default_memory());
+  REQUIRE(suns.size() == 1);
+  Cube without(64);
+  std::copy(sky.begin(), sky.end(), without.rgb.begin());
+  const std::vector<Vec3> expected = projected(without);
+  const nook_gl_probe_capture_result result = read(capture);
+  // Both stop near the limit of the same rounds, 1e-3 of it apart; what is left of the sun there has a
+  // twentieth of the light.
+  for (std::size_t i = 0; i < 9; ++i)
+    CHECK(std::abs(result.harmonics[3 * i] - expected[i].x) < 1e-3f * expected[0].x);
+  CHECK(std::abs(result.sun_irradiance[0] - suns[0].irradiance.x) < 1e-3f * suns[0].irradiance.x);
+  CHECK(std::abs(result.sun_irradiance[2] - suns[0].irradiance.z) < 1e-3f * suns[0].irradiance.z);
+  CHECK(std::abs(result.sun_solid_angle - suns[0].solid_angle) < 1e-5f);
+  const Vec3 direction{result.sun_direction[0], result.sun_direction[1], result.sun_direction[2]};
+  CHECK(length(direction - suns[0].direction) < 1e-4f);
+
+  // Light without a sun, and none at all, stay what they are.
+  const Cube plain = uneven_cube(64, 3);
+  add(capture, 0, fixture.cubes.make(plain));
+  CHECK(std::abs(read(capture).harmonics[0] - projected(plain)[0].x) < 1e-4f * projected(plain)[0].x);
+  CHECK(read(capture).sun_solid_angle == 0);
+  add(capture, 0, fixture.cubes.make(Cube(64)));
+  CHECK(read(capture).harmonics[0] == 0);
+}
+
+TEST_CASE("a level of a cube map is read in place of the first") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const GlProbe probe = fixture.upload(black_grid(probe::vogel_basis(12)));
+  const GLuint name = fixture.cubes.make(uneven_cube(16, 1));
+  const Cube half = uneven_cube(8, 2);
+  fixture.cubes.fill(name, half, 1);
+  for (GLint level = 2; level <= 4; ++level) fixture.cubes.fill(name, Cube(8u >> (level - 1)), level);
+  nook_gl_probe_capture_desc desc = default_desc();
+  desc.probe = probe.get();
+  desc.face_size_px = 8;
+  desc.level = 1;
+  const Capture capture = fixture.capture(desc);
+  add(capture, 0, name);
+  CHECK(std::abs(read(capture).harmonics[1] - projected(half)[0].y) < 1e-4f);
+}
+
+TEST_CASE("captures keep the promises on OpenGL state, and read nothing back") {
+  NOOK_NEED_CONTEXT(context);
+  for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_DEFAULTS, NOOK_GL_STATE_HOST}) {
+    Fixture fixture(context, mode);
+    const Probes black = black_grid(probe::vogel_basis(12), {2, 2, 1});
+    const GlProbe probe = fixture.upload(black);
+    const Grid grid = fixture.upload_grid(black, NOOK_GL_PROBE_GRID_ZONAL);
+    const GLuint cube = fixture.cubes.make(uneven_cube(8, 5));
+    nook_gl_probe_capture_desc desc = default_desc();
+    desc.probe = probe.get();
+    desc.grid = grid.get();
+    desc.face_size_px = 8;
+    desc.light = NOOK_GL_PROBE_CAPTURE_SKY;
+    Poison poison(context, gl::captures);
+    const StateValues touched = poison.touched(), untouched = poison.untouched();
+    const Capture capture = fixture.capture(desc);
+    add(capture, 3, cube);
+    CHECK(read(capture, 3).harmonics[0] > 0);
+    INFO("mode " << mode);
+    CHECK(poison.untouched() == untouched);
+    if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);
+    if (mode == NOOK_GL_STATE_DEFAULTS) CHECK(poison.touched() == poison.defaults());
+  }
+  Trace trace(context);
+  Fixture fixture(context, trace);
+  const GlProbe probe = fixture.upload(black_grid(probe::vogel_basis(12)));
+  nook_gl_probe_capture_desc desc = default_desc();
+  desc.probe = probe.get();
+  desc.face_size_px = 8;
+  const Capture capture = fixture.capture(desc);
+  const GLuint cube = fixture.cubes.make(uneven_cube(8, 5));
+  trace.reset();
+  const long allocations = fixture.host.allocations;
+  add(capture, 0, cube);
+  CHECK(fixture.host.allocations == allocations);
+  for (const char* reading : {"glReadPixels", "glGetBufferSubData", "glMapBufferRange", "glFinish"})
+    CHECK(trace.calls(reading) == 0);
+}
+
+TEST_CASE("what is no cube map for a capture is refused, and the light stays") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const GladGLContext& gl = context.gl();
+  const Probes black = black_grid(probe::vogel_basis(12));
+  const GlProbe probe = fixture.upload(black);
+  nook_gl_probe_capture_desc desc = default_desc();
+  desc.probe = probe.get();
+  desc.face_size_px = 8;
+  const Capture capture = fixture.capture(desc);
+  add(capture, 0, fixture.cubes.make(Cube(8, [](Vec3) { return Vec3{1, 1, 1}; })));
+  const auto refused = [&](GLuint name, const char* word) {
+    CHECK(nook_gl_probe_capture_add(capture.get(), 0, name) == NOOK_ERROR_INVALID_ARGUMENT);
+    INFO(nook_last_message());
+    CHECK(std::string(nook_last_message()).find(word) != std::string::npos);
+    CHECK(gl.GetError() == GL_NO_ERROR);
+  };
+  Textures textures(gl);
+  refused(0, "no texture");
+  refused(4000000, "no texture");
+  refused(textures.floats(GL_RGBA32F, 4, 8, 8, {}), "another kind");
+  GLint major = 0, minor = 0;
+  gl.GetIntegerv(GL_MAJOR_VERSION, &major);
+  gl.GetIntegerv(GL_MINOR_VERSION, &minor);
+  if (!is_es(gl) || 10 * major + minor >= 31) {
+    refused(fixture.cubes.make(Cube(16)), "16 x 16");
+    const GLuint open = fixture.cubes.make(Cube(8));
+    gl.BindTexture(GL_TEXTURE_CUBE_MAP, open);
+    gl.TexImage2D(GL_TEXTURE_CUBE_MAP_NEGATIVE_Z, 0, GL_RGBA32F, 4, 4, 0, GL_RGBA, GL_FLOAT, nullptr);
+    refused(open, "face 5");
+    const GLuint integers = fixture.cubes.make(Cube(8));
+    gl.BindTexture(GL_TEXTURE_CUBE_MAP, integers);
+    for (GLenum face = 0; face < 6; ++face)
+      gl.TexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA8UI, 8, 8, 0, GL_RGBA_INTEGER,
+                    GL_UNSIGNED_BYTE, nullptr);
+    refused(integers, "format");
+  }
+  const GLuint later = fixture.cubes.make(Cube(8));
+  gl.BindTexture(GL_TEXTURE_CUBE_MAP, later);
+  gl.TexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_BASE_LEVEL, 1);
+  gl.BindTexture(GL_TEXTURE_CUBE_MAP, 0);
+  refused(later, "levels");
+  CHECK(std::abs(read(capture).harmonics[0] - std::sqrt(4 * pi)) < 1e-5f);
+  CHECK(nook_gl_probe_capture_add(capture.get(), 1, later) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_probe_capture_add(nullptr, 0, later) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_probe_capture_reset(capture.get(), 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_probe_capture_read(capture.get(), 1, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_probe_capture_solve(capture.get(), nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+
+  take_debug_messages();  // of binding a texture of another kind
+
+  // The probe has another grid now.
+  const Probe larger = loaded(fixture.host.handle, black_grid(probe::vogel_basis(12), {2, 1, 1}));
+  NOOK_OK_OR_FAIL(nook_gl_probe_update(probe.get(), larger.get()));
+  refused(fixture.cubes.make(Cube(8)), "updated");
+}
+
+TEST_CASE("captures with a wrong descriptor are refused") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context), other(context);
+  const GlProbe probe = fixture.upload(black_grid(probe::vogel_basis(12)));
+  const GlProbe foreign = other.upload(black_grid(probe::vogel_basis(12)));
+  const GlProbe half = fixture.upload(black_grid(probe::vogel_basis(12, false, probe::Domain::hemisphere)));
+  const Grid grid = fixture.upload_grid(black_grid(probe::harmonic_basis(2), {2, 1, 1}), 0);
+  const auto refused = [&](auto&& change, const char* word) {
+    nook_gl_probe_capture_desc desc = default_desc();
+    desc.probe = probe.get();
+    change(desc);
+    nook_gl_probe_capture made = nullptr;
+    CHECK(nook_gl_probe_capture_create(fixture.gl.get(), &desc, &made) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(made == nullptr);
+    INFO(nook_last_message());
+    CHECK(std::string(nook_last_message()).find(word) != std::string::npos);
+  };
+  using Desc = nook_gl_probe_capture_desc;
+  refused([](Desc& d) { d.probe = nullptr; }, "NULL");
+  refused([&](Desc& d) { d.probe = foreign.get(); }, "another nook_gl");
+  refused([&](Desc& d) { d.probe = half.get(); }, "hemisphere");
+  refused([&](Desc& d) { d.grid = grid.get(); }, "different grids");
+  refused([](Desc& d) { d.face_size_px = 3; }, "face_size_px");
+  refused([](Desc& d) { d.face_size_px = 513; }, "face_size_px");
+  refused([](Desc& d) { d.level = 16; }, "level");
+  refused([](Desc& d) { d.history = 0; }, "history");
+  refused([](Desc& d) { d.light = 2; }, "light");
+  refused([](Desc& d) { d.constraint = -1; }, "constraint");
+  refused([](Desc& d) { d.reserved = 1; }, "reserved");
+
+  Trace trace(context);
+  trace.limits[is_es(context.gl()) ? GL_MAX_TEXTURE_SIZE : GL_MAX_TEXTURE_BUFFER_SIZE] =
+      is_es(context.gl()) ? 32 : 65536;
+  Fixture small(context, trace);
+  const GlProbe many = small.upload(black_grid(probe::vogel_basis(12), {60, 50, 1}));
+  nook_gl_probe_capture_desc desc = default_desc();
+  desc.probe = many.get();
+  nook_gl_probe_capture made = nullptr;
+  if (!is_es(context.gl()))
+    CHECK(nook_gl_probe_capture_create(small.gl.get(), &desc, &made) == NOOK_ERROR_UNSUPPORTED);
+}
+
+TEST_CASE("a capture keeps its textures, outlives its nook_gl, and leaves nothing") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
+  const Probe black = loaded(host.handle, black_grid(probe::vogel_basis(12)));
+  CubeTextures cubes(context.gl());
+  nook_gl_probe probe = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, black.get(), &probe));
+  nook_gl_probe_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_gl_probe_describe(probe, &info));
+  nook_gl_probe_capture_desc desc = default_desc();
+  desc.probe = probe;
+  desc.face_size_px = 4;
+  nook_gl_probe_capture capture = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_probe_capture_create(gl, &desc, &capture));
+  nook_gl_probe_destroy(&probe);
+  nook_gl_destroy(&gl);
+  CHECK(context.gl().IsTexture(info.texture));
+  NOOK_OK_OR_FAIL(nook_gl_probe_capture_add(capture, 0, cubes.make(Cube(4))));
+  nook_gl_probe_capture_destroy(&capture);
+  CHECK(capture == nullptr);
+  CHECK_FALSE(context.gl().IsTexture(info.texture));
+  nook_gl_probe_capture_destroy(&capture);
+  nook_gl_probe_capture_destroy(nullptr);
+
+  gl = create_gl(host.handle, platform::Context::loader, &context, 0);
+  NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, black.get(), &probe));
+  desc.probe = probe;
+  NOOK_OK_OR_FAIL(nook_gl_probe_capture_create(gl, &desc, &capture));
+  NOOK_OK_OR_FAIL(nook_gl_context_lost(gl));
+  CHECK(nook_gl_probe_capture_add(capture, 0, 1) == NOOK_ERROR_GL);
+  CHECK(nook_gl_probe_capture_reset(capture, 0) == NOOK_OK);
+  nook_gl_probe_capture_destroy(&capture);
+  nook_gl_probe_destroy(&probe);
+  nook_gl_destroy(&gl);
+}
