@@ -62,7 +62,7 @@ nook_result nook_gl_probe_grid_describe(nook_gl_probe_grid grid, nook_gl_probe_g
     known.texture = volume.name();
     known.bytes = volume.bytes();
     known.glsl = volume.source().c_str();
-    std::ranges::copy(volume.frame(), known.frame);
+    std::copy(volume.frame().begin(), volume.frame().end(), known.frame);
     known.walls = volume.walls();
     write_info(info, first_info, known);
   });

@@ -13,7 +13,7 @@ namespace {
 void check_size(const Device& device, const GridTexelPlan& plan) {
   GLint most = 0;
   device.gl.GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
-  if (*std::ranges::max_element(plan.size) > std::uint32_t(std::max(most, 0)))
+  if (*std::max_element(plan.size.begin(), plan.size.end()) > std::uint32_t(std::max(most, 0)))
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "the grid is too large for a 3D texture of this OpenGL (got %u x %u x %u texels, need at "
                   "most %d each); split the grid",
