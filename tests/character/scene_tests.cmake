@@ -3,6 +3,7 @@ add_executable(nook_scene_tests
   clips_test.cpp
   model_file_test.cpp
   pose_source_test.cpp
+  posed_shapes_test.cpp
   scene_test.cpp
   scene_casters_test.cpp
   scene_light_test.cpp

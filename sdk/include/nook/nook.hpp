@@ -5,6 +5,7 @@
 
 #include "nook_character.hpp"
 #include "nook_clips.hpp"
+#include "nook_debug.hpp"
 #include "nook_material.hpp"
 #include "nook_nnao_recording.hpp"
 #include "nook_probe.hpp"

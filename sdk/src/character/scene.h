@@ -107,6 +107,7 @@ struct InstancePlan {
   std::uint32_t culled = 0;         // casters and occluders left out by the cut-off
   std::uint32_t level = 0;          // level of detail of the model, 0 is full
   bool due = true;                  // evaluated in this update; other instances keep their results
+  std::uint64_t frame = 0;          // Scene::frame in which the lists were made; 0: never
 };
 
 // The results of an evaluation on the CPU.
@@ -130,8 +131,9 @@ struct InstanceCasters {
 struct Instance {
   explicit Instance(Memory* memory) : input(memory), plan(memory), casters(memory) {}
 
-  nook_instance_id id = 0;       // 0: this slot is free, and everything below but `generation` is empty
-  std::uint32_t generation = 0;  // how often the slot was used before, part of the id
+  nook_instance_id id = 0;        // 0: this slot is free, and everything below but `generation` is empty
+  std::uint32_t generation = 0;   // how often the slot was used before, part of the id
+  std::uint64_t added_frame = 0;  // Scene::frame when it was added
   Ref<const LoadedModel> model;
 
   InstanceInput input;

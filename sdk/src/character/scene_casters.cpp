@@ -153,6 +153,7 @@ void resolve_casters(Scene& scene, HasResult has_result) noexcept {
     choose_detail(scene, slot, has_result(slot), instance);
     if (!instance.plan.due) return;
     instance.plan.culled = 0;
+    instance.plan.frame = scene.frame;
     gather_casters(scene, slot, instance);
     gather_occluders(scene, instance);
     place_ground(scene, instance);

@@ -180,6 +180,7 @@ nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model) {
   added.plan.occluders.reserve(scene.occluders.size());
   added.model = std::move(model);
   added.input.pose_revision = 1;
+  added.added_frame = scene.frame;
   derive_bound(added, 1);
   const std::size_t slots = scene.instances.size() + (fresh ? 1 : 0);
   if (scene.nearest) reserve_tree(scene.neighbours, std::bit_ceil(slots));

@@ -1,0 +1,50 @@
+// C++17 wrappers of shapes for debug drawing: nook_debug.h.
+#ifndef NOOK_DEBUG_HPP
+#define NOOK_DEBUG_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "nook_character.hpp"
+#include "nook_debug.h"
+
+namespace nook {
+inline namespace wrapper {
+
+inline nook_scene_instance_info instance_info(const Scene& scene, nook_instance_id id) {
+  nook_scene_instance_info info{};
+  info.struct_size = sizeof info;
+  check(nook_scene_describe_instance(scene.get(), id, &info));
+  return info;
+}
+
+// The proxy spheres of an instance in its pose.
+inline std::vector<nook_scene_sphere> posed_spheres(const Scene& scene, nook_instance_id id) {
+  std::uint32_t count = 0;
+  check(nook_scene_read_spheres(scene.get(), id, nullptr, &count));
+  std::vector<nook_scene_sphere> spheres(count);
+  check(nook_scene_read_spheres(scene.get(), id, spheres.data(), &count));
+  return spheres;
+}
+
+// The key points of an instance in its pose.
+inline std::vector<nook_scene_key_point> posed_key_points(const Scene& scene, nook_instance_id id) {
+  std::uint32_t count = 0;
+  check(nook_scene_read_key_points(scene.get(), id, nullptr, &count));
+  std::vector<nook_scene_key_point> points(count);
+  check(nook_scene_read_key_points(scene.get(), id, points.data(), &count));
+  return points;
+}
+
+// The instances that darken an instance by links.
+inline std::vector<nook_instance_id> linked_casters(const Scene& scene, nook_instance_id id) {
+  std::uint32_t count = 0;
+  check(nook_scene_read_links(scene.get(), id, nullptr, &count));
+  std::vector<nook_instance_id> casters(count);
+  check(nook_scene_read_links(scene.get(), id, casters.data(), &count));
+  return casters;
+}
+
+}  // namespace wrapper
+}  // namespace nook
+#endif

@@ -1,0 +1,65 @@
+// The C functions of nook_debug.h.
+#include <nook/nook_debug.h>
+
+#include "sdk/src/api/entry.h"
+#include "sdk/src/api/handles.h"
+#include "sdk/src/character/posed_shapes.h"
+#include "sdk/src/core/descriptors.h"
+
+using namespace nook;
+
+namespace {
+
+// Runs body on the scene and the instance of the handles.
+template <class Body>
+nook_result with_instance(const char* function, nook_scene scene, nook_instance_id instance,
+                          Body&& body) noexcept {
+  return api::enter(function, [&] {
+    need(scene, "scene");
+    const Scene& found = scene->scene;
+    body(found, instance_of(found, instance));
+  });
+}
+
+// Writes the number of entries to *count. True if the caller wants the entries, for which there is room.
+bool wants_entries(const void* out, std::uint32_t* count, std::uint32_t entries) {
+  need(count, "count");
+  const std::uint32_t room = *count;
+  *count = entries;
+  if (out && room < entries)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "*count is too small (got %u, need %u)", room, entries);
+  return out != nullptr;
+}
+
+}  // namespace
+
+nook_result nook_scene_describe_instance(nook_scene scene, nook_instance_id instance,
+                                         nook_scene_instance_info* info) {
+  return with_instance("nook_scene_describe_instance", scene, instance,
+                       [&](const Scene& s, const Instance& i) {
+                         constexpr std::size_t first_size =
+                             offsetof(nook_scene_instance_info, bound_radius) + sizeof info->bound_radius;
+                         write_info(info, first_size, describe_instance(s, i));
+                       });
+}
+
+nook_result nook_scene_read_spheres(nook_scene scene, nook_instance_id instance, nook_scene_sphere* out,
+                                    uint32_t* count) {
+  return with_instance("nook_scene_read_spheres", scene, instance, [&](const Scene&, const Instance& i) {
+    if (wants_entries(out, count, sphere_count(i))) read_spheres(i, out);
+  });
+}
+
+nook_result nook_scene_read_key_points(nook_scene scene, nook_instance_id instance, nook_scene_key_point* out,
+                                       uint32_t* count) {
+  return with_instance("nook_scene_read_key_points", scene, instance, [&](const Scene&, const Instance& i) {
+    if (wants_entries(out, count, key_point_count(i))) read_key_points(i, out);
+  });
+}
+
+nook_result nook_scene_read_links(nook_scene scene, nook_instance_id instance, nook_instance_id* out,
+                                  uint32_t* count) {
+  return with_instance("nook_scene_read_links", scene, instance, [&](const Scene& s, const Instance& i) {
+    if (wants_entries(out, count, link_count(s, i))) read_links(s, i, out);
+  });
+}

@@ -1,0 +1,24 @@
+// The shapes that a scene evaluates, one by one in world space, for debug drawing. The kernels of an update
+// pose the same shapes in lanes (shadow_kernels.h).
+#pragma once
+
+#include <nook/nook_debug.h>
+
+#include "sdk/src/character/scene.h"
+
+namespace nook {
+
+nook_scene_instance_info describe_instance(const Scene& scene, const Instance& instance) noexcept;
+
+// The numbers of shapes at the instance's level.
+std::uint32_t sphere_count(const Instance& instance) noexcept;
+std::uint32_t key_point_count(const Instance& instance) noexcept;
+// The casters of the instance's last update that still are in the scene.
+std::uint32_t link_count(const Scene& scene, const Instance& instance) noexcept;
+
+// `out` has room for as many as the counts above.
+void read_spheres(const Instance& instance, nook_scene_sphere* out) noexcept;
+void read_key_points(const Instance& instance, nook_scene_key_point* out) noexcept;
+void read_links(const Scene& scene, const Instance& instance, nook_instance_id* out) noexcept;
+
+}  // namespace nook
