@@ -207,7 +207,7 @@ std::optional<measure::ScreenSpaceSettings> settings_of(const ScreenSpaceAo* scr
 CrowdScene one_norm_scene(platform::Context& context, const std::vector<Bones>& poses,
                           const ComparisonRequest& request, std::span<const unsigned char> model) {
   return CrowdScene(context, model,
-                    {std::uint32_t(poses.size()), request.neighbours, request.tier, NOOK_COMBINE_PAPER});
+                    {std::uint32_t(poses.size()), request.neighbours, request.tier, NOOK_COMBINE_PAPER, 0});
 }
 
 }  // namespace

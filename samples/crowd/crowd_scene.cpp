@@ -2,7 +2,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <glm/gtc/type_ptr.hpp>
+#include <stdexcept>
 
 namespace crowd {
 namespace {
@@ -22,9 +25,10 @@ nook_context_desc host_services() {
   return desc;
 }
 
-nook_scene_desc scene_settings(nook_combine combine) {
+nook_scene_desc scene_settings(const CrowdSceneRequest& request) {
   nook_scene_desc desc = nook::scene_desc();
-  desc.combine = combine;
+  desc.combine = request.combine;
+  desc.lod_error = request.lod_error;
   return desc;
 }
 
@@ -42,7 +46,7 @@ CrowdScene::CrowdScene(platform::Context& context, std::span<const unsigned char
                        const CrowdSceneRequest& request)
     : context_(host_services()),
       model_(context_, model_bytes.data(), model_bytes.size()),
-      scene_(context_, scene_settings(request.combine)),
+      scene_(context_, scene_settings(request)),
       gl_(context_, gl_settings(context, request.tier)) {
   for (std::uint32_t i = 0; i < request.characters; ++i) {
     instances_.push_back(scene_.add_instance(model_));
@@ -50,6 +54,51 @@ CrowdScene::CrowdScene(platform::Context& context, std::span<const unsigned char
   }
   link_nearest(request.neighbours);
   gl_.prepare(scene_);
+}
+
+void CrowdScene::set_model(std::span<const unsigned char> model_bytes) {
+  nook::CharacterModel model(context_, model_bytes.data(), model_bytes.size());
+  const nook_character_model_info before = model_.info(), now = model.info();
+  if (now.file_vertex_count != before.file_vertex_count || now.bone_count != before.bone_count)
+    throw std::runtime_error(
+        "crowd: the model is of another character (got " + std::to_string(now.file_vertex_count) +
+        " vertices and " + std::to_string(now.bone_count) + " bones, need " +
+        std::to_string(before.file_vertex_count) + " and " + std::to_string(before.bone_count) + ")");
+  for (const nook_instance_id id : instances_) scene_.set_model(id, model);
+  model_ = std::move(model);
+  gl_.prepare(scene_);
+}
+
+void CrowdScene::set_camera(const glm::vec3& eye_ws) {
+  scene_.set_camera(glm::value_ptr(eye_ws));
+}
+
+nook_scene_instance_info CrowdScene::info(std::size_t character) const {
+  return nook::instance_info(scene_, instances_[character]);
+}
+
+glm::vec3 CrowdScene::centre_ws(std::size_t character) const {
+  return glm::make_vec3(info(character).bound_centre_ws);
+}
+
+std::vector<nook_scene_sphere> CrowdScene::spheres(std::size_t character) const {
+  return nook::posed_spheres(scene_, instances_[character]);
+}
+
+std::vector<nook_scene_key_point> CrowdScene::key_points(std::size_t character) const {
+  return nook::posed_key_points(scene_, instances_[character]);
+}
+
+std::vector<std::uint32_t> CrowdScene::links(std::size_t character) const {
+  std::vector<std::uint32_t> characters;
+  for (const nook_instance_id caster : nook::linked_casters(scene_, instances_[character]))
+    characters.push_back(
+        std::uint32_t(std::find(instances_.begin(), instances_.end(), caster) - instances_.begin()));
+  return characters;
+}
+
+void CrowdScene::update_on_cpu() {
+  scene_.update();
 }
 
 void CrowdScene::link_nearest(std::uint32_t neighbours) {

@@ -3,6 +3,7 @@
 
 #include <nook/nook_gl.h>
 
+#include <glm/glm.hpp>
 #include <nook/nook.hpp>
 #include <span>
 #include <vector>
@@ -17,6 +18,7 @@ struct CrowdSceneRequest {
   std::uint32_t characters = 1, neighbours = 4;
   int tier = 0;  // 33, 43, or 0 for the best that the context has
   nook_combine combine = NOOK_COMBINE_COMPOSED;
+  float lod_error = 0;  // AO, rms at 10 m from the camera; 0 keeps full detail
 };
 
 class CrowdScene {
@@ -24,10 +26,17 @@ class CrowdScene {
   CrowdScene(platform::Context& context, std::span<const unsigned char> model_bytes,
              const CrowdSceneRequest& request);
 
+  // Gives all characters another model of the same mesh and skeleton. Throws if it is of another character,
+  // and then changes nothing.
+  void set_model(std::span<const unsigned char> model_bytes);
+  std::size_t size() const { return instances_.size(); }
+
   // One pose for each character, in the order of the characters.
   void set_poses(const std::vector<Bones>& poses);
   // Evaluates the AO and leaves it on the GPU. The terms (NOOK_TERM_*) are what darkens a character.
   void update(std::uint32_t terms = NOOK_TERM_ALL);
+  // Levels of detail follow the distance to the camera.
+  void set_camera(const glm::vec3& eye_ws);
   VertexSource ao(std::size_t character) const;
   // Waits for the GPU, so this is for reports and not for frames.
   std::vector<float> read_ao(std::size_t character) const;
@@ -43,6 +52,16 @@ class CrowdScene {
                                                  std::span<const nook_probe_lobe> lobes);
 
   void link_nearest(std::uint32_t neighbours);
+
+  // The parts of the last update, for debug views. Links are the characters that darken a character.
+  nook_scene_instance_info info(std::size_t character) const;
+  glm::vec3 centre_ws(std::size_t character) const;
+  std::vector<nook_scene_sphere> spheres(std::size_t character) const;
+  std::vector<std::uint32_t> links(std::size_t character) const;
+  // Their shadows are those of the last update_on_cpu, which evaluates the poses once more.
+  std::vector<nook_scene_key_point> key_points(std::size_t character) const;
+  void update_on_cpu();
+
   nook_scene handle() const { return scene_.get(); }
   const nook::Gl& gl() const { return gl_; }
   nook_scene_stats stats() const { return scene_.stats(); }

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "platform/stopwatch.h"
+#include "samples/crowd/debug_overlay.h"
 #include "samples/crowd/recorded_frames.h"
 
 namespace crowd {
@@ -60,18 +61,21 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
   Look look;
   look.fog_start_m = 1.2f * radius_m + 8;
   const SplitLight parts = request.light ? request.light->split() : SplitLight{};
+  DebugOverlay debug(gl, stage.hero);
   FrameTimes sum;
   for (std::uint32_t frame = 0; frame < request.frames; ++frame) {
     platform::Stopwatch watch;
     const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, float(frame) * kSecondsPerFrame);
     scene.set_poses(poses);
+    const Camera camera = orbit(radius_m, float(frame) / float(std::max(request.frames, 24u)));
+    scene.set_camera(camera.eye_ws);
     FrameTimes now;
     now.pose = watch.lap_ms();
     scene.update();
     gl.Finish();
     now.scene_update = watch.lap_ms();
-    const std::vector<DrawnInstance> drawn = drawn_crowd(scene, poses, request.light != nullptr);
-    const Camera camera = orbit(radius_m, float(frame) / float(std::max(request.frames, 24u)));
+    std::vector<DrawnInstance> drawn = drawn_crowd(scene, poses, request.light != nullptr);
+    if (request.debug.levels) colour_by_level(scene, drawn);
     if (stage.screen_space) {
       watch.lap_ms();
       look.screen_ao = stage.screen_space->draw(stage.renderer, drawn, camera, scene.handle(),
@@ -94,6 +98,8 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
     }
     gl.Finish();
     now.draw = watch.lap_ms();
+    debug.draw(stage.renderer, {scene, poses, drawn, camera}, request.debug, true);
+    watch.lap_ms();
     const platform::Image picture = stage.target.read();
     now.read = watch.lap_ms();
     char name[32];

@@ -7,6 +7,7 @@
 
 #include "platform/render_target.h"
 #include "samples/crowd/crowd_scene.h"
+#include "samples/crowd/debug_view.h"
 #include "samples/crowd/layout.h"
 #include "samples/crowd/light.h"
 #include "samples/crowd/screen_space.h"
@@ -33,6 +34,7 @@ struct FrameRequest {
   std::filesystem::path out;
   const Light* light = nullptr;  // null for plain ambient light and a key light
   std::filesystem::path record;  // empty, or where each frame of the screen-space pass is recorded
+  DebugView debug;               // drawn over each frame
 };
 
 // The instances in their poses, with what the scene's last update left of each. If lit, all of them had a

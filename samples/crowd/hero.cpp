@@ -2,27 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
-#include <cstdio>
-#include <thread>
 
 #include "platform/file_bytes.h"
-#include "platform/progress_bar.h"
 #include "samples/mannequin/mannequin.h"
 
 namespace crowd {
 namespace {
 
 constexpr std::uint32_t kRestPose = ~0u;
-
-struct JobRelease {
-  void operator()(nook_bake_job job) const { nook_bake_job_destroy(&job); }
-};
-using Job = std::unique_ptr<nook_bake_job_s, JobRelease>;
-
-void check(nook_result result) {
-  if (result != NOOK_OK) throw BakeError(result, nook_bake_last_message());
-}
 
 // FNV-1a of 64 bits.
 std::uint64_t hash_of(std::span<const unsigned char> bytes) {
@@ -39,94 +26,41 @@ bool is_unfit(std::string name) {
          name.starts_with("sit");
 }
 
-const char* stage_label(nook_bake_stage stage) {
-  switch (stage) {
-    case NOOK_BAKE_STAGE_RAYTRACE:
-      return "ray tracing";
-    case NOOK_BAKE_STAGE_INITIALISE:
-      return "initialising";
-    case NOOK_BAKE_STAGE_FIT:
-      return "fitting";
-    case NOOK_BAKE_STAGE_CASTERS:
-      return "casters";
-    default:
-      return "waiting";
-  }
-}
-
-// Shows a job's progress until it is done.
-void follow(nook_bake_job job, bool quiet) {
-  platform::ProgressBar bar(quiet);
-  for (;;) {
-    nook_bake_progress progress{};
-    progress.struct_size = sizeof progress;
-    check(nook_bake_job_poll(job, &progress));
-    if (progress.stage == NOOK_BAKE_STAGE_DONE) return;
-    bar.show(stage_label(progress.stage), progress.stage == NOOK_BAKE_STAGE_RAYTRACE ? "poses" : "steps",
-             progress.done, progress.total);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-}
-
-std::vector<unsigned char> bake(const Hero& hero, const ModelRequest& request) {
-  nook_bake_job_desc desc;
-  check(nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  desc.preset = NOOK_BAKE_PRESET_DRAFT;
-  desc.gamma = request.gamma;
-  nook_bake_job handle = nullptr;
-  check(nook_bake_job_start(hero.handle(), &desc, &handle));
-  const Job job(handle);
-  follow(handle, request.quiet);
-  check(nook_bake_job_wait(handle));
-  const void* bytes = nullptr;
-  std::size_t size = 0;
-  check(nook_bake_job_model(handle, &bytes, &size));
-  const auto* const first = static_cast<const unsigned char*>(bytes);
-  return {first, first + size};
-}
-
-std::filesystem::path cached_path(const Hero& hero, const ModelRequest& request) {
-  // The name has the time of the program, so that a model which another build baked is never taken.
-  std::error_code unknown;
-  const auto built = std::filesystem::last_write_time("/proc/self/exe", unknown).time_since_epoch().count();
-  char name[112];
-  std::snprintf(name, sizeof name, "draft_%016llx_gamma%g_%08x_%016llx.nook",
-                static_cast<unsigned long long>(hero.source_hash()), double(request.gamma),
-                nook_bake_version(), static_cast<unsigned long long>(built));
-  return request.cache / name;
-}
-
 }  // namespace
+
+void check_bake(nook_result result) {
+  if (result != NOOK_OK) throw BakeError(result, nook_bake_last_message());
+}
 
 Hero::Hero(std::span<const unsigned char> glb_bytes) : source_hash_(hash_of(glb_bytes)) {
   nook_bake_character handle = nullptr;
-  check(nook_bake_import_gltf_bytes(glb_bytes.data(), glb_bytes.size(), &handle));
+  check_bake(nook_bake_import_gltf_bytes(glb_bytes.data(), glb_bytes.size(), &handle));
   character_.reset(handle);
   read();
 }
 
 Hero::Hero(const std::filesystem::path& path) : source_hash_(hash_of(platform::read_file(path))) {
   nook_bake_character handle = nullptr;
-  check(nook_bake_import_gltf(path.c_str(), &handle));
+  check_bake(nook_bake_import_gltf(path.c_str(), &handle));
   character_.reset(handle);
   read();
 }
 
 void Hero::read() {
   info_.struct_size = sizeof info_;
-  check(nook_bake_character_describe(handle(), &info_));
+  check_bake(nook_bake_character_describe(handle(), &info_));
   const std::uint32_t n = vertex_count();
   positions_m.resize(3 * n);
   normals.resize(3 * n);
   joints.resize(4 * n);
   weights.resize(4 * n);
   triangles.resize(3 * info_.triangle_count);
-  check(nook_bake_character_read_vertices(handle(), positions_m.data(), normals.data(), n));
-  check(nook_bake_character_read_skin(handle(), joints.data(), weights.data(), n));
-  check(nook_bake_character_read_triangles(handle(), triangles.data(), std::uint32_t(triangles.size())));
+  check_bake(nook_bake_character_read_vertices(handle(), positions_m.data(), normals.data(), n));
+  check_bake(nook_bake_character_read_skin(handle(), joints.data(), weights.data(), n));
+  check_bake(nook_bake_character_read_triangles(handle(), triangles.data(), std::uint32_t(triangles.size())));
   for (std::uint32_t i = 0; i < info_.clip_count; ++i) {
     Clip clip{i, nook_bake_character_clip_name(handle(), i), 0};
-    check(nook_bake_character_clip_duration(handle(), i, &clip.duration_s));
+    check_bake(nook_bake_character_clip_duration(handle(), i, &clip.duration_s));
     if (!is_unfit(clip.name)) clips_.push_back(clip);
   }
   if (clips_.empty()) clips_.push_back({kRestPose, "rest pose", 1.0f});
@@ -139,7 +73,7 @@ Bones Hero::pose(std::size_t clip, float phase) const {
     for (std::size_t b = 0; b < bone_count(); ++b)
       bones[12 * b] = bones[12 * b + 5] = bones[12 * b + 10] = 1.0f;
   } else {
-    check(
+    check_bake(
         nook_bake_character_sample_clip(handle(), c.index, phase * c.duration_s, bones.data(), bone_count()));
   }
   return bones;
@@ -148,23 +82,14 @@ Bones Hero::pose(std::size_t clip, float phase) const {
 void Hero::skin(const Bones& bones, std::vector<float>& positions_ws, std::vector<float>& normals_ws) const {
   positions_ws.resize(3 * std::size_t(vertex_count()));
   normals_ws.resize(positions_ws.size());
-  check(nook_bake_character_skin(handle(), bones.data(), bone_count(), positions_ws.data(), normals_ws.data(),
-                                 vertex_count()));
+  check_bake(nook_bake_character_skin(handle(), bones.data(), bone_count(), positions_ws.data(),
+                                      normals_ws.data(), vertex_count()));
 }
 
 std::vector<unsigned char> built_in_glb(const std::filesystem::path& cache) {
   std::vector<unsigned char> bytes = nook_samples::mannequin::make_mannequin_glb();
   platform::write_file(cache / "mannequin.glb", bytes.data(), bytes.size());
   return bytes;
-}
-
-std::vector<unsigned char> cached_model(const Hero& hero, const ModelRequest& request) {
-  const std::filesystem::path path = cached_path(hero, request);
-  if (std::filesystem::exists(path)) return platform::read_file(path);
-  if (!request.quiet) std::fprintf(stderr, "baking %s\n", path.string().c_str());
-  std::vector<unsigned char> model = bake(hero, request);
-  platform::write_file(path, model.data(), model.size());
-  return model;
 }
 
 }  // namespace crowd

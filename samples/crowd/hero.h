@@ -1,5 +1,4 @@
-// The sample's character through the public interface of the bakers: its shape, its clips and its baked
-// model.
+// The sample's character through the public interface of the bakers: its shape and its clips.
 #pragma once
 
 #include <nook/nook_bake_character.h>
@@ -23,6 +22,9 @@ class BakeError : public std::runtime_error {
  private:
   nook_result result_;
 };
+
+// Throws BakeError with the message of the call that failed.
+void check_bake(nook_result result);
 
 // The skinning matrices of one character: 12 floats for each bone, the three rows of a matrix that takes the
 // rest pose to world space.
@@ -72,15 +74,5 @@ class Hero {
 
 // Makes the built-in character and leaves its .glb in the cache, where other tools find it.
 std::vector<unsigned char> built_in_glb(const std::filesystem::path& cache);
-
-struct ModelRequest {
-  std::filesystem::path cache;
-  float gamma = 0;  // exponent of the norm that adds up shadows; 0 takes the preset's
-  bool quiet = false;
-};
-
-// The bytes of the hero's .nook file, from the cache. If the cache has none, this bakes one with the draft
-// preset and shows the progress.
-std::vector<unsigned char> cached_model(const Hero& hero, const ModelRequest& request);
 
 }  // namespace crowd

@@ -6,6 +6,7 @@
 
 #include "platform/file_bytes.h"
 #include "platform/progress_bar.h"
+#include "samples/crowd/cached_model.h"
 #include "samples/crowd/comparison.h"
 #include "samples/crowd/frames.h"
 #include "samples/crowd/layout.h"
@@ -114,13 +115,14 @@ void run(const Options& o) {
       o.hero_nook.empty() ? cached_model(hero, {o.cache, 0, o.quiet}) : platform::read_file(o.hero_nook);
   const std::unique_ptr<platform::Context> context = create_context(o);
   const std::vector<Placement> places = make_layout(clip_outlines(hero), o.characters, o.seed);
-  CrowdScene scene(*context, model, {o.characters, o.neighbours, o.tier, NOOK_COMBINE_COMPOSED});
+  CrowdScene scene(*context, model, {o.characters, o.neighbours, o.tier, NOOK_COMBINE_COMPOSED, o.lod_error});
   require_same_character(hero, scene.model());
   Renderer renderer(context->gl(), hero);
 #ifdef CROWD_HAS_WINDOW_LOOP
   if (o.context == "window" && o.frames == 0) {
     const std::unique_ptr<Light> light = light_of_frames(scene.context(), o);
-    run_window(*context, hero, model, places, renderer, light.get(), o);
+    const std::filesystem::path model_path = o.hero_nook.empty() ? o.out / "model.nook" : o.hero_nook;
+    run_window({*context, hero, places, renderer, light.get(), model_path}, model, o);
     return;
   }
 #endif
@@ -134,7 +136,7 @@ void run(const Options& o) {
   const std::unique_ptr<Light> light = light_of_frames(scene.context(), o);
   if (light) scene.set_light(light->lobes());
   const FrameTimes ms =
-      draw_frames(stage, scene, {o.frames, o.out, light.get(), o.record},
+      draw_frames(stage, scene, {o.frames, o.out, light.get(), o.record, o.debug},
                   [&](std::uint32_t done) { bar.show("drawing", "frames", done, o.frames); });
   // The comparisons below set their own lights.
   scene.set_light({});

@@ -1,6 +1,7 @@
 #include "samples/crowd/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "platform/platform.h"
@@ -21,12 +22,21 @@ std::string parse_tier(const std::string& text, Options& o) {
   return "";
 }
 
+DebugView debug_view(const std::vector<std::string>& names, std::uint32_t bodies) {
+  const auto has = [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return {has("spheres"), has("key-points"), has("links"), has("levels"), has("error"), bodies};
+}
+
 }  // namespace
 
 bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   CLI::App app(
       "Draws a crowd of animated characters with Nook's ambient occlusion and compares it with ray tracing.");
   std::string size = "1280x720", tier = "best", screen_space = "on";
+  std::vector<std::string> debug;
+  std::uint32_t bodies = 1;
   o.cache = CROWD_CACHE;
   // The last of several values wins, so that the caller of a script can override its values.
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
@@ -66,6 +76,24 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_flag(
       "--measure-world", o.measure_world,
       "compare the world pass of the last frame with every caster at every pixel; slow without a GPU");
+  app.add_option(
+         "--debug", debug,
+         "debug views over the picture, with commas between: spheres, key-points, links, levels, error")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"spheres", "key-points", "links", "levels", "error"}))
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--debug-bodies", bodies,
+                 "bodies that spheres, key points and errors are shown for, the nearest to the camera first")
+      ->check(CLI::Range(1, 10000));
+  app.add_option("--lod-error", o.lod_error,
+                 "error of a level of detail that is allowed at 10 m, root mean square of AO; 0: full detail")
+      ->check(CLI::Range(0.0f, 1.0f));
+  app.add_option("--bake", o.bake,
+                 "in a window: bakes the model at once with a preset (draft, standard, production), as its "
+                 "button does")
+      ->check(CLI::IsMember({"draft", "standard", "production"}));
+  app.add_option("--window-picture", o.window_picture,
+                 "in a window: writes a picture of it when everything that it shows is there, and closes it");
   app.add_option("--seed", o.seed, "seed of the places, the clips and the rays");
   app.add_option("--cache", o.cache, "folder where baked characters are kept");
   app.add_flag("!--no-sheets", o.sheets, "no comparison sheets, and no ray tracing except for --light");
@@ -75,8 +103,11 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
     for (const std::string& fault : {parse_size(size, o), parse_tier(tier, o)})
       if (!fault.empty()) throw CLI::ValidationError("--size", fault);
     o.screen_space = screen_space == "on";
+    o.debug = debug_view(debug, bodies);
     if (!o.record.empty() && !o.screen_space)
       throw CLI::ValidationError("--record", "needs --screen-space on");
+    if (o.context != "window" && !(o.bake.empty() && o.window_picture.empty()))
+      throw CLI::ValidationError("--bake and --window-picture", "need --context window");
     // A window runs until it is closed, unless the user gives a number of pictures.
     if (o.context == "window" && frames->count() == 0) o.frames = 0;
     if (o.report.empty()) o.report = o.out / "report.json";

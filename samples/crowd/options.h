@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "samples/crowd/debug_view.h"
+
 namespace crowd {
 
 struct Options {
@@ -22,6 +24,11 @@ struct Options {
   bool probe_light = true;                    // the frames have the first of the lights, or the built-in sky
   bool screen_space = true, sheets = true, quiet = false;
   bool measure_world = false;
+  float lod_error = 0;  // AO, rms at 10 m from the camera; 0 keeps full detail
+  DebugView debug;      // over the frames, and what a window shows first
+  std::string bake;     // a preset that a window bakes the model with at its start; empty: none
+  // Empty, or where a window writes a picture of itself before it closes.
+  std::filesystem::path window_picture;
 };
 
 // Fills options. Returns false with exit_code set if the program should end at once.

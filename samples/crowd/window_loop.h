@@ -1,7 +1,9 @@
-// The crowd in a window with controls.
+// The crowd in a window with controls, debug views, and its model's file, which is loaded again when it
+// changes and can be baked anew.
 #pragma once
 
-#include <span>
+#include <filesystem>
+#include <vector>
 
 #include "samples/crowd/crowd_scene.h"
 #include "samples/crowd/layout.h"
@@ -10,9 +12,17 @@
 
 namespace crowd {
 
-// Returns when the window is closed. The light of a probe is for all characters; it may be null.
-void run_window(platform::Context& context, const Hero& hero, std::span<const unsigned char> model,
-                const std::vector<Placement>& places, Renderer& renderer, const Light* light,
-                const Options& options);
+// The things that the window shows. The light of a probe is for all characters; it may be null.
+struct WindowStage {
+  platform::Context& context;
+  const Hero& hero;
+  const std::vector<Placement>& places;
+  Renderer& renderer;
+  const Light* light;
+  std::filesystem::path model_path;
+};
+
+// Returns when the window is closed. model holds the bytes of the model's file.
+void run_window(const WindowStage& stage, std::vector<unsigned char> model, const Options& options);
 
 }  // namespace crowd
