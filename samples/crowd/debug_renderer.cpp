@@ -108,8 +108,8 @@ out vec4 colour;
 void main() { colour = vec4(surface_albedo, opacity * clamp(half_width_px - abs(across), 0.0, 1.0)); }
 )";
 
-// The ends are those of the map vik, dark blue and dark red, which colour-blind readers can tell apart. Some
-// light shows the shape.
+// Dark blue and dark red are the ends of the map vik, whose sides differ for colour-blind readers too. The
+// shading keeps the form of the body visible.
 const char* const kErrorFragment = R"(#version 330 core
 in vec3 surface_position_ws;
 in vec3 surface_normal_ws;
