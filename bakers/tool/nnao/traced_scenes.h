@@ -1,0 +1,37 @@
+// What the protocols of `nook evaluate nnao` begin with: scenes, their ray-traced views, and OpenGL.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bakers/measure/nnao/report.h"
+#include "bakers/measure/nnao/scene_views.h"
+#include "bakers/tool/nnao/options.h"
+#include "platform/platform.h"
+
+namespace nook::tool {
+
+// The scenes of the command line or of the list, and the ratios to report.
+struct Work {
+  std::vector<measure::SceneRequest> scenes;
+  std::vector<measure::MethodRatio> ratios;
+};
+
+// Takes size and rays from the list of --views where the command line has none. Throws ToolError.
+Work read_work(EvaluateNnaoOptions& options);
+
+// Traces the scene's views, or reads them from the folder of references; shows progress, and can be
+// interrupted. Throws ToolError that names the scene's file.
+std::vector<measure::MeasuredView> traced_views(const measure::SceneRequest& scene,
+                                                const EvaluateNnaoOptions& options);
+
+// The views of all scenes.
+std::vector<measure::MeasuredView> traced_views(const Work& work, const EvaluateNnaoOptions& options);
+
+// OpenGL 3.3 without a display.
+std::unique_ptr<platform::Context> make_context();
+
+// The largest radius on the screen that every method takes, pixels.
+float max_radius_px(const EvaluateNnaoOptions& options);
+
+}  // namespace nook::tool
