@@ -91,6 +91,9 @@ TEST_CASE("scenes: every field out of its range") {
   CHECK(refused([](auto& d) { d.isa = INT32_MAX; }, "desc.isa"));
   CHECK(refused([](auto& d) { d.cutoff_error = NAN; }, "desc.cutoff_error"));
   CHECK(refused([](auto& d) { d.cutoff_error = 1.1f; }, "desc.cutoff_error"));
+  CHECK(refused([](auto& d) { d.far_error = NAN; }, "desc.far_error"));
+  CHECK(refused([](auto& d) { d.far_error = -1; }, "desc.far_error"));
+  CHECK(refused([](auto& d) { d.reserved = 1; }, "desc.reserved"));
   CHECK(refused([](auto& d) { d.lod_error = -1; }, "desc.lod_error"));
   CHECK(refused([](auto& d) { d.lod_distance = 0; }, "desc.lod_distance"));
   CHECK(refused([](auto& d) { d.lod_max_interval = 0; }, "desc.lod_max_interval"));

@@ -26,7 +26,9 @@ void require(nook_result result) {
 // Characters on a jittered grid, one to two square metres.
 class Crowd {
  public:
-  explicit Crowd(std::uint32_t count, nook_isa isa = NOOK_ISA_AUTO) {
+  // spacing: of the grid, in metres. far_error: of nook_scene_desc.
+  explicit Crowd(std::uint32_t count, nook_isa isa = NOOK_ISA_AUTO, float spacing = 1.4142f,
+                 float far_error = 0) {
     nook_context_desc context_desc;
     require(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
     require(nook_context_create(&context_desc, &context_));
@@ -36,6 +38,7 @@ class Crowd {
     nook_scene_desc scene_desc;
     require(nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION));
     scene_desc.cutoff_error = 0;
+    scene_desc.far_error = far_error;
     scene_desc.isa = isa;
     require(nook_scene_create(context_, &scene_desc, &scene_));
     require(nook_scene_link_nearest(scene_, 4, 10));
@@ -52,8 +55,8 @@ class Crowd {
       require(nook_scene_add_instance(scene_, model_, &id));
       require(nook_scene_set_ground(scene_, id, ground));
       ids_.push_back(id);
-      const float x = 1.4142f * float(i % side) + jitter(random),
-                  z = 1.4142f * float(i / side) + jitter(random);
+      const float x = spacing * float(i % side) + jitter(random),
+                  z = spacing * float(i / side) + jitter(random);
       places_.push_back({x, 0, z});
     }
   }
@@ -79,7 +82,7 @@ class Crowd {
     for (const nook_instance_id id : ids_)
       require(nook_scene_set_light(scene_, id, lobes.data(), static_cast<std::uint32_t>(lobes.size())));
   }
-  void self_only() { require(nook_scene_set_terms(scene_, NOOK_TERM_SELF)); }
+  void only(std::uint32_t terms) { require(nook_scene_set_terms(scene_, terms)); }
   void set_poses() {
     ++frame_;
     std::vector<Mat3x4> pose(bones_);
@@ -149,7 +152,7 @@ void one_character_through_the_abi(benchmark::State& state) {
     return;
   }
   Crowd crowd(1, isa);
-  crowd.self_only();
+  crowd.only(NOOK_TERM_SELF);
   const CharacterModel model = sample_model();
   const SampleSkin vertices = sample_skin(model);
   AlignedArray<SkinningMatrix> bones(model.bone_count(), nook::default_memory());
@@ -174,6 +177,46 @@ BENCHMARK(one_character_through_the_abi)
     ->Arg(NOOK_ISA_AVX2)
     ->Arg(NOOK_ISA_AVX512)
     ->Unit(benchmark::kMicrosecond);
+
+// An update of an instance with four neighbours at 2 m and beyond, beside skinning the same vertices: with
+// the default far_error, and with all spheres. The argument is the nook_isa.
+void far_neighbours(benchmark::State& state) {
+  const auto isa = static_cast<nook_isa>(state.range(0));
+  const SkinFunction skin = isa == NOOK_ISA_AVX512 ? skin_avx512() : skin_avx2();
+  if (!skin) {
+    state.SkipWithError("this processor lacks the instruction set");
+    return;
+  }
+  constexpr std::uint32_t count = 25;
+  constexpr float spacing = 2.8f;  // less the jitter of both ends
+  nook_scene_desc defaults;
+  require(nook_scene_desc_init(&defaults, sizeof defaults, NOOK_VERSION));
+  Crowd grouped(count, isa, spacing, defaults.far_error), whole(count, isa, spacing, 0), alone(count, isa);
+  for (Crowd* crowd : {&grouped, &whole}) crowd->only(NOOK_TERM_SELF | NOOK_TERM_LINKS);
+  alone.only(NOOK_TERM_SELF);
+  const CharacterModel model = sample_model();
+  const SampleSkin vertices = sample_skin(model);
+  AlignedArray<SkinningMatrix> bones(model.bone_count(), nook::default_memory());
+  const std::vector<Mat3x4> pose = sample_pose(bones.size(), 5);
+  for (std::size_t b = 0; b < bones.size(); ++b) bones[b] = skinning_matrix(pose[b]);
+  AlignedArray<float> posed(6 * vertices.view.count + 16, nook::default_memory());
+
+  double by_groups = 1e9, by_spheres = 1e9, by_none = 1e9, skinning = 1e9;
+  for (auto _ : state) {
+    for (Crowd* crowd : {&grouped, &whole, &alone}) crowd->set_poses();
+    skinning = std::min(skinning, seconds([&] { skin(vertices.view, bones.data(), posed.data()); }));
+    by_groups = std::min(by_groups, seconds([&] { grouped.update(); }));
+    by_spheres = std::min(by_spheres, seconds([&] { whole.update(); }));
+    by_none = std::min(by_none, seconds([&] { alone.update(); }));
+  }
+  state.counters["groups_us"] = 1e6 * by_groups / count;
+  state.counters["spheres_us"] = 1e6 * by_spheres / count;
+  state.counters["alone_us"] = 1e6 * by_none / count;
+  state.counters["skinning_us"] = 1e6 * skinning;
+  state.counters["times_skinning"] = by_groups / count / skinning;
+  state.counters["links_per_instance"] = double(grouped.stats().links) / count;
+}
+BENCHMARK(far_neighbours)->Arg(NOOK_ISA_AVX2)->Arg(NOOK_ISA_AVX512)->Unit(benchmark::kMicrosecond);
 
 // Directional occlusion under 12 lobes beside plain AO: an update of an instance, alone on the ground and in
 // a crowd of five with four neighbours each. Arguments: nook_isa, instances.

@@ -72,6 +72,7 @@ Crowd::Crowd(nook_context context, const std::vector<nook_character_model>& mode
   NOOK_OK_OR_FAIL(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
   desc.combine = options.combine;
   desc.cutoff_error = options.cutoff_error;
+  desc.far_error = 0;  // the compute tier merges nothing
   desc.lod_error = options.lod_error;
   desc.lod_max_interval = options.lod_max_interval;
   desc.lod_distance = 1;

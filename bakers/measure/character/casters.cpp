@@ -35,8 +35,9 @@ double weighted_mean(std::span<const float> value, std::span<const float> weight
 // Mean darkening of a receiver by one linked caster, by the runtime itself. Nothing is culled.
 class ModelDarkening {
  public:
-  ModelDarkening(const CharacterModel& model, nook_combine combine, std::span<const float> area)
-      : memory_(default_memory()), scene_(settings(combine), Parallel{}, memory_) {
+  ModelDarkening(const CharacterModel& model, nook_combine combine, float far_error,
+                 std::span<const float> area)
+      : memory_(default_memory()), scene_(settings(combine, far_error), Parallel{}, memory_) {
     const Ref<const LoadedModel> loaded =
         Owned<LoadedModel>::make(memory_, Ref<const RefCounted>(), CharacterModel(model), memory_);
     receiver_ = add_instance(scene_, loaded);
@@ -48,25 +49,37 @@ class ModelDarkening {
   double measure(const Pose& receiver, const Pose& caster) {
     set_pose(scene_, receiver_, receiver);
     set_pose(scene_, caster_, caster);
-    return mean_ao(NOOK_TERM_SELF) - mean_ao(NOOK_TERM_SELF | NOOK_TERM_LINKS);
+    return weighted_mean(ao_by(NOOK_TERM_SELF), file_area_) -
+           weighted_mean(ao_by(NOOK_TERM_SELF | NOOK_TERM_LINKS), file_area_);
+  }
+  // Mean over vertices of the squared difference from another form in the poses of both.
+  double squared_difference(ModelDarkening& other) {
+    std::vector<float> squared = ao_by(NOOK_TERM_SELF | NOOK_TERM_LINKS);
+    const std::vector<float> reference = other.ao_by(NOOK_TERM_SELF | NOOK_TERM_LINKS);
+    for (std::size_t i = 0; i < squared.size(); ++i) {
+      const float difference = squared[i] - reference[i];
+      squared[i] = difference * difference;
+    }
+    return weighted_mean(squared, file_area_);
   }
 
  private:
-  static SceneSettings settings(nook_combine combine) {
+  static SceneSettings settings(nook_combine combine, float far_error) {
     SceneSettings s;
     s.combine = combine;
     s.cutoff_error = 0;
+    s.far_error = far_error;
     return s;
   }
 
   // Over file vertices; those that seams repeat count again, which shifts a mean over the whole body by
   // nothing that matters beside a bound of 20 %.
-  double mean_ao(std::uint32_t terms) {
+  std::vector<float> ao_by(std::uint32_t terms) {
     scene_.terms = terms;
     update(scene_);
     std::vector<float> ao(file_area_.size());
     read_ao(scene_, instance_of(scene_, receiver_), ao.data(), sizeof(float));
-    return weighted_mean(ao, file_area_);
+    return ao;
   }
 
   Memory* memory_;
@@ -82,7 +95,8 @@ std::vector<CasterRow> measure_casters(const SkinnedMesh& mesh, const CharacterM
                                        const Progress& progress) {
   const std::vector<float> area = vertex_areas(mesh, mesh.position);
   const float offset = ray_origin_offset(mesh.position);
-  ModelDarkening composed(model, NOOK_COMBINE_COMPOSED, area), paper(model, NOOK_COMBINE_PAPER, area);
+  ModelDarkening composed(model, NOOK_COMBINE_COMPOSED, 0, area), paper(model, NOOK_COMBINE_PAPER, 0, area),
+      grouped(model, NOOK_COMBINE_COMPOSED, SceneSettings().far_error, area);
   std::vector<CasterRow> rows;
   std::size_t done = 0;
   const std::size_t total = study.distances_m.size() * poses.size() * study.bearings;
@@ -118,9 +132,13 @@ std::vector<CasterRow> measure_casters(const SkinnedMesh& mesh, const CharacterM
         const double traced = weighted_mean(alone, area) - weighted_mean(together, area);
         by_composed.darkening_traced += traced / double(poses.size() * study.bearings);
         by_composed.darkening += composed.measure(own, caster) / double(poses.size() * study.bearings);
+        grouped.measure(own, caster);
+        by_composed.change_of_groups +=
+            grouped.squared_difference(composed) / double(poses.size() * study.bearings);
         by_paper.darkening += paper.measure(own, caster) / double(poses.size() * study.bearings);
       }
     }
+    by_composed.change_of_groups = std::sqrt(by_composed.change_of_groups);
     by_paper.darkening_traced = by_composed.darkening_traced;
     rows.push_back(by_composed);
     rows.push_back(by_paper);

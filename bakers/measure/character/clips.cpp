@@ -113,7 +113,7 @@ class Pair {
  private:
   static SceneSettings settings() {
     SceneSettings s;
-    s.cutoff_error = 0;
+    s.cutoff_error = s.far_error = 0;
     return s;
   }
 

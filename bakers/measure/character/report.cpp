@@ -144,7 +144,8 @@ Json caster_rows(const std::vector<CasterRow>& rows) {
                      {"form", r.form},
                      {"darkening", r.darkening},
                      {"darkening_traced", r.darkening_traced},
-                     {"ratio", r.darkening_traced > 0 ? r.darkening / r.darkening_traced : 0}});
+                     {"ratio", r.darkening_traced > 0 ? r.darkening / r.darkening_traced : 0},
+                     {"change_of_groups", r.change_of_groups}});
   return array;
 }
 

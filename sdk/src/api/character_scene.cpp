@@ -24,6 +24,7 @@ nook_scene_desc default_scene_desc() {
   desc.lod_max_interval = defaults.lod_max_interval;
   desc.ground_radius = defaults.ground_radius;
   desc.strict_poses = defaults.strict_poses;
+  desc.far_error = defaults.far_error;
   return desc;
 }
 constexpr std::size_t first_scene_desc = offsetof(nook_scene_desc, strict_poses) + sizeof(std::uint32_t);
@@ -46,6 +47,7 @@ SceneSettings settings_of(const nook_scene_desc& desc) {
   check_value("combine", desc.combine, NOOK_COMBINE_PAPER);
   check_value("isa", desc.isa, last_isa());
   check_range("cutoff_error", desc.cutoff_error, 0, 1, "0 to 1");
+  check_range("far_error", desc.far_error, 0, 1, "0 to 1");
   check_range("lod_error", desc.lod_error, 0, huge, "0 or more");
   check_range("lod_distance", desc.lod_distance, tiny, huge, "metres above 0");
   check_range("ground_radius", desc.ground_radius, tiny, huge, "metres above 0");
@@ -55,7 +57,10 @@ SceneSettings settings_of(const nook_scene_desc& desc) {
   if (desc.strict_poses > 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.strict_poses is out of range (got %u, need 0 or 1)",
                   desc.strict_poses);
-  return {desc.combine,          desc.isa,           desc.cutoff_error,     desc.lod_error, desc.lod_distance,
+  if (desc.reserved != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", desc.reserved);
+  return {desc.combine,          desc.isa,           desc.cutoff_error,
+          desc.far_error,        desc.lod_error,     desc.lod_distance,
           desc.lod_max_interval, desc.ground_radius, desc.strict_poses != 0};
 }
 

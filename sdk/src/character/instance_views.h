@@ -18,6 +18,21 @@ inline SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
   return {s.x, s.y, s.z, s.inverse_radius, rest.caster_weight(), s.count};
 }
 
+// The spheres of a caster for a receiver: the fewest groups whose change of AO the distance allows, or the
+// spheres at the receiver's level. group_spheres leaves no groups where there should be none.
+inline SphereSoa caster_spheres(const Scene& scene, const Instance& receiver, const Instance& caster) {
+  const InstanceResult& result = caster.result;
+  if (result.grouped_revision == caster.input.pose_revision) {
+    const float distance = length(caster.input.bound.centre - receiver.input.bound.centre);
+    for (std::uint32_t t = group_tiers; t-- > 0;)
+      if (group_error(result.group_moments[t], distance) < scene.settings.far_error) {
+        const GroupLanes& g = result.arrays.groups[t];
+        return {g.x, g.y, g.z, g.inverse_radius, g.caster_weight, g.count};
+      }
+  }
+  return spheres_of(caster, receiver.plan.level);
+}
+
 // True where the spheres of the instance darken its own key points; a clip has its AO instead.
 inline bool has_self_shadow(const Scene& scene, const Instance& instance) {
   return (scene.terms & NOOK_TERM_SELF) && !instance.input.clip.is_used();

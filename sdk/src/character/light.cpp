@@ -80,7 +80,7 @@ void evaluate_composed(const Scene& scene, const Instance& instance, const Point
   if (!instance.plan.casters.empty() || !instance.plan.occluders.empty())
     scene.kernels->directional_hemisphere(surface, lobes, light.inverse);
   for (const std::uint32_t caster : instance.plan.casters)
-    scene.kernels->directional_depth(spheres_of(scene.instances[caster], instance.plan.level), surface, lobes,
+    scene.kernels->directional_depth(caster_spheres(scene, instance, scene.instances[caster]), surface, lobes,
                                      light.inverse, light.sum);
   for_ground(instance, [&](const SphereSoa& ground) {
     scene.kernels->directional_ground(ground, surface, lobes, instance.input.ground.normal, light.open);

@@ -62,6 +62,10 @@ void invert_file_order(LoadedModel& loaded, Memory* memory) {
   for (std::uint32_t& end : loaded.slot_begin) end = sum += end;
   for (std::size_t i = file_vertices; i-- > 0;)
     loaded.slot_file_vertex[--loaded.slot_begin[slot_of[i]]] = static_cast<std::uint32_t>(i);
+  loaded.slot_in_chunk = AlignedArray<std::uint8_t>(file_vertices, memory);
+  for (std::size_t i = 0; i < file_vertices; ++i)
+    loaded.slot_in_chunk[i] =
+        static_cast<std::uint8_t>(slot_of[loaded.slot_file_vertex[i]] % LoadedModel::slot_chunk);
 }
 
 }  // namespace
@@ -71,6 +75,7 @@ LoadedModel::LoadedModel(CharacterModel loaded, Memory* memory)
       rest_spheres(model, memory),
       rest_key_points(model, memory),
       linear(model, memory),
+      groups(model, memory),
       levels(load_levels(model, memory)),
       open_without_bias(linear.padded_slots(), memory),
       bone_bounds(make_bone_bounds(model, memory)) {

@@ -4,6 +4,7 @@
 #include "sdk/src/character/linear_layer.h"
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/shadow_kernels_rest.h"
+#include "sdk/src/character/sphere_groups.h"
 #include "sdk/src/core/ref.h"
 
 namespace nook {
@@ -25,12 +26,16 @@ struct LoadedModel : RefCounted {
   const RestSpheres rest_spheres;
   const RestKeyPoints rest_key_points;
   const LinearLayer linear;
+  const SphereGroups groups;         // of the spheres of full detail
   const Vector<LoadedLevel> levels;  // those of model.levels; full detail is not among them
 
   // The file vertices that take the AO of slot s of the linear layer are
   // slot_file_vertex[slot_begin[s]...slot_begin[s + 1]].
   AlignedArray<std::uint32_t> slot_begin;
   AlignedArray<std::uint32_t> slot_file_vertex;
+  // The slot of each entry of slot_file_vertex, from the first of its slot_chunk on.
+  static constexpr std::uint32_t slot_chunk = 256;
+  AlignedArray<std::uint8_t> slot_in_chunk;
   AlignedArray<float>
       open_without_bias;  // 1 per slot, in place of LinearView::open_bias where self-shadow is switched off
 

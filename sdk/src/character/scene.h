@@ -40,7 +40,7 @@ struct SphereLanes {
   std::uint32_t count = 0;
 };
 
-inline constexpr std::size_t sphere_lanes = 4, point_lanes = 17;  // pointers of the next two
+inline constexpr std::size_t sphere_lanes = 4, group_lanes = 5, point_lanes = 17;  // pointers of a struct
 
 // Key points in world space, each array padded_count long. Padding holds finite numbers. Pointers are into
 // InstanceArrays::storage.
@@ -60,6 +60,7 @@ struct PointLanes {
 
 struct InstanceArrays {
   SphereLanes spheres;  // full detail
+  std::array<GroupLanes, group_tiers> groups;
   std::array<SphereLanes, CharacterModel::max_levels> coarse_spheres;
   // At a coarser level the position and normal lanes hold the evaluated key points only; shadow and added are
   // always complete.
@@ -113,9 +114,11 @@ struct InstancePlan {
 // The results of an evaluation on the CPU.
 struct InstanceResult {
   InstanceArrays arrays;
-  std::uint64_t transformed_revision = 0;  // InstanceInput::pose_revision of the spheres in `arrays`
-  std::uint64_t evaluated_frame = 0;       // Scene::frame of the last evaluation; 0: never
-  std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
+  std::uint64_t transformed_revision = 0;          // InstanceInput::pose_revision of the spheres in `arrays`
+  std::uint64_t grouped_revision = 0;              // that of the groups
+  std::array<float, group_tiers> group_moments{};  // merge_groups of each tier, and of those before
+  std::uint64_t evaluated_frame = 0;               // Scene::frame of the last evaluation; 0: never
+  std::uint64_t evaluations = 0;                   // sphere-key-point pairs of the last evaluation
 };
 
 // The world casters of an instance in its pose (world_casters.h).
@@ -154,6 +157,7 @@ struct SceneSettings {
   nook_combine combine = NOOK_COMBINE_COMPOSED;
   nook_isa isa = NOOK_ISA_AUTO;
   float cutoff_error = 1.0f / 1024;  // AO
+  float far_error = 1.0f / 1024;     // AO, rms
   float lod_error = 0;               // AO, rms at lod_distance
   float lod_distance = 10;           // metres
   std::uint32_t lod_max_interval = 1;
@@ -250,6 +254,8 @@ class HasResult {
 void resolve_casters(Scene& scene, HasResult has_result) noexcept;
 // Computes the world-space spheres of an instance at all levels, which it and its receivers need.
 void transform_spheres(const Scene& scene, Instance& instance) noexcept;
+// Merges the spheres of an instance that may darken others into groups, unless settings.far_error is 0.
+void group_spheres(const Scene& scene, Instance& instance) noexcept;
 // Computes the world-space key points of an instance that is due, at its level.
 void transform_key_points(const Scene& scene, Instance& instance) noexcept;
 // Computes shadow and added occlusion at the key points of an instance that is due, and their colours if it

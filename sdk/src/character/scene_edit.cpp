@@ -131,6 +131,11 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory) {
     size += sphere_lanes * padded_count(arrays.coarse_spheres[l].count);
   }
 
+  for (std::uint32_t t = 0; t < group_tiers; ++t) {
+    arrays.groups[t].count = model.groups.tier(t).count();
+    size += group_lanes * padded_count(arrays.groups[t].count);
+  }
+
   arrays.storage = AlignedArray<float>(size, memory);
   float* at = arrays.storage.data();
   const auto take = [&](float** lane, std::size_t count) {
@@ -143,6 +148,9 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory) {
   };
   take_spheres(arrays.spheres);
   for (std::size_t l = 0; l < model.levels.size(); ++l) take_spheres(arrays.coarse_spheres[l]);
+  for (GroupLanes& groups : arrays.groups)
+    for (float** lane : {&groups.x, &groups.y, &groups.z, &groups.inverse_radius, &groups.caster_weight})
+      take(lane, padded_count(groups.count));
   for (float** lane : of_points) take(lane, points.padded_count);
   return arrays;
 }

@@ -16,7 +16,7 @@ void evaluate_composed(const Scene& scene, const Instance& instance, const Point
   std::fill_n(points.optical_depth, points.padded_count, 0.0f);
   std::fill_n(points.open, points.padded_count, 1.0f);
   for (const std::uint32_t caster : instance.plan.casters)
-    scene.kernels->composed_depth(spheres_of(scene.instances[caster], instance.plan.level), surface,
+    scene.kernels->composed_depth(caster_spheres(scene, instance, scene.instances[caster]), surface,
                                   points.optical_depth);
   for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
     scene.kernels->exact_open(spheres, surface, points.open);
@@ -41,7 +41,7 @@ std::uint64_t count_evaluations(const Scene& scene, const Instance& instance, st
       (has_self_shadow(scene, instance) ? spheres_of(instance, instance.plan.level).count : 0) +
       instance.plan.occluders.size() + (instance.plan.ground_sphere.radius > 0);
   for (const std::uint32_t caster : instance.plan.casters)
-    spheres += spheres_of(scene.instances[caster], instance.plan.level).count;
+    spheres += caster_spheres(scene, instance, scene.instances[caster]).count;
   return spheres * points;
 }
 
@@ -67,6 +67,22 @@ void transform_spheres(const Scene& scene, Instance& instance) noexcept {
   for (std::size_t l = 0; l < instance.model->levels.size(); ++l)
     transform(instance.model->levels[l].rest_spheres, instance.result.arrays.coarse_spheres[l]);
   instance.result.transformed_revision = instance.input.pose_revision;
+}
+
+// The paper's form takes the spheres, because its norm is no sum.
+void group_spheres(const Scene& scene, Instance& instance) noexcept {
+  const bool may_darken = scene.nearest > 0 || !instance.input.receivers.empty();
+  if (!may_darken || !(scene.settings.far_error > 0) || scene.settings.combine != NOOK_COMBINE_COMPOSED)
+    return;
+  if (instance.result.grouped_revision == instance.input.pose_revision) return;
+  SphereSoa parts = spheres_of(instance, 0);
+  float moments = 0;
+  for (std::uint32_t t = 0; t < group_tiers; ++t) {
+    const GroupLanes& groups = instance.result.arrays.groups[t];
+    instance.result.group_moments[t] = moments += merge_groups(instance.model->groups.tier(t), parts, groups);
+    parts = {groups.x, groups.y, groups.z, groups.inverse_radius, groups.caster_weight, groups.count};
+  }
+  instance.result.grouped_revision = instance.input.pose_revision;
 }
 
 void transform_key_points(const Scene& scene, Instance& instance) noexcept {
@@ -111,6 +127,7 @@ void update(Scene& scene) noexcept {
     Instance& instance = scene.instances[slot];
     if (instance.id == 0) return;
     transform_spheres(scene, instance);
+    group_spheres(scene, instance);
     if (instance.plan.due) transform_key_points(scene, instance);
   };
   parallel_for(scene.parallel, slots, transform);
@@ -143,7 +160,8 @@ Self self_of(const Scene& scene, const Instance& instance) {
   return instance.input.clip.is_used() ? Self::clip : Self::shadow;
 }
 
-constexpr std::uint32_t chunk_blocks = 16, chunk_slots = chunk_blocks * linear_block_vertices;
+constexpr std::uint32_t chunk_slots = LoadedModel::slot_chunk,
+                        chunk_blocks = chunk_slots / linear_block_vertices;
 static_assert(LoadedClips::block_slots % chunk_slots == 0);
 using ChunkAo = std::array<float, chunk_slots>;
 
@@ -161,9 +179,9 @@ void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out
                            view.blend,          open_bias + first_slot};
     evaluate(chunk, first_slot);
     const std::uint32_t end = first_slot + chunk.block_count * linear_block_vertices;
-    for (std::uint32_t slot = first_slot; slot < end; ++slot)
-      for (std::uint32_t i = loaded.slot_begin[slot]; i < loaded.slot_begin[slot + 1]; ++i)
-        put(bytes + loaded.slot_file_vertex[i] * stride_bytes, slot - first_slot);
+    const std::uint32_t last = loaded.slot_begin[end];
+    for (std::uint32_t i = loaded.slot_begin[first_slot]; i < last; ++i)
+      put(bytes + loaded.slot_file_vertex[i] * stride_bytes, loaded.slot_in_chunk[i]);
   }
 }
 

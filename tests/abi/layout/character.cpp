@@ -13,7 +13,7 @@ NOOK_AT(nook_character_model_info, lod_count, 28);
 NOOK_AT(nook_character_model_info, bounding_radius, 32);
 NOOK_AT(nook_character_model_info, gamma, 36);
 
-NOOK_SIZE(nook_scene_desc, 48);
+NOOK_SIZE(nook_scene_desc, 56);
 NOOK_AT(nook_scene_desc, struct_size, 0);
 NOOK_AT(nook_scene_desc, header_version, 4);
 NOOK_AT(nook_scene_desc, next, 8);
@@ -25,6 +25,8 @@ NOOK_AT(nook_scene_desc, lod_distance, 32);
 NOOK_AT(nook_scene_desc, lod_max_interval, 36);
 NOOK_AT(nook_scene_desc, ground_radius, 40);
 NOOK_AT(nook_scene_desc, strict_poses, 44);
+NOOK_AT(nook_scene_desc, far_error, 48);
+NOOK_AT(nook_scene_desc, reserved, 52);
 
 NOOK_SIZE(nook_scene_stats, 32);
 NOOK_AT(nook_scene_stats, instances, 4);

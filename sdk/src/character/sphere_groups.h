@@ -1,0 +1,65 @@
+// The spheres of a caster as a few, for receivers at a distance.
+//
+// A far sphere darkens by weight * radius^2 * cos / d^2, the field of a charge of `mass` = weight * radius^2,
+// so that spheres which are close to each other, seen from the receiver, act like one of the sum of their
+// masses at its centre. The field is that of a dipole and harmonic: what a group changes is of second order
+// in its extent, and vanishes for an extent that is even in all directions.
+#pragma once
+
+#include <cstdint>
+
+#include "sdk/src/character/model.h"
+#include "sdk/src/character/shadow_kernels.h"
+#include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/memory.h"
+
+namespace nook {
+
+inline constexpr std::uint32_t group_tiers = 3;
+// Tier 0 is the finest. A group of a tier is made of whole groups of the tier before.
+inline constexpr std::uint32_t tier_groups[group_tiers] = {16, 6, 2};
+
+// Which spheres of a model form groups; it does not depend on the pose.
+class SphereGroups {
+ public:
+  // Splits the spheres in the rest pose: always the group of the largest moment, at its centre and across the
+  // axis along which it is longest.
+  explicit SphereGroups(const CharacterModel& model, Memory* memory = default_memory());
+
+  // Group g of tier t is made of member[first[g]...first[g + 1]]: spheres for t = 0, otherwise groups of tier
+  // t - 1.
+  struct Tier {
+    AlignedArray<std::uint32_t> first, member;
+    std::uint32_t count() const {
+      return first.size() == 0 ? 0 : static_cast<std::uint32_t>(first.size() - 1);
+    }
+  };
+  const Tier& tier(std::uint32_t t) const { return tiers_[t]; }
+
+ private:
+  Tier tiers_[group_tiers];
+};
+
+// The groups of a tier in a pose, as spheres. Each array has tier_groups entries, padded to simd_width.
+struct GroupLanes {
+  float *x = nullptr, *y = nullptr, *z = nullptr;
+  float* inverse_radius = nullptr;  // per metre
+  float* caster_weight = nullptr;
+  std::uint32_t count = 0;
+};
+
+// Merges `parts`, the spheres of a pose or the groups of the tier before, into the groups of a tier. A group
+// has the mass and the centre of its parts, and a radius that has their spread: that of a disc is a quarter
+// of its squared radius along each axis. Returns the sum over groups of mass * (squared extent round the
+// centre), in metres^4. The pose decides it, so that a group whose parts have moved apart counts as large.
+float merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const GroupLanes& out);
+
+// Returns the change of AO, root mean square over a receiver, by groups of a moment at a distance between the
+// two bodies. The largest second derivative of cos / d^2 is 6 / d^4; half of the receiver faces away, and the
+// mean square of cos over the other half is 1/3, so that half of 6 * moment / d^4 becomes 1.2 * moment / d^4.
+inline float group_error(float moment_m4, float distance_m) {
+  const float squared = distance_m * distance_m;
+  return 1.2f * moment_m4 / (squared * squared);
+}
+
+}  // namespace nook
