@@ -3,6 +3,7 @@
 
 #include "bakers/api/entry.h"
 #include "bakers/api/handles.h"
+#include "bakers/job/character_model.h"
 #include "bakers/job/clip_bake.h"
 #include "bakers/job/job_progress.h"
 #include "sdk/src/core/descriptors.h"

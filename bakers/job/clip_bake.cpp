@@ -7,26 +7,12 @@
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/clip_file.h"
-#include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void require_same_character(const CharacterModel& model, const SkinnedMesh& mesh) {
-  bool is_same = model.bone_count() == mesh.bones.size() && model.vertex_count() == mesh.vertex_count() &&
-                 std::equal(model.file_to_welded.begin(), model.file_to_welded.end(),
-                            mesh.file_to_welded.begin(), mesh.file_to_welded.end());
-  for (std::size_t b = 0; is_same && b < mesh.bones.size(); ++b)
-    is_same = mesh.bones[b].name == std::string_view(model.bone_names[b]);
-  if (!is_same)
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the model is that of another character (got %zu vertices and %zu bones, need %zu and %zu "
-                  "in the same order); bake the character first",
-                  model.vertex_count(), model.bone_count(), mesh.vertex_count(), mesh.bones.size());
-}
 
 // A NaN is out of every range; the lower bounds have room for the rounding of 0.1f and 1e-4f.
 void require_between(const char* name, double value, double low, double high) {
@@ -82,12 +68,6 @@ ClipTask clip_task_of(const nook_bake_clips_desc& desc) {
     task.clips.emplace_back(desc.clip_names[i]);
   }
   return task;
-}
-
-CharacterModel model_of_character(std::span<const std::byte> bytes, const ImportedCharacter& character) {
-  CharacterModel model = read_character_model(bytes);
-  require_same_character(model, character.mesh);
-  return model;
 }
 
 ClipFrames frames_of(const ImportedCharacter& character, const ClipTask& task) {

@@ -28,10 +28,6 @@ std::vector<std::size_t> chosen_clips(const ImportedCharacter& character, std::s
 // Throws Failure(INVALID_ARGUMENT) for a number out of its range or a NULL name.
 ClipTask clip_task_of(const nook_bake_clips_desc& desc);
 
-// Reads the character's baked model. Throws Failure: BAD_FILE (no model, or that of another character),
-// FILE_VERSION.
-CharacterModel model_of_character(std::span<const std::byte> bytes, const ImportedCharacter& character);
-
 // The frames of the task's clips. Throws what chosen_clips throws, and Failure(INVALID_ARGUMENT) for too many
 // frames.
 ClipFrames frames_of(const ImportedCharacter& character, const ClipTask& task);

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bakers/job/bent_bake.h"
+#include "bakers/job/character_model.h"
 #include "bakers/tool/baking.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/input_file.h"
@@ -21,10 +22,10 @@ struct Options {
   bake::BentTask task;
 };
 
-bake::BakedFile bake(const Options& o, const std::vector<std::byte>& model,
-                     const bake::ImportedCharacter& character) {
+bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character) {
+  CharacterModel model = bake::model_of_character(read_file(o.model), character);
   platform::ProgressBar bar(o.common.quiet);
-  return bake::bake_bent_file(character, model, o.task,
+  return bake::bake_bent_file(character, std::move(model), o.task,
                               [&](nook_bake_stage, std::size_t done, std::size_t total) {
                                 bar.show("ray tracing", "poses", done, total);
                                 return !interrupted();
@@ -34,14 +35,13 @@ bake::BakedFile bake(const Options& o, const std::vector<std::byte>& model,
 void run(Options o) {
   o.task.seed = o.common.seed;
   run_bake(o.common, o.output, {{{"the character", o.input}, {"the model", o.model}}, {}, {}}, [&] {
-    const std::vector<std::byte> model = read_file(o.model);
     const bake::ImportedCharacter character =
         naming_file(o.input, [&] { return bake::import_gltf(o.input, o.linked); });
     if (!o.common.quiet)
       for (const std::string& warning : character.warnings)
         std::fprintf(stderr, "%s: %s\n", platform::printable(o.input.string()).c_str(),
                      platform::printable_lines(warning).c_str());
-    return naming_file(o.model, [&] { return bake(o, model, character); });
+    return naming_file(o.model, [&] { return bake(o, character); });
   });
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bakers/job/character_model.h"
 #include "bakers/job/clip_bake.h"
 #include "bakers/job/worker_arena.h"
 #include "bakers/tool/character/clip_names.h"

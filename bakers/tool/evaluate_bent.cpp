@@ -1,11 +1,13 @@
 // nook evaluate bent: bent normals of a character, and what they do for glossy reflections.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bakers/measure/character/bent_study.h"
 #include "bakers/measure/character/evaluated_poses.h"
+#include "bakers/measure/character/glossy_picture.h"
 #include "bakers/measure/character/report.h"
 #include "bakers/tool/character/clip_names.h"
 #include "bakers/tool/character/evaluated_files.h"
@@ -30,7 +32,24 @@ struct Options {
   measure::PoseChoice poses;
   measure::BentStudy study;
   std::vector<std::filesystem::path> maps;
+  std::filesystem::path images;
+  std::size_t image_count = 2;
+  float image_roughness = 0.3f;
 };
+
+// Under the first map, of poses that are evenly picked.
+void draw(const Options& options, const measure::BakedCharacter& baked, const std::vector<bake::Pose>& poses,
+          const measure::GlossyMap& map) {
+  measure::GlossyPictureSettings settings;
+  settings.roughness = options.image_roughness;
+  settings.seed = options.common.seed;
+  const std::size_t count = std::min(options.image_count, poses.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const bake::Pose& pose = poses[(2 * i + 1) * poses.size() / (2 * count)];
+    bake::write_png(options.images / ("glossy_" + std::to_string(i) + ".png"),
+                    measure::glossy_picture(baked.character.mesh, baked.model, pose, map, settings));
+  }
+}
 
 Json evaluate(const Options& options) {
   const measure::BakedCharacter baked = read_evaluated_files(options.files);
@@ -52,6 +71,7 @@ Json evaluate(const Options& options) {
                                         bar.show("ray tracing", "poses", done, total);
                                         return !interrupted();
                                       });
+  if (!options.images.empty()) draw(options, baked, measured.poses, maps.front());
   report["protocol"] = measured.protocol;
   report["clips"] = measured.clips;
   report["rays"] = study.rays;
@@ -70,9 +90,10 @@ void add_evaluate_bent(CLI::App& evaluate_command) {
   Options& o = *options;
   o.poses.most = 24;
   add_evaluated_files(*command, o.files);
-  command->add_option("--maps", o.maps, "latitude-longitude maps to be glossy under, at most 8")
-      ->delimiter(',')
-      ->expected(1, int(bake::max_glossy_maps));
+  CLI::Option* const maps =
+      command->add_option("--maps", o.maps, "latitude-longitude maps to be glossy under, at most 8")
+          ->delimiter(',')
+          ->expected(1, int(bake::max_glossy_maps));
   command->add_option("--clips", o.poses.clips, "measure only these clips")->delimiter(',');
   command->add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
       ->check(CLI::Range(1, 100000))
@@ -86,11 +107,22 @@ void add_evaluate_bent(CLI::App& evaluate_command) {
   command->add_option("--rays", o.study.rays, "rays for the AO of a vertex; a reflection takes a quarter")
       ->check(CLI::Range(8, 65536))
       ->capture_default_str();
+  command
+      ->add_option("--images", o.images,
+                   "draw the body as a glossy mirror under the first map, not occluded, by S. Lagarde's "
+                   "form, by bent normals and path traced: PNG files in this directory")
+      ->needs(maps);
+  command->add_option("--image-count", o.image_count, "poses to draw")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--image-roughness", o.image_roughness, "perceptual roughness of the drawn body")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
   add_common_options(*command, o.common);
   command->callback([options] {
     std::vector<NamedFile> read = named_files(options->files);
     for (const std::filesystem::path& map : options->maps) read.push_back({"a map", map});
-    run_evaluation(options->common, {read, {}, {}}, [&] { return evaluate(*options); });
+    run_evaluation(options->common, {read, {}, options->images}, [&] { return evaluate(*options); });
   });
 }
 

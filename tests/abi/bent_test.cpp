@@ -57,6 +57,10 @@ constexpr Mat3x4 turn_90{{0, 0, 1, 5, 0, 1, 0, 0, -1, 0, 0, 2}};  // about y, an
 
 }  // namespace
 
+std::vector<std::byte> nook_test_bent_model_bytes() {
+  return write_character_model(bent_model());
+}
+
 TEST_CASE("bent normals turn with the pose and hold the AO of the update") {
   const CharacterModel model = bent_model();
   const BentStage stage(model);

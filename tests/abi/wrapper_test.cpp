@@ -16,6 +16,7 @@
 std::vector<std::byte> nook_test_model_bytes();
 std::vector<std::byte> nook_test_material_bytes();
 std::vector<std::byte> nook_test_clips_bytes();
+std::vector<std::byte> nook_test_bent_model_bytes();
 
 namespace {
 
@@ -60,6 +61,24 @@ TEST_CASE("the C++ wrapper owns, moves and throws") {
     CHECK(error.result() == NOOK_ERROR_INVALID_HANDLE);
     CHECK(std::string(error.what()).find("999") != std::string::npos);
   }
+}
+
+TEST_CASE("the C++ wrapper reads bent normals as the C functions do") {
+  const std::vector<std::byte> bytes = nook_test_bent_model_bytes();
+  const nook::Context context;
+  const nook::CharacterModel model(context, bytes.data(), bytes.size());
+  const std::uint32_t count = model.info().file_vertex_count;
+  std::vector<std::int8_t> blocked(std::size_t{8} * count), normals(std::size_t{4} * count);
+  REQUIRE(nook_character_model_blocked_vectors(model.get(), blocked.data(), count, 0) == NOOK_OK);
+  CHECK(model.blocked_vectors() == blocked);
+  nook::Scene scene(context);
+  const nook_instance_id id = scene.add_instance(model);
+  scene.update();
+  REQUIRE(nook_scene_read_bent_normals(scene.get(), id, normals.data(), count, 0) == NOOK_OK);
+  std::vector<std::int8_t> wrapped(normals.size());
+  scene.read_bent_normals(id, wrapped.data(), count);
+  CHECK(wrapped == normals);
+  CHECK(normals != std::vector<std::int8_t>(normals.size()));
 }
 
 TEST_CASE("the C++ wrapper starts a running average from another") {

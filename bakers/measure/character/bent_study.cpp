@@ -8,8 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/import/skinning.h"
-#include "bakers/measure/character/evaluate.h"
+#include "bakers/measure/character/bent_body.h"
 #include "bakers/measure/character/specular_numbers.h"
 #include "bakers/nnao/specular_fit.h"
 #include "bakers/raytrace/random.h"
@@ -45,25 +44,6 @@ struct Point {
   std::array<bake::GlossyLight, 2> light[roughness.size()];
 };
 
-struct PosedBody {
-  std::vector<Vec3> position, normal;
-};
-
-PosedBody posed(const bake::SkinnedMesh& mesh, const bake::Pose& pose) {
-  PosedBody body;
-  bake::skin_positions(mesh, pose, body.position);
-  bake::vertex_normals(mesh.triangle, body.position, body.normal);
-  return body;
-}
-
-// The vector as a host's vertex shader turns it.
-Vec3 skinned(const bake::SkinWeights& weights, const bake::Pose& pose, Vec3 v) {
-  Vec3 sum;
-  for (int b = 0; b < bake::SkinWeights::max_bones; ++b)
-    if (weights.weight[b] > 0) sum += weights.weight[b] * transform_vector(pose[weights.bone[b]], v);
-  return sum;
-}
-
 // A direction above the surface from which the vertex is seen, uniform over the hemisphere; zero if some
 // tries find none.
 Vec3 find_viewer(const bake::RayScene& scene, Vec3 origin, Vec3 normal, bake::Random& random) {
@@ -79,13 +59,11 @@ Vec3 find_viewer(const bake::RayScene& scene, Vec3 origin, Vec3 normal, bake::Ra
   return {};
 }
 
-std::vector<Point> measure_pose(const bake::SkinnedMesh& mesh, const CharacterModel& model,
-                                const bake::Pose& pose, std::span<const bake::Environment> maps,
-                                const BentStudy& study, std::uint64_t seed) {
-  const PosedBody body = posed(mesh, pose);
+std::vector<Point> measure_pose(const bake::SkinnedMesh& mesh, const BentBody& body,
+                                std::span<const bake::Environment> maps, const BentStudy& study,
+                                std::uint64_t seed) {
   const bake::RayScene scene(bake::TriangleSoup{body.position, mesh.triangle});
   const float offset = bake::ray_origin_offset(mesh.position);
-  const std::vector<float> model_ao = bake::predict_ao(model, pose);
   std::vector<Point> points(study.points);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 16), [&](const auto& range) {
     const bake::FlushDenormals flush;
@@ -122,9 +100,8 @@ std::vector<Point> measure_pose(const bake::SkinnedMesh& mesh, const CharacterMo
     const std::size_t v = point.vertex;
     point.traced_ao = open.ao[i];
     point.traced_bent = length(open.direction[i]) > 0 ? normalised(open.direction[i]) : Vec3{};
-    point.said[plain_normal] = {model_ao[v], normal[i]};
-    point.said[nook_bent] = {model_ao[v], bent_normal(normal[i], skinned(mesh.weights[v], pose,
-                                                                         model.blocked[v].at(model_ao[v])))};
+    point.said[plain_normal] = {body.ao[v], normal[i]};
+    point.said[nook_bent] = {body.ao[v], body.bent[v]};
     point.said[reference] = {point.traced_ao, point.traced_bent == Vec3{} ? normal[i] : point.traced_bent};
   }
   return points;
@@ -164,28 +141,14 @@ template <class Visit>
 void for_each_point(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                     std::span<const bake::Pose> poses, std::span<const bake::Environment> maps,
                     const BentStudy& study, const bake::Progress& progress, Visit&& visit) {
-  if (model.blocked.empty())
-    throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the model was baked without bent normals; add them with `nook bake bent`");
   for (std::size_t p = 0; p < poses.size(); ++p) {
-    const PosedBody body = posed(mesh, poses[p]);
-    for (const Point& point :
-         measure_pose(mesh, model, poses[p], maps, study, bake::mix_bits(study.seed + p)))
+    const BentBody body = bent_body(mesh, model, poses[p]);
+    for (const Point& point : measure_pose(mesh, body, maps, study, bake::mix_bits(study.seed + p)))
       visit(point, body.normal[point.vertex]);
     if (progress && !progress(p + 1, poses.size()))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu poses done)", p + 1,
                     poses.size());
   }
-}
-
-double mean_radiance(const bake::Environment& map) {
-  double sum = 0;
-  for (std::uint32_t row = 0; row < map.height(); ++row)
-    for (std::uint32_t column = 0; column < map.width(); ++column) {
-      const Vec3 texel = map.texel(std::size_t(row) * map.width() + column);
-      sum += map.solid_angle(row) * (double(texel.x) + double(texel.y) + double(texel.z)) / 3;
-    }
-  return sum / (4 * std::numbers::pi);
 }
 
 double quantile(std::vector<double>& values, double share) {
@@ -267,6 +230,16 @@ std::vector<bake::nnao::SpecularSample> bent_samples(const bake::SkinnedMesh& me
     }
   });
   return samples;
+}
+
+double mean_radiance(const bake::Environment& map) {
+  double sum = 0;
+  for (std::uint32_t row = 0; row < map.height(); ++row)
+    for (std::uint32_t column = 0; column < map.width(); ++column) {
+      const Vec3 texel = map.texel(std::size_t(row) * map.width() + column);
+      sum += map.solid_angle(row) * (double(texel.x) + double(texel.y) + double(texel.z)) / 3;
+    }
+  return sum / (4 * std::numbers::pi);
 }
 
 bake::Environment coarse_map(const bake::Environment& with_suns, std::uint32_t width) {

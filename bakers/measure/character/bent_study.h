@@ -48,6 +48,9 @@ std::vector<bake::nnao::SpecularSample> bent_samples(const bake::SkinnedMesh& me
                                                      const BentStudy& study,
                                                      const bake::Progress& progress = {});
 
+// Returns the mean over all directions and channels.
+double mean_radiance(const bake::Environment& map);
+
 // A map of a few texels without its suns: each is the mean of those that it covers.
 bake::Environment coarse_map(const bake::Environment& with_suns, std::uint32_t width);
 

@@ -27,12 +27,13 @@ Row describe_character(std::span<const std::byte> bytes) {
   row["spheres"] = model.spheres.size();
   row["key_points"] = model.key_points.size();
   row["world_casters"] = model.world_casters.size();
+  row["bent_normals"] = !model.blocked.empty();
   row["influences"] = model.influences;
   row["kernel"] = kernel_names[std::size_t(model.kernel.form)];
   row["gamma"] = model.kernel.gamma;
   row["bounding_radius_m"] = model.bounding_radius;
   for (const char* name : {"HEAD", "BONE", "SPHR", "KEYP", "LINR", "STAO", "FMAP", "PRIM", "LODS", "BIND",
-                           "REST", "WCAS", "RECP"}) {
+                           "REST", "WCAS", "BENT", "RECP"}) {
     const char letters[5] = {name[0], name[1], name[2], name[3], 0};
     row[std::string("bytes_") + name] = container.has(letters) ? container.section(letters).remaining() : 0;
   }

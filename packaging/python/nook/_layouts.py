@@ -324,6 +324,8 @@ class nook_scene_desc(ctypes.Structure):
         ("lod_max_interval", ctypes.c_uint32),
         ("ground_radius", ctypes.c_float),
         ("strict_poses", ctypes.c_uint32),
+        ("far_error", ctypes.c_float),
+        ("reserved", ctypes.c_uint32),
     ]
 
 

@@ -55,6 +55,12 @@ class CharacterModel : public Unique<nook_character_model, nook_character_model_
     check(nook_character_model_static_ao(get(), ao.data(), static_cast<std::uint32_t>(ao.size())));
     return ao;
   }
+  // Eight signed bytes for each vertex, as nook_character_model_blocked_vectors has them.
+  std::vector<std::int8_t> blocked_vectors() const {
+    std::vector<std::int8_t> bytes(std::size_t{8} * info().file_vertex_count);
+    check(nook_character_model_blocked_vectors(get(), bytes.data(), info().file_vertex_count, 0));
+    return bytes;
+  }
   // The transform of each bone, -1 where no name matches.
   std::vector<std::int32_t> map_bones(const std::vector<const char*>& names, std::uint32_t flags = 0) const {
     nook_bone_names rules{};
@@ -152,6 +158,11 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
   void update() { check(nook_scene_update(get())); }
   void read_ao(nook_instance_id id, float* out, std::uint32_t count, std::size_t stride = 0) const {
     check(nook_scene_read_ao(get(), id, out, count, stride));
+  }
+  // Writes four signed bytes for each vertex.
+  void read_bent_normals(nook_instance_id id, std::int8_t* out, std::uint32_t count,
+                         std::size_t stride = 0) const {
+    check(nook_scene_read_bent_normals(get(), id, out, count, stride));
   }
   void set_light(nook_instance_id id, const nook_probe_lobe* lobes, std::uint32_t lobe_count) {
     check(nook_scene_set_light(get(), id, lobes, lobe_count));

@@ -226,7 +226,7 @@ static int call_synthesis_functions(void) {
   return wrong + (job != NULL);
 }
 
-/* The same holds for clips. */
+/* The same holds for clips and bent normals. */
 static int call_clips_functions(nook_bake_character character) {
   static const char bytes[40] = {0};
   nook_bake_clips_desc desc;
@@ -235,6 +235,17 @@ static int call_clips_functions(nook_bake_character character) {
   desc.model = bytes;
   desc.model_size = sizeof bytes;
   wrong += nook_bake_clips_start(character, &desc, &job) != NOOK_ERROR_BAD_FILE;
+  return wrong + (job != NULL);
+}
+
+static int call_bent_functions(nook_bake_character character) {
+  static const char bytes[40] = {0};
+  nook_bake_bent_desc desc;
+  nook_bake_job job = NULL;
+  int wrong = nook_bake_bent_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  desc.model = bytes;
+  desc.model_size = sizeof bytes;
+  wrong += nook_bake_bent_start(character, &desc, &job) != NOOK_ERROR_BAD_FILE;
   return wrong + (job != NULL);
 }
 
@@ -254,6 +265,7 @@ int call_every_function(void) {
   wrong += call_character_functions(character);
   wrong += call_job_functions(character);
   wrong += call_clips_functions(character);
+  wrong += call_bent_functions(character);
   wrong += call_trace_functions(&t);
   wrong += call_irradiance_functions(&t);
   wrong += call_material_functions();

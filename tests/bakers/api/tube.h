@@ -3,6 +3,7 @@
 #ifndef NOOK_TESTS_TUBE_H
 #define NOOK_TESTS_TUBE_H
 
+#include <nook/nook_bake_bent.h>
 #include <nook/nook_bake_character.h>
 #include <nook/nook_bake_clips.h>
 #include <nook/nook_bake_material.h>

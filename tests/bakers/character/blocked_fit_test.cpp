@@ -2,59 +2,16 @@
 #include "bakers/character/blocked_fit.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/character/bending_tube.h"
+#include "tests/bakers/character/patch_and_sphere.h"
 #include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;
 
 namespace {
-
-// A small triangle at the origin that faces +z, and a sphere, all on one bone. Vertices 0 to 2 are the
-// triangle's.
-SkinnedMesh triangle_and_sphere(Vec3 centre, float radius) {
-  SkinnedMesh mesh;
-  mesh.bones.resize(1);
-  mesh.bones[0].name = "root";
-  const auto add = [&](Vec3 p) {
-    mesh.position.push_back(p);
-    SkinWeights weights;
-    weights.weight[0] = 1;
-    mesh.weights.push_back(weights);
-    return std::uint32_t(mesh.position.size() - 1);
-  };
-  constexpr float size = 1e-3f;
-  add({size, 0, 0});
-  add({-size, size, 0});
-  add({-size, -size, 0});
-  mesh.triangle.push_back({0, 1, 2});
-  constexpr int rings = 24, segments = 48;
-  for (int r = 0; r <= rings; ++r)
-    for (int s = 0; s < segments; ++s) {
-      const float a = std::numbers::pi_v<float> * float(r) / rings,
-                  b = 2 * std::numbers::pi_v<float> * float(s) / segments;
-      add(centre + radius * Vec3{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)});
-    }
-  const auto at = [](int r, int s) { return std::uint32_t(3 + r * segments + s % segments); };
-  for (int r = 0; r < rings; ++r)
-    for (int s = 0; s < segments; ++s) {
-      mesh.triangle.push_back({at(r, s), at(r + 1, s), at(r + 1, s + 1)});
-      mesh.triangle.push_back({at(r, s), at(r + 1, s + 1), at(r, s + 1)});
-    }
-  return mesh;
-}
-
-// The mean under cos / pi of the directions inside the cone of a sphere that is wholly above the horizon: the
-// integral of w w^T over a cone round d with t = cos(half angle) is pi (2/3 - t + t^3 / 3) across d and
-// 2 pi (1 - t^3) / 3 along it.
-Vec3 blocked_by_sphere(Vec3 centre, float radius, Vec3 normal) {
-  const Vec3 d = normalised(centre);
-  const float s = radius / length(centre), t = std::sqrt(1 - s * s), along = dot(normal, d);
-  return (2.0f / 3 - t + t * t * t / 3) * (normal - along * d) + (2.0f / 3 * (1 - t * t * t) * along) * d;
-}
 
 constexpr Mat3x4 turned{{0, 0, 1, 3, 1, 0, 0, -2, 0, 1, 0, 1}};
 
@@ -63,15 +20,14 @@ constexpr Mat3x4 turned{{0, 0, 1, 3, 1, 0, 0, -2, 0, 1, 0, 1}};
 TEST_CASE("a sphere over a point blocks the vector of its closed form, in any pose") {
   for (const Vec3 centre : {Vec3{0, 0, 2}, Vec3{1.5f, 0, 1.5f}, Vec3{-0.6f, 1.2f, 1}}) {
     const float radius = 0.8f;
-    const SkinnedMesh mesh = triangle_and_sphere(centre, radius);
+    const SkinnedMesh mesh = patch_and_sphere(centre, radius);
     const Vec3 want = blocked_by_sphere(centre, radius, {0, 0, 1});
     for (const Mat3x4& bone : {Mat3x4{}, turned}) {
       const BlockedSample sample = trace_blocked(mesh, {bone}, {4096, 3});
       // Stratified rays: the error is some tenths of 1 / sqrt(rays), and the polyhedron covers 0.5 % too
       // little.
       CHECK(length(sample.blocked[0] - want) < 6e-3f);
-      CHECK(std::abs(sample.ao[0] - (1 - radius * radius / dot(centre, centre) * normalised(centre).z)) <
-            6e-3f);
+      CHECK(std::abs(sample.ao[0] - ao_under_sphere(centre, radius, {0, 0, 1})) < 6e-3f);
     }
   }
 }

@@ -1,0 +1,40 @@
+// A tube with clips, and its model from a bake of a second.
+#pragma once
+
+#include <string>
+
+#include "tests/bakers/api/handles.h"
+#include "tests/bakers/tool/glb_tube.h"
+#include "tests/catch.h"
+
+inline Character tube_with_clips() {
+  const std::string glb = glb_tube({"bend", "T-pose", "wave"});
+  nook_bake_character character = nullptr;
+  REQUIRE(nook_bake_import_gltf_bytes(glb.data(), glb.size(), &character) == NOOK_OK);
+  return Character(character);
+}
+
+inline std::string bytes_of(nook_bake_job job) {
+  INFO(nook_bake_last_message());
+  REQUIRE(nook_bake_job_wait(job) == NOOK_OK);
+  const void* bytes = nullptr;
+  std::size_t size = 0;
+  REQUIRE(nook_bake_job_model(job, &bytes, &size) == NOOK_OK);
+  return {static_cast<const char*>(bytes), size};
+}
+
+inline std::string model_of(const Character& character) {
+  nook_bake_job_desc desc;
+  REQUIRE(nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  desc.preset = NOOK_BAKE_PRESET_DRAFT;
+  desc.pose_mode = NOOK_BAKE_POSES_AUTO;
+  desc.auto_pose_count = 40;
+  desc.spheres = 8;
+  desc.key_points = 24;
+  desc.rays = 4;
+  desc.steps = 40;
+  nook_bake_job job = nullptr;
+  REQUIRE(nook_bake_job_start(character.get(), &desc, &job) == NOOK_OK);
+  const Job owner(job);
+  return bytes_of(job);
+}

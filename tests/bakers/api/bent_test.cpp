@@ -1,0 +1,116 @@
+// Jobs of bent normals, and their models in the runtime.
+#include <nook/nook_bake_bent.h>
+#include <nook/nook_character.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/bakers/api/baked_tube.h"
+
+namespace {
+
+nook_bake_bent_desc desc_of(const std::string& model) {
+  nook_bake_bent_desc desc;
+  REQUIRE(nook_bake_bent_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  desc.model = model.data();
+  desc.model_size = model.size();
+  desc.auto_pose_count = 8;
+  desc.rays = 16;
+  return desc;
+}
+
+nook_result start_result(const Character& character, const nook_bake_bent_desc& desc) {
+  nook_bake_job job = nullptr;
+  const nook_result result = nook_bake_bent_start(character.get(), &desc, &job);
+  CHECK((job != nullptr) == (result == NOOK_OK));
+  nook_bake_job_destroy(&job);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a job of bent normals adds them to the model, the same on any number of threads") {
+  const std::string plain = model_of(tube_with_clips());
+  nook_bake_bent_desc desc = desc_of(plain);
+  std::string first;
+  for (const std::uint32_t threads : {1u, 3u}) {
+    desc.threads = threads;
+    nook_bake_job started = nullptr;
+    // The job keeps the character.
+    REQUIRE(nook_bake_bent_start(tube_with_clips().get(), &desc, &started) == NOOK_OK);
+    const Job job(started);
+    const std::string bytes = bytes_of(job.get());
+    const char* text = nullptr;
+    REQUIRE(nook_bake_job_report(job.get(), &text) == NOOK_OK);
+    const auto report = nlohmann::json::parse(text);
+    CHECK(report["model_bytes"] == bytes.size());
+    CHECK(report["bent_bytes"] == 6 * report["vertices"].get<int>());
+    if (first.empty()) first = bytes;
+    CHECK(bytes == first);
+  }
+  nook_context_desc context_desc;
+  nook_context context = nullptr;
+  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
+  for (const std::string* bytes : {&plain, static_cast<const std::string*>(&first)}) {
+    nook_character_model model = nullptr;
+    nook_character_model_info info{};
+    info.struct_size = sizeof info;
+    REQUIRE(nook_character_model_load(context, bytes->data(), bytes->size(), &model) == NOOK_OK);
+    REQUIRE(nook_character_model_describe(model, &info) == NOOK_OK);
+    std::vector<std::int8_t> blocked(8 * info.file_vertex_count);
+    CHECK(nook_character_model_blocked_vectors(model, blocked.data(), info.file_vertex_count, 0) ==
+          (bytes == &plain ? NOOK_ERROR_UNSUPPORTED : NOOK_OK));
+    nook_character_model_destroy(&model);
+  }
+  nook_context_destroy(&context);
+}
+
+TEST_CASE("a job of bent normals is cancelled by its progress function") {
+  const std::string model = model_of(tube_with_clips());
+  nook_bake_bent_desc desc = desc_of(model);
+  desc.progress = [](void*, const nook_bake_progress*) -> std::int32_t { return 0; };
+  nook_bake_job started = nullptr;
+  REQUIRE(nook_bake_bent_start(tube_with_clips().get(), &desc, &started) == NOOK_OK);
+  const Job job(started);
+  CHECK(nook_bake_job_wait(job.get()) == NOOK_ERROR_CANCELLED);
+}
+
+TEST_CASE("faults of a job of bent normals come before it starts, with their cause") {
+  const Character character = tube_with_clips();
+  const std::string model = model_of(character);
+  nook_bake_bent_desc desc = desc_of(model);
+  SECTION("numbers out of range") {
+    desc.rays = 0;
+    CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc.rays is out of range (got 0, need 1 to 65536)"));
+    desc = desc_of(model);
+    desc.auto_pose_count = 7;
+    CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc.auto_pose_count is out of range (got 7, need 8 to 100000)"));
+    desc = desc_of(model);
+    desc.samples_per_clip = 100'001;
+    CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc.samples_per_clip"));
+    desc = desc_of(model);
+    desc.threads = 1025;
+    CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc.threads is out of range (got 1025, need at most 1024)"));
+  }
+  SECTION("no model") {
+    desc.model = nullptr;
+    CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
+    const char bytes[40] = {};
+    desc.model = bytes;
+    desc.model_size = sizeof bytes;
+    CHECK(start_result(character, desc) == NOOK_ERROR_BAD_FILE);
+  }
+  SECTION("the model of another character") {
+    const std::string other = model_of(tube_character());
+    desc.model = other.data();
+    desc.model_size = other.size();
+    CHECK(start_result(character, desc) == NOOK_ERROR_BAD_FILE);
+    CHECK(message_has("another character"));
+  }
+}
