@@ -266,6 +266,7 @@ Poison::Poison(platform::Context& context, unsigned users)
   gl.GenTextures(1, &o.cube);
   gl.ActiveTexture(GL_TEXTURE0 + gl::cube_map_unit);
   gl.BindTexture(GL_TEXTURE_CUBE_MAP, o.cube);
+  gl.ActiveTexture(GL_TEXTURE0);
   // OpenGL ES binds immutable textures alone as images.
   if (!has.desktop) gl.TexStorage3D(GL_TEXTURE_2D_ARRAY, 2, GL_RGBA16F, 4, 4, 4);
   for (const int unit : gl::layer_units) {
