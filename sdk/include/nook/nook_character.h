@@ -146,10 +146,9 @@ typedef struct nook_scene_desc {
   /* 0 or 1, default 0: a bone that is sheared or scaled unevenly is projected to the nearest rotation with
    * one scale, as the baker does, and the context logs it once for an instance. 1: such a pose fails. */
   uint32_t strict_poses;
-  /* AO, root mean square over a body, 0 or more, default 1/1024. nook_scene_update merges the spheres of a
-   * linked caster into groups, as few as an estimate of the change of AO allows at their distance: about 1 m
-   * for 16 groups, 2 m for 6 and 3 m for 2. 0 merges nothing, and neither do NOOK_COMBINE_PAPER and the
-   * OpenGL 4.3 tier. */
+  /* AO, root mean square over a body, in [0, 1], default 1/1024. nook_scene_update merges the spheres of a
+   * linked caster into 16, 6 or 2 groups, as few as an estimate of the change of AO allows at their distance.
+   * 0 merges nothing, and neither do NOOK_COMBINE_PAPER and the OpenGL 4.3 tier. */
   float far_error;
   /* Must be 0. */
   uint32_t reserved;
