@@ -8,10 +8,11 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
-#include <set>
 
 #include "bakers/images/exr_head.h"
+#include "bakers/images/image_files.h"
 #include "bakers/images/image_size.h"
+#include "bakers/images/srgb.h"
 #include "bakers/images/ubo_names.h"
 #include "sdk/src/core/failure.h"
 
@@ -23,30 +24,6 @@ namespace fs = std::filesystem;
 constexpr float max_half = 65504;  // the largest half float
 // Of one image: 32 million texels take 0.8 GB while all of them are read.
 constexpr std::size_t most_image_texels = std::size_t{1} << 25;
-
-bool is_image(const fs::path& path) {
-  static const std::set<std::string> endings{".png",  ".jpg", ".jpeg", ".exr", ".tif",
-                                             ".tiff", ".bmp", ".hdr",  ".ppm"};
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return endings.count(ending) != 0;
-}
-
-std::vector<fs::path> images_below(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> found;
-  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->is_regular_file() && is_image(at->path())) found.push_back(at->path());
-  if (error)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%.300s: cannot be read (%s)", folder.c_str(),
-                  error.message().c_str());
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
-float linear_from_srgb(float v) {
-  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
 
 struct Size {
   int width = 0, height = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bakers/material/microfacet.h"
 #include "bakers/raytrace/hemisphere.h"
 #include "bakers/raytrace/ray_scene.h"
 
@@ -23,6 +24,34 @@ Vec3 to_frame(Vec3 n, Vec3 d) {
 Vec3 shading_normal(const MesoSurface& surface, const SurfaceHit& hit) {
   return normalised(at_hit<Vec3>(surface.normal, surface.triangle, hit));
 }
+
+// The reflection at a point of the surface: pi times its BRDF.
+class Reflection {
+ public:
+  Reflection(const MesoSurface& surface, const SurfaceHit& hit, Vec3 normal, Vec3 albedo)
+      : normal_(normal), specular_(surface.specular), shininess_(surface.shininess) {
+    point_.diffuse = albedo;
+    if (surface.ggx_width.empty()) return;
+    microfacet_ = true;
+    point_.width = at_hit<float>(surface.ggx_width, surface.triangle, hit);
+    point_.reflectance = at_hit<Vec3>(surface.reflectance, surface.triangle, hit);
+  }
+
+  Vec3 towards(Vec3 view, Vec3 light) const {
+    if (microfacet_) return microfacet_reflection(point_, normal_, view, light);
+    if (!(specular_ > 0)) return point_.diffuse;
+    // Blinn-Phong, (n + 8) / 8 so that the lobe's reflectance hardly depends on the exponent.
+    const float along = std::max(dot(normal_, normalised(light + view)), 0.0f);
+    const float gloss = specular_ * (shininess_ + 8) / 8 * std::pow(along, shininess_);
+    return point_.diffuse + Vec3{gloss, gloss, gloss};
+  }
+
+ private:
+  Vec3 normal_;
+  float specular_, shininess_;
+  bool microfacet_ = false;
+  Reflector point_;
+};
 
 // Returns the triangles that the rays of each vertex hit, from which it gathers light.
 std::vector<SurfaceHit> gather_hits(const MesoSurface& surface, const TiledScene& scene, std::uint32_t rays,
@@ -119,16 +148,13 @@ void shade(const MesoSurface& surface, const TiledScene& scene, const InterRefle
   cosine.resize(lights.size());
   const Vec3 normal = shading_normal(surface, hit);
   const Vec3 albedo = at_hit<Vec3>(surface.albedo, surface.triangle, hit);
+  const Reflection reflection(surface, hit, normal, albedo);
   direct_cosines(scene, hit, normal, lights, cosine, scratch);
   for (std::size_t l = 0; l < lights.size(); ++l) {
-    // Blinn-Phong, (n + 8) / 8 so that the lobe's reflectance hardly depends on the exponent.
-    const float towards = std::max(dot(normal, normalised(lights[l] + view)), 0.0f);
-    const float gloss = cosine[l] > 0 && surface.specular > 0 ? surface.specular * (surface.shininess + 8) /
-                                                                    8 * std::pow(towards, surface.shininess)
-                                                              : 0;
-    value[3 * l] = cosine[l] * (albedo.x + gloss);
-    value[3 * l + 1] = cosine[l] * (albedo.y + gloss);
-    value[3 * l + 2] = cosine[l] * (albedo.z + gloss);
+    const Vec3 reflected = cosine[l] > 0 ? reflection.towards(view, lights[l]) * cosine[l] : Vec3{};
+    value[3 * l] = reflected.x;
+    value[3 * l + 1] = reflected.y;
+    value[3 * l + 2] = reflected.z;
   }
   indirect.add(hit, albedo, value);
   for (float& v : value) v *= std::numbers::inv_pi_v<float>;

@@ -35,6 +35,22 @@ void check(const TraceSettings& s, std::span<const Vec3> lights, std::span<const
                       double(d.y), double(d.z));
 }
 
+// Checks the memory before it is taken: the BTF, and at each vertex the light and the rays of
+// inter-reflection.
+void check_memory(const TraceSettings& s, std::size_t lights, std::size_t views, std::size_t vertices) {
+  constexpr double most_bytes = 16.0 * (1u << 30);
+  const double btf = 3.0 * sizeof(float) * double(lights) * double(views) * s.width * s.height;
+  const double vertex =
+      s.bounces > 0 ? 7.0 * sizeof(float) * double(lights) + double(sizeof(SurfaceHit)) * s.bounce_rays : 0;
+  const double bytes = btf + vertex * double(vertices);
+  if (bytes > most_bytes)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "%zu lights, %zu views, %u x %u texels and %zu vertices take %.1f GiB, need at most %g; give "
+        "fewer directions, texels or rays of inter-reflection",
+        lights, views, s.width, s.height, vertices, bytes / (1u << 30), most_bytes / (1u << 30));
+}
+
 // One column of texels, x fixed, from one view.
 class Column {
  public:
@@ -100,6 +116,7 @@ void round_to_halves(RawMaterial& raw) {
 RawMaterial trace_material(const MesoSurface& surface, std::vector<Vec3> lights, std::vector<Vec3> views,
                            const TraceSettings& settings, const Progress& progress) {
   check(settings, lights, views);
+  check_memory(settings, lights.size(), views.size(), surface.position.size());
   RawMaterial raw;
   raw.lights = std::move(lights);
   raw.views = std::move(views);

@@ -1,4 +1,5 @@
-// nook bake material: ray traces a meso-structure, or reads a measured BTF, and compresses it.
+// nook bake material: ray traces a meso-structure or the maps of a physically based material, or reads a
+// measured BTF, and compresses it.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -6,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bakers/images/pbr_reader.h"
 #include "bakers/images/ubo_reader.h"
 #include "bakers/job/material_source.h"
 #include "bakers/job/worker_arena.h"
@@ -34,11 +36,12 @@ struct Options {
   CommonOptions common;
   CompressionOptions compression;
   std::string meso, visibility_mapping;
-  std::filesystem::path btf, raw, output, keep_raw, images;
+  std::filesystem::path pbr, btf, raw, output, keep_raw, images;
   std::uint32_t directions = 100, lights = 0, texels = 0;
   float max_tilt_deg = bake::material::default_max_tilt_deg;
   TraceSettings trace;
-  float tile_side_m = 1;  // of a mesh that --meso names
+  float tile_side_m = 1;  // of a mesh that --meso names, and of the maps of --pbr
+  float height_scale_m = 0.05f;
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   std::optional<std::uint32_t> count;
   std::optional<float> radius, thickness, roughness;
@@ -61,7 +64,26 @@ bool is_mesh(const std::string& meso) {
   return !meso.empty() && std::ranges::count(meso_names(), std::string_view(meso)) == 0;
 }
 
+// Points of the grid along a side of the maps: one for each view ray, which then sees no detail between them.
+std::uint32_t map_points(const Options& o) {
+  constexpr std::uint32_t fewest = 4, most = 384;
+  return std::clamp(o.trace.width * o.trace.samples, fewest, most);
+}
+
+bake::MesoSource source_of_maps(const Options& o) {
+  const PbrFolder folder = naming_file(o.pbr, [&] { return read_pbr_folder(o.pbr, map_points(o)); });
+  if (!o.common.quiet)
+    for (const std::string& name : folder.file_names) std::fprintf(stderr, "nook: read %s\n", name.c_str());
+  return {{},
+          surface_of_maps(folder.maps, o.height_scale_m, o.tile_side_m),
+          o.directions,
+          o.lights,
+          o.max_tilt_deg,
+          o.trace};
+}
+
 bake::MesoSource source_of(const Options& o) {
+  if (!o.pbr.empty()) return source_of_maps(o);
   if (!is_mesh(o.meso)) return {meso_of(o), {}, o.directions, o.lights, o.max_tilt_deg, o.trace};
   MesoSurface tile = naming_file(o.meso, [&] {
     return tile_of_scene(bake::import_static_scene(o.meso, bake::SceneTextures::skip, o.linked),
@@ -70,11 +92,17 @@ bake::MesoSource source_of(const Options& o) {
   return {{}, std::move(tile), o.directions, o.lights, o.max_tilt_deg, o.trace};
 }
 
+std::string folder_name(const std::filesystem::path& folder) {
+  return (folder.filename().empty() ? folder.parent_path() : folder).filename().string();
+}
+
 Json recipe_of_trace(const Options& o) {
   if (!o.btf.empty()) return {{"btf", o.btf.filename().string()}, {"texels", o.texels}};
   if (!o.raw.empty()) return {{"raw", o.raw.filename().string()}};
   Json recipe;
-  if (is_mesh(o.meso)) {
+  if (!o.pbr.empty()) {
+    recipe = {{"pbr", folder_name(o.pbr)}, {"height_scale", o.height_scale_m}, {"tile_side", o.tile_side_m}};
+  } else if (is_mesh(o.meso)) {
     recipe = {{"tile", std::filesystem::path(o.meso).filename().string()}, {"tile_side", o.tile_side_m}};
   } else {
     const MesoParameters p = meso_of(o);
@@ -104,7 +132,11 @@ RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
     return naming_file(o.btf,
                        [&] { return read_ubo_folder(o.btf, o.texels, progress("reading", "images")); });
   RawMaterial raw = bake::trace_meso_source(source_of(o), progress("ray tracing", "views"));
-  raw.name = is_mesh(o.meso) ? std::filesystem::path(o.meso).stem().string() : o.meso;
+  raw.name = !o.pbr.empty()    ? folder_name(o.pbr)
+             : is_mesh(o.meso) ? std::filesystem::path(o.meso).stem().string()
+                               : o.meso;
+  // A height field has no gaps.
+  if (!o.pbr.empty()) raw.mask.clear();
   return raw;
 }
 
@@ -150,11 +182,12 @@ Json bake(const Options& o, platform::OutputFile& output, std::optional<platform
 }
 
 void run(Options& o) {
-  if (int(!o.meso.empty()) + int(!o.btf.empty()) + int(!o.raw.empty()) != 1)
-    throw ToolError(exit_bad_arguments, "bake material: one of --meso, --btf and --raw is needed");
-  require_distinct_files({{{"--btf", o.btf}, {"--raw", o.raw}, {"--meso", is_mesh(o.meso) ? o.meso : ""}},
-                          {{"-o", o.output}, {"--keep-raw", o.keep_raw}, {"--report", o.common.report}},
-                          o.images});
+  if (int(!o.meso.empty()) + int(!o.pbr.empty()) + int(!o.btf.empty()) + int(!o.raw.empty()) != 1)
+    throw ToolError(exit_bad_arguments, "bake material: one of --meso, --pbr, --btf and --raw is needed");
+  require_distinct_files(
+      {{{"--pbr", o.pbr}, {"--btf", o.btf}, {"--raw", o.raw}, {"--meso", is_mesh(o.meso) ? o.meso : ""}},
+       {{"-o", o.output}, {"--keep-raw", o.keep_raw}, {"--report", o.common.report}},
+       o.images});
   if (is_mesh(o.meso) && !std::filesystem::exists(o.meso)) meso_parameters(o.meso);
   if (o.texels) o.trace.width = o.trace.height = o.texels;
   o.trace.seed = o.common.seed;
@@ -177,8 +210,9 @@ void run(Options& o) {
 }  // namespace
 
 void add_bake_material(CLI::App& bake) {
-  CLI::App* command =
-      bake.add_subcommand("material", "compress a meso-structure or a measured BTF for real-time decoding");
+  CLI::App* command = bake.add_subcommand(
+      "material",
+      "compress a meso-structure, the maps of a material or a measured BTF for real-time decoding");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   std::string names;
@@ -188,9 +222,18 @@ void add_bake_material(CLI::App& bake) {
           "--meso", o.meso,
           "a meso-structure, ray traced: " + names + ", or one tile as a closed mesh, y up, .glb or .gltf")
       ->type_name("NAME|TILE.glb");
+  command->add_option(
+      "--pbr", o.pbr,
+      "a folder with the maps of a physically based material, ray traced: base colour, normal, "
+      "roughness or gloss, metalness, height, by their names");
+  command
+      ->add_option("--height-scale", o.height_scale_m,
+                   "of --pbr: metres from 0 to 1 of the height map; 1 where it holds metres")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command
       ->add_option("--tile-size", o.tile_side_m,
-                   "metres after which the mesh of --meso repeats along x and z")
+                   "metres after which the mesh of --meso repeats along x and z, and the maps of --pbr")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_linked_files_option(*command, o.linked);
@@ -200,7 +243,7 @@ void add_bake_material(CLI::App& bake) {
   command->add_option("--keep-raw", o.keep_raw, "write the uncompressed material, for `evaluate material`");
   command->add_option("--images", o.images,
                       "write pictures of the raw and the decoded material to this folder");
-  command->add_option("--directions", o.directions, "light and view directions of --meso")
+  command->add_option("--directions", o.directions, "light and view directions of --meso and --pbr")
       ->check(CLI::Range(4, 1024))
       ->capture_default_str();
   command->add_option("--lights", o.lights, "light directions, where they are to be others than the views")
@@ -210,7 +253,7 @@ void add_bake_material(CLI::App& bake) {
       ->capture_default_str();
   command
       ->add_option("--texels", o.texels,
-                   "--meso: texels a side, default 96; --btf: a square from the middle, default all")
+                   "--meso, --pbr: texels a side, default 96; --btf: a square from the middle, default all")
       ->check(CLI::Range(1, 1024));
   command->add_option("--samples", o.trace.samples, "view rays along a texel's side")
       ->check(CLI::Range(1, 16))

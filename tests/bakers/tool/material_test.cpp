@@ -1,4 +1,5 @@
 #include <csignal>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -77,6 +78,42 @@ TEST_CASE(
               .exit_code == 0);
   const auto again = nlohmann::json::parse(read_text(folder.path("c.json")));
   CHECK(again.at("rows").at(0).at("se_db") == row.at("se_db"));
+}
+
+TEST_CASE("bake material traces a folder of maps") {
+  const TestFolder folder;
+  std::filesystem::create_directory(folder.path("planks"));
+  // Portable pixmaps: a text head, then bytes. Two grooves across a tile of one colour.
+  std::string colour = "P6\n4 4\n255\n", height = "P6\n32 32\n255\n";
+  for (int i = 0; i < 16; ++i) colour += "\xc0\x80\x40";
+  for (int i = 0; i < 32 * 32; ++i) height.append(3, i % 16 < 4 ? '\x20' : '\x7f');
+  write_text(folder.path("planks/planks_diffuse.ppm"), colour);
+  write_text(folder.path("planks/planks_height.ppm"), height);
+  const std::vector<std::string> bake{"bake",         "material",
+                                      "--pbr",        folder.path("planks/"),
+                                      "--texels",     "12",
+                                      "--directions", "12",
+                                      "--ranks",      "8,8,8,8",
+                                      "--view-map",   "0",
+                                      "--report",     folder.path("r.json"),
+                                      "-o",           folder.path("a.nook")};
+  const ToolRun run = folder.run(bake);
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  CHECK(run.error.find("read planks_height.ppm") != std::string::npos);
+  const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
+  CHECK(report.at("rows").at(0).at("material") == "planks");
+  CHECK(report.at("rows").at(0).at("votf_error_texels_distance").is_null());
+  CHECK(report.at("recipe").at("source").at("pbr") == "planks");
+  auto high = bake;
+  high.insert(high.end(), {"--height-scale", "2"});
+  const ToolRun refused = folder.run(high);
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.error.find("tiles high") != std::string::npos);
+  std::filesystem::remove(folder.path("planks/planks_diffuse.ppm"));
+  const ToolRun missing = folder.run(bake);
+  CHECK(missing.exit_code == 3);
+  CHECK(missing.error.find("planks_height.ppm") != std::string::npos);
 }
 
 TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothing behind") {

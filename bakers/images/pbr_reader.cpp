@@ -1,0 +1,179 @@
+#include "bakers/images/pbr_reader.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include "bakers/images/exr_head.h"
+#include "bakers/images/image_files.h"
+#include "bakers/images/image_size.h"
+#include "bakers/images/pbr_names.h"
+#include "bakers/images/srgb.h"
+#include "bakers/material/microfacet.h"
+#include "bakers/material/tile_filter.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake::material {
+namespace {
+
+namespace fs = std::filesystem;
+
+// 8192 x 8192, of which three channels of floats are 0.8 GB.
+constexpr std::size_t most_texels = std::size_t{1} << 26;
+// Of a normal against the plane: flatter directions are noise of the image.
+constexpr float least_upright = 0.1f;
+
+struct MapImage {
+  fs::path path;
+  std::uint32_t side = 0;
+  bool is_float = false;
+  std::size_t channels = 0;  // 1 or 3
+  std::vector<float> texels;
+
+  // A channel of a texel; one channel stands for three.
+  float at(std::size_t texel, std::size_t channel) const {
+    return texels[texel * channels + (channels == 3 ? channel : 0)];
+  }
+};
+
+[[noreturn]] void fail(const fs::path& path, const std::string& why) {
+  throw Failure(NOOK_ERROR_BAD_FILE, "%.250s: cannot be read (%.150s)", path.c_str(), why.c_str());
+}
+
+void check_finite(const MapImage& image) {
+  for (std::size_t i = 0; i < image.texels.size(); ++i)
+    if (!std::isfinite(image.texels[i]))
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%.250s: texel (%zu, %zu), counted from the upper left, is not a finite number",
+                    image.path.c_str(), i / image.channels % image.side, i / image.channels / image.side);
+}
+
+MapImage read_image(const fs::path& path, bool needs_colour) {
+  check_exr_head(path.c_str(), path);
+  OIIO::ImageSpec config;
+  // Colours would otherwise be multiplied by alpha.
+  config["oiio:UnassociatedAlpha"] = 1;
+  const auto input = OIIO::ImageInput::open(path.string(), &config);
+  if (!input) fail(path, OIIO::geterror());
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.nchannels < 1 || spec.depth > 1) fail(path, "it is no flat image");
+  std::error_code unknown;  // the size is then the largest number
+  check_image_size(path.c_str(), spec.width, spec.height, most_texels, fs::file_size(path, unknown));
+  if (spec.width != spec.height)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%.250s has %d x %d texels, need as many columns as rows; crop it to one tile",
+                  path.c_str(), spec.width, spec.height);
+  if (needs_colour && spec.nchannels < 3)
+    throw Failure(NOOK_ERROR_BAD_FILE, "%.250s has %d channels, need 3", path.c_str(), spec.nchannels);
+  MapImage image{path,
+                 std::uint32_t(spec.width),
+                 spec.format.is_floating_point(),
+                 spec.nchannels >= 3 ? std::size_t{3} : std::size_t{1},
+                 {}};
+  image.texels.resize(image.channels * image.side * image.side);
+  if (!input->read_image(0, 0, 0, int(image.channels), OIIO::TypeDesc::FLOAT, image.texels.data()))
+    fail(path, input->geterror());
+  check_finite(image);
+  return image;
+}
+
+// Averages numbers that each texel gives, `count` of them.
+std::vector<float> averages(const MapImage& image, std::uint32_t side, std::uint32_t count,
+                            const std::function<void(std::size_t texel, float* numbers)>& numbers_of) {
+  TileFilter filter(image.side, image.side, side, count);
+  std::vector<float> row(std::size_t(image.side) * count);
+  for (std::uint32_t y = 0; y < image.side; ++y) {
+    for (std::uint32_t x = 0; x < image.side; ++x)
+      numbers_of(std::size_t(y) * image.side + x, &row[std::size_t(x) * count]);
+    filter.add_row(image.side - 1 - y, row);
+  }
+  return filter.result();
+}
+
+float unit(float value) {
+  return std::clamp(value, 0.0f, 1.0f);
+}
+
+std::vector<Vec3> read_colours(const fs::path& path, std::uint32_t side) {
+  const MapImage image = read_image(path, false);
+  const std::vector<float> rgb = averages(image, side, 3, [&](std::size_t texel, float* numbers) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float value = unit(image.at(texel, c));
+      numbers[c] = image.is_float ? value : linear_from_srgb(value);
+    }
+  });
+  std::vector<Vec3> colours(rgb.size() / 3);
+  for (std::size_t i = 0; i < colours.size(); ++i) colours[i] = {rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]};
+  return colours;
+}
+
+std::vector<MapSlope> read_slopes(const fs::path& path, bool green_down, std::uint32_t side) {
+  const MapImage image = read_image(path, true);
+  const std::vector<float> moments = averages(image, side, 4, [&](std::size_t texel, float* numbers) {
+    const Vec3 n =
+        normalised({2 * image.at(texel, 0) - 1, 2 * image.at(texel, 1) - 1, 2 * image.at(texel, 2) - 1});
+    const float upright = std::max(n.z, least_upright);
+    numbers[0] = -n.x / upright;
+    numbers[1] = (green_down ? n.y : -n.y) / upright;
+    numbers[2] = numbers[0] * numbers[0];
+    numbers[3] = numbers[1] * numbers[1];
+  });
+  std::vector<MapSlope> slopes(moments.size() / 4);
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    const float* m = &moments[4 * i];
+    slopes[i] = {m[0], m[1], std::max(0.5f * (m[2] - m[0] * m[0] + m[3] - m[1] * m[1]), 0.0f)};
+  }
+  return slopes;
+}
+
+std::vector<float> squared_widths(const MapImage& image, std::size_t channel, bool is_gloss,
+                                  std::uint32_t side) {
+  return averages(image, side, 1, [&](std::size_t texel, float* number) {
+    const float value = unit(image.at(texel, channel)), width = ggx_width(is_gloss ? 1 - value : value);
+    *number = width * width;
+  });
+}
+
+std::vector<float> shares(const MapImage& image, std::size_t channel, std::uint32_t side) {
+  return averages(image, side, 1,
+                  [&](std::size_t texel, float* number) { *number = unit(image.at(texel, channel)); });
+}
+
+}  // namespace
+
+PbrFolder read_pbr_folder(const fs::path& folder, std::uint32_t side) {
+  const std::vector<fs::path> paths = images_in(folder);
+  std::vector<std::string> names;
+  for (const fs::path& path : paths) names.push_back(path.filename().string());
+  const PbrFiles files = arrange_pbr_names(names);
+
+  PbrFolder out;
+  PbrMaps& maps = out.maps;
+  maps.side = side;
+  const auto take = [&](std::size_t index) -> const fs::path& {
+    out.file_names.push_back(names[index]);
+    return paths[index];
+  };
+  maps.base_colour = read_colours(take(files.base_colour), side);
+  if (files.normal) maps.slope = read_slopes(take(*files.normal), files.green_down, side);
+  if (files.height) {
+    const MapImage image = read_image(take(*files.height), false);
+    maps.height =
+        averages(image, side, 1, [&](std::size_t texel, float* number) { *number = image.at(texel, 0); });
+  }
+  if (files.roughness)
+    maps.squared_width =
+        squared_widths(read_image(take(*files.roughness), false), 0, files.roughness_is_gloss, side);
+  if (files.metalness) maps.metalness = shares(read_image(take(*files.metalness), false), 0, side);
+  if (files.packed && !(files.roughness && files.metalness)) {
+    const MapImage image = read_image(take(*files.packed), true);
+    if (!files.roughness) maps.squared_width = squared_widths(image, 1, false, side);
+    if (!files.metalness) maps.metalness = shares(image, 2, side);
+  }
+  return out;
+}
+
+}  // namespace nook::bake::material

@@ -1,0 +1,12 @@
+// The transfer function of sRGB (IEC 61966-2-1), values of 0 to 1.
+#pragma once
+
+#include <cmath>
+
+namespace nook::bake {
+
+inline float linear_from_srgb(float v) {
+  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+}  // namespace nook::bake
