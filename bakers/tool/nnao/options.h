@@ -16,7 +16,7 @@ class App;
 
 namespace nook::tool {
 
-// What the command line asks of `nook evaluate nnao`.
+// The settings of `nook evaluate nnao` from the command line.
 struct EvaluateNnaoOptions {
   CommonOptions common;
   measure::TruthSettings truth;

@@ -1,4 +1,4 @@
-// What the protocols of `nook evaluate nnao` begin with: scenes, their ray-traced views, and OpenGL.
+// The common start of the protocols of `nook evaluate nnao`: scenes, their ray-traced views, and OpenGL.
 #pragma once
 
 #include <memory>

@@ -12,7 +12,7 @@
 
 namespace nook::tool {
 
-// Whether a sheet has a column of the method.
+// Returns true where a sheet has a column for the method.
 bool is_shown(const std::string& method, int taps);
 
 // Writes PNG files into the folder, which exists.
