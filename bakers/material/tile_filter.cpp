@@ -6,8 +6,7 @@
 namespace nook::bake::material {
 
 TileFilter::TileFilter(std::uint32_t width, std::uint32_t height, std::uint32_t side, std::uint32_t channels)
-    : side_(side),
-      channels_(channels),
+    : channels_(channels),
       along_x_(shares_of(width, side)),
       along_y_(shares_of(height, side)),
       sum_(std::size_t(side) * side * channels),

@@ -28,7 +28,7 @@ class TileFilter {
   // For each texel along an axis the points that it counts for.
   static std::vector<std::vector<Share>> shares_of(std::uint32_t size, std::uint32_t side);
 
-  std::uint32_t side_, channels_;
+  std::uint32_t channels_;
   std::vector<std::vector<Share>> along_x_, along_y_;
   std::vector<double> sum_, row_;
 };
