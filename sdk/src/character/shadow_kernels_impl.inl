@@ -82,61 +82,8 @@ void norm_sum_at(const SphereSoa& spheres, const KeyPointSoa& points, float gamm
   Lanes<F>::write(sum + k, total);
 }
 
-// The nook form in metres: with the height h over the horizon, the squared distance d^2 and the radius r,
-//   y = r^2 / 2 (h + sqrt(h^2 + r^2)) (d^2 + c r^2)^(-3/2),
-// which needs no division by the radius for each pair.
-struct SquaredRadii {
-  static constexpr std::uint32_t most = 128;
-  float squared[most], core[most];  // r^2, c r^2
-};
-
-SquaredRadii squared_radii(const SphereSoa& spheres) {
-  SquaredRadii radii;
-  for (std::uint32_t i = 0; i < spheres.count; ++i) {
-    const float squared = 1 / (spheres.inverse_radius[i] * spheres.inverse_radius[i]);
-    radii.squared[i] = squared;
-    radii.core[i] = nook_kernel_core * squared;
-  }
-  return radii;
-}
-
-template <NormPower P, class F>
-void nook_norm_sum_at(const SphereSoa& spheres, const SquaredRadii& radii, const KeyPointSoa& points,
-                      float gamma, std::uint32_t k, float* sum) {
-  const F exponent = F(broadcast(gamma));
-  const Points<F> p = load_points<F>(points, k);
-  F total = Lanes<F>::read(sum + k);
-  for (std::uint32_t i = 0; i < spheres.count; ++i) {
-    const F dx = F(broadcast(spheres.x[i])) - p.x;
-    const F dy = F(broadcast(spheres.y[i])) - p.y;
-    const F dz = F(broadcast(spheres.z[i])) - p.z;
-    const F squared = F(broadcast(radii.squared[i]));
-    const F height = fma(dx, p.nx, fma(dy, p.ny, dz * p.nz));
-    const F reach = fma(dx, dx, fma(dy, dy, fma(dz, dz, F(broadcast(radii.core[i])))));
-    const F above = (height + sqrt_positive(fma(height, height, squared))) * squared;
-    total = total + raised<P>(above * rsqrt_cubed(reach, 0.5f), exponent);
-  }
-  Lanes<F>::write(sum + k, total);
-}
-
-template <NormPower P>
-void nook_norm_sum(const SphereSoa& all, const KeyPointSoa& points, float gamma, float* sum) {
-  for (std::uint32_t begin = 0; begin < all.count; begin += SquaredRadii::most) {
-    SphereSoa batch{all.x + begin, all.y + begin,    all.z + begin, all.inverse_radius + begin,
-                    nullptr,       all.count - begin};
-    if (batch.count > SquaredRadii::most) batch.count = SquaredRadii::most;
-    const SquaredRadii radii = squared_radii(batch);
-    std::uint32_t k = 0;
-    for (; k + Lanes<Wide>::count <= points.padded_count; k += Lanes<Wide>::count)
-      nook_norm_sum_at<P, Wide>(batch, radii, points, gamma, k, sum);
-    for (; k < points.padded_count; k += width)
-      nook_norm_sum_at<P, Float>(batch, radii, points, gamma, k, sum);
-  }
-}
-
 template <KernelForm Form, NormPower P>
 void norm_sum(const SphereSoa& spheres, const KeyPointSoa& points, float gamma, float* sum) {
-  if constexpr (Form == KernelForm::nook) return nook_norm_sum<P>(spheres, points, gamma, sum);
   std::uint32_t k = 0;
   for (; k + Lanes<Wide>::count <= points.padded_count; k += Lanes<Wide>::count)
     norm_sum_at<Form, P, Wide>(spheres, points, gamma, k, sum);
