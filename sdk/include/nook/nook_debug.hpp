@@ -18,31 +18,34 @@ inline nook_scene_instance_info instance_info(const Scene& scene, nook_instance_
   return info;
 }
 
+namespace detail {
+
+// Asks for the count, then for the elements.
+template <class Element>
+std::vector<Element> read_all(nook_result (*read)(nook_scene, nook_instance_id, Element*, std::uint32_t*),
+                              const Scene& scene, nook_instance_id id) {
+  std::uint32_t count = 0;
+  check(read(scene.get(), id, nullptr, &count));
+  std::vector<Element> elements(count);
+  check(read(scene.get(), id, elements.data(), &count));
+  return elements;
+}
+
+}  // namespace detail
+
 // The proxy spheres of an instance in its pose.
 inline std::vector<nook_scene_sphere> posed_spheres(const Scene& scene, nook_instance_id id) {
-  std::uint32_t count = 0;
-  check(nook_scene_read_spheres(scene.get(), id, nullptr, &count));
-  std::vector<nook_scene_sphere> spheres(count);
-  check(nook_scene_read_spheres(scene.get(), id, spheres.data(), &count));
-  return spheres;
+  return detail::read_all(nook_scene_read_spheres, scene, id);
 }
 
 // The key points of an instance in its pose.
 inline std::vector<nook_scene_key_point> posed_key_points(const Scene& scene, nook_instance_id id) {
-  std::uint32_t count = 0;
-  check(nook_scene_read_key_points(scene.get(), id, nullptr, &count));
-  std::vector<nook_scene_key_point> points(count);
-  check(nook_scene_read_key_points(scene.get(), id, points.data(), &count));
-  return points;
+  return detail::read_all(nook_scene_read_key_points, scene, id);
 }
 
 // The instances that darken an instance by links.
 inline std::vector<nook_instance_id> linked_casters(const Scene& scene, nook_instance_id id) {
-  std::uint32_t count = 0;
-  check(nook_scene_read_links(scene.get(), id, nullptr, &count));
-  std::vector<nook_instance_id> casters(count);
-  check(nook_scene_read_links(scene.get(), id, casters.data(), &count));
-  return casters;
+  return detail::read_all(nook_scene_read_links, scene, id);
 }
 
 }  // namespace wrapper

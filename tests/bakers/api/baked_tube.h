@@ -38,3 +38,14 @@ inline std::string model_of(const Character& character) {
   const Job owner(job);
   return bytes_of(job);
 }
+
+// The result of starting a job, which is destroyed; there is one exactly where it started.
+template <class Desc>
+nook_result start_result_of(nook_result (*start)(nook_bake_character, const Desc*, nook_bake_job*),
+                            const Character& character, const Desc& desc) {
+  nook_bake_job job = nullptr;
+  const nook_result result = start(character.get(), &desc, &job);
+  CHECK((job != nullptr) == (result == NOOK_OK));
+  nook_bake_job_destroy(&job);
+  return result;
+}

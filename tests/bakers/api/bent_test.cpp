@@ -21,11 +21,7 @@ nook_bake_bent_desc desc_of(const std::string& model) {
 }
 
 nook_result start_result(const Character& character, const nook_bake_bent_desc& desc) {
-  nook_bake_job job = nullptr;
-  const nook_result result = nook_bake_bent_start(character.get(), &desc, &job);
-  CHECK((job != nullptr) == (result == NOOK_OK));
-  nook_bake_job_destroy(&job);
-  return result;
+  return start_result_of(nook_bake_bent_start, character, desc);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "bakers/images/pbr_reader.h"
 #include "bakers/material/microfacet.h"
 #include "sdk/src/core/failure.h"
+#include "tests/bakers/images/temporary_folder.h"
 #include "tests/catch.h"
 
 using namespace nook;
@@ -19,19 +20,6 @@ using namespace nook::bake::material;
 namespace fs = std::filesystem;
 
 namespace {
-
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "nook pbr XXXXXX").string();
-    path = mkdtemp(pattern.data());
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  fs::path path;
-};
 
 using Pixel = std::function<float(int x, int y, int channel)>;
 
@@ -116,7 +104,7 @@ TEST_CASE("of two maps for one purpose the better one is taken, and doubles are 
 }
 
 TEST_CASE("a planted set of other sizes and depths arrives as it was planted") {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_image(folder.path / "cloth_basecolor.png", 16, 16, 4, OIIO::TypeDesc::UINT8, [](int, int y, int c) {
     return c == 3 ? 0.25f : y < 8 ? constant_colour(0, 0, c) : 0.0f;
   });
@@ -154,7 +142,7 @@ TEST_CASE("a planted set of other sizes and depths arrives as it was planted") {
 }
 
 TEST_CASE("packed maps and gloss stand for roughness, and green may point down") {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_image(folder.path / "a_albedo.exr", 4, 4, 3, OIIO::TypeDesc::FLOAT, constant_colour);
   write_image(folder.path / "a_nor_dx.exr", 4, 4, 3, OIIO::TypeDesc::FLOAT, [](int, int, int c) {
     const Vec3 n = normalised({0, 0.5f, 1});
@@ -176,7 +164,7 @@ TEST_CASE("packed maps and gloss stand for roughness, and green may point down")
 }
 
 TEST_CASE("folders that hold no set, and images that are no map, are refused by name") {
-  const Folder folder;
+  const TemporaryFolder folder;
   CHECK(refusal(folder.path).find("no image") != std::string::npos);
   CHECK(refusal(folder.path / "nothing").find("cannot be read") != std::string::npos);
   write_image(folder.path / "a_height.png", 4, 4, 1, OIIO::TypeDesc::UINT8, constant_colour);

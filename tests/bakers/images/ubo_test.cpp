@@ -10,6 +10,7 @@
 #include "bakers/material/directions.h"
 #include "platform/peak_memory.h"
 #include "sdk/src/core/failure.h"
+#include "tests/bakers/images/temporary_folder.h"
 #include "tests/catch.h"
 
 using namespace nook;
@@ -17,19 +18,6 @@ using namespace nook::bake::material;
 namespace fs = std::filesystem;
 
 namespace {
-
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "nook ubo XXXXXX").string();
-    path = mkdtemp(pattern.data());
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  fs::path path;
-};
 
 void write_image(const fs::path& path, int width, int height, const std::vector<float>& rgb) {
   const auto out = OIIO::ImageOutput::create(path.string());
@@ -120,7 +108,7 @@ TEST_CASE("a grid of names is ordered by tilt and azimuth; gaps and doubles are 
 }
 
 TEST_CASE("a measured folder becomes a raw material, y up, linear") {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_small_set(folder.path);
   const RawMaterial raw = read_ubo_folder(folder.path, 0);
   REQUIRE((raw.width == 4 && raw.height == 6 && raw.lights.size() == 2 && raw.views.size() == 3 &&
@@ -141,7 +129,7 @@ TEST_CASE("a measured folder becomes a raw material, y up, linear") {
 }
 
 TEST_CASE("the square of tiled images is the middle of them") {
-  const Folder folder;
+  const TemporaryFolder folder;
   constexpr int side = 70, square = 20, tile = 16, left = (side - square) / 2;
   std::vector<float> rgb;
   for (int i = 0; i < side * side; ++i)
@@ -164,7 +152,7 @@ TEST_CASE("the square of tiled images is the middle of them") {
 }
 
 TEST_CASE("a small square of a large image takes little memory") {
-  const Folder folder;
+  const TemporaryFolder folder;
   constexpr int side = 5000;
   const fs::path path = folder.path / name_of(0, 0, 0, 0, ".png");
   // Row by row, so that the writing takes little memory as well.
@@ -183,7 +171,7 @@ TEST_CASE("a small square of a large image takes little memory") {
 }
 
 TEST_CASE("a texel beside the square may be anything") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::vector<float> rgb(3 * 24, 0.5f);
   rgb[0] = std::nanf("");
   write_image(folder.path / name_of(0, 0, 0, 0), 4, 6, rgb);
@@ -192,7 +180,7 @@ TEST_CASE("a texel beside the square may be anything") {
 }
 
 TEST_CASE("8-bit images are taken as sRGB") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::vector<float> grey(3 * 4, 128 / 255.0f);
   write_image(folder.path / name_of(0, 0, 0, 0, ".png"), 2, 2, grey);
   // IEC 61966-2-1: 128 / 255 is 0.2159 linear.
@@ -200,7 +188,7 @@ TEST_CASE("8-bit images are taken as sRGB") {
 }
 
 TEST_CASE("faults of a measured folder are named") {
-  const Folder folder;
+  const TemporaryFolder folder;
   CHECK(refusal(folder.path / "nowhere").find("cannot be read") != std::string::npos);
   CHECK(refusal(folder.path).find("no images") != std::string::npos);
   write_small_set(folder.path);
@@ -237,7 +225,7 @@ TEST_CASE("faults of a measured folder are named") {
 }
 
 TEST_CASE("an image whose head says more than its file holds is refused before memory is taken for it") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path image = folder.path / "00000_tl000_pl000_tv000_pv000.ppm";
   std::ofstream(image) << "P6\n5000 5000\n255\nabc";
   CHECK(refusal(folder.path).find("too many for its") != std::string::npos);
