@@ -1,4 +1,5 @@
 #include "bakers/measure/gpu_cost/shader_cases.h"
+#include "bakers/measure/gpu_cost/trip_counts.h"
 
 namespace nook::measure {
 namespace {
@@ -86,6 +87,28 @@ void main() {
 }
 )";
 
+std::string capture_define(const char* name, const char* value) {
+  return std::string("#define NOOK_CAPTURE_").append(name) + " NOOK_CAPTURE_" + value + "\n";
+}
+
+// Sums over the texels of a row, means over the rows, and a probe's numbers.
+void add_captures(std::vector<ShaderCase>& shaders) {
+  const auto add = [&](const char* file, const std::string& variant, const std::string& defines,
+                       const std::vector<Loop>& loops) {
+    shaders.push_back(tree_shader(Stage::vertex, std::string("shaders/probe/capture/") + file,
+                                  "probe capture, " + variant, defines, loops));
+  };
+  const std::vector<Loop> columns = {{"texels of a row", trips::capture_face_size, {}}};
+  add("rows.vert", "a row's sums of 12 lobes", capture_define("KIND", "LOBES"), columns);
+  add("rows.vert", "a row's sums of harmonics", capture_define("KIND", "BANDS"), columns);
+  add("rows.vert", "a row's luminance", capture_define("KIND", "LUMINANCE"), columns);
+  add("mean.vert", "mean over the rows", "", {{"rows", trips::capture_rows, {}}});
+  add("solve.vert", "amplitudes of 12 lobes", capture_define("FORM", "AMPLITUDES"),
+      {{"four factors of the map", trips::capture_factors, {}}});
+  add("solve.vert", "harmonics", capture_define("FORM", "HARMONICS"), {});
+  add("solve.vert", "zonal harmonics", capture_define("FORM", "ZONAL"), {});
+}
+
 }  // namespace
 
 std::vector<ShaderCase> probe_shaders() {
@@ -102,6 +125,7 @@ std::vector<ShaderCase> probe_shaders() {
   shaders.push_back(host_shader(harmonics, "probe, irradiance of harmonics"));
   shaders.push_back(host_shader(zonal_harmonics, "probe, irradiance of zonal harmonics"));
   shaders.push_back(host_shader(ambient, "probe, ambient and specular occlusion"));
+  add_captures(shaders);
   return shaders;
 }
 

@@ -29,14 +29,16 @@ std::string vertex_partner(const std::vector<StageVariable>& inputs) {
          "  gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);\n}\n";
 }
 
-// A fragment shader that reads all outputs of a vertex shader, so that none of them is removed.
+// A fragment shader that reads all outputs of a vertex shader, each element of arrays too, so that none of them is removed.
 std::string fragment_partner(const std::vector<StageVariable>& outputs) {
   std::string text = "#version 450\nlayout(location = 0) out vec4 colour;\n", body;
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    text += located("in", i, outputs[i]) + "v" + std::to_string(i) + ";\n";
-    body += "  colour += vec4(" + std::string(outputs[i].type == "vec3" ? "v" : "vec3(v") +
-            std::to_string(i) + (outputs[i].type == "vec3" ? "" : ")") + ", 1.0);\n";
-  }
+  std::size_t location = 0;
+  for (const StageVariable& output : outputs)
+    for (int element = 0; element < output.locations(); ++element, ++location) {
+      const std::string varying = "v" + std::to_string(location);
+      text += located("in", location, output) + varying + ";\n";
+      body += "  colour += vec4(" + (output.type == "vec3" ? varying : "vec3(" + varying + ")") + ", 1.0);\n";
+    }
   return text + "void main() {\n  colour = vec4(0.0);\n" + body + "}\n";
 }
 

@@ -26,4 +26,9 @@ inline constexpr double parts_of_near_body = 0.6;
 // The share of pixels that lie between characters so that no texel of far bodies is on their surface.
 inline constexpr double alone = 0.004;
 
+// A capture: a cube map of faces of 64 texels becomes 12 lobes, which are one group of sums.
+inline constexpr int capture_face_size = 64;  // texels
+inline constexpr int capture_rows = 6 * capture_face_size;
+inline constexpr int capture_factors = 12 / 4;
+
 }  // namespace nook::measure::trips

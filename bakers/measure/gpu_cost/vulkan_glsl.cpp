@@ -72,6 +72,12 @@ Declaration parse(const std::vector<std::string>& tokens) {
   return d;
 }
 
+// Of brackets with a number; 0 without brackets.
+int elements_of(const std::string& brackets) {
+  const std::size_t digits = brackets.find_first_of("0123456789");
+  return digits == std::string::npos ? 0 : std::stoi(brackets.substr(digits));
+}
+
 class Converter {
  public:
   // Returns the declaration as Vulkan takes it; empty where it moves into the uniform block.
@@ -113,9 +119,10 @@ class Converter {
 
   std::string stage_variable(const Declaration& d, const char* direction,
                              std::vector<StageVariable>& variables) {
-    variables.push_back({d.type, d.name, d.has("flat")});
-    return "layout(location = " + std::to_string(variables.size() - 1) + ") " +
-           (d.has("flat") ? "flat " : "") + direction + " " + d.type + " " + d.name + d.array + ";";
+    int location = 0;
+    for (const StageVariable& variable : variables) location += variable.locations();
+    variables.push_back({d.type, d.name, d.has("flat"), elements_of(d.array)});
+    return "layout(location = " + std::to_string(location) + ") " + (d.has("flat") ? "flat " : "") + direction + " " + d.type + " " + d.name + d.array + ";";
   }
 
   VulkanGlsl out_;

@@ -13,11 +13,14 @@ inline constexpr unsigned storage_block_set = 0, sampler_set = 1, uniform_set = 
 struct StageVariable {
   std::string type, name;
   bool flat = false;
+  int elements = 0;  // of an array; 0 for a single value
+
+  int locations() const { return elements > 0 ? elements : 1; }
 };
 
 struct VulkanGlsl {
   std::string text;
-  std::vector<StageVariable> inputs, outputs;  // the index is the location
+  std::vector<StageVariable> inputs, outputs;  // locations follow one another in this order
   std::vector<std::string> samplers;           // types; the index is the binding
   std::vector<std::string> uniforms;           // names of the block's members, in order
 };

@@ -73,6 +73,25 @@ void main() {
   CHECK(!compile_spirv(Stage::vertex, vertex.text, "the test's shader").empty());
 }
 
+TEST_CASE("an array of outputs takes a location for each element") {
+  const VulkanGlsl vertex = to_vulkan_glsl(preprocess(Stage::vertex, R"(#version 330 core
+#define SUMS 12
+in vec4 light;
+out vec4 sums[SUMS];
+out float behind;
+void main() {
+  for (int i = 0; i < SUMS; ++i) sums[i] = float(i) * light;
+  behind = light.x;
+  gl_Position = light;
+}
+)"));
+  REQUIRE(vertex.outputs.size() == 2);
+  CHECK(vertex.outputs[0].locations() == 12);
+  CHECK(vertex.outputs[1].locations() == 1);
+  CHECK(compact(vertex.text).find("layout(location=12)outfloatbehind") != std::string::npos);
+  CHECK(!compile_spirv(Stage::vertex, vertex.text, "the test's shader").empty());
+}
+
 TEST_CASE("a shader that does not compile is named with the compiler's words") {
   try {
     compile_spirv(Stage::fragment, "#version 450\nvoid main() { unknown(); }\n", "the faulty one");
