@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "sdk/src/core/light_map.h"
@@ -17,6 +18,8 @@
 namespace nook::test {
 
 using nook::probe::Probes;
+
+inline constexpr float pi = std::numbers::pi_v<float>;
 
 template <class Handle, void (*destroy)(Handle*)>
 struct Destroy {

@@ -2,7 +2,6 @@
 // over maps, and the textures that shaders read.
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "platform/program.h"
@@ -19,7 +18,6 @@ using namespace nook::test;
 
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 // The CPU's fit of a cube map's texels.

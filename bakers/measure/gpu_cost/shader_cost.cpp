@@ -29,7 +29,8 @@ std::string vertex_partner(const std::vector<StageVariable>& inputs) {
          "  gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);\n}\n";
 }
 
-// A fragment shader that reads all outputs of a vertex shader, each element of arrays too, so that none of them is removed.
+// A fragment shader that reads all outputs of a vertex shader, each element of arrays too, so that none of
+// them is removed.
 std::string fragment_partner(const std::vector<StageVariable>& outputs) {
   std::string text = "#version 450\nlayout(location = 0) out vec4 colour;\n", body;
   std::size_t location = 0;

@@ -122,7 +122,8 @@ class Converter {
     int location = 0;
     for (const StageVariable& variable : variables) location += variable.locations();
     variables.push_back({d.type, d.name, d.has("flat"), elements_of(d.array)});
-    return "layout(location = " + std::to_string(location) + ") " + (d.has("flat") ? "flat " : "") + direction + " " + d.type + " " + d.name + d.array + ";";
+    return "layout(location = " + std::to_string(location) + ") " + (d.has("flat") ? "flat " : "") +
+           direction + " " + d.type + " " + d.name + d.array + ";";
   }
 
   VulkanGlsl out_;
