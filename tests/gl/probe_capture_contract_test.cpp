@@ -1,4 +1,5 @@
-// What captures promise to a host: OpenGL state, memory and lifetimes, and what they refuse.
+// These tests hold captures to their contract with a host: OpenGL state, memory and lifetimes, and the calls
+// that they refuse.
 #include <cmath>
 #include <limits>
 #include <string>

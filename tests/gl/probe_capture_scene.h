@@ -1,4 +1,5 @@
-// What tests of captures share: cube maps in host memory and in OpenGL, and the handles that captures need.
+// The tests of captures share these cube maps, in host memory and in OpenGL, and the handles that captures
+// need.
 #pragma once
 
 #include <nook/nook_gl_probe.h>

@@ -20,7 +20,7 @@ inline nook_scene_instance_info instance_info(const Scene& scene, nook_instance_
 
 namespace detail {
 
-// Asks for the count, then for the elements.
+// The first call returns the count, the second one fills the elements.
 template <class Element>
 std::vector<Element> read_all(nook_result (*read)(nook_scene, nook_instance_id, Element*, std::uint32_t*),
                               const Scene& scene, nook_instance_id id) {
