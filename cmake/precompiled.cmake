@@ -2,6 +2,9 @@
 # library, of Catch2, of Eigen and of nlohmann-json. The library itself is compiled plainly, as who builds it does, but under the
 # sanitizers.
 #
+# Programs (the tool, samples and tests) are compiled with -O1: they wait for the rooms, which keep their optimisation, and a third
+# of the time to compile them went into optimising. Those that measure time keep theirs, and have no precompiled header.
+#
 # One precompiled header serves all targets whose flags are the same: position-independent code of libraries is not that of
 # programs. Each target below compiles one empty source, from which the others take the header.
 
@@ -13,6 +16,7 @@ function(nook_precompiled name type)
   set(sources ${CMAKE_CURRENT_BINARY_DIR}/precompiled/${name}.cpp ${CMAKE_CURRENT_BINARY_DIR}/precompiled/${name}.c)
   if(type STREQUAL "EXECUTABLE")
     add_executable(${name} ${sources})
+    target_compile_options(${name} PRIVATE -O1)
   else()
     add_library(${name} OBJECT ${sources})
   endif()
@@ -65,6 +69,13 @@ function(nook_precompile_directory directory)
     if(NOT precompiled)
       continue()
     endif()
+    get_target_property(type ${target} TYPE)
+    if(type STREQUAL "EXECUTABLE")
+      if(directory MATCHES "/(bench|measure)(/|$)")
+        continue()
+      endif()
+      target_compile_options(${target} PRIVATE -O1)
+    endif()
     set_target_properties(${target} PROPERTIES PRECOMPILE_HEADERS_REUSE_FROM ${precompiled}
                           PCH_WARN_INVALID OFF)
     add_dependencies(${target} ${precompiled})
@@ -78,6 +89,7 @@ function(nook_precompile_directory directory)
     foreach(name IN LISTS sources)
       cmake_path(ABSOLUTE_PATH name BASE_DIRECTORY ${folder} OUTPUT_VARIABLE source)
       get_source_file_property(options ${source} TARGET_DIRECTORY ${target} COMPILE_OPTIONS)
+      list(REMOVE_ITEM options -fno-sanitize-coverage=trace-cmp)
       if(options OR source MATCHES "\\.c$")
         set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
       endif()

@@ -3,7 +3,7 @@
 #   packaging/release.sh [--only PART,...] [FOLDER]
 # Parts: source, python, blender, windows, debian, web, in this order; checksums and third-party notices always. A part whose tools are
 # missing is left out and named at the end; a part that fails ends the script. FOLDER (default: build-release) is emptied; the
-# files of the release end in FOLDER/release. NOOK_RELEASE (default: the project's version) is the version in their names, such as 1.0.0-rc1.
+# files of the release end in FOLDER/release. NOOK_RELEASE (default: the version of nook.h) is the version in their names, such as 1.0.0-rc1.
 # Files are the same on each run: their times are SOURCE_DATE_EPOCH, by default the time of the commit.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -13,7 +13,8 @@ if [ "${1:-}" = --only ]; then
   shift 2
 fi
 out=${1:-$root/build-release}
-version=${NOOK_RELEASE:-$(sed -n 's/^project(nook VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")}
+header_value() { sed -n "s/^#define NOOK_VERSION_$1 \"\{0,1\}\([^\"]*\)\"\{0,1\}\$/\1/p" "$root/sdk/include/nook/nook.h"; }
+version=${NOOK_RELEASE:-$(header_value MAJOR).$(header_value MINOR).$(header_value PATCH)$(header_value SUFFIX)}
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%ct)}
 export TZ=UTC LC_ALL=C.UTF-8 PYTHONDONTWRITEBYTECODE=1
 jobs=${NOOK_JOBS:-$(nproc)}

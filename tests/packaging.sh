@@ -5,7 +5,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 out=${NOOK_PACKAGES_DIR:-$root/build-packages}
-version=$(sed -n 's/^project(nook VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
+version=$(sed -n '1s/^nook (\(.*\)-[^-]*).*/\1/p' "$root/debian/changelog")
 
 has() {  # what, commands...
   local what=$1 command

@@ -9,6 +9,7 @@
 #include "bakers/tool/tool_error.h"
 #include "platform/printable.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/version.h"
 
 namespace {
 
@@ -18,9 +19,7 @@ int run(int argc, char** argv) {
       "tracing, and inspects .nook files.\n"
       "Exit codes: 0 done, 2 bad arguments, 3 bad input, 1 anything else.",
       "nook");
-  tool.set_version_flag("--version", std::to_string(NOOK_VERSION_MAJOR) + "." +
-                                         std::to_string(NOOK_VERSION_MINOR) + "." +
-                                         std::to_string(NOOK_VERSION_PATCH));
+  tool.set_version_flag("--version", nook::version_text);
   tool.require_subcommand(1);
   CLI::App* bake = tool.add_subcommand("bake", "make .nook files")->require_subcommand(1);
   CLI::App* evaluate =

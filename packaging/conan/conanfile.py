@@ -25,8 +25,10 @@ class NookConan(ConanFile):
         return os.path.join(self.recipe_folder, "..", "..")
 
     def set_version(self):
-        text = load(self, os.path.join(self._root, "CMakeLists.txt"))
-        self.version = re.search(r"project\(nook VERSION ([0-9.]+)", text).group(1)
+        text = load(self, os.path.join(self._root, "sdk", "include", "nook", "nook.h"))
+        major, minor, patch, suffix = (re.search(rf'^#define NOOK_VERSION_{part} "?([^"\n]*)', text, re.M).group(1)
+                                       for part in ("MAJOR", "MINOR", "PATCH", "SUFFIX"))
+        self.version = f"{major}.{minor}.{patch}{suffix}"
 
     def export_sources(self):
         for pattern in ("CMakeLists.txt", "LICENSE", "NOTICE", "cmake/*", "sdk/*", "shaders/*"):

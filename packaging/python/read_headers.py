@@ -85,7 +85,9 @@ def page():
         found, defines = declarations((ROOT / f"sdk/include/nook/{header}.h").read_text(encoding="utf-8"))
         for name, value in defines:
             number = value.strip("()").rstrip("fu")
-            if re.fullmatch(r"-?[\d.]+", number):
+            if re.fullmatch(r'"[^"]*"', value):
+                values[name] = value
+            elif re.fullmatch(r"-?[\d.]+", number):
                 values[name] = number
                 sizes[name] = number
         for code in found:

@@ -6,26 +6,32 @@
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/material_file.h"
 #include "tests/fuzz/container_input.h"
 #include "tests/fuzz/library.h"
 
 namespace {
 
+using namespace nook;
 using namespace nook::test;
 
-// The size that a small file may expand to is bounded, but not worth a fuzzer's time beyond this.
-bool is_small(std::span<const std::byte> file) {
-  const auto expanded = [](const nook::material::TensorShape& s) {
+// Two kinds of inputs take long. A small file may expand to a large material; and one without view maps is
+// resampled to 256 x 256 cells when it is loaded, 20 ms under the sanitizers.
+enum class Work { refused, large, resampled, little };
+
+Work work_of(std::span<const std::byte> file, material::Material& material) {
+  const auto expanded = [](const material::TensorShape& s) {
     return std::uint64_t(s.clusters) * s.rank_light * s.rank_view * s.width * s.height;
   };
   try {
-    const nook::material::Material material = nook::material::read_material(file);
-    return expanded(material.btf.shape) + expanded(material.votf.shape) <= 1 << 16 &&
-           material.views.size() <= 64;
-  } catch (const nook::Failure&) {
-    return true;  // the library refuses it as fast
+    material = material::read_material(file);
+  } catch (const Failure&) {
+    return Work::refused;
   }
+  if (expanded(material.btf.shape) + expanded(material.votf.shape) > 1 << 16 || material.views.size() > 64)
+    return Work::large;
+  return material.btf.map.side == 0 ? Work::resampled : Work::little;
 }
 
 void fill(Script& script, float* numbers, int count) {
@@ -48,12 +54,14 @@ void evaluate(nook_material material, const nook_material_sample& sample) {
     require(std::isfinite(value.radiance[0] + value.radiance[1] + value.radiance[2]));
 }
 
-void evaluate_directions(nook_material material, Script& script) {
+// Calls visit(sample) for some samples above the horizon and for those of the script.
+template <class Visit>
+void for_each_sample(Script& script, Visit&& visit) {
   for (const float level : {0.0f, 0.5f, 40.0f})
     for (int i = 0; i < 5; ++i) {
       const float angle = 1.3f * float(i), z = 0.2f * float(i + 1), r = std::sqrt(1 - z * z);
-      evaluate(material,
-               {{0.3f * float(i), -0.7f}, level, {r * std::cos(angle), r * std::sin(angle), z}, {0, r, z}});
+      visit(nook_material_sample{
+          {0.3f * float(i), -0.7f}, level, {r * std::cos(angle), r * std::sin(angle), z}, {0, r, z}});
     }
   for (int i = 0; i < 32 && !script.at_end(); ++i) {
     nook_material_sample sample;
@@ -61,8 +69,22 @@ void evaluate_directions(nook_material material, Script& script) {
     sample.level = script.number();
     fill(script, sample.view, 3);
     fill(script, sample.light, 3);
-    evaluate(material, sample);
+    visit(sample);
   }
+}
+
+// The same resampling as on loading, to few cells.
+void resample(const material::Material& material, Script& script) {
+  constexpr std::uint32_t few_cells = 8;
+  const material::MaterialTables tables =
+      material::make_tables(material, Parallel(), default_memory(), few_cells);
+  for_each_sample(script, [&](const nook_material_sample& s) {
+    if (!is_reasonable(s)) return;
+    const material::Sample sample{
+        s.uv[0], s.uv[1], s.level, {s.view[0], s.view[1], s.view[2]}, {s.light[0], s.light[1], s.light[2]}};
+    const material::Radiance radiance = material::evaluate_btf(tables, sample);
+    require(std::isfinite(radiance.red + radiance.green + radiance.blue));
+  });
 }
 
 void upload(nook_gl gl, nook_material material, Script& script) {
@@ -86,8 +108,14 @@ void upload(nook_gl gl, nook_material material, Script& script) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   ContainerInput input = split_input(data, size);
-  if (!is_small(input.file)) return 0;
+  material::Material read;
+  const Work work = work_of(input.file, read);
+  if (work == Work::large) return 0;
   const std::uint32_t settings = input.script.byte();
+  if (work == Work::resampled && settings != 31) {
+    resample(read, input.script);
+    return 0;
+  }
   nook_material material = nullptr;
   if (!ok(nook_material_load(context_with_jobs(settings & 1), input.file.data(), input.file.size(),
                              &material))) {
@@ -98,7 +126,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   info.struct_size = sizeof info;
   require(ok(nook_material_describe(material, &info)) && info.width > 0 && info.view_count > 0);
   upload(gl_of_tier(settings & 2 ? 43 : 33), material, input.script);
-  evaluate_directions(material, input.script);
+  for_each_sample(input.script, [&](const nook_material_sample& sample) { evaluate(material, sample); });
   nook_material_destroy(&material);
   return 0;
 }

@@ -1,12 +1,11 @@
 #include "bakers/measure/report/page.h"
 
-#include <nook/nook.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "bakers/measure/report/template.h"
+#include "sdk/src/core/version.h"
 
 namespace nook::report {
 namespace {
@@ -70,8 +69,7 @@ Html licence_list(const PageSource& source) {
 }  // namespace
 
 std::string page_of(const PageSource& source, const PageParts& parts) {
-  const std::string version = std::to_string(NOOK_VERSION_MAJOR) + "." + std::to_string(NOOK_VERSION_MINOR) +
-                              "." + std::to_string(NOOK_VERSION_PATCH);
+  const std::string version = version_text;
   return fill("page.html",
               {{"title", text(source.title)},
                {"kind", Html("Nook report: ") + value_of(source.facts.value("kind", Json("file")))},

@@ -3,7 +3,7 @@ report for artists."""
 bl_info = {
     "name": "Nook: ambient occlusion of characters",
     "author": "the authors of Nook",
-    "version": (0, 2, 0),
+    "version": (1, 0, 0),
     "blender": (3, 4, 0),
     "location": "3D view > sidebar > Nook",
     "description": "Bakes dynamic ambient occlusion of a rigged character and shows it as a colour attribute over the timeline",

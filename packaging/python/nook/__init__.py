@@ -12,7 +12,7 @@
 The module calls the C interface of the shared libraries libnook and libnook_bake. A call that fails raises NookError with the
 library's message; arrays of a wrong shape raise ValueError before the call.
 """
-from ._layouts import NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR, NOOK_VERSION_PATCH
+from ._layouts import NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR, NOOK_VERSION_PATCH, NOOK_VERSION_SUFFIX
 from ._library import Cancelled, MissingLibrary, NookError
 from .characters import Character
 from .jobs import Job, Progress, bake_character, bake_material, bake_transfer
@@ -21,7 +21,7 @@ from .probes import Probe, ProbeFit
 from .scenes import CharacterModel, Context, Instance, Scene, evaluate_pose
 from .traces import ModelError, model_error, trace_ao
 
-__version__ = f"{NOOK_VERSION_MAJOR}.{NOOK_VERSION_MINOR}.{NOOK_VERSION_PATCH}"
+__version__ = f"{NOOK_VERSION_MAJOR}.{NOOK_VERSION_MINOR}.{NOOK_VERSION_PATCH}{NOOK_VERSION_SUFFIX.replace('-', '')}"
 __all__ = [
     "Cancelled", "Character", "CharacterModel", "Context", "Instance", "Job", "Material", "MaterialValues", "MissingLibrary", "ModelError",
     "NookError", "Probe", "ProbeFit", "Progress", "Scene", "bake_character", "bake_material", "bake_transfer", "evaluate_pose",

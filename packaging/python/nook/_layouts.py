@@ -120,10 +120,11 @@ NOOK_TRANSFORM_DUAL_QUATERNION = 4
 NOOK_TRANSFORM_ROWS_3X4 = 0
 NOOK_TRANSFORM_ROWS_4X4 = 1
 NOOK_TRANSFORM_TRS = 5
-NOOK_VERSION = ((0 << 22) | (2 << 12) | 0)
-NOOK_VERSION_MAJOR = 0
-NOOK_VERSION_MINOR = 2
+NOOK_VERSION = ((1 << 22) | (0 << 12) | 0)
+NOOK_VERSION_MAJOR = 1
+NOOK_VERSION_MINOR = 0
 NOOK_VERSION_PATCH = 0
+NOOK_VERSION_SUFFIX = "-rc1"
 nook_result = ctypes.c_int32
 
 
@@ -842,6 +843,7 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "nook_last_message": (ctypes.c_char_p, []),
     "nook_result_name": (ctypes.c_char_p, [nook_result]),
     "nook_version": (ctypes.c_uint32, []),
+    "nook_version_text": (ctypes.c_char_p, []),
     "nook_context_desc_init": (nook_result, [ctypes.POINTER(nook_context_desc), ctypes.c_size_t, ctypes.c_uint32]),
     "nook_context_create": (nook_result, [ctypes.POINTER(nook_context_desc), ctypes.POINTER(nook_context)]),
     "nook_context_destroy": (None, [ctypes.POINTER(nook_context)]),

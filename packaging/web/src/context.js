@@ -18,10 +18,10 @@ export class Context extends Owned {
     super(library, handle, "nook_context_destroy");
   }
 
-  // "0.2.0".
+  // "1.0.0-rc1".
   get version() {
-    const { version } = this.library;
-    return `${version >>> 22}.${(version >>> 12) & 1023}.${version & 4095}`;
+    const { module } = this.library;
+    return module.UTF8ToString(module._nook_version_text());
   }
   // The memory of the module in bytes; it grows and never shrinks.
   get memoryBytes() {

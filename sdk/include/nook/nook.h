@@ -20,9 +20,11 @@
 extern "C" {
 #endif
 
-#define NOOK_VERSION_MAJOR 0
-#define NOOK_VERSION_MINOR 2
+#define NOOK_VERSION_MAJOR 1
+#define NOOK_VERSION_MINOR 0
 #define NOOK_VERSION_PATCH 0
+/* The text behind the numbers: "-rc1" for the first candidate of a release, "" for the release. */
+#define NOOK_VERSION_SUFFIX "-rc1"
 /* The caller passes this value to every *_desc_init, so that the library knows with which header the caller
  * was compiled. */
 #define NOOK_VERSION \
@@ -85,6 +87,11 @@ NOOK_API const char* nook_result_name(nook_result result);
 /* Returns the version of the library, which compares with NOOK_VERSION.
  * Any thread. */
 NOOK_API uint32_t nook_version(void);
+
+/* Returns the version of the library as text, such as "1.0.0-rc1": its numbers and NOOK_VERSION_SUFFIX. The
+ * text is valid until the program ends.
+ * Any thread. */
+NOOK_API const char* nook_version_text(void);
 
 /* The host's memory functions. allocate returns size bytes, or NULL when it cannot; alignment is a power of
  * two up to 64 bytes. release receives the same size and alignment. Nook calls both from any thread that

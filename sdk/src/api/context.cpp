@@ -3,6 +3,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/core/descriptors.h"
+#include "sdk/src/core/version.h"
 
 namespace nook::api {
 namespace {
@@ -35,6 +36,10 @@ const char* nook_last_message(void) {
 
 uint32_t nook_version(void) {
   return NOOK_VERSION;
+}
+
+const char* nook_version_text(void) {
+  return version_text;
 }
 
 const char* nook_result_name(nook_result result) {
@@ -79,8 +84,7 @@ nook_result nook_context_create(const nook_context_desc* desc, nook_context* out
     HostMemory memory(settings.allocator);
     void* place = static_cast<Memory&>(memory).allocate(sizeof(nook_context_s), alignof(nook_context_s));
     *out = new (place) nook_context_s(settings);
-    (*out)->log(NOOK_LOG_INFO, "nook %d.%d.%d, instruction set %s", NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR,
-                NOOK_VERSION_PATCH, best_shadow_kernels().name);
+    (*out)->log(NOOK_LOG_INFO, "nook %s, instruction set %s", version_text, best_shadow_kernels().name);
   });
 }
 

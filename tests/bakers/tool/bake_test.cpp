@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "sdk/src/core/version.h"
 #include "tests/bakers/tool/glb_tube.h"
 #include "tests/bakers/tool/tool_run.h"
 #include "tests/catch.h"
@@ -220,7 +221,7 @@ TEST_CASE("help names the options and exits with 0") {
        {"--preset", "--spheres", "--key-points", "--poses", "--clips", "--split", "--rays", "--kernel",
         "--gamma", "--fit", "--time-limit", "--threads", "--seed", "--report", "--quiet"})
     CHECK(has(run.out, option));
-  CHECK(folder.run({"--version"}).out == "0.2.0\n");
+  CHECK(folder.run({"--version"}).out == std::string(nook::version_text) + "\n");
 }
 
 TEST_CASE("bake lod: a model for another mesh of the same rig, and an error for another skeleton") {
