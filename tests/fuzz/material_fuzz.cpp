@@ -79,7 +79,7 @@ void resample(const material::Material& material, Script& script) {
   const material::MaterialTables tables =
       material::make_tables(material, Parallel(), default_memory(), few_cells);
   for_each_sample(script, [&](const nook_material_sample& s) {
-    if (!is_reasonable(s)) return;
+    if (!is_reasonable(s) || !std::isfinite(s.level)) return;  // the C interface refuses the others
     const material::Sample sample{
         s.uv[0], s.uv[1], s.level, {s.view[0], s.view[1], s.view[2]}, {s.light[0], s.light[1], s.light[2]}};
     const material::Radiance radiance = material::evaluate_btf(tables, sample);
