@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "sdk/src/core/version.h"
 #include "tests/bakers/tool/glb_tube.h"
 #include "tests/bakers/tool/tool_run.h"
 #include "tests/catch.h"
@@ -221,7 +220,7 @@ TEST_CASE("help names the options and exits with 0") {
        {"--preset", "--spheres", "--key-points", "--poses", "--clips", "--split", "--rays", "--kernel",
         "--gamma", "--fit", "--time-limit", "--threads", "--seed", "--report", "--quiet"})
     CHECK(has(run.out, option));
-  CHECK(folder.run({"--version"}).out == std::string(nook::version_text) + "\n");
+  CHECK(folder.run({"--version"}).out == NOOK_VERSION_TEXT "\n");
 }
 
 TEST_CASE("bake lod: a model for another mesh of the same rig, and an error for another skeleton") {
