@@ -147,9 +147,9 @@ typedef struct nook_scene_desc {
    * one scale, as the baker does, and the context logs it once for an instance. 1: such a pose fails. */
   uint32_t strict_poses;
   /* AO, root mean square over a body, in [0, 1], default 1/1024. nook_scene_update merges the spheres of a
-   * linked caster into 16, 6 or 2 groups, as few as an estimate of the change of AO allows at their distance.
-   * The estimate is for bodies apart: at 1 m between their middles one body changes by 0.0033. 0 merges
-   * nothing, and neither do NOOK_COMBINE_PAPER and the OpenGL 4.3 tier. */
+   * linked caster into 16, 6 or 2 groups, as few as an estimate of the change of AO allows at their distance
+   * from the nearest part of the receiver. 0 merges nothing, and neither do NOOK_COMBINE_PAPER and the
+   * OpenGL 4.3 tier. */
   float far_error;
   /* Must be 0. */
   uint32_t reserved;

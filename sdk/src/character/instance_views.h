@@ -18,17 +18,22 @@ inline SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
   return {s.x, s.y, s.z, s.inverse_radius, rest.caster_weight(), s.count};
 }
 
+// True where an update merges the spheres of far casters. The paper's form takes the spheres, because its
+// norm is no sum.
+inline bool may_group(const Scene& scene) {
+  return scene.settings.far_error > 0 && scene.settings.combine == NOOK_COMBINE_COMPOSED;
+}
+
 // The spheres of a caster for a receiver: the fewest groups whose change of AO the distance allows, or the
 // spheres at the receiver's level. group_spheres leaves no groups where there should be none.
 inline SphereSoa caster_spheres(const Scene& scene, const Instance& receiver, const Instance& caster) {
   const InstanceResult& result = caster.result;
   if (result.grouped_revision == caster.input.pose_revision) {
-    const float distance = length(caster.input.bound.centre - receiver.input.bound.centre);
-    for (std::uint32_t t = group_tiers; t-- > 0;)
-      if (group_error(result.group_moments[t], distance) < scene.settings.far_error) {
-        const GroupLanes& g = result.arrays.groups[t];
+    for (std::uint32_t t = group_tiers; t-- > 0;) {
+      const GroupLanes& g = result.arrays.groups[t];
+      if (group_error(g, receiver.result.box) < scene.settings.far_error)
         return {g.x, g.y, g.z, g.inverse_radius, g.caster_weight, g.count};
-      }
+    }
   }
   return spheres_of(caster, receiver.plan.level);
 }

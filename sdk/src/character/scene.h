@@ -40,7 +40,7 @@ struct SphereLanes {
   std::uint32_t count = 0;
 };
 
-inline constexpr std::size_t sphere_lanes = 4, group_lanes = 5, point_lanes = 17;  // pointers of a struct
+inline constexpr std::size_t sphere_lanes = 4, group_lanes = 6, point_lanes = 17;  // pointers of a struct
 
 // Key points in world space, each array padded_count long. Padding holds finite numbers. Pointers are into
 // InstanceArrays::storage.
@@ -114,11 +114,11 @@ struct InstancePlan {
 // The results of an evaluation on the CPU.
 struct InstanceResult {
   InstanceArrays arrays;
-  std::uint64_t transformed_revision = 0;          // InstanceInput::pose_revision of the spheres in `arrays`
-  std::uint64_t grouped_revision = 0;              // that of the groups
-  std::array<float, group_tiers> group_moments{};  // merge_groups of each tier, and of those before
-  std::uint64_t evaluated_frame = 0;               // Scene::frame of the last evaluation; 0: never
-  std::uint64_t evaluations = 0;                   // sphere-key-point pairs of the last evaluation
+  std::uint64_t transformed_revision = 0;  // InstanceInput::pose_revision of the spheres in `arrays`
+  std::uint64_t grouped_revision = 0;      // that of the groups
+  ReceiverBox box;                         // of the key points' surface; kept where casters may be grouped
+  std::uint64_t evaluated_frame = 0;       // Scene::frame of the last evaluation; 0: never
+  std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
 };
 
 // The world casters of an instance in its pose (world_casters.h).
@@ -256,7 +256,7 @@ void resolve_casters(Scene& scene, HasResult has_result) noexcept;
 void transform_spheres(const Scene& scene, Instance& instance) noexcept;
 // Merges the spheres of an instance that may darken others into groups, unless settings.far_error is 0.
 void group_spheres(const Scene& scene, Instance& instance) noexcept;
-// Computes the world-space key points of an instance that is due, at its level.
+// Computes the world-space key points of an instance that is due, at its level, and their box.
 void transform_key_points(const Scene& scene, Instance& instance) noexcept;
 // Computes shadow and added occlusion at the key points of an instance that is due, and their colours if it
 // has a light (light.h).

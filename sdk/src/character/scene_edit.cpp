@@ -149,7 +149,8 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory) {
   take_spheres(arrays.spheres);
   for (std::size_t l = 0; l < model.levels.size(); ++l) take_spheres(arrays.coarse_spheres[l]);
   for (GroupLanes& groups : arrays.groups)
-    for (float** lane : {&groups.x, &groups.y, &groups.z, &groups.inverse_radius, &groups.caster_weight})
+    for (float** lane :
+         {&groups.x, &groups.y, &groups.z, &groups.inverse_radius, &groups.caster_weight, &groups.moment})
       take(lane, padded_count(groups.count));
   for (float** lane : of_points) take(lane, points.padded_count);
   return arrays;

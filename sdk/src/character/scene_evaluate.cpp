@@ -69,17 +69,16 @@ void transform_spheres(const Scene& scene, Instance& instance) noexcept {
   instance.result.transformed_revision = instance.input.pose_revision;
 }
 
-// The paper's form takes the spheres, because its norm is no sum.
 void group_spheres(const Scene& scene, Instance& instance) noexcept {
   const bool may_darken = scene.nearest > 0 || !instance.input.receivers.empty();
-  if (!may_darken || !(scene.settings.far_error > 0) || scene.settings.combine != NOOK_COMBINE_COMPOSED)
-    return;
+  if (!may_darken || !may_group(scene)) return;
   if (instance.result.grouped_revision == instance.input.pose_revision) return;
   SphereSoa parts = spheres_of(instance, 0);
-  float moments = 0;
+  const float* moments = nullptr;
   for (std::uint32_t t = 0; t < group_tiers; ++t) {
     const GroupLanes& groups = instance.result.arrays.groups[t];
-    instance.result.group_moments[t] = moments += merge_groups(instance.model->groups.tier(t), parts, groups);
+    merge_groups(instance.model->groups.tier(t), parts, moments, groups);
+    moments = groups.moment;
     parts = {groups.x, groups.y, groups.z, groups.inverse_radius, groups.caster_weight, groups.count};
   }
   instance.result.grouped_revision = instance.input.pose_revision;
@@ -93,6 +92,10 @@ void transform_key_points(const Scene& scene, Instance& instance) noexcept {
   const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
   scene.kernels->pose_key_points(rest_points_of(instance).view(), instance.input.bones.data(), {}, fitted,
                                  composed ? &surface : nullptr);
+  if (may_group(scene) && !instance.plan.casters.empty()) {
+    const PointLanes points = evaluated_points(instance);
+    instance.result.box = box_of(points.surface_x, points.surface_y, points.surface_z, points.count);
+  }
 }
 
 void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {

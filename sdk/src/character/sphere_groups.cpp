@@ -96,8 +96,33 @@ SphereGroups::SphereGroups(const CharacterModel& model, Memory* memory) {
   }
 }
 
-float merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const GroupLanes& out) {
-  float moments = 0;
+ReceiverBox box_of(const float* x, const float* y, const float* z, std::uint32_t count) {
+  ReceiverBox box;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    box.min = {std::min(box.min.x, x[k]), std::min(box.min.y, y[k]), std::min(box.min.z, z[k])};
+    box.max = {std::max(box.max.x, x[k]), std::max(box.max.y, y[k]), std::max(box.max.z, z[k])};
+  }
+  return box;
+}
+
+float group_error(const GroupLanes& groups, const ReceiverBox& receiver) {
+  const auto outside = [](float place, float min, float max) {
+    return std::max({min - place, place - max, 0.0f});
+  };
+  float sum = 0;
+  for (std::uint32_t g = 0; g < groups.count; ++g) {
+    if (!(groups.moment[g] > 0)) continue;  // a single sphere
+    const float x = outside(groups.x[g], receiver.min.x, receiver.max.x),
+                y = outside(groups.y[g], receiver.min.y, receiver.max.y),
+                z = outside(groups.z[g], receiver.min.z, receiver.max.z);
+    const float squared = x * x + y * y + z * z;
+    sum += groups.moment[g] / (squared * squared);
+  }
+  return 1.2f * sum;
+}
+
+void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const float* part_moments,
+                  const GroupLanes& out) {
   for (std::uint32_t g = 0; g < out.count; ++g) {
     const std::uint32_t *const begin = tier.member.data() + tier.first[g], *const end = tier.member.data() +
                                                                                         tier.first[g + 1];
@@ -123,6 +148,7 @@ float merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const
       const float m = parts.caster_weight[*i] / (parts.inverse_radius[*i] * parts.inverse_radius[*i]);
       moment += m * (dx * dx + dy * dy + dz * dz);
     }
+    // The moment of the parts' middles decides the radius, because the parts have radii of their own.
     const float squared = (own + (4.0f / 3) * moment) * inverse;
     out.x[g] = x;
     out.y[g] = y;
@@ -130,9 +156,9 @@ float merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const
     out.inverse_radius[g] =
         squared > min_sphere_radius * min_sphere_radius ? 1 / std::sqrt(squared) : 1 / min_sphere_radius;
     out.caster_weight[g] = mass * out.inverse_radius[g] * out.inverse_radius[g];
-    moments += moment;
+    for (const std::uint32_t* i = begin; part_moments && i < end; ++i) moment += part_moments[*i];
+    out.moment[g] = moment;
   }
-  return moments;
 }
 
 }  // namespace nook

@@ -3,9 +3,11 @@
 // A far sphere darkens by weight * radius^2 * cos / d^2, the field of a charge of `mass` = weight * radius^2,
 // so that spheres which are close to each other, seen from the receiver, act like one of the sum of their
 // masses at its centre. The field is that of a dipole and harmonic: what a group changes is of second order
-// in its extent, and vanishes for an extent that is even in all directions.
+// in its extent, and vanishes for an extent that is even in all directions. What that is to a receiver is
+// decided by its nearest part, so that two bodies whose arms cross keep their spheres.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "sdk/src/character/model.h"
@@ -45,21 +47,28 @@ struct GroupLanes {
   float *x = nullptr, *y = nullptr, *z = nullptr;
   float* inverse_radius = nullptr;  // per metre
   float* caster_weight = nullptr;
+  float* moment = nullptr;  // metres^4: sum over the spheres of mass * (distance from the centre)^2
   std::uint32_t count = 0;
 };
 
+// The box of the places where a receiver feels its casters, metres. Without any place it is empty.
+struct ReceiverBox {
+  Vec3 min{INFINITY, INFINITY, INFINITY}, max{-INFINITY, -INFINITY, -INFINITY};
+};
+ReceiverBox box_of(const float* x, const float* y, const float* z, std::uint32_t count);
+
 // Merges `parts`, the spheres of a pose or the groups of the tier before, into the groups of a tier. A group
 // has the mass and the centre of its parts, and a radius that has their spread: that of a disc is a quarter
-// of its squared radius along each axis. Returns the sum over groups of mass * (squared extent round the
-// centre), in metres^4. The pose decides it, so that a group whose parts have moved apart counts as large.
-float merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const GroupLanes& out);
+// of its squared radius along each axis. part_moments are those of groups, or null for spheres. The pose
+// decides a group's moment, so that a group whose parts have moved apart counts as large.
+void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const float* part_moments,
+                  const GroupLanes& out);
 
-// Returns the change of AO, root mean square over a receiver, by groups of a moment at a distance between the
-// two bodies. The largest second derivative of cos / d^2 is 6 / d^4; half of the receiver faces away, and the
-// mean square of cos over the other half is 1/3, so that half of 6 * moment / d^4 becomes 1.2 * moment / d^4.
-inline float group_error(float moment_m4, float distance_m) {
-  const float squared = distance_m * distance_m;
-  return 1.2f * moment_m4 / (squared * squared);
-}
+// Returns an estimate of the change of AO by groups, root mean square over a receiver; infinity where the
+// middle of a group of several spheres lies in its box. The largest second derivative of cos / d^2 is
+// 6 / d^4; half of the receiver faces away, and the mean square of cos over the other half is 1/3, so that
+// half of 6 * moment / d^4 becomes 1.2 * moment / d^4. The distance of each group is that from the nearest
+// point of the box, which is too near for most of the receiver.
+float group_error(const GroupLanes& groups, const ReceiverBox& receiver);
 
 }  // namespace nook
