@@ -64,6 +64,8 @@ int nook_call_everything(const void* bytes, size_t size) {
 
   failures = 0;
   EXPECT(nook_version() == NOOK_VERSION);
+  EXPECT(nook_version_text()[0] - '0' == NOOK_VERSION_MAJOR &&
+         strstr(nook_version_text(), NOOK_VERSION_SUFFIX));
   EXPECT(strcmp(nook_result_name(NOOK_OK), "NOOK_OK") == 0);
   EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
   context_desc.allocator.user = &blocks;
