@@ -181,6 +181,18 @@ Json bake(const Options& o, platform::OutputFile& output, std::optional<platform
   return {{"rows", Json::array({json})}, {"recipe", recipe}};
 }
 
+// The sizes of a material that will be ray traced; no views for one that is read.
+RawMaterial expected_sizes(const Options& o) {
+  RawMaterial sizes;
+  if (o.meso.empty() && o.pbr.empty()) return sizes;
+  sizes.name = o.meso;
+  sizes.views.resize(o.directions);
+  sizes.lights.resize(o.lights ? o.lights : o.directions);
+  sizes.width = o.trace.width;
+  sizes.height = o.trace.height;
+  return sizes;
+}
+
 void run(Options& o) {
   if (int(!o.meso.empty()) + int(!o.pbr.empty()) + int(!o.btf.empty()) + int(!o.raw.empty()) != 1)
     throw ToolError(exit_bad_arguments, "bake material: one of --meso, --pbr, --btf and --raw is needed");
@@ -191,6 +203,9 @@ void run(Options& o) {
   if (is_mesh(o.meso) && !std::filesystem::exists(o.meso)) meso_parameters(o.meso);
   if (o.texels) o.trace.width = o.trace.height = o.texels;
   o.trace.seed = o.common.seed;
+  check_compression(o.compression, expected_sizes(o));
+  if (!o.visibility_mapping.empty())
+    visibility_mapping(o.visibility_mapping, o.compression.settings.visibility);
   platform::OutputFile output(o.output);
   std::optional<platform::OutputFile> raw_file, report_file;
   if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);

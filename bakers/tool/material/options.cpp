@@ -77,19 +77,24 @@ void add_compression_options(CLI::App& command, CompressionOptions& o) {
       ->type_name("NAME");
 }
 
-CompressionSettings compression_settings(const CompressionOptions& options, const RawMaterial& raw) {
-  CompressionSettings s = options.settings;
-  if (!options.ranks.empty() && options.ranks != "auto") {
-    const auto r = read_numbers(options.ranks, 4, "--ranks");
-    s.rank_light = r[0];
-    s.rank_view = r[1];
-    s.rank_x = r[2];
-    s.rank_y = r[3];
-    s.votf_rank_x = std::min(s.votf_rank_x, raw.width);
-    s.votf_rank_y = std::min(s.votf_rank_y, raw.height);
-  } else if (options.ranks == "auto" || !set_builtin_ranks(raw, s)) {
-    s = ranks_by_threshold(raw, options.threshold, s);
-  }
+namespace {
+
+// Sets the ranks of the BTF as given, or those of a built-in material. Returns false where the threshold
+// decides.
+bool set_known_ranks(const CompressionOptions& options, const RawMaterial& raw, CompressionSettings& s) {
+  if (options.ranks.empty()) return set_builtin_ranks(raw, s);
+  if (options.ranks == "auto") return false;
+  const auto r = read_numbers(options.ranks, 4, "--ranks");
+  s.rank_light = r[0];
+  s.rank_view = r[1];
+  s.rank_x = r[2];
+  s.rank_y = r[3];
+  s.votf_rank_x = std::min(s.votf_rank_x, raw.width);
+  s.votf_rank_y = std::min(s.votf_rank_y, raw.height);
+  return true;
+}
+
+void set_rest(const CompressionOptions& options, CompressionSettings& s) {
   if (!options.votf_ranks.empty()) {
     const auto r = read_numbers(options.votf_ranks, 2, "--votf-ranks");
     s.votf_rank_x = r[0];
@@ -97,8 +102,23 @@ CompressionSettings compression_settings(const CompressionOptions& options, cons
   }
   if (s.method == Method::k_cta && options.settings.clusters == 0)
     s.mixture = std::min(s.mixture, s.cluster_count());
+}
+
+}  // namespace
+
+CompressionSettings compression_settings(const CompressionOptions& options, const RawMaterial& raw) {
+  CompressionSettings s = options.settings;
+  if (!set_known_ranks(options, raw, s)) s = ranks_by_threshold(raw, options.threshold, s);
+  set_rest(options, s);
   check_settings(s, raw);
   return s;
+}
+
+void check_compression(const CompressionOptions& options, const RawMaterial& sizes) {
+  CompressionSettings s = options.settings;
+  const bool known = set_known_ranks(options, sizes, s);
+  set_rest(options, s);
+  if (known && !sizes.views.empty()) check_settings(s, sizes);
 }
 
 nook::material::VisibilityMapping visibility_mapping(const std::string& text, VisibilityForm form) {

@@ -123,6 +123,7 @@ TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothin
     INFO(run.error);
     CHECK(run.exit_code == code);
     CHECK((run.error + run.out).find(word) != std::string::npos);
+    CHECK(run.error.find("ray tracing") == std::string::npos);  // at once
     CHECK(folder.names().empty());
   };
   refused({"bake", "material", "-o", folder.path("a.nook")}, 2, "--meso");
@@ -130,6 +131,7 @@ TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothin
   refused(small_bake(folder, "a.nook", {{"--ranks", "8,13,8,8"}}), 2, "view rank is 13");
   refused(small_bake(folder, "a.nook", {{"--ranks", "8,8,8"}}), 2, "--ranks");
   refused(small_bake(folder, "a.nook", {{"--clusters", "20"}}), 2, "clusters is 20");
+  refused(small_bake(folder, "a.nook", {{"--visibility-mapping", "wide"}}), 2, "--visibility-mapping");
   refused(small_bake(folder, "a.nook", {{"--radius", "0"}}), 2, "radius");
   refused({"bake", "material", "--btf", folder.path("nowhere"), "-o", folder.path("a.nook")}, 3, "nowhere");
   refused({"bake", "material", "--raw", folder.path("none.raw"), "-o", folder.path("a.nook")}, 3, "none.raw");
