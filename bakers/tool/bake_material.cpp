@@ -148,8 +148,6 @@ Json bake(const Options& o, platform::OutputFile& output, std::optional<platform
   if (raw_file) raw_file->commit(write_raw_material(raw));
   CompressionSettings settings = compression_settings(o.compression, raw);
   settings.seed = o.common.seed;
-  if (!o.visibility_mapping.empty())
-    settings.mapping = visibility_mapping(o.visibility_mapping, settings.visibility);
 
   watch = {};
   nook::material::Material material = compress(raw, settings, stage_progress(bar, "compressing the "));
@@ -203,9 +201,10 @@ void run(Options& o) {
   if (is_mesh(o.meso) && !std::filesystem::exists(o.meso)) meso_parameters(o.meso);
   if (o.texels) o.trace.width = o.trace.height = o.texels;
   o.trace.seed = o.common.seed;
-  check_compression(o.compression, expected_sizes(o));
+  CompressionSettings& settings = o.compression.settings;
   if (!o.visibility_mapping.empty())
-    visibility_mapping(o.visibility_mapping, o.compression.settings.visibility);
+    settings.mapping = visibility_mapping(o.visibility_mapping, settings.visibility);
+  check_compression(o.compression, expected_sizes(o));
   platform::OutputFile output(o.output);
   std::optional<platform::OutputFile> raw_file, report_file;
   if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);

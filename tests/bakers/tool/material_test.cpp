@@ -132,6 +132,7 @@ TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothin
   refused(small_bake(folder, "a.nook", {{"--ranks", "8,8,8"}}), 2, "--ranks");
   refused(small_bake(folder, "a.nook", {{"--clusters", "20"}}), 2, "clusters is 20");
   refused(small_bake(folder, "a.nook", {{"--visibility-mapping", "wide"}}), 2, "--visibility-mapping");
+  refused(small_bake(folder, "a.nook", {{"--visibility-mapping", "-1,12"}}), 2, "threshold -1");
   refused(small_bake(folder, "a.nook", {{"--radius", "0"}}), 2, "radius");
   refused({"bake", "material", "--btf", folder.path("nowhere"), "-o", folder.path("a.nook")}, 3, "nowhere");
   refused({"bake", "material", "--raw", folder.path("none.raw"), "-o", folder.path("a.nook")}, 3, "none.raw");
