@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bakers/algebra/symmetric_eigen.h"
 #include "bakers/raytrace/random.h"
 
 namespace nook::bake {
@@ -59,13 +60,13 @@ LowRank factorise(const Eigen::MatrixXf& values, std::size_t count, std::uint64_
   const Eigen::MatrixXf weights = transposed_product(values, basis);
 
   const Eigen::MatrixXd wide = weights.cast<double>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(wide.transpose() * wide);
-  const Eigen::MatrixXf turn = solver.eigenvectors().rowwise().reverse().leftCols(kept).cast<float>();
+  const SymmetricEigen eigen = symmetric_eigen(wide.transpose() * wide);
+  const Eigen::MatrixXf turn = eigen.vectors.rowwise().reverse().leftCols(kept).cast<float>();
   LowRank result;
   result.modes = basis * turn;
   result.weights = weights * turn;
   for (Eigen::Index k = 0; k < kept; ++k)
-    result.removed.push_back(std::max(solver.eigenvalues()[used - 1 - k], 0.0));
+    result.removed.push_back(std::max(eigen.values[used - 1 - k], 0.0));
   for (Eigen::Index c = 0; c < values.cols(); ++c) result.total += values.col(c).cast<double>().squaredNorm();
   return result;
 }

@@ -1,9 +1,9 @@
 #include "bakers/tensor/atoms.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "bakers/algebra/symmetric_eigen.h"
 #include "bakers/tensor/gram.h"
 #include "bakers/tensor/mode_product.h"
 
@@ -18,11 +18,11 @@ constexpr double least_eigenvalue = 1e-12;
 
 // Returns A^(-1/2), or the root of the pseudo-inverse.
 MatrixXd inverse_root(const MatrixXd& a) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(a);
-  Eigen::VectorXd roots = solver.eigenvalues();
+  const SymmetricEigen eigen = symmetric_eigen(a);
+  Eigen::VectorXd roots = eigen.values;
   const double least = least_eigenvalue * std::max(roots.maxCoeff(), 0.0);
   for (double& r : roots) r = r > least ? 1 / std::sqrt(r) : 0;
-  return solver.eigenvectors() * roots.asDiagonal() * solver.eigenvectors().transpose();
+  return eigen.vectors * roots.asDiagonal() * eigen.vectors.transpose();
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "bakers/tensor/gram.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "bakers/algebra/symmetric_eigen.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
 
@@ -96,8 +96,7 @@ MatrixXd gram(const TensorView& a, std::size_t mode) {
 }
 
 Matrix leading_eigenvectors(const MatrixXd& symmetric, std::size_t count) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(symmetric);
-  MatrixXd vectors = solver.eigenvectors().rightCols(Index(count)).rowwise().reverse();
+  MatrixXd vectors = symmetric_eigen(symmetric).vectors.rightCols(Index(count)).rowwise().reverse();
   for (Index c = 0; c < vectors.cols(); ++c) {
     Index greatest = 0;
     vectors.col(c).cwiseAbs().maxCoeff(&greatest);

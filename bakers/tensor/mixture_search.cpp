@@ -1,9 +1,10 @@
 #include "bakers/tensor/mixture_search.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
+
+#include "bakers/algebra/symmetric_eigen.h"
 
 namespace nook::bake::tensor {
 namespace {
@@ -17,12 +18,12 @@ using Eigen::VectorXd;
 constexpr double dependence = 1e-6;
 
 VectorXd solve_by_pseudo_inverse(const MatrixXd& gram, const VectorXd& products) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram);
-  const VectorXd& values = solver.eigenvalues();
+  const SymmetricEigen eigen = symmetric_eigen(gram);
+  const VectorXd& values = eigen.values;
   const double least = dependence * values.cwiseAbs().maxCoeff();
-  VectorXd rotated = solver.eigenvectors().transpose() * products;
+  VectorXd rotated = eigen.vectors.transpose() * products;
   for (Index i = 0; i < rotated.size(); ++i) rotated[i] = values[i] > least ? rotated[i] / values[i] : 0;
-  return solver.eigenvectors() * rotated;
+  return eigen.vectors * rotated;
 }
 
 VectorXd solve(const MatrixXd& gram, const VectorXd& products) {

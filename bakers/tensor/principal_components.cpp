@@ -1,7 +1,8 @@
 #include "bakers/tensor/principal_components.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "bakers/algebra/symmetric_eigen.h"
 
 namespace nook::bake::tensor {
 
@@ -11,9 +12,9 @@ PrincipalComponents principal_components(const Matrix& samples, std::size_t coun
   const Matrix centred = samples.rowwise() - out.mean;
   Eigen::MatrixXf covariance = Eigen::MatrixXf::Zero(samples.cols(), samples.cols());
   covariance.selfadjointView<Eigen::Lower>().rankUpdate(centred.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance.cast<double>());
+  const SymmetricEigen eigen = symmetric_eigen(covariance.cast<double>());
   const Eigen::Index kept = std::min(Eigen::Index(count), samples.cols());
-  out.basis = solver.eigenvectors().rightCols(kept).rowwise().reverse().cast<float>();
+  out.basis = eigen.vectors.rightCols(kept).rowwise().reverse().cast<float>();
   return out;
 }
 

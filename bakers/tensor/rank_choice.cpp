@@ -1,8 +1,8 @@
 #include "bakers/tensor/rank_choice.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "bakers/algebra/symmetric_eigen.h"
 #include "bakers/tensor/gram.h"
 #include "sdk/src/core/failure.h"
 
@@ -16,9 +16,8 @@ std::vector<std::size_t> ranks_for_error(const TensorView& a, const std::vector<
                   share.size(), multiple, a.order());
   std::vector<std::size_t> ranks(a.order());
   for (std::size_t n = 0; n < a.order(); ++n) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram(a, n), Eigen::EigenvaluesOnly);
     // The loss at rank r is the sum of all eigenvalues except for the r largest; they are in ascending order.
-    const Eigen::VectorXd energy = solver.eigenvalues().cwiseMax(0.0);
+    const Eigen::VectorXd energy = symmetric_eigenvalues(gram(a, n)).cwiseMax(0.0);
     const double allowed = share[n] * energy.sum();
     double lost = 0;
     std::size_t rank = a.dimensions[n];

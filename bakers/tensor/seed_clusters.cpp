@@ -1,10 +1,10 @@
 #include "bakers/tensor/seed_clusters.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <random>
 
+#include "bakers/algebra/symmetric_eigen.h"
 #include "bakers/tensor/gram.h"
 #include "sdk/src/core/failure.h"
 
@@ -120,8 +120,8 @@ Matrix sub_tensor_points(const TensorView& a, std::size_t mode) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "mode %zu of a tensor of order %zu", mode + 1, a.order());
   // uf(A) uf(A)^T = Q L Q^T: rows of Q L^(1/2) have the inner products of the sub-tensors, hence their
   // distances.
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram(a, mode));
-  const MatrixXd points = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const SymmetricEigen eigen = symmetric_eigen(gram(a, mode));
+  const MatrixXd points = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   return points.cast<float>();
 }
 

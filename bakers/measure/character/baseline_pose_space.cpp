@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bakers/algebra/symmetric_eigen.h"
 #include "bakers/measure/character/baseline_validation.h"
 
 namespace nook::bake {
@@ -13,8 +14,8 @@ PoseSpace::PoseSpace(const SkinnedMesh& mesh, FeatureKind kind, bool by_moved_sh
   const BaselineMatrix x = scaled(features_.of(poses));
   mean_ = x.colwise().mean();
   const Eigen::MatrixXd centred = (x.rowwise() - mean_).cast<double>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(centred.transpose() * centred);
-  basis_ = solver.eigenvectors().rightCols(std::min(dimensions, x.cols())).rowwise().reverse().cast<float>();
+  const SymmetricEigen eigen = symmetric_eigen(centred.transpose() * centred);
+  basis_ = eigen.vectors.rightCols(std::min(dimensions, x.cols())).rowwise().reverse().cast<float>();
   round_to_half(basis_);
 }
 

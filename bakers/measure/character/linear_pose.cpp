@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
+#include "bakers/algebra/symmetric_eigen.h"
 #include "bakers/measure/character/baseline_features.h"
 #include "bakers/measure/character/baseline_validation.h"
 
@@ -52,9 +54,9 @@ NormalEquations diagonalise(const BaselineMatrix& features, bool scaled) {
       n.feature_scale[i] = variance[i] > 1e-10f ? 1 / std::sqrt(variance[i]) : 0.0f;
   }
   const Eigen::MatrixXd x = standardise(n, features).cast<double>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(x.transpose() * x / double(x.rows()));
-  n.q = solver.eigenvectors();
-  n.s = solver.eigenvalues().cwiseMax(0.0);
+  SymmetricEigen eigen = symmetric_eigen(x.transpose() * x / double(x.rows()));
+  n.q = std::move(eigen.vectors);
+  n.s = eigen.values.cwiseMax(0.0);
   n.mean_variance = std::max(n.s.mean(), 1e-12);
   return n;
 }
@@ -76,8 +78,7 @@ RankBasis rank_basis(const NormalEquations& n, double ridge, const Eigen::Matrix
   RankBasis basis;
   basis.inverse_root = (n.s.array() + ridge * n.mean_variance).rsqrt();
   const Eigen::MatrixXd weighted = basis.inverse_root.asDiagonal() * outer * basis.inverse_root.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(weighted);
-  basis.u = solver.eigenvectors().rowwise().reverse();
+  basis.u = symmetric_eigen(weighted).vectors.rowwise().reverse();
   return basis;
 }
 

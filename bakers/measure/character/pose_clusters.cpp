@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bakers/algebra/symmetric_eigen.h"
 #include "bakers/measure/character/baseline_features.h"
 #include "bakers/measure/character/baseline_k_means.h"
 #include "bakers/measure/character/baseline_pose_space.h"
@@ -70,10 +71,10 @@ ClusterFit principal_components(const BaselineMatrix& features, const Eigen::Vec
   const BaselineMatrix centred = features.rowwise() - fit.feature_mean;
   const Eigen::MatrixXd covariance =
       (centred.transpose() * (weight / sum).asDiagonal() * centred).cast<double>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+  const SymmetricEigen eigen = symmetric_eigen(covariance);
   const Index kept = std::min(most, features.cols());
-  fit.basis = solver.eigenvectors().rightCols(kept).rowwise().reverse().cast<float>();
-  fit.variance = solver.eigenvalues().tail(kept).reverse().cwiseMax(0.0).cast<float>();
+  fit.basis = eigen.vectors.rightCols(kept).rowwise().reverse().cast<float>();
+  fit.variance = eigen.values.tail(kept).reverse().cwiseMax(0.0).cast<float>();
   return fit;
 }
 
