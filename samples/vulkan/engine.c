@@ -10,6 +10,10 @@
 #include "samples/vulkan/engine_device.h"
 #include "samples/vulkan/spirv.h"
 
+enum { max_texel_bytes = 16 };
+static const VkFormat depth_format = VK_FORMAT_D32_SFLOAT, normal_format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                      colour_format = VK_FORMAT_R8G8B8A8_UNORM;
+
 /* The numbers that the shaders read with each draw. */
 typedef struct engine_push {
   float clip_from_world[16];
@@ -25,6 +29,10 @@ static const char vertex_text[] =
     "invariant gl_Position;\n"
     "void main() { normal_ws = normal; colour = albedo; gl_Position = clip_from_world * vec4(position, 1.0); "
     "}\n";
+static const char normal_text[] =
+    "#version 450\n"
+    "layout(location = 0) in vec3 normal_ws; layout(location = 0) out vec4 pixel;\n"
+    "void main() { pixel = vec4(normalize(normal_ws), 0.0); }\n";
 /* Ambient light comes from everywhere and is multiplied by AO. AO does not touch the one lamp. */
 static const char fragment_text[] =
     "#version 450\n"
@@ -101,19 +109,20 @@ static VkResult upload_room(engine* e) {
   return r;
 }
 
-/* Passes end with images that shaders may read. Both wait for whoever used their images before. */
-static VkResult make_pass(engine* e, int with_colour, VkRenderPass* out) {
+/* Pass 0 clears depth, pass 1 compares with it. Both end with images that shaders may read, and wait for
+ * whoever used their images before. */
+static VkResult make_pass(engine* e, int which) {
   const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   const VkAttachmentDescription attachments[2] = {
-      {.format = VK_FORMAT_D32_SFLOAT,
+      {.format = depth_format,
        .samples = VK_SAMPLE_COUNT_1_BIT,
-       .loadOp = with_colour ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR,
+       .loadOp = which == 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
        .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
        .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-       .initialLayout = with_colour ? read : VK_IMAGE_LAYOUT_UNDEFINED,
+       .initialLayout = which == 0 ? VK_IMAGE_LAYOUT_UNDEFINED : read,
        .finalLayout = read},
-      {.format = VK_FORMAT_R8G8B8A8_UNORM,
+      {.format = which == 0 ? normal_format : colour_format,
        .samples = VK_SAMPLE_COUNT_1_BIT,
        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
@@ -121,11 +130,11 @@ static VkResult make_pass(engine* e, int with_colour, VkRenderPass* out) {
        .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
        .finalLayout = read}};
-  const VkAttachmentReference depth = {0, with_colour ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL
-                                                      : VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL},
+  const VkAttachmentReference depth = {0, which == 0 ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL
+                                                     : VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL},
                               colour = {1, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
   const VkSubpassDescription subpass = {.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                        .colorAttachmentCount = with_colour ? 1 : 0,
+                                        .colorAttachmentCount = 1,
                                         .pColorAttachments = &colour,
                                         .pDepthStencilAttachment = &depth};
   const VkPipelineStageFlags tests =
@@ -146,25 +155,25 @@ static VkResult make_pass(engine* e, int with_colour, VkRenderPass* out) {
        .srcAccessMask = writes,
        .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT}};
   const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                       .attachmentCount = with_colour ? 2 : 1,
+                                       .attachmentCount = 2,
                                        .pAttachments = attachments,
                                        .subpassCount = 1,
                                        .pSubpasses = &subpass,
                                        .dependencyCount = 2,
                                        .pDependencies = dependencies};
-  return vkCreateRenderPass(e->device, &info, NULL, out);
+  return vkCreateRenderPass(e->device, &info, NULL, &e->passes[which]);
 }
 
-static VkResult make_framebuffer(engine* e, VkRenderPass pass, uint32_t count, VkFramebuffer* out) {
-  const VkImageView views[2] = {e->depth.view, e->colour.view};
+static VkResult make_framebuffer(engine* e, int which) {
+  const VkImageView views[2] = {e->depth.view, which == 0 ? e->normal.view : e->colour.view};
   const VkFramebufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                        .renderPass = pass,
-                                        .attachmentCount = count,
+                                        .renderPass = e->passes[which],
+                                        .attachmentCount = 2,
                                         .pAttachments = views,
                                         .width = (uint32_t)e->width,
                                         .height = (uint32_t)e->height,
                                         .layers = 1};
-  return vkCreateFramebuffer(e->device, &info, NULL, out);
+  return vkCreateFramebuffer(e->device, &info, NULL, &e->framebuffers[which]);
 }
 
 /* The set holds the texture of AO. */
@@ -199,9 +208,7 @@ static VkResult make_layouts(engine* e) {
   return vkAllocateDescriptorSets(e->device, &one, &e->set);
 }
 
-/* The pipeline of depth has no fragment shader; that of colours compares with depth and leaves it. */
-static VkResult make_pipeline(engine* e, VkRenderPass pass, const VkPipelineShaderStageCreateInfo* shaders,
-                              uint32_t shader_count, VkPipeline* out) {
+static VkResult make_pipeline(engine* e, int which, VkShaderModule vertex, VkShaderModule fragment) {
   const VkVertexInputBindingDescription binding = {0, sizeof(room_vertex), VK_VERTEX_INPUT_RATE_VERTEX};
   const VkVertexInputAttributeDescription attributes[3] = {
       {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(room_vertex, position)},
@@ -229,19 +236,27 @@ static VkResult make_pipeline(engine* e, VkRenderPass pass, const VkPipelineShad
   const VkPipelineMultisampleStateCreateInfo samples = {
       .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
       .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-  const int lit = shader_count == 2;
   const VkPipelineDepthStencilStateCreateInfo depth = {
       .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
       .depthTestEnable = VK_TRUE,
-      .depthWriteEnable = !lit,
+      .depthWriteEnable = which == 0,
       .depthCompareOp = e->reversed ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_LESS_OR_EQUAL};
   const VkPipelineColorBlendAttachmentState write = {.colorWriteMask = 15};
   const VkPipelineColorBlendStateCreateInfo blend = {
       .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-      .attachmentCount = lit ? 1 : 0,
+      .attachmentCount = 1,
       .pAttachments = &write};
+  const VkPipelineShaderStageCreateInfo shaders[2] = {
+      {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+       .stage = VK_SHADER_STAGE_VERTEX_BIT,
+       .module = vertex,
+       .pName = "main"},
+      {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+       .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
+       .module = fragment,
+       .pName = "main"}};
   const VkGraphicsPipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                             .stageCount = shader_count,
+                                             .stageCount = 2,
                                              .pStages = shaders,
                                              .pVertexInputState = &vertices,
                                              .pInputAssemblyState = &triangles,
@@ -251,22 +266,23 @@ static VkResult make_pipeline(engine* e, VkRenderPass pass, const VkPipelineShad
                                              .pDepthStencilState = &depth,
                                              .pColorBlendState = &blend,
                                              .layout = e->layout,
-                                             .renderPass = pass};
-  return vkCreateGraphicsPipelines(e->device, VK_NULL_HANDLE, 1, &info, NULL, out);
+                                             .renderPass = e->passes[which]};
+  return vkCreateGraphicsPipelines(e->device, VK_NULL_HANDLE, 1, &info, NULL, &e->pipelines[which]);
 }
 
 static VkResult make_pipelines(engine* e) {
-  VkPipelineShaderStageCreateInfo shaders[2] = {{.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                 .stage = VK_SHADER_STAGE_VERTEX_BIT,
-                                                 .pName = "main"},
-                                                {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                 .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
-                                                 .pName = "main"}};
-  VkResult r = spirv_module(e->device, VK_SHADER_STAGE_VERTEX_BIT, vertex_text, &shaders[0].module);
-  if (!r) r = spirv_module(e->device, VK_SHADER_STAGE_FRAGMENT_BIT, fragment_text, &shaders[1].module);
-  if (!r) r = make_pipeline(e, e->depth_pass, shaders, 1, &e->depth_pipeline);
-  if (!r) r = make_pipeline(e, e->colour_pass, shaders, 2, &e->colour_pipeline);
-  for (int i = 0; i < 2; ++i) vkDestroyShaderModule(e->device, shaders[i].module, NULL);
+  const char* const fragment_texts[2] = {normal_text, fragment_text};
+  VkShaderModule vertex = VK_NULL_HANDLE;
+  VkResult r = spirv_module(e->device, VK_SHADER_STAGE_VERTEX_BIT, vertex_text, &vertex);
+  for (int which = 0; !r && which < 2; ++which) {
+    VkShaderModule fragment = VK_NULL_HANDLE;
+    r = make_pass(e, which);
+    if (!r) r = make_framebuffer(e, which);
+    if (!r) r = spirv_module(e->device, VK_SHADER_STAGE_FRAGMENT_BIT, fragment_texts[which], &fragment);
+    if (!r) r = make_pipeline(e, which, vertex, fragment);
+    vkDestroyShaderModule(e->device, fragment, NULL);
+  }
+  vkDestroyShaderModule(e->device, vertex, NULL);
   return r;
 }
 
@@ -277,22 +293,15 @@ VkResult engine_start(engine* e, int width, int height, int reversed) {
   e->reversed = reversed;
   place_camera(e);
   VkResult r = engine_make_device(e);
+  const VkImageUsageFlags drawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                          tested = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  if (!r) r = make_image(e, depth_format, tested, VK_IMAGE_ASPECT_DEPTH_BIT, &e->depth);
+  if (!r) r = make_image(e, normal_format, drawn, VK_IMAGE_ASPECT_COLOR_BIT, &e->normal);
+  if (!r) r = make_image(e, colour_format, drawn, VK_IMAGE_ASPECT_COLOR_BIT, &e->colour);
   if (!r)
-    r = make_image(e, VK_FORMAT_D32_SFLOAT,
-                   VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                   VK_IMAGE_ASPECT_DEPTH_BIT, &e->depth);
-  if (!r)
-    r = make_image(e, VK_FORMAT_R8G8B8A8_UNORM,
-                   VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                   VK_IMAGE_ASPECT_COLOR_BIT, &e->colour);
-  if (!r)
-    r = make_buffer(e, (VkDeviceSize)width * (VkDeviceSize)height * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                    &e->readback, &e->readback_memory);
+    r = make_buffer(e, (VkDeviceSize)width * (VkDeviceSize)height * max_texel_bytes,
+                    VK_BUFFER_USAGE_TRANSFER_DST_BIT, &e->readback, &e->readback_memory);
   if (!r) r = upload_room(e);
-  if (!r) r = make_pass(e, 0, &e->depth_pass);
-  if (!r) r = make_pass(e, 1, &e->colour_pass);
-  if (!r) r = make_framebuffer(e, e->depth_pass, 1, &e->depth_framebuffer);
-  if (!r) r = make_framebuffer(e, e->colour_pass, 2, &e->colour_framebuffer);
   if (!r) r = make_layouts(e);
   return r ? r : make_pipelines(e);
 }
@@ -304,23 +313,22 @@ static void multiply(const float a[16], const float b[16], float out[16]) {
   }
 }
 
-static void draw(engine* e, int lit, int use_ao) {
+static void draw(engine* e, int which, int use_ao) {
   const VkClearValue clear[2] = {{.depthStencil = {e->reversed ? 0.0F : 1.0F, 0}},
-                                 {.color = {{0.55F, 0.65F, 0.8F, 1}}}};
+                                 {.color = {{0.55F, 0.65F, 0.8F, 1}}}}; /* of the sky */
   const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                       .renderPass = lit ? e->colour_pass : e->depth_pass,
-                                       .framebuffer = lit ? e->colour_framebuffer : e->depth_framebuffer,
+                                       .renderPass = e->passes[which],
+                                       .framebuffer = e->framebuffers[which],
                                        .renderArea = {{0, 0}, {(uint32_t)e->width, (uint32_t)e->height}},
-                                       .clearValueCount = lit ? 2 : 1,
+                                       .clearValueCount = 2,
                                        .pClearValues = clear};
   const VkDeviceSize offset = 0;
   engine_push push;
   multiply(e->projection, e->view, push.clip_from_world);
   push.use_ao = use_ao;
   vkCmdBeginRenderPass(e->commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
-  vkCmdBindPipeline(e->commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                    lit ? e->colour_pipeline : e->depth_pipeline);
-  if (lit)
+  vkCmdBindPipeline(e->commands, VK_PIPELINE_BIND_POINT_GRAPHICS, e->pipelines[which]);
+  if (which == 1)
     vkCmdBindDescriptorSets(e->commands, VK_PIPELINE_BIND_POINT_GRAPHICS, e->layout, 0, 1, &e->set, 0, NULL);
   vkCmdPushConstants(e->commands, e->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                      sizeof push, &push);
@@ -393,21 +401,21 @@ static void destroy_image(engine* e, engine_image* image) {
 
 void engine_stop(engine* e) {
   if (e->device) {
-    vkDestroyPipeline(e->device, e->depth_pipeline, NULL);
-    vkDestroyPipeline(e->device, e->colour_pipeline, NULL);
+    for (int which = 0; which < 2; ++which) {
+      vkDestroyPipeline(e->device, e->pipelines[which], NULL);
+      vkDestroyFramebuffer(e->device, e->framebuffers[which], NULL);
+      vkDestroyRenderPass(e->device, e->passes[which], NULL);
+    }
     vkDestroyDescriptorPool(e->device, e->descriptor_pool, NULL);
     vkDestroyPipelineLayout(e->device, e->layout, NULL);
     vkDestroyDescriptorSetLayout(e->device, e->set_layout, NULL);
     vkDestroySampler(e->device, e->sampler, NULL);
-    vkDestroyFramebuffer(e->device, e->depth_framebuffer, NULL);
-    vkDestroyFramebuffer(e->device, e->colour_framebuffer, NULL);
-    vkDestroyRenderPass(e->device, e->depth_pass, NULL);
-    vkDestroyRenderPass(e->device, e->colour_pass, NULL);
     vkDestroyBuffer(e->device, e->vertices, NULL);
     vkFreeMemory(e->device, e->vertex_memory, NULL);
     vkDestroyBuffer(e->device, e->readback, NULL);
     vkFreeMemory(e->device, e->readback_memory, NULL);
     destroy_image(e, &e->depth);
+    destroy_image(e, &e->normal);
     destroy_image(e, &e->colour);
   }
   engine_destroy_device(e);

@@ -1,4 +1,4 @@
-/* The engine of the sample: a device, the depth and the colours of a room, and their pixels. */
+/* The engine of the sample: a device, the depth, normals and colours of a room, and their pixels. */
 #ifndef ENGINE_H
 #define ENGINE_H
 
@@ -27,15 +27,16 @@ typedef struct engine {
   VkBuffer vertices, readback;
   VkDeviceMemory vertex_memory, readback_memory;
   uint32_t vertex_count;
-  engine_image depth, colour;
+  engine_image depth, normal, colour;
   VkSampler sampler;
   VkDescriptorSetLayout set_layout;
   VkDescriptorPool descriptor_pool;
   VkDescriptorSet set;
   VkPipelineLayout layout;
-  VkRenderPass depth_pass, colour_pass;
-  VkFramebuffer depth_framebuffer, colour_framebuffer;
-  VkPipeline depth_pipeline, colour_pipeline;
+  /* First depth and normals, then colours. */
+  VkRenderPass passes[2];
+  VkFramebuffer framebuffers[2];
+  VkPipeline pipelines[2];
 } engine;
 
 /* reversed: 1 draws the near plane to depth 1 and the far plane to 0. Returns VK_ERROR_INCOMPATIBLE_DRIVER
@@ -50,12 +51,13 @@ void engine_set_ao(engine* e, VkImageView ao);
 VkResult engine_begin(engine* e);
 VkResult engine_finish(engine* e);
 
-/* Depth is left in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, visible to fragment shaders. */
+/* Draws depth, and normals in world space as four floats. Both are left in
+ * VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, visible to fragment shaders. */
 void engine_draw_depth(engine* e);
 /* Needs depth. use_ao 0: the room without AO. */
 void engine_draw_colour(engine* e, int use_ao);
 
-/* Reads an image of the engine's size, with 1 or 4 bytes for each texel, that is in
+/* Reads an image of the engine's size, with at most 16 bytes for each texel, that is in
  * VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL. Row 0 is the upper one. It waits for the device. */
 VkResult engine_read(engine* e, VkImage image, VkImageAspectFlags aspect, int texel_bytes, void* out);
 

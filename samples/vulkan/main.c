@@ -1,9 +1,10 @@
 /* Nook's screen-space pass in a Vulkan program without a window. It draws a room before and after.
  *
- *   vulkan [FOLDER] [fast|default|best] [reversed] [mean] [RADIUS]
+ *   vulkan [FOLDER] [fast|default|best] [normals] [reversed] [mean] [RADIUS]
  *
  * It writes before.png, after.png, ao.png and frame.nook. The radius is in metres and 0.5 by default.
- * `reversed` is a reversed depth buffer, and `mean` the mean of AO over four frames.
+ * `normals` gives the pass the normals of the room, `reversed` is a reversed depth buffer, and `mean` the
+ * mean of AO over four frames.
  *
  * An engine needs nook_vulkan.h and the marked regions. engine.h stands in for the engine. */
 #include <nook/nook_nnao_recording.h>
@@ -21,7 +22,7 @@ typedef struct Settings {
   const char* folder;
   float radius_m;
   nook_nnao_preset preset;
-  int reversed, mean;
+  int normals, reversed, mean;
 } Settings;
 
 typedef struct Pass {
@@ -32,7 +33,7 @@ typedef struct Pass {
 
 /* ---- 1. Once for each device and size ---- */
 static VkResult start_pass(Pass* p, const engine* e, const Settings* s) {
-  const nook_vulkan_inputs inputs = {.depth = e->depth.view};
+  const nook_vulkan_inputs inputs = {.depth = e->depth.view, .normal = e->normal.view};
   nook_context_desc context_desc;
   nook_result r = nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION);
   if (!r) r = nook_context_create(&context_desc, &p->context);
@@ -45,15 +46,22 @@ static VkResult start_pass(Pass* p, const engine* e, const Settings* s) {
   return nook_vulkan_create(e->physical, e->device, p->context, &p->desc, &inputs, &p->vulkan);
 }
 
+/* Column-major: from the world, which normals are in, to view space. */
+static void rotation(const float view[16], float out[9]) {
+  for (int i = 0; i < 9; ++i) out[i] = view[i / 3 * 4 + i % 3];
+}
+
 /* ---- 2. Each frame, after depth has been drawn ---- */
-static VkResult record_pass(Pass* p, const engine* e, float radius_m) {
+static VkResult record_pass(Pass* p, const engine* e, const Settings* s) {
   nook_nnao_frame_desc frame;
   if (nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION)) return VK_ERROR_UNKNOWN;
   frame.width = e->width;
   frame.height = e->height;
   frame.clip = NOOK_NNAO_CLIP_ZERO_TO_ONE;
   memcpy(frame.projection, e->projection, sizeof frame.projection);
-  frame.radius = radius_m;
+  frame.radius = s->radius_m;
+  frame.normal_texture = s->normals ? 1 : 0; /* 0: normals that follow from depth */
+  rotation(e->view, frame.normal_matrix);
   return nook_vulkan_record(&p->vulkan, e->commands, &frame);
 }
 
@@ -63,16 +71,23 @@ static void stop_pass(Pass* p) {
   nook_context_destroy(&p->context);
 }
 
+/* The images of a frame, the upper row first. normals is NULL where the frame has none. */
+typedef struct Texels {
+  float *depth, *normals, *ao;
+} Texels;
+
 /* ---- 4. When a picture is wrong: the frame in a file, for nook evaluate nnao --frame ---- */
-static nook_result record_frame(const Pass* p, const engine* e, float radius_m, const float* depth,
-                                const float* ao, void** bytes, size_t* size) {
+static nook_result record_frame(const Pass* p, const engine* e, float radius_m, const Texels* texels,
+                                void** bytes, size_t* size) {
   nook_nnao_recording_desc desc;
   nook_nnao_recording recording = NULL;
   nook_result r = nook_nnao_recording_desc_init(&desc, sizeof desc, NOOK_VERSION);
   desc.width = e->width;
   desc.height = e->height;
-  desc.depth = depth;
-  desc.ao = p->desc.temporal_frames ? NULL : ao; /* a recording is one frame */
+  desc.depth = texels->depth;
+  desc.normals = texels->normals;
+  rotation(e->view, desc.normal_matrix);
+  desc.ao = p->desc.temporal_frames ? NULL : texels->ao; /* a recording is one frame */
   desc.clip = NOOK_NNAO_CLIP_ZERO_TO_ONE;
   memcpy(desc.projection, e->projection, sizeof desc.projection);
   desc.radius = radius_m;
@@ -130,16 +145,26 @@ static int save_room(engine* e, const char* path, int use_ao, unsigned char* rgb
   return !r && save_picture(path, rgba, 4);
 }
 
+/* Reads depth, and normals with four floats for each texel, of which three stay. */
+static VkResult read_texels(engine* e, Texels* texels) {
+  VkResult r = engine_read(e, e->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 4, texels->depth);
+  if (r || !texels->normals) return r;
+  r = engine_read(e, e->normal.image, VK_IMAGE_ASPECT_COLOR_BIT, 16, texels->normals);
+  for (int i = 0; i < 3 * pixels; ++i) texels->normals[i] = texels->normals[i / 3 * 4 + i % 3];
+  return r;
+}
+
 static int save_frame(Pass* p, engine* e, const Settings* s, const unsigned char* ao) {
-  float* const values = malloc(2 * (size_t)pixels * sizeof *values); /* depth, then AO */
+  float* const memory = malloc(6 * (size_t)pixels * sizeof *memory);
+  Texels texels = {memory, s->normals ? memory + 2 * pixels : NULL, memory + pixels};
   void* bytes = NULL;
   size_t size = 0;
-  int ok = values && engine_read(e, e->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 4, values) == VK_SUCCESS;
-  for (int i = 0; ok && i < pixels; ++i) values[pixels + i] = (float)ao[i] / 255;
-  ok = ok && record_frame(p, e, s->radius_m, values, values + pixels, &bytes, &size) == NOOK_OK;
+  int ok = memory && read_texels(e, &texels) == VK_SUCCESS;
+  for (int i = 0; ok && i < pixels; ++i) texels.ao[i] = (float)ao[i] / 255;
+  ok = ok && record_frame(p, e, s->radius_m, &texels, &bytes, &size) == NOOK_OK;
   ok = ok && save_bytes(path_in(s->folder, "frame.nook"), bytes, size);
   free(bytes);
-  free(values);
+  free(memory);
   return ok;
 }
 
@@ -164,6 +189,7 @@ static int read_arguments(int argc, char** argv, Settings* s) {
     int known = 0;
     for (int preset = 0; preset < 3; ++preset)
       if (strcmp(argv[i], presets[preset]) == 0) s->preset = preset, known = 1;
+    if (strcmp(argv[i], "normals") == 0) s->normals = known = 1;
     if (strcmp(argv[i], "reversed") == 0) s->reversed = known = 1;
     if (strcmp(argv[i], "mean") == 0) s->mean = known = 1;
     if (known) continue;
@@ -180,20 +206,20 @@ static VkResult draw_frames(Pass* p, engine* e, const Settings* s) {
     r = engine_begin(e);
     if (r) return r;
     engine_draw_depth(e);
-    r = record_pass(p, e, s->radius_m);
+    r = record_pass(p, e, s);
     if (!r) r = engine_finish(e);
   }
   return r;
 }
 
 int main(int argc, char** argv) {
-  Settings settings = {".", 0.5F, NOOK_NNAO_PRESET_DEFAULT, 0, 0};
+  Settings settings = {".", 0.5F, NOOK_NNAO_PRESET_DEFAULT, 0, 0, 0};
   engine e;
   Pass pass = {0};
   int failure = 0;
   VkResult r;
   if (!read_arguments(argc, argv, &settings)) {
-    fputs("usage: vulkan [FOLDER] [fast|default|best] [reversed] [mean] [RADIUS]\n", stderr);
+    fputs("usage: vulkan [FOLDER] [fast|default|best] [normals] [reversed] [mean] [RADIUS]\n", stderr);
     return 2;
   }
   r = engine_start(&e, width, height, settings.reversed);

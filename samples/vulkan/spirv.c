@@ -27,7 +27,9 @@ VkResult spirv_module(VkDevice device, VkShaderStageFlagBits stage, const char* 
       .messages = GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT,
       .resource = (const glslang_resource_t*)glslang_default_resource()};
   VkResult r = VK_ERROR_INVALID_SHADER_NV;
-  glslang_initialize_process();
+  /* Kept until the program ends: to start glslang takes longer than to compile a shader. */
+  static int started;
+  if (!started) started = glslang_initialize_process();
   glslang_shader_t* const shader = glslang_shader_create(&input);
   glslang_program_t* const program = glslang_program_create();
   if (!glslang_shader_preprocess(shader, &input) || !glslang_shader_parse(shader, &input)) {
@@ -41,6 +43,5 @@ VkResult spirv_module(VkDevice device, VkShaderStageFlagBits stage, const char* 
   }
   glslang_program_delete(program);
   glslang_shader_delete(shader);
-  glslang_finalize_process();
   return r;
 }
