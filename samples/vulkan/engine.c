@@ -208,18 +208,20 @@ static VkResult make_layouts(engine* e) {
   return vkAllocateDescriptorSets(e->device, &one, &e->set);
 }
 
+static const VkVertexInputBindingDescription vertex_binding = {0, sizeof(room_vertex),
+                                                               VK_VERTEX_INPUT_RATE_VERTEX};
+static const VkVertexInputAttributeDescription vertex_attributes[3] = {
+    {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(room_vertex, position)},
+    {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(room_vertex, normal)},
+    {2, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(room_vertex, albedo)}};
+
 static VkResult make_pipeline(engine* e, int which, VkShaderModule vertex, VkShaderModule fragment) {
-  const VkVertexInputBindingDescription binding = {0, sizeof(room_vertex), VK_VERTEX_INPUT_RATE_VERTEX};
-  const VkVertexInputAttributeDescription attributes[3] = {
-      {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(room_vertex, position)},
-      {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(room_vertex, normal)},
-      {2, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(room_vertex, albedo)}};
   const VkPipelineVertexInputStateCreateInfo vertices = {
       .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
       .vertexBindingDescriptionCount = 1,
-      .pVertexBindingDescriptions = &binding,
+      .pVertexBindingDescriptions = &vertex_binding,
       .vertexAttributeDescriptionCount = 3,
-      .pVertexAttributeDescriptions = attributes};
+      .pVertexAttributeDescriptions = vertex_attributes};
   const VkPipelineInputAssemblyStateCreateInfo triangles = {
       .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
       .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
