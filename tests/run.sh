@@ -13,6 +13,8 @@ jobs=$(nproc)
 export NOOK_REQUIRE_GL=1
 # The count of the shaders' instructions fails where it finds no compiler.
 export NOOK_REQUIRE_RADV=1
+# So does the sample of Vulkan where it finds no device.
+export NOOK_REQUIRE_VULKAN=1
 # The quotes are for a path with spaces, which would end the option.
 export LSAN_OPTIONS="suppressions=\"$root/tests/lsan.supp\":print_suppressions=0"
 

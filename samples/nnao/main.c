@@ -42,20 +42,11 @@ typedef struct Engine {
   float view[16], projection[16];
 } Engine;
 
-/* The camera looks from above the room's open corner to its middle. Matrices are column-major. */
+/* Matrices are column-major. */
 static void place_camera(Engine* e) {
-  const float eye[3] = {1.2F, 1.9F, 3.2F}, yaw = 0.42F, pitch = -0.30F, near_m = 0.1F, far_m = 50.0F;
-  const float cy = cosf(yaw), sy = sinf(yaw), cp = cosf(pitch), sp = sinf(pitch);
-  const float rows[3][3] = {{cy, 0, -sy}, {sy * sp, cp, cy * sp}, {sy * cp, -sp, cy * cp}};
-  const float scale = 1.0F / tanf(0.5F * 1.05F);
-  memset(e->view, 0, sizeof e->view);
+  const float near_m = 0.1F, far_m = 50.0F, scale = 1.0F / tanf(0.5F * 1.05F);
+  room_view(e->view);
   memset(e->projection, 0, sizeof e->projection);
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) {
-      e->view[4 * column + row] = rows[row][column];
-      e->view[12 + row] -= rows[row][column] * eye[column];
-    }
-  e->view[15] = 1;
   e->projection[0] = scale * height / width;
   e->projection[5] = scale;
   e->projection[10] = (far_m + near_m) / (near_m - far_m);

@@ -119,3 +119,16 @@ room_vertex* room_make(int* count) {
   *count = m.count;
   return m.vertices;
 }
+
+void room_view(float view[16]) {
+  const float eye[3] = {1.2F, 1.9F, 3.2F}, yaw = 0.42F, pitch = -0.30F;
+  const float cy = cosf(yaw), sy = sinf(yaw), cp = cosf(pitch), sp = sinf(pitch);
+  const float rows[3][3] = {{cy, 0, -sy}, {sy * sp, cp, cy * sp}, {sy * cp, -sp, cy * cp}};
+  memset(view, 0, 16 * sizeof *view);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) {
+      view[4 * column + row] = rows[row][column];
+      view[12 + row] -= rows[row][column] * eye[column];
+    }
+  view[15] = 1;
+}

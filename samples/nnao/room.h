@@ -10,4 +10,7 @@ typedef struct room_vertex {
  * memory runs out. */
 room_vertex* room_make(int* count);
 
+/* The view of a camera that looks from above the room's open corner to its middle. Column-major. */
+void room_view(float view[16]);
+
 #endif

@@ -84,10 +84,8 @@ class StageRenderer {
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, 1, buffers_[1]);
     gl_.BindVertexArray(vertex_array_);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    const std::uint32_t skipped_resolve = info_.stage_count - (frame.layer == NOOK_NNAO_LAYER_NONE ? 1 : 2);
-    const std::uint32_t skipped_depth = frame.layer == NOOK_NNAO_LAYER_APART ? 0 : 1;
     for (std::uint32_t i = 0; i < info_.stage_count; ++i) {
-      if (i == skipped_depth || i == skipped_resolve) continue;
+      if (!(values.drawn_stages >> i & 1)) continue;
       const nook_nnao_stage_info& stage = stages_info_[i];
       for (std::uint32_t input = 0; input < stage.input_count; ++input) {
         const nook_nnao_image image = stage.inputs[input];

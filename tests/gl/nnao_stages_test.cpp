@@ -213,6 +213,16 @@ TEST_CASE("nnao: values of stages follow from the arguments alone, without memor
   CHECK(std::memcmp(&first, &second, sizeof first) == 0);
   CHECK(first.viewport[2] == width);
   CHECK(first.surface_height == height);
+  // depth, depth_apart, occlusion, resolve, resolve_layered.
+  const auto drawn = [&](nook_nnao_layer layer) {
+    nook_nnao_frame_desc layered = frame;
+    layered.layer = layer;
+    NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages, &layered, nullptr, 0, 0, &second));
+    return second.drawn_stages;
+  };
+  CHECK(drawn(NOOK_NNAO_LAYER_NONE) == 0b01101);
+  CHECK(drawn(NOOK_NNAO_LAYER_MIN) == 0b10101);
+  CHECK(drawn(NOOK_NNAO_LAYER_APART) == 0b10110);
   check_info<nook_nnao_frame_values>(offsetof(nook_nnao_frame_values, constants) + sizeof first.constants,
                                      [&](nook_nnao_frame_values* values) {
                                        return nook_nnao_stages_frame(stages, &frame, nullptr, 0, 0, values);

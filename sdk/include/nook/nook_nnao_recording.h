@@ -26,8 +26,8 @@ extern "C" {
 
 typedef struct nook_nnao_recording_s* nook_nnao_recording;
 
-/* The contents of a recording. Images have width x height texels, row by row from the bottom of the screen, x
- * first; they are the part of the host's images that the projection fills. The members of the frame and of
+/* The contents of a recording. Images have width x height texels, row by row from the one where clip y is -1,
+ * x first; they are the part of the host's images that the projection fills. The members of the frame and of
  * the pass have the meaning, the ranges and the constants of nook_nnao_frame_desc and nook_nnao_desc in
  * nook_nnao.h. */
 typedef struct nook_nnao_recording_desc {

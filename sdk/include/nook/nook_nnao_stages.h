@@ -11,8 +11,11 @@
  *     nook_nnao_stages_stage(stages, i, &stage);               fragment shader, output, inputs
  * For each frame:
  *     nook_nnao_stages_frame(stages, &frame, NULL, 0, 0, &values);
- * and for each stage in order a draw of three vertices without attributes, without blending, depth test and
- * culling, into the viewport of the stage. Each stage ends before the next one reads its output.
+ * and for each stage of values.drawn_stages in order a draw of three vertices without attributes, without
+ * blending, depth test and culling, into the viewport of the stage. Each stage ends before the next one reads
+ * its output, and after the frame before has read the images that it writes. Every image but the host's is
+ * written as a colour attachment and read as a texture; its contents before the first frame do not matter.
+ * samples/vulkan does all this in Vulkan 1.1.
  *
  * The shaders are GLSL 4.50 for Vulkan (`glslangValidator -V`, from which SPIRV-Cross makes HLSL or MSL), and
  * of OpenGL 4.5 as well. Set 0 has, by binding: 0 a uniform buffer with nook_nnao_frame_values.constants; 1 a
@@ -20,10 +23,11 @@
  * images, with a sampler that does not filter: the shaders read texels. Location 0 is the output.
  *
  * Row 0 of every image is where clip y is -1: in Vulkan its first row, with the projection as Vulkan takes
- * it. Direct3D's first row is where clip y is 1: there the second row of the projection (numbers 1, 5, 9 and
- * 13) is negated. In both, frame.clip is NOOK_NNAO_CLIP_ZERO_TO_ONE, and view space looks along -z; for a
- * view space that looks along +z the third column (numbers 8 to 11) is negated, and z of normals by
- * normal_matrix. */
+ * it. Direct3D's first row is where clip y is 1, and so is that of a Vulkan host whose viewports have a
+ * negative height: there the second row of the projection (numbers 1, 5, 9 and 13) is negated, and the stages
+ * are drawn with viewports of a positive height. In all of them, frame.clip is NOOK_NNAO_CLIP_ZERO_TO_ONE,
+ * and view space looks along -z; for a view space that looks along +z the third column (numbers 8 to 11) is
+ * negated, and z of normals by normal_matrix. */
 #ifndef NOOK_NNAO_STAGES_H
 #define NOOK_NNAO_STAGES_H
 
@@ -127,7 +131,7 @@ typedef struct nook_nnao_stage_info {
    * of its fragment shader; valid while the object lives. The first two stages are depth and depth_apart: a
    * frame runs the second if frame.layer is NOOK_NNAO_LAYER_APART, and the first otherwise. The last two are
    * resolve and resolve_layered: a frame runs the first if frame.layer is NOOK_NNAO_LAYER_NONE, and the
-   * second otherwise. */
+   * second otherwise. nook_nnao_frame_values.drawn_stages has the choice. */
   const char* name;
   const char* fragment_shader;
   /* 1: the viewport is nook_nnao_frame_values.viewport; 0: it is surface_width x surface_height at (0, 0). */
@@ -153,6 +157,8 @@ typedef struct nook_nnao_frame_values {
   int32_t viewport[4];
   /* Binding 0. */
   float constants[NOOK_NNAO_STAGE_CONSTANTS];
+  /* Bit i: the frame draws stage i. */
+  uint32_t drawn_stages;
 } nook_nnao_frame_values;
 
 /* Computes the numbers of a frame. It depends on its arguments alone, and allocates nothing.

@@ -134,7 +134,9 @@ nook_result nook_nnao_stages_frame(nook_nnao_stages stages, const nook_nnao_fram
     const nook_nnao_frame_desc known = checked_frame(frame, desc);
     nook_nnao_frame_desc before{};
     if (earlier) before = checked_frame(earlier, desc);
-    write_info(values, first_values,
-               gl::frame_values(desc, known, earlier ? &before : nullptr, number, int(layer)));
+    nook_nnao_frame_values computed =
+        gl::frame_values(desc, known, earlier ? &before : nullptr, number, int(layer));
+    computed.drawn_stages = gl::drawn_stages(stages->pass.stages.size(), known.layer);
+    write_info(values, first_values, computed);
   });
 }

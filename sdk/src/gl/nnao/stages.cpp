@@ -227,6 +227,12 @@ nook_nnao_image_info stage_image(const nook_nnao_desc& desc, nook_nnao_image ima
   return info;
 }
 
+std::uint32_t drawn_stages(std::size_t count, nook_nnao_layer layer) {
+  const std::size_t skipped_depth = layer == NOOK_NNAO_LAYER_APART ? 0 : 1;
+  const std::size_t skipped_resolve = layer == NOOK_NNAO_LAYER_NONE ? count - 1 : count - 2;
+  return ((1u << count) - 1) & ~(1u << skipped_depth) & ~(1u << skipped_resolve);
+}
+
 nook_nnao_frame_values frame_values(const nook_nnao_desc& desc, const nook_nnao_frame_desc& frame,
                                     const nook_nnao_frame_desc* earlier, std::uint32_t number, int layer) {
   const auto constants_of = [&](const nook_nnao_frame_desc& of) {

@@ -32,7 +32,10 @@ PassStages pass_stages(const nook_nnao_desc& desc, const nnao::Network& network,
 
 nook_nnao_image_info stage_image(const nook_nnao_desc& desc, nook_nnao_image image);
 
-// frame has passed check_frame, and earlier may be null.
+// The stages that a frame with this layer draws, as bits; count is that of the pass.
+std::uint32_t drawn_stages(std::size_t count, nook_nnao_layer layer);
+
+// frame has passed check_frame, and earlier may be null. drawn_stages stays 0.
 nook_nnao_frame_values frame_values(const nook_nnao_desc& desc, const nook_nnao_frame_desc& frame,
                                     const nook_nnao_frame_desc* earlier, std::uint32_t number, int layer);
 
