@@ -146,6 +146,9 @@ void Textures::draw_samples(SampledImage kind, GLuint texture, int layer, int wi
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_ALWAYS);
   gl_.Enable(GL_SAMPLE_MASK);
+  // A pass with NOOK_GL_STATE_HOST may have left others.
+  gl_.Disable(GL_BLEND);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_.ActiveTexture(GL_TEXTURE0);
   for (std::size_t sample = 0; sample < images.size(); ++sample) {
     const GLuint image = floats(depth ? GL_R32F : GL_RGB32F, depth ? 1 : 3, width, height, images[sample]);
