@@ -171,11 +171,6 @@ TEST_CASE("nnao: the stages as data draw what the pass draws") {
 }
 
 TEST_CASE("nnao: every stage compiles as GLSL for Vulkan") {
-  NOOK_NEED_CONTEXT(context);
-  if (context.is_es() || version_of(context) < 45) {
-    std::printf("the texts are the same on every context: compiled on OpenGL 4.5 alone\n");
-    return;
-  }
   if (std::system("glslangValidator --version > /dev/null 2>&1") != 0) {
     std::printf("no glslangValidator (Debian's glslang-tools): stages are not compiled for Vulkan\n");
     return;
@@ -204,7 +199,7 @@ TEST_CASE("nnao: every stage compiles as GLSL for Vulkan") {
       for (std::uint32_t i = 0; i < info.stage_count; ++i) {
         auto stage = sized<nook_nnao_stage_info>();
         NOOK_OK_OR_FAIL(nook_nnao_stages_stage(stages, i, &stage));
-        if (taps != 9 && !stage.reads_network) continue;  // the same text
+        if (taps != 9 && !stage.reads_network) continue;  // only its definitions differ
         INFO(settings.name << ", " << taps << " taps, " << stage.name);
         CHECK(compile("frag", stage.fragment_shader) == 0);
       }
