@@ -70,7 +70,8 @@ assert.equal(nook.memoryBytes, before);
 const types = readFileSync(join(folder, "index.d.ts"), "utf8");
 const { layouts } = nook.library;
 // Texture arrays and multisampled depth are not for the web: WebGL 2 has no multisampled textures.
-const leftOut = ["layers", "layerProjections", "layerNormalMatrices", "layerEarlierFromView", "depthSamples", "depthSample"];
+const leftOut = ["layers", "layerProjections", "layerNormalMatrices", "layerEarlierFromView", "depthSamples", "depthSample",
+  "normalSamples"];
 for (const name of ["nook_scene_desc", "nook_pose_desc", "nook_nnao_frame_desc", "nook_nnao_desc", "nook_probe_fit_desc", "nook_gl_ao_target",
   "nook_character_model_info", "nook_scene_stats", "nook_material_info", "nook_probe_info", "nook_gl_info"])
   for (const path of layouts.struct(name).fields.keys())

@@ -7,16 +7,29 @@
 uniform NOOK_HOST_IMAGE nook_layer;
 #endif
 
+#ifdef NOOK_NORMAL_SAMPLES
+out uvec2 nook_out;  // the number of the sample as well, whose normal the next stage reads
+#else
 out uint nook_out;
+#endif
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
 #if NOOK_HALF
   texel *= 2;
 #endif
+#ifdef NOOK_NORMAL_SAMPLES
+  nook_depth_sample chosen = nook_chosen_sample(texel);
+  float depth = chosen.depth;
+#else
   float depth = nook_screen_depth(texel);
+#endif
 #ifdef NOOK_APART
   if (nook_host_texel(nook_layer, texel).g > NOOK_APART) depth = nook_no_surface;
 #endif
+#ifdef NOOK_NORMAL_SAMPLES
+  nook_out = uvec2(floatBitsToUint(depth), chosen.number);
+#else
   nook_out = floatBitsToUint(depth);
+#endif
 }

@@ -1,7 +1,9 @@
 // The depth of the surface's texels, as depth.frag writes it.
 #include "shaders/nnao/frame.glsl"
 
-uniform usampler2D nook_depth;  // a float's bits: OpenGL ES 3.0 draws into no texture of 32-bit floats
+// A float's bits, since OpenGL ES 3.0 draws into no texture of 32-bit floats, and with NOOK_NORMAL_SAMPLES the
+// number of the host's sample.
+uniform usampler2D nook_depth;
 
 float nook_depth_at(ivec2 texel) {
   return uintBitsToFloat(texelFetch(nook_depth, texel, 0).r);

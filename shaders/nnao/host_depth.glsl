@@ -2,7 +2,7 @@
 #include "shaders/nnao/host_images.glsl"
 
 #ifdef NOOK_SAMPLES
-uniform sampler2DMS nook_host_depth;
+uniform NOOK_HOST_SAMPLES nook_host_depth;
 #else
 uniform NOOK_HOST_IMAGE nook_host_depth;
 #endif
@@ -17,28 +17,41 @@ float nook_view_depth(float stored) {
 }
 
 #ifdef NOOK_SAMPLES
-float nook_sample_depth(ivec2 pixel, int number) {
-  return nook_view_depth(texelFetch(nook_host_depth, pixel + nook_origin, number).r);
+// A sample of a pixel and its depth.
+struct nook_depth_sample {
+  float depth;
+  int number;
+};
+
+nook_depth_sample nook_sample_at(ivec2 pixel, int number) {
+  return nook_depth_sample(nook_view_depth(nook_host_sample(nook_host_depth, pixel, number).r), number);
 }
 
-// Returns the depth of one sample, as nook_nnao_sample says.
-float nook_screen_depth(ivec2 pixel) {
+// Returns the sample that nook_nnao_sample says; sdk/src/nnao/host_depth.h has the same on the CPU.
+nook_depth_sample nook_chosen_sample(ivec2 pixel) {
 #if NOOK_SAMPLE_RULE == NOOK_SAMPLE_FIRST
-  return nook_sample_depth(pixel, 0);
+  return nook_sample_at(pixel, 0);
 #elif NOOK_SAMPLE_RULE == NOOK_SAMPLE_NEAREST
-  float nearest = nook_no_surface;
-  for (int i = 0; i < NOOK_SAMPLES; ++i) nearest = min(nearest, nook_sample_depth(pixel, i));
+  nook_depth_sample nearest = nook_sample_at(pixel, 0);
+  for (int i = 1; i < NOOK_SAMPLES; ++i) {
+    nook_depth_sample other = nook_sample_at(pixel, i);
+    if (other.depth < nearest.depth) nearest = other;
+  }
   return nearest;
 #else
   float depths[NOOK_SAMPLES];
-  for (int i = 0; i < NOOK_SAMPLES; ++i) depths[i] = nook_sample_depth(pixel, i);
+  for (int i = 0; i < NOOK_SAMPLES; ++i) depths[i] = nook_sample_at(pixel, i).depth;
   for (int i = 0; i < NOOK_SAMPLES; ++i) {
     int nearer = 0;
     for (int j = 0; j < NOOK_SAMPLES; ++j) nearer += int(depths[j] < depths[i] || (depths[j] == depths[i] && j < i));
-    if (nearer == (NOOK_SAMPLES - 1) / 2) return depths[i];
+    if (nearer == (NOOK_SAMPLES - 1) / 2) return nook_depth_sample(depths[i], i);
   }
-  return depths[0];
+  return nook_depth_sample(depths[0], 0);
 #endif
+}
+
+float nook_screen_depth(ivec2 pixel) {
+  return nook_chosen_sample(pixel).depth;
 }
 #else
 float nook_screen_depth(ivec2 pixel) {

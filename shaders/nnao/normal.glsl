@@ -2,7 +2,11 @@
 #include "shaders/nnao/edges.glsl"
 #include "shaders/nnao/host_images.glsl"
 
+#ifdef NOOK_NORMAL_SAMPLES
+uniform NOOK_HOST_SAMPLES nook_host_normal;
+#else
 uniform NOOK_HOST_IMAGE nook_host_normal;
+#endif
 
 // Returns the slope along one axis from those of both sides, each weighted by the inverse of its square: past a
 // silhouette depth changes more steeply than on the texel's own surface. On a wire both sides balance, so that
@@ -18,6 +22,15 @@ vec3 nook_rebuilt_normal(ivec2 texel, nook_neighbours around) {
   return normalize(vec3(slope, 1.0 + nook_spread.x * dot(ray, slope)));
 }
 
+// Returns what the host has stored for a pixel of the screen, which is that of a texel of the surface.
+vec3 nook_stored_normal(ivec2 texel, ivec2 pixel) {
+#ifdef NOOK_NORMAL_SAMPLES
+  return nook_host_sample(nook_host_normal, pixel, int(texelFetch(nook_depth, texel, 0).g)).xyz;
+#else
+  return nook_host_texel(nook_host_normal, pixel).xyz;
+#endif
+}
+
 vec3 nook_texel_normal(ivec2 texel, nook_neighbours around) {
   if (nook_has_normals) {
 #if NOOK_HALF
@@ -25,8 +38,7 @@ vec3 nook_texel_normal(ivec2 texel, nook_neighbours around) {
 #else
     ivec2 pixel = texel;
 #endif
-    vec3 stored = nook_host_texel(nook_host_normal, pixel).xyz;
-    vec3 n = nook_normal_matrix * (stored * nook_normal_scale + nook_normal_bias);
+    vec3 n = nook_normal_matrix * (nook_stored_normal(texel, pixel) * nook_normal_scale + nook_normal_bias);
     float size = length(n);
     // A size outside these bounds means that nothing, or no normal, was drawn here.
     if (size > 1.0e-3 && size < 1.0e6) return n / size;

@@ -64,6 +64,7 @@ nook_nnao_desc pass_of(const std::vector<std::byte>& file, Script& script) {
     desc.layers = std::int32_t(script.below(10)) - 1;
     desc.depth_samples = std::int32_t(script.below(20)) - 2;
     desc.depth_sample = nook_nnao_sample(script.below(4));
+    desc.normal_samples = script.below(4) ? desc.depth_samples : std::int32_t(script.below(20)) - 2;
   }
   return desc;
 }

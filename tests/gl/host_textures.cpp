@@ -93,35 +93,50 @@ GLuint Textures::array(GLint internal_format, int channels, int width, int heigh
   return floats(internal_format, channels, width, height, int(images.size()), data);
 }
 
-GLuint Textures::depth_samples(int width, int height, const std::vector<std::vector<float>>& images) {
-  const bool es = is_es(gl_);
-  const auto samples = GLsizei(images.size());
-  const char* const header = es ? "#version 310 es\nprecision highp float; precision highp int;\n"
-                                  "precision highp sampler2D;\n"
-                                : "#version 330 core\n";
+GLuint Textures::make_samples(SampledImage kind, int width, int height, GLsizei samples, int layers) {
+  const GLenum target = layers > 0 ? GL_TEXTURE_2D_MULTISAMPLE_ARRAY : GL_TEXTURE_2D_MULTISAMPLE,
+               format = kind == SampledImage::depth ? GL_DEPTH_COMPONENT32F : GL_RGBA8;
+  GLuint name = 0;
+  gl_.GenTextures(1, &name);
+  names_.push_back(name);
+  gl_.BindTexture(target, name);
+  if (layers > 0 && is_es(gl_))
+    gl_.TexStorage3DMultisample(target, samples, format, width, height, layers, GL_TRUE);
+  else if (layers > 0)
+    gl_.TexImage3DMultisample(target, samples, format, width, height, layers, GL_TRUE);
+  else if (is_es(gl_))
+    gl_.TexStorage2DMultisample(target, samples, format, width, height, GL_TRUE);
+  else
+    gl_.TexImage2DMultisample(target, samples, format, width, height, GL_TRUE);
+  gl_.BindTexture(target, 0);
+  return name;
+}
+
+void Textures::draw_samples(SampledImage kind, GLuint texture, int layer, int width, int height,
+                            const std::vector<std::vector<float>>& images) {
+  const bool depth = kind == SampledImage::depth;
+  const char* const header = is_es(gl_) ? "#version 310 es\nprecision highp float; precision highp int;\n"
+                                          "precision highp sampler2D;\n"
+                                        : "#version 330 core\n";
+  const char* const copy = depth ? "uniform sampler2D image; void main() { gl_FragDepth = texelFetch(image, "
+                                   "ivec2(gl_FragCoord.xy), 0).r; }"
+                                 : "uniform sampler2D image; out vec4 colour; void main() { colour = "
+                                   "texelFetch(image, ivec2(gl_FragCoord.xy), 0); }";
   const platform::Program program(
       gl_,
       {header,
        "void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0, 1); }"},
-      {header,
-       "uniform sampler2D image; void main() { gl_FragDepth = texelFetch(image, ivec2(gl_FragCoord.xy), "
-       "0).r; }"});
-  GLuint name = 0, framebuffer = 0, vertices = 0;
-  gl_.GenTextures(1, &name);
-  names_.push_back(name);
-  gl_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, name);
-  if (es)
-    gl_.TexStorage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_DEPTH_COMPONENT32F, width, height,
-                                GL_TRUE);
-  else
-    gl_.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_DEPTH_COMPONENT32F, width, height,
-                              GL_TRUE);
-  gl_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
+      {header, copy});
+  const GLenum attachment = depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0,
+               drawn = depth ? GL_NONE : GL_COLOR_ATTACHMENT0;
+  GLuint framebuffer = 0, vertices = 0;
   gl_.GenFramebuffers(1, &framebuffer);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D_MULTISAMPLE, name, 0);
-  const GLenum nothing = GL_NONE;
-  gl_.DrawBuffers(1, &nothing);
+  if (layer < 0)
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D_MULTISAMPLE, texture, 0);
+  else
+    gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, attachment, texture, 0, layer);
+  gl_.DrawBuffers(1, &drawn);
   gl_.ReadBuffer(GL_NONE);
   REQUIRE(gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
   gl_.GenVertexArrays(1, &vertices);
@@ -131,9 +146,12 @@ GLuint Textures::depth_samples(int width, int height, const std::vector<std::vec
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_ALWAYS);
   gl_.Enable(GL_SAMPLE_MASK);
+  // A pass with NOOK_GL_STATE_HOST may have left others.
+  gl_.Disable(GL_BLEND);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_.ActiveTexture(GL_TEXTURE0);
-  for (GLsizei sample = 0; sample < samples; ++sample) {
-    const GLuint image = floats(GL_R32F, 1, width, height, images[std::size_t(sample)]);
+  for (std::size_t sample = 0; sample < images.size(); ++sample) {
+    const GLuint image = floats(depth ? GL_R32F : GL_RGB32F, depth ? 1 : 3, width, height, images[sample]);
     gl_.BindTexture(GL_TEXTURE_2D, image);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -150,6 +168,20 @@ GLuint Textures::depth_samples(int width, int height, const std::vector<std::vec
   gl_.DeleteVertexArrays(1, &vertices);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
   gl_.DeleteFramebuffers(1, &framebuffer);
+}
+
+GLuint Textures::samples(SampledImage kind, int width, int height,
+                         const std::vector<std::vector<float>>& images) {
+  const GLuint name = make_samples(kind, width, height, GLsizei(images.size()), 0);
+  draw_samples(kind, name, -1, width, height, images);
+  return name;
+}
+
+GLuint Textures::sample_array(SampledImage kind, int width, int height,
+                              const std::vector<std::vector<std::vector<float>>>& layers) {
+  const GLuint name = make_samples(kind, width, height, GLsizei(layers.at(0).size()), int(layers.size()));
+  for (std::size_t layer = 0; layer < layers.size(); ++layer)
+    draw_samples(kind, name, int(layer), width, height, layers[layer]);
   return name;
 }
 

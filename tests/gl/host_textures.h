@@ -9,6 +9,10 @@
 
 namespace nook::test {
 
+// The kinds of multisample textures: GL_DEPTH_COMPONENT32F, of images with one channel, and GL_RGBA8, of
+// images with three.
+enum class SampledImage { depth, colours };
+
 // Textures that are deleted with it.
 class Textures {
  public:
@@ -30,11 +34,19 @@ class Textures {
   // A texture array of the images one after the other.
   GLuint array(GLint internal_format, int channels, int width, int height,
                const std::vector<std::vector<float>>& images);
-  // A multisample texture of GL_DEPTH_COMPONENT32F: an image for each sample. It draws, and leaves the
-  // state at its defaults but for the viewport.
-  GLuint depth_samples(int width, int height, const std::vector<std::vector<float>>& images);
+  // A multisample texture: an image for each sample. It draws, and leaves the state at its defaults but for
+  // the viewport.
+  GLuint samples(SampledImage kind, int width, int height, const std::vector<std::vector<float>>& images);
+  // An array of them: the images of the samples for each layer.
+  GLuint sample_array(SampledImage kind, int width, int height,
+                      const std::vector<std::vector<std::vector<float>>>& layers);
 
  private:
+  // The name of a multisample texture without contents; layers 0: no array.
+  GLuint make_samples(SampledImage kind, int width, int height, GLsizei samples, int layers);
+  // layer -1: the texture is no array.
+  void draw_samples(SampledImage kind, GLuint texture, int layer, int width, int height,
+                    const std::vector<std::vector<float>>& images);
   // layers 0: a 2D texture.
   GLuint make(GLint internal_format, GLenum format, GLenum type, int width, int height, int layers,
               const void* data);

@@ -168,6 +168,11 @@ std::vector<float> flat(const std::vector<Vec3>& normals) {
   return out;
 }
 
+std::vector<float> halved_range(std::vector<float> numbers) {
+  for (float& number : numbers) number = std::round(255 * (0.5f * number + 0.5f)) / 255;
+  return numbers;
+}
+
 std::vector<float> placed(const std::vector<float>& image, int channels, const Picture& picture,
                           const Place& place, float around) {
   std::vector<float> out(std::size_t(place.width) * place.height * channels, around);

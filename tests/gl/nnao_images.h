@@ -58,6 +58,8 @@ struct Place {
 };
 std::vector<float> stored_depth(const Camera& camera, const Picture& picture);
 std::vector<float> flat(const std::vector<Vec3>& normals);
+// Numbers in [-1, 1] as those in [0, 1] that 8 bits hold exactly; scale 2 and bias -1 turn them back.
+std::vector<float> halved_range(std::vector<float> numbers);
 std::vector<float> placed(const std::vector<float>& image, int channels, const Picture& picture,
                           const Place& place, float around);
 

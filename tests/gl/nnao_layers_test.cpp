@@ -199,19 +199,22 @@ TEST_CASE("nnao: texture arrays are refused where they do not fit, and nothing i
   NOOK_OK_OR_FAIL(nook_nnao_render(pass, &good));
   nook_nnao_destroy(&pass);
   const struct {
-    int layers, samples, sample;
+    int layers, samples, sample, normal_samples;
     const char* message;
-  } cases[] = {{9, 0, 0, "desc.layers is out of range (got 9, need 0 to 8)"},
-               {-1, 0, 0, "desc.layers is out of range"},
-               {2, 4, 0, "desc.layers does not go with desc.depth_samples (got 2 and 4)"},
-               {0, 17, 0, "desc.depth_samples is out of range (got 17, need 0 to 16)"},
-               {0, -2, 0, "desc.depth_samples is out of range"},
-               {0, 4, 3, "desc.depth_sample is unknown (got 3, need 0 to 2)"}};
+  } cases[] = {{9, 0, 0, 0, "desc.layers is out of range (got 9, need 0 to 8)"},
+               {-1, 0, 0, 0, "desc.layers is out of range"},
+               {2, 4, 0, 8, "desc.normal_samples differs from desc.depth_samples (got 8 and 4"},
+               {0, 0, 0, 4, "desc.normal_samples differs from desc.depth_samples (got 4 and 0"},
+               {0, 4, 0, -4, "desc.normal_samples differs"},
+               {0, 17, 0, 0, "desc.depth_samples is out of range (got 17, need 0 to 16)"},
+               {0, -2, 0, 0, "desc.depth_samples is out of range"},
+               {0, 4, 3, 0, "desc.depth_sample is unknown (got 3, need 0 to 2)"}};
   for (const auto& bad_desc : cases) {
     nook_nnao_desc desc = pass_desc(width, height);
     desc.layers = bad_desc.layers;
     desc.depth_samples = bad_desc.samples;
     desc.depth_sample = bad_desc.sample;
+    desc.normal_samples = bad_desc.normal_samples;
     CHECK(nook_nnao_create(fixture.gl, &desc, &pass) == NOOK_ERROR_INVALID_ARGUMENT);
     CHECK(pass == nullptr);
     CHECK(message_has(bad_desc.message));

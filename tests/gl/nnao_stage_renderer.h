@@ -109,7 +109,8 @@ class StageRenderer {
       std::swap(images_[NOOK_NNAO_IMAGE_DEPTH], images_[NOOK_NNAO_IMAGE_EARLIER_DEPTH]);
     for (GLenum unit = 0; unit < 8; ++unit) {
       gl_.ActiveTexture(GL_TEXTURE0 + unit);
-      for (const GLenum target : {GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY, GL_TEXTURE_2D_MULTISAMPLE})
+      for (const GLenum target :
+           {GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY, GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_2D_MULTISAMPLE_ARRAY})
         gl_.BindTexture(target, 0);
     }
     gl_.ActiveTexture(GL_TEXTURE0);
@@ -131,6 +132,9 @@ class StageRenderer {
         break;
       case NOOK_NNAO_FORMAT_R32_UINT:
         name = textures_.make(GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, info.width, info.height, nullptr);
+        break;
+      case NOOK_NNAO_FORMAT_R32G32_UINT:
+        name = textures_.make(GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, info.width, info.height, nullptr);
         break;
       default:
         name = textures_.make(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, info.width, info.height, nullptr);

@@ -12,7 +12,8 @@ namespace nook::test {
 struct Poison::Objects {
   GLuint buffers[4] = {};
   GLuint texture = 0, other_texture = 0, texture_2d = 0, texture_array = 0, volume = 0, cube = 0,
-         sample_texture = 0, sampler = 0, framebuffer = 0, renderbuffer = 0, vertex_array = 0, program = 0;
+         sample_texture = 0, sample_array = 0, sampler = 0, framebuffer = 0, renderbuffer = 0,
+         vertex_array = 0, program = 0;
   GLuint feedback = 0;
 };
 
@@ -51,6 +52,7 @@ struct Has {
   bool images() const { return from(42, 31); }
   bool storage() const { return from(43, 31); }
   bool sample_textures() const { return from(32, 31); }
+  bool sample_arrays() const { return from(32, 32); }
   bool indexed_draw_buffers() const { return from(33, 32); }
   bool query_buffers() const { return desktop && version >= 44; }
   bool clip_control(const GladGLContext& gl) const { return desktop && gl.ClipControl; }
@@ -120,6 +122,10 @@ struct Readers {
   Values sample_texture() const {
     return has.sample_textures() ? of_unit(gl::host_depth_unit, GL_TEXTURE_BINDING_2D_MULTISAMPLE)
                                  : Values{0};
+  }
+  Values sample_array() const {
+    return has.sample_arrays() ? of_unit(gl::host_depth_unit, GL_TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY)
+                               : Values{0};
   }
   Values image_unit() const { return image_unit_of(gl::image_unit_index); }
   Values image_unit_of(GLuint unit) const {
@@ -278,6 +284,11 @@ Poison::Poison(platform::Context& context, unsigned users)
     gl.ActiveTexture(GL_TEXTURE0 + gl::host_depth_unit);
     gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, o.sample_texture);
   }
+  if (has.sample_arrays()) {
+    gl.GenTextures(1, &o.sample_array);
+    gl.ActiveTexture(GL_TEXTURE0 + gl::host_depth_unit);
+    gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE_ARRAY, o.sample_array);
+  }
   gl.ActiveTexture(GL_TEXTURE5);
   if (has.images())
     for (const GLuint unit : {GLuint{gl::image_unit_index}, GLuint{gl::image_unit_index} + 1})
@@ -339,6 +350,7 @@ void Poison::reset_touched() {
     gl.BindTexture(GL_TEXTURE_3D, 0);
     gl.BindTexture(GL_TEXTURE_CUBE_MAP, 0);
     if (has.sample_textures()) gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
+    if (has.sample_arrays()) gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE_ARRAY, 0);
     gl.BindSampler(unit, 0);
   }
   for (const GLenum name : pixel_store_of(has)) gl.PixelStorei(name, name == GL_UNPACK_ALIGNMENT ? 4 : 0);
@@ -397,6 +409,7 @@ Poison::~Poison() {
   gl.DeleteTextures(1, &o.volume);
   gl.DeleteTextures(1, &o.cube);
   if (o.sample_texture) gl.DeleteTextures(1, &o.sample_texture);
+  if (o.sample_array) gl.DeleteTextures(1, &o.sample_array);
   gl.DeleteSamplers(1, &o.sampler);
   gl.DeleteFramebuffers(1, &o.framebuffer);
   gl.DeleteRenderbuffers(1, &o.renderbuffer);

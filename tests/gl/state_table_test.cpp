@@ -25,7 +25,8 @@ std::string names_of(unsigned users) {
                                                   {nook::gl::texel_uploads, "tables on OpenGL ES"},
                                                   {nook::gl::screen_reads, "nook_nnao_record"},
                                                   {nook::gl::screen_layers, "nnao with layers"},
-                                                  {nook::gl::screen_samples, "nnao with depth_samples"}};
+                                                  {nook::gl::screen_samples, "nnao with depth_samples"},
+                                                  {nook::gl::screen_sample_layers, "nnao with both"}};
   std::string names;
   for (const auto& [user, name] : all)
     if (users & user) names += (names.empty() ? "" : ", ") + std::string(name);

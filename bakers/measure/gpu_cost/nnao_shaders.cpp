@@ -98,8 +98,13 @@ std::vector<ShaderCase> nnao_shaders() {
           tree_shader(stage, std::string("shaders/nnao/") + file, file + variant + size, lines, loops));
     };
     add(Stage::fragment, "depth.frag", "", defines(half, true, grids[0]), {});
-    add(Stage::fragment, "depth.frag", ", 4 samples",
-        defines(half, true, grids[0]) + "#define NOOK_SAMPLES 4\n#define NOOK_SAMPLE_RULE 0\n", {});
+    const std::string samples =
+        defines(half, true, grids[0]) + "#define NOOK_SAMPLES 4\n#define NOOK_SAMPLE_RULE 0\n";
+    const std::string normal_samples = samples + "#define NOOK_NORMAL_SAMPLES 1\n";
+    add(Stage::fragment, "depth.frag", ", 4 samples", samples, {});
+    add(Stage::fragment, "depth.frag", ", 4 samples with normals", normal_samples, {});
+    add(Stage::fragment, "occlusion.frag", ", 9, 4 samples with normals", normal_samples,
+        direction_loops(grids[0]));
     add(Stage::fragment, "depth.frag", ", texture array",
         defines(half, true, grids[0]) + "#define NOOK_LAYERS 1\n", {});
     add(Stage::fragment, "normals.frag", "", defines(half, false, grids[1]), {});

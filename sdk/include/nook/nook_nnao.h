@@ -51,7 +51,8 @@ enum {
 };
 typedef int32_t nook_nnao_path;
 
-/* The sample of a multisampled depth texture whose depth is that of the pixel. */
+/* The sample of a multisampled depth texture whose depth, and with nook_nnao_desc.normal_samples whose
+ * normal, is that of the pixel. */
 enum {
   /* The median of the depths, of two the nearer one: a surface that covers most of the pixel. */
   NOOK_NNAO_SAMPLE_MEDIAN = 0,
@@ -101,8 +102,9 @@ typedef struct nook_nnao_desc {
    * alone. Not with bent_normals. */
   int32_t temporal_frames;
   /* 1 to 16: the depth textures are of GL_TEXTURE_2D_MULTISAMPLE with so many samples, which needs OpenGL 3.3
-   * or OpenGL ES 3.1. Normals, motion, layer and target stay single-sampled. 0 (default): 2D textures. Not
-   * with layers. */
+   * or OpenGL ES 3.1, or with layers of GL_TEXTURE_2D_MULTISAMPLE_ARRAY, which needs OpenGL 3.3 or OpenGL ES
+   * 3.2. Motion, layer and target stay single-sampled, and normals unless normal_samples says otherwise.
+   * 0 (default): 2D textures, or arrays of them. */
   int32_t depth_samples;
   /* Default NOOK_NNAO_SAMPLE_MEDIAN, whose error was measured to be the smallest (docs/nnao.md). */
   nook_nnao_sample depth_sample;
@@ -110,6 +112,10 @@ typedef struct nook_nnao_desc {
    * such as two eyes. nook_nnao_render draws them all, layer by layer with the same textures of the pass; its
    * own texture is an array of as many layers. 0 (default): 2D textures. */
   int32_t layers;
+  /* The same number as depth_samples: the normal textures are multisampled as the depth textures are, and a
+   * pixel has the normal of the sample whose depth it has. Any other number but 0 is refused. 0 (default):
+   * normals are single-sampled. */
+  int32_t normal_samples;
 } nook_nnao_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
@@ -137,7 +143,8 @@ NOOK_API nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_p
  * resolution, which at 3840 x 2160 is 58 MB and 25 MB. A blur of 2 at full resolution takes 2 more bytes.
  * Each of nook_nnao_desc.layers beyond the first takes the bytes of the pass's own texture, 1 or 4, and those
  * of temporal_frames. With bent normals it is 12 bytes or 7, 100 MB and 58 MB, and 4 more with a blur of 2 at
- * full resolution. temporal_frames take 12 more bytes, or 3 at half resolution. A network of the paper's form
+ * full resolution. temporal_frames take 12 more bytes, or 3 at half resolution. normal_samples take 4 more
+ * bytes, or 1 at half resolution, and twice as many with temporal_frames. A network of the paper's form
  * takes 4 more bytes for each pixel, or 1, and its filters 62 kB. The call makes no OpenGL call. Any thread.
  * Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION. */
 NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes);
@@ -145,7 +152,8 @@ NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* byte
 /* Creates textures and shaders; the caller may free the network's bytes afterwards. On failure *out is NULL
  * and no OpenGL object is left.
  * Context thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED (the size exceeds the textures of this
- * OpenGL, or this OpenGL lacks the path or multisample textures), BAD_FILE, FILE_VERSION, GL, OUT_OF_MEMORY.
+ * OpenGL, or this OpenGL lacks the path, multisample textures or arrays of them), BAD_FILE, FILE_VERSION, GL,
+ * OUT_OF_MEMORY.
  */
 NOOK_API nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, nook_nnao* out);
 
@@ -246,7 +254,8 @@ enum {
 };
 typedef int32_t nook_nnao_view;
 
-/* One frame. Textures are 2D and single-sampled, unless nook_nnao_desc has depth_samples or layers; level 0
+/* One frame. Textures are 2D and single-sampled, unless nook_nnao_desc has depth_samples, normal_samples or
+ * layers; level 0
  * with width x height texels is read. The pass reads them through its own samplers: it changes none of their
  * parameters, and their filter, wrap and compare modes do not matter. The pass queries the size and format of
  * textures and targets when a name, kind or size here differs from that of the last call. If the host creates

@@ -40,14 +40,15 @@ extern "C" {
 typedef struct nook_nnao_stages_s* nook_nnao_stages;
 
 /* Images that stages read or write. The first four are the host's: texture arrays for passes with layers, and
- * a multisample texture of depth for passes with depth_samples. The host gives those that its frames have,
+ * multisampled depth for passes with depth_samples, as well as multisampled normals for those with
+ * normal_samples. The host gives those that its frames have,
  * and any 1 x 1 image for others. */
 enum {
   NOOK_NNAO_IMAGE_HOST_DEPTH = 0,
   NOOK_NNAO_IMAGE_HOST_NORMAL = 1,
   NOOK_NNAO_IMAGE_HOST_LAYER = 2,
   NOOK_NNAO_IMAGE_HOST_MOTION = 3,
-  /* Linear depth of the surface, as the bits of floats. */
+  /* Linear depth of the surface, as the bits of floats, and with normal_samples the number of its sample. */
   NOOK_NNAO_IMAGE_DEPTH = 4,
   /* AO and edges. */
   NOOK_NNAO_IMAGE_AO = 5,
@@ -73,7 +74,8 @@ enum {
   NOOK_NNAO_FORMAT_R8_UNORM = 1,
   NOOK_NNAO_FORMAT_R8G8_UNORM = 2,
   NOOK_NNAO_FORMAT_R8G8B8A8_UNORM = 3,
-  NOOK_NNAO_FORMAT_R32_UINT = 4
+  NOOK_NNAO_FORMAT_R32_UINT = 4,
+  NOOK_NNAO_FORMAT_R32G32_UINT = 5
 };
 typedef int32_t nook_nnao_format;
 

@@ -134,7 +134,8 @@ void load_feedback_objects(Functions& gl, const Loader& loader) {
 void load_desktop_options(Functions& gl, const Loader& loader) {
   gl.can.texture_buffers = gl.can.maps = gl.can.buffer_reads = true;
   gl.can.indexed_feedback = gl.can.norm16_targets = gl.can.desktop_raster = true;
-  gl.can.texture_sizes = gl.can.indexed_draw_buffers = gl.can.sample_textures = true;
+  gl.can.texture_sizes = gl.can.indexed_draw_buffers = true;
+  gl.can.sample_textures = gl.can.sample_arrays = true;
   gl.can.timestamps = load_fences(gl, loader);
   if (gl.version >= 40) {
     load_feedback_objects(gl, loader);
@@ -168,6 +169,7 @@ void load_es_options(Functions& gl, const Loader& loader) {
     gl.can.stencil_textures = gl.can.sample_textures = true;
   }
   if (gl.version >= 32) {
+    gl.can.sample_arrays = true;
     loader.optional(gl.ColorMaski, "glColorMaski");
     loader.optional(gl.Disablei, "glDisablei");
     loader.optional(gl.Enablei, "glEnablei");

@@ -169,6 +169,7 @@ struct Abilities {
   bool r8_images = false;         // compute shaders write GL_R8
   bool texture_sizes = false;     // glGetTexLevelParameteriv
   bool sample_textures = false;   // GL_TEXTURE_2D_MULTISAMPLE
+  bool sample_arrays = false;     // GL_TEXTURE_2D_MULTISAMPLE_ARRAY
   bool timestamps = false;        // glQueryCounter, and fences that tell when its answers are there
   bool indexed_draw_buffers = false;  // blending and colour mask exist once for each draw buffer
   bool indexed_viewports = false;     // viewport and scissor test exist once for each index

@@ -27,37 +27,38 @@ struct InfoLog {
                 log.text);
 }
 
-const char* version_line(const Functions& gl, GLenum stage, DrawNeeds needs) {
+const char* version_line(const Functions& gl, GLenum stage, ShaderNeeds needs) {
   const bool compute = stage == GL_COMPUTE_SHADER;
   if (gl.profile == Profile::desktop) return compute ? "#version 430 core\n" : "#version 330 core\n";
+  if (needs.sample_arrays) return "#version 320 es\n";
   return compute || needs.sample_textures ? "#version 310 es\n" : "#version 300 es\n";
 }
 
 // Every number is computed in full precision, as desktop OpenGL does, unless a stage was measured to need
 // less: sums over taps and spheres, and depths, need it.
-const char* float_precision(const Functions& gl, DrawNeeds needs) {
+const char* float_precision(const Functions& gl, ShaderNeeds needs) {
   if (gl.profile == Profile::desktop) return "";
   return needs.medium_precision ? "precision mediump float;\n" : "precision highp float;\n";
 }
 
-const char* precision_lines(const Functions& gl, GLenum stage, DrawNeeds needs) {
-  if (gl.profile == Profile::desktop) return "";
-  if (stage == GL_COMPUTE_SHADER)
-    return "precision highp int;\nprecision highp sampler2D;\nprecision highp usampler2D;\n"
-           "precision highp sampler2DArray;\nprecision highp image2D;\n";
-  if (needs.sample_textures)
-    return "precision highp int;\nprecision highp sampler2D;\nprecision highp usampler2D;\n"
-           "precision highp sampler2DMS;\n";
-  return "precision highp int;\nprecision highp sampler2D;\nprecision highp usampler2D;\n"
-         "precision highp sampler2DArray;\n";
+constexpr const char* common_precisions =
+    "precision highp int;\nprecision highp sampler2D;\nprecision highp usampler2D;\n"
+    "precision highp sampler2DArray;\n";
+
+const char* sample_precisions(ShaderNeeds needs) {
+  if (needs.sample_arrays) return "precision highp sampler2DMS;\nprecision highp sampler2DMSArray;\n";
+  return needs.sample_textures ? "precision highp sampler2DMS;\n" : "";
 }
 
-Object compile(Device& device, GLenum stage, const char* path, const char* defines, DrawNeeds needs = {}) {
+Object compile(Device& device, GLenum stage, const char* path, const char* defines, ShaderNeeds needs = {}) {
   const Functions& gl = device.gl;
+  const bool es = gl.profile != Profile::desktop;
   Object shader(device, Object::Kind::shader, gl.CreateShader(stage));
   const char* parts[] = {version_line(gl, stage, needs),
                          float_precision(gl, needs),
-                         precision_lines(gl, stage, needs),
+                         es ? common_precisions : "",
+                         es ? sample_precisions(needs) : "",
+                         es && stage == GL_COMPUTE_SHADER ? "precision highp image2D;\n" : "",
                          defines,
                          "#line 1\n",
                          embedded_text(path)};
@@ -93,8 +94,8 @@ Object link(Device& device, std::initializer_list<GLuint> shaders, const char* p
 
 }  // namespace
 
-Object compute_program(Device& device, const char* path, const char* defines) {
-  const Object shader = compile(device, GL_COMPUTE_SHADER, path, defines);
+Object compute_program(Device& device, const char* path, const char* defines, ShaderNeeds needs) {
+  const Object shader = compile(device, GL_COMPUTE_SHADER, path, defines, needs);
   return link(device, {shader.name()}, path, nullptr);
 }
 
@@ -107,9 +108,9 @@ Object feedback_program(Device& device, const char* path, const char* defines, c
 }
 
 Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines,
-                    DrawNeeds needs) {
+                    ShaderNeeds needs) {
   const Object vertex =
-      compile(device, GL_VERTEX_SHADER, vertex_path, "", {.sample_textures = needs.sample_textures});
+      compile(device, GL_VERTEX_SHADER, vertex_path, "", {needs.sample_textures, needs.sample_arrays});
   const Object fragment = compile(device, GL_FRAGMENT_SHADER, fragment_path, defines, needs);
   return link(device, {vertex.name(), fragment.name()}, fragment_path, nullptr);
 }

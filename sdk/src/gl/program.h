@@ -8,21 +8,22 @@ namespace nook::gl {
 // Returns the text of an embedded shader. Throws Failure(NOOK_ERROR_INTERNAL) if no shader has that path.
 const char* embedded_text(const char* path);
 
+// The needs of shaders on OpenGL ES.
+struct ShaderNeeds {
+  bool sample_textures = false;   // multisample textures, which OpenGL ES 3.0 lacks
+  bool sample_arrays = false;     // arrays of them, which OpenGL ES 3.1 lacks
+  bool medium_precision = false;  // floats of a fragment shader have it unless they say otherwise
+};
+
 // Compiles and links a compute shader. `path` names an embedded shader, and `defines` is put before its text
 // ("#define A 1\n"). These functions throw Failure(NOOK_ERROR_GL) with the shader's name and the start of the
 // compiler's log; the whole log goes to the host's log.
-Object compute_program(Device& device, const char* path, const char* defines);
+Object compute_program(Device& device, const char* path, const char* defines, ShaderNeeds needs = {});
 // Links a single vertex shader whose output `varying` is captured.
 Object feedback_program(Device& device, const char* path, const char* defines, const char* varying);
-// The needs of the shaders of a draw on OpenGL ES.
-struct DrawNeeds {
-  bool sample_textures = false;   // multisample textures, which OpenGL ES 3.0 lacks
-  bool medium_precision = false;  // floats of the fragment shader have it unless they say otherwise
-};
-
 // Links a vertex and a fragment shader.
 Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines,
-                    DrawNeeds needs = {});
+                    ShaderNeeds needs = {});
 
 GLint uniform_location(const Device& device, const Object& program, const char* name);
 

@@ -83,7 +83,7 @@ struct SavedState {
   GLint cube_map = 0;
   GLint capture_samplers[2] = {};
   GLint layer_textures[std::size(layer_units)] = {};
-  GLint sample_texture = 0;
+  GLint sample_texture = 0, sample_array = 0;
   GLint pixel_unpack_buffer = 0, pixel_pack_buffer = 0;
   PixelStore pixel_store;
   PixelPack pixel_pack;

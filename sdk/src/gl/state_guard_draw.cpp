@@ -109,15 +109,30 @@ void restore_layer_textures(const Functions& gl, const SavedState& s) {
   gl.ActiveTexture(s.active_texture);
 }
 
-void query_sample_texture(const Functions& gl, SavedState& s) {
+GLint host_depth_binding(const Functions& gl, const SavedState& s, GLenum binding) {
   gl.ActiveTexture(GL_TEXTURE0 + host_depth_unit);
-  s.sample_texture = integer(gl, GL_TEXTURE_BINDING_2D_MULTISAMPLE);
+  const GLint name = integer(gl, binding);
+  gl.ActiveTexture(s.active_texture);
+  return name;
+}
+void bind_host_depth(const Functions& gl, const SavedState& s, GLenum target, GLint name) {
+  gl.ActiveTexture(GL_TEXTURE0 + host_depth_unit);
+  gl.BindTexture(target, name);
   gl.ActiveTexture(s.active_texture);
 }
+
+void query_sample_texture(const Functions& gl, SavedState& s) {
+  s.sample_texture = host_depth_binding(gl, s, GL_TEXTURE_BINDING_2D_MULTISAMPLE);
+}
 void restore_sample_texture(const Functions& gl, const SavedState& s) {
-  gl.ActiveTexture(GL_TEXTURE0 + host_depth_unit);
-  gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, s.sample_texture);
-  gl.ActiveTexture(s.active_texture);
+  bind_host_depth(gl, s, GL_TEXTURE_2D_MULTISAMPLE, s.sample_texture);
+}
+
+void query_sample_array(const Functions& gl, SavedState& s) {
+  s.sample_array = host_depth_binding(gl, s, GL_TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY);
+}
+void restore_sample_array(const Functions& gl, const SavedState& s) {
+  bind_host_depth(gl, s, GL_TEXTURE_2D_MULTISAMPLE_ARRAY, s.sample_array);
 }
 
 void query_samplers(const Functions& gl, SavedState& s) {

@@ -11,8 +11,8 @@ namespace nook::gl {
 // The users of an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload
 // of probes and materials, the screen-space pass if its network is a compute shader, the writing of AO to
 // buffers and textures of the host, the recording of frames, and the screen-space pass with
-// nook_nnao_desc.layers and depth_samples, the upload of grids, and captures of probes. OpenGL ES has tables
-// of texels in 2D textures, whose upload is another user.
+// nook_nnao_desc.layers, depth_samples and both, the upload of grids, and captures of probes. OpenGL ES has
+// tables of texels in 2D textures, whose upload is another user.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
@@ -29,6 +29,7 @@ enum : unsigned {
   screen_samples = 4096,
   grids = 8192,
   captures = 16384,
+  screen_sample_layers = 32768,
   characters = tier_33 | tier_43,
   everyone = characters | screen,
   draws = tier_33 | screen,
@@ -56,7 +57,9 @@ enum : unsigned {
   X(layer_textures, screen_layers, "GL_TEXTURE_BINDING_2D_ARRAY of units 1, 3 and 4",                       \
     "the host's arrays; default 0")                                                                         \
   X(sample_texture, screen_samples, "GL_TEXTURE_BINDING_2D_MULTISAMPLE of unit 1",                          \
-    "the host's depth; default 0")                                                                          \
+    "the host's depth and normals; default 0")                                                              \
+  X(sample_array, screen_sample_layers, "GL_TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY of unit 1",                \
+    "the host's depth and normals; default 0")                                                              \
   X(image_unit, screen_compute, "GL_IMAGE_BINDING_NAME, LEVEL, LAYERED, LAYER, ACCESS, FORMAT of unit 0",   \
     "what a compute shader writes; default 0, GL_READ_ONLY, GL_R8 (OpenGL ES: GL_R32UI)")                   \
   X(texture_2d_array, materials, "GL_TEXTURE_BINDING_2D_ARRAY of unit 0", "uploads; default 0")             \

@@ -19,6 +19,19 @@ constexpr float no_surface = 1e15f;
 
 }  // namespace
 
+std::size_t chosen_sample(SampleRule rule, std::span<const float> depths) {
+  if (rule == SampleRule::first) return 0;
+  if (rule == SampleRule::nearest)
+    return std::size_t(std::min_element(depths.begin(), depths.end()) - depths.begin());
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    std::size_t nearer = 0;
+    for (std::size_t j = 0; j < depths.size(); ++j)
+      nearer += depths[j] < depths[i] || (depths[j] == depths[i] && j < i);
+    if (nearer == (depths.size() - 1) / 2) return i;
+  }
+  return 0;
+}
+
 bool is_perspective(const float (&projection)[16]) {
   return projection[11] < 0;
 }

@@ -19,6 +19,14 @@ struct DepthSource {
   float log_scale = 1, log_near = 0, log_far = 0;
 };
 
+// The values are those of nook_nnao_sample.
+enum class SampleRule { median = 0, first = 1, nearest = 2 };
+
+// Returns the number of the sample whose depth is that of the pixel: of equal depths the first, and with the
+// median of an even number the nearer of two. depths are those of the samples in view space, infinite where
+// there is no surface. It is the reference of host_depth.glsl.
+std::size_t chosen_sample(SampleRule rule, std::span<const float> depths);
+
 bool is_perspective(const float (&projection)[16]);
 
 // As screen_rays, for a matrix that may be multiplied by any factor above 0.

@@ -21,6 +21,7 @@ NOOK_AT(nook_nnao_desc, temporal_frames, 68);
 NOOK_AT(nook_nnao_desc, depth_samples, 72);
 NOOK_AT(nook_nnao_desc, depth_sample, 76);
 NOOK_AT(nook_nnao_desc, layers, 80);
+NOOK_AT(nook_nnao_desc, normal_samples, 84);
 
 NOOK_SIZE(nook_nnao_frame_desc, 320);
 NOOK_AT(nook_nnao_frame_desc, width, 16);

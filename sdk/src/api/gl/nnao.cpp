@@ -38,8 +38,8 @@ struct nook_nnao_s : RefCounted {
 
   // Those of the host's images.
   unsigned image_users() const {
-    return (desc.layers ? unsigned{gl::screen_layers} : 0u) |
-           (desc.depth_samples ? unsigned{gl::screen_samples} : 0u);
+    const unsigned samples = desc.layers ? gl::screen_sample_layers : gl::screen_samples;
+    return (desc.layers ? unsigned{gl::screen_layers} : 0u) | (desc.depth_samples ? samples : 0u);
   }
 
   // Returns the file of the network.

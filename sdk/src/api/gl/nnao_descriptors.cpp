@@ -84,12 +84,11 @@ nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given) {
   if (desc.layers < 0 || desc.layers > gl::max_layers)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.layers is out of range (got %d, need 0 to %d)",
                   desc.layers, gl::max_layers);
-  if (desc.layers != 0 && desc.depth_samples != 0)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "desc.layers does not go with desc.depth_samples (got %d and %d); resolve depth to an array "
-        "without samples",
-        desc.layers, desc.depth_samples);
+  if (desc.normal_samples != 0 && desc.normal_samples != desc.depth_samples)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.normal_samples differs from desc.depth_samples (got %d and %d, need 0 or the same "
+                  "number); a pixel has the normal of the sample whose depth it has",
+                  desc.normal_samples, desc.depth_samples);
   if (!desc.network && desc.network_size != 0)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,

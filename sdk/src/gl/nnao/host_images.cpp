@@ -28,11 +28,21 @@ constexpr TextureKind texture_array{GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_A
 constexpr TextureKind sample_texture{GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE,
                                      host_depth_unit, "multisample texture"};
 
+constexpr TextureKind sample_array{GL_TEXTURE_2D_MULTISAMPLE_ARRAY, GL_TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY,
+                                   host_depth_unit, "multisample texture array"};
+
 TextureKind kind_of(const HostImages& images) {
   return images.layers > 0 ? texture_array : TextureKind{};
 }
-TextureKind depth_kind_of(const HostImages& images) {
-  return images.samples > 0 ? sample_texture : kind_of(images);
+TextureKind sampled_kind_of(const HostImages& images, int samples) {
+  if (samples == 0) return kind_of(images);
+  return images.layers > 0 ? sample_array : sample_texture;
+}
+bool is_array(const TextureKind& kind) {
+  return kind.target == GL_TEXTURE_2D_ARRAY || kind.target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+}
+bool has_samples(const TextureKind& kind) {
+  return kind.target == GL_TEXTURE_2D_MULTISAMPLE || kind.target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
 }
 
 // A texture that is bound.
@@ -77,11 +87,11 @@ BoundTexture bind_checked(const Device& device, const HostImages& images, const 
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.%s has another size (got %d x %d, need frame.width x frame.height, %d x %d)", field,
                   width, height, images.width, images.height);
-  if (kind.target == GL_TEXTURE_2D_ARRAY && texture.level(GL_TEXTURE_DEPTH) < images.layers)
+  if (is_array(kind) && texture.level(GL_TEXTURE_DEPTH) < images.layers)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.%s has another size (got %d layers, need desc.layers, %d)", field,
                   texture.level(GL_TEXTURE_DEPTH), images.layers);
-  if (kind.target == GL_TEXTURE_2D_MULTISAMPLE && texture.level(GL_TEXTURE_SAMPLES) != images.samples)
+  if (has_samples(kind) && texture.level(GL_TEXTURE_SAMPLES) != images.samples)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.%s has another size (got %d samples, need desc.depth_samples, %d)", field,
                   texture.level(GL_TEXTURE_SAMPLES), images.samples);
@@ -245,6 +255,7 @@ HostImages images_of(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pa
   images.height = frame.height;
   images.layers = pass.layers;
   images.samples = pass.depth_samples;
+  images.normal_samples = pass.normal_samples;
   images.depth_kind = frame.depth_kind;
   images.layer = frame.layer;
   images.target = frame.target;
@@ -264,15 +275,21 @@ void check_images_of(const Functions& gl, const nook_nnao_desc& pass) {
                   "desc.depth_samples needs multisample textures (got %s %d.%d, need 3.1 or newer); resolve "
                   "depth to a 2D texture",
                   api_name(gl), major, minor);
+  if (pass.layers != 0 && !gl.can.sample_arrays)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "desc.layers with desc.depth_samples needs multisample texture arrays (got %s %d.%d, need "
+                  "3.2 or newer); resolve depth to a 2D texture array",
+                  api_name(gl), major, minor);
 }
 
 void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
                   std::uint32_t target_framebuffer) {
   const TextureKind kind = kind_of(images);
   check_apart(images, own_texture, "the pass's own texture");
-  check_depth(bind_checked(device, images, depth_kind_of(images), images.depth, "depth_texture"),
-              images.depth_kind);
-  if (images.normal) check_normal(bind_checked(device, images, kind, images.normal, "normal_texture"));
+  const TextureKind depth_kind = sampled_kind_of(images, images.samples),
+                    normal_kind = sampled_kind_of(images, images.normal_samples);
+  check_depth(bind_checked(device, images, depth_kind, images.depth, "depth_texture"), images.depth_kind);
+  if (images.normal) check_normal(bind_checked(device, images, normal_kind, images.normal, "normal_texture"));
   if (images.layer_texture)
     check_layer(bind_checked(device, images, kind, images.layer_texture, "layer_texture"), images.layer);
   if (images.motion) check_motion(bind_checked(device, images, kind, images.motion, "motion_texture"));

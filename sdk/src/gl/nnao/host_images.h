@@ -12,6 +12,7 @@ struct HostImages {
   int width = 0, height = 0;
   int layers = 0;   // of texture arrays; 0: 2D textures
   int samples = 0;  // of depth; 0: it is no multisample texture
+  int normal_samples = 0;
   nook_nnao_depth_kind depth_kind = 0;
   nook_nnao_layer layer = 0;
   nook_nnao_target target = 0;

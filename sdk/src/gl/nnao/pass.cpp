@@ -37,21 +37,19 @@ void NnaoPass::bind_texture(GLuint unit, GLuint texture) const {
   device_.gl.BindTexture(GL_TEXTURE_2D, texture);
 }
 
-void NnaoPass::bind_host(GLuint unit, GLuint texture) const {
-  const bool samples = desc_.depth_samples > 0 && unit == NOOK_UNIT_HOST_DEPTH;
-  const GLenum target = desc_.layers > 0 ? GL_TEXTURE_2D_ARRAY
-                        : samples        ? GL_TEXTURE_2D_MULTISAMPLE
-                                         : GL_TEXTURE_2D;
+void NnaoPass::bind_host(GLuint unit, GLuint texture, bool samples) const {
+  const GLenum array = samples ? GL_TEXTURE_2D_MULTISAMPLE_ARRAY : GL_TEXTURE_2D_ARRAY,
+               plain = samples ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
   device_.gl.ActiveTexture(GL_TEXTURE0 + unit);
-  device_.gl.BindTexture(target, texture);
+  device_.gl.BindTexture(desc_.layers > 0 ? array : plain, texture);
 }
 
-// Normals have no samples, and arrays as depth has.
+void NnaoPass::bind_depth(GLuint texture) const {
+  bind_host(NOOK_UNIT_HOST_DEPTH, texture, desc_.depth_samples > 0);
+}
+
 void NnaoPass::bind_normals(GLuint texture) const {
-  if (desc_.layers > 0)
-    bind_host(NOOK_UNIT_NORMAL, texture);
-  else
-    bind_texture(NOOK_UNIT_NORMAL, texture);
+  bind_host(NOOK_UNIT_NORMAL, texture, desc_.normal_samples > 0);
 }
 
 void NnaoPass::set_frame(const Stage& stage, const FrameConstants& constants) const {
@@ -156,7 +154,7 @@ void NnaoPass::render_layer(const nook_nnao_frame_desc& frame, int layer) {
     bind_texture(unit, 0);
   if (desc_.layers > 0)
     for (const int unit : {NOOK_UNIT_LAYER, NOOK_UNIT_MOTION}) bind_host(GLuint(unit), 0);
-  bind_host(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
+  bind_depth(frame.depth_texture);
   const bool apart = frame.layer == NOOK_NNAO_LAYER_APART;
   if (apart) bind_host(NOOK_UNIT_LAYER, frame.layer_texture);
   draw(apart ? apart_depth_stage_ : depth_stage_, constants, depth.framebuffer(), surface);
@@ -180,7 +178,7 @@ void NnaoPass::render_layer(const nook_nnao_frame_desc& frame, int layer) {
   run_network(constants, surface);
   const GLuint mean = temporal() ? accumulate(frame, constants, surface, kept) : ao_[0].texture();
   end_stage();
-  bind_host(NOOK_UNIT_HOST_DEPTH, frame.depth_texture);
+  bind_depth(frame.depth_texture);
   bind_texture(NOOK_UNIT_AO, frame.view == NOOK_NNAO_VIEW_RAW ? ao_[0].texture() : mean);
   bind_host(NOOK_UNIT_LAYER, layered ? frame.layer_texture : 0);
   for (int pass = 0; pass < drawn_filters(desc_); ++pass) {

@@ -68,8 +68,9 @@ class NnaoPass {
   bool temporal() const { return desc_.temporal_frames != 0; }
   bool half() const { return desc_.half_resolution != 0; }
   void bind_texture(GLuint unit, GLuint texture) const;
-  // Binds a texture of the host; 0: nothing is bound.
-  void bind_host(GLuint unit, GLuint texture) const;
+  // Binds a texture of the host; 0: nothing is bound. samples: it is multisampled.
+  void bind_host(GLuint unit, GLuint texture, bool samples = false) const;
+  void bind_depth(GLuint texture) const;
   void bind_normals(GLuint texture) const;
   void set_frame(const Stage& stage, const FrameConstants& constants) const;
   // discards: nothing outside the viewport is needed afterwards.

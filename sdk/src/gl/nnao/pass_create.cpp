@@ -26,13 +26,15 @@ struct PassPlan {
   int own_layers = 1, kept_layers = 1;
 };
 
-// The formats in which a context draws normals and AO.
+// The formats in which a context draws depth, normals and AO.
 struct PassFormats {
+  TextureFormat depth = TextureFormat::depth;
   TextureFormat normal = TextureFormat::normal, ao = TextureFormat::ao_edges, own = TextureFormat::ao;
 };
 
 PassFormats formats_of(const nook_nnao_desc& desc) {
   PassFormats formats;
+  if (desc.normal_samples) formats.depth = TextureFormat::sampled_depth;
   if (desc.bent_normals) {
     formats.ao = TextureFormat::ao_image;
     formats.own = TextureFormat::bent_ao;
@@ -52,8 +54,8 @@ PassPlan plan_of(const nook_nnao_desc& desc, nnao::NetworkForm form, const PassF
              filtered = drawn_filters(desc) > 0;
   const int width = surface_length(desc.max_width, half), height = surface_length(desc.max_height, half);
   const int temporal_width = desc.temporal_frames ? width : 0;
-  return {{{TextureFormat::depth, width, height, "nook: linear depth"},
-           {TextureFormat::depth, temporal_width, height, "nook: linear depth of the frame before"}},
+  return {{{formats.depth, width, height, "nook: linear depth"},
+           {formats.depth, temporal_width, height, "nook: linear depth of the frame before"}},
           {formats.normal, paper ? width : 0, height, "nook: normals"},
           {{formats.ao, width, height, "nook: AO of the surface"},
            {formats.ao, filtered ? width : 0, height, "nook: filtered AO of the surface"}},
@@ -146,17 +148,18 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   char layered[sizeof given.text + 32], apart[sizeof given.text + 32];
   std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
   std::snprintf(apart, sizeof apart, "%s#define NOOK_APART 0.5\n", defines);
+  const bool samples = desc_.depth_samples > 0, sample_arrays = samples && desc_.layers > 0;
   const auto drawn = [&](const char* path, const char* text, bool medium_precision = false) {
     return make_stage(
-        draw_program(device_, "nnao/screen.vert", path, text,
-                     {.sample_textures = desc_.depth_samples > 0, .medium_precision = medium_precision}));
+        draw_program(device_, "nnao/screen.vert", path, text, {samples, sample_arrays, medium_precision}));
   };
   depth_stage_ = drawn("nnao/depth.frag", defines);
   apart_depth_stage_ = drawn("nnao/depth.frag", apart);
   if (!horizon) normals_stage_ = drawn("nnao/normals.frag", defines);
-  occlusion_stage_ = path_ == NOOK_NNAO_PATH_COMPUTE
-                         ? make_stage(compute_program(device_, "nnao/occlusion.comp", defines))
-                         : drawn("nnao/occlusion.frag", defines);
+  occlusion_stage_ =
+      path_ == NOOK_NNAO_PATH_COMPUTE
+          ? make_stage(compute_program(device_, "nnao/occlusion.comp", defines, {samples, sample_arrays}))
+          : drawn("nnao/occlusion.frag", defines);
   if (temporal()) {
     accumulate_stage_ = drawn("nnao/accumulate.frag", defines);
     earlier_location_ = uniform_location(device_, accumulate_stage_.program, "nook_earlier");

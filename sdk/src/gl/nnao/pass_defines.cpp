@@ -13,12 +13,16 @@ PassDefines pass_defines(const nook_nnao_desc& desc, bool horizon, const nnao::T
       "#define NOOK_BENT_NORMALS %d\n#define NOOK_TEMPORAL %d\n",
       desc.half_resolution != 0, horizon, grid.directions, grid.steps, desc.bent_normals,
       desc.temporal_frames != 0);
-  const std::size_t used = std::strlen(defines.text);
-  char* const rest = defines.text + used;
-  if (desc.layers > 0) std::snprintf(rest, sizeof defines.text - used, "#define NOOK_LAYERS 1\n");
+  std::size_t used = std::strlen(defines.text);
+  if (desc.layers > 0)
+    used += std::size_t(
+        std::snprintf(defines.text + used, sizeof defines.text - used, "#define NOOK_LAYERS 1\n"));
   if (desc.depth_samples > 0)
-    std::snprintf(rest, sizeof defines.text - used, "#define NOOK_SAMPLES %d\n#define NOOK_SAMPLE_RULE %d\n",
-                  desc.depth_samples, desc.depth_sample);
+    used += std::size_t(std::snprintf(defines.text + used, sizeof defines.text - used,
+                                      "#define NOOK_SAMPLES %d\n#define NOOK_SAMPLE_RULE %d\n",
+                                      desc.depth_samples, desc.depth_sample));
+  if (desc.normal_samples > 0)
+    std::snprintf(defines.text + used, sizeof defines.text - used, "#define NOOK_NORMAL_SAMPLES 1\n");
   return defines;
 }
 

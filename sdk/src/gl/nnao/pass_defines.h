@@ -8,7 +8,7 @@
 namespace nook::gl {
 
 struct PassDefines {
-  char text[280] = "";
+  char text[320] = "";
 };
 
 // horizon: the network has the horizon form.

@@ -20,6 +20,8 @@ constexpr Layout layout_of(TextureFormat format) {
       return {GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, 4};
     case TextureFormat::depth:
       return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+    case TextureFormat::sampled_depth:
+      return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
     case TextureFormat::texel_bits:
       return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
     case TextureFormat::ao_edges:

@@ -6,14 +6,15 @@
 namespace nook::gl {
 
 enum class TextureFormat {
-  ao,           // GL_R8
-  bent_ao,      // GL_RGBA8, filtered linearly as ao is
-  ao_edges,     // GL_RG8
-  ao_image,     // GL_RGBA8, for bent normals, and for compute shaders that cannot write GL_RG8
-  depth,        // GL_R32UI, a float's bits
-  normal,       // GL_RG16
-  normal_bits,  // GL_RG16UI, for contexts that cannot draw into GL_RG16
-  texel_bits,   // GL_RGBA32UI, the bits of four floats
+  ao,             // GL_R8
+  bent_ao,        // GL_RGBA8, filtered linearly as ao is
+  ao_edges,       // GL_RG8
+  ao_image,       // GL_RGBA8, for bent normals, and for compute shaders that cannot write GL_RG8
+  depth,          // GL_R32UI, a float's bits
+  sampled_depth,  // GL_RG32UI, the same and the number of a sample
+  normal,         // GL_RG16
+  normal_bits,    // GL_RG16UI, for contexts that cannot draw into GL_RG16
+  texel_bits,     // GL_RGBA32UI, the bits of four floats
 };
 std::uint64_t bytes_per_texel(TextureFormat format);
 

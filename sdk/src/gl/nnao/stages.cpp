@@ -162,7 +162,7 @@ nook_nnao_format format_of(const nook_nnao_desc& desc, nook_nnao_image image) {
   switch (image) {
     case NOOK_NNAO_IMAGE_DEPTH:
     case NOOK_NNAO_IMAGE_EARLIER_DEPTH:
-      return NOOK_NNAO_FORMAT_R32_UINT;
+      return desc.normal_samples ? NOOK_NNAO_FORMAT_R32G32_UINT : NOOK_NNAO_FORMAT_R32_UINT;
     case NOOK_NNAO_IMAGE_MEAN:
     case NOOK_NNAO_IMAGE_EARLIER_MEAN:
       return NOOK_NNAO_FORMAT_R8G8B8A8_UNORM;
