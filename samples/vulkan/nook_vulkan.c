@@ -43,6 +43,8 @@ static VkFormat vulkan_format(nook_nnao_format format) {
       return VK_FORMAT_R8G8B8A8_UNORM;
     case NOOK_NNAO_FORMAT_R32_UINT:
       return VK_FORMAT_R32_UINT;
+    case NOOK_NNAO_FORMAT_R32G32_UINT:
+      return VK_FORMAT_R32G32_UINT;
     default:
       return VK_FORMAT_UNDEFINED;
   }
