@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sdk/src/character/key_point_order.h"
+
 namespace nook {
 namespace {
 
@@ -71,11 +73,12 @@ void invert_file_order(LoadedModel& loaded, Memory* memory) {
 }  // namespace
 
 LoadedModel::LoadedModel(CharacterModel loaded, Memory* memory)
-    : model(std::move(loaded)),
+    : model(with_near_key_points_together(std::move(loaded), memory)),
       rest_spheres(model, memory),
       rest_key_points(model, memory),
       linear(model, memory),
       groups(model, memory),
+      sphere_tree(model, memory),
       levels(load_levels(model, memory)),
       open_without_bias(linear.padded_slots(), memory),
       bone_bounds(make_bone_bounds(model, memory)) {

@@ -5,6 +5,7 @@
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/shadow_kernels_rest.h"
 #include "sdk/src/character/sphere_groups.h"
+#include "sdk/src/character/sphere_tree.h"
 #include "sdk/src/core/ref.h"
 
 namespace nook {
@@ -22,11 +23,12 @@ struct LoadedModel : RefCounted {
   // The model must have passed check_model.
   LoadedModel(CharacterModel loaded, Memory* memory);
 
-  const CharacterModel model;
+  const CharacterModel model;  // with its key points in the order of key_point_order.h
   const RestSpheres rest_spheres;
   const RestKeyPoints rest_key_points;
   const LinearLayer linear;
   const SphereGroups groups;         // of the spheres of full detail
+  const SphereTree sphere_tree;      // the same
   const Vector<LoadedLevel> levels;  // those of model.levels; full detail is not among them
 
   // The file vertices that take the AO of slot s of the linear layer are

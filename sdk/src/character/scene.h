@@ -116,9 +116,10 @@ struct InstanceResult {
   InstanceArrays arrays;
   std::uint64_t transformed_revision = 0;  // InstanceInput::pose_revision of the spheres in `arrays`
   std::uint64_t grouped_revision = 0;      // that of the groups
-  ReceiverBox box;                         // of the key points' surface; kept where casters may be grouped
+  Receiver receiver;                       // the key points' surface; kept where casters may be grouped
   std::uint64_t evaluated_frame = 0;       // Scene::frame of the last evaluation; 0: never
   std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
+  bool has_added = false;                  // PointLanes::added of the last evaluation is not all zero
 };
 
 // The world casters of an instance in its pose (world_casters.h).
