@@ -201,10 +201,9 @@ void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out
     chunk.block_count = std::min(chunk_blocks, view.block_count - block);
     chunk.open_bias = open_bias + first_slot;
     evaluate(chunk, first_slot);
-    const std::uint32_t end = first_slot + chunk.block_count * linear_block_vertices;
-    const std::uint32_t last = loaded.slot_begin[end];
-    for (std::uint32_t i = loaded.slot_begin[first_slot]; i < last; ++i)
-      put(bytes + loaded.slot_file_vertex[i] * stride_bytes, loaded.slot_in_chunk[i]);
+    const std::uint32_t number = first_slot / chunk_slots, last = loaded.chunk_begin[number + 1];
+    for (std::uint32_t i = loaded.chunk_begin[number]; i < last; ++i)
+      put(bytes + loaded.chunk_file_vertex[i] * stride_bytes, loaded.slot_in_chunk[i]);
   }
 }
 

@@ -233,28 +233,47 @@ Float clamped_open(Float a) {
   return max(min(a, broadcast(1.0f)), broadcast(0.0f));
 }
 
+// The weighted sums of the vertices of a block over some of its columns.
+template <bool Added>
+struct BlockSums {
+  static constexpr std::uint32_t parts = linear_block_vertices / width;
+
+  Float shaded[parts], added[parts];
+
+  BlockSums() {
+    for (std::uint32_t p = 0; p < parts; ++p) shaded[p] = added[p] = broadcast(0.0f);
+  }
+  void add(const LinearView& layer, std::uint32_t column, const float* shadow, const float* occlusion) {
+    const std::uint16_t k = layer.key_point[column];
+    const Float gamma = broadcast(shadow[k]), dark = broadcast(Added ? occlusion[k] : 0.0f);
+    for (std::uint32_t p = 0; p < parts; ++p) {
+      const std::size_t at = std::size_t{column} * linear_block_vertices + p * width;
+      shaded[p] = fma(load_short(layer.alpha + at), gamma, shaded[p]);
+      if constexpr (Added) added[p] = fma(load_short(layer.blend + at), dark, added[p]);
+    }
+  }
+};
+
+// Even and odd columns have sums of their own, because each addition to a sum waits for the one before.
 template <bool Added>
 void linear_blocks(const LinearView& layer, const float* shadow, const float* occlusion, float* ao) {
-  constexpr std::uint32_t parts = linear_block_vertices / width;
   const Float alpha_step = broadcast(layer.alpha_step), blend_step = broadcast(layer.blend_step);
   for (std::uint32_t b = 0; b < layer.block_count; ++b) {
     const LinearBlock block = layer.blocks[b];
-    Float shaded[parts], added[parts];
-    for (std::uint32_t p = 0; p < parts; ++p) shaded[p] = added[p] = broadcast(0.0f);
+    BlockSums<Added> even, odd;
     const std::uint32_t end = block.first_column + block.columns;
-    for (std::uint32_t c = block.first_column; c < end; ++c) {
-      const Float gamma = broadcast(shadow[layer.key_point[c]]);
-      const Float dark = broadcast(Added ? occlusion[layer.key_point[c]] : 0.0f);
-      for (std::uint32_t p = 0; p < parts; ++p) {
-        const std::size_t at = std::size_t{c} * linear_block_vertices + p * width;
-        shaded[p] = fma(load_short(layer.alpha + at), gamma, shaded[p]);
-        if constexpr (Added) added[p] = fma(load_short(layer.blend + at), dark, added[p]);
-      }
+    std::uint32_t c = block.first_column;
+    for (; c + 1 < end; c += 2) {
+      even.add(layer, c, shadow, occlusion);
+      odd.add(layer, c + 1, shadow, occlusion);
     }
-    for (std::uint32_t p = 0; p < parts; ++p) {
+    if (c < end) even.add(layer, c, shadow, occlusion);
+    for (std::uint32_t p = 0; p < BlockSums<Added>::parts; ++p) {
       const std::uint32_t slot = b * linear_block_vertices + p * width;
-      Float open = clamped_open(load(layer.open_bias + slot) - shaded[p] * alpha_step);
-      if constexpr (Added) open = open * clamped_open(broadcast(1.0f) - added[p] * blend_step);
+      Float open =
+          clamped_open(load(layer.open_bias + slot) - (even.shaded[p] + odd.shaded[p]) * alpha_step);
+      if constexpr (Added)
+        open = open * clamped_open(broadcast(1.0f) - (even.added[p] + odd.added[p]) * blend_step);
       store(ao + slot, open);
     }
   }
