@@ -172,9 +172,8 @@ void body_alone(benchmark::State& run) {
         updating.run(p, [&] { update(merging); });
         reading.run(p, [&] { read_ao(merging, instance_of(merging, id), ao.data(), sizeof(float)); });
       });
-      reading_bytes.run(p, [&] {
-        read_ao_as(merging, instance_of(merging, id), NOOK_AO_UNORM8, bytes.data(), 1);
-      });
+      reading_bytes.run(
+          p, [&] { read_ao_as(merging, instance_of(merging, id), NOOK_AO_UNORM8, bytes.data(), 1); });
       set_pose(exact, same, body->poses[p]);
       whole.run(p, [&] { update(exact); });
       change.add(ao, ao_of(exact, same));
@@ -255,9 +254,6 @@ void body_among_far_neighbours(benchmark::State& run) {
   run.counters["rms"] = change.rms();
   run.counters["max"] = change.largest;
 }
-BENCHMARK(body_among_far_neighbours)
-    ->Arg(NOOK_ISA_AVX2)
-    ->Arg(NOOK_ISA_AVX512)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(body_among_far_neighbours)->Arg(NOOK_ISA_AVX2)->Arg(NOOK_ISA_AVX512)->Unit(benchmark::kMillisecond);
 
 }  // namespace

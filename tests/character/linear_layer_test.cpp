@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::uint32_t key_points = 40, influences = 7;
 
-// Vertex v uses v % (influences + 1) entries, with the unused ones scattered among them. Weights are such as a
-// file holds, which the layer keeps exactly.
+// Vertex v uses v % (influences + 1) entries, with the unused ones scattered among them. Weights are such as
+// a file holds, which the layer keeps exactly.
 CharacterModel random_model(std::uint32_t vertices) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> unit(0, 1);

@@ -277,7 +277,8 @@ TEST_CASE("each sphere is in one leaf of the tree, and nodes hold those of their
   CHECK(SphereTree(other).is_empty());
 }
 
-TEST_CASE("a tree gives the sum over its spheres where nothing may change, and less work where something may") {
+TEST_CASE(
+    "a tree gives the sum over its spheres where nothing may change, and less work where something may") {
   for (const std::uint32_t seed : {1u, 2u, 3u}) {
     CharacterModel model = body(seed);
     // Three parts of a body, as limbs are.

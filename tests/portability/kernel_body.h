@@ -127,8 +127,8 @@ class Body {
     return {ground_.row(0), ground_.row(1), ground_.row(2), ground_.row(3), nullptr, 1};
   }
   LinearView layer() const {
-    return {blocks_.data(), blocks,    layer_point_.data(), alpha_.data(), blend_.data(),
-            alpha_step,     blend_step, open_bias_.row(0)};
+    return {blocks_.data(), blocks,     layer_point_.data(), alpha_.data(),
+            blend_.data(),  alpha_step, blend_step,          open_bias_.row(0)};
   }
 
   std::vector<Mat3x4> pose_;

@@ -12,6 +12,11 @@ namespace {
 
 using Indices = Vector<std::uint32_t>;
 
+std::ptrdiff_t bones_of(const KeyPoint& point) {
+  return 4 - std::count(point.weight.begin(), point.weight.end(), 0.0f);
+}
+
+// Within a group those of many bones come first, because four of few bones are posed faster.
 Indices near_order(const CharacterModel& model, Memory* memory) {
   Vector<Place> places(memory);
   for (const KeyPoint& point : model.key_points)
@@ -19,6 +24,13 @@ Indices near_order(const CharacterModel& model, Memory* memory) {
   Indices order(places.size(), 0u, memory);
   std::iota(order.begin(), order.end(), 0u);
   order_in_space(order, key_point_group, places);
+  for (std::size_t begin = 0; begin < order.size(); begin += key_point_group)
+    std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(begin),
+                     order.begin() + static_cast<std::ptrdiff_t>(
+                                         std::min<std::size_t>(begin + key_point_group, order.size())),
+                     [&](std::uint32_t a, std::uint32_t b) {
+                       return bones_of(model.key_points[a]) > bones_of(model.key_points[b]);
+                     });
   return order;
 }
 

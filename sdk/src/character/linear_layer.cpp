@@ -125,7 +125,8 @@ LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
   blend_ = in_steps(blend, blend_step, memory);
   view_ = {blocks_.data(),    static_cast<std::uint32_t>(blocks_.size()),
            key_point_.data(), alpha_.data(),
-           blend_.data(),     alpha_step, blend_step, open_bias_.data()};
+           blend_.data(),     alpha_step,
+           blend_step,        open_bias_.data()};
 }
 
 }  // namespace nook

@@ -11,6 +11,11 @@
 namespace nook {
 namespace {
 
+// Other instances may take its spheres.
+bool may_darken(const Scene& scene, const Instance& instance) {
+  return scene.nearest > 0 || !instance.input.receivers.empty();
+}
+
 bool has_casters(const Instance& instance) {
   return !instance.plan.casters.empty() || !instance.plan.occluders.empty() ||
          instance.plan.ground_sphere.radius > 0;
@@ -51,8 +56,8 @@ std::size_t join_paper_norm(const Scene& scene, const Instance& instance, const 
   return count;
 }
 
-// Adds the body's own spheres to norm_sum, and returns the number of sphere-key-point pairs. Lights take their
-// colours from each sphere, so that the sum that they are compared with takes each as well.
+// Adds the body's own spheres to norm_sum, and returns the number of sphere-key-point pairs. Lights take
+// their colours from each sphere, so that the sum that they are compared with takes each as well.
 std::uint64_t sum_own_spheres(const Scene& scene, const Instance& instance, const PointLanes& points) {
   const SphereSoa spheres = spheres_of(instance, instance.plan.level);
   const SphereTree& tree = instance.model->sphere_tree;
@@ -78,20 +83,23 @@ void spread_level(const CharacterLevel& level, bool with_self, const PointLanes&
 }  // namespace
 
 void transform_spheres(const Scene& scene, Instance& instance) noexcept {
-  if (instance.result.transformed_revision == instance.input.pose_revision) return;
   const auto transform = [&](const RestSpheres& rest, const SphereLanes& s) {
     scene.kernels->pose_spheres(rest.view(), instance.input.bones.data(), {},
                                 {s.x, s.y, s.z, s.inverse_radius});
   };
-  transform(instance.model->rest_spheres, instance.result.arrays.spheres);
+  InstanceResult& result = instance.result;
+  const std::uint64_t revision = instance.input.pose_revision;
+  if (result.transformed_revision != revision) transform(instance.model->rest_spheres, result.arrays.spheres);
+  result.transformed_revision = revision;
+  const bool needs_coarse = instance.plan.level > 0 || may_darken(scene, instance);
+  if (!needs_coarse || result.coarse_revision == revision) return;
   for (std::size_t l = 0; l < instance.model->levels.size(); ++l)
-    transform(instance.model->levels[l].rest_spheres, instance.result.arrays.coarse_spheres[l]);
-  instance.result.transformed_revision = instance.input.pose_revision;
+    transform(instance.model->levels[l].rest_spheres, result.arrays.coarse_spheres[l]);
+  result.coarse_revision = revision;
 }
 
 void group_spheres(const Scene& scene, Instance& instance) noexcept {
-  const bool may_darken = scene.nearest > 0 || !instance.input.receivers.empty();
-  if (!may_darken || !may_group(scene)) return;
+  if (!may_darken(scene, instance) || !may_group(scene)) return;
   if (instance.result.grouped_revision == instance.input.pose_revision) return;
   SphereSoa parts = spheres_of(instance, 0);
   const float* moments = nullptr;
@@ -114,7 +122,8 @@ void transform_key_points(const Scene& scene, Instance& instance) noexcept {
                                  is_surface_felt ? &surface : nullptr);
   if (may_group(scene) && !instance.plan.casters.empty()) {
     const PointLanes points = evaluated_points(instance);
-    instance.result.receiver = receiver_of(points.surface_x, points.surface_y, points.surface_z, points.count);
+    instance.result.receiver =
+        receiver_of(points.surface_x, points.surface_y, points.surface_z, points.count);
   }
 }
 
@@ -122,8 +131,7 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
   const PointLanes points = evaluated_points(instance);
   const Kernel& kernel = instance.model->model.kernel;
   std::fill_n(points.norm_sum, points.padded_count, 0.0f);
-  const std::uint64_t own =
-      has_self_shadow(scene, instance) ? sum_own_spheres(scene, instance, points) : 0;
+  const std::uint64_t own = has_self_shadow(scene, instance) ? sum_own_spheres(scene, instance, points) : 0;
   const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
   const std::size_t added =
       composed ? evaluate_composed(scene, instance, points) : join_paper_norm(scene, instance, points);
@@ -194,6 +202,10 @@ void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out
                     Evaluate&& evaluate, Put&& put) noexcept {
   const LinearView& view = loaded.linear.view();
   auto* const bytes = static_cast<unsigned char*>(out);
+  // Copies, because bytes that are written might be those of the originals.
+  const std::uint32_t *const begin = loaded.chunk_begin.data(), *const vertex =
+                                                                    loaded.chunk_file_vertex.data();
+  const std::uint8_t* const slot = loaded.slot_in_chunk.data();
   for (std::uint32_t block = 0; block < view.block_count; block += chunk_blocks) {
     const std::uint32_t first_slot = block * linear_block_vertices;
     LinearView chunk = view;
@@ -201,9 +213,8 @@ void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out
     chunk.block_count = std::min(chunk_blocks, view.block_count - block);
     chunk.open_bias = open_bias + first_slot;
     evaluate(chunk, first_slot);
-    const std::uint32_t number = first_slot / chunk_slots, last = loaded.chunk_begin[number + 1];
-    for (std::uint32_t i = loaded.chunk_begin[number]; i < last; ++i)
-      put(bytes + loaded.chunk_file_vertex[i] * stride_bytes, loaded.slot_in_chunk[i]);
+    const std::uint32_t number = first_slot / chunk_slots, last = begin[number + 1];
+    for (std::uint32_t i = begin[number]; i < last; ++i) put(bytes + vertex[i] * stride_bytes, slot[i]);
   }
 }
 
@@ -234,7 +245,7 @@ void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride
   const PointLanes& points = instance.result.arrays.points;
   const float* const added = instance.result.has_added ? points.added : nullptr;
   alignas(64) ChunkAo ao{}, own{};
-  alignas(64) std::array<Number, chunk_slots> numbers{};
+  alignas(64) std::array<Number, chunk_slots> numbers;
   for_each_chunk(
       loaded, open_bias_of(loaded, self), out, stride_bytes,
       [&](const LinearView& chunk, std::uint32_t first_slot) {
@@ -272,7 +283,8 @@ void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format for
                 std::size_t stride_bytes) noexcept {
   switch (format) {
     case NOOK_AO_HALF:
-      return write_ao<std::uint16_t>(scene, instance, out, stride_bytes, [](float ao) { return to_half(ao); });
+      return write_ao<std::uint16_t>(scene, instance, out, stride_bytes,
+                                     [](float ao) { return to_half(ao); });
     case NOOK_AO_UNORM8:
       return write_ao<std::uint8_t>(scene, instance, out, stride_bytes,
                                     [](float ao) { return static_cast<std::uint8_t>(ao * 255 + 0.5f); });

@@ -125,18 +125,21 @@ SeenMass<F> see_mass(const MassSphere& sphere, const Points<F>& p) {
   const F dx = F(broadcast(sphere.x)) - p.x;
   const F dy = F(broadcast(sphere.y)) - p.y;
   const F dz = F(broadcast(sphere.z)) - p.z;
-  return {fma(dx, p.nx, fma(dy, p.ny, dz * p.nz)), fma(dx, dx, fma(dy, dy, fma(dz, dz, F(broadcast(sphere.core)))))};
+  return {fma(dx, p.nx, fma(dy, p.ny, dz * p.nz)),
+          fma(dx, dx, fma(dy, dy, fma(dz, dz, F(broadcast(sphere.core)))))};
 }
 
 template <class F>
 F shadow_of_mass(const MassSphere& sphere, const SeenMass<F>& seen) {
-  return shadow_nook_of_mass(seen.h, seen.d2_and_core, F(broadcast(sphere.softness)), F(broadcast(sphere.mass)));
+  return shadow_nook_of_mass(seen.h, seen.d2_and_core, F(broadcast(sphere.softness)),
+                             F(broadcast(sphere.mass)));
 }
 
 // One group of key points.
 constexpr std::uint32_t group_parts = key_point_group / width;
 
-std::uint64_t tree_sum_at(const SphereTreeView& tree, const KeyPointSoa& points, std::uint32_t k, float* sum) {
+std::uint64_t tree_sum_at(const SphereTreeView& tree, const KeyPointSoa& points, std::uint32_t k,
+                          float* sum) {
   Points<Float> p[group_parts];
   Float total[group_parts];
   for (std::uint32_t i = 0; i < group_parts; ++i) {
@@ -154,7 +157,8 @@ std::uint64_t tree_sum_at(const SphereTreeView& tree, const KeyPointSoa& points,
       near |= bits(less(seen[i].d2_and_core, broadcast(node.reach)));
     }
     if (!near) {
-      for (std::uint32_t i = 0; i < group_parts; ++i) total[i] = total[i] + shadow_of_mass(node.merged, seen[i]);
+      for (std::uint32_t i = 0; i < group_parts; ++i)
+        total[i] = total[i] + shadow_of_mass(node.merged, seen[i]);
       ++evaluated;
     } else if (shape.next == n + 1) {
       for (std::uint32_t s = shape.begin; s < shape.end; ++s)
@@ -270,8 +274,7 @@ void linear_blocks(const LinearView& layer, const float* shadow, const float* oc
     if (c < end) even.add(layer, c, shadow, occlusion);
     for (std::uint32_t p = 0; p < BlockSums<Added>::parts; ++p) {
       const std::uint32_t slot = b * linear_block_vertices + p * width;
-      Float open =
-          clamped_open(load(layer.open_bias + slot) - (even.shaded[p] + odd.shaded[p]) * alpha_step);
+      Float open = clamped_open(load(layer.open_bias + slot) - (even.shaded[p] + odd.shaded[p]) * alpha_step);
       if constexpr (Added)
         open = open * clamped_open(broadcast(1.0f) - (even.added[p] + odd.added[p]) * blend_step);
       store(ao + slot, open);

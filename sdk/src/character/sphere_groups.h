@@ -51,8 +51,8 @@ struct GroupLanes {
   std::uint32_t count = 0;
 };
 
-// The places where a receiver feels its casters, metres: their box, which is empty without any place, and some
-// of them.
+// The places where a receiver feels its casters, metres: their box, which is empty without any place, and
+// some of them.
 struct Receiver {
   static constexpr std::uint32_t samples = 16;
 

@@ -53,34 +53,47 @@ void add_nodes(const CharacterModel& model, Spheres all, std::uint32_t begin, st
 
 // What merging needs of a node.
 struct Moments {
-  float mass = 0;     // square metres: the sum of squared radii
-  Vec3 centre;        // by mass
-  float spread = 0;   // metres^4: sum of mass * (distance from the centre)^2
-  float fourth = 0;   // metres^4: sum of mass * radius^2
+  float mass = 0;    // square metres: the sum of squared radii
+  Vec3 centre;       // by mass
+  float spread = 0;  // metres^4: sum of mass * (distance from the centre)^2
+  float fourth = 0;  // metres^4: sum of mass * radius^2
 };
 
-Moments moments_of(const MassSphere& sphere) {
-  return {sphere.softness, {sphere.x, sphere.y, sphere.z}, 0, sphere.softness * sphere.softness};
+// Sums about the first sphere, which is near all of them.
+Moments moments_of(std::span<const MassSphere> spheres) {
+  Moments sum;
+  const Vec3 first{spheres[0].x, spheres[0].y, spheres[0].z};
+  Vec3 shift;
+  for (const MassSphere& sphere : spheres) {
+    const Vec3 d = Vec3{sphere.x, sphere.y, sphere.z} - first;
+    const float mass = sphere.softness;
+    sum.mass += mass;
+    shift += d * mass;
+    sum.spread += mass * dot(d, d);
+    sum.fourth += mass * mass;
+  }
+  shift = shift * (1 / sum.mass);
+  sum.centre = first + shift;
+  sum.spread = std::max(sum.spread - sum.mass * dot(shift, shift), 0.0f);
+  return sum;
 }
 
-void add(Moments& sum, const Moments& part) {
-  const float mass = sum.mass + part.mass;
-  const Vec3 apart = part.centre - sum.centre;
-  const float share = part.mass / mass;
-  sum.spread += part.spread + sum.mass * share * dot(apart, apart);
-  sum.centre += apart * share;
-  sum.fourth += part.fourth;
-  sum.mass = mass;
+Moments joined(const Moments& a, const Moments& b) {
+  const float mass = a.mass + b.mass, share = b.mass / mass;
+  const Vec3 apart = b.centre - a.centre;
+  return {mass, a.centre + apart * share, a.spread + b.spread + a.mass * share * dot(apart, apart),
+          a.fourth + b.fourth};
 }
 
 // The largest second derivative of cos / d^2 is 6 / d^4; half of all key points face away, and the mean
 // square of cos over the other half is 1/3, so that half of 6 * spread / d^4 becomes 1.2 * spread / d^4, root
-// mean square. Nearer than three times the extent the series has no meaning.
+// mean square. Nearer than three times the extent the series has no meaning. The extent softens the horizon
+// of a node.
 MassNode node_of(const Moments& m, float error) {
-  const float variance = m.spread / m.mass, radius_squared = m.fourth / m.mass;
+  const float inverse = 1 / m.mass, variance = m.spread * inverse, radius_squared = m.fourth * inverse;
   const float reach = std::max(std::sqrt(1.2f * m.spread / error), 9 * variance);
   const float core = float(NOOK_KERNEL_CORE) * radius_squared;
-  return {{m.centre.x, m.centre.y, m.centre.z, radius_squared + 0.2f * variance, core, 0.75f * m.mass},
+  return {{m.centre.x, m.centre.y, m.centre.z, radius_squared + 0.1f * variance, core, 0.75f * m.mass},
           reach + core};
 }
 
@@ -105,23 +118,18 @@ SphereTreeView pose_tree(const SphereTree& tree, const SphereSoa& spheres, float
   for (std::uint32_t i = 0; i < tree.order().size(); ++i) {
     const std::uint32_t s = tree.order()[i];
     const float squared = 1 / (spheres.inverse_radius[s] * spheres.inverse_radius[s]);
-    out.spheres[i] = {spheres.x[s], spheres.y[s], spheres.z[s], squared, float(NOOK_KERNEL_CORE) * squared,
+    out.spheres[i] = {spheres.x[s],   spheres.y[s], spheres.z[s], squared, float(NOOK_KERNEL_CORE) * squared,
                       0.75f * squared};
   }
   const SphereTreeNode* const nodes = tree.nodes().data();
   const auto count = static_cast<std::uint32_t>(tree.nodes().size());
   Moments moments[PosedSphereTree::max_nodes];
   for (std::uint32_t n = count; n-- > 0;) {
-    const bool leaf = nodes[n].next == n + 1;
-    if (leaf) {
-      moments[n] = moments_of(out.spheres[nodes[n].begin]);
-      for (std::uint32_t i = nodes[n].begin + 1; i < nodes[n].end; ++i)
-        add(moments[n], moments_of(out.spheres[i]));
-    } else {
-      moments[n] = moments[n + 1];
-      add(moments[n], moments[nodes[n + 1].next]);
-    }
-    out.nodes[n] = node_of(moments[n], 0.25f * error);
+    const SphereTreeNode& node = nodes[n];
+    const bool is_leaf = node.next == n + 1;
+    moments[n] = is_leaf ? moments_of({out.spheres + node.begin, out.spheres + node.end})
+                         : joined(moments[n + 1], moments[nodes[n + 1].next]);
+    out.nodes[n] = node_of(moments[n], error / 8);
   }
   return {nodes, count, out.spheres, out.nodes};
 }

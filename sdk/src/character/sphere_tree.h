@@ -18,8 +18,8 @@ namespace nook {
 // Which spheres of a model form nodes; it does not depend on the pose.
 class SphereTree {
  public:
-  // Splits the spheres in the rest pose, in the middle of the longest side of their box. Empty where the shadow
-  // is no plain sum of the default kernel, or where a pose does not fit into PosedSphereTree.
+  // Splits the spheres in the rest pose, in the middle of the longest side of their box. Empty where the
+  // shadow is no plain sum of the default kernel, or where a pose does not fit into PosedSphereTree.
   explicit SphereTree(const CharacterModel& model, Memory* memory = default_memory());
 
   bool is_empty() const { return nodes_.size() == 0; }
@@ -42,7 +42,8 @@ struct PosedSphereTree {
 };
 
 // Merges the spheres of a pose into the nodes of the tree. Under `error`, which is an AO, a node stands for
-// its spheres where its own estimate of the change of a shadow is below a quarter of it.
+// its spheres where its own estimate of the change of a shadow is below an eighth of it, because several
+// nodes add up.
 SphereTreeView pose_tree(const SphereTree& tree, const SphereSoa& spheres, float error, PosedSphereTree& out);
 
 }  // namespace nook
