@@ -224,7 +224,7 @@ TEST_CASE("a model with near key points together is the same model in other numb
   }
   model.levels.push_back(level);
   const CharacterModel moved = with_near_key_points_together(CharacterModel(model), default_memory());
-  // Where each key point was, by its position, which is its own.
+  // The old number of each key point, by its position. No two have the same.
   std::vector<std::uint32_t> old(100);
   for (std::uint32_t k = 0; k < 100; ++k)
     while (moved.key_points[k].position.x != model.key_points[old[k]].position.x) ++old[k];

@@ -51,7 +51,7 @@ void add_nodes(const CharacterModel& model, Spheres all, std::uint32_t begin, st
   nodes[own].next = static_cast<std::uint32_t>(nodes.size());
 }
 
-// What merging needs of a node.
+// Sums over the spheres of a node.
 struct Moments {
   float mass = 0;    // square metres: the sum of squared radii
   Vec3 centre;       // by mass
