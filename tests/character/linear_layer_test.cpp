@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "sdk/src/character/key_point_order.h"
 #include "sdk/src/core/failure.h"
 #include "shaders/character/constants.h"
 #include "tests/catch.h"
 #include "tests/character/kernel_reference.h"
+#include "tests/character/model_sample.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -17,7 +19,8 @@ namespace {
 
 constexpr std::uint32_t key_points = 40, influences = 7;
 
-// Vertex v uses v % (influences + 1) entries, with the unused ones scattered among them.
+// Vertex v uses v % (influences + 1) entries, with the unused ones scattered among them. Weights are such as
+// a file holds, which the layer keeps exactly.
 CharacterModel random_model(std::uint32_t vertices) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> unit(0, 1);
@@ -25,11 +28,13 @@ CharacterModel random_model(std::uint32_t vertices) {
   model.key_points.resize(key_points);
   model.influences = influences;
   for (std::uint32_t v = 0; v < vertices; ++v) {
+    const auto first = static_cast<std::uint32_t>(unit(random) * key_points * 0.999f);
     for (std::uint32_t s = 0; s < influences; ++s) {
       const bool used = (s * 3) % influences < v % (influences + 1);
-      model.influence.push_back(static_cast<std::uint16_t>(unit(random) * key_points * 0.999f));
-      model.alpha.push_back(used ? 0.05f + 0.3f * unit(random) : 0.0f);
-      model.blend.push_back(used ? 0.4f * unit(random) - 0.1f : 0.0f);
+      const float share = s == 0 ? 1 : std::floor(127 * (0.4f + 0.6f * unit(random))) / 127;
+      model.influence.push_back(static_cast<std::uint16_t>((first + 6 * s) % key_points));
+      model.alpha.push_back(used ? 0.35f * share * share : 0.0f);
+      model.blend.push_back(used ? std::floor(8 * unit(random) - 2) / 16 : 0.0f);
     }
     model.bias.push_back(0.2f * unit(random) - 0.1f);
   }
@@ -187,6 +192,57 @@ TEST_CASE("whatever the shadows, AO is a number between 0 and 1") {
           CHECK((ao >= 0 && ao <= 1));
         }
   }
+}
+
+TEST_CASE("weights that no file holds are rounded to the nearest step") {
+  CharacterModel model = random_model(333);
+  std::mt19937 random(6);
+  std::uniform_real_distribution<float> unit(0, 1);
+  for (float& alpha : model.alpha) alpha *= unit(random);
+  for (float& blend : model.blend) blend *= unit(random);
+  const LinearLayer layer(model);
+  const float largest = *std::max_element(model.alpha.begin(), model.alpha.end());
+  CHECK(layer.view().alpha_step == largest / 32258);
+  CHECK(layer.view().blend_step == 1.0f / 16384);
+  const Inputs in;
+  const auto ao = vertex_ao(best_shadow_kernels(), layer, in.shadow.data(), in.occlusion.data());
+  // Half a step of each of seven weights, whose key points are at most 1, and rounding.
+  const double bound = 3.5 * (double(largest) / 32258 + 1.0 / 16384) + 1e-6;
+  for (std::size_t i = 0; i < ao.size(); ++i)
+    CHECK(std::abs(ao[i] - truth(model, in, model.file_to_welded[i], true)) < bound);
+}
+
+TEST_CASE("a model with near key points together is the same model in other numbers") {
+  CharacterModel model = sample_model(7, {5, 20, 100, 60, 10, 4});
+  CharacterLevel level;
+  Numbers numbers(8);
+  for (std::uint16_t k = 3; k < 100; k = std::uint16_t(k + 4)) level.evaluated.push_back(k);
+  for (std::uint32_t k = 0; k < 100; ++k) {
+    level.source.push_back(std::uint16_t(numbers.below(std::uint32_t(level.evaluated.size()))));
+    level.scale.push_back(numbers.between(0.5f, 2));
+    level.offset.push_back(numbers.between(-0.1f, 0.1f));
+  }
+  model.levels.push_back(level);
+  const CharacterModel moved = with_near_key_points_together(CharacterModel(model), default_memory());
+  // The old number of each key point, by its position. No two have the same.
+  std::vector<std::uint32_t> old(100);
+  for (std::uint32_t k = 0; k < 100; ++k)
+    while (moved.key_points[k].position.x != model.key_points[old[k]].position.x) ++old[k];
+  for (std::size_t e = 0; e < model.influence.size(); ++e)
+    if (model.alpha[e] != 0) CHECK(old[moved.influence[e]] == model.influence[e]);
+  const CharacterLevel &was = model.levels[0], &now = moved.levels[0];
+  CHECK(std::is_sorted(now.evaluated.begin(), now.evaluated.end()));
+  for (std::uint32_t k = 0; k < 100; ++k) {
+    CHECK(old[now.evaluated[now.source[k]]] == was.evaluated[was.source[old[k]]]);
+    CHECK(now.scale[k] == was.scale[old[k]]);
+    CHECK(now.offset[k] == was.offset[old[k]]);
+  }
+  // Groups are smaller than the body, which is a box of a metre.
+  double extent = 0;
+  for (std::uint32_t g = 0; g + 16 <= 100; g += 16)
+    for (std::uint32_t k = g; k < g + 16; ++k)
+      extent += double(length(moved.key_points[k].position - moved.key_points[g].position)) / 96;
+  CHECK(extent < 0.45);  // 0.66 is the mean distance of two places in the box
 }
 
 TEST_CASE("a model that contradicts itself is refused") {

@@ -1,10 +1,12 @@
-// Groups of spheres against the sum over the spheres themselves.
+// Groups and trees of spheres against the sum over the spheres themselves.
 #include "sdk/src/character/sphere_groups.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "sdk/src/character/sphere_tree.h"
 #include "tests/catch.h"
+#include "tests/character/kernel_reference.h"
 #include "tests/character/scene_sample.h"
 
 using namespace nook;
@@ -78,22 +80,31 @@ double moment_by_spheres(const Posed& posed, std::uint32_t t) {
   return sum;
 }
 
-// The box of the points of `depths`.
-constexpr ReceiverBox receiver_box{{-0.4f, -0.4f, -0.4f}, {0.4f, 0.4f, 0.4f}};
+// Points of a body at the origin.
+struct BodyPoints {
+  static constexpr std::uint32_t count = 1024;
 
-// The darkening of points of a body at the origin by the spheres, which are posed elsewhere.
-std::vector<float> depths(const SphereSoa& spheres, Numbers& numbers) {
-  constexpr std::uint32_t points = 1024;
-  std::vector<float> lanes(6 * points), depth(points, 0.0f);
-  for (std::uint32_t k = 0; k < points; ++k) {
-    const Vec3 p = numbers.place(0.4f), n = numbers.direction();
-    const float value[] = {p.x, p.y, p.z, n.x, n.y, n.z};
-    for (std::uint32_t a = 0; a < 6; ++a) lanes[a * points + k] = value[a];
+  explicit BodyPoints(std::uint32_t seed) : lanes(6 * count) {
+    Numbers numbers(seed);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const Vec3 p = numbers.place(0.4f), n = numbers.direction();
+      const float value[] = {p.x, p.y, p.z, n.x, n.y, n.z};
+      for (std::uint32_t a = 0; a < 6; ++a) lanes[a * count + k] = value[a];
+    }
   }
-  const float* at = lanes.data();
-  best_shadow_kernels().composed_depth(
-      spheres, {at, at + points, at + 2 * points, at + 3 * points, at + 4 * points, at + 5 * points, points},
-      depth.data());
+  KeyPointSoa view() const {
+    const float* at = lanes.data();
+    return {at, at + count, at + 2 * count, at + 3 * count, at + 4 * count, at + 5 * count, count};
+  }
+  Receiver receiver() const { return receiver_of(view().x, view().y, view().z, count); }
+
+  std::vector<float> lanes;
+};
+
+// The darkening of the points by spheres, which are posed elsewhere.
+std::vector<float> depths(const SphereSoa& spheres, const BodyPoints& points) {
+  std::vector<float> depth(BodyPoints::count, 0.0f);
+  best_shadow_kernels().composed_depth(spheres, points.view(), depth.data());
   return depth;
 }
 
@@ -145,8 +156,8 @@ TEST_CASE("groups keep mass and centre, and change a far receiver by less than t
     const CharacterModel model = body(seed);
     for (const float distance : {2.0f, 3.0f, 6.0f}) {
       const Posed posed(model, stiff_pose(model, {distance, 0, 0}, float(seed)));
-      Numbers exact_places(seed);
-      const std::vector<float> exact = depths(posed.all, exact_places);
+      const BodyPoints points(seed);
+      const std::vector<float> exact = depths(posed.all, points);
       for (std::uint32_t t = 0; t < group_tiers; ++t) {
         INFO("seed " << seed << ", distance " << distance << ", tier " << t);
         CHECK(std::abs(mass_of(posed.tier[t]) - mass_of(posed.all)) < 1e-5 * mass_of(posed.all));
@@ -154,11 +165,10 @@ TEST_CASE("groups keep mass and centre, and change a far receiver by less than t
         for (std::uint32_t g = 0; g < posed.lanes_of[t].count; ++g)
           moment += double(posed.lanes_of[t].moment[g]);
         CHECK(std::abs(moment - moment_by_spheres(posed, t)) < 1e-4 * moment);
-        Numbers places(seed);
-        const double change = rms_difference(depths(posed.tier[t], places), exact);
+        const double change = rms_difference(depths(posed.tier[t], points), exact);
         // The form factor of the kernels is within 0.002 of itself, of which the sum of all is a hundredth
         // here.
-        CHECK(change < double(group_error(posed.lanes_of[t], receiver_box)) + 1e-5);
+        CHECK(change < double(group_error(posed.lanes_of[t], points.receiver())) + 1e-5);
         CHECK(change > 0);
       }
     }
@@ -177,6 +187,7 @@ TEST_CASE("a scene groups what is far, by the pose, and nothing that is near") {
     settings.cutoff_error = 0;
     settings.far_error = far_error;
     Scene scene = make_scene(settings);
+    scene.terms = NOOK_TERM_LINKS;
     const nook_instance_id receiver = add_instance(scene, model),
                            caster = place(scene, model, {distance, 0, 0});
     // The even bones move away from the odd ones.
@@ -218,6 +229,7 @@ TEST_CASE("the change stays below far_error at every distance, where arms reach 
     settings.cutoff_error = 0;
     settings.far_error = far_error;
     Scene scene = make_scene(settings);
+    scene.terms = NOOK_TERM_LINKS;
     const nook_instance_id receiver = add_instance(scene, model), caster = add_instance(scene, model);
     set_pose(scene, receiver, stiff_pose(model->model, {}));
     set_pose(scene, caster, stiff_pose(model->model, place_m, turn));
@@ -240,4 +252,57 @@ TEST_CASE("the change stays below far_error at every distance, where arms reach 
   // The distances are from 0.5 to 6.9 m, and the spheres reach 1.6 m from the middle: about the farthest
   // third of the 66 can be grouped.
   CHECK(grouped > 12);
+}
+
+TEST_CASE("each sphere is in one leaf of the tree, and nodes hold those of their children") {
+  const CharacterModel model = body(3);
+  const SphereTree tree(model);
+  std::vector<std::uint32_t> order(tree.order().begin(), tree.order().end());
+  std::sort(order.begin(), order.end());
+  REQUIRE(order.size() == 130);
+  for (std::uint32_t i = 0; i < 130; ++i) CHECK(order[i] == i);
+  const auto& nodes = tree.nodes();
+  CHECK((nodes[0].begin == 0 && nodes[0].end == 130 && nodes[0].next == nodes.size()));
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    if (nodes[n].next == n + 1) {
+      CHECK(nodes[n].end - nodes[n].begin <= 4);
+      continue;
+    }
+    const SphereTreeNode &left = nodes[n + 1], &right = nodes[left.next];
+    CHECK((left.begin == nodes[n].begin && left.end == right.begin && right.end == nodes[n].end));
+    CHECK((left.begin < left.end && right.begin < right.end && right.next == nodes[n].next));
+  }
+  CharacterModel other = body(3);
+  other.kernel.gamma = 1.5f;
+  CHECK(SphereTree(other).is_empty());
+}
+
+TEST_CASE(
+    "a tree gives the sum over its spheres where nothing may change, and less work where something may") {
+  for (const std::uint32_t seed : {1u, 2u, 3u}) {
+    CharacterModel model = body(seed);
+    // Three parts of a body, as limbs are.
+    for (ProxySphere& sphere : model.spheres) {
+      sphere.centre = sphere.centre * 0.5f + Vec3{float(sphere.bone % 3), 0, 0};
+      sphere.radius *= 0.3f;
+    }
+    const SphereTree tree(model);
+    const Posed posed(model, stiff_pose(model, {0.3f, 0, 0}, 0.4f, 1.2f));
+    for (const ShadowKernels* kernels : available_kernels()) {
+      INFO("seed " << seed << ", " << kernels->name);
+      const BodyPoints points(seed);
+      std::vector<float> plain(BodyPoints::count, 0.0f), whole = plain, merged = plain;
+      kernels->self_norm_sum(posed.all, points.view(), {}, plain.data());
+      PosedSphereTree lanes;
+      CHECK(kernels->tree_sum(pose_tree(tree, posed.all, 0, lanes), points.view(), whole.data()) ==
+            130ull * BodyPoints::count);
+      // Each is within 2e-4 of the formula for shadows above 1, and these are all below.
+      for (std::size_t k = 0; k < plain.size(); ++k) CHECK(std::abs(whole[k] - plain[k]) < 2e-4f);
+      const float error = 1.0f / 1024;
+      CHECK(kernels->tree_sum(pose_tree(tree, posed.all, error, lanes), points.view(), merged.data()) <
+            100ull * BodyPoints::count);
+      CHECK(rms_difference(merged, whole) < double(error));
+      CHECK(rms_difference(merged, whole) > 0);
+    }
+  }
 }

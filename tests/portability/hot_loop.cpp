@@ -1,4 +1,4 @@
-// The loop over spheres that most of a character's update runs in, for neon_cost.py, which reads its machine
+// The loop over spheres of the default kernel, for neon_cost.py, which reads its machine
 // code. VECTOR is the header of an instruction set, ISA_NAMESPACE its namespace, WIDE the vector of the loop.
 #include VECTOR
 

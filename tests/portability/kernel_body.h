@@ -90,6 +90,7 @@ class Body {
 
  private:
   static constexpr Vec3 offset{0.5f, -0.25f, 1};
+  static constexpr float alpha_step = 1e-5f, blend_step = 1.0f / 16384;
 
   static void clear(Rows& rows, std::uint32_t count, float value, std::size_t row = 0) {
     for (std::uint32_t i = 0; i < count; ++i) rows.row(row)[i] = value;
@@ -126,7 +127,8 @@ class Body {
     return {ground_.row(0), ground_.row(1), ground_.row(2), ground_.row(3), nullptr, 1};
   }
   LinearView layer() const {
-    return {blocks_.data(), blocks, layer_point_.data(), alpha_.row(0), blend_.row(0), open_bias_.row(0)};
+    return {blocks_.data(), blocks,     layer_point_.data(), alpha_.data(),
+            blend_.data(),  alpha_step, blend_step,          open_bias_.row(0)};
   }
 
   std::vector<Mat3x4> pose_;
@@ -137,7 +139,8 @@ class Body {
   Rows sum_{1, key_points}, shadow_{1, key_points}, depth_{1, key_points}, open_{1, key_points},
       occlusion_{1, key_points};
   std::vector<LinearBlock> blocks_;
-  Rows alpha_{1, vertices*columns}, blend_{1, vertices*columns}, open_bias_{1, vertices}, ao_{1, vertices};
+  std::vector<std::int16_t> alpha_, blend_;
+  Rows open_bias_{1, vertices}, ao_{1, vertices};
   std::vector<LightLobe> lobes_;
   LightBands bands_;
   Rows inverse_{3, key_points}, coloured_{12, key_points};
@@ -149,7 +152,9 @@ inline Body::Body(std::uint32_t seed)
       point_bone_(4 * key_points),
       layer_point_(blocks * columns),
       point_weight_(4 * key_points),
-      blocks_(blocks) {
+      blocks_(blocks),
+      alpha_(vertices * columns),
+      blend_(vertices * columns) {
   Random random(seed);
   for (Mat3x4& bone : pose_) {
     const Vec3 x = random.direction(), z = normalised(cross(x, random.direction())), y = cross(z, x);
@@ -186,8 +191,8 @@ inline Body::Body(std::uint32_t seed)
       layer_point_[b * columns + c] = std::uint16_t(random.below(key_points));
       for (std::uint32_t v = 0; v < linear_block_vertices; ++v) {
         const std::size_t at = (b * columns + c) * linear_block_vertices + v;
-        alpha_.row(0)[at] = random.from(-0.1f, 0.2f);
-        blend_.row(0)[at] = random.from(0, 2.0f / columns);
+        alpha_[at] = std::int16_t(random.from(-0.1f, 0.2f) / alpha_step);
+        blend_[at] = std::int16_t(random.from(0, 2.0f / columns) / blend_step);
       }
     }
     for (std::uint32_t v = 0; v < linear_block_vertices; ++v)

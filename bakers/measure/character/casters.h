@@ -18,8 +18,8 @@ struct CasterRow {
   double darkening =
       0;  // mean over receiver vertices by area, bearings and poses: AO alone minus AO with the caster
   double darkening_traced = 0;
-  // Root mean square over vertices, by area, of what a scene's default far_error changes; 0 where it merges
-  // nothing.
+  // Root mean square over vertices, by area, of what a scene's default far_error changes, by the neighbour
+  // and by the body's own far spheres.
   double change_of_groups = 0;
 };
 

@@ -145,7 +145,8 @@ NOOK_API nook_result nook_gl_model_memory(nook_gl gl, nook_character_model model
 NOOK_API nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene);
 
 /* Evaluates the AO of all instances on the GPU. It evaluates everything that nook_scene_update evaluates and
- * replaces it: a host calls one of the two in a frame. The values agree with nook_scene_read_ao within 2e-3.
+ * replaces it: a host calls one of the two in a frame. The values agree with nook_scene_read_ao within 2e-3,
+ * beside what far_error of the scene changes there.
  * The call allocates host memory only if instances were added, or received their first light, since the last
  * prepare or update, and it never waits for the GPU. No other call may use the scene meanwhile.
  * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (as nook_gl_scene_prepare; also, the lights exceed

@@ -45,6 +45,8 @@ Mat3x4 place_of(const float* place_3x4) {
   return place;
 }
 
+static_assert(LoadedClips::block_slots == LoadedModel::slot_chunk);
+
 // Calls put(place, ao) for each file vertex.
 template <class Put>
 void write_ao(const LoadedClips& clips, const FrameMix& mix, void* out, std::size_t stride, Put&& put) {
@@ -57,9 +59,9 @@ void write_ao(const LoadedClips& clips, const FrameMix& mix, void* out, std::siz
   for (std::uint32_t first = 0; first < slots; first += LoadedClips::block_slots) {
     const std::uint32_t count = std::min(LoadedClips::block_slots, slots - first);
     decode_ao(clips, weights.data(), first, count, ao.data());
-    for (std::uint32_t s = 0; s < count; ++s)
-      for (std::uint32_t i = model.slot_begin[first + s]; i < model.slot_begin[first + s + 1]; ++i)
-        put(bytes + model.slot_file_vertex[i] * stride, ao[s]);
+    const std::uint32_t chunk = first / LoadedModel::slot_chunk, last = model.chunk_begin[chunk + 1];
+    for (std::uint32_t i = model.chunk_begin[chunk]; i < last; ++i)
+      put(bytes + model.chunk_file_vertex[i] * stride, ao[model.slot_in_chunk[i]]);
   }
 }
 

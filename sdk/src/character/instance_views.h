@@ -31,7 +31,7 @@ inline SphereSoa caster_spheres(const Scene& scene, const Instance& receiver, co
   if (result.grouped_revision == caster.input.pose_revision) {
     for (std::uint32_t t = group_tiers; t-- > 0;) {
       const GroupLanes& g = result.arrays.groups[t];
-      if (group_error(g, receiver.result.box) < scene.settings.far_error)
+      if (group_error(g, receiver.result.receiver) < scene.settings.far_error)
         return {g.x, g.y, g.z, g.inverse_radius, g.caster_weight, g.count};
     }
   }

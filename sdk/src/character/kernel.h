@@ -57,6 +57,14 @@ F shadow_nook(F xi, F delta2) {
   return (xi + sqrt_positive(fma(xi, xi, F(1.0f)))) * rsqrt_cubed(delta2 + F(nook_kernel_core), 0.5f);
 }
 
+// The same for a sphere at the height h = r xi, with d2_and_core = r^2 (delta2 + core): r^2 / 2 (h + sqrt(h^2
+// + r^2)) / d2_and_core^(3/2). `softness` is r^2. `mass` is 3/4 r^2 because the cube takes 2/3, with which
+// its estimate has no constant left to multiply by.
+template <class F>
+F shadow_nook_of_mass(F h, F d2_and_core, F softness, F mass) {
+  return mass * ((h + sqrt_positive(fma(h, h, softness))) * rsqrt_cubed(d2_and_core, 2.0f / 3));
+}
+
 template <class F>
 F shadow_rational(F xi, F delta2) {
   return F(1.5f) / fma(F(2.0f), delta2, F(1.0f)) * visibility_paper(xi);

@@ -56,6 +56,30 @@ struct Columns {
   }
 };
 
+float largest_of(const Vector<float>& weights) {
+  float largest = 0;
+  for (const float weight : weights) largest = std::max(largest, std::abs(weight));
+  return largest;
+}
+
+// The alphas of a file are max (c / 127)^2 with whole c, which are whole numbers of these steps.
+float alpha_step_of(const Vector<float>& alpha) {
+  const float largest = largest_of(alpha);
+  return largest > 0 ? largest / (2 * 127 * 127) : 1;
+}
+
+// A power of two, so that the sixteenths of a file are whole numbers of steps.
+float blend_step_of(const Vector<float>& blend) {
+  return std::exp2(std::ceil(std::log2(std::max(largest_of(blend), 1.0f)))) / 16384;
+}
+
+AlignedArray<std::int16_t> in_steps(const Vector<float>& weights, float step, Memory* memory) {
+  AlignedArray<std::int16_t> out(weights.size(), memory);
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    out[i] = static_cast<std::int16_t>(std::lround(weights[i] / step));
+  return out;
+}
+
 }  // namespace
 
 LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
@@ -70,8 +94,8 @@ LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
     blocks_[b] = {columns.first[b], columns.first[b + 1] - columns.first[b]};
   key_point_ = AlignedArray<std::uint16_t>(columns.key_point.size(), memory);
   std::copy(columns.key_point.begin(), columns.key_point.end(), key_point_.begin());
-  alpha_ = AlignedArray<float>(columns.key_point.size() * linear_block_vertices, memory);
-  blend_ = AlignedArray<float>(columns.key_point.size() * linear_block_vertices, memory);
+  Vector<float> alpha(columns.key_point.size() * linear_block_vertices, 0.0f, memory);
+  Vector<float> blend(alpha.size(), 0.0f, memory);
 
   AlignedArray<std::uint32_t> welded_to_slot(model.vertex_count(), memory);
   for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
@@ -82,8 +106,8 @@ LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
       if (model.alpha[e] == 0) continue;
       const std::size_t column = columns.find(slot / linear_block_vertices, model.influence[e]);
       const std::size_t place = column * linear_block_vertices + slot % linear_block_vertices;
-      alpha_[place] += model.alpha[e];
-      blend_[place] += model.blend[e];
+      alpha[place] += model.alpha[e];
+      blend[place] += model.blend[e];
       gain += std::abs(model.blend[e]);
     }
     open_bias_[slot] = 1 - model.bias[vertex];
@@ -96,9 +120,13 @@ LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
                     static_cast<unsigned>(model.file_to_welded[i]), order.size());
     file_to_slot_[i] = welded_to_slot[model.file_to_welded[i]];
   }
+  const float alpha_step = alpha_step_of(alpha), blend_step = blend_step_of(blend);
+  alpha_ = in_steps(alpha, alpha_step, memory);
+  blend_ = in_steps(blend, blend_step, memory);
   view_ = {blocks_.data(),    static_cast<std::uint32_t>(blocks_.size()),
            key_point_.data(), alpha_.data(),
-           blend_.data(),     open_bias_.data()};
+           blend_.data(),     alpha_step,
+           blend_step,        open_bias_.data()};
 }
 
 }  // namespace nook

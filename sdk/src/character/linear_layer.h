@@ -29,8 +29,8 @@ class LinearLayer {
  private:
   AlignedArray<LinearBlock> blocks_;
   AlignedArray<std::uint16_t> key_point_;
-  AlignedArray<float> alpha_;
-  AlignedArray<float> blend_;
+  AlignedArray<std::int16_t> alpha_;
+  AlignedArray<std::int16_t> blend_;
   AlignedArray<float> open_bias_;
   AlignedArray<std::uint32_t> file_to_slot_;
   LinearView view_;

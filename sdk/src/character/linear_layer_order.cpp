@@ -1,75 +1,124 @@
 #include "sdk/src/character/linear_layer_order.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <numeric>
 #include <span>
 
 namespace nook {
 namespace {
 
-// A position in metres, and the normal scaled to metres, which separates the two sides of a thin limb.
-using Place = std::array<float, 6>;
-constexpr float normal_scale_metres = 0.05f;
+using Indices = Vector<std::uint32_t>;
 
-Vector<Place> vertex_places(const CharacterModel& model, Memory* memory) {
-  Vector<Place> places(model.vertex_count(), Place{}, memory);
-  for (std::size_t v = 0; v < places.size(); ++v) {
-    Vec3 position, normal;
-    float alpha_sum = 0;
-    for (std::size_t e = v * model.influences; e < (v + 1) * model.influences; ++e) {
-      if (model.alpha[e] == 0) continue;
-      const KeyPoint& point = model.key_points[model.influence[e]];
-      position += point.surface_position * model.alpha[e];
-      normal += point.surface_normal * model.alpha[e];
-      alpha_sum += model.alpha[e];
-    }
-    if (alpha_sum > 0) position = position * (1 / alpha_sum);
-    normal = normalised(normal) * normal_scale_metres;
-    places[v] = {position.x, position.y, position.z, normal.x, normal.y, normal.z};
-    // Extreme weights overflow, and NaN has no order.
-    if (!std::all_of(places[v].begin(), places[v].end(), [](float c) { return std::isfinite(c); }))
-      places[v] = {};
+// A multiple of all block sizes. Its AO lies in 4 KiB where the file has no other vertices between.
+constexpr std::size_t window_vertices = 1024;
+
+// Calls body(key_point) for each key point that shades a vertex.
+template <class Body>
+void for_influences(const CharacterModel& model, std::size_t vertex, Body&& body) {
+  for (std::size_t e = vertex * model.influences; e < (vertex + 1) * model.influences; ++e)
+    if (model.alpha[e] != 0) body(model.influence[e]);
+}
+
+// Vertices by their first place in the file, those without one last.
+Indices file_order(const CharacterModel& model, Memory* memory) {
+  Indices first(model.vertex_count(), ~0u, memory);
+  for (std::size_t i = model.file_to_welded.size(); i-- > 0;)
+    if (model.file_to_welded[i] < first.size())
+      first[model.file_to_welded[i]] = static_cast<std::uint32_t>(i);
+  Indices order(first.size(), 0u, memory);
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return first[a] < first[b]; });
+  return order;
+}
+
+// Makes blocks of the vertices of a window, which are numbered within it.
+class Window {
+ public:
+  Window(const CharacterModel& model, std::span<const std::uint32_t> vertices, Memory* memory)
+      : model_(model),
+        vertices_(vertices),
+        users_(model.key_points.size(), Indices(memory), memory),
+        in_block_(model.key_points.size(), std::uint8_t{0}, memory),
+        missing_(vertices.size(), 0u, memory),
+        is_taken_(vertices.size(), std::uint8_t{0}, memory),
+        is_candidate_(vertices.size(), std::uint8_t{0}, memory),
+        block_key_points_(memory),
+        candidates_(memory) {
+    for (std::uint32_t v = 0; v < vertices.size(); ++v)
+      for_influences(model, vertices[v], [&](std::uint16_t k) {
+        users_[k].push_back(v);
+        ++missing_[v];
+      });
   }
-  return places;
-}
 
-std::size_t longest_side(std::span<const std::uint32_t> vertices, const Vector<Place>& places) {
-  Place low = places[vertices[0]], high = low;
-  for (const std::uint32_t v : vertices)
-    for (std::size_t a = 0; a < low.size(); ++a) {
-      low[a] = std::min(low[a], places[v][a]);
-      high[a] = std::max(high[a], places[v][a]);
+  // Appends the vertices of the next block to `order`; at least one must be left.
+  void append_block(std::uint32_t count, Indices& order) {
+    while (is_taken_[first_left_]) ++first_left_;
+    take(first_left_, order);
+    for (std::uint32_t i = 1; i < count; ++i) take(next(), order);
+    // The numbers of missing key points are those of an empty block again.
+    for (const std::uint16_t k : block_key_points_) {
+      in_block_[k] = 0;
+      for (const std::uint32_t user : users_[k]) ++missing_[user];
     }
-  std::size_t longest = 0;
-  for (std::size_t a = 1; a < low.size(); ++a)
-    if (high[a] - low[a] > high[longest] - low[longest]) longest = a;
-  return longest;
-}
+    block_key_points_.clear();
+    for (const std::uint32_t v : candidates_) is_candidate_[v] = 0;
+    candidates_.clear();
+  }
 
-// Both halves are whole blocks, except for the last block. The recursion depth is the logarithm of the number
-// of blocks.
-void halve(std::span<std::uint32_t> vertices, std::size_t block_vertices, const Vector<Place>& places) {
-  if (vertices.size() <= block_vertices) return;
-  const std::size_t blocks = (vertices.size() + block_vertices - 1) / block_vertices;
-  const std::size_t middle = blocks / 2 * block_vertices;
-  const std::size_t side = longest_side(vertices, places);
-  std::nth_element(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(middle), vertices.end(),
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     return places[a][side] != places[b][side] ? places[a][side] < places[b][side] : a < b;
-                   });
-  halve(vertices.first(middle), block_vertices, places);
-  halve(vertices.subspan(middle), block_vertices, places);
-}
+ private:
+  std::uint32_t next() {
+    std::uint32_t best = ~0u;
+    for (const std::uint32_t v : candidates_)
+      if (!is_taken_[v] && (best == ~0u || missing_[v] < missing_[best])) best = v;
+    if (best != ~0u) return best;
+    while (is_taken_[first_left_]) ++first_left_;
+    return first_left_;
+  }
+
+  void take(std::uint32_t v, Indices& order) {
+    is_taken_[v] = 1;
+    order.push_back(vertices_[v]);
+    for_influences(model_, vertices_[v], [&](std::uint16_t k) {
+      if (in_block_[k]) return;
+      in_block_[k] = 1;
+      block_key_points_.push_back(k);
+      for (const std::uint32_t user : users_[k]) {
+        --missing_[user];
+        if (is_taken_[user] || is_candidate_[user]) continue;
+        is_candidate_[user] = 1;
+        candidates_.push_back(user);
+      }
+    });
+  }
+
+  const CharacterModel& model_;
+  std::span<const std::uint32_t> vertices_;
+  Vector<Indices> users_;          // of each key point
+  Vector<std::uint8_t> in_block_;  // for each key point
+  Indices missing_;                // for each vertex, entries whose key points the block lacks
+  Vector<std::uint8_t> is_taken_, is_candidate_;
+  Vector<std::uint16_t> block_key_points_;
+  Indices candidates_;  // vertices that share a key point with the block
+  std::uint32_t first_left_ = 0;
+};
 
 }  // namespace
 
 Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
                                          Memory* memory) {
-  const Vector<Place> places = vertex_places(model, memory);
-  Vector<std::uint32_t> order(model.vertex_count(), 0, memory);
-  for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = v;
-  halve(order, block_vertices, places);
+  const Indices in_file = file_order(model, memory);
+  Indices order(memory);
+  order.reserve(in_file.size());
+  for (std::size_t begin = 0; begin < in_file.size(); begin += window_vertices) {
+    const std::size_t count = std::min(window_vertices, in_file.size() - begin);
+    Window window(model, std::span(in_file).subspan(begin, count), memory);
+    while (order.size() < begin + count)
+      window.append_block(
+          static_cast<std::uint32_t>(std::min<std::size_t>(block_vertices, begin + count - order.size())),
+          order);
+  }
   return order;
 }
 

@@ -1,5 +1,5 @@
-// The order of vertices in the linear layer. Vertices of a block are near each other, because near vertices
-// share key points, so that a block has few columns.
+// The order of vertices in the linear layer. Vertices of a block share key points, so that a block has few
+// columns, and blocks follow the file, so that AO is written to memory that is near.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace nook {
 
-// Returns all vertices in the order of their slots, by halving the longest side of their bounding box until
-// each part is one block. The place of a vertex is the weighted mean of its key points, in position and
-// direction. The model's influences must be valid.
+// Returns all vertices in the order of their slots. Blocks are made of the vertices of one window of the
+// file's order: the first that is left, then always the one that needs the fewest further key points. The
+// model's influences must be valid.
 Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
                                          Memory* memory);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sdk/src/character/key_point_order.h"
+
 namespace nook {
 namespace {
 
@@ -51,31 +53,33 @@ Vector<LoadedLevel> load_levels(const CharacterModel& model, Memory* memory) {
   return loaded;
 }
 
-// Maps slots of the linear layer to file vertices, as one list of lists.
+// Maps chunks of slots of the linear layer to file vertices, as one list of lists.
 void invert_file_order(LoadedModel& loaded, Memory* memory) {
+  constexpr std::uint32_t chunk = LoadedModel::slot_chunk;
   const AlignedArray<std::uint32_t>& slot_of = loaded.linear.file_to_slot();
   const std::size_t slots = loaded.linear.padded_slots(), file_vertices = loaded.model.file_to_welded.size();
-  loaded.slot_begin = AlignedArray<std::uint32_t>(slots + 1, memory);
-  loaded.slot_file_vertex = AlignedArray<std::uint32_t>(file_vertices, memory);
-  for (std::size_t i = 0; i < file_vertices; ++i) ++loaded.slot_begin[slot_of[i]];
-  std::uint32_t sum = 0;
-  for (std::uint32_t& end : loaded.slot_begin) end = sum += end;
-  for (std::size_t i = file_vertices; i-- > 0;)
-    loaded.slot_file_vertex[--loaded.slot_begin[slot_of[i]]] = static_cast<std::uint32_t>(i);
+  loaded.chunk_begin = AlignedArray<std::uint32_t>((slots + chunk - 1) / chunk + 1, memory);
+  loaded.chunk_file_vertex = AlignedArray<std::uint32_t>(file_vertices, memory);
   loaded.slot_in_chunk = AlignedArray<std::uint8_t>(file_vertices, memory);
-  for (std::size_t i = 0; i < file_vertices; ++i)
-    loaded.slot_in_chunk[i] =
-        static_cast<std::uint8_t>(slot_of[loaded.slot_file_vertex[i]] % LoadedModel::slot_chunk);
+  for (std::size_t i = 0; i < file_vertices; ++i) ++loaded.chunk_begin[slot_of[i] / chunk];
+  std::uint32_t sum = 0;
+  for (std::uint32_t& end : loaded.chunk_begin) end = sum += end;
+  for (std::size_t i = file_vertices; i-- > 0;) {
+    const std::uint32_t place = --loaded.chunk_begin[slot_of[i] / chunk];
+    loaded.chunk_file_vertex[place] = static_cast<std::uint32_t>(i);
+    loaded.slot_in_chunk[place] = static_cast<std::uint8_t>(slot_of[i] % chunk);
+  }
 }
 
 }  // namespace
 
 LoadedModel::LoadedModel(CharacterModel loaded, Memory* memory)
-    : model(std::move(loaded)),
+    : model(with_near_key_points_together(std::move(loaded), memory)),
       rest_spheres(model, memory),
       rest_key_points(model, memory),
       linear(model, memory),
       groups(model, memory),
+      sphere_tree(model, memory),
       levels(load_levels(model, memory)),
       open_without_bias(linear.padded_slots(), memory),
       bone_bounds(make_bone_bounds(model, memory)) {

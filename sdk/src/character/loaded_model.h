@@ -5,6 +5,7 @@
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/shadow_kernels_rest.h"
 #include "sdk/src/character/sphere_groups.h"
+#include "sdk/src/character/sphere_tree.h"
 #include "sdk/src/core/ref.h"
 
 namespace nook {
@@ -22,19 +23,20 @@ struct LoadedModel : RefCounted {
   // The model must have passed check_model.
   LoadedModel(CharacterModel loaded, Memory* memory);
 
-  const CharacterModel model;
+  const CharacterModel model;  // with its key points in the order of key_point_order.h
   const RestSpheres rest_spheres;
   const RestKeyPoints rest_key_points;
   const LinearLayer linear;
   const SphereGroups groups;         // of the spheres of full detail
+  const SphereTree sphere_tree;      // the same
   const Vector<LoadedLevel> levels;  // those of model.levels; full detail is not among them
 
-  // The file vertices that take the AO of slot s of the linear layer are
-  // slot_file_vertex[slot_begin[s]...slot_begin[s + 1]].
-  AlignedArray<std::uint32_t> slot_begin;
-  AlignedArray<std::uint32_t> slot_file_vertex;
-  // The slot of each entry of slot_file_vertex, from the first of its slot_chunk on.
+  // The file vertices that take the AO of a chunk c of slots of the linear layer, in ascending order so that
+  // they are written near each other, are chunk_file_vertex[chunk_begin[c]...chunk_begin[c + 1]]. The slot of
+  // each, from the first of the chunk on, is that of slot_in_chunk.
   static constexpr std::uint32_t slot_chunk = 256;
+  AlignedArray<std::uint32_t> chunk_begin;
+  AlignedArray<std::uint32_t> chunk_file_vertex;
   AlignedArray<std::uint8_t> slot_in_chunk;
   AlignedArray<float>
       open_without_bias;  // 1 per slot, in place of LinearView::open_bias where self-shadow is switched off

@@ -115,10 +115,12 @@ struct InstancePlan {
 struct InstanceResult {
   InstanceArrays arrays;
   std::uint64_t transformed_revision = 0;  // InstanceInput::pose_revision of the spheres in `arrays`
+  std::uint64_t coarse_revision = 0;       // that of the coarse spheres
   std::uint64_t grouped_revision = 0;      // that of the groups
-  ReceiverBox box;                         // of the key points' surface; kept where casters may be grouped
+  Receiver receiver;                       // the key points' surface; kept where casters may be grouped
   std::uint64_t evaluated_frame = 0;       // Scene::frame of the last evaluation; 0: never
   std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
+  bool has_added = false;                  // PointLanes::added of the last evaluation is not all zero
 };
 
 // The world casters of an instance in its pose (world_casters.h).
@@ -252,7 +254,7 @@ class HasResult {
 // casters, occluders and ground sphere of each instance that is due: explicit links and the k nearest,
 // without those below the cut-off. Needs only the poses.
 void resolve_casters(Scene& scene, HasResult has_result) noexcept;
-// Computes the world-space spheres of an instance at all levels, which it and its receivers need.
+// Computes the world-space spheres of an instance at the levels that it and its receivers may need.
 void transform_spheres(const Scene& scene, Instance& instance) noexcept;
 // Merges the spheres of an instance that may darken others into groups, unless settings.far_error is 0.
 void group_spheres(const Scene& scene, Instance& instance) noexcept;

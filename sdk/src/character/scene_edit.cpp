@@ -36,7 +36,7 @@ auto& find(Objects& objects, std::uint32_t id, const char* what) {
 
 // The shape of a rest-to-world matrix by its axes.
 struct Axes {
-  Vec3 length;       // of each axis
+  Vec3 squared;      // length of each axis
   float cosine = 0;  // the largest one between two axes, relative to the longest axis
   float longest_squared = 0;
   bool is_even = false;  // a rotation with one scale, to 1 %
@@ -49,7 +49,7 @@ Axes axes_of(const Mat3x4& matrix) {
   const float longest = std::max({xx, yy, zz}), shortest = std::min({xx, yy, zz});
   const float shear = std::max({std::abs(dot(x, y)), std::abs(dot(y, z)), std::abs(dot(z, x))});
   // 1 % of length is 2 % of its square; 1 % of shear is a cosine of 0.01. The last digit is for rounding.
-  return {{std::sqrt(xx), std::sqrt(yy), std::sqrt(zz)},
+  return {{xx, yy, zz},
           longest > 0 ? shear / longest : 0,
           longest,
           longest > 0 && longest <= shortest * 1.0205f && shear <= longest * 0.0101f};
@@ -63,8 +63,8 @@ void fail_unless_even(const CharacterModel& model, const Mat3x4& matrix, std::si
       "the matrix of bone %zu (\"%s\") is no rotation with one scale (its axes have lengths %g %g %g, "
       "and the largest cosine between them is %g; need equal to 1 %% and at most 0.01); bones_3x4 is "
       "row-major, transposing may help; without strict_poses the matrix is projected",
-      bone, model.bone_names[bone].c_str(), double(axes.length.x), double(axes.length.y),
-      double(axes.length.z), double(axes.cosine));
+      bone, model.bone_names[bone].c_str(), std::sqrt(double(axes.squared.x)),
+      std::sqrt(double(axes.squared.y)), std::sqrt(double(axes.squared.z)), double(axes.cosine));
 }
 
 // The nearest matrix with one scale.
@@ -226,13 +226,15 @@ ProjectedBone take_pose(Instance& instance, std::span<const Mat3x4> bones) {
   ProjectedBone first;
   float longest_squared = 0;
   for (std::size_t b = 0; b < bones.size(); ++b) {
-    const bool is_even = axes_of(bones[b]).is_even;
-    if (!is_even && !instance.input.was_projected) {
-      first = {true, static_cast<std::uint32_t>(b)};
+    Axes axes = axes_of(bones[b]);
+    instance.input.bones[b] = bones[b];
+    if (!axes.is_even) {
+      if (!instance.input.was_projected) first = {true, static_cast<std::uint32_t>(b)};
       instance.input.was_projected = true;
+      instance.input.bones[b] = evened(model, bones[b], b);
+      axes = axes_of(instance.input.bones[b]);
     }
-    instance.input.bones[b] = is_even ? bones[b] : evened(model, bones[b], b);
-    longest_squared = std::max(longest_squared, axes_of(instance.input.bones[b]).longest_squared);
+    longest_squared = std::max(longest_squared, axes.longest_squared);
   }
   derive_bound(instance, longest_squared);
   ++instance.input.pose_revision;

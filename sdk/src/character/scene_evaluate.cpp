@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <type_traits>
 
 #include "sdk/src/character/instance_views.h"
 #include "sdk/src/character/scene.h"
@@ -10,39 +11,63 @@
 namespace nook {
 namespace {
 
-// Leaves what casters add in optical_depth, which then is no depth any more.
-void evaluate_composed(const Scene& scene, const Instance& instance, const PointLanes& points) {
+// Other instances may take its spheres.
+bool may_darken(const Scene& scene, const Instance& instance) {
+  return scene.nearest > 0 || !instance.input.receivers.empty();
+}
+
+bool has_casters(const Instance& instance) {
+  return !instance.plan.casters.empty() || !instance.plan.occluders.empty() ||
+         instance.plan.ground_sphere.radius > 0;
+}
+
+// Leaves what casters add in optical_depth, which then is no depth any more. Returns the number of spheres.
+std::size_t evaluate_composed(const Scene& scene, const Instance& instance, const PointLanes& points) {
   const KeyPointSoa surface = surface_points(points);
   std::fill_n(points.optical_depth, points.padded_count, 0.0f);
+  if (!has_casters(instance)) return 0;
   std::fill_n(points.open, points.padded_count, 1.0f);
-  for (const std::uint32_t caster : instance.plan.casters)
-    scene.kernels->composed_depth(caster_spheres(scene, instance, scene.instances[caster]), surface,
-                                  points.optical_depth);
+  std::size_t count = 0;
+  for (const std::uint32_t caster : instance.plan.casters) {
+    const SphereSoa spheres = caster_spheres(scene, instance, scene.instances[caster]);
+    scene.kernels->composed_depth(spheres, surface, points.optical_depth);
+    count += spheres.count;
+  }
   for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
     scene.kernels->exact_open(spheres, surface, points.open);
+    count += spheres.count;
   });
   scene.kernels->composed_occlusion(points.optical_depth, points.open, points.padded_count,
                                     points.optical_depth);
+  return count;
 }
 
-void join_paper_norm(const Scene& scene, const Instance& instance, const PointLanes& points) {
-  const Kernel& kernel = instance.model->model.kernel;
+std::size_t join_paper_norm(const Scene& scene, const Instance& instance, const PointLanes& points) {
+  std::size_t count = 0;
+  const auto join = [&](const SphereSoa& spheres) {
+    scene.kernels->self_norm_sum(spheres, fitted_points(points), instance.model->model.kernel,
+                                 points.norm_sum);
+    count += spheres.count;
+  };
   for (const std::uint32_t caster : instance.plan.casters)
-    scene.kernels->self_norm_sum(spheres_of(scene.instances[caster], instance.plan.level),
-                                 fitted_points(points), kernel, points.norm_sum);
-  for_free_spheres(scene, instance, [&](const SphereSoa& spheres) {
-    scene.kernels->self_norm_sum(spheres, fitted_points(points), kernel, points.norm_sum);
-  });
+    join(spheres_of(scene.instances[caster], instance.plan.level));
+  for_free_spheres(scene, instance, join);
   std::fill_n(points.optical_depth, points.padded_count, 0.0f);
+  return count;
 }
 
-std::uint64_t count_evaluations(const Scene& scene, const Instance& instance, std::uint32_t points) {
-  std::uint64_t spheres =
-      (has_self_shadow(scene, instance) ? spheres_of(instance, instance.plan.level).count : 0) +
-      instance.plan.occluders.size() + (instance.plan.ground_sphere.radius > 0);
-  for (const std::uint32_t caster : instance.plan.casters)
-    spheres += caster_spheres(scene, instance, scene.instances[caster]).count;
-  return spheres * points;
+// Adds the body's own spheres to norm_sum, and returns the number of sphere-key-point pairs. Lights take
+// their colours from each sphere, so that the sum that they are compared with takes each as well.
+std::uint64_t sum_own_spheres(const Scene& scene, const Instance& instance, const PointLanes& points) {
+  const SphereSoa spheres = spheres_of(instance, instance.plan.level);
+  const SphereTree& tree = instance.model->sphere_tree;
+  if (may_group(scene) && !tree.is_empty() && instance.plan.level == 0 && instance.light.count == 0) {
+    PosedSphereTree posed;
+    return scene.kernels->tree_sum(pose_tree(tree, spheres, scene.settings.far_error, posed),
+                                   fitted_points(points), points.norm_sum);
+  }
+  scene.kernels->self_norm_sum(spheres, fitted_points(points), instance.model->model.kernel, points.norm_sum);
+  return std::uint64_t{spheres.count} * points.count;
 }
 
 // From the evaluated key points to all of them. Scale and offset belong to self-shadow.
@@ -58,20 +83,23 @@ void spread_level(const CharacterLevel& level, bool with_self, const PointLanes&
 }  // namespace
 
 void transform_spheres(const Scene& scene, Instance& instance) noexcept {
-  if (instance.result.transformed_revision == instance.input.pose_revision) return;
   const auto transform = [&](const RestSpheres& rest, const SphereLanes& s) {
     scene.kernels->pose_spheres(rest.view(), instance.input.bones.data(), {},
                                 {s.x, s.y, s.z, s.inverse_radius});
   };
-  transform(instance.model->rest_spheres, instance.result.arrays.spheres);
+  InstanceResult& result = instance.result;
+  const std::uint64_t revision = instance.input.pose_revision;
+  if (result.transformed_revision != revision) transform(instance.model->rest_spheres, result.arrays.spheres);
+  result.transformed_revision = revision;
+  const bool needs_coarse = instance.plan.level > 0 || may_darken(scene, instance);
+  if (!needs_coarse || result.coarse_revision == revision) return;
   for (std::size_t l = 0; l < instance.model->levels.size(); ++l)
-    transform(instance.model->levels[l].rest_spheres, instance.result.arrays.coarse_spheres[l]);
-  instance.result.transformed_revision = instance.input.pose_revision;
+    transform(instance.model->levels[l].rest_spheres, result.arrays.coarse_spheres[l]);
+  result.coarse_revision = revision;
 }
 
 void group_spheres(const Scene& scene, Instance& instance) noexcept {
-  const bool may_darken = scene.nearest > 0 || !instance.input.receivers.empty();
-  if (!may_darken || !may_group(scene)) return;
+  if (!may_darken(scene, instance) || !may_group(scene)) return;
   if (instance.result.grouped_revision == instance.input.pose_revision) return;
   SphereSoa parts = spheres_of(instance, 0);
   const float* moments = nullptr;
@@ -89,12 +117,13 @@ void transform_key_points(const Scene& scene, Instance& instance) noexcept {
   const KeyPointTarget fitted{p.x, p.y, p.z, p.nx, p.ny, p.nz};
   const KeyPointTarget surface{p.surface_x,  p.surface_y,  p.surface_z,
                                p.surface_nx, p.surface_ny, p.surface_nz};
-  const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  const bool is_surface_felt = scene.settings.combine == NOOK_COMBINE_COMPOSED && has_casters(instance);
   scene.kernels->pose_key_points(rest_points_of(instance).view(), instance.input.bones.data(), {}, fitted,
-                                 composed ? &surface : nullptr);
+                                 is_surface_felt ? &surface : nullptr);
   if (may_group(scene) && !instance.plan.casters.empty()) {
     const PointLanes points = evaluated_points(instance);
-    instance.result.box = box_of(points.surface_x, points.surface_y, points.surface_z, points.count);
+    instance.result.receiver =
+        receiver_of(points.surface_x, points.surface_y, points.surface_z, points.count);
   }
 }
 
@@ -102,13 +131,12 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
   const PointLanes points = evaluated_points(instance);
   const Kernel& kernel = instance.model->model.kernel;
   std::fill_n(points.norm_sum, points.padded_count, 0.0f);
-  if (has_self_shadow(scene, instance))
-    scene.kernels->self_norm_sum(spheres_of(instance, instance.plan.level), fitted_points(points), kernel,
-                                 points.norm_sum);
-  if (scene.settings.combine == NOOK_COMBINE_COMPOSED)
-    evaluate_composed(scene, instance, points);
-  else
-    join_paper_norm(scene, instance, points);
+  const std::uint64_t own = has_self_shadow(scene, instance) ? sum_own_spheres(scene, instance, points) : 0;
+  const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  const std::size_t added =
+      composed ? evaluate_composed(scene, instance, points) : join_paper_norm(scene, instance, points);
+  instance.result.evaluations = own + std::uint64_t{added} * points.count;
+  instance.result.has_added = composed && added > 0;
   if (instance.plan.level == 0) {
     scene.kernels->norm_root(points.norm_sum, points.padded_count, kernel.gamma, points.shadow);
     std::copy_n(points.optical_depth, points.padded_count, points.added);
@@ -117,7 +145,6 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
     spread_level(instance.model->model.levels[instance.plan.level - 1], has_self_shadow(scene, instance),
                  instance.result.arrays.points);
   }
-  instance.result.evaluations = count_evaluations(scene, instance, points.count);
   instance.result.evaluated_frame = scene.frame;
 }
 
@@ -170,21 +197,24 @@ using ChunkAo = std::array<float, chunk_slots>;
 
 // Calls evaluate(layer, first_slot) for each chunk of the model's linear layer, then put(place, slot) for its
 // file vertices, place being a pointer stride_bytes further for each and the slot that within the chunk.
-template <class Evaluate, class Put>
-void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out, std::size_t stride_bytes,
+template <class Stride, class Evaluate, class Put>
+void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out, Stride stride_bytes,
                     Evaluate&& evaluate, Put&& put) noexcept {
   const LinearView& view = loaded.linear.view();
   auto* const bytes = static_cast<unsigned char*>(out);
+  // Copies, because bytes that are written might be those of the originals.
+  const std::uint32_t *const begin = loaded.chunk_begin.data(), *const vertex =
+                                                                    loaded.chunk_file_vertex.data();
+  const std::uint8_t* const slot = loaded.slot_in_chunk.data();
   for (std::uint32_t block = 0; block < view.block_count; block += chunk_blocks) {
     const std::uint32_t first_slot = block * linear_block_vertices;
-    const LinearView chunk{view.blocks + block, std::min(chunk_blocks, view.block_count - block),
-                           view.key_point,      view.alpha,
-                           view.blend,          open_bias + first_slot};
+    LinearView chunk = view;
+    chunk.blocks += block;
+    chunk.block_count = std::min(chunk_blocks, view.block_count - block);
+    chunk.open_bias = open_bias + first_slot;
     evaluate(chunk, first_slot);
-    const std::uint32_t end = first_slot + chunk.block_count * linear_block_vertices;
-    const std::uint32_t last = loaded.slot_begin[end];
-    for (std::uint32_t i = loaded.slot_begin[first_slot]; i < last; ++i)
-      put(bytes + loaded.slot_file_vertex[i] * stride_bytes, loaded.slot_in_chunk[i]);
+    const std::uint32_t number = first_slot / chunk_slots, last = begin[number + 1];
+    for (std::uint32_t i = begin[number]; i < last; ++i) put(bytes + vertex[i] * stride_bytes, slot[i]);
   }
 }
 
@@ -199,55 +229,67 @@ const float* open_bias_of(const LoadedModel& loaded, Self self) {
   return self == Self::shadow ? loaded.linear.view().open_bias : loaded.open_without_bias.data();
 }
 
-// Calls put(place, ao) for each file vertex, place being a pointer stride_bytes further for each.
-template <class Put>
-void for_each_ao(const Scene& scene, const Instance& instance, void* out, std::size_t stride_bytes,
-                 Put&& put) noexcept {
+// Calls put(place, number) for each file vertex, place being a pointer stride_bytes further for each. The
+// numbers are AO as numbers of another type, which convert makes of all 256 of a chunk at once.
+template <class Number, class Stride, class Convert, class Put>
+void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride stride_bytes,
+                 Convert&& convert, Put&& put) noexcept {
   const LoadedModel& loaded = *instance.model;
   auto* const bytes = static_cast<unsigned char*>(out);
   if (instance.result.evaluated_frame == 0) {
-    for (std::size_t i = 0; i < loaded.model.file_to_welded.size(); ++i) put(bytes + i * stride_bytes, 1.0f);
+    for (std::size_t i = 0; i < loaded.model.file_to_welded.size(); ++i)
+      put(bytes + i * stride_bytes, convert(1.0f));
     return;
   }
   const Self self = self_of(scene, instance);
   const PointLanes& points = instance.result.arrays.points;
-  const float* const added = scene.settings.combine == NOOK_COMBINE_COMPOSED ? points.added : nullptr;
+  const float* const added = instance.result.has_added ? points.added : nullptr;
   alignas(64) ChunkAo ao{}, own{};
+  alignas(64) std::array<Number, chunk_slots> numbers;
   for_each_chunk(
       loaded, open_bias_of(loaded, self), out, stride_bytes,
       [&](const LinearView& chunk, std::uint32_t first_slot) {
         scene.kernels->linear_layer(chunk, points.shadow, added, ao.data());
-        if (self != Self::clip) return;
-        decode_clip(instance, chunk, first_slot, own);
-        for (std::uint32_t i = 0; i < chunk_slots; ++i) ao[i] *= own[i];
+        if (self == Self::clip) {
+          decode_clip(instance, chunk, first_slot, own);
+          for (std::uint32_t i = 0; i < chunk_slots; ++i) ao[i] *= own[i];
+        }
+        for (std::uint32_t i = 0; i < chunk_slots; ++i) numbers[i] = convert(ao[i]);
       },
-      [&](unsigned char* place, std::uint32_t slot) { put(place, ao[slot]); });
+      [&](unsigned char* place, std::uint32_t slot) { put(place, numbers[slot]); });
 }
 
-void put_float(unsigned char* place, float ao) noexcept {
-  std::memcpy(place, &ao, sizeof ao);
+// A stride that the compiler knows spares a product for each vertex.
+template <class Number, class Convert>
+void write_ao(const Scene& scene, const Instance& instance, void* out, std::size_t stride_bytes,
+              Convert&& convert) noexcept {
+  const auto put = [](unsigned char* place, Number number) { std::memcpy(place, &number, sizeof number); };
+  if (stride_bytes == sizeof(Number))
+    for_each_ao<Number>(scene, instance, out, std::integral_constant<std::size_t, sizeof(Number)>(), convert,
+                        put);
+  else
+    for_each_ao<Number>(scene, instance, out, stride_bytes, convert, put);
 }
+
+constexpr auto same = [](float ao) { return ao; };
 
 }  // namespace
 
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept {
-  for_each_ao(scene, instance, out, stride_bytes, put_float);
+  write_ao<float>(scene, instance, out, stride_bytes, same);
 }
 
 void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format format, void* out,
                 std::size_t stride_bytes) noexcept {
   switch (format) {
     case NOOK_AO_HALF:
-      return for_each_ao(scene, instance, out, stride_bytes, [](unsigned char* place, float ao) {
-        const std::uint16_t half = to_half(ao);
-        std::memcpy(place, &half, sizeof half);
-      });
+      return write_ao<std::uint16_t>(scene, instance, out, stride_bytes,
+                                     [](float ao) { return to_half(ao); });
     case NOOK_AO_UNORM8:
-      return for_each_ao(scene, instance, out, stride_bytes, [](unsigned char* place, float ao) {
-        *place = static_cast<unsigned char>(ao * 255 + 0.5f);
-      });
+      return write_ao<std::uint8_t>(scene, instance, out, stride_bytes,
+                                    [](float ao) { return static_cast<std::uint8_t>(ao * 255 + 0.5f); });
     default:
-      return for_each_ao(scene, instance, out, stride_bytes, put_float);
+      return write_ao<float>(scene, instance, out, stride_bytes, same);
   }
 }
 
@@ -259,8 +301,8 @@ void read_directional_ao(const Scene& scene, const Instance& instance, float* ou
   };
   const InstanceLight& light = instance.light;
   if (!light.evaluated)
-    return for_each_ao(scene, instance, out, stride_bytes,
-                       [&](unsigned char* place, float ao) { put_three(place, ao, ao, ao); });
+    return for_each_ao<float>(scene, instance, out, stride_bytes, same,
+                              [&](unsigned char* place, float ao) { put_three(place, ao, ao, ao); });
   const LoadedModel& loaded = *instance.model;
   const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
   const Self self = self_of(scene, instance);

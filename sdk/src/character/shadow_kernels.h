@@ -91,10 +91,36 @@ struct RestKeyPointView {
   std::uint32_t padded_count = 0;
 };
 
+// A sphere, or several as one, as the plain sum of the default kernel takes them (shadow_nook_of_mass). World
+// space, metres.
+struct MassSphere {
+  float x, y, z;
+  float softness;  // square metres, of the horizon
+  float core;      // square metres, added to the squared distance
+  float mass;      // square metres: 3/4 of the squared radius, or of their sum
+};
+// A node of a tree of spheres.
+struct MassNode {
+  MassSphere merged;
+  float reach;  // square metres: key points whose squared distance plus core is smaller need the spheres
+};
+struct SphereTreeNode {
+  std::uint32_t begin = 0, end = 0;  // its spheres
+  std::uint32_t next = 0;            // the node after its last descendant; a leaf has none
+};
+// SphereTree and PosedSphereTree own it.
+struct SphereTreeView {
+  const SphereTreeNode* shape = nullptr;
+  std::uint32_t count = 0;
+  const MassSphere* spheres = nullptr;
+  const MassNode* nodes = nullptr;
+};
+
 // 16 vertices of the linear layer as a small dense matrix with one column for each key point that any of them
 // uses. A column takes one broadcast and one multiply-add for all 16 vertices, while looking up key points
 // for each vertex takes a load for each. Column c of the block is key_point[first_column + c]; the alphas of
 // its 16 vertices are at alpha[16 (first_column + c)], their blend weights at blend[16 (first_column + c)].
+// Weights are 16-bit numbers of a step: a frame reads all of them, and half as many bytes take half the time.
 struct LinearBlock {
   std::uint32_t first_column = 0;
   std::uint32_t columns = 0;
@@ -106,8 +132,9 @@ struct LinearView {
   const LinearBlock* blocks = nullptr;
   std::uint32_t block_count = 0;
   const std::uint16_t* key_point = nullptr;
-  const float* alpha = nullptr;
-  const float* blend = nullptr;      // blend weights, in the layout of alpha
+  const std::int16_t* alpha = nullptr;
+  const std::int16_t* blend = nullptr;  // blend weights, in the layout of alpha
+  float alpha_step = 1, blend_step = 1;
   const float* open_bias = nullptr;  // 1 - bias, for each slot
 };
 
@@ -120,6 +147,10 @@ struct ShadowKernels {
   // the formulas in double precision, relative to shadows above 1.
   void (*self_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                         float* sum);
+  // The same for the default kernel and gamma 1, with nodes of a tree in place of far spheres: each group of
+  // key points takes the largest nodes out of whose reach all of it is. Returns the number of pairs of a key
+  // point and a sphere or node that it evaluates.
+  std::uint64_t (*tree_sum)(const SphereTreeView& tree, const KeyPointSoa& points, float* sum);
   // shadow[k] = sum[k]^(1 / gamma); sum and shadow may be the same array.
   void (*norm_root)(const float* sum, std::uint32_t padded_count, float gamma, float* shadow);
 

@@ -115,6 +115,73 @@ void self_norm_sum(const SphereSoa& spheres, const KeyPointSoa& points, const Ke
   }
 }
 
+template <class F>
+struct SeenMass {
+  F h, d2_and_core;
+};
+
+template <class F>
+SeenMass<F> see_mass(const MassSphere& sphere, const Points<F>& p) {
+  const F dx = F(broadcast(sphere.x)) - p.x;
+  const F dy = F(broadcast(sphere.y)) - p.y;
+  const F dz = F(broadcast(sphere.z)) - p.z;
+  return {fma(dx, p.nx, fma(dy, p.ny, dz * p.nz)),
+          fma(dx, dx, fma(dy, dy, fma(dz, dz, F(broadcast(sphere.core)))))};
+}
+
+template <class F>
+F shadow_of_mass(const MassSphere& sphere, const SeenMass<F>& seen) {
+  return shadow_nook_of_mass(seen.h, seen.d2_and_core, F(broadcast(sphere.softness)),
+                             F(broadcast(sphere.mass)));
+}
+
+// One group of key points.
+constexpr std::uint32_t group_parts = key_point_group / width;
+
+std::uint64_t tree_sum_at(const SphereTreeView& tree, const KeyPointSoa& points, std::uint32_t k,
+                          float* sum) {
+  Points<Float> p[group_parts];
+  Float total[group_parts];
+  for (std::uint32_t i = 0; i < group_parts; ++i) {
+    p[i] = load_points<Float>(points, k + i * width);
+    total[i] = load(sum + k + i * width);
+  }
+  std::uint64_t evaluated = 0;
+  for (std::uint32_t n = 0; n < tree.count;) {
+    const SphereTreeNode& shape = tree.shape[n];
+    const MassNode& node = tree.nodes[n];
+    SeenMass<Float> seen[group_parts];
+    std::uint32_t near = 0;
+    for (std::uint32_t i = 0; i < group_parts; ++i) {
+      seen[i] = see_mass(node.merged, p[i]);
+      near |= bits(less(seen[i].d2_and_core, broadcast(node.reach)));
+    }
+    if (!near) {
+      for (std::uint32_t i = 0; i < group_parts; ++i)
+        total[i] = total[i] + shadow_of_mass(node.merged, seen[i]);
+      ++evaluated;
+    } else if (shape.next == n + 1) {
+      for (std::uint32_t s = shape.begin; s < shape.end; ++s)
+        for (std::uint32_t i = 0; i < group_parts; ++i)
+          total[i] = total[i] + shadow_of_mass(tree.spheres[s], see_mass(tree.spheres[s], p[i]));
+      evaluated += shape.end - shape.begin;
+    } else {
+      ++n;
+      continue;
+    }
+    n = shape.next;
+  }
+  for (std::uint32_t i = 0; i < group_parts; ++i) store(sum + k + i * width, total[i]);
+  return evaluated;
+}
+
+std::uint64_t tree_sum(const SphereTreeView& tree, const KeyPointSoa& points, float* sum) {
+  std::uint64_t evaluated = 0;
+  for (std::uint32_t k = 0; k < points.padded_count; k += key_point_group)
+    evaluated += key_point_group * tree_sum_at(tree, points, k, sum);
+  return evaluated;
+}
+
 void norm_root(const float* sum, std::uint32_t padded_count, float gamma, float* shadow) {
   const NormPower p = norm_power(gamma);
   const Float exponent = broadcast(1 / gamma);
@@ -170,28 +237,46 @@ Float clamped_open(Float a) {
   return max(min(a, broadcast(1.0f)), broadcast(0.0f));
 }
 
+// The weighted sums of the vertices of a block over some of its columns.
+template <bool Added>
+struct BlockSums {
+  static constexpr std::uint32_t parts = linear_block_vertices / width;
+
+  Float shaded[parts], added[parts];
+
+  BlockSums() {
+    for (std::uint32_t p = 0; p < parts; ++p) shaded[p] = added[p] = broadcast(0.0f);
+  }
+  void add(const LinearView& layer, std::uint32_t column, const float* shadow, const float* occlusion) {
+    const std::uint16_t k = layer.key_point[column];
+    const Float gamma = broadcast(shadow[k]), dark = broadcast(Added ? occlusion[k] : 0.0f);
+    for (std::uint32_t p = 0; p < parts; ++p) {
+      const std::size_t at = std::size_t{column} * linear_block_vertices + p * width;
+      shaded[p] = fma(load_short(layer.alpha + at), gamma, shaded[p]);
+      if constexpr (Added) added[p] = fma(load_short(layer.blend + at), dark, added[p]);
+    }
+  }
+};
+
+// Even and odd columns have sums of their own, because each addition to a sum waits for the one before.
 template <bool Added>
 void linear_blocks(const LinearView& layer, const float* shadow, const float* occlusion, float* ao) {
-  constexpr std::uint32_t parts = linear_block_vertices / width;
+  const Float alpha_step = broadcast(layer.alpha_step), blend_step = broadcast(layer.blend_step);
   for (std::uint32_t b = 0; b < layer.block_count; ++b) {
     const LinearBlock block = layer.blocks[b];
-    Float shaded[parts], added[parts];
-    for (std::uint32_t p = 0; p < parts; ++p) shaded[p] = added[p] = broadcast(0.0f);
+    BlockSums<Added> even, odd;
     const std::uint32_t end = block.first_column + block.columns;
-    for (std::uint32_t c = block.first_column; c < end; ++c) {
-      const Float gamma = broadcast(shadow[layer.key_point[c]]);
-      const Float dark = broadcast(Added ? occlusion[layer.key_point[c]] : 0.0f);
-      for (std::uint32_t p = 0; p < parts; ++p) {
-        const Float alpha = load(layer.alpha + c * linear_block_vertices + p * width);
-        shaded[p] = fma(alpha, gamma, shaded[p]);
-        if constexpr (Added)
-          added[p] = fma(load(layer.blend + c * linear_block_vertices + p * width), dark, added[p]);
-      }
+    std::uint32_t c = block.first_column;
+    for (; c + 1 < end; c += 2) {
+      even.add(layer, c, shadow, occlusion);
+      odd.add(layer, c + 1, shadow, occlusion);
     }
-    for (std::uint32_t p = 0; p < parts; ++p) {
+    if (c < end) even.add(layer, c, shadow, occlusion);
+    for (std::uint32_t p = 0; p < BlockSums<Added>::parts; ++p) {
       const std::uint32_t slot = b * linear_block_vertices + p * width;
-      Float open = clamped_open(load(layer.open_bias + slot) - shaded[p]);
-      if constexpr (Added) open = open * clamped_open(broadcast(1.0f) - added[p]);
+      Float open = clamped_open(load(layer.open_bias + slot) - (even.shaded[p] + odd.shaded[p]) * alpha_step);
+      if constexpr (Added)
+        open = open * clamped_open(broadcast(1.0f) - (even.added[p] + odd.added[p]) * blend_step);
       store(ao + slot, open);
     }
   }

@@ -162,11 +162,11 @@ DirectionalSum directional_sum(const LinearView& layer, const LinearBlock& block
   const std::uint32_t end = block.first_column + block.columns;
   for (std::uint32_t c = block.first_column; c < end; ++c) {
     const std::uint32_t k = layer.key_point[c], at = c * linear_block_vertices + lane;
-    const Float alpha = load(layer.alpha + at);
+    const Float alpha = load_short(layer.alpha + at) * broadcast(layer.alpha_step);
     sum.shadow = fma(alpha, broadcast(shadow[k]), sum.shadow);
     for (int i = 0; i < 3; ++i) sum.coloured[i] = fma(alpha, broadcast(coloured[i][k]), sum.coloured[i]);
     if constexpr (Added) {
-      const Float blend = load(layer.blend + at);
+      const Float blend = load_short(layer.blend + at) * broadcast(layer.blend_step);
       for (int i = 0; i < 3; ++i) sum.occlusion[i] = fma(blend, broadcast(occlusion[i][k]), sum.occlusion[i]);
     }
   }

@@ -30,13 +30,22 @@ FourMatrices transposed(const Four (&rows)[4][3]) {
   return out;
 }
 
+// Returns the largest number of bones of four key points; weights of 0 come last.
+int used_bones(const float* weight) {
+  float largest[4];
+  store(largest, max(max(load_four(weight), load_four(weight + 4)),
+                     max(load_four(weight + 8), load_four(weight + 12))));
+  return largest[3] > 0 ? 4 : largest[2] > 0 ? 3 : largest[1] > 0 ? 2 : 1;
+}
+
 FourMatrices blend_four(const Mat3x4* bones, const std::uint16_t* bone, const float* weight) {
   Four rows[4][3];
+  const int used = used_bones(weight);
   for (int k = 0; k < 4; ++k) {
     const Four first = Four(weight[4 * k]);
     const float* m = bones[bone[4 * k]].m;
     for (int r = 0; r < 3; ++r) rows[k][r] = first * load_four(m + 4 * r);
-    for (int b = 1; b < 4; ++b) {
+    for (int b = 1; b < used; ++b) {
       const Four w = Four(weight[4 * k + b]);
       const float* n = bones[bone[4 * k + b]].m;
       for (int r = 0; r < 3; ++r) rows[k][r] = fma(w, load_four(n + 4 * r), rows[k][r]);

@@ -6,6 +6,7 @@ namespace {
 constexpr ShadowKernels table{isa,
                               isa_name(isa),
                               self_norm_sum,
+                              tree_sum,
                               norm_root,
                               composed_depth,
                               exact_open,

@@ -16,6 +16,7 @@ struct Group {
 
 // So that spheres that darken nothing are split as well.
 constexpr float least_mass = 1e-12f;
+constexpr float least_squared_distance = 1e-6f;  // square metres, so that quotients stay finite
 
 float mass_of(const ProxySphere& sphere) {
   return std::max(sphere.caster_weight * sphere.radius * sphere.radius, least_mass);
@@ -96,16 +97,24 @@ SphereGroups::SphereGroups(const CharacterModel& model, Memory* memory) {
   }
 }
 
-ReceiverBox box_of(const float* x, const float* y, const float* z, std::uint32_t count) {
-  ReceiverBox box;
+Receiver receiver_of(const float* x, const float* y, const float* z, std::uint32_t count) {
+  Receiver out;
   for (std::uint32_t k = 0; k < count; ++k) {
-    box.min = {std::min(box.min.x, x[k]), std::min(box.min.y, y[k]), std::min(box.min.z, z[k])};
-    box.max = {std::max(box.max.x, x[k]), std::max(box.max.y, y[k]), std::max(box.max.z, z[k])};
+    out.min = {std::min(out.min.x, x[k]), std::min(out.min.y, y[k]), std::min(out.min.z, z[k])};
+    out.max = {std::max(out.max.x, x[k]), std::max(out.max.y, y[k]), std::max(out.max.z, z[k])};
   }
-  return box;
+  for (std::uint32_t s = 0; count > 0 && s < Receiver::samples; ++s) {
+    const std::uint32_t k = (2 * s + 1) * count / (2 * Receiver::samples);
+    out.x[s] = x[k];
+    out.y[s] = y[k];
+    out.z[s] = z[k];
+  }
+  return out;
 }
 
-float group_error(const GroupLanes& groups, const ReceiverBox& receiver) {
+namespace {
+
+float nearest_group_error(const GroupLanes& groups, const Receiver& receiver) {
   const auto outside = [](float place, float min, float max) {
     return std::max({min - place, place - max, 0.0f});
   };
@@ -119,6 +128,22 @@ float group_error(const GroupLanes& groups, const ReceiverBox& receiver) {
     sum += groups.moment[g] / (squared * squared);
   }
   return 1.2f * sum;
+}
+
+}  // namespace
+
+float group_error(const GroupLanes& groups, const Receiver& receiver) {
+  std::array<float, Receiver::samples> at{};
+  for (std::uint32_t g = 0; g < groups.count; ++g)
+    for (std::uint32_t s = 0; s < Receiver::samples; ++s) {
+      const float x = groups.x[g] - receiver.x[s], y = groups.y[g] - receiver.y[s],
+                  z = groups.z[g] - receiver.z[s];
+      const float squared = x * x + y * y + z * z + least_squared_distance;
+      at[s] += groups.moment[g] / (squared * squared);
+    }
+  float squares = 0;
+  for (const float sum : at) squares += sum * sum;
+  return std::max(1.2f * std::sqrt(squares / Receiver::samples), nearest_group_error(groups, receiver) / 16);
 }
 
 void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const float* part_moments,

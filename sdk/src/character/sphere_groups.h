@@ -51,11 +51,16 @@ struct GroupLanes {
   std::uint32_t count = 0;
 };
 
-// The box of the places where a receiver feels its casters, metres. Without any place it is empty.
-struct ReceiverBox {
+// The places where a receiver feels its casters, metres: their box, which is empty without any place, and
+// some of them.
+struct Receiver {
+  static constexpr std::uint32_t samples = 16;
+
   Vec3 min{INFINITY, INFINITY, INFINITY}, max{-INFINITY, -INFINITY, -INFINITY};
+  float x[samples] = {}, y[samples] = {}, z[samples] = {};
 };
-ReceiverBox box_of(const float* x, const float* y, const float* z, std::uint32_t count);
+// Samples are picked evenly from places that are in the order of key_point_order.h.
+Receiver receiver_of(const float* x, const float* y, const float* z, std::uint32_t count);
 
 // Merges `parts`, the spheres of a pose or the groups of the tier before, into the groups of a tier. A group
 // has the mass and the centre of its parts, and a radius that has their spread: that of a disc is a quarter
@@ -67,8 +72,8 @@ void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const 
 // Returns an estimate of the change of AO by groups, root mean square over a receiver; infinity where the
 // middle of a group of several spheres lies in its box. The largest second derivative of cos / d^2 is
 // 6 / d^4; half of the receiver faces away, and the mean square of cos over the other half is 1/3, so that
-// half of 6 * moment / d^4 becomes 1.2 * moment / d^4. The distance of each group is that from the nearest
-// point of the box, which is too near for most of the receiver.
-float group_error(const GroupLanes& groups, const ReceiverBox& receiver);
+// half of 6 * moment / d^4 becomes 1.2 * moment / d^4. The mean is over the samples, and at least 1/16 of the
+// estimate for the nearest point of the box, because the samples can miss an arm that is near.
+float group_error(const GroupLanes& groups, const Receiver& receiver);
 
 }  // namespace nook

@@ -26,6 +26,9 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return _mm256_loadu_ps(p);
 }
+inline Float load_short(const std::int16_t* p) {
+  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))));
+}
 inline void store(float* p, Float a) {
   _mm256_storeu_ps(p, a.v);
 }

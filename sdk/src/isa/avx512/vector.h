@@ -26,6 +26,9 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return _mm512_loadu_ps(p);
 }
+inline Float load_short(const std::int16_t* p) {
+  return _mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))));
+}
 inline void store(float* p, Float a) {
   _mm512_storeu_ps(p, a.v);
 }

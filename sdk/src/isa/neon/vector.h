@@ -26,6 +26,9 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return vld1q_f32(p);
 }
+inline Float load_short(const std::int16_t* p) {
+  return vcvtq_f32_s32(vmovl_s16(vld1_s16(p)));
+}
 inline void store(float* p, Float a) {
   vst1q_f32(p, a.v);
 }

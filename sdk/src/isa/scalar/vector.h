@@ -20,6 +20,9 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return *p;
 }
+inline Float load_short(const std::int16_t* p) {
+  return *p;
+}
 inline void store(float* p, Float a) {
   *p = a;
 }

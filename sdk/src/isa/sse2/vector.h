@@ -26,6 +26,10 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return _mm_loadu_ps(p);
 }
+inline Float load_short(const std::int16_t* p) {
+  const __m128i four = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p));
+  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(four, four), 16));
+}
 inline void store(float* p, Float a) {
   _mm_storeu_ps(p, a.v);
 }

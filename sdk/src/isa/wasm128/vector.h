@@ -26,6 +26,9 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return wasm_v128_load(p);
 }
+inline Float load_short(const std::int16_t* p) {
+  return wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(p));
+}
 inline void store(float* p, Float a) {
   wasm_v128_store(p, a.v);
 }
