@@ -153,6 +153,21 @@ def numbers_rows(bench):
                 yield material, bits, report["rows"][0]
 
 
+def jumps_table(bench):
+    """The largest jump and the 99th percentile of each method, with its view map and without it."""
+    def pair(row, rest):
+        return [f"{row[key + rest]:.3f}" for key in ("jump_largest", "jump_99")] if "jump_largest" + rest in row else ["-", "-"]
+    rows = []
+    for material in ("49 x 49 fiber", "49 x 49 roughhole"):
+        report = bench.run(f"{material} jumps", "evaluate", "material", bench.path(f"{material}.raw"),
+                           bench.path(f"{material} k-cta 8 bits.nook"), "--methods", "n-svd,cta", "--jumps", "--images",
+                           bench.path("images"))
+        for r in report["rows"]:
+            mapped, plain = (pair(r, ""), pair(r, "_without_map")) if "jump_99_without_map" in r else (["-", "-"], pair(r, ""))
+            rows.append([material, r["method"].replace("file: ", ""), *mapped, *plain])
+    return table(["material", "method", "view map: largest", "99 %", "three nearest views: largest", "99 %"], rows)
+
+
 def summary_table(reports):
     """Signal to error of the methods, each with its file."""
     def cell(rows, method, mixture):
@@ -198,7 +213,7 @@ def main():
     show(ROOT / "docs/materials.md", pathlib.Path(__file__).name,
          {"methods": methods_table({**methods, "weave": weave}), "unseen views": unseen_table(methods, 100, 37),
           "view maps": maps_table(maps), "view ranks": sweep_table(sweep), "thresholds": thresholds_table(thresholds),
-          "first clusters": seeding_table(seeding), "numbers": numbers}, options.write)
+          "first clusters": seeding_table(seeding), "numbers": numbers, "jumps": jumps_table(bench)}, options.write)
     show(ROOT / "docs/evidence.md", pathlib.Path(__file__).name, {"materials": summary_table(methods)}, options.write)
 
 

@@ -131,8 +131,8 @@ tensor::ClusteredFit fit(const FitTask& task) {
 
 ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task) {
   ClusteredTensor t = as_clustered_tensor(fitted);
-  const std::uint32_t side = task.settings.map_side;
-  if (task.settings.method != Method::k_cta || side == 0) return t;
+  const std::uint32_t side = task.settings.made_map_side();
+  if (side == 0) return t;
   if (task.progress && !task.progress("view map", 0, 1)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
   const Matrix projections = tensor::atom_projections(fitted, task.values);
   t.map.side = side;

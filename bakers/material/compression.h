@@ -38,11 +38,16 @@ struct CompressionSettings {
   nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;
   std::optional<nook::material::VisibilityMapping> mapping;  // none: default_mapping() below
   std::uint32_t map_side = 64;  // cells of the resampled view maps of K-CTA; 0: none
+  bool is_cta_mapped = false;   // CTA has view maps as well, whose cells show one cluster each
   std::uint32_t bits = 16;      // form of the numbers, see Material in sdk's material/material.h
   std::uint64_t seed = 1;
 
   std::uint32_t cluster_count() const {
     return clusters ? clusters : std::max(rank_view / cluster_rank_view, 1u);
+  }
+  // Cells along a side of the view maps that the method makes; 0: none.
+  std::uint32_t made_map_side() const {
+    return method == Method::k_cta || (method == Method::cta && is_cta_mapped) ? map_side : 0;
   }
 };
 

@@ -33,6 +33,7 @@ struct Level {
   ExemplarShape shape;
   std::int32_t spacing = 1;
   Matrix appearance;
+  Matrix looks;  // of single texels
   std::vector<Texel> similar;
 };
 
@@ -117,16 +118,40 @@ float difference(const Surroundings& wanted, const Level& level, Texel candidate
   return sum;
 }
 
+// Of seams beside differences of surroundings, which are the leading components of windows and do not hold
+// every texel. More of it would join texels that lie in the wrong surroundings.
+constexpr float seam_weight = 4;
+
+// The visible seams between a candidate and its four neighbours in the plane: where one is not the
+// candidate's neighbour in the exemplar too, what each side shows against what the other side expects there.
+float seams(const Plane& plane, const Level& level, Texel p, Texel candidate) {
+  constexpr std::array<Texel, 4> sides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  const ExemplarShape& s = level.shape;
+  const auto apart = [&](Texel a, Texel b) {
+    return (level.looks.row(s.row(a)) - level.looks.row(s.row(b))).squaredNorm();
+  };
+  float sum = 0;
+  for (const Texel side : sides) {
+    const Texel step = side * level.spacing, neighbour = plane.at(p + side),
+                expected = s.inside(candidate + step);
+    if (neighbour == expected) continue;
+    sum += apart(neighbour, expected) + apart(candidate, s.inside(neighbour - step));
+  }
+  return sum;
+}
+
 // The best of the candidates that the 3 x 3 texels round p propose: each continues its own piece of the
 // exemplar to p, or the piece that is the most like it.
 Texel corrected(const Plane& plane, const Level& level, Texel p) {
   const Surroundings wanted = surroundings(plane, level, p);
   Texel best = plane.at(p);
-  float least = difference(wanted, level, best);
+  float least = difference(wanted, level, best) + seam_weight * seams(plane, level, p, best);
   const auto propose = [&](Texel candidate) {
     if (!level.shape.is_shown(candidate)) return;
     candidate = level.shape.inside(candidate);
-    const float cost = difference(wanted, level, candidate);
+    float cost = difference(wanted, level, candidate);
+    if (cost >= least) return;
+    cost += seam_weight * seams(plane, level, p, candidate);
     if (cost < least) {
       least = cost;
       best = candidate;
@@ -232,7 +257,8 @@ std::vector<Texel> synthesise(const Exemplar& exemplar, const SynthesisSettings&
   Plane plane;
   for (std::uint32_t l = levels + 1; l-- > 0;) {
     const std::int32_t spacing = std::int32_t(1) << l;
-    Level level{shape_of_level(exemplar.shape, spacing), spacing, {}, {}};
+    Level level{shape_of_level(exemplar.shape, spacing), spacing, {}, {}, {}};
+    level.looks = stack[l];
     level.appearance = appearance_vectors(stack[l], level.shape, level.spacing);
     level.similar = similar_texels(level.appearance, level.shape, level.spacing);
     count.add(std::size_t(exemplar.shape.texels()));

@@ -18,6 +18,7 @@ namespace nook::tool {
 namespace {
 
 using bake::material::CompressionSettings;
+using bake::material::MethodRow;
 using bake::material::RawMaterial;
 using nook::material::Material;
 using Json = nlohmann::ordered_json;
@@ -45,6 +46,35 @@ void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, cons
         .commit(measure::chart_svg(charts[i]));
 }
 
+// The pictures that --images asks for: of each material, and of all side by side.
+class Pictures {
+ public:
+  Pictures(const Options& o, const RawMaterial& raw) : o_(o), raw_(raw) {}
+
+  void add(const std::string& name, const Material& material, const MethodRow& row) {
+    if (o_.images.empty()) return;
+    write(name, measure::difference_sheet(raw_, material));
+    if (row.jumps) jumps_.push_back(measure::jump_strip(material, *row.jumps));
+    materials_.push_back(material);
+  }
+  void write_sheets() const {
+    if (o_.images.empty()) return;
+    write("raw", measure::raw_sheet(raw_));
+    if (materials_.size() > 1) write("methods", measure::methods_sheet(raw_, materials_));
+    if (!jumps_.empty()) write("jumps", measure::below_each_other(jumps_));
+  }
+
+ private:
+  void write(const std::string& name, const bake::Picture& picture) const {
+    bake::write_png(o_.images / (as_file_name(raw_.name) + "_" + name + ".png"), picture);
+  }
+
+  const Options& o_;
+  const RawMaterial& raw_;
+  std::vector<Material> materials_;  // the file first
+  std::vector<bake::Picture> jumps_;
+};
+
 RawMaterial read_raw(const std::filesystem::path& path) {
   return naming_file(path, [&] { return bake::material::read_raw_material(read_file(path)); });
 }
@@ -65,13 +95,11 @@ Json evaluate(const Options& o) {
     unseen_material = read_raw(o.unseen);
     unseen = &unseen_material;
   }
-  Json rows = Json::array(
-      {naming_file(o.material, [&] { return measure::material_file_row(raw, file, unseen, o.jumps); })});
-  if (!o.images.empty()) {
-    bake::write_png(o.images / (as_file_name(raw.name) + "_raw.png"), measure::raw_sheet(raw));
-    bake::write_png(o.images / (as_file_name(raw.name) + "_file.png"),
-                    measure::difference_sheet(raw, material));
-  }
+  const MethodRow own =
+      naming_file(o.material, [&] { return measure::material_file_row(raw, file, unseen, o.jumps); });
+  Json rows = Json::array({bake::material::report_row(raw.name, own)});
+  Pictures pictures(o, raw);
+  pictures.add("file", material, own);
   measure::BaselineRequest request;
   request.names = o.methods;
   if (request.names.empty() && o.peers) request.names = measure::material_baseline_names();
@@ -79,16 +107,12 @@ Json evaluate(const Options& o) {
   request.jumps = o.jumps;
   request.votf_refits = o.votf_refits;
   request.progress = progress;
-  if (!o.images.empty())
-    request.keep = [&](const std::string& name, const Material& compressed) {
-      bake::write_png(o.images / (as_file_name(raw.name) + "_" + name + ".png"),
-                      measure::difference_sheet(raw, compressed));
-      if (o.jumps)
-        bake::write_png(o.images / (as_file_name(raw.name) + "_" + name + "_jump.png"),
-                        measure::jump_strip(compressed));
-    };
+  request.keep = [&](const std::string& name, const Material& compressed, const MethodRow& row) {
+    pictures.add(name, compressed, row);
+  };
   for (const Json& row : measure::material_baseline_rows(raw, file, o.common.seed, request))
     rows.push_back(row);
+  pictures.write_sheets();
   CompressionSettings settings = measure::settings_of(material, o.common.seed);
   settings.votf_refits = o.votf_refits;
   Json report;
@@ -126,8 +150,10 @@ void add_evaluate_material(CLI::App& evaluate_command) {
                    "further fits of the VOTF of the methods beside the file, as in bake material")
       ->check(CLI::Range(0, 16))
       ->capture_default_str();
-  command->add_flag("--jumps", o.jumps,
-                    "measure jumps as the view moves by 0.1 degrees; with --images a picture of the largest");
+  command->add_flag(
+      "--jumps", o.jumps,
+      "measure jumps as the view moves by 0.1 degrees, with and without view maps, which CTA has "
+      "then as well; with --images a picture of the largest of each method");
   command->add_flag("--compare-seeding", o.seeding,
                     "CTA and K-CTA from clusters of directions and of values");
   command->add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")

@@ -77,7 +77,7 @@ MethodRow measure_baseline(const RawMaterial& raw, const CompressionSettings& s,
   MethodRow row = measure_method(raw, s, request.progress(name + ", "), &compressed);
   add_unseen(request.unseen, compressed, row);
   if (request.jumps) add_jumps(compressed, row);
-  if (request.keep) request.keep(name, compressed);
+  if (request.keep) request.keep(name, compressed, row);
   return row;
 }
 
@@ -110,8 +110,8 @@ CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
   return s;
 }
 
-Json material_file_row(const RawMaterial& raw, const MaterialFile& file, const RawMaterial* unseen,
-                       bool jumps) {
+MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, const RawMaterial* unseen,
+                            bool jumps) {
   MethodRow own = measure_material(raw, file.material);
   own.method = "file: " + own.method;
   own.file_bytes = file.bytes.size();
@@ -121,13 +121,14 @@ Json material_file_row(const RawMaterial& raw, const MaterialFile& file, const R
   own.gpu_bytes_texel = table_bytes_texel(tables);
   add_unseen(unseen, file.material, own);
   if (jumps) add_jumps(file.material, own);
-  return report_row(raw.name, own);
+  return own;
 }
 
 Json material_baseline_rows(const RawMaterial& raw, const MaterialFile& file, std::uint64_t seed,
                             const BaselineRequest& request) {
   CompressionSettings settings = settings_of(file.material, seed);
   settings.votf_refits = request.votf_refits;
+  settings.is_cta_mapped = request.jumps;
   Json rows = Json::array();
   for (const Baseline& baseline : baselines) {
     CompressionSettings s = settings;

@@ -25,11 +25,14 @@ bake::material::CompressionSettings settings_of(const nook::material::Material& 
 struct BaselineRequest {
   std::vector<std::string> names;                       // of material_baseline_names
   const bake::material::RawMaterial* unseen = nullptr;  // views that no fit has seen; null: none
-  bool jumps = false;                                   // measure jumps as the view moves
-  std::uint32_t votf_refits = 2;                        // of the new fits
+  // Measure jumps as the view moves. CTA then has view maps of the file's size, as K-CTA has.
+  bool jumps = false;
+  std::uint32_t votf_refits = 2;  // of the new fits
   MethodProgress progress;
-  // Receives each material after it was measured, for pictures. May be empty.
-  std::function<void(const std::string& name, const nook::material::Material& material)> keep;
+  // Receives each material after it was measured, and its row, for pictures. May be empty.
+  std::function<void(const std::string& name, const nook::material::Material& material,
+                     const bake::material::MethodRow& row)>
+      keep;
 };
 
 // A material and the bytes of the file that it was read from.
@@ -39,8 +42,8 @@ struct MaterialFile {
 };
 
 // The file's own row: its errors, where unseen is given its errors in those views, and its jumps.
-nlohmann::ordered_json material_file_row(const bake::material::RawMaterial& raw, const MaterialFile& file,
-                                         const bake::material::RawMaterial* unseen, bool jumps);
+bake::material::MethodRow material_file_row(const bake::material::RawMaterial& raw, const MaterialFile& file,
+                                            const bake::material::RawMaterial* unseen, bool jumps);
 
 // Compresses the raw material anew by each named method, at the ranks of the file; n-svd-filled and PCA take
 // as many bytes as the whole file.

@@ -56,7 +56,7 @@ MethodRow measure_material(const RawMaterial& raw, const Material& material) {
 
 MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, const StageProgress& progress,
                          Material* material) {
-  const std::uint32_t map_side = settings.method == Method::k_cta ? settings.map_side : 0;
+  const std::uint32_t map_side = settings.made_map_side();
   const nlohmann::ordered_json recipe = describe(settings);
   // Rows of half floats take the same room whatever they hold.
   if (!material && settings.bits == 16) settings.map_side = 0;

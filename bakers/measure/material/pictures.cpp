@@ -1,12 +1,12 @@
 #include "bakers/measure/material/pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include "bakers/measure/material/measures.h"
-#include "bakers/measure/material/view_jumps.h"
 #include "sdk/src/material/evaluate.h"
 
 namespace nook::measure {
@@ -41,15 +41,6 @@ Picture cell(std::uint32_t width, std::uint32_t height, std::uint32_t tiles,
   return p;
 }
 
-Picture below_each_other(const std::vector<Picture>& pictures) {
-  Picture all{pictures.front().width, 0, {}};
-  for (const Picture& p : pictures) {
-    all.height += p.height;
-    all.rgb.insert(all.rgb.end(), p.rgb.begin(), p.rgb.end());
-  }
-  return all;
-}
-
 // The direction of a set whose tilt is nearest to the given one.
 std::size_t of_tilt(const std::vector<Vec3>& set, float tilt_deg) {
   const float z = std::cos(tilt_deg * std::numbers::pi_v<float> / 180);
@@ -71,46 +62,81 @@ Colour shown(Colour radiance, bool visible) {
   return radiance;
 }
 
+// The absolute difference of two radiances, `times` as large, of a light of irradiance pi.
+Colour difference(Colour a, Colour b, float times) {
+  Colour c;
+  for (std::size_t i = 0; i < 3; ++i) c[i] = times * std::numbers::pi_v<float> * std::abs(a[i] - b[i]);
+  return c;
+}
+
 bool visible(const RawMaterial& raw, std::size_t view, std::size_t texel) {
   return raw.mask.empty() || raw.mask[view * raw.texels() + texel] > 0.5f;
 }
 
-// The three rows of one view's comparison.
-Picture compare_view(const RawMaterial& raw, const nook::material::Material& material, std::size_t light,
-                     std::size_t view) {
-  const std::vector<float> basis(material.light_basis.begin(), material.light_basis.end());
-  const auto decoded = bake::material::decode_btf_view(basis, material.btf, view);
-  const auto at = [&](std::size_t x, std::size_t y) { return x * raw.height + y; };
-  const auto decoded_at = [&](std::size_t texel) {
-    Colour c;
-    for (std::size_t i = 0; i < 3; ++i) c[i] = decoded(Eigen::Index(3 * light + i), Eigen::Index(texel));
-    return c;
-  };
-  const auto draw = [&](const auto& colour) { return cell(raw.width, raw.height, 2, colour); };
-  std::vector<Picture> rows{
-      draw([&](std::size_t x, std::size_t y) {
-        return shown(raw_radiance(raw, light, view, at(x, y)), true);
-      }),
-      draw([&](std::size_t x, std::size_t y) { return shown(decoded_at(at(x, y)), true); }),
-      draw([&](std::size_t x, std::size_t y) {
-        const Colour a = raw_radiance(raw, light, view, at(x, y)), b = decoded_at(at(x, y));
-        Colour c;
-        for (std::size_t i = 0; i < 3; ++i) c[i] = 3 * std::numbers::pi_v<float> * std::abs(a[i] - b[i]);
-        return c;
-      })};
-  if (material.visibility != VisibilityForm::none && !raw.mask.empty()) {
-    const std::vector<float> value = bake::material::decode_votf_view(material.votf, view);
+// Draws one view of a raw material, and of a compressed one beside it.
+class ViewDrawing {
+ public:
+  ViewDrawing(const RawMaterial& raw, std::size_t light, std::size_t view)
+      : raw_(raw), light_(light), view_(view) {}
+
+  Picture traced() const {
+    return draw([&](std::size_t texel) { return shown(traced_at(texel), true); });
+  }
+  // What is decoded, and the absolute difference three times.
+  std::array<Picture, 2> decoded(const nook::material::Material& material) const {
+    const std::vector<float> basis(material.light_basis.begin(), material.light_basis.end());
+    const auto values = bake::material::decode_btf_view(basis, material.btf, view_);
+    const auto at = [&](std::size_t texel) {
+      Colour c;
+      for (std::size_t i = 0; i < 3; ++i) c[i] = values(Eigen::Index(3 * light_ + i), Eigen::Index(texel));
+      return c;
+    };
+    return {draw([&](std::size_t texel) { return shown(at(texel), true); }),
+            draw([&](std::size_t texel) { return difference(traced_at(texel), at(texel), 3); })};
+  }
+  // The decoded mask; red where the traced one is another.
+  Picture mask(const nook::material::Material& material) const {
+    const std::vector<float> value = bake::material::decode_votf_view(material.votf, view_);
     const float threshold = material.visibility == VisibilityForm::binary ? 0.5f : 0;
-    rows.push_back(draw([&](std::size_t x, std::size_t y) {
-      const bool truth = visible(raw, view, at(x, y)), got = value[at(x, y)] > threshold;
+    return draw([&](std::size_t texel) {
+      const bool truth = visible(raw_, view_, texel), got = value[texel] > threshold;
       const float grey = got ? 0.85f : 0.15f;
       return truth == got ? Colour{grey, grey, grey} : Colour{0.9f, 0.1f, 0.1f};
-    }));
+    });
   }
+
+ private:
+  Colour traced_at(std::size_t texel) const { return raw_radiance(raw_, light_, view_, texel); }
+  Picture draw(const std::function<Colour(std::size_t texel)>& colour) const {
+    return cell(raw_.width, raw_.height, 2,
+                [&](std::size_t x, std::size_t y) { return colour(x * raw_.height + y); });
+  }
+
+  const RawMaterial& raw_;
+  std::size_t light_, view_;
+};
+
+// The rows of one view's comparison.
+Picture compare_view(const RawMaterial& raw, const nook::material::Material& material, std::size_t light,
+                     std::size_t view) {
+  const ViewDrawing drawing(raw, light, view);
+  const std::array<Picture, 2> decoded = drawing.decoded(material);
+  std::vector<Picture> rows{drawing.traced(), decoded[0], decoded[1]};
+  if (material.visibility != VisibilityForm::none && !raw.mask.empty())
+    rows.push_back(drawing.mask(material));
   return below_each_other(rows);
 }
 
 }  // namespace
+
+Picture below_each_other(std::span<const Picture> pictures) {
+  Picture all{pictures.front().width, 0, {}};
+  for (const Picture& p : pictures) {
+    all.height += p.height;
+    all.rgb.insert(all.rgb.end(), p.rgb.begin(), p.rgb.end());
+  }
+  return all;
+}
 
 Picture raw_sheet(const RawMaterial& raw) {
   std::vector<Picture> columns;
@@ -141,13 +167,24 @@ Picture difference_sheet(const RawMaterial& raw, const nook::material::Material&
   return bake::side_by_side(views);
 }
 
-Picture jump_strip(const nook::material::Material& material) {
-  const bake::material::ViewJumps jumps = bake::material::measure_view_jumps(material, 1);
+Picture methods_sheet(const RawMaterial& raw, std::span<const nook::material::Material> materials) {
+  const ViewDrawing drawing(raw, of_tilt(raw.lights, 45), of_tilt(raw.views, 55));
+  const Picture traced = drawing.traced();
+  Picture blank = traced;
+  std::fill(blank.rgb.begin(), blank.rgb.end(), std::uint8_t{255});
+  std::vector<Picture> columns{below_each_other(std::array{traced, blank})};
+  for (const nook::material::Material& material : materials)
+    columns.push_back(below_each_other(drawing.decoded(material)));
+  return bake::side_by_side(columns);
+}
+
+Picture jump_strip(const nook::material::Material& material, const bake::material::ViewJumps& jumps) {
   const auto tables = nook::material::make_tables(material, {}, default_memory());
+  const Vec3 light = material.lights[of_tilt({material.lights.begin(), material.lights.end()}, 45)];
   const auto radiance = [&](Vec3 view, std::size_t x, std::size_t y) {
-    const nook::material::Radiance r = evaluate_btf(
-        tables, {(float(x) + 0.5f) / float(tables.btf.width), (float(y) + 0.5f) / float(tables.btf.height), 0,
-                 view, material.lights[of_tilt({material.lights.begin(), material.lights.end()}, 45)]});
+    const nook::material::Radiance r =
+        evaluate_btf(tables, {(float(x) + 0.5f) / float(tables.btf.width),
+                              (float(y) + 0.5f) / float(tables.btf.height), 0, view, light});
     return Colour{r.red, r.green, r.blue};
   };
   const auto draw = [&](const auto& colour) { return cell(tables.btf.width, tables.btf.height, 2, colour); };
@@ -155,10 +192,7 @@ Picture jump_strip(const nook::material::Material& material) {
       draw([&](std::size_t x, std::size_t y) { return shown(radiance(jumps.before, x, y), true); }),
       draw([&](std::size_t x, std::size_t y) { return shown(radiance(jumps.after, x, y), true); }),
       draw([&](std::size_t x, std::size_t y) {
-        const Colour a = radiance(jumps.before, x, y), b = radiance(jumps.after, x, y);
-        Colour c;
-        for (std::size_t i = 0; i < 3; ++i) c[i] = 10 * std::numbers::pi_v<float> * std::abs(a[i] - b[i]);
-        return c;
+        return difference(radiance(jumps.before, x, y), radiance(jumps.after, x, y), 10);
       })};
   return bake::side_by_side(frames);
 }

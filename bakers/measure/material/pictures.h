@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "bakers/images/picture.h"
 #include "bakers/material/raw_material.h"
+#include "bakers/measure/material/view_jumps.h"
 #include "sdk/src/material/material.h"
 
 namespace nook::measure {
@@ -18,8 +20,16 @@ bake::Picture raw_sheet(const bake::material::RawMaterial& raw);
 bake::Picture difference_sheet(const bake::material::RawMaterial& raw,
                                const nook::material::Material& material);
 
-// The largest jump of view_jumps.h: the material before and after the step of the view, and the absolute
+// Materials that were compressed from one raw material, in columns beside it: a view tilted by 55 degrees
+// under a light tilted by 45, below it the absolute difference three times (the seed's Figure 3).
+bake::Picture methods_sheet(const bake::material::RawMaterial& raw,
+                            std::span<const nook::material::Material> materials);
+
+// A step of the view of view_jumps.h: the material as it is drawn before and after it, and the absolute
 // difference ten times, for a light tilted by 45 degrees; two tiles each way.
-bake::Picture jump_strip(const nook::material::Material& material);
+bake::Picture jump_strip(const nook::material::Material& material, const bake::material::ViewJumps& jumps);
+
+// Pictures of equal width in a column.
+bake::Picture below_each_other(std::span<const bake::Picture> pictures);
 
 }  // namespace nook::measure

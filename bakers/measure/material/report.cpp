@@ -44,7 +44,7 @@ nlohmann::ordered_json describe(const CompressionSettings& s) {
                    : s.visibility == nook::material::VisibilityForm::binary ? "binary"
                                                                             : "distance"},
           {"votf_refits", s.votf_refits},
-          {"view_map", s.method == Method::k_cta ? s.map_side : 0},
+          {"view_map", s.made_map_side()},
           {"bits", s.bits},
           {"seed", s.seed}};
 }

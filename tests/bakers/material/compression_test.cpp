@@ -131,6 +131,7 @@ TEST_CASE("a view that turns changes what K-CTA decodes about as smoothly as wha
     CompressionSettings s = small_settings(method);
     s.mixture = 3;
     s.map_side = map_side;
+    s.is_cta_mapped = true;
     s.visibility = VisibilityForm::none;
     const auto tables = nook::material::make_tables(compress(raw, s), {}, nook::default_memory(), 256);
     double largest = 0;
@@ -164,6 +165,8 @@ TEST_CASE("a view that turns changes what K-CTA decodes about as smoothly as wha
   // A small map is refined where it is decoded: read as it is, its cells of 3.6 degrees would be steps of
   // seven times that of half a degree.
   CHECK(largest_step(Method::k_cta, 64) < 1.5 * n_svd);
+  // Where cells of CTA meet whose single clusters differ, nothing of the one is left in the other.
+  CHECK(largest_step(Method::cta, 64) > 1.5 * largest_step(Method::k_cta, 64));
   // Mixed linearly from the same views as N-SVD is.
   CHECK(largest_step(Method::k_cta, 0) < 1.5 * n_svd);
 }
