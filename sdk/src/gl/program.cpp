@@ -29,8 +29,9 @@ struct InfoLog {
 
 const char* version_line(const Functions& gl, GLenum stage, DrawNeeds needs) {
   const bool compute = stage == GL_COMPUTE_SHADER;
-  if (gl.profile == Profile::desktop) return compute ? "#version 430 core\n" : "#version 330 core\n";
-  return compute || needs.sample_textures ? "#version 310 es\n" : "#version 300 es\n";
+  if (gl.profile == Profile::desktop)
+    return compute || needs.gathers ? "#version 430 core\n" : "#version 330 core\n";
+  return compute || needs.sample_textures || needs.gathers ? "#version 310 es\n" : "#version 300 es\n";
 }
 
 // Every number is computed in full precision, as desktop OpenGL does, unless a stage was measured to need
@@ -108,8 +109,8 @@ Object feedback_program(Device& device, const char* path, const char* defines, c
 
 Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines,
                     DrawNeeds needs) {
-  const Object vertex =
-      compile(device, GL_VERTEX_SHADER, vertex_path, "", {.sample_textures = needs.sample_textures});
+  const Object vertex = compile(device, GL_VERTEX_SHADER, vertex_path, "",
+                                {.sample_textures = needs.sample_textures, .gathers = needs.gathers});
   const Object fragment = compile(device, GL_FRAGMENT_SHADER, fragment_path, defines, needs);
   return link(device, {vertex.name(), fragment.name()}, fragment_path, nullptr);
 }

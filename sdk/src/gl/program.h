@@ -14,10 +14,11 @@ const char* embedded_text(const char* path);
 Object compute_program(Device& device, const char* path, const char* defines);
 // Links a single vertex shader whose output `varying` is captured.
 Object feedback_program(Device& device, const char* path, const char* defines, const char* varying);
-// The needs of the shaders of a draw on OpenGL ES.
+// The needs of the shaders of a draw.
 struct DrawNeeds {
   bool sample_textures = false;   // multisample textures, which OpenGL ES 3.0 lacks
   bool medium_precision = false;  // floats of the fragment shader have it unless they say otherwise
+  bool gathers = false;           // textureGather, which tiers with compute shaders have
 };
 
 // Links a vertex and a fragment shader.
