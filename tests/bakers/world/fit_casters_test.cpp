@@ -226,7 +226,7 @@ TEST_CASE("world light: open shares by channel are AO under even light, and a su
     // A shadow takes several times what is left of the error of casters that were not fitted.
     if (method == "none") CHECK(ratio > 2);
     if (method != "per_lobe") continue;
-    // Under even light both are the same number.
+    // Both are the same number under even light.
     if (name == "even") CHECK(std::abs(soft - 1) < 0.02);
   }
 }
