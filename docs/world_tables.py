@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Bakes characters, runs nook evaluate world on them, and prints the tables of docs/world.md.
 
-    docs/world_tables.py --nook build/bakers/tool/nook [--write] [--keep DIR] [--room SCENE.glb=METRES] CHARACTER.glb ...
+    docs/world_tables.py --nook build/bakers/tool/nook [--write] [--keep DIR] [--room SCENE.glb=METRES] [--light MAP.hdr] CHARACTER.glb ...
 
 Half of the clips are fitted, the others measured. The self-shadow is fitted in a hurry (--steps 100 --rays 4), which the casters do not
 depend on. --keep keeps models and reports, and takes those that are there. The table of rooms is of the first character, in the
-built-in room and in those of --room, whose units have so many metres; without --room it stays as it is.
+built-in room and in those of --room, whose units have so many metres; without --room it stays as it is. With
+--light the table of irradiance under these maps is the only one.
 """
 import argparse
 import json
+import math
 import pathlib
 import subprocess
 import tempfile
@@ -22,6 +24,7 @@ BAKE = ["--split", "half", "--auto-poses", "300", "--samples-per-clip", "8", "--
 EVALUATE = ["--max-poses", "44", "--points", "600"]
 
 
+LIGHTS = ["--max-poses", "12", "--points", "400", "--rays", "256"]
 ROOMS = ["--composite", "--views", "8", "--rays", "128"]
 # Rows of the table.
 RULES = ["nook", "nook, half resolution", "mask, product", "mask, sum", "mask, between sum and minimum", "mask, minimum", "product", "minimum",
@@ -32,10 +35,15 @@ def surface_of(row):
     return f"cone {row['cone_degrees']:g}°" if row["surface"] == "cone" else row["surface"]
 
 
-def measure(nook, character, folder):
-    model, report = folder / f"{character.stem}.nook", folder / f"{character.stem}.json"
+def bake(nook, character, folder):
+    model = folder / f"{character.stem}.nook"
     if not model.exists():
         subprocess.run([nook, "bake", "character", character, "-o", model, *BAKE, "--quiet"], check=True)
+    return model
+
+
+def measure(nook, character, folder):
+    model, report = bake(nook, character, folder), folder / f"{character.stem}.json"
     if not report.exists():
         subprocess.run([nook, "evaluate", "world", character, model, *EVALUATE, "--report", report, "--quiet"], check=True)
     return json.loads(report.read_text())["rows"]
@@ -56,6 +64,35 @@ def room_table(rows):
     lines = [[rule, *(f"{by[scene, 'darkened', rule]['mse'] * 1e3:.2f} ({by[scene, 'darkened', rule]['bias']:+.3f})" for scene in scenes),
               *(f"{by[scene, 'elsewhere', rule]['mse'] * 1e3:.2f}" for scene in scenes[-1:])] for rule in RULES]
     return table(["", *scenes, f"elsewhere, {scenes[-1]}"], lines)
+
+
+def measure_lights(nook, character, folder, maps):
+    model, report = bake(nook, character, folder), folder / f"{character.stem}_lights.json"
+    if not report.exists():
+        lights = [word for path in maps for word in ("--light", path)]
+        subprocess.run([nook, "evaluate", "world", character, model, *LIGHTS, *lights, "--report", report, "--quiet"], check=True)
+    return json.loads(report.read_text())["rows"]
+
+
+# A column for each surface: all light, the light without the sun, all light with the map's own irradiance in place of the lobes'.
+PARTS = [("floor", ""), ("wall", ""), ("floor", "_soft"), ("wall", "_soft"), ("floor", "_exact"), ("wall", "_exact")]
+
+
+def light_table(rows_by_character):
+    lines, ratios = [], {part: [] for part in PARTS}
+    for name, rows in rows_by_character.items():
+        by = {(row["map"], row["surface"]): row for row in rows if row["method"] == "per_lobe"}
+        for light in dict.fromkeys(row["map"] for row in rows):
+            cells = []
+            for surface, part in PARTS:
+                row, key = by[light, surface], f"over_ao_x_probe{part}"
+                ratios[surface, part].append(row[key])
+                bounds = "" if part else f" [{row[key + '_low']:.2f}, {row[key + '_high']:.2f}]"
+                cells.append(f"{row[key]:.2f}{bounds}")
+            lines.append([name, light.removesuffix("_1k"), "yes" if by[light, "floor"]["sun"] else "no", *cells])
+    means = [f"{math.exp(sum(map(math.log, values)) / len(values)):.2f}" for values in ratios.values()]
+    lines.append(["geometric mean", "", "", *means])
+    return table(["character", "map", "sun", "floor", "wall", "floor, no sun", "wall, no sun", "floor, exact", "wall, exact"], lines)
 
 
 def tables(rows_by_character):
@@ -84,12 +121,16 @@ def main():
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--room", action="append", default=[])
+    parser.add_argument("--light", action="append", default=[], type=pathlib.Path)
     parser.add_argument("characters", nargs="+", type=pathlib.Path)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         folder = options.keep or pathlib.Path(scratch)
-        rows = {character.stem: measure(options.nook, character, folder) for character in options.characters}
-        found = tables(rows)
+        if options.light:
+            found = {"lights": light_table({character.stem: measure_lights(options.nook, character, folder, options.light)
+                                            for character in options.characters})}
+        else:
+            found = tables({character.stem: measure(options.nook, character, folder) for character in options.characters})
         if options.room:
             found["rooms"] = room_table(measure_rooms(options.nook, options.characters[0], folder, options.room))
     show(DOCUMENT, SCRIPT, found, options.write)

@@ -9,6 +9,7 @@
 #include "bakers/measure/character/report.h"
 #include "bakers/measure/composite/composite.h"
 #include "bakers/measure/composite/own_room.h"
+#include "bakers/measure/world/light_report.h"
 #include "bakers/measure/world/pictures.h"
 #include "bakers/measure/world/report.h"
 #include "bakers/tool/character/clip_names.h"
@@ -17,6 +18,7 @@
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
+#include "bakers/tool/probe/scene.h"
 #include "platform/platform.h"
 #include "platform/progress_bar.h"
 
@@ -36,6 +38,7 @@ struct Options {
   std::vector<std::filesystem::path> scenes;  // beside the built-in room
   std::vector<float> scene_metres;            // of a unit of each
   measure::CompositeStudy rooms;
+  std::vector<std::filesystem::path> lights;
 };
 
 std::vector<measure::MeasuredRoom> rooms_of(const Options& options) {
@@ -67,6 +70,13 @@ Json composite_report(const Options& options, const measure::BakedCharacter& bak
                                  });
 }
 
+std::vector<measure::NamedMap> maps_of(const Options& options) {
+  std::vector<measure::NamedMap> maps;
+  for (const std::filesystem::path& path : options.lights)
+    maps.push_back({path.stem().string(), read_map(path)});
+  return maps;
+}
+
 Json evaluate(const Options& options) {
   const measure::BakedCharacter baked = read_evaluated_files(options.files);
   std::vector<std::string> present;
@@ -79,16 +89,20 @@ Json evaluate(const Options& options) {
   measure::WorldStudy study = options.study;
   study.seed = options.common.seed;
   platform::ProgressBar bar(options.common.quiet);
+  const measure::WorldProgress progress = [&](std::size_t done, std::size_t total) {
+    bar.show("ray tracing", "poses", done, total);
+    return !interrupted();
+  };
+  const std::vector<measure::NamedMap> maps = maps_of(options);
   Json report;
   report["rows"] = naming_file(options.files.model, [&] {
     if (options.composite) return composite_report(options, baked, measured.poses);
-    return measure::world_rows(baked.character.mesh, baked.model, measured.poses, study,
-                               [&](std::size_t done, std::size_t total) {
-                                 bar.show("ray tracing", "poses", done, total);
-                                 return !interrupted();
-                               });
+    if (!maps.empty())
+      return measure::world_light_rows(baked.character.mesh, baked.model, measured.poses, maps, study,
+                                       progress);
+    return measure::world_rows(baked.character.mesh, baked.model, measured.poses, study, progress);
   });
-  if (!options.images.empty() && !options.composite)
+  if (!options.images.empty() && !options.composite && maps.empty())
     measure::write_world_pictures(options.images, baked.character.mesh, baked.model, measured.poses,
                                   options.image_count, study.rays, study.seed);
   report["protocol"] = measured.protocol;
@@ -131,9 +145,16 @@ void add_evaluate_world(CLI::App& evaluate_command) {
   command->add_option("--image-count", o.image_count, "poses to draw")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_flag("--composite", o.composite,
-                    "measure instead the darkening by characters and the screen pass together, in rooms with "
-                    "characters, over pixels that the characters darken and elsewhere");
+  CLI::Option* const composite = command->add_flag(
+      "--composite", o.composite,
+      "measure instead the darkening by characters and the screen pass together, in rooms with "
+      "characters, over pixels that the characters darken and elsewhere");
+  command
+      ->add_option("--light", o.lights,
+                   "measure instead the irradiance of floor and wall under this latitude-longitude map, "
+                   "channel by channel against path tracing; any number of maps, no pictures")
+      ->check(CLI::ExistingFile)
+      ->excludes(composite);
   command->add_option("--scene", o.scenes, "a room in glTF, with +y up, beside the built-in one")
       ->check(CLI::ExistingFile);
   command->add_option("--scene-metres", o.scene_metres, "metres of a unit of each --scene, default 1")
@@ -146,8 +167,9 @@ void add_evaluate_world(CLI::App& evaluate_command) {
       ->capture_default_str();
   add_common_options(*command, o.common);
   command->callback([options] {
-    run_evaluation(options->common, {named_files(options->files), {}, options->images},
-                   [&] { return evaluate(*options); });
+    std::vector<NamedFile> inputs = named_files(options->files);
+    for (const std::filesystem::path& light : options->lights) inputs.push_back({"--light", light});
+    run_evaluation(options->common, {inputs, {}, options->images}, [&] { return evaluate(*options); });
   });
 }
 

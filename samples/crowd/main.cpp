@@ -149,7 +149,13 @@ void run(const Options& o) {
                   {"draw", ms.draw},
                   {"read", ms.read}};
   if (screen_space && o.measure_world) report["world_rms"] = screen_space->rms_to_every_caster(scene.gl());
-  if (screen_space) report["world_casters_per_pixel"] = screen_space->mean_casters();
+  if (screen_space) {
+    report["world_casters_per_pixel"] = screen_space->mean_count(NOOK_WORLD_VIEW_CASTERS);
+    report["world_counts"] = {{"exact_casters", screen_space->mean_count(NOOK_WORLD_VIEW_EXACT_CASTERS)},
+                              {"tests", screen_space->mean_count(NOOK_WORLD_VIEW_TESTS)},
+                              {"far_casters", screen_space->mean_count(NOOK_WORLD_VIEW_FAR_CASTERS)},
+                              {"far_tests", screen_space->mean_count(NOOK_WORLD_VIEW_FAR_TESTS)}};
+  }
   report["screen_space"] = screen_space ? describe(screen_space->quality()) : nlohmann::ordered_json();
   report["rows"] = nlohmann::ordered_json::array();
   if (o.sheets) compare_with_rays(*context, stage, scene, o, model, report, bar);

@@ -117,9 +117,9 @@ std::vector<bool> ScreenSpaceAo::read_surfaces() const {
   return surfaces;
 }
 
-double ScreenSpaceAo::mean_casters() {
+double ScreenSpaceAo::mean_count(nook_world_view view) {
   nook_world_frame_desc frame = world_frame_;
-  frame.show = NOOK_WORLD_VIEW_CASTERS;
+  frame.show = view;
   // The number is that of AO; the light of the last frame may be gone.
   frame.lobes = nullptr;
   frame.lobe_count = 0;

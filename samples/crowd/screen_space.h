@@ -43,9 +43,8 @@ class ScreenSpaceAo {
   ScreenAo draw_screen(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
                        nook_nnao_layer layer);
 
-  // The mean number of casters that the last frame of draw evaluates at a pixel with a surface. Waits for the
-  // GPU.
-  double mean_casters();
+  // The mean of a number that the last frame of draw counts at a pixel with a surface. Waits for the GPU.
+  double mean_count(nook_world_view view);
 
   // The rms of the difference between the world pass in the last frame of draw and one of full resolution
   // that evaluates every caster everywhere, over pixels with a surface. Waits for the GPU.

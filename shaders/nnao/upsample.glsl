@@ -13,19 +13,55 @@ float nook_smaller(float a, float b) {
   return abs(a) < abs(b) ? a : b;
 }
 
+#ifdef NOOK_GATHERS
+uniform vec2 nook_texel_size;  // the inverse of the size of nook_depth and nook_ao, in texels
+
+// The four texels above and right of `low`, by one look-up of each texture: left, right; then above them. Of nook_ao the red
+// channel alone, unless its texels are colours.
+void nook_fetch_quad(ivec2 low, out vec4 depths, out mat4 values) {
+  vec2 middle = vec2(low + 1) * nook_texel_size;
+  depths = uintBitsToFloat(textureGather(nook_depth, middle).wzxy);
+  // A surface of one texel along an axis has no other.
+  bvec2 lone = lessThan(nook_surface_size, ivec2(2));
+  if (lone.x) depths.yw = vec2(nook_no_surface);
+  if (lone.y) depths.zw = vec2(nook_no_surface);
+  vec4 red = textureGather(nook_ao, middle).wzxy;
+#ifdef NOOK_COLOURED
+  values = transpose(mat4(red, textureGather(nook_ao, middle, 1).wzxy, textureGather(nook_ao, middle, 2).wzxy,
+                          textureGather(nook_ao, middle, 3).wzxy));
+#else
+  values = mat4(vec4(red.x), vec4(red.y), vec4(red.z), vec4(red.w));
+#endif
+}
+#else
+void nook_fetch_quad(ivec2 low, out vec4 depths, out mat4 values) {
+  ivec2 high = min(low + 1, nook_surface_size - 1);
+  ivec2 texels[4] = ivec2[4](low, ivec2(high.x, low.y), ivec2(low.x, high.y), high);
+  depths = vec4(nook_depth_at(texels[0]), nook_depth_at(texels[1]), nook_depth_at(texels[2]), nook_depth_at(texels[3]));
+  values = mat4(texelFetch(nook_ao, texels[0], 0), texelFetch(nook_ao, texels[1], 0), texelFetch(nook_ao, texels[2], 0),
+                texelFetch(nook_ao, texels[3], 0));
+}
+#endif
+
 // Returns a value of nook_ao; its edges mean nothing.
 vec4 nook_upsampled(ivec2 pixel, float depth) {
-  ivec2 low = pixel / 2, high = min(low + 1, nook_surface_size - 1);
-  ivec2 texels[4] = ivec2[4](low, ivec2(high.x, low.y), ivec2(low.x, high.y), high);
-  vec4 depths = vec4(nook_depth_at(texels[0]), nook_depth_at(texels[1]), nook_depth_at(texels[2]), nook_depth_at(texels[3]));
-  mat4 values = mat4(texelFetch(nook_ao, texels[0], 0), texelFetch(nook_ao, texels[1], 0),
-                     texelFetch(nook_ao, texels[2], 0), texelFetch(nook_ao, texels[3], 0));
+  ivec2 low = pixel / 2;
+#ifdef NOOK_GATHERS
+  // Both texels of an axis lie on the surface; the pixel may lie beyond them.
+  low = max(min(low, nook_surface_size - 2), ivec2(0));
+#endif
+  vec4 depths;
+  mat4 values;
+  nook_fetch_quad(low, depths, values);
   // This difference is linear in pixels over a plane.
   vec4 rise = (depths - depth) / (nook_spread.x * depths + nook_spread.y);
   vec2 slope = vec2(nook_smaller(rise.y - rise.x, rise.w - rise.z), nook_smaller(rise.z - rise.x, rise.w - rise.y));
   vec2 place = 0.5 * vec2(pixel - 2 * low);  // from the lower left texel, in texels
   vec4 plane = vec4(0.0, slope.x, slope.y, slope.x + slope.y) - dot(slope, place);
   vec4 off = (rise - plane) * nook_edge_scale(depth);
+#ifdef NOOK_GATHERS
+  place = min(place, vec2(1.0));
+#endif
   vec4 lerp = vec4(1.0 - place.x, place.x, 1.0 - place.x, place.x) * vec4(1.0 - place.y, 1.0 - place.y, place.y, place.y);
   vec4 weights = (lerp + 1.0e-3) / (1.0e-3 + off * off);
   weights *= vec4(notEqual(depths, vec4(nook_no_surface)));

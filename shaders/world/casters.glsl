@@ -17,8 +17,16 @@
 uniform NOOK_TEXELS nook_world_casters;
 uniform int nook_world_groups;
 
-// The casters that the point has evaluated so far.
+// Numbers of what the point has evaluated so far: capsules of all kinds, those that are casters, and bodies whose reach
+// was tested.
 int nook_world_evaluated = 0;
+int nook_world_exact = 0;
+int nook_world_tested = 0;
+
+// A texel of a part of a body; a stage may read it from memory of its own.
+#ifndef nook_world_part_texel
+#define nook_world_part_texel(number) nook_texel(nook_world_casters, number)
+#endif
 
 // The share of a body's casters that counts in this stage.
 float nook_world_weight = 1.0;
@@ -39,25 +47,26 @@ float nook_world_caster_open(int texel, vec3 point, vec3 normal) {
   vec3 phi;
   float share = nook_world_coverage(nook_texel(nook_world_casters, texel), nook_texel(nook_world_casters, texel + 1),
                                     point, normal, phi);
+  ++nook_world_exact;
   return nook_world_left(share, phi, normal);
 }
 
-float nook_world_merged_open(int texel, vec3 point, vec3 normal) {
+// The ends of the capsule of a limb or a body.
+float nook_world_merged_open(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
   vec3 phi;
-  float share = nook_world_far_coverage(nook_texel(nook_world_casters, texel),
-                                        nook_texel(nook_world_casters, texel + 1), point, normal, phi);
+  float share = nook_world_far_coverage(end_a, end_b, point, normal, phi);
   return nook_world_left(share, phi, normal);
 }
 
 float nook_world_parts_open(int first, int last, vec3 point, vec3 normal) {
   float open = 1.0;
   for (int part = first; part < last; part += NOOK_PART_TEXELS) {
-    vec4 place = nook_texel(nook_world_casters, part);
+    vec4 place = nook_world_part_texel(part);
     vec3 d = place.xyz - point;
     if (dot(d, d) > place.w) {
-      open *= nook_world_merged_open(part + 2, point, normal);
+      open *= nook_world_merged_open(nook_world_part_texel(part + 2), nook_world_part_texel(part + 3), point, normal);
     } else {
-      vec4 range = nook_texel(nook_world_casters, part + 1);
+      vec4 range = nook_world_part_texel(part + 1);
       int from = int(range.x), to = from + NOOK_CASTER_TEXELS * int(range.y);
       for (int k = from; k < to; k += NOOK_CASTER_TEXELS) open *= nook_world_caster_open(k, point, normal);
     }
@@ -65,28 +74,45 @@ float nook_world_parts_open(int first, int last, vec3 point, vec3 normal) {
   return open;
 }
 
+// Returns true where a body, whose bound is the first of its texels, takes less than the cut-off. The middle is nearest
+// to a point at this distance, and the top of its sphere at most so high above the point's horizon.
+bool nook_world_out_of_reach(float bound, float distance, float height) {
+  float radius = bound < NOOK_ENDLESS_BOUND ? fract(bound) * NOOK_LARGEST_RADIUS : NOOK_ENDLESS_BOUND;
+  float gap = distance - radius, top = height + radius;
+  // The casters cover at most strength / gap^2, and their cosine is at most top / gap.
+  return top < 0.0 || (gap > 0.0 && bound * min(top, gap) < NOOK_STRENGTH_STEPS * gap * gap * gap);
+}
+
+// The share of far bodies by the squared distance, over that from which one capsule stands for the body.
+float nook_world_far_share(float ratio) {
+  return clamp((ratio - NOOK_FAR_FROM) / (1.0 - NOOK_FAR_FROM), 0.0, 1.0);
+}
+
+float nook_world_whole_open(int body_texel, vec3 point, vec3 normal) {
+  return nook_world_merged_open(nook_texel(nook_world_casters, body_texel + 2),
+                                nook_texel(nook_world_casters, body_texel + 3), point, normal);
+}
+
 float nook_world_body_open(int body, vec3 point, vec3 normal) {
   int texel = NOOK_BODY_TEXELS * body;
   vec4 bound = nook_texel(nook_world_casters, texel);
   vec3 d = bound.xyz - point;
-  float radius = bound.w < NOOK_ENDLESS_BOUND ? fract(bound.w) * NOOK_LARGEST_RADIUS : NOOK_ENDLESS_BOUND;
-  float distance2 = dot(d, d), gap = sqrt(distance2) - radius;
-  // The casters cover at most strength / gap^2, and their cosine is at most that of the top of the sphere, top / gap.
-  float top = dot(d, normal) + radius;
-  if (top < 0.0 || (gap > 0.0 && bound.w * min(top, gap) < NOOK_STRENGTH_STEPS * gap * gap * gap)) return 1.0;
+  float distance2 = dot(d, d);
+  ++nook_world_tested;
+  if (nook_world_out_of_reach(bound.w, sqrt(distance2), dot(d, normal))) return 1.0;
   vec4 parts = nook_texel(nook_world_casters, texel + 1);
 #if NOOK_BODIES != NOOK_ALL_BODIES
-  float far = clamp((distance2 / parts.z - NOOK_FAR_FROM) / (1.0 - NOOK_FAR_FROM), 0.0, 1.0);
+  float far = nook_world_far_share(distance2 / parts.z);
   nook_world_weight = nook_world_far_bodies ? far : 1.0 - far;
   if (nook_world_weight == 0.0) return 1.0;
-  if (nook_world_far_bodies) return nook_world_merged_open(texel + 2, point, normal);
+  if (nook_world_far_bodies) return nook_world_whole_open(texel, point, normal);
 #endif
 #if NOOK_BODIES == NOOK_FAR_BODIES
   return 1.0;
 #else
   int first = int(parts.x), last = first + NOOK_PART_TEXELS * int(parts.y);
 #if NOOK_BODIES == NOOK_ALL_BODIES
-  if (distance2 > parts.z) return nook_world_merged_open(texel + 2, point, normal);
+  if (distance2 > parts.z) return nook_world_whole_open(texel, point, normal);
 #endif
   return nook_world_parts_open(first, last, point, normal);
 #endif

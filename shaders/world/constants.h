@@ -45,6 +45,10 @@
 #define NOOK_LARGEST_STRENGTH 4096.0
 #define NOOK_ENDLESS_BOUND 1e15
 
+// The most parts of a body. Threads of a group along x and y, where a stage is a compute shader.
+#define NOOK_MAX_PARTS 16
+#define NOOK_WORLD_GROUP_SIZE 8
+
 // Which bodies a stage evaluates, NOOK_BODIES: all; those that are nearer than the distance from which one
 // capsule stands for them; those that are farther. From this share of the squared distance on both blend.
 #define NOOK_ALL_BODIES 0
@@ -56,6 +60,13 @@
 #ifndef NOOK_FAR_STEP
 #define NOOK_FAR_STEP 8
 #endif
+
+// The values of nook_world_view that show numbers.
+#define NOOK_VIEW_CASTERS 1
+#define NOOK_VIEW_EXACT_CASTERS 2
+#define NOOK_VIEW_TESTS 3
+#define NOOK_VIEW_FAR_CASTERS 4
+#define NOOK_VIEW_FAR_TESTS 5
 
 // The weight of a layer from which on no more than a step of 8 bits is left of what it replaces.
 #define NOOK_REPLACED 0.998

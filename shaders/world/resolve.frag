@@ -1,4 +1,4 @@
-// Spreads the AO of every fourth pixel over all of them, and computes the result.
+// Spreads the AO of every fourth pixel over all of them, and computes the result. With NOOK_COUNTS the texels are numbers.
 #include "shaders/nnao/host_depth.glsl"
 #ifdef NOOK_COLOURED
 #define NOOK_OPEN_TEXEL vec4(1.0)
@@ -6,20 +6,18 @@
 #include "shaders/nnao/upsample.glsl"
 #include "shaders/world/output.glsl"
 
-uniform int nook_world_counts;
-
 out vec4 nook_out;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy) - nook_origin;
-  if (nook_world_counts == 1) {
-    nook_out = vec4(texelFetch(nook_ao, pixel / 2, 0).rrr, 1.0);
-    return;
-  }
+#ifdef NOOK_COUNTS
+  nook_out = vec4(texelFetch(nook_ao, pixel / 2, 0).rrr, 1.0);
+#else
   float depth = nook_screen_depth(pixel);
   vec4 light = depth == nook_no_surface ? vec4(1.0) : nook_upsampled(pixel, depth);
 #ifndef NOOK_COLOURED
   light = vec4(light.rrr, 1.0);
 #endif
   nook_out = nook_world_result(light, pixel);
+#endif
 }

@@ -42,13 +42,18 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
     INFO(nook_last_message());
     CHECK(result == wanted);
   };
-  const unsigned users = gl::screen | (context.is_es() ? unsigned{gl::texel_uploads} : 0u);
-  const std::pair<const char*, std::function<void()>> steps[] = {
-      {"create", [&] { fixture.made(); }},
-      {"texture", [&] { render(true); }},
-      {"first frame", [&] { render(false); }},
-      {"later frame", [&] { render(false); }},
-      {"half resolution",
+  const unsigned draws = gl::screen | (context.is_es() ? unsigned{gl::texel_uploads} : 0u);
+  const unsigned half = draws | (computes(tiers_of(context).front()) ? unsigned{gl::screen_compute} : 0u);
+  const struct {
+    const char* name;
+    unsigned users;
+    std::function<void()> call;
+  } steps[] = {
+      {"create", draws, [&] { fixture.made(); }},
+      {"texture", draws, [&] { render(true); }},
+      {"first frame", draws, [&] { render(false); }},
+      {"later frame", draws, [&] { render(false); }},
+      {"half resolution", half,
        [&] {
          nook_world_pass_destroy(&fixture.pass);
          nook_world_pass_desc desc = world_desc();
@@ -56,7 +61,7 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
          fixture.made(desc);
          render(false);
        }},
-      {"coloured frame",
+      {"coloured frame", half,
        [&] {
          nook_world_pass_destroy(&fixture.pass);
          nook_world_pass_desc desc = world_desc();
@@ -69,10 +74,10 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
          frame.light_degrees = 20;
          CHECK(nook_world_render(fixture.pass, &frame) == NOOK_OK);
        }},
-      {"refused frame", [&] { render(true, NOOK_ERROR_INVALID_ARGUMENT); }},
-      {"destroy", [&] { nook_world_pass_destroy(&fixture.pass); }},
+      {"refused frame", half, [&] { render(true, NOOK_ERROR_INVALID_ARGUMENT); }},
+      {"destroy", draws, [&] { nook_world_pass_destroy(&fixture.pass); }},
   };
-  for (const auto& [name, call] : steps) {
+  for (const auto& [name, users, call] : steps) {
     Poison poison(context, users);
     check(name, poison, call);
     CHECK(context.gl().GetError() == GL_NO_ERROR);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <numeric>
 #include <optional>
 
 #include "tests/gl/world_scene.h"
@@ -345,6 +346,70 @@ TEST_CASE(
     if (step > 0) CHECK(difference(levels, before, 0.25f).beyond < 0.02f);
     before = levels;
   }
+}
+
+namespace {
+
+struct GroupPictures {
+  std::vector<float> open, tests, far_tests;  // of a crowd in two places, one after the other
+};
+
+GroupPictures drawn_by(CrowdFixture& fixture, nook_gl gl, const nook_world_pass_desc& desc,
+                       nook_world_frame_desc frame) {
+  NOOK_OK_OR_FAIL(nook_world_pass_create(gl, &desc, &fixture.pass));
+  GroupPictures pictures;
+  for (const float away : {0.0f, 1.2f}) {
+    frame.view[14] = -away;
+    const auto add = [&](nook_world_view view, std::vector<float>& all) {
+      frame.show = view;
+      const std::vector<float> one = fixture.drawn(frame);
+      all.insert(all.end(), one.begin(), one.end());
+    };
+    add(NOOK_WORLD_VIEW_AO, pictures.open);
+    add(NOOK_WORLD_VIEW_TESTS, pictures.tests);
+    add(NOOK_WORLD_VIEW_FAR_TESTS, pictures.far_tests);
+  }
+  nook_world_pass_destroy(&fixture.pass);
+  return pictures;
+}
+
+double sum_of(const std::vector<float>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+}  // namespace
+
+TEST_CASE("world: groups of threads leave as much open as draws, with fewer tests") {
+  NOOK_NEED_CONTEXT(context);
+  if (!computes(tiers_of(context).front())) return;
+  CrowdFixture fixture(context);
+  nook_gl draws = create_gl(fixture.host.handle, platform::Context::loader, &context,
+                            is_es(context.gl()) ? NOOK_GL_TIER_ES30 : NOOK_GL_TIER_33);
+  nook_nnao_frame_desc screen = fixture.screen();
+  std::vector<float> mask(std::size_t(2 * width * height), 1.0f);
+  for (int i = 0; i < width * height; ++i) mask[std::size_t(2 * i + 1)] = i % width < width / 3 ? 1 : 0;
+  screen.layer_texture = fixture.textures.floats(GL_RG32F, 2, width, height, mask);
+  // A pass for higher images has groups of 64 pixels for far bodies in place of 16.
+  for (const bool high : {false, true}) {
+    nook_world_pass_desc desc = world_desc(width, high ? 1000 : height);
+    desc.half_resolution = 1;
+    desc.coloured = high;
+    screen.layer = high ? NOOK_NNAO_LAYER_REPLACE : NOOK_NNAO_LAYER_NONE;
+    screen.normal_texture = high ? 0 : fixture.normals_of(fixture.picture);
+    nook_world_frame_desc frame = fixture.frame(screen);
+    frame.level_error = 1.0f / 64;
+    frame.cutoff_error = 1.0f / 256;
+    const GroupPictures groups = drawn_by(fixture, fixture.gl, desc, frame),
+                        draw = drawn_by(fixture, draws, desc, frame);
+    const Difference found = difference(groups.open, draw.open, 0.5f / 255);
+    INFO("high " << high << ", largest " << found.largest);
+    // A step of 8 bits where a sum comes to lie on the other side of a half.
+    CHECK(found.largest < 1.5f / 255);
+    CHECK(found.beyond < 0.02f);
+    CHECK(sum_of(groups.tests) <= sum_of(draw.tests));
+    CHECK(sum_of(groups.far_tests) <= sum_of(draw.far_tests));
+  }
+  nook_gl_destroy(&draws);
 }
 
 TEST_CASE("world: AO of another kind is composed by product and by minimum") {

@@ -61,10 +61,14 @@ struct Span {
   std::size_t first = 0, last = 0;
 };
 
-// Outer loops before inner ones, in the order of the text.
-std::vector<Span> find_loops(const std::vector<Block>& blocks) {
+std::map<std::string, std::size_t> places_of(const std::vector<Block>& blocks) {
   std::map<std::string, std::size_t> place;
   for (std::size_t i = 0; i < blocks.size(); ++i) place[blocks[i].name] = i;
+  return place;
+}
+
+std::vector<Span> find_loops(const std::vector<Block>& blocks) {
+  const std::map<std::string, std::size_t> place = places_of(blocks);
   std::map<std::size_t, std::size_t> last_of;
   for (std::size_t i = 0; i < blocks.size(); ++i)
     for (const Instruction& instruction : blocks[i].instructions) {
@@ -77,6 +81,51 @@ std::vector<Span> find_loops(const std::vector<Block>& blocks) {
     }
   std::vector<Span> spans;
   for (const auto& [first, last] : last_of) spans.push_back({first, last});
+  return spans;
+}
+
+int arithmetic_cycles(const std::vector<Block>& blocks, Span span) {
+  int cycles = 0;
+  for (std::size_t b = span.first; b <= span.last; ++b)
+    for (const Instruction& instruction : blocks[b].instructions) {
+      const InstructionClass kind = classify(instruction.mnemonic);
+      cycles += kind == InstructionClass::vector ? 1 : kind == InstructionClass::quarter_rate ? 4 : 0;
+    }
+  return cycles;
+}
+
+// Large regions without a loop that a wave jumps over where none of its threads is in them.
+std::vector<Span> find_branches(const std::vector<Block>& blocks, const std::vector<Span>& loops) {
+  const std::map<std::string, std::size_t> place = places_of(blocks);
+  std::vector<Span> spans;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    for (const Instruction& instruction : blocks[i].instructions) {
+      if (instruction.mnemonic != "s_cbranch_execz") continue;
+      const std::size_t target = place.at(instruction.target);
+      if (target <= i + 1) continue;
+      const Span span{i + 1, target - 1};
+      const bool has_loop = std::any_of(loops.begin(), loops.end(), [&](const Span& loop) {
+        return span.first <= loop.first && loop.last <= span.last;
+      });
+      if (!has_loop && arithmetic_cycles(blocks, span) >= least_branch_cycles) spans.push_back(span);
+    }
+  return spans;
+}
+
+bool has_branch(const std::vector<Loop>& loops) {
+  return std::any_of(loops.begin(), loops.end(),
+                     [](const Loop& loop) { return loop.is_branch || has_branch(loop.inside); });
+}
+
+// Outer ones before inner ones, in the order of the text.
+std::vector<Span> find_spans(const std::vector<Block>& blocks, bool branches) {
+  std::vector<Span> spans = find_loops(blocks);
+  if (!branches) return spans;
+  const std::vector<Span> found = find_branches(blocks, spans);
+  spans.insert(spans.end(), found.begin(), found.end());
+  std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
+    return a.first != b.first ? a.first < b.first : a.last > b.last;
+  });
   return spans;
 }
 
@@ -145,7 +194,7 @@ InstructionClass classify(std::string_view m) {
 
 InstructionCounts count_instructions(const std::string& disassembly, const std::vector<Loop>& expected) {
   const std::vector<Block> blocks = parse_blocks(disassembly);
-  const std::vector<Span> spans = find_loops(blocks);
+  const std::vector<Span> spans = find_spans(blocks, has_branch(expected));
   std::vector<FlatLoop> loops;
   flatten(expected, 0, loops);
   bool same = spans.size() == loops.size();

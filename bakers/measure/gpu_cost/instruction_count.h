@@ -1,5 +1,5 @@
 // Counts the instructions of a disassembly that a wave executes: loops are weighed by their trip counts, and
-// both sides of every branch count.
+// both sides of every branch count, or large branches by the share of threads that take them.
 #pragma once
 
 #include <array>
@@ -31,12 +31,15 @@ struct InstructionCounts {
 };
 
 // A loop of the source that must be one of the disassembly too, with those inside it, in the order of the
-// text.
+// text. Where one of the expected ones is a branch, all branches of least_branch_cycles or more that threads
+// may skip and that hold no loop must be there as well.
 struct Loop {
-  const char* over;  // what it runs over
-  double trips = 0;
+  const char* over;  // what it runs over, or what takes the branch
+  double trips = 0;  // of a branch the share of threads that take it
   std::vector<Loop> inside;
+  bool is_branch = false;
 };
+inline constexpr int least_branch_cycles = 90;  // of arithmetic
 
 // Throws where the disassembly's loops have another nesting than the expected ones: a compiler that unrolls
 // otherwise. The message shows both.

@@ -112,11 +112,17 @@ std::vector<PassCase> all_passes() {
         nnao("NNAO, paper's form, " + taps, "occlusion.frag, paper's form, " + taps, false, true));
   }
   constexpr double far = 1.0 / 64;
-  passes.push_back({"world, half resolution",
+  passes.push_back({"world, half resolution, draws",
                     {{"depth.frag, half", quarter},
                      {"darken.frag, far bodies", far},
                      {"darken.frag, half resolution, near bodies", quarter},
                      {"resolve.frag of the world pass", 1}}});
+  for (const std::string shares : {"", ", by shares"})
+    passes.push_back({"world, half resolution, groups" + shares,
+                      {{"depth.frag, half", quarter},
+                       {"darken.comp, far bodies" + shares, far},
+                       {"darken.comp, near bodies" + shares, quarter},
+                       {"resolve.frag of the world pass, gathers", 1}}});
   add_baselines(passes);
   return passes;
 }

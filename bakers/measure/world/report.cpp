@@ -8,6 +8,7 @@
 
 #include "bakers/import/skinning.h"
 #include "bakers/measure/world/darkeners.h"
+#include "bakers/measure/world/ratio_bounds.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/random.h"
 #include "bakers/world/cone_rays.h"
@@ -102,29 +103,6 @@ Sums sums_of(const TracedPoints& traced, std::size_t variants, const Value& valu
   return sums;
 }
 
-struct Bounds {
-  double low = 0, high = 0;
-};
-
-// 95 % of the ratios of two sums over poses drawn with replacement.
-Bounds bootstrap(const std::vector<double>& over, const std::vector<double>& under, std::size_t draws,
-                 std::uint64_t seed) {
-  std::vector<double> ratio;
-  Random random(seed);
-  for (std::size_t d = 0; d < draws; ++d) {
-    double a = 0, b = 0;
-    for (std::size_t i = 0; i < over.size(); ++i) {
-      const std::uint32_t pose = random.below(std::uint32_t(over.size()));
-      a += over[pose];
-      b += under[pose];
-    }
-    ratio.push_back(b > 0 ? a / b : 0);
-  }
-  std::sort(ratio.begin(), ratio.end());
-  const auto at = [&](double share) { return ratio[std::size_t(share * double(ratio.size() - 1))]; };
-  return {at(0.025), at(0.975)};
-}
-
 struct FlatMethod {
   std::string name;
   std::size_t first = 0, count = 0;  // of all variants
@@ -163,7 +141,7 @@ Json row_of(const Surface& surface, const std::vector<FlatMethod>& methods, cons
     none_by_pose.push_back(s.none2);
   }
   const std::vector<double> errors = errors_of(surface, variant);
-  const Bounds bounds = bootstrap(errors, none_by_pose, study.bootstrap, study.seed);
+  const RatioBounds bounds = ratio_bounds(errors, none_by_pose, study.bootstrap, study.seed);
   Json row;
   row["surface"] = surface.name;
   if (surface.cone_degrees > 0) row["cone_degrees"] = surface.cone_degrees;
@@ -179,7 +157,7 @@ Json row_of(const Surface& surface, const std::vector<FlatMethod>& methods, cons
     const std::vector<double> theirs = errors_of(surface, best_variant(surface, other));
     double sum = 0;
     for (const double e : theirs) sum += e;
-    const Bounds ratio = bootstrap(errors, theirs, study.bootstrap, study.seed + 1);
+    const RatioBounds ratio = ratio_bounds(errors, theirs, study.bootstrap, study.seed + 1);
     row["over_capsules"] = error / sum;
     row["over_capsules_low"] = ratio.low;
     row["over_capsules_high"] = ratio.high;

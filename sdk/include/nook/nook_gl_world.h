@@ -78,8 +78,19 @@ typedef int32_t nook_world_composition;
 enum {
   /* The result. */
   NOOK_WORLD_VIEW_AO = 0,
-  /* The number of casters that a pixel evaluates, over 255. */
-  NOOK_WORLD_VIEW_CASTERS = 1
+  /* The number of casters that a pixel evaluates, over 255; those of far bodies at half resolution count by
+   * the share of their pixels. */
+  NOOK_WORLD_VIEW_CASTERS = 1,
+  /* The number of those of them that are capsules of the model or props, in place of the capsule of a limb or
+   * a body; over 255. */
+  NOOK_WORLD_VIEW_EXACT_CASTERS = 2,
+  /* The number of bodies whose reach a pixel tests, over 255. */
+  NOOK_WORLD_VIEW_TESTS = 3,
+  /* The number of far bodies that are evaluated at the pixels which have them at half resolution, spread over
+   * the others; over 255. At full resolution 0. */
+  NOOK_WORLD_VIEW_FAR_CASTERS = 4,
+  /* The same of the far bodies whose reach is tested. */
+  NOOK_WORLD_VIEW_FAR_TESTS = 5
 };
 typedef int32_t nook_world_view;
 

@@ -29,9 +29,10 @@ struct InfoLog {
 
 const char* version_line(const Functions& gl, GLenum stage, ShaderNeeds needs) {
   const bool compute = stage == GL_COMPUTE_SHADER;
-  if (gl.profile == Profile::desktop) return compute ? "#version 430 core\n" : "#version 330 core\n";
+  if (gl.profile == Profile::desktop)
+    return compute || needs.gathers ? "#version 430 core\n" : "#version 330 core\n";
   if (needs.sample_arrays) return "#version 320 es\n";
-  return compute || needs.sample_textures ? "#version 310 es\n" : "#version 300 es\n";
+  return compute || needs.sample_textures || needs.gathers ? "#version 310 es\n" : "#version 300 es\n";
 }
 
 // Every number is computed in full precision, as desktop OpenGL does, unless a stage was measured to need
@@ -109,8 +110,10 @@ Object feedback_program(Device& device, const char* path, const char* defines, c
 
 Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines,
                     ShaderNeeds needs) {
-  const Object vertex =
-      compile(device, GL_VERTEX_SHADER, vertex_path, "", {needs.sample_textures, needs.sample_arrays});
+  const Object vertex = compile(device, GL_VERTEX_SHADER, vertex_path, "",
+                                {.sample_textures = needs.sample_textures,
+                                 .sample_arrays = needs.sample_arrays,
+                                 .gathers = needs.gathers});
   const Object fragment = compile(device, GL_FRAGMENT_SHADER, fragment_path, defines, needs);
   return link(device, {vertex.name(), fragment.name()}, fragment_path, nullptr);
 }

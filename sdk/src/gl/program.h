@@ -8,11 +8,12 @@ namespace nook::gl {
 // Returns the text of an embedded shader. Throws Failure(NOOK_ERROR_INTERNAL) if no shader has that path.
 const char* embedded_text(const char* path);
 
-// The needs of shaders on OpenGL ES.
+// What shaders need beyond OpenGL 3.3 and OpenGL ES 3.0.
 struct ShaderNeeds {
   bool sample_textures = false;   // multisample textures, which OpenGL ES 3.0 lacks
   bool sample_arrays = false;     // arrays of them, which OpenGL ES 3.1 lacks
-  bool medium_precision = false;  // floats of a fragment shader have it unless they say otherwise
+  bool medium_precision = false;  // floats of a fragment shader have it on OpenGL ES unless they say otherwise
+  bool gathers = false;           // textureGather, which tiers with compute shaders have
 };
 
 // Compiles and links a compute shader. `path` names an embedded shader, and `defines` is put before its text

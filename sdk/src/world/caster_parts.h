@@ -7,10 +7,11 @@
 #include <span>
 
 #include "sdk/src/core/capsule.h"
+#include "shaders/world/constants.h"
 
 namespace nook::world {
 
-inline constexpr std::uint32_t max_part_casters = 64, max_parts = 16;
+inline constexpr std::uint32_t max_part_casters = 64, max_parts = NOOK_MAX_PARTS;
 
 // Casters that stand near each other in rest space. Part p has the casters order[first[p]] to
 // order[first[p + 1] - 1].

@@ -6,6 +6,7 @@
 
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/skinning.h"
+#include "bakers/measure/world/light_report.h"
 #include "bakers/measure/world/report.h"
 #include "bakers/world/dual.h"
 #include "bakers/world/initial_casters.h"
@@ -198,5 +199,34 @@ TEST_CASE("world casters: a fit can be cancelled at every step") {
     CHECK_THROWS_AS(fit_world_casters(mesh, poses, settings, nullptr,
                                       [&](std::size_t, std::size_t) { return call++ != stop; }),
                     Failure);
+  }
+}
+
+TEST_CASE("world light: open shares by channel are AO under even light, and a sun becomes a cone") {
+  const SkinnedMesh mesh = bending_tube();
+  CharacterModel model;
+  for (const WorldCaster& caster : initial_casters(mesh, vertex_areas(mesh, mesh.position), 8))
+    model.world_casters.push_back(caster);
+  constexpr std::uint32_t columns = 64, rows_of_map = 32;
+  const std::vector<float> even(3 * columns * rows_of_map, 1.0f);
+  std::vector<float> sun = even;
+  std::fill_n(sun.begin() + 3 * (8 * columns + 20), 3, 2000.0f);
+  const measure::NamedMap maps[] = {{"even", Environment(columns, rows_of_map, even)},
+                                    {"sun", Environment(columns, rows_of_map, sun)}};
+  measure::WorldStudy study;
+  study.points = 200;
+  study.rays = 128;
+  for (const auto& row : measure::world_light_rows(mesh, model, tube_poses(mesh, 2), maps, study, {})) {
+    INFO(row.dump());
+    const std::string name = row["map"], method = row["method"];
+    CHECK(row["sun"].get<bool>() == (name == "sun"));
+    const double ratio = row["over_ao_x_probe"], soft = row["over_ao_x_probe_soft"];
+    // The wall is darkened little, beside the noise of so few paths.
+    if (row["surface"] != "floor") continue;
+    // A shadow takes several times what is left of the error of casters that were not fitted.
+    if (method == "none") CHECK(ratio > 2);
+    if (method != "per_lobe") continue;
+    // Both are the same number under even light.
+    if (name == "even") CHECK(std::abs(soft - 1) < 0.02);
   }
 }

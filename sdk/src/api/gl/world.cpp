@@ -16,9 +16,10 @@ using namespace nook;
 
 namespace {
 
-// The users of the OpenGL state that the pass touches: it uploads casters and draws.
-unsigned world_users(const gl::Functions& gl) {
-  return gl::screen_creation_users(gl);
+// The users of the OpenGL state that the pass touches: it uploads casters and draws, and its stages may be
+// compute shaders.
+unsigned world_users(const gl::Functions& gl, bool computes) {
+  return gl::screen_creation_users(gl) | (computes ? unsigned{gl::screen_compute} : 0u);
 }
 
 }  // namespace
@@ -27,7 +28,7 @@ unsigned world_users(const gl::Functions& gl) {
 struct nook_world_pass_s : RefCounted {
   nook_world_pass_s(nook_gl_s* made_by, const nook_world_pass_desc& known) : gl(made_by), desc(known) {
     gl->device.report_host_errors();
-    gl->guarded(world_users(gl->device.gl), [&] { pass.emplace(gl->device, known); });
+    gl->guarded(world_users(gl->device.gl, false), [&] { pass.emplace(gl->device, known); });
   }
 
   nook_gl_s* gl;
@@ -120,12 +121,13 @@ void check_numbers(const nook_world_frame_desc& frame) {
   };
   check("cutoff_error", frame.cutoff_error);
   check("level_error", frame.level_error);
-  const auto check_kind = [](const char* field, std::int32_t value) {
-    if (value != 0 && value != 1)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.%s is unknown (got %d, need 0 or 1)", field, value);
+  const auto check_kind = [](const char* field, std::int32_t value, std::int32_t last) {
+    if (value < 0 || value > last)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.%s is unknown (got %d, need 0 to %d)", field, value,
+                    last);
   };
-  check_kind("composition", frame.composition);
-  check_kind("show", frame.show);
+  check_kind("composition", frame.composition, NOOK_WORLD_MINIMUM);
+  check_kind("show", frame.show, NOOK_WORLD_VIEW_FAR_TESTS);
 }
 
 // The light of a coloured pass: bands in view space, the cone in world space. The view has passed its check.
@@ -205,16 +207,11 @@ nook_result nook_world_render(nook_world_pass pass, const nook_world_frame_desc*
     const api::Casting casting(known.scene ? &known.scene->scene : nullptr, 0, known.props, known.prop_count);
     const Reaching reaching{&casting, known.cutoff_error};
     const gl::ReachingGroups groups{casting.group_count(), &reaching, reaching_group};
-    gl::WorldFrame drawn{screen,
-                         known.view,
-                         known.ao_texture,
-                         known.composition,
-                         known.level_error,
-                         known.show == NOOK_WORLD_VIEW_CASTERS,
-                         {},
-                         {}};
+    gl::WorldFrame drawn{
+        screen, known.view, known.ao_texture, known.composition, known.level_error, known.show, {}, {}};
     put_light(drawn, known, pass->desc.coloured != 0);
-    pass->gl->guarded(world_users(pass->gl->device.gl), [&] { pass->pass->render(drawn, groups); });
+    pass->gl->guarded(world_users(pass->gl->device.gl, pass->pass->computes()),
+                      [&] { pass->pass->render(drawn, groups); });
   });
 }
 

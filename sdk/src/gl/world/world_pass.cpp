@@ -21,10 +21,11 @@ namespace {
 // Multiplies the target by AO; alpha stays.
 constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE, GL_FUNC_ADD, GL_FUNC_ADD};
 
-// Textures that only this pass has. Those that are not read by the same stage share a unit.
+// Textures that only this pass has. Those that are not read by the same stage share a unit. The upsample
+// reads the depth of every fourth pixel beside a layer, the stages of AO beside normals.
 constexpr GLuint caster_unit = filter_unit, half_ao_unit = filter_unit;
-constexpr GLuint half_depth_unit = NOOK_UNIT_NORMAL, other_ao_unit = NOOK_UNIT_MOTION,
-                 far_unit = NOOK_UNIT_MOTION;
+constexpr GLuint upsample_depth_unit = NOOK_UNIT_NORMAL, darkening_depth_unit = NOOK_UNIT_LAYER;
+constexpr GLuint other_ao_unit = NOOK_UNIT_MOTION, far_unit = NOOK_UNIT_MOTION;
 
 // The frame's constants of the screen pass that this pass does not use have the values of such a pass.
 nook_nnao_desc plain_pass(bool half) {
@@ -44,6 +45,17 @@ TextureFormat result_format(bool coloured) {
 constexpr int far_step(int max_height) {
   return max_height >= 1000 ? NOOK_FAR_STEP : max_height >= 500 ? 4 : 2;
 }
+
+// Pixels along a side of a tile of lists; a group of threads lies in one.
+constexpr std::uint32_t tile_px(bool computes, int far_step) {
+  return computes ? std::max(32u, std::uint32_t(NOOK_WORLD_GROUP_SIZE * far_step)) : 32u;
+}
+
+static_assert(NOOK_VIEW_CASTERS == NOOK_WORLD_VIEW_CASTERS &&
+              NOOK_VIEW_EXACT_CASTERS == NOOK_WORLD_VIEW_EXACT_CASTERS &&
+              NOOK_VIEW_TESTS == NOOK_WORLD_VIEW_TESTS &&
+              NOOK_VIEW_FAR_CASTERS == NOOK_WORLD_VIEW_FAR_CASTERS &&
+              NOOK_VIEW_FAR_TESTS == NOOK_WORLD_VIEW_FAR_TESTS);
 
 constexpr int far_length(int length, int step) {
   return (length + step - 1) / step;
@@ -72,6 +84,7 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
       max_height_(desc.max_height),
       half_(desc.half_resolution != 0),
       coloured_(desc.coloured != 0),
+      computes_(half_ && device.gl.can.compute_images),
       far_step_(far_step(desc.max_height)),
       casters_(device.memory, caster_unit),
       kept_(device.memory),
@@ -91,12 +104,11 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
         "desc.max_width x desc.max_height is larger than this OpenGL's textures (got %d x %d, need at "
         "most %d x %d)",
         desc.max_width, desc.max_height, largest, largest);
-  const char* const output = half_ ? "world/resolve.frag" : "world/darken.frag";
-  const char* const defines = half_ ? "#define NOOK_HALF 1\n" : "#define NOOK_HALF 0\n";
-  const char* const layered = half_ ? "#define NOOK_HALF 1\n#define NOOK_LAYERED 1\n"
-                                    : "#define NOOK_HALF 0\n#define NOOK_LAYERED 1\n";
-  output_ = make_stage(output, defines);
-  layered_output_ = make_stage(output, layered);
+  const auto output = [&](const char* defines) {
+    return half_ ? make_upsample(defines) : make_draw("world/darken.frag", defines);
+  };
+  output_ = output("");
+  layered_output_ = output("#define NOOK_LAYERED 1\n");
   if (half_) make_half(desc);
   own_ = RenderTexture(device, result_format(coloured_), desc.max_width, desc.max_height,
                        "nook: AO of the world");
@@ -118,12 +130,41 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
   device.check("making the world pass");
 }
 
-WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines) {
+std::array<char, 160> WorldPass::defines_of(const char* own) const {
+  std::array<char, 160> all{};
+  std::snprintf(all.data(), all.size(), "#define NOOK_FAR_STEP %d\n#define NOOK_HALF %d\n%s%s", far_step_,
+                half_ ? 1 : 0, own, coloured_ ? "#define NOOK_COLOURED 1\n" : "");
+  return all;
+}
+
+WorldPass::Stage WorldPass::make_draw(const char* fragment, const char* defines, bool gathers) const {
+  return make_stage(
+      draw_program(device_, "nnao/screen.vert", fragment, defines_of(defines).data(), {.gathers = gathers}));
+}
+
+WorldPass::Stage WorldPass::make_upsample(const char* defines) const {
+  char all[80];
+  std::snprintf(all, sizeof all, "%s%s", computes_ ? "#define NOOK_GATHERS 1\n" : "", defines);
+  Stage stage = make_draw("world/resolve.frag", all, computes_);
+  device_.gl.UseProgram(stage.program.name());
+  device_.gl.Uniform2f(uniform_location(device_, stage.program, "nook_texel_size"),
+                       1 / float(surface_length(max_width_, true)),
+                       1 / float(surface_length(max_height_, true)));
+  return stage;
+}
+
+WorldPass::Stage WorldPass::make_darkening(const char* defines) const {
+  Stage stage = computes_
+                    ? make_stage(compute_program(device_, "world/darken.comp", defines_of(defines).data()))
+                    : make_draw("world/darken.frag", defines);
+  device_.gl.UseProgram(stage.program.name());
+  device_.gl.Uniform1i(uniform_location(device_, stage.program, "nook_depth"), darkening_depth_unit);
+  return stage;
+}
+
+WorldPass::Stage WorldPass::make_stage(Object program) const {
   Stage stage;
-  char all[160];
-  std::snprintf(all, sizeof all, "#define NOOK_FAR_STEP %d\n%s%s", far_step_, defines,
-                coloured_ ? "#define NOOK_COLOURED 1\n" : "");
-  stage.program = draw_program(device_, "nnao/screen.vert", fragment, all);
+  stage.program = std::move(program);
   const auto at = [&](const char* name) { return uniform_location(device_, stage.program, name); };
   stage.frame = at("nook_frame");
   stage.groups = at("nook_world_groups");
@@ -146,38 +187,41 @@ WorldPass::Stage WorldPass::make_stage(const char* fragment, const char* defines
   } samplers[] = {{"nook_host_depth", NOOK_UNIT_DEPTH}, {"nook_host_normal", NOOK_UNIT_NORMAL},
                   {"nook_world_casters", caster_unit},  {"nook_layer", NOOK_UNIT_LAYER},
                   {"nook_other_ao", other_ao_unit},     {"nook_far_open", far_unit},
-                  {"nook_depth", half_depth_unit},      {"nook_ao", half_ao_unit}};
+                  {"nook_depth", upsample_depth_unit},  {"nook_ao", half_ao_unit}};
   // Where a stage has no such sampler the location is -1, which OpenGL ignores.
   for (const auto& sampler : samplers) device_.gl.Uniform1i(at(sampler.name), sampler.unit);
   return stage;
 }
 
+TextureFormat WorldPass::half_format() const {
+  // OpenGL ES 3.1 writes no GL_R8 from a compute shader.
+  const bool red = computes_ && !device_.gl.can.r8_images && !coloured_;
+  return red ? TextureFormat::ao_image : result_format(coloured_);
+}
+
 void WorldPass::make_half(const nook_world_pass_desc& desc) {
-  half_depth_ = make_stage("nnao/depth.frag", "#define NOOK_HALF 1\n");
-  half_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n#define NOOK_BODIES NOOK_NEAR_BODIES\n");
-  far_ao_ = make_stage("world/darken.frag", "#define NOOK_HALF 1\n#define NOOK_BODIES NOOK_FAR_BODIES\n");
   char masked[80];
-  std::snprintf(masked, sizeof masked, "#define NOOK_HALF 1\n#define NOOK_APART %g\n", NOOK_REPLACED);
-  masked_half_depth_ = make_stage("nnao/depth.frag", masked);
-  masked_half_ao_ = make_stage("world/darken.frag",
-                               "#define NOOK_HALF 1\n#define NOOK_LAYERED 1\n"
-                               "#define NOOK_BODIES NOOK_NEAR_BODIES\n");
+  std::snprintf(masked, sizeof masked, "#define NOOK_APART %g\n", NOOK_REPLACED);
+  half_depth_ = make_draw("nnao/depth.frag", "");
+  masked_half_depth_ = make_draw("nnao/depth.frag", masked);
+  half_ao_ = make_darkening("#define NOOK_BODIES NOOK_NEAR_BODIES\n");
+  far_ao_ = make_darkening("#define NOOK_BODIES NOOK_FAR_BODIES\n");
+  counts_ = make_upsample("#define NOOK_COUNTS\n");
   const int width = surface_length(desc.max_width, true), height = surface_length(desc.max_height, true);
   depth_ = RenderTexture(device_, TextureFormat::depth, width, height, "nook: depth of every fourth pixel");
-  ao_ = RenderTexture(device_, result_format(coloured_), width, height, "nook: AO of every fourth pixel");
-  far_texture_ = RenderTexture(device_, result_format(coloured_), far_length(desc.max_width, far_step_),
+  ao_ = RenderTexture(device_, half_format(), width, height, "nook: AO of every fourth pixel");
+  far_texture_ = RenderTexture(device_, half_format(), far_length(desc.max_width, far_step_),
                                far_length(desc.max_height, far_step_), "nook: AO by far bodies");
 }
 
 std::uint64_t WorldPass::bytes() const {
   const auto texels = [](std::uint64_t width, std::uint64_t height) { return width * height; };
-  const TextureFormat result = result_format(coloured_);
-  std::uint64_t sum = texels(max_width_, max_height_) * bytes_per_texel(result);
+  std::uint64_t sum = texels(max_width_, max_height_) * bytes_per_texel(result_format(coloured_));
   if (half_)
     sum += texels(surface_length(max_width_, true), surface_length(max_height_, true)) *
-               (bytes_per_texel(result) + bytes_per_texel(TextureFormat::depth)) +
+               (bytes_per_texel(half_format()) + bytes_per_texel(TextureFormat::depth)) +
            texels(far_length(max_width_, far_step_), far_length(max_height_, far_step_)) *
-               bytes_per_texel(result);
+               bytes_per_texel(half_format());
   return sum + casters_.bytes();
 }
 
@@ -202,6 +246,7 @@ std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& g
   grid.y_scale = rays.y_scale;
   grid.y_offset = rays.y_offset;
   grid.orthographic = rays.orthographic;
+  grid.tile_px = tile_px(computes_, far_step_);
   kept_.clear();
   ranges_.clear();
   lists_.clear();
@@ -324,12 +369,12 @@ void WorldPass::set_frame(const Stage& stage, const WorldFrame& frame,
   gl.Uniform1i(stage.groups, static_cast<GLint>(group_count()));
   gl.Uniform1i(stage.columns, static_cast<GLint>(tile_columns_));
   gl.Uniform1i(stage.tile_size, static_cast<GLint>(tile_px_));
-  const bool near = &stage == &half_ao_ || &stage == &masked_half_ao_;
+  const bool near = &stage == &half_ao_;
   gl.Uniform1i(stage.first_tile, static_cast<GLint>(near ? first_near_tile_ : first_tile_));
   gl.Uniform1i(stage.far, far_);
   gl.Uniform1i(stage.first_far_tile, static_cast<GLint>(first_tile_));
   gl.Uniform1i(stage.composition, frame.ao_texture ? 1 + frame.composition : 0);
-  gl.Uniform1i(stage.counts, frame.counts);
+  gl.Uniform1i(stage.counts, frame.show);
   if (coloured_) set_light(stage, frame);
 }
 
@@ -374,22 +419,47 @@ void WorldPass::draw(GLuint framebuffer, const Viewport& viewport) const {
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void WorldPass::draw_far(const WorldFrame& frame, const FrameConstants& constants) {
-  if (!far_) return;
+void WorldPass::draw_depth(const WorldFrame& frame, const FrameConstants& constants) const {
   const Viewport viewport = viewport_of(frame.screen);
-  set_frame(far_ao_, frame, constants);
-  draw(far_texture_.framebuffer(),
-       {0, 0, far_length(viewport.width, far_step_), far_length(viewport.height, far_step_)});
+  set_frame(frame.screen.layer >= NOOK_NNAO_LAYER_REPLACE ? masked_half_depth_ : half_depth_, frame,
+            constants);
+  draw(depth_.framebuffer(),
+       {0, 0, surface_length(viewport.width, true), surface_length(viewport.height, true)});
 }
 
-void WorldPass::draw_half(const WorldFrame& frame, const FrameConstants& constants) {
+void WorldPass::darken(const RenderTexture& target, int width, int height) const {
+  if (!computes_) {
+    draw(target.framebuffer(), {0, 0, width, height});
+    return;
+  }
+  const Functions& gl = device_.gl;
+  const auto groups = [](int length) {
+    return GLuint(length + NOOK_WORLD_GROUP_SIZE - 1) / NOOK_WORLD_GROUP_SIZE;
+  };
+  gl.BindImageTexture(image_unit_index, target.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                      half_format() == TextureFormat::ao ? GL_R8 : GL_RGBA8);
+  // Earlier reads and draws end before the texture is written.
+  gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  gl.DispatchCompute(groups(width), groups(height), 1);
+  // The next stage reads the texture.
+  gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void WorldPass::darken_half(const WorldFrame& frame, const FrameConstants& constants) const {
   const Viewport viewport = viewport_of(frame.screen);
-  const Viewport surface{0, 0, surface_length(viewport.width, true), surface_length(viewport.height, true)};
-  const bool masked = frame.screen.layer >= NOOK_NNAO_LAYER_REPLACE;
-  set_frame(masked ? masked_half_depth_ : half_depth_, frame, constants);
-  draw(depth_.framebuffer(), surface);
-  set_frame(masked ? masked_half_ao_ : half_ao_, frame, constants);
-  draw(ao_.framebuffer(), surface);
+  if (far_) {
+    set_frame(far_ao_, frame, constants);
+    darken(far_texture_, far_length(viewport.width, far_step_), far_length(viewport.height, far_step_));
+  }
+  device_.gl.ActiveTexture(GL_TEXTURE0 + far_unit);
+  device_.gl.BindTexture(GL_TEXTURE_2D, far_texture_.texture());
+  set_frame(half_ao_, frame, constants);
+  darken(ao_, surface_length(viewport.width, true), surface_length(viewport.height, true));
+}
+
+const WorldPass::Stage& WorldPass::output_of(const WorldFrame& frame) const {
+  if (half_ && frame.show != NOOK_WORLD_VIEW_AO) return counts_;
+  return frame.screen.layer != NOOK_NNAO_LAYER_NONE ? layered_output_ : output_;
 }
 
 void WorldPass::draw_output(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) {
@@ -437,14 +507,15 @@ void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
   if (layered) bind(NOOK_UNIT_LAYER, screen.layer_texture);
   const FrameConstants constants = frame_constants(screen, plain_pass(half_), 0);
   if (half_) {
-    draw_far(frame, constants);
-    bind(far_unit, far_texture_.texture());
-    draw_half(frame, constants);
-    bind(far_unit, frame.ao_texture);
-    bind(half_depth_unit, depth_.texture());
+    draw_depth(frame, constants);
+    bind(darkening_depth_unit, depth_.texture());
+    darken_half(frame, constants);
+    bind(NOOK_UNIT_LAYER, layered ? screen.layer_texture : 0);
+    bind(other_ao_unit, frame.ao_texture);
+    bind(upsample_depth_unit, depth_.texture());
     bind(half_ao_unit, ao_.texture());
   }
-  draw_output(layered ? layered_output_ : output_, frame, constants);
+  draw_output(output_of(frame), frame, constants);
 }
 
 }  // namespace nook::gl

@@ -2,10 +2,13 @@
 //   full resolution  host depth -> AO and result
 //   half resolution  host depth -> depth of every fourth pixel; AO by far bodies of fewer still; AO of every
 //                    fourth by near bodies, times that -> upsample and result
+// Where there are compute shaders that write images, both stages of AO at half resolution are dispatches
+// whose groups leave out the bodies that reach none of their surfaces.
 #pragma once
 
 #include <nook/nook_gl_world.h>
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -60,8 +63,8 @@ struct WorldFrame {
   std::uint32_t ao_texture = 0;
   nook_world_composition composition = NOOK_WORLD_PRODUCT;
   float level_error = 0;
-  bool counts = false;  // shows evaluated casters in place of AO
-  LightBands bands;     // in view space; of coloured passes
+  nook_world_view show = NOOK_WORLD_VIEW_AO;
+  LightBands bands;  // in view space; of coloured passes
   std::optional<LightCone> cone;
 };
 
@@ -76,6 +79,8 @@ class WorldPass {
   void render(const WorldFrame& frame, const ReachingGroups& groups);
   void recheck() { checked_.reset(); }
 
+  // Returns true if the pass has stages that are compute shaders.
+  bool computes() const { return computes_; }
   GLuint ao_texture() const { return own_.texture(); }
   const TexelTable& table() const { return casters_; }
   std::uint32_t group_count() const { return static_cast<std::uint32_t>(kept_.size()); }
@@ -91,7 +96,13 @@ class WorldPass {
     GLint far = -1, first_far_tile = -1;  // of half resolution
     GLint bands = -1, cone = -1, light_columns = -1, first_light_tile = -1, first_shade = -1;
   };
-  Stage make_stage(const char* fragment, const char* defines);
+  Stage make_stage(Object program) const;
+  Stage make_draw(const char* fragment, const char* defines, bool gathers = false) const;
+  Stage make_upsample(const char* defines) const;
+  Stage make_darkening(const char* defines) const;
+  // All defines of a stage.
+  std::array<char, 160> defines_of(const char* own) const;
+  TextureFormat half_format() const;
   void make_half(const nook_world_pass_desc& desc);
   void check(const WorldFrame& frame);
   // Chooses the groups of a frame and returns the texels of their table.
@@ -106,17 +117,19 @@ class WorldPass {
   void set_light(const Stage& stage, const WorldFrame& frame) const;
   void set_frame(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) const;
   void draw(GLuint framebuffer, const Viewport& viewport) const;
-  void draw_far(const WorldFrame& frame, const FrameConstants& constants);
-  void draw_half(const WorldFrame& frame, const FrameConstants& constants);
+  void draw_depth(const WorldFrame& frame, const FrameConstants& constants) const;
+  // Runs the stage of AO at half resolution whose program is in use.
+  void darken(const RenderTexture& target, int width, int height) const;
+  void darken_half(const WorldFrame& frame, const FrameConstants& constants) const;
+  const Stage& output_of(const WorldFrame& frame) const;
   void draw_output(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants);
 
   Device& device_;
   int max_width_, max_height_;
-  bool half_, coloured_;
-  int far_step_;                                                     // pixels
-  Stage output_, layered_output_;                                    // at half resolution the upsample
-  Stage half_depth_, half_ao_, masked_half_depth_, masked_half_ao_;  // masked: without replaced pixels
-  Stage far_ao_;
+  bool half_, coloured_, computes_;
+  int far_step_;                                             // pixels
+  Stage output_, layered_output_, counts_;                   // at half resolution the upsample
+  Stage half_depth_, masked_half_depth_, half_ao_, far_ao_;  // masked: without replaced pixels
   RenderTexture far_texture_;
   RenderTexture own_, depth_, ao_;  // depth and AO of every fourth pixel
   Object sampler_, vertex_array_, target_framebuffer_;

@@ -1,5 +1,7 @@
 #include "bakers/measure/gpu_cost/instruction_count.h"
 
+#include <string>
+
 #include "tests/catch.h"
 
 using namespace nook::measure;
@@ -77,6 +79,18 @@ TEST_CASE("the refusal shows the compiled and the expected loops") {
     CHECK(text.find("BB2 to BB2") != text.npos);
     CHECK(text.find("taps: 16") != text.npos);
   }
+}
+
+TEST_CASE("a large branch counts by its share where a branch is expected, and whole elsewhere") {
+  std::string text = "BB0:\n\ts_cbranch_execz BB2\nBB1:\n";
+  for (int i = 0; i < least_branch_cycles; ++i) text += "\tv_add_f32_e32 v0, v1, v0\n";
+  text += "BB2:\n\tv_mov_b32_e32 v0, 0\n\ts_endpgm\n";
+  constexpr double share = 0.25;
+  CHECK(count_instructions(text, {})[InstructionClass::vector] == least_branch_cycles + 1);
+  CHECK(count_instructions(text, {{"taken", share, {}, true}})[InstructionClass::vector] ==
+        share * least_branch_cycles + 1);
+  CHECK_THROWS_AS(count_instructions(text, {{"one", share, {}, true}, {"two", share, {}, true}}),
+                  std::runtime_error);
 }
 
 TEST_CASE("mnemonics of three generations fall into their classes") {

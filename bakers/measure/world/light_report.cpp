@@ -1,0 +1,307 @@
+#include "bakers/measure/world/light_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "bakers/import/skinning.h"
+#include "bakers/measure/world/ratio_bounds.h"
+#include "bakers/probe/map_bake.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "bakers/raytrace/path_tracer.h"
+#include "bakers/raytrace/random.h"
+#include "bakers/raytrace/suns.h"
+#include "bakers/world/posed_casters.h"
+#include "bakers/world/surroundings.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/world/sample.h"
+
+namespace nook::measure {
+namespace {
+
+using namespace bake;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint32_t lobe_count = 12;
+constexpr float visible_ao = 0.01f;
+constexpr std::uint32_t visible_rays = 128;
+constexpr std::size_t most_suns = 64;  // of a map, that are distinguished
+
+// A map as a host draws it: its brightest sun as a cone, the rest as lobes.
+struct SplitLight {
+  std::string name;
+  Environment soft, sun_map;  // their sum is the map
+  std::optional<Sun> sun;
+  std::vector<SphericalGaussian> lobes;
+  LightBands bands;
+  double unit = 0;  // irradiance of the map's mean radiance
+
+  float sun_half_angle_radians() const {
+    return std::acos(1 - sun->solid_angle / (2 * std::numbers::pi_v<float>));
+  }
+  Vec3 sun_irradiance(Vec3 normal) const {
+    return sun ? sun->irradiance * std::max(dot(normal, sun->direction), 0.0f) : Vec3{};
+  }
+};
+
+double mean_radiance(const Environment& map) {
+  const bake::probe::MapIntegrals sum = bake::probe::integrate(map, {});
+  return (sum.radiance[0] + sum.radiance[1] + sum.radiance[2]) / (12 * std::numbers::pi);
+}
+
+// Moves the light above the limit from the soft map into the other one where the brightest sun is the
+// nearest of all.
+void take_brightest_sun(const Environment& map, std::span<const Sun> suns, std::vector<float>& soft,
+                        std::vector<float>& sun_map) {
+  const double limit = sun_limit(map);
+  for (std::size_t t = 0; t < map.texel_count(); ++t) {
+    const Vec3 radiance = map.texel(t), rest = without_sun(radiance, limit);
+    if (double(luminance(radiance)) <= limit) continue;
+    const Vec3 d = map.direction(std::uint32_t(t % map.width()), std::uint32_t(t / map.width()), 0.5f, 0.5f);
+    const auto nearest = std::max_element(suns.begin(), suns.end(), [&](const Sun& a, const Sun& b) {
+      return dot(a.direction, d) < dot(b.direction, d);
+    });
+    if (nearest != suns.begin()) continue;
+    const float all[3] = {radiance.x, radiance.y, radiance.z}, kept[3] = {rest.x, rest.y, rest.z};
+    for (std::size_t c = 0; c < 3; ++c) {
+      soft[3 * t + c] = kept[c];
+      sun_map[3 * t + c] = all[c] - kept[c];
+    }
+  }
+}
+
+SplitLight split(const NamedMap& named) {
+  const Environment& map = named.map;
+  std::vector<float> soft(map.rgb().begin(), map.rgb().end()), sun_map(soft.size(), 0.0f);
+  const std::vector<Sun> suns = find_suns(map, most_suns);
+  if (!suns.empty()) take_brightest_sun(map, suns, soft, sun_map);
+  SplitLight light{named.name,
+                   Environment(map.width(), map.height(), std::move(soft)),
+                   Environment(map.width(), map.height(), std::move(sun_map)),
+                   suns.empty() ? std::nullopt : std::optional<Sun>(suns.front()),
+                   {},
+                   {},
+                   std::numbers::pi * mean_radiance(map)};
+  bake::probe::MapBakeSettings settings;
+  settings.basis = nook::probe::vogel_basis(lobe_count);
+  const std::vector<Vec3> amplitude = bake::probe::bake_map(light.soft, settings);
+  for (std::uint32_t i = 0; i < lobe_count; ++i) {
+    light.lobes.push_back({settings.basis.axis[i], settings.basis.sharpness[i], amplitude[i]});
+    add_lobe(light.bands, light.lobes[i].axis, amplitude[i], bands_of(light.lobes[i].sharpness));
+  }
+  light.bands.darkest = darkest_of(light.lobes);
+  return light;
+}
+
+// The ways to light a point.
+constexpr std::array<const char*, 3> methods{"none", "ao_x_probe", "per_lobe"};
+
+// Sums over the points of a surface in a pose, of squared errors of the three channels together: of all
+// light, of the soft part alone, and of all with the map's own irradiance in place of that of the lobes.
+struct Sums {
+  double weight = 0;
+  std::array<double, methods.size()> all{}, soft{}, exact{};
+};
+
+// Irradiance by both halves of the paths.
+struct TracedLight {
+  std::array<std::vector<Vec3>, 2> soft, sun;
+};
+
+class LitBody {
+ public:
+  LitBody(const std::vector<Vec3>& position, const SkinnedMesh& mesh)
+      : position_(position), mesh_(mesh), offset_(ray_origin_offset(mesh.position)) {}
+
+  SurfacePoints visible(const SurfacePoints& points, std::uint64_t seed) const {
+    AoSettings rays{visible_rays, seed};
+    rays.origin_offset = offset_;
+    const std::vector<float> ao =
+        trace_ao(TriangleSoup{position_, mesh_.triangle}, {points.position, points.normal}, rays);
+    SurfacePoints seen;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (ao[i] >= visible_ao) seen.add(points.position[i], points.normal[i], points.weight[i]);
+    return seen;
+  }
+
+  TracedLight trace(const SurfacePoints& points, const SplitLight& light, std::uint32_t rays,
+                    Random& random) const {
+    TracedLight traced;
+    for (const auto& [map, found] : {std::pair{&light.soft, &traced.soft}, {&light.sun_map, &traced.sun}}) {
+      const bool dark = map == &light.sun_map && !light.sun;
+      const LitScene scene({{position_, mesh_.triangle},
+                            {Surface{{0, 0, 0}, {}}},
+                            std::vector<std::uint32_t>(mesh_.triangle.size(), 0)},
+                           *map);
+      for (std::vector<Vec3>& half : *found) {
+        IrradianceSettings settings;
+        settings.rays = rays;
+        settings.seed = random.bits();
+        settings.path = {0, offset_};
+        half = dark ? std::vector<Vec3>(points.size())
+                    : trace_irradiance(scene, {points.position, points.normal}, settings);
+      }
+    }
+    return traced;
+  }
+
+ private:
+  const std::vector<Vec3>& position_;
+  const SkinnedMesh& mesh_;
+  float offset_;
+};
+
+struct SampledLight {
+  std::vector<float> ao, cone, rgb;
+};
+
+// The shares that the casters leave open, as nook_world_sample gives them.
+SampledLight sample_light(std::span<const PosedCaster> casters, const SurfacePoints& points,
+                          const SplitLight& light) {
+  world::SampleRequest request;
+  request.positions = &points.position[0].x;
+  request.normals = &points.normal[0].x;
+  request.count = std::uint32_t(points.size());
+  request.bands = &light.bands;
+  request.has_light = light.sun.has_value();
+  if (light.sun) {
+    request.light_axis = light.sun->direction;
+    request.light_half_angle_radians = light.sun_half_angle_radians();
+  }
+  world::CasterGroups groups{
+      1, &casters, [](const void* user, std::uint32_t, PosedCaster&) {
+        constexpr float everywhere = 1e3f;  // metres
+        return world::CasterGroup{
+            *static_cast<const std::span<const PosedCaster>*>(user), {}, everywhere, everywhere};
+      }};
+  SampledLight sampled{std::vector<float>(points.size()), std::vector<float>(points.size(), 1.0f),
+                       std::vector<float>(3 * points.size())};
+  world::sample(*world::world_kernels(choose_isa(NOOK_ISA_AUTO)), {}, request, groups, sampled.ao.data(),
+                sampled.cone.data(), sampled.rgb.data());
+  return sampled;
+}
+
+double product_of_errors(Vec3 value, Vec3 first, Vec3 second) {
+  const Vec3 a = value - first, b = value - second;
+  return double(a.x) * double(b.x) + double(a.y) * double(b.y) + double(a.z) * double(b.z);
+}
+
+// The points have one normal.
+Sums sums_of(const SurfacePoints& points, const TracedLight& traced, const SampledLight& sampled,
+             const SplitLight& light) {
+  Sums sums;
+  const double scale = 1 / (3 * light.unit * light.unit);
+  const std::vector<Vec3> exact =
+      bake::probe::map_irradiance(light.soft, {}, {points.normal.data(), std::size_t(1)});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 normal = points.normal[i], sun = light.sun_irradiance(normal);
+    Vec3 soft = nook::probe::irradiance(light.lobes, nook::probe::IrradianceForm::bands, normal);
+    soft = {std::max(soft.x, 0.0f), std::max(soft.y, 0.0f), std::max(soft.z, 0.0f)};
+    const float* const rgb = &sampled.rgb[3 * i];
+    const float ao = sampled.ao[i];
+    const std::array<Vec3, methods.size()> shares{Vec3{1, 1, 1}, {ao, ao, ao}, {rgb[0], rgb[1], rgb[2]}};
+    const double weight = double(points.weight[i]);
+    sums.weight += weight;
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      const Vec3 lit = m == 0 ? sun : sun * sampled.cone[i], of_lobes = by_channel(soft, shares[m]);
+      const Vec3 first = traced.soft[0][i] + traced.sun[0][i], second = traced.soft[1][i] + traced.sun[1][i];
+      sums.soft[m] += weight * scale * product_of_errors(of_lobes, traced.soft[0][i], traced.soft[1][i]);
+      sums.all[m] += weight * scale * product_of_errors(of_lobes + lit, first, second);
+      sums.exact[m] +=
+          weight * scale * product_of_errors(by_channel(exact[0], shares[m]) + lit, first, second);
+    }
+  }
+  return sums;
+}
+
+// One map on one surface over all poses.
+struct LitSurface {
+  std::string map, surface;
+  bool sun = false;
+  std::vector<Sums> pose;
+};
+
+using ErrorsOf = std::array<double, methods.size()> Sums::*;
+
+std::vector<double> by_pose(const LitSurface& lit, ErrorsOf errors, std::size_t method) {
+  std::vector<double> values;
+  for (const Sums& s : lit.pose) values.push_back((s.*errors)[method]);
+  return values;
+}
+
+double sum_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return sum;
+}
+
+Json row_of(const LitSurface& lit, std::size_t method, const WorldStudy& study) {
+  double weight = 0;
+  for (const Sums& s : lit.pose) weight += s.weight;
+  Json row{{"map", lit.map}, {"surface", lit.surface}, {"method", methods[method]}, {"sun", lit.sun}};
+  const auto put = [&](ErrorsOf errors, const std::string& name) {
+    const std::vector<double> own = by_pose(lit, errors, method), other = by_pose(lit, errors, 1);
+    const RatioBounds bounds = ratio_bounds(own, other, study.bootstrap, study.seed);
+    row["mse" + name] = sum_of(own) / weight;
+    row["over_ao_x_probe" + name] = sum_of(own) / sum_of(other);
+    row["over_ao_x_probe" + name + "_low"] = bounds.low;
+    row["over_ao_x_probe" + name + "_high"] = bounds.high;
+  };
+  put(&Sums::all, "");
+  put(&Sums::soft, "_soft");
+  put(&Sums::exact, "_exact");
+  row["poses"] = lit.pose.size();
+  row["rays"] = study.rays;
+  return row;
+}
+
+std::vector<PosedCaster> posed_casters(const CharacterModel& model, const Pose& pose) {
+  std::vector<PosedCaster> casters;
+  for (const WorldCaster& caster : model.world_casters)
+    casters.push_back({posed(caster, pose, CasterUse::light), caster.ao_scale});
+  return casters;
+}
+
+}  // namespace
+
+Json world_light_rows(const SkinnedMesh& mesh, const CharacterModel& model, std::span<const Pose> poses,
+                      std::span<const NamedMap> maps, const WorldStudy& study,
+                      const WorldProgress& progress) {
+  if (model.world_casters.empty())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the model has no world casters; bake the character again");
+  std::vector<SplitLight> lights;
+  for (const NamedMap& map : maps) lights.push_back(split(map));
+  std::vector<LitSurface> surfaces;
+  for (const SplitLight& light : lights)
+    for (const char* surface : {"floor", "wall"})
+      surfaces.push_back({light.name, surface, light.sun.has_value(), {}});
+  for (std::size_t p = 0; p < poses.size(); ++p) {
+    if (progress && !progress(p, poses.size()))
+      throw Failure(NOOK_ERROR_CANCELLED, "cancelled while measuring the world");
+    std::vector<Vec3> position;
+    skin_positions(mesh, poses[p], position);
+    const LitBody body(position, mesh);
+    const std::vector<PosedCaster> casters = posed_casters(model, poses[p]);
+    Random random(mix_bits(~study.seed) + p);
+    const float bearing = 2 * std::numbers::pi_v<float> * random.unit();
+    const std::array<SurfacePoints, 2> points{
+        body.visible(floor_points(position, study.points, random.bits()), random.bits()),
+        body.visible(wall_points(position, bearing, study.points, random.bits()), random.bits())};
+    for (std::size_t l = 0; l < lights.size(); ++l)
+      for (std::size_t s = 0; s < points.size(); ++s) {
+        if (points[s].size() == 0) continue;
+        surfaces[points.size() * l + s].pose.push_back(
+            sums_of(points[s], body.trace(points[s], lights[l], std::max(study.rays / 2, 1u), random),
+                    sample_light(casters, points[s], lights[l]), lights[l]));
+      }
+  }
+  Json rows = Json::array();
+  for (const LitSurface& lit : surfaces)
+    for (std::size_t m = 0; m < methods.size(); ++m) rows.push_back(row_of(lit, m, study));
+  return rows;
+}
+
+}  // namespace nook::measure

@@ -1,0 +1,36 @@
+// Bounds of the ratio of two methods' errors, which depends on the poses that were measured.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bakers/raytrace/random.h"
+
+namespace nook::measure {
+
+struct RatioBounds {
+  double low = 0, high = 0;
+};
+
+// 95 % of the ratios of two sums over poses drawn with replacement. over and under: one number a pose.
+inline RatioBounds ratio_bounds(const std::vector<double>& over, const std::vector<double>& under,
+                                std::size_t draws, std::uint64_t seed) {
+  std::vector<double> ratio;
+  bake::Random random(seed);
+  for (std::size_t d = 0; d < draws; ++d) {
+    double a = 0, b = 0;
+    for (std::size_t i = 0; i < over.size(); ++i) {
+      const std::uint32_t pose = random.below(std::uint32_t(over.size()));
+      a += over[pose];
+      b += under[pose];
+    }
+    ratio.push_back(b > 0 ? a / b : 0);
+  }
+  std::sort(ratio.begin(), ratio.end());
+  const auto at = [&](double share) { return ratio[std::size_t(share * double(ratio.size() - 1))]; };
+  return {at(0.025), at(0.975)};
+}
+
+}  // namespace nook::measure

@@ -1,0 +1,208 @@
+// AO of the casters at what the host's depth shows, as darken.frag and darken.comp compute it: of every pixel; or of every
+// second pixel of every second row, which resolve.frag spreads, by the bodies that are near, times that of the far ones,
+// which has been computed of every eighth.
+#include "shaders/nnao/host_depth.glsl"
+#if NOOK_HALF
+#include "shaders/nnao/depth.glsl"
+#endif
+#include "shaders/world/casters.glsl"
+
+uniform sampler2D nook_host_normal;
+// The lists of bodies that may reach a tile lie behind the casters: for each tile a texel, then the entries.
+uniform int nook_world_first_tile;
+uniform int nook_world_tile_columns;  // 0: no body reaches the view
+uniform int nook_world_tile_size;     // pixels along a side
+uniform int nook_world_counts;        // not 0: a nook_world_view that shows numbers over 255
+
+// The position of a pixel of the viewport; far away where there is no surface.
+vec3 nook_world_position(ivec2 pixel) {
+  ivec2 inside = clamp(pixel, ivec2(0), nook_screen_size - 1);
+  return nook_position(nook_screen_rays, vec2(pixel), nook_screen_depth(inside));
+}
+
+// The tangent along an axis from the steps to both neighbours, each weighted by the inverse square of its change of
+// depth: past a silhouette depth changes more steeply than on the pixel's own surface.
+vec3 nook_world_tangent(vec3 back, vec3 forth) {
+  float b = back.z * back.z + 1.0e-12, f = forth.z * forth.z + 1.0e-12;
+  return b < f ? back + forth * (b / f) : back * (f / b) + forth;
+}
+
+vec3 nook_world_normal(ivec2 pixel, vec3 position) {
+  if (nook_has_normals) {
+    vec3 stored = texelFetch(nook_host_normal, pixel + nook_origin, 0).xyz;
+    vec3 n = nook_normal_matrix * (stored * nook_normal_scale + nook_normal_bias);
+    float size = length(n);
+    // A size outside these bounds means that nothing, or no normal, was drawn here.
+    if (size > 1.0e-3 && size < 1.0e6) return n / size;
+  }
+  ivec2 right = ivec2(1, 0), up = ivec2(0, 1);
+  vec3 x = nook_world_tangent(position - nook_world_position(pixel - right), nook_world_position(pixel + right) - position);
+  vec3 y = nook_world_tangent(position - nook_world_position(pixel - up), nook_world_position(pixel + up) - position);
+  vec3 n = normalize(cross(x, y));
+  return dot(n, nook_to_viewer(position)) < 0.0 ? -n : n;
+}
+
+#ifdef NOOK_COLOURED
+// The lists of bodies whose shadow may fall on a tile, from this texel on, and behind them these bodies.
+uniform int nook_world_first_light_tile;
+uniform int nook_world_first_shade;
+uniform int nook_world_light_columns;  // 0: there is no cone, or it is open
+
+float nook_world_tile_light(ivec2 pixel, vec3 point) {
+  if (nook_world_light_columns == 0) return 1.0;
+  for (int i = 0; i < NOOK_CONE_PARTS; ++i) nook_world_parts[i] = 1.0;
+  ivec2 tile = pixel / nook_world_tile_size;
+  vec4 range = nook_texel(nook_world_casters, nook_world_first_light_tile + tile.y * nook_world_light_columns + tile.x);
+  int first = nook_world_first_light_tile + int(range.x), count = int(range.y);
+  vec4 bodies = vec4(0.0);
+  for (int i = 0; i < count; ++i) {
+    if ((i & 3) == 0) bodies = nook_texel(nook_world_casters, first + (i >> 2));
+    nook_world_body_shade(nook_world_casters, nook_world_first_shade + NOOK_SHADE_TEXELS * int(bodies.x), point);
+    bodies = bodies.yzwx;
+  }
+  return nook_world_open_cone();
+}
+#endif
+
+float nook_world_list_open(int first_tile, ivec2 pixel, vec3 point, vec3 normal) {
+  if (nook_world_tile_columns == 0) return 1.0;
+  ivec2 tile = pixel / nook_world_tile_size;
+  vec4 range = nook_texel(nook_world_casters, first_tile + tile.y * nook_world_tile_columns + tile.x);
+  int first = first_tile + int(range.x), count = int(range.y);
+  float open = 1.0;
+  vec4 bodies = vec4(0.0);
+  for (int i = 0; i < count; ++i) {
+    if ((i & 3) == 0) bodies = nook_texel(nook_world_casters, first + (i >> 2));
+    open *= nook_world_body_open(int(bodies.x), point, normal);
+    bodies = bodies.yzwx;
+  }
+  return open;
+}
+
+// The depth of a pixel that this stage evaluates; at half resolution depth.frag has left out what a layer replaces.
+float nook_world_depth(ivec2 pixel) {
+#if NOOK_HALF
+  return nook_depth_at(pixel / 2);
+#else
+#ifdef NOOK_LAYERED
+  if (nook_layer_mode >= 3 && texelFetch(nook_layer, pixel + nook_origin, 0).g > NOOK_REPLACED) return nook_no_surface;
+#endif
+  return nook_screen_depth(pixel);
+#endif
+}
+
+#if NOOK_BODIES == NOOK_NEAR_BODIES
+uniform sampler2D nook_far_open;
+uniform int nook_world_far;  // 0: no far body reaches the view
+
+// A texel of far bodies: its point in view space, whether there is a surface, and what they leave open.
+struct NookFarTexel {
+  vec3 position;
+  bool there;
+  vec3 open;
+};
+
+NookFarTexel nook_fetch_far(ivec2 texel) {
+  ivec2 pixel = NOOK_FAR_STEP * texel;
+  float depth = nook_world_depth(pixel);
+  return NookFarTexel(nook_position(nook_screen_rays, vec2(pixel), depth), depth != nook_no_surface,
+                      texelFetch(nook_far_open, texel, 0).rgb);
+}
+
+// A stage may keep these texels in memory of its own.
+#ifdef NOOK_GROUPS
+NookFarTexel nook_far_texel(ivec2 texel);
+#else
+#define nook_far_texel nook_fetch_far
+#endif
+
+// Returns the openness by far bodies, from the four texels of every eighth pixel round this one, by how near their points
+// lie to its plane. Alpha is 0 where none of them does.
+vec4 nook_world_far_open(ivec2 pixel, vec3 point, vec3 normal) {
+  ivec2 low = pixel / NOOK_FAR_STEP, last = (nook_screen_size - 1) / NOOK_FAR_STEP;
+  vec2 place = vec2(pixel - NOOK_FAR_STEP * low) / float(NOOK_FAR_STEP);
+  // A step off the plane of a hundredth of the distance weighs half.
+  float inverse_off = 100.0 * inversesqrt(dot(point, point) + 1.0e-12);
+  vec3 sum = vec3(0.0);
+  float weights = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 corner = ivec2(i & 1, i >> 1);
+    NookFarTexel far = nook_far_texel(min(low + corner, last));
+    vec2 share = mix(1.0 - place, place, vec2(corner));
+    float off = dot(normal, far.position - point) * inverse_off;
+    float weight = far.there ? (share.x * share.y + 1.0e-3) / (1.0 + off * off * off * off) : 0.0;
+    sum += weight * far.open;
+    weights += weight;
+  }
+  // Texels that lie off the plane weigh less together.
+  return weights > 5.0e-4 ? vec4(sum / weights, 1.0) : vec4(0.0);
+}
+
+uniform int nook_world_first_far_tile;
+
+vec3 nook_world_far_here(ivec2 pixel, vec3 point, vec3 normal) {
+  nook_world_far_bodies = true;
+#ifdef NOOK_COLOURED
+  nook_world_taken = NookTaken(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
+#endif
+  float open = nook_world_list_open(nook_world_first_far_tile, pixel, point, normal);
+#ifdef NOOK_COLOURED
+  return nook_world_open_light(normal, open);
+#else
+  return vec3(open);
+#endif
+}
+#endif
+
+struct NookSurface {
+  bool there;
+  vec3 position, normal;  // in view space
+};
+
+NookSurface nook_world_surface(ivec2 pixel) {
+  float depth = nook_world_depth(pixel);
+  if (depth == nook_no_surface) return NookSurface(false, vec3(0.0), vec3(0.0, 0.0, 1.0));
+  vec3 position = nook_position(nook_screen_rays, vec2(pixel), depth);
+  return NookSurface(true, position, nook_world_normal(pixel, position));
+}
+
+// Returns the number that the view shows of what the point has evaluated.
+float nook_world_count() {
+  bool tests = nook_world_counts == NOOK_VIEW_TESTS || nook_world_counts == NOOK_VIEW_FAR_TESTS;
+  int number = nook_world_counts == NOOK_VIEW_EXACT_CASTERS ? nook_world_exact
+               : tests                                      ? nook_world_tested
+                                                            : nook_world_evaluated;
+  return float(number) / 255.0;
+}
+
+// open: what the bodies of this stage leave open.
+vec4 nook_world_light(ivec2 pixel, NookSurface surface, float open) {
+  vec4 light = vec4(vec3(open), 1.0);
+  float count = surface.there ? nook_world_count() : 0.0;
+  if (surface.there) {
+#ifdef NOOK_COLOURED
+    light.rgb = nook_world_open_light(surface.normal, open);
+#if NOOK_BODIES != NOOK_FAR_BODIES
+    light.a = nook_world_tile_light(pixel, surface.position);
+#endif
+#endif
+#if NOOK_BODIES == NOOK_NEAR_BODIES
+    float seen = 0.0;
+    if (nook_world_far == 1) {
+      vec4 far = nook_world_far_open(pixel, surface.position, surface.normal);
+      if (far.a == 0.0) {
+        far.rgb = nook_world_far_here(pixel, surface.position, surface.normal);
+        count = nook_world_count();
+      } else {
+        seen = far.r;
+      }
+      light.rgb *= far.rgb;
+    }
+    if (nook_world_counts == NOOK_VIEW_CASTERS) count += seen / float(NOOK_FAR_STEP * NOOK_FAR_STEP / 4);
+    if (nook_world_counts >= NOOK_VIEW_FAR_CASTERS) count = seen;
+#elif NOOK_BODIES == NOOK_ALL_BODIES
+    if (nook_world_counts >= NOOK_VIEW_FAR_CASTERS) count = 0.0;
+#endif
+  }
+  return nook_world_counts == 0 ? light : vec4(vec3(count), 1.0);
+}
