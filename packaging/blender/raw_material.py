@@ -104,7 +104,8 @@ def write(path, name, lights, views, radiance, mask=None):
     mask:          views x width x height, true where the view meets the surface; None where it always does
     """
     lights, views = _checked_directions(lights, "lights"), _checked_directions(views, "views")
-    radiance = numpy.asarray(radiance, "<f2")
+    with numpy.errstate(over="ignore"):  # what is too large becomes infinite and is refused below
+        radiance = numpy.asarray(radiance, "<f2")
     if radiance.ndim != 5 or radiance.shape[:3] != (len(lights), 3, len(views)):
         raise ValueError(f"radiance: got the shape {radiance.shape}, need {len(lights)} x 3 x {len(views)} x width x height")
     if not numpy.all(numpy.isfinite(radiance)):
