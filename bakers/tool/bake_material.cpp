@@ -11,7 +11,6 @@
 #include "bakers/images/ubo_reader.h"
 #include "bakers/job/material_source.h"
 #include "bakers/job/worker_arena.h"
-#include "bakers/material/btf_file.h"
 #include "bakers/measure/material/pictures.h"
 #include "bakers/measure/material/report.h"
 #include "bakers/tool/commands.h"
