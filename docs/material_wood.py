@@ -11,11 +11,13 @@ of 0 to 75 degrees in steps of 15, with 1, 6, 12, 18, 20 and 24 azimuths. `betwe
 those azimuths, for errors in views that were not fitted.
 """
 import argparse
-import ctypes
-import ctypes.util
-import struct
+import pathlib
+import sys
 
 import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "packaging/blender"))
+import raw_material  # noqa: E402
 
 RINGS = ((0, 1), (15, 6), (30, 12), (45, 18), (60, 20), (75, 24))  # degrees of tilt, azimuths
 
@@ -93,27 +95,6 @@ def radiance(m, light, view):
     return light[2] * (through * (m["colour"] / numpy.pi * 0.8 + fibres[..., None] * m["colour"]) + gloss[..., None])
 
 
-def checksum(data):
-    """XXH64 with seed 0."""
-    name = ctypes.util.find_library("xxhash")
-    if name:
-        library = ctypes.CDLL(name)
-        library.XXH64.restype = ctypes.c_uint64
-        return library.XXH64(data, ctypes.c_size_t(len(data)), ctypes.c_uint64(0))
-    raise SystemExit("material_wood.py: the file's checksum needs libxxhash (Debian: libxxhash0)")
-
-
-def container(kind, version, sections):
-    """A .nook file; sdk/src/core/container.h describes it."""
-    offset, table = 40 + 24 * len(sections), b""
-    for name, body in sections:
-        table += struct.pack("<4sIQQ", name, 0, offset, len(body))
-        offset += len(body)
-    head = struct.pack("<4sII4sQ", b"NOOK", 0x01020304, version, kind, offset)
-    rest = struct.pack("<II", len(sections), 0) + table + b"".join(body for _, body in sections)
-    return head + struct.pack("<Q", checksum(head + rest)) + rest
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("output", help="the raw material to write")
@@ -128,11 +109,7 @@ def main():
     for j, light in enumerate(lights):
         for i, view in enumerate(views):
             btf[j, :, i] = numpy.moveaxis(radiance(textures, light, view), -1, 0)
-    name = b"wood"
-    head = struct.pack("<6I", len(lights), len(views), side, side, 0, len(name)) + name
-    with open(options.output, "wb") as out:
-        out.write(container(b"MRAW", 2, [(b"HEAD", head), (b"DIRS", lights.tobytes() + views.tobytes()),
-                                         (b"BTF_", btf.tobytes()), (b"MASK", b"")]))
+    raw_material.write(options.output, "wood", lights, views, btf)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,11 @@
 #include "bakers/images/ubo_names.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "bakers/material/directions.h"
@@ -11,6 +15,13 @@ namespace nook::bake::material {
 namespace {
 
 using Angles = std::pair<float, float>;  // tilt, azimuth
+
+struct Pair {
+  Angles light, view;
+};
+
+// Lights are moved by less than the distance of neighbouring directions.
+constexpr float most_moved_deg = 15;
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -49,6 +60,56 @@ void number(std::map<Angles, std::size_t>& set) {
   for (auto& [angles, index] : set) index = next++;
 }
 
+bool near(Angles a, Angles b) {
+  const float cosine =
+      dot(direction_from_angles(a.first, a.second), direction_from_angles(b.first, b.second));
+  return cosine > std::cos(most_moved_deg * 3.14159265f / 180);
+}
+
+std::vector<Pair> read_pairs(std::span<const std::string> names) {
+  std::vector<Pair> pairs;
+  for (const std::string& name : names) {
+    const auto angles = parse_ubo_name(name);
+    if (!angles || angles->light_tilt < 0 || angles->light_tilt >= 90 || angles->view_tilt < 0 ||
+        angles->view_tilt >= 90)
+      throw Failure(
+          NOOK_ERROR_BAD_FILE,
+          "the name %.200s tells no directions; it needs tl, pl, tv and pv once each with degrees behind "
+          "them, tilts below 90",
+          name.c_str());
+    pairs.push_back({canonical(angles->light_tilt, angles->light_azimuth),
+                     canonical(angles->view_tilt, angles->view_azimuth)});
+  }
+  return pairs;
+}
+
+// A lamp cannot stand in the camera: where light and view would be equal, it is moved. Such a light is of one
+// view alone, and the image takes the place of the pair that is missing.
+void put_moved_lights_back(std::vector<Pair>& pairs) {
+  std::map<Angles, std::set<Angles>> views_of;
+  for (const Pair& p : pairs) views_of[p.light].insert(p.view);
+  for (Pair& p : pairs) {
+    const auto camera = views_of.find(p.view);
+    if (views_of[p.light].size() == 1 && camera != views_of.end() && camera->second.size() > 1 &&
+        !camera->second.contains(p.view) && near(p.light, p.view))
+      p.light = p.view;
+  }
+}
+
+[[noreturn]] void fail_of_missing(const UboGrid& grid, const std::map<Angles, std::size_t>& lights,
+                                  const std::map<Angles, std::size_t>& views, std::size_t none) {
+  const auto missing = std::size_t(std::count(grid.image.begin(), grid.image.end(), none));
+  const auto first = std::size_t(std::find(grid.image.begin(), grid.image.end(), none) - grid.image.begin());
+  const Angles light = std::next(lights.begin(), std::ptrdiff_t(first / views.size()))->first;
+  const Angles view = std::next(views.begin(), std::ptrdiff_t(first % views.size()))->first;
+  throw Failure(
+      NOOK_ERROR_BAD_FILE,
+      "no image for tl %g, pl %g, tv %g, pv %g (%zu of %zu are missing); every light is needed with "
+      "every view",
+      double(light.first), double(light.second), double(view.first), double(view.second), missing,
+      grid.image.size());
+}
+
 }  // namespace
 
 std::optional<UboAngles> parse_ubo_name(std::string_view name) {
@@ -63,21 +124,12 @@ std::optional<UboAngles> parse_ubo_name(std::string_view name) {
 UboGrid arrange_ubo_names(std::span<const std::string> names) {
   if (names.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "no images; one for each light and view direction is needed");
-  std::vector<std::pair<Angles, Angles>> pair;
+  std::vector<Pair> pairs = read_pairs(names);
+  put_moved_lights_back(pairs);
   std::map<Angles, std::size_t> lights, views;
-  for (const std::string& name : names) {
-    const auto angles = parse_ubo_name(name);
-    if (!angles || angles->light_tilt < 0 || angles->light_tilt >= 90 || angles->view_tilt < 0 ||
-        angles->view_tilt >= 90)
-      throw Failure(
-          NOOK_ERROR_BAD_FILE,
-          "the name %.200s tells no directions; it needs tl, pl, tv and pv once each with degrees behind "
-          "them, tilts below 90",
-          name.c_str());
-    pair.push_back({canonical(angles->light_tilt, angles->light_azimuth),
-                    canonical(angles->view_tilt, angles->view_azimuth)});
-    lights[pair.back().first];
-    views[pair.back().second];
+  for (const Pair& p : pairs) {
+    lights[p.light];
+    views[p.view];
   }
   number(lights);
   number(views);
@@ -85,24 +137,14 @@ UboGrid arrange_ubo_names(std::span<const std::string> names) {
   const std::size_t none = names.size();
   grid.image.assign(lights.size() * views.size(), none);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    std::size_t& cell = grid.image[lights[pair[i].first] * views.size() + views[pair[i].second]];
+    std::size_t& cell = grid.image[lights[pairs[i].light] * views.size() + views[pairs[i].view]];
     if (cell != none)
       throw Failure(NOOK_ERROR_BAD_FILE,
                     "%.150s and %.150s are of the same directions; one of them is needed",
                     names[cell].c_str(), names[i].c_str());
     cell = i;
   }
-  const std::size_t missing = grid.image.size() - names.size();
-  if (missing == 0) return grid;
-  for (const auto& [light, l] : lights)
-    for (const auto& [view, v] : views)
-      if (grid.image[l * views.size() + v] == none)
-        throw Failure(
-            NOOK_ERROR_BAD_FILE,
-            "no image for tl %g, pl %g, tv %g, pv %g (%zu of %zu are missing); every light is needed with "
-            "every view",
-            double(light.first), double(light.second), double(view.first), double(view.second), missing,
-            grid.image.size());
+  if (grid.image.size() != names.size()) fail_of_missing(grid, lights, views, none);
   return grid;
 }
 

@@ -1,6 +1,7 @@
-// File names of measured BTFs in the layout of Bonn's 2003 database: one image for each light and view
-// direction, whose name holds tl, pl, tv, pv (tilt and azimuth of light and view, degrees), each followed by
-// a number, such as "00012_tl015_pl060_tv030_pv090.png".
+// File names of measured BTFs in the layout of Bonn's 2003 database, which UTIA's database has as well: one
+// image for each light and view direction, whose name holds tl, pl, tv, pv (tilt and azimuth of light and
+// view, degrees), each followed by a number, such as "00012_tl015_pl060_tv030_pv090.png". UTIA has a folder
+// for each view, and lights that are moved where they would stand in the camera.
 #pragma once
 
 #include <optional>
@@ -25,9 +26,10 @@ struct UboGrid {
   std::vector<std::size_t> image;   // lights x views: index of the name
 };
 
-// Sorts names into a full grid. Throws Failure(NOOK_ERROR_BAD_FILE) that names the file whose name cannot be
-// read, the two files of the same directions, or the first missing pair of directions and how many are
-// missing.
+// Sorts names into a full grid. A light of one view alone within 15 degrees of it stands for the light in
+// that view's direction, where that pair is missing. Throws Failure(NOOK_ERROR_BAD_FILE) that names the file
+// whose name cannot be read, the two files of the same directions, or the first missing pair of directions
+// and how many are missing.
 UboGrid arrange_ubo_names(std::span<const std::string> file_names);
 
 }  // namespace nook::bake::material

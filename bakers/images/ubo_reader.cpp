@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <memory>
@@ -40,7 +41,7 @@ struct Region {
 // One image of the set, whose head is read when it is opened.
 class UboImage {
  public:
-  explicit UboImage(const fs::path& path) : path_(path) {
+  UboImage(const fs::path& path, FloatColours colours) : path_(path) {
     check_exr_head(path.c_str(), path);
     input_ = OIIO::ImageInput::open(path.string());
     if (!input_) fail(OIIO::geterror());
@@ -48,8 +49,7 @@ class UboImage {
     if (spec.nchannels < 1 || spec.depth > 1) fail("it is no flat image");
     std::error_code unknown;  // the size is then the largest number
     check_image_size(path.c_str(), spec.width, spec.height, most_image_texels, fs::file_size(path, unknown));
-    // One channel stands for three; those above the third are not read.
-    channels_ = spec.nchannels >= 3 ? 3 : 1;
+    find_channels(spec, colours);
   }
 
   Size size() const { return {input_->spec().width, input_->spec().height}; }
@@ -58,7 +58,7 @@ class UboImage {
   // in memory.
   std::vector<float> read(const Region& region) {
     const Region held = held_region(region);
-    std::vector<float> raw(channels_ * std::size_t(held.size.width) * std::size_t(held.size.height));
+    std::vector<float> raw(channels_read_ * std::size_t(held.size.width) * std::size_t(held.size.height));
     read_held(held, raw.data());
     std::vector<float> rgb;
     rgb.reserve(3 * std::size_t(region.size.width) * std::size_t(region.size.height));
@@ -66,8 +66,8 @@ class UboImage {
       for (int x = region.left; x < region.left + region.size.width; ++x) {
         const std::size_t texel =
             std::size_t(y - held.top) * std::size_t(held.size.width) + std::size_t(x - held.left);
-        for (std::size_t c = 0; c < 3; ++c)
-          rgb.push_back(linear(raw[texel * channels_ + (channels_ == 3 ? c : 0)], x, y));
+        const Vec3 colour = linear_rgb(&raw[texel * channels_read_], x, y);
+        rgb.insert(rgb.end(), {colour.x, colour.y, colour.z});
       }
     return rgb;
   }
@@ -75,6 +75,24 @@ class UboImage {
  private:
   [[noreturn]] void fail(const std::string& why) const {
     throw Failure(NOOK_ERROR_BAD_FILE, "%.250s: cannot be read (%.150s)", path_.c_str(), why.c_str());
+  }
+
+  // One channel stands for three; those above the third are not read, unless X, Y and Z are among them.
+  void find_channels(const OIIO::ImageSpec& spec, FloatColours colours) {
+    if (spec.nchannels < 3) return;
+    channel_ = {0, 1, 2};
+    if (spec.format.is_floating_point()) {
+      const auto place = [&](const char* name) {
+        const auto& names = spec.channelnames;
+        return std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
+      };
+      constexpr std::size_t most_channels = 8;  // those before X, Y and Z are held in memory too
+      const std::array<std::size_t, 3> xyz{place("X"), place("Y"), place("Z")};
+      const bool has_xyz = std::ranges::max(xyz) < std::min(spec.channelnames.size(), most_channels);
+      if (has_xyz) channel_ = xyz;
+      is_xyz_ = has_xyz || colours == FloatColours::xyz;
+    }
+    channels_read_ = std::ranges::max(channel_) + 1;
   }
 
   // The rows or the tiles that hold a region.
@@ -95,27 +113,35 @@ class UboImage {
     const OIIO::ImageSpec& spec = input_->spec();
     const int left = spec.x + held.left, right = left + held.size.width;
     const int top = spec.y + held.top, bottom = top + held.size.height;
-    const bool read =
-        spec.tile_width == 0
-            ? input_->read_scanlines(0, 0, top, bottom, spec.z, 0, int(channels_), OIIO::TypeDesc::FLOAT, raw)
-            : input_->read_tiles(0, 0, left, right, top, bottom, spec.z, spec.z + 1, 0, int(channels_),
-                                 OIIO::TypeDesc::FLOAT, raw);
+    const bool read = spec.tile_width == 0
+                          ? input_->read_scanlines(0, 0, top, bottom, spec.z, 0, int(channels_read_),
+                                                   OIIO::TypeDesc::FLOAT, raw)
+                          : input_->read_tiles(0, 0, left, right, top, bottom, spec.z, spec.z + 1, 0,
+                                               int(channels_read_), OIIO::TypeDesc::FLOAT, raw);
     if (!read) fail(input_->geterror());
   }
 
-  float linear(float value, int x, int y) const {
-    // Raw materials hold half floats.
-    if (!(std::abs(value) <= max_half))
-      throw Failure(NOOK_ERROR_BAD_FILE,
-                    "%.250s: texel (%d, %d), counted from the upper left, is not a finite number of at most "
-                    "65504 in magnitude",
-                    path_.c_str(), x, y);
-    return input_->spec().format.is_floating_point() ? value : linear_from_srgb(value);
+  Vec3 linear_rgb(const float* texel, int x, int y) const {
+    Vec3 colour{texel[channel_[0]], texel[channel_[1]], texel[channel_[2]]};
+    if (!input_->spec().format.is_floating_point())
+      colour = {linear_from_srgb(colour.x), linear_from_srgb(colour.y), linear_from_srgb(colour.z)};
+    if (is_xyz_) colour = linear_rgb_from_xyz(colour);
+    for (const float value : {colour.x, colour.y, colour.z})
+      // Raw materials hold half floats.
+      if (!(std::abs(value) <= max_half))
+        throw Failure(
+            NOOK_ERROR_BAD_FILE,
+            "%.250s: texel (%d, %d), counted from the upper left, is not a finite number of at most "
+            "65504 in magnitude",
+            path_.c_str(), x, y);
+    return colour;
   }
 
   fs::path path_;
   std::unique_ptr<OIIO::ImageInput> input_;
-  std::size_t channels_ = 0;
+  std::array<std::size_t, 3> channel_{};  // of red, green and blue, or X, Y and Z
+  std::size_t channels_read_ = 1;
+  bool is_xyz_ = false;
 };
 
 // Of the raw material, y counts from the bottom; images begin at the top.
@@ -131,7 +157,7 @@ void copy_image(const std::vector<float>& rgb, std::size_t light, std::size_t vi
 }  // namespace
 
 RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const Progress& progress,
-                            std::size_t most_bytes) {
+                            std::size_t most_bytes, FloatColours colours) {
   const std::vector<fs::path> paths = images_below(folder);
   std::vector<std::string> names;
   for (const fs::path& path : paths) names.push_back(path.filename().string());
@@ -142,7 +168,7 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
       folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
   raw.lights = grid.lights;
   raw.views = grid.views;
-  const Size first = UboImage(paths[grid.image[0]]).size();
+  const Size first = UboImage(paths[grid.image[0]], colours).size();
   const auto width = std::uint32_t(first.width), height = std::uint32_t(first.height);
   if (texels > std::min(width, height))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -167,7 +193,7 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
     const std::size_t i = grid.image[cell];
     if (stopped) return;
     try {
-      UboImage image(paths[i]);
+      UboImage image(paths[i], colours);
       const Size size = image.size();
       if (size != first)
         throw Failure(NOOK_ERROR_BAD_FILE,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "bakers/material/btf_file.h"
 #include "bakers/material/builtin_ranks.h"
 #include "bakers/material/compression.h"
 #include "bakers/material/directions.h"

@@ -37,6 +37,7 @@ struct Options {
   CompressionOptions compression;
   std::string meso, visibility_mapping;
   std::filesystem::path pbr, btf, raw, output, keep_raw, images;
+  FloatColours colours = FloatColours::rgb;  // of the images of --btf
   std::uint32_t directions = 100, lights = 0, texels = 0;
   float max_tilt_deg = bake::material::default_max_tilt_deg;
   TraceSettings trace;
@@ -97,7 +98,10 @@ std::string folder_name(const std::filesystem::path& folder) {
 }
 
 Json recipe_of_trace(const Options& o) {
-  if (!o.btf.empty()) return {{"btf", o.btf.filename().string()}, {"texels", o.texels}};
+  if (!o.btf.empty())
+    return {{"btf", o.btf.filename().string()},
+            {"texels", o.texels},
+            {"colours", o.colours == FloatColours::xyz ? "xyz" : "rgb"}};
   if (!o.raw.empty()) return {{"raw", o.raw.filename().string()}};
   Json recipe;
   if (!o.pbr.empty()) {
@@ -120,6 +124,15 @@ Json recipe_of_trace(const Options& o) {
   return recipe;
 }
 
+RawMaterial read_measured(const Options& o, const bake::Progress& progress) {
+  constexpr std::size_t most_bytes = std::size_t{6} << 30;
+  if (std::filesystem::is_directory(o.btf) || !std::filesystem::exists(o.btf))
+    return read_ubo_folder(o.btf, o.texels, progress, most_bytes, o.colours);
+  RawMaterial raw = read_btf_file(read_file(o.btf), o.texels, most_bytes);
+  raw.name = o.btf.stem().string();
+  return raw;
+}
+
 RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
   const auto progress = [&](const char* label, const char* unit) {
     return [&bar, label, unit](std::size_t done, std::size_t total) {
@@ -129,8 +142,7 @@ RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
   };
   if (!o.raw.empty()) return naming_file(o.raw, [&] { return read_raw_material(read_file(o.raw)); });
   if (!o.btf.empty())
-    return naming_file(o.btf,
-                       [&] { return read_ubo_folder(o.btf, o.texels, progress("reading", "images")); });
+    return naming_file(o.btf, [&] { return read_measured(o, progress("reading", "images")); });
   RawMaterial raw = bake::trace_meso_source(source_of(o), progress("ray tracing", "views"));
   raw.name = !o.pbr.empty()    ? folder_name(o.pbr)
              : is_mesh(o.meso) ? std::filesystem::path(o.meso).stem().string()
@@ -251,7 +263,16 @@ void add_bake_material(CLI::App& bake) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_linked_files_option(*command, o.linked);
-  command->add_option("--btf", o.btf, "a folder of measured images, tl pl tv pv in their names (UBO 2003)");
+  command->add_option("--btf", o.btf,
+                      "a folder of measured images, tl pl tv pv in their names (UBO 2003, UTIA), or a .btf "
+                      "file (UBO 2014)");
+  command
+      ->add_option_function<std::string>(
+          "--btf-colours",
+          [&o](const std::string& v) { o.colours = v == "xyz" ? FloatColours::xyz : FloatColours::rgb; },
+          "of float images of --btf: linear rgb (default), or xyz under D65 (UTIA)")
+      ->check(CLI::IsMember({"rgb", "xyz"}))
+      ->type_name("NAME");
   command->add_option("--raw", o.raw, "a raw material that --keep-raw wrote");
   command->add_option("-o,--output", o.output, "the .nook file to write")->required();
   command->add_option("--keep-raw", o.keep_raw, "write the uncompressed material, for `evaluate material`");

@@ -134,17 +134,18 @@ void add_evaluate_material(CLI::App& evaluate_command) {
   command->add_option("material", o.material, "the .nook file")->required();
   command->add_flag(
       "--peers", o.peers,
-      "compress by N-SVD, CTA, K-CTA with K = 2, 3, 4 at the file's ranks, and by N-SVD and PCA at the bytes "
-      "of the whole file");
+      "compress by N-SVD, CTA, K-CTA with K = 2, 3, 4 at the file's ranks, by N-SVD and PCA at the bytes of "
+      "the whole file, and fit the maps of a physically based material with parallax");
   command
       ->add_option("--methods", o.methods,
-                   "only these baselines: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca")
+                   "only these baselines: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr, "
+                   "pbr-shadows")
       ->delimiter(',')
       ->check(CLI::IsMember(measure::material_baseline_names()))
       ->type_name("NAME,...");
-  command->add_option(
-      "--unseen", o.unseen,
-      "a raw material of the same lights and other views, for the error between sampled views");
+  command->add_option("--unseen", o.unseen,
+                      "a raw material of other views, and of other lights where they differ, for the error "
+                      "between the samples");
   command
       ->add_option("--votf-refits", o.votf_refits,
                    "further fits of the VOTF of the methods beside the file, as in bake material")

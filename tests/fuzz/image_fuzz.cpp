@@ -1,7 +1,7 @@
 // Gives bytes to the readers of image files: textures of glTF files, environment maps, folders of measured
-// images. Nothing may crash or take more memory than the file can fill, and every number is finite, whatever
-// the bytes. OpenImageIO is not instrumented: what guides the fuzzer is the code round it. Built for
-// libFuzzer with clang; elsewhere image_fuzz_replay.cpp drives it.
+// images, measured materials in one file. Nothing may crash or take more memory than the file can fill, and
+// every number is finite, whatever the bytes. OpenImageIO is not instrumented: what guides the fuzzer is the
+// code round it. Built for libFuzzer with clang; elsewhere image_fuzz_replay.cpp drives it.
 #include <unistd.h>
 
 #include <cmath>
@@ -14,6 +14,7 @@
 #include "bakers/images/environment_file.h"
 #include "bakers/images/texture_file.h"
 #include "bakers/images/ubo_reader.h"
+#include "bakers/material/btf_file.h"
 #include "sdk/src/core/failure.h"
 #include "tests/fuzz/image_kinds.h"
 
@@ -72,18 +73,23 @@ void read_map(const fs::path& file) {
   }
 }
 
-void read_measured(const fs::path& folder) {
-  const material::RawMaterial raw = material::read_ubo_folder(folder, 0);
-  require(raw.btf.size() == 3 * raw.texels(), "a measured image has other than three channels");
+void read_measured(const material::RawMaterial& raw) {
+  require(raw.btf.size() == raw.light_rows() * raw.views.size() * raw.texels(),
+          "a measured material has another size than its heads say");
   for (const float value : raw.btf) require(std::isfinite(value), "a measured value is not finite");
 }
 
 void read(const ImageKind& kind, std::span<const std::byte> bytes) {
   static const Folder folder;
   if (kind.reader == nook::test::ImageReader::texture) return read_texture(bytes);
+  constexpr std::size_t most_bytes = 16u << 20;
+  if (kind.reader == nook::test::ImageReader::measured_file)
+    return read_measured(material::read_btf_file(bytes, 0, most_bytes));
   const fs::path file = folder.write(kind.ending, bytes);
   try {
-    kind.reader == nook::test::ImageReader::environment ? read_map(file) : read_measured(folder.path());
+    kind.reader == nook::test::ImageReader::environment
+        ? read_map(file)
+        : read_measured(material::read_ubo_folder(folder.path(), 0));
   } catch (const nook::Failure&) {
   }
   fs::remove(file);

@@ -7,7 +7,7 @@
 
 namespace nook::test {
 
-enum class ImageReader { texture, environment, measured };
+enum class ImageReader { texture, environment, measured, measured_file };
 
 struct ImageKind {
   ImageReader reader;
@@ -20,6 +20,6 @@ inline constexpr std::array image_kinds{
     ImageKind{ImageReader::measured, "png"},    ImageKind{ImageReader::measured, "jpg"},
     ImageKind{ImageReader::measured, "exr"},    ImageKind{ImageReader::measured, "hdr"},
     ImageKind{ImageReader::measured, "tif"},    ImageKind{ImageReader::measured, "bmp"},
-    ImageKind{ImageReader::measured, "ppm"}};
+    ImageKind{ImageReader::measured, "ppm"},    ImageKind{ImageReader::measured_file, "btf"}};
 
 }  // namespace nook::test

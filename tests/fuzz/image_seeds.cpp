@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "tests/bakers/material/btf_writer.h"
 #include "tests/fuzz/image_kinds.h"
 #include "tests/fuzz/seeds.h"
 
@@ -39,7 +40,9 @@ std::vector<Seed> seeds() {
   std::vector<Seed> made;
   for (std::size_t k = 0; k < image_kinds.size(); ++k) {
     const bool alpha = k == 0 || k == 4;
-    std::vector<std::byte> file = written(image_kinds[k].ending, 8, 4, alpha ? 4 : 3);
+    std::vector<std::byte> file = image_kinds[k].reader == ImageReader::measured_file
+                                      ? write_btf_file(bake::material::test::small_btf())
+                                      : written(image_kinds[k].ending, 8, 4, alpha ? 4 : 3);
     file.insert(file.begin(), std::byte(k));
     made.push_back({"image_" + std::to_string(k), file});
   }

@@ -24,7 +24,8 @@ constexpr Baseline baselines[] = {{"n-svd", Method::n_svd, 1},
                                   {"k-cta-2", Method::k_cta, 2},
                                   {"k-cta-3", Method::k_cta, 3},
                                   {"k-cta-4", Method::k_cta, 4}};
-constexpr const char *pca_name = "pca", *n_svd_filled_name = "n-svd-filled";
+constexpr const char *pca_name = "pca", *n_svd_filled_name = "n-svd-filled", *pbr_name = "pbr",
+                     *pbr_shadows_name = "pbr-shadows";
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -88,6 +89,8 @@ std::vector<std::string> material_baseline_names() {
   for (const Baseline& baseline : baselines) names.emplace_back(baseline.name);
   names.emplace_back(n_svd_filled_name);
   names.emplace_back(pca_name);
+  names.emplace_back(pbr_name);
+  names.emplace_back(pbr_shadows_name);
   return names;
 }
 
@@ -153,9 +156,16 @@ Json material_baseline_rows(const RawMaterial& raw, const MaterialFile& file, st
     row.method = "N-SVD, equal bytes";
     rows.push_back(report_row(raw.name, row));
   }
-  if (!contains(request.names, pca_name)) return rows;
-  request.progress("")("principal components", 0, 1);
-  rows.push_back(report_row(raw.name, measure_pca(raw, file.bytes, settings.seed)));
+  if (contains(request.names, pca_name)) {
+    request.progress("")("principal components", 0, 1);
+    rows.push_back(report_row(raw.name, measure_pca(raw, file.bytes, settings.seed)));
+  }
+  for (const char* name : {pbr_name, pbr_shadows_name}) {
+    if (!contains(request.names, name)) continue;
+    request.progress("")("physically based maps", 0, 1);
+    rows.push_back(
+        report_row(raw.name, measure_pbr(raw, request.unseen, std::string_view(name) == pbr_shadows_name)));
+  }
   return rows;
 }
 

@@ -16,7 +16,7 @@
 
 namespace nook::measure {
 
-// n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca.
+// n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr, pbr-shadows.
 std::vector<std::string> material_baseline_names();
 
 // The settings that the sizes of a material's tensors give: those of its view map where K-CTA made it.
@@ -24,7 +24,7 @@ bake::material::CompressionSettings settings_of(const nook::material::Material& 
 
 struct BaselineRequest {
   std::vector<std::string> names;                       // of material_baseline_names
-  const bake::material::RawMaterial* unseen = nullptr;  // views that no fit has seen; null: none
+  const bake::material::RawMaterial* unseen = nullptr;  // views, and lights, of no fit; null: none
   // Measure jumps as the view moves. CTA then has view maps of the file's size, as K-CTA has.
   bool jumps = false;
   std::uint32_t votf_refits = 2;  // of the new fits

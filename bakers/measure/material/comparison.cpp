@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bakers/measure/material/measures.h"
+#include "bakers/measure/material/pbr_tile.h"
 #include "bakers/measure/material/pca.h"
 #include "bakers/measure/material/report.h"
 #include "bakers/measure/material/whole_file.h"
@@ -104,6 +105,20 @@ MethodRow measure_pca(const RawMaterial& raw, std::span<const std::byte> file, s
   row.se_db = pca.se_db;
   row.psnr_db = pca.psnr_db;
   row.seconds = watch.seconds();
+  return row;
+}
+
+MethodRow measure_pbr(const RawMaterial& raw, const RawMaterial* unseen, bool has_shadows) {
+  const platform::Stopwatch watch;
+  const PbrTile tile = fit_pbr_tile(raw, has_shadows);
+  MethodRow row;
+  row.method = has_shadows ? "PBR, parallax and shadows" : "PBR, parallax";
+  row.seconds = watch.seconds();
+  row.bytes = row.file_bytes = tile.bytes();
+  const BtfError error = measure_pbr_tile(raw, tile);
+  row.se_db = error.se_db();
+  row.psnr_db = error.psnr_db();
+  if (unseen) row.se_db_unseen = measure_pbr_tile(*unseen, tile).se_db();
   return row;
 }
 

@@ -21,7 +21,7 @@ struct MethodRow {
   std::optional<std::size_t> error_texels_binary, error_texels_distance;
   // As drawn from textures, see table_error.h: the error, and the textures' bytes for each texel.
   std::optional<double> se_db_drawn, gpu_bytes_texel;
-  // Errors in views that were not fitted.
+  // Errors in views, and under lights, that were not fitted.
   std::optional<double> se_db_unseen;
   std::optional<std::size_t> error_texels_unseen;
   // Jumps as the view moves, see view_jumps.h, and those of the material without its view map.
@@ -45,6 +45,10 @@ MethodRow measure_material(const RawMaterial& raw, const nook::material::Materia
 // Principal components in the place of the BTF in another material's file, as many as its bytes hold: the
 // VOTF and the rest of that file stay and are counted.
 MethodRow measure_pca(const RawMaterial& raw, std::span<const std::byte> file, std::uint64_t seed);
+
+// The maps of a physically based material with parallax, fitted to the raw one, and `unseen` where it is not
+// null: relief shadows take a march for each light.
+MethodRow measure_pbr(const RawMaterial& raw, const RawMaterial* unseen, bool has_shadows);
 
 const char* method_name(Method method);
 

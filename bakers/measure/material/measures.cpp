@@ -67,6 +67,25 @@ std::vector<float> decode_votf_view(const ClusteredTensor& votf, std::size_t vie
   return {value.data(), value.data() + value.size()};
 }
 
+void add_error(std::span<const float> truth, const float* decoded, BtfError& error) {
+  const ConstMap a(truth.data(), 1, Index(truth.size())), b(decoded, 1, Index(truth.size()));
+  error.squared_signal += a.cast<double>().squaredNorm();
+  error.squared_error += (a - b).cast<double>().squaredNorm();
+  error.peak = std::max(error.peak, double(a.maxCoeff()));
+  error.values += truth.size();
+}
+
+BtfError sum_of_errors(std::span<const BtfError> parts) {
+  BtfError error;
+  for (const BtfError& part : parts) {
+    error.squared_signal += part.squared_signal;
+    error.squared_error += part.squared_error;
+    error.peak = std::max(error.peak, part.peak);
+    error.values += part.values;
+  }
+  return error;
+}
+
 BtfError measure_btf(const RawMaterial& raw, const std::vector<float>& light_basis,
                      const ClusteredTensor& btf) {
   need_sizes(raw, btf, "BTF");
@@ -77,21 +96,11 @@ BtfError measure_btf(const RawMaterial& raw, const std::vector<float>& light_bas
   std::vector<BtfError> part(views);
   tensor::for_each_block(views, 1, [&](std::size_t view, std::size_t) {
     const Matrix decoded = decode_btf_view(light_basis, btf, view);
-    for (std::size_t row = 0; row < raw.light_rows(); ++row) {
-      const ConstMap truth(&raw.btf[(row * views + view) * texels], 1, Index(texels));
-      part[view].squared_signal += truth.cast<double>().squaredNorm();
-      part[view].squared_error += (truth - decoded.row(Index(row))).cast<double>().squaredNorm();
-      part[view].peak = std::max(part[view].peak, double(truth.maxCoeff()));
-    }
+    for (std::size_t row = 0; row < raw.light_rows(); ++row)
+      add_error({&raw.btf[(row * views + view) * texels], texels}, decoded.row(Index(row)).data(),
+                part[view]);
   });
-  BtfError error;
-  for (const BtfError& p : part) {
-    error.squared_signal += p.squared_signal;
-    error.squared_error += p.squared_error;
-    error.peak = std::max(error.peak, p.peak);
-  }
-  error.values = raw.btf.size();
-  return error;
+  return sum_of_errors(part);
 }
 
 std::size_t count_error_texels(const RawMaterial& raw, const ClusteredTensor& votf,

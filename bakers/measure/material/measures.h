@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "bakers/material/raw_material.h"
@@ -25,6 +26,9 @@ struct BtfError {
   double se_db() const { return signal_to_error_db(squared_signal, squared_error); }
   double psnr_db() const;
 };
+// Adds the error of as many decoded values as there are true ones.
+void add_error(std::span<const float> truth, const float* decoded, BtfError& error);
+BtfError sum_of_errors(std::span<const BtfError> parts);
 // Throws Failure(INVALID_ARGUMENT) where the sizes are not the raw material's.
 BtfError measure_btf(const RawMaterial& raw, const std::vector<float>& light_basis,
                      const nook::material::ClusteredTensor& btf);

@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "bakers/measure/material/measures.h"
-#include "sdk/src/core/failure.h"
+#include "sdk/src/material/direction_mesh.h"
+#include "sdk/src/material/low_light.h"
 #include "sdk/src/material/parabolic.h"
 #include "sdk/src/material/tables.h"
 #include "sdk/src/material/view_cells.h"
@@ -56,14 +57,29 @@ Material as_seen_from(const Material& material, const std::vector<Vec3>& views) 
   return seen;
 }
 
+void light_from(Material& material, const std::vector<Vec3>& lights) {
+  const nook::material::DirectionMesh mesh(material.lights);
+  const std::size_t rank = material.btf.shape.rank_light;
+  Vector<float> basis;
+  std::size_t hint = 0;
+  for (const Vec3 light : lights) {
+    const nook::material::DirectionMix mix = mesh.locate(nook::material::to_parabolic(light), hint);
+    const float share = nook::material::low_light_share(material.lights, mix, light.z);
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      for (std::size_t a = 0; a < rank; ++a) {
+        float sum = 0;
+        for (int i = 0; i < 3; ++i)
+          sum += mix.weight[i] * material.light_basis[(3 * std::size_t(mix.index[i]) + channel) * rank + a];
+        basis.push_back(share * sum);
+      }
+  }
+  material.light_basis = std::move(basis);
+  material.lights.assign(lights.begin(), lights.end());
+}
+
 UnseenError measure_unseen(const RawMaterial& unseen, const Material& material) {
-  if (!same_directions(unseen.lights, material.lights))
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the raw material of unseen views has %zu lights, the compressed one %zu, or others; trace it with "
-        "the same lights",
-        unseen.lights.size(), material.lights.size());
-  const Material seen = as_seen_from(material, unseen.views);
+  Material seen = as_seen_from(material, unseen.views);
+  if (!same_directions(unseen.lights, material.lights)) light_from(seen, unseen.lights);
   UnseenError error;
   error.se_db = measure_btf(unseen, {seen.light_basis.begin(), seen.light_basis.end()}, seen.btf).se_db();
   if (seen.visibility != VisibilityForm::none && !unseen.mask.empty())

@@ -10,10 +10,11 @@ const char* embedded_text(const char* path);
 
 // What shaders need beyond OpenGL 3.3 and OpenGL ES 3.0.
 struct ShaderNeeds {
-  bool sample_textures = false;   // multisample textures, which OpenGL ES 3.0 lacks
-  bool sample_arrays = false;     // arrays of them, which OpenGL ES 3.1 lacks
-  bool medium_precision = false;  // floats of a fragment shader have it on OpenGL ES unless they say otherwise
-  bool gathers = false;           // textureGather, which tiers with compute shaders have
+  bool sample_textures = false;  // multisample textures, which OpenGL ES 3.0 lacks
+  bool sample_arrays = false;    // arrays of them, which OpenGL ES 3.1 lacks
+  bool medium_precision =
+      false;             // floats of a fragment shader have it on OpenGL ES unless they say otherwise
+  bool gathers = false;  // textureGather, which tiers with compute shaders have
 };
 
 // Compiles and links a compute shader. `path` names an embedded shader, and `defines` is put before its text

@@ -107,6 +107,50 @@ TEST_CASE("a grid of names is ordered by tilt and azimuth; gaps and doubles are 
   CHECK(message({}).find("no images") != std::string::npos);
 }
 
+TEST_CASE("lights that are moved out of the camera stand for those in its direction") {
+  // UTIA's list moves such lights by some degrees.
+  constexpr int three[3][2] = {{0, 0}, {30, 60}, {60, 180}};
+  std::vector<std::string> names;
+  for (const auto& v : three)
+    for (const auto& l : three) {
+      const bool moved = l[0] == v[0] && l[1] == v[1];
+      names.push_back(name_of(l[0] + (moved ? 5 : 0), l[1], v[0], v[1]));
+    }
+  const UboGrid grid = arrange_ubo_names(names);
+  REQUIRE((grid.lights.size() == 3 && grid.views.size() == 3));
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(grid.image[i * 3 + i] == i * 3 + i);
+    CHECK(length(grid.lights[i] - direction_from_angles(float(three[i][0]), float(three[i][1]))) < 1e-6f);
+  }
+  names[4] = name_of(50, 60, 30, 60);  // a light of its own
+  CHECK_THROWS_AS(arrange_ubo_names(names), Failure);
+}
+
+TEST_CASE("XYZ of float images becomes linear RGB") {
+  // The white point of D65 and the red primary, by IEC 61966-2-1; its matrix has four digits, a half float
+  // eleven bits.
+  const std::vector<float> xyz{0.9505f, 1.0f, 1.089f, 0.4124f, 0.2126f, 0.0193f};
+  const float rgb[] = {1, 1, 1, 1, 0, 0};
+  const auto matches = [&](const RawMaterial& raw) {
+    for (std::size_t x = 0; x < 2; ++x)
+      for (std::size_t c = 0; c < 3; ++c) CHECK(raw.btf[c * 2 + x] == Approx(rgb[3 * x + c]).margin(1e-3));
+  };
+  const TemporaryFolder folder;
+  const fs::path path = folder.path / name_of(0, 0, 0, 0);
+  write_image(path, 2, 1, xyz);
+  matches(read_ubo_folder(folder.path, 0, {}, std::size_t{1} << 20, FloatColours::xyz));
+  CHECK(read_ubo_folder(folder.path, 0).btf[0] == Approx(xyz[0]).margin(1e-3));
+  // Channels by name, in an order of their own.
+  const auto out = OIIO::ImageOutput::create(path.string());
+  OIIO::ImageSpec spec(2, 1, 4, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"A", "Z", "Y", "X"};
+  REQUIRE(out->open(path.string(), spec));
+  const std::vector<float> turned{1, xyz[2], xyz[1], xyz[0], 1, xyz[5], xyz[4], xyz[3]};
+  REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, turned.data()));
+  out->close();
+  matches(read_ubo_folder(folder.path, 0));
+}
+
 TEST_CASE("a measured folder becomes a raw material, y up, linear") {
   const TemporaryFolder folder;
   write_small_set(folder.path);

@@ -46,14 +46,16 @@ TEST_CASE(
   INFO(measured.error);
   REQUIRE(measured.exit_code == 0);
   const auto report = nlohmann::json::parse(read_text(folder.path("e.json")));
-  // The file, N-SVD, CTA, K-CTA with K = 2 (two clusters allow no more), N-SVD and PCA of the file's bytes.
-  REQUIRE(report.at("rows").size() == 6);
+  // The file, N-SVD, CTA, K-CTA with K = 2 (two clusters allow no more), N-SVD and PCA of the file's bytes,
+  // and the maps of a physically based material.
+  REQUIRE(report.at("rows").size() == 8);
   CHECK(report.at("rows").at(0).at("file_bytes") == read_text(folder.path("a.nook")).size());
   for (const char* list : {"rows", "sweep"})
     for (const auto& each : report.at(list)) {
       INFO(each);
-      // Numbers alone, and what a user ships.
-      CHECK(each.at("file_bytes").get<int>() > each.at("bytes").get<int>());
+      // Numbers alone, and what a user ships; maps have no more than their numbers.
+      const bool is_maps = each.at("method").get<std::string>().starts_with("PBR");
+      CHECK(each.at("file_bytes").get<int>() + is_maps > each.at("bytes").get<int>());
     }
   // 16 x 16 cells of 2 clusters, each with an index of a byte and 4 half floats, in BTF and VOTF.
   CHECK(report.at("rows").at(3).at("file_bytes").get<int>() - report.at("rows").at(3).at("bytes").get<int>() >
@@ -66,6 +68,8 @@ TEST_CASE(
         Approx(row.at("se_db").get<double>()).margin(1e-6));
   CHECK(report.at("rows").at(5).at("method") == "PCA");
   CHECK(report.at("rows").at(5).at("file_bytes") <= report.at("rows").at(0).at("file_bytes"));
+  CHECK(report.at("rows").at(7).at("method") == "PBR, parallax and shadows");
+  CHECK(report.at("rows").at(7).at("file_bytes") == 7 * 12 * 12);
   CHECK(report.at("sweep").size() == 5);
   CHECK(read_text(folder.path("images") + "/fiber_sweep_se.svg").find("</svg>") != std::string::npos);
   CHECK(!read_text(folder.path("images") + "/fiber_file.png").empty());
@@ -136,6 +140,16 @@ TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothin
   refused(small_bake(folder, "a.nook", {{"--radius", "0"}}), 2, "radius");
   refused({"bake", "material", "--btf", folder.path("nowhere"), "-o", folder.path("a.nook")}, 3, "nowhere");
   refused({"bake", "material", "--raw", folder.path("none.raw"), "-o", folder.path("a.nook")}, 3, "none.raw");
+}
+
+TEST_CASE("bake material refuses another kind of .btf file and names the one it reads") {
+  const TestFolder folder;
+  write_text(folder.path("a.btf"), "!FMF12FCER");
+  const ToolRun run =
+      folder.run({"bake", "material", "--btf", folder.path("a.btf"), "-o", folder.path("a.nook")});
+  CHECK(run.exit_code == 3);
+  CHECK(run.error.find("a.btf") != std::string::npos);
+  CHECK(run.error.find("!DFMF08FC") != std::string::npos);
 }
 
 TEST_CASE("bake material stops at a signal and leaves nothing behind") {

@@ -78,12 +78,21 @@ TEST_CASE("unseen views of a VOTF are counted against their own masks") {
   CHECK(wrong < unseen.mask.size() / 10);
 }
 
-TEST_CASE("unseen views need the lights of the material") {
-  const RawMaterial raw = test::small_material(6, 24, 12, 16);
-  CompressionSettings s = full_ranks(Method::n_svd);
-  s.rank_light = 18;
-  s.rank_x = 12;
-  s.rank_y = 16;
-  const nm::Material material = compress(raw, s);
-  CHECK_THROWS_AS(measure_unseen(test::small_material(5, 24, 12, 16), material), Failure);
+TEST_CASE("a material linear in the parabolic map is right under lights that the fit has not seen") {
+  const auto lit = [](std::uint32_t lights, std::uint32_t views, float max_tilt) {
+    RawMaterial raw = test::small_material(lights, views, 6, 8);
+    raw.lights = spiral_directions(lights, max_tilt);
+    std::size_t at = 0;
+    for (std::size_t row = 0; row < raw.light_rows(); ++row) {
+      const nm::ParabolicPoint p = nm::to_parabolic(raw.lights[row / 3]);
+      for (std::size_t i = 0; i < raw.views.size() * raw.texels(); ++i)
+        raw.btf[at++] = (1 + float(i % raw.texels())) * (1 + 0.5f * p.x - 0.3f * p.y);
+    }
+    return raw;
+  };
+  const nm::Material material = compress(lit(24, 24, 75), full_ranks(Method::n_svd));
+  // Inside the outermost lights, where interpolation is exact; floats leave 50 dB or more.
+  CHECK(measure_unseen(lit(15, 24, 50), material).se_db > 50);
+  CHECK(measure_unseen(lit(15, 9, 50), material).se_db > 50);
+  CHECK_THROWS_AS(measure_unseen(test::small_material(15, 9, 6, 9), material), Failure);
 }

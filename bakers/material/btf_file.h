@@ -1,0 +1,33 @@
+// Measured BTFs in the file format of the University of Bonn's database of 2014 (UBO2014), signature
+// "!DFMF08FC": each channel of a decorrelated colour is a matrix of light and view pairs times texels, kept
+// as a truncated singular value decomposition (decorrelated full matrix factorisation). Little-endian:
+//   10 bytes  "!DFMF08FCR", or 9 without the R
+//   head      u32 bytes of the head from here on, u32 version; three texts of 80 bytes; f32 texels per mm;
+//             three f32 scales of RGB, which are not applied; from version 2 on u32 1 where the data include
+//             the cosine of the light; from 3 on u32 length and XML; from 4 on u32 channels and for each u32
+//             length and name
+//   views     u32 count; each f32 tilt and azimuth, radians, u32 lights, their f32 tilts and azimuths
+//   texels    u32 width, height; with the R of the signature u32 count of rotations of 9 f32, not applied
+//   colour    u32 largest number of components; i32 model; f32 mean of 3; f32 matrix of 3 x 3, rows
+//   channels  u8 bytes of a number (2, 4, 8: IEEE floats); u32 components, u32 rows, u32 columns; the
+//             singular values; rows x components: U; columns x components: V times the singular values
+// Either rows are pairs of light and view, light + lights * view, and columns texels, x + width * y with y
+// from the top, or rows are texels and columns pairs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "bakers/material/raw_material.h"
+
+namespace nook::bake::material {
+
+// `texels` above 0 takes the square of that side from the middle. Where the data are without the cosine of
+// the light, it is multiplied in. There is no VOTF. Throws Failure(BAD_FILE): another signature, a fault of
+// the layout, other than three channels, lights that differ between views, a model of colours whose
+// definition is not public, a number that is not finite, more than `most_bytes` of BTF;
+// Failure(INVALID_ARGUMENT): `texels` larger than the file's.
+RawMaterial read_btf_file(std::span<const std::byte> bytes, std::uint32_t texels,
+                          std::size_t most_bytes = std::size_t{6} << 30);
+
+}  // namespace nook::bake::material

@@ -1,0 +1,342 @@
+#include "bakers/measure/material/pbr_tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bakers/material/microfacet.h"
+#include "bakers/tensor/blocks.h"
+
+namespace nook::bake::material {
+namespace {
+
+using Eigen::Index;
+using tensor::Matrix;
+
+// The four texels around a point of a repeating tile and their shares.
+struct Taps {
+  std::size_t texel[4];
+  float share[4];
+};
+
+Taps taps_at(const PbrTile& tile, float x, float y) {
+  const float across = x * float(tile.width) - 0.5f, along = y * float(tile.height) - 0.5f;
+  const float left = std::floor(across), low = std::floor(along);
+  const float fx = across - left, fy = along - low;
+  const auto wrap = [](float at, std::uint32_t side) {
+    const long whole = std::lround(at) % long(side);
+    return std::size_t(whole < 0 ? whole + long(side) : whole);
+  };
+  Taps taps{};
+  for (int i = 0; i < 4; ++i) {
+    const bool right = i & 1, high = i & 2;
+    taps.texel[i] =
+        wrap(left + float(right), tile.width) * tile.height + wrap(low + float(high), tile.height);
+    taps.share[i] = (right ? fx : 1 - fx) * (high ? fy : 1 - fy);
+  }
+  return taps;
+}
+
+template <class Value>
+Value mean_of(const Taps& taps, const Value* map) {
+  Value sum = taps.share[0] * map[taps.texel[0]];
+  for (int i = 1; i < 4; ++i) sum = sum + taps.share[i] * map[taps.texel[i]];
+  return sum;
+}
+
+float height_at(const PbrTile& tile, float x, float y) {
+  return mean_of(taps_at(tile, x, y), tile.heights.data());
+}
+
+struct Range {
+  float low = 0, high = 0;
+};
+
+Range range_of(const PbrTile& tile) {
+  const auto [low, high] = std::minmax_element(tile.heights.begin(), tile.heights.end());
+  return {*low, *high};
+}
+
+// Steps of a march over the whole range of heights: no more than half a texel along the tile.
+int steps_of(const PbrTile& tile, Vec3 direction, float depth) {
+  const float along = depth * std::hypot(direction.x, direction.y) / direction.z;
+  return std::clamp(int(2 * along * float(std::max(tile.width, tile.height))) + 4, 4, 256);
+}
+
+float march(const PbrTile& tile, Range range, float x, float y, Vec3 view) {
+  const float depth = range.high - range.low, slope_x = view.x / view.z, slope_y = view.y / view.z;
+  const int steps = steps_of(tile, view, depth);
+  float above_z = range.high,
+        above = range.high - height_at(tile, x + slope_x * above_z, y + slope_y * above_z);
+  for (int i = 1; i <= steps && above > 0; ++i) {
+    const float z = range.high - depth * float(i) / float(steps);
+    const float over = z - height_at(tile, x + slope_x * z, y + slope_y * z);
+    if (over <= 0) return above_z + (z - above_z) * above / (above - over);
+    above_z = z;
+    above = over;
+  }
+  return above_z;
+}
+
+// Returns whether a point of the relief sees the light; a hundredth of the range is its distance from the
+// relief.
+bool is_lit(const PbrTile& tile, Range range, Vec3 point, Vec3 light) {
+  const float depth = range.high - point.z;
+  const int steps = steps_of(tile, light, depth);
+  for (int i = 1; i <= steps; ++i) {
+    const float rise = depth * float(i) / float(steps);
+    const float margin = 0.01f * (range.high - range.low);
+    if (height_at(tile, point.x + light.x / light.z * rise, point.y + light.y / light.z * rise) >
+        point.z + rise + margin)
+      return false;
+  }
+  return true;
+}
+
+// The shading of a point: what its maps hold there.
+struct Shading {
+  Vec3 diffuse, normal;
+  float gloss_width = 1;
+};
+
+Vec3 normal_of(float slope_x, float slope_y) {
+  return normalised(Vec3{-slope_x, -slope_y, 1});
+}
+
+Vec3 radiance_of(const Shading& s, Vec3 view, Vec3 light) {
+  constexpr Vec3 reflectance{dielectric_reflectance, dielectric_reflectance, dielectric_reflectance};
+  const float cosine = dot(s.normal, light);
+  if (!(cosine > 0)) return {};
+  return cosine / std::numbers::pi_v<float> *
+         microfacet_reflection({s.diffuse, reflectance, s.gloss_width}, s.normal, view, light);
+}
+
+// Values of a raw material at any point of its plane.
+float raw_at(const RawMaterial& raw, const Taps& taps, std::size_t row, std::size_t view) {
+  return mean_of(taps, &raw.btf[(row * raw.views.size() + view) * raw.texels()]);
+}
+
+// Sums of the values of views, for their variance.
+struct Spread {
+  double sum = 0, squares = 0;
+  int count = 0;
+};
+
+constexpr int height_levels = 49;
+constexpr float largest_height = 0.24f;  // tiles, on either side of the plane
+
+float level_height(float level) {
+  return largest_height * (2 * level / (height_levels - 1) - 1);
+}
+
+// The variance over views of what is seen at a texel, if it had a height.
+float disagreement(const RawMaterial& raw, const PbrTile& tile, std::size_t texel, float height) {
+  constexpr float lowest_view = 0.6f;  // views beyond 53 degrees see too little of the same points
+  const float x = (float(texel / raw.height) + 0.5f) / float(raw.width),
+              y = (float(texel % raw.height) + 0.5f) / float(raw.height);
+  const std::size_t stride = std::max<std::size_t>(raw.lights.size() / 8, 1);
+  double total = 0;
+  std::vector<Taps> taps;
+  std::vector<std::size_t> seen;
+  for (std::size_t v = 0; v < raw.views.size(); ++v) {
+    const Vec3 view = raw.views[v];
+    if (view.z < lowest_view) continue;
+    seen.push_back(v);
+    taps.push_back(taps_at(tile, x - view.x / view.z * height, y - view.y / view.z * height));
+  }
+  for (std::size_t l = 0; l < raw.lights.size(); l += stride)
+    for (std::size_t c = 0; c < 3; ++c) {
+      Spread spread;
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const double value = raw_at(raw, taps[i], 3 * l + c, seen[i]);
+        spread.sum += value;
+        spread.squares += value * value;
+      }
+      total += spread.squares - spread.sum * spread.sum / double(std::max<std::size_t>(seen.size(), 1));
+    }
+  return float(total);
+}
+
+// Takes the height of the smallest difference between views over 3 x 3 texels; a parabola places it between
+// levels.
+void find_heights(const RawMaterial& raw, PbrTile& tile) {
+  const std::size_t texels = tile.texels();
+  Matrix cost(height_levels, Index(texels));
+  tensor::for_each_block(texels, 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t)
+      for (int level = 0; level < height_levels; ++level)
+        cost(level, Index(t)) = disagreement(raw, tile, t, level_height(float(level)));
+  });
+  for (std::size_t t = 0; t < texels; ++t) {
+    Eigen::VectorXf sum = Eigen::VectorXf::Zero(height_levels);
+    for (std::size_t i = 0; i < 9; ++i) {
+      const std::size_t x = (t / tile.height + tile.width + i / 3 - 1) % tile.width,
+                        y = (t % tile.height + tile.height + i % 3 - 1) % tile.height;
+      sum += cost.col(Index(x * tile.height + y));
+    }
+    Index best = 0;
+    sum.minCoeff(&best);
+    float level = float(best);
+    if (best > 0 && best + 1 < height_levels) {
+      const float bend = sum[best - 1] - 2 * sum[best] + sum[best + 1];
+      if (bend > 0) level += 0.5f * (sum[best - 1] - sum[best + 1]) / bend;
+    }
+    tile.heights[t] = level_height(level);
+  }
+}
+
+// A view and light of a texel, and what is seen.
+struct Observation {
+  Vec3 view, light, value;
+};
+
+std::vector<Observation> observe(const RawMaterial& raw, const PbrTile& tile, Range range,
+                                 std::size_t texel) {
+  const Vec3 point{(float(texel / raw.height) + 0.5f) / float(raw.width),
+                   (float(texel % raw.height) + 0.5f) / float(raw.height), tile.heights[texel]};
+  const float nearest = 1.0f / float(std::max(raw.width, raw.height));
+  std::vector<bool> lit(raw.lights.size());
+  for (std::size_t l = 0; l < lit.size(); ++l)
+    lit[l] = !tile.has_shadows || is_lit(tile, range, point, raw.lights[l]);
+  std::vector<Observation> found;
+  for (std::size_t v = 0; v < raw.views.size(); ++v) {
+    const Vec3 view = raw.views[v];
+    const float x = point.x - view.x / view.z * point.z, y = point.y - view.y / view.z * point.z;
+    if (march(tile, range, x, y, view) > point.z + nearest) continue;
+    const Taps taps = taps_at(tile, x, y);
+    for (std::size_t l = 0; l < lit.size(); ++l)
+      if (lit[l])
+        found.push_back({view,
+                         raw.lights[l],
+                         {raw_at(raw, taps, 3 * l, v), raw_at(raw, taps, 3 * l + 1, v),
+                          raw_at(raw, taps, 3 * l + 2, v)}});
+  }
+  return found;
+}
+
+// Of the slopes and the gloss width: the best diffuse colour, which is linear, and the error that it leaves.
+double best_diffuse(const std::vector<Observation>& seen, Shading& s) {
+  double signal[3] = {}, square = 0, error = 0;
+  std::vector<float> rest(3 * seen.size()), base(seen.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    s.diffuse = {};
+    const float gloss = radiance_of(s, seen[i].view, seen[i].light).x;
+    s.diffuse = {1, 1, 1};
+    base[i] = radiance_of(s, seen[i].view, seen[i].light).x - gloss;
+    square += double(base[i]) * base[i];
+    const float value[] = {seen[i].value.x, seen[i].value.y, seen[i].value.z};
+    for (int c = 0; c < 3; ++c) {
+      rest[3 * i + c] = value[c] - gloss;
+      signal[c] += double(rest[3 * i + c]) * base[i];
+    }
+  }
+  float colour[3];
+  for (int c = 0; c < 3; ++c) colour[c] = square > 0 ? std::clamp(float(signal[c] / square), 0.0f, 1.0f) : 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const double off = rest[i] - colour[i % 3] * base[i / 3];
+    error += off * off;
+  }
+  s.diffuse = {colour[0], colour[1], colour[2]};
+  return error;
+}
+
+// Slopes and the logarithm of the gloss width.
+using Unknowns = Eigen::Vector3d;
+
+Shading shading_of(const Unknowns& u) {
+  Shading s;
+  s.normal = normal_of(float(u[0]), float(u[1]));
+  s.gloss_width = std::clamp(float(std::exp(u[2])), ggx_width(0), 1.0f);
+  return s;
+}
+
+// A search along the axes with steps that shrink where none of them helps.
+Unknowns fit_texel(const std::vector<Observation>& seen, Unknowns u) {
+  Shading s = shading_of(u);
+  double best = best_diffuse(seen, s);
+  Unknowns step(0.3, 0.3, 0.7);
+  for (int round = 0; round < 8; ++round) {
+    bool better = false;
+    for (int i = 0; i < 6; ++i) {
+      Unknowns other = u;
+      other[i / 2] += i % 2 ? step[i / 2] : -step[i / 2];
+      s = shading_of(other);
+      const double error = best_diffuse(seen, s);
+      if (!(error < best)) continue;
+      best = error;
+      u = other;
+      better = true;
+    }
+    if (!better) step *= 0.4;
+  }
+  return u;
+}
+
+}  // namespace
+
+float relief_height(const PbrTile& tile, float x, float y, Vec3 view) {
+  return march(tile, range_of(tile), x, y, view);
+}
+
+Matrix draw_pbr_tile(const PbrTile& tile, Vec3 view, std::span<const Vec3> lights) {
+  const Range range = range_of(tile);
+  Matrix drawn(Index(3 * lights.size()), Index(tile.texels()));
+  for (std::size_t t = 0; t < tile.texels(); ++t) {
+    const float x = (float(t / tile.height) + 0.5f) / float(tile.width),
+                y = (float(t % tile.height) + 0.5f) / float(tile.height);
+    const float z = march(tile, range, x, y, view);
+    const Vec3 point{x + view.x / view.z * z, y + view.y / view.z * z, z};
+    const Taps taps = taps_at(tile, point.x, point.y);
+    const Shading s{mean_of(taps, tile.diffuse.data()),
+                    normal_of(mean_of(taps, tile.slope_x.data()), mean_of(taps, tile.slope_y.data())),
+                    mean_of(taps, tile.gloss_width.data())};
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+      const bool lit = !tile.has_shadows || is_lit(tile, range, point, lights[l]);
+      const Vec3 radiance = lit ? radiance_of(s, view, lights[l]) : Vec3{};
+      const float rgb[] = {radiance.x, radiance.y, radiance.z};
+      for (std::size_t c = 0; c < 3; ++c) drawn(Index(3 * l + c), Index(t)) = rgb[c];
+    }
+  }
+  return drawn;
+}
+
+PbrTile fit_pbr_tile(const RawMaterial& raw, bool has_shadows) {
+  PbrTile tile;
+  tile.width = raw.width;
+  tile.height = raw.height;
+  const std::size_t texels = raw.texels();
+  tile.has_shadows = has_shadows;
+  tile.heights.resize(texels);
+  tile.diffuse.resize(texels);
+  tile.slope_x.resize(texels);
+  tile.slope_y.resize(texels);
+  tile.gloss_width.resize(texels);
+  find_heights(raw, tile);
+  const Range range = range_of(tile);
+  tensor::for_each_block(texels, 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const std::vector<Observation> seen = observe(raw, tile, range, t);
+      const Unknowns u = fit_texel(seen, Unknowns(0, 0, -1));
+      Shading s = shading_of(u);
+      best_diffuse(seen, s);
+      tile.diffuse[t] = s.diffuse;
+      tile.slope_x[t] = float(u[0]);
+      tile.slope_y[t] = float(u[1]);
+      tile.gloss_width[t] = s.gloss_width;
+    }
+  });
+  return tile;
+}
+
+BtfError measure_pbr_tile(const RawMaterial& raw, const PbrTile& tile) {
+  const std::size_t views = raw.views.size(), texels = raw.texels();
+  std::vector<BtfError> part(views);
+  tensor::for_each_block(views, 1, [&](std::size_t view, std::size_t) {
+    const Matrix drawn = draw_pbr_tile(tile, raw.views[view], raw.lights);
+    for (std::size_t row = 0; row < raw.light_rows(); ++row)
+      add_error({&raw.btf[(row * views + view) * texels], texels}, drawn.row(Index(row)).data(), part[view]);
+  });
+  return sum_of_errors(part);
+}
+
+}  // namespace nook::bake::material

@@ -1,0 +1,163 @@
+"""Renders a tile of a scene from many views under many lights into a raw material for `nook bake material --raw`.
+
+    blender -b SCENE.blend --python render_material.py -- TILE.raw [--tile-size 1] [--directions 49] [--texels 48]
+
+The tile is the square from (0, 0) to (tile size, tile size) of the plane z = 0, z up, in metres; what lies higher or lower
+moves with the view. Everything that is rendered is repeated around the tile (--repeats); lights, cameras and the world of
+the scene are left out. Cycles renders, with the scene's own settings of bounces. raw_material.py lies beside this file.
+"""
+import argparse
+import pathlib
+import sys
+import tempfile
+
+import bpy
+import mathutils
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import raw_material  # noqa: E402
+
+
+def repeat(scene, tile, repeats):
+    """Instances of all visible objects around the tile."""
+    kinds = {"MESH", "CURVE", "CURVES", "SURFACE", "META", "FONT", "VOLUME", "EMPTY"}
+    whole = bpy.data.collections.new("tile")
+    for thing in list(scene.objects):
+        if thing.type in kinds and not thing.hide_render:
+            whole.objects.link(thing)
+    for x in range(-repeats, repeats + 1):
+        for y in range(-repeats, repeats + 1):
+            if x or y:
+                copy = bpy.data.objects.new("tile", None)
+                copy.instance_type, copy.instance_collection = "COLLECTION", whole
+                copy.location = (x * tile, y * tile, 0)
+                scene.collection.objects.link(copy)
+
+
+def remove_lights(scene):
+    for thing in list(scene.objects):
+        if thing.type in ("LIGHT", "LIGHT_PROBE", "CAMERA"):
+            bpy.data.objects.remove(thing)
+    scene.world = bpy.data.worlds.new("dark")
+    scene.world.color = (0, 0, 0)
+
+
+def add_sun(scene):
+    lamp = bpy.data.lights.new("sun", "SUN")
+    lamp.energy, lamp.angle, lamp.color = 1, 0, (1, 1, 1)  # an irradiance of 1
+    sun = bpy.data.objects.new("sun", lamp)
+    sun.rotation_mode = "QUATERNION"
+    scene.collection.objects.link(sun)
+    return sun
+
+
+def add_camera(scene, tile):
+    """A parallel camera whose picture lies in the plane z = 0 whatever its direction: that needs a shear, which only the
+    matrix of a parent can hold."""
+    lens = bpy.data.cameras.new("view")
+    lens.type, lens.ortho_scale = "ORTHO", tile
+    camera, parent = bpy.data.objects.new("view", lens), bpy.data.objects.new("view", None)
+    camera.parent = parent
+    for thing in (camera, parent):
+        scene.collection.objects.link(thing)
+    scene.camera = camera
+    return camera
+
+
+def look_along(camera, view, tile, far):
+    lift = far / view[2]
+    camera.data.clip_start, camera.data.clip_end = 1e-3 * tile, 2 * lift + tile
+    camera.matrix_parent_inverse = mathutils.Matrix((
+        (1, 0, view[0], tile / 2 + lift * view[0]),
+        (0, 1, view[1], tile / 2 + lift * view[1]),
+        (0, 0, view[2], far), (0, 0, 0, 1)))
+
+
+def set_up(scene, texels, samples):
+    scene.render.engine = "CYCLES"
+    scene.cycles.device = "CPU"
+    scene.cycles.samples = samples
+    scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
+    scene.cycles.pixel_filter_type = "BOX"
+    scene.cycles.filter_width = 1
+    scene.cycles.film_exposure = 1
+    render = scene.render
+    render.resolution_x = render.resolution_y = texels
+    render.resolution_percentage = 100
+    render.pixel_aspect_x = render.pixel_aspect_y = 1
+    render.film_transparent = render.use_persistent_data = True
+    render.use_compositing = render.use_sequencer = render.use_border = False
+    render.image_settings.file_format = "OPEN_EXR"
+    render.image_settings.color_mode, render.image_settings.color_depth = "RGBA", "32"
+
+
+def rendered(scene, path):
+    """4 x width x height: what is seen times its share, and the share of the texel in which the surface is met."""
+    scene.render.filepath = path
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(path)
+    image.colorspace_settings.name = "Non-Color"
+    pixels = numpy.empty(len(image.pixels), numpy.float32)
+    image.pixels.foreach_get(pixels)
+    height, width = image.size[1], image.size[0]
+    bpy.data.images.remove(image)
+    return pixels.reshape(height, width, 4).transpose(2, 1, 0)
+
+
+def filled(seen):
+    """3 x width x height: the colour of what is met; gaps take the mean of their neighbours, from their border inwards."""
+    colour, share = seen[:3].copy(), seen[3].copy()
+    colour /= numpy.maximum(share, 1e-6)
+    known = share > 0.02
+    while known.any() and not known.all():
+        total, count = numpy.zeros_like(colour), numpy.zeros_like(share)
+        for axis in (0, 1):
+            for step in (-1, 1):
+                count += numpy.roll(known, step, axis)
+                total += numpy.roll(colour * known, step, axis + 1)
+        reached = ~known & (count > 0)
+        colour[:, reached] = (total / numpy.maximum(count, 1))[:, reached]
+        known |= reached
+    return colour if known.all() else numpy.zeros_like(colour)
+
+
+def read_options():
+    parser = argparse.ArgumentParser(prog="render_material.py", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("output", type=pathlib.Path, help="the raw material to write")
+    parser.add_argument("--tile-size", type=float, default=1, help="metres along a side")
+    parser.add_argument("--directions", type=int, default=49, help="of views, and of lights without --lights")
+    parser.add_argument("--lights", type=int, default=0)
+    parser.add_argument("--max-tilt", type=float, default=75, help="their largest angle to the normal, degrees")
+    parser.add_argument("--texels", type=int, default=48, help="along a side")
+    parser.add_argument("--samples", type=int, default=64, help="paths for each texel")
+    parser.add_argument("--repeats", type=int, default=1, help="copies on either side of the tile; 0 where the scene repeats itself")
+    return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
+
+
+def main():
+    options = read_options()
+    scene, tile = bpy.context.scene, options.tile_size
+    views = raw_material.spiral_directions(options.directions, options.max_tilt)
+    lights = raw_material.spiral_directions(options.lights or options.directions, options.max_tilt)
+    remove_lights(scene)
+    repeat(scene, tile, options.repeats)
+    set_up(scene, options.texels, options.samples)
+    sun, camera = add_sun(scene), add_camera(scene, tile)
+    radiance = numpy.empty((len(lights), 3, len(views), options.texels, options.texels), numpy.float32)
+    mask = numpy.empty((len(views), options.texels, options.texels), bool)
+    with tempfile.TemporaryDirectory() as folder:
+        for i, view in enumerate(views):
+            look_along(camera, view, tile, 8 * tile)
+            for j, light in enumerate(lights):
+                sun.rotation_quaternion = mathutils.Vector(light).to_track_quat("Z", "Y")
+                seen = rendered(scene, str(pathlib.Path(folder, "seen.exr")))
+                radiance[j, :, i] = filled(seen)
+            mask[i] = seen[3] > 0.5
+            print(f"render_material.py: view {i + 1} of {len(views)}", flush=True)
+    raw_material.write(options.output, options.output.stem, lights, views, radiance, None if mask.all() else mask)
+
+
+if __name__ == "__main__":
+    main()
