@@ -238,7 +238,7 @@ def main():
          {"methods": methods_table({**methods, "weave": weave}), "unseen views": unseen_table(methods, 100, 37),
           "view maps": maps_table(maps), "view ranks": sweep_table(sweep), "thresholds": thresholds_table(thresholds),
           "first clusters": seeding_table(seeding), "numbers": numbers, "jumps": jumps_table(bench),
-           "between the samples": between}, options.write)
+          "between the samples": between}, options.write)
     show(ROOT / "docs/evidence.md", pathlib.Path(__file__).name, {"materials": summary_table(methods)}, options.write)
 
 
