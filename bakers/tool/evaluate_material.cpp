@@ -138,8 +138,7 @@ void add_evaluate_material(CLI::App& evaluate_command) {
       "the whole file, and fit the maps of a physically based material with parallax");
   command
       ->add_option("--methods", o.methods,
-                   "only these baselines: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr, "
-                   "pbr-shadows")
+                   "only these baselines: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr")
       ->delimiter(',')
       ->check(CLI::IsMember(measure::material_baseline_names()))
       ->type_name("NAME,...");

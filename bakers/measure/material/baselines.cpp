@@ -24,8 +24,7 @@ constexpr Baseline baselines[] = {{"n-svd", Method::n_svd, 1},
                                   {"k-cta-2", Method::k_cta, 2},
                                   {"k-cta-3", Method::k_cta, 3},
                                   {"k-cta-4", Method::k_cta, 4}};
-constexpr const char *pca_name = "pca", *n_svd_filled_name = "n-svd-filled", *pbr_name = "pbr",
-                     *pbr_shadows_name = "pbr-shadows";
+constexpr const char *pca_name = "pca", *n_svd_filled_name = "n-svd-filled", *pbr_name = "pbr";
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -90,7 +89,6 @@ std::vector<std::string> material_baseline_names() {
   names.emplace_back(n_svd_filled_name);
   names.emplace_back(pca_name);
   names.emplace_back(pbr_name);
-  names.emplace_back(pbr_shadows_name);
   return names;
 }
 
@@ -160,12 +158,11 @@ Json material_baseline_rows(const RawMaterial& raw, const MaterialFile& file, st
     request.progress("")("principal components", 0, 1);
     rows.push_back(report_row(raw.name, measure_pca(raw, file.bytes, settings.seed)));
   }
-  for (const char* name : {pbr_name, pbr_shadows_name}) {
-    if (!contains(request.names, name)) continue;
-    request.progress("")("physically based maps", 0, 1);
-    rows.push_back(
-        report_row(raw.name, measure_pbr(raw, request.unseen, std::string_view(name) == pbr_shadows_name)));
-  }
+  if (contains(request.names, pbr_name))
+    for (const bool has_shadows : {false, true}) {
+      request.progress("")("physically based maps", 0, 1);
+      rows.push_back(report_row(raw.name, measure_pbr(raw, request.unseen, has_shadows)));
+    }
   return rows;
 }
 

@@ -16,7 +16,7 @@
 
 namespace nook::measure {
 
-// n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr, pbr-shadows.
+// n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr.
 std::vector<std::string> material_baseline_names();
 
 // The settings that the sizes of a material's tensors give: those of its view map where K-CTA made it.
