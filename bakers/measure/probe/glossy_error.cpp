@@ -58,7 +58,7 @@ Surface random_surface(const Kind& kind, bake::Random& random) {
   return s;
 }
 
-// What a surface reflects of both lights.
+// The radiance of a surface under both lights.
 struct Truth {
   Vec3 of_lobes, of_map;
 };

@@ -26,7 +26,7 @@ constexpr double albedo_k[] = {NOOK_GGX_ALBEDO_0, NOOK_GGX_ALBEDO_1,
                                NOOK_GGX_ALBEDO_2};  // of openness and alpha
 constexpr double fresnel_k[] = {NOOK_GGX_FRESNEL_0, NOOK_GGX_FRESNEL_1,
                                 NOOK_GGX_FRESNEL_2};  // of the square roots of facing and of alpha
-// Of openness and the square root of alpha.
+// Polynomials of openness and the square root of alpha.
 constexpr double middle_along_k[] = {NOOK_GGX_MIDDLE_ALONG};
 constexpr double middle_sharpness_k[] = {NOOK_GGX_MIDDLE_SHARPNESS};
 constexpr double near_along_k[] = {NOOK_GGX_NEAR_ALONG};

@@ -54,7 +54,7 @@ struct VisibleNormal {
 VisibleNormal middle_normal(const SurfaceView& view, const Surface& surface);
 std::array<VisibleNormal, 4> visible_normals(const SurfaceView& view, const Surface& surface);
 
-// What the normals reflect to the eye, as lobes that replace `lobes`: as many, of integral 1 together. Each
+// Replaces `lobes` by those that the normals reflect to the eye: as many, of integral 1 together. Each
 // counts with its share and with the masking of the light.
 void reflect(const SurfaceView& view, const Surface& surface, std::span<const VisibleNormal> normals,
              std::span<SphericalGaussian> lobes);

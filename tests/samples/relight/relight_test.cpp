@@ -61,7 +61,7 @@ TEST_CASE("the sun's light reaches what neither it nor the sky shines on") {
   CHECK(mean_at(rgb, 2, 320, 40)[1] > mean_at(rgb, 0, 320, 40)[1] + 15);
 }
 
-TEST_CASE("relight tells what its arguments are") {
+TEST_CASE("relight refuses a missing picture and a day of three frames") {
   CHECK(run("2> '" RELIGHT_OUT "/usage.txt'") == 2);
   CHECK(run("day.png 3 2> '" RELIGHT_OUT "/usage.txt'") == 2);
 }

@@ -24,8 +24,9 @@ TEST_CASE("under a constant map cube maps reflect the surface's albedo, and so d
   for (const auto& row : rows_of(test::map_of(16, 8, [](Vec3) { return Vec3{2, 2, 2}; }))) {
     INFO(row.dump());
     const bool cube = row.at("form").get<std::string>().starts_with("cube");
-    // The albedo's polynomials are within 1.2 % at reflectance 1; lobes have ripples of 2 % besides.
-    CHECK(number(row, "map_rms") < (cube ? 0.015 : 0.04));
+    // The albedo's polynomials are within 1.2 % at reflectance 1; the sum of 12 lobes has ripples of up to a
+    // tenth besides.
+    CHECK(number(row, "map_rms") < (cube ? 0.015 : 0.1));
     CHECK(number(row, "percentile_95") <= number(row, "worst"));
     CHECK(number(row, "rms") <= number(row, "worst"));
   }
