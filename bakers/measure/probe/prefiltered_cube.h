@@ -21,7 +21,7 @@ class PrefilteredCube {
   // The mean of the light over the lobe of a surface of the mean width, blended between levels and between
   // texels, also over edges of faces.
   Vec3 reflected(const probe::Surface& surface) const;
-  // The size in memory with 4 bytes a texel, three mantissas and one exponent.
+  // Of all levels in the format RGB9E5, 4 bytes for each texel.
   std::size_t bytes() const;
 
  private:
