@@ -6,6 +6,7 @@
 
 #include "bakers/images/map_picture.h"
 #include "bakers/job/probe_bake.h"
+#include "bakers/measure/probe/glossy_error.h"
 #include "bakers/measure/probe/report.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
@@ -29,6 +30,8 @@ struct Options {
   std::uint32_t lobes = 12;
   ComparisonSettings comparison;
   std::filesystem::path images;
+  bool glossy = false;  // in place of all forms of fitting
+  measure::GlossySettings surfaces;
 };
 
 void append_methods(const Options& options, const std::string& name, const bake::Environment& map,
@@ -43,6 +46,18 @@ void append_methods(const Options& options, const std::string& name, const bake:
                                                      progress, &over_maps);
     for (const Json& row : measured) rows.push_back(row);
   }
+}
+
+void append_glossy(const Options& options, const std::string& name, const bake::Environment& map,
+                   platform::ProgressBar& bar, Json& rows) {
+  measure::GlossySettings settings = options.surfaces;
+  settings.lobes = options.lobes;
+  settings.seed = options.common.seed;
+  const auto progress = [&](std::size_t done, std::size_t total) {
+    bar.show(name + ", glossy", "kinds of surface", done, total);
+    return !interrupted();
+  };
+  for (const Json& row : measure::glossy_rows(map, name, settings, progress)) rows.push_back(row);
 }
 
 Json file_row(const std::filesystem::path& path, const std::string& map_name, const bake::Environment& map) {
@@ -80,7 +95,10 @@ Json evaluate(const Options& options) {
     }
     name = path.stem().string();
     map = std::make_unique<bake::Environment>(read_map(path));
-    append_methods(options, name, *map, bar, report["rows"], over_maps);
+    if (options.glossy)
+      append_glossy(options, name, *map, bar, report["rows"]);
+    else
+      append_methods(options, name, *map, bar, report["rows"], over_maps);
     if (!options.images.empty()) write_picture(options, name, *map);
   }
   for (const Json& row : over_maps.rows()) report["rows"].push_back(row);
@@ -135,6 +153,12 @@ void add_evaluate_probe(CLI::App& evaluate_command) {
           "solve the lobes' forms again with their axes rotated at random, this often, and report the "
           "spread")
       ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command->add_flag("--glossy", o.glossy,
+                    "of maps: what random glossy surfaces reflect of the lobes and of the map, beside "
+                    "prefiltered cube maps, in place of all forms of fitting");
+  command->add_option("--surfaces", o.surfaces.surfaces, "with --glossy: random ones of each kind")
+      ->check(CLI::Range(1u, 1u << 20))
       ->capture_default_str();
   command->add_option("--images", o.images, "write a picture of each map and its lobes here");
   add_common_options(*command, o.common);

@@ -12,8 +12,8 @@ struct NookProbeSurface {
 
 struct NookProbeSurfaceView {
   vec3 tangent, bitangent;
-  vec3 in_plane;
   vec2 view;         // along tangent and bitangent
+  vec2 stretched;    // the plane of incidence among round slopes: a unit vector along both
   float facing;
   vec2 alpha2;       // squared width of slopes in the plane of incidence and across it
   float openness;
@@ -32,53 +32,59 @@ NookProbeSurfaceView nook_probe_view_of(NookProbeSurface surface) {
   float sine2 = dot(v.view, v.view);
   vec2 w = sine2 > 1e-8 ? v.view / sqrt(sine2) : vec2(1.0, 0.0);
   vec2 a2 = surface.alpha * surface.alpha;
-  v.in_plane = v.tangent * w.x + v.bitangent * w.y;
   v.alpha2 = vec2(dot(w * w, a2), dot(w.yx * w.yx, a2));
+  v.stretched = surface.alpha * w / sqrt(v.alpha2.x);
   v.openness = v.facing / sqrt(v.facing * v.facing + sine2 * v.alpha2.x);
   v.roughness_in_plane = sqrt(sqrt(min(v.alpha2.x * pow(v.alpha2.x / v.alpha2.y, 0.1), 1.0)));
   return v;
 }
 
 // Polynomials of two variables: sums of k u^i v^j over i + j <= degree, j fastest.
-float nook_probe_albedo_polynomial(float u, float v) {
-  return NOOK_GGX_ALBEDO_0 + v * (NOOK_GGX_ALBEDO_1 + v * (NOOK_GGX_ALBEDO_2 + v * (NOOK_GGX_ALBEDO_3 + v * NOOK_GGX_ALBEDO_4))) +
-         u * (NOOK_GGX_ALBEDO_5 + v * (NOOK_GGX_ALBEDO_6 + v * (NOOK_GGX_ALBEDO_7 + v * NOOK_GGX_ALBEDO_8)) +
-              u * (NOOK_GGX_ALBEDO_9 + v * (NOOK_GGX_ALBEDO_10 + v * NOOK_GGX_ALBEDO_11) + u * (NOOK_GGX_ALBEDO_12 + v * NOOK_GGX_ALBEDO_13 + u * NOOK_GGX_ALBEDO_14)));
+float nook_probe_quadratic(float u, float v, float k0, float k1, float k2, float k3, float k4, float k5) {
+  return k0 + v * (k1 + v * k2) + u * (k3 + v * k4 + u * k5);
 }
-float nook_probe_fresnel_polynomial(float u, float v) {
-  return NOOK_GGX_FRESNEL_0 + v * (NOOK_GGX_FRESNEL_1 + v * (NOOK_GGX_FRESNEL_2 + v * (NOOK_GGX_FRESNEL_3 + v * NOOK_GGX_FRESNEL_4))) +
-         u * (NOOK_GGX_FRESNEL_5 + v * (NOOK_GGX_FRESNEL_6 + v * (NOOK_GGX_FRESNEL_7 + v * NOOK_GGX_FRESNEL_8)) +
-              u * (NOOK_GGX_FRESNEL_9 + v * (NOOK_GGX_FRESNEL_10 + v * NOOK_GGX_FRESNEL_11) + u * (NOOK_GGX_FRESNEL_12 + v * NOOK_GGX_FRESNEL_13 + u * NOOK_GGX_FRESNEL_14)));
-}
-float nook_probe_tilt_polynomial(float u, float v) {
-  return NOOK_GGX_TILT_0 + v * (NOOK_GGX_TILT_1 + v * NOOK_GGX_TILT_2) + u * (NOOK_GGX_TILT_3 + v * NOOK_GGX_TILT_4 + u * NOOK_GGX_TILT_5);
-}
-float nook_probe_width_polynomial(float u, float v) {
-  return NOOK_GGX_WIDTH_0 + v * (NOOK_GGX_WIDTH_1 + v * NOOK_GGX_WIDTH_2) + u * (NOOK_GGX_WIDTH_3 + v * NOOK_GGX_WIDTH_4 + u * NOOK_GGX_WIDTH_5);
+float nook_probe_quartic(float u, float v, float k0, float k1, float k2, float k3, float k4, float k5, float k6, float k7,
+                         float k8, float k9, float k10, float k11, float k12, float k13, float k14) {
+  return k0 + v * (k1 + v * (k2 + v * (k3 + v * k4))) +
+         u * (k5 + v * (k6 + v * (k7 + v * k8)) + u * (k9 + v * (k10 + v * k11) + u * (k12 + v * k13 + u * k14)));
 }
 
 // Share of uniform light that leaves towards the eye.
 float nook_probe_directional_albedo(NookProbeSurfaceView v, NookProbeSurface surface) {
   float mean2 = 0.5 * (v.alpha2.x + v.alpha2.y), away = 1.0 - v.facing;
-  float alpha2 = mean2 - 0.5 * away * away * away * (v.alpha2.x - mean2);
-  float whole = clamp(nook_probe_albedo_polynomial(v.openness, sqrt(clamp(alpha2, 0.0, 1.0))), 0.0, 1.0);
+  float alpha = sqrt(clamp(mean2 - 0.5 * away * away * away * (v.alpha2.x - mean2), 0.0, 1.0));
+  float whole = clamp(nook_probe_quartic(v.openness, alpha, NOOK_GGX_ALBEDO_0, NOOK_GGX_ALBEDO_1, NOOK_GGX_ALBEDO_2), 0.0, 1.0);
   float rho = v.roughness_in_plane;
-  float off = clamp(1.0 - v.facing - rho * nook_probe_fresnel_polynomial(sqrt(v.facing), rho), 0.0, 1.0);
-  float off2 = off * off;
+  float cosine = v.facing + rho * nook_probe_quartic(sqrt(v.facing), rho, NOOK_GGX_FRESNEL_0, NOOK_GGX_FRESNEL_1, NOOK_GGX_FRESNEL_2);
+  float off = clamp(1.0 - cosine, 0.0, 1.0), off2 = off * off;
   return whole * (surface.reflectance + (1.0 - surface.reflectance) * off2 * off2 * off);
 }
 
-// The mean normal, weighed by what it reflects.
-vec3 nook_probe_mean_micro_normal(NookProbeSurfaceView v, NookProbeSurface surface) {
-  float lean = max(nook_probe_tilt_polynomial(v.openness, v.roughness_in_plane), 0.0) / ((1.0 + v.facing) * v.alpha2.x);
-  vec2 slope = lean * surface.alpha * surface.alpha * v.view;
-  return normalize(surface.normal + v.tangent * slope.x + v.bitangent * slope.y);
+// Four visible normals, side by side, as sdk/src/probe/ggx_reflection.h has one.
+struct NookProbeVisibleNormals {
+  vec4 across, along, share, sharpness;
+};
+
+// The root of the isotropic width that stands for both.
+float nook_probe_mean_roughness(NookProbeSurface surface) { return sqrt(sqrt(surface.alpha.x * surface.alpha.y)); }
+
+NookProbeVisibleNormals nook_probe_visible_normals(NookProbeSurfaceView v, NookProbeSurface surface) {
+  float u = v.openness, rho = nook_probe_mean_roughness(surface);
+  float across = nook_probe_quadratic(u, rho, NOOK_GGX_PAIR_ACROSS);
+  float sharpness = nook_probe_quadratic(u, rho, NOOK_GGX_PAIR_SHARPNESS);
+  NookProbeVisibleNormals all;
+  all.across = vec4(0.0, 0.0, across, -across);
+  all.along = vec4(nook_probe_quadratic(u, rho, NOOK_GGX_NEAR_ALONG), nook_probe_quadratic(u, rho, NOOK_GGX_FAR_ALONG),
+                   vec2(nook_probe_quadratic(u, rho, NOOK_GGX_PAIR_ALONG)));
+  all.share = vec4(nook_probe_quadratic(u, rho, NOOK_GGX_NEAR_SHARE), nook_probe_quadratic(u, rho, NOOK_GGX_FAR_SHARE), 1.0, 1.0);
+  all.sharpness = vec4(nook_probe_quadratic(u, rho, NOOK_GGX_NEAR_SHARPNESS),
+                       nook_probe_quadratic(u, rho, NOOK_GGX_FAR_SHARPNESS), vec2(sharpness));
+  return all;
 }
 
-// Squared widths of the lobe over those of slopes, in the plane of incidence and across it.
-vec2 nook_probe_lobe_widths(NookProbeSurfaceView v) {
-  vec2 rho = sqrt(sqrt(v.alpha2));
-  float wider = NOOK_GGX_WIDER_0 + rho.y * NOOK_GGX_WIDER_1 + v.facing * NOOK_GGX_WIDER_2;
-  return vec2(nook_probe_width_polynomial(v.facing, rho.x),
-              nook_probe_width_polynomial(v.facing, rho.y) + (1.0 - v.facing) * wider);
+// The middle one alone, in the first place; the others count nothing.
+NookProbeVisibleNormals nook_probe_middle_normal(NookProbeSurfaceView v, NookProbeSurface surface) {
+  float u = v.openness, rho = nook_probe_mean_roughness(surface);
+  return NookProbeVisibleNormals(vec4(0.0), vec4(nook_probe_quadratic(u, rho, NOOK_GGX_MIDDLE_ALONG)), vec4(1.0, 0.0, 0.0, 0.0),
+                                 vec4(nook_probe_quadratic(u, rho, NOOK_GGX_MIDDLE_SHARPNESS)));
 }

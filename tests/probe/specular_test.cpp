@@ -1,9 +1,9 @@
 // Glossy reflection against the GGX reflection integral that it stands for.
 #include "sdk/src/probe/specular.h"
 
+#include "bakers/measure/probe/visible_reflections.h"
 #include "sdk/src/probe/axes.h"
 #include "tests/catch.h"
-#include "tests/probe/ggx_quadrature.h"
 #include "tests/probe/samples.h"
 #include "tests/probe/sphere_quadrature.h"
 
@@ -40,7 +40,7 @@ std::vector<SphericalGaussian> lights() {
 double reflected(const Surface& s, std::span<const SphericalGaussian> lights, int steps = 96) {
   const Vec3 bitangent = cross(s.normal, s.tangent);
   double sum = 0;
-  for (const test::ReflectedDirection& l : test::visible_reflections(s, steps)) {
+  for (const measure::ReflectedDirection& l : measure::visible_reflections(s, steps)) {
     const Vec3 d = s.tangent * float(l.x) + bitangent * float(l.y) + s.normal * float(l.z);
     double light = 0;
     for (const SphericalGaussian& g : lights) light += double(value(g, d).x);
@@ -86,10 +86,10 @@ TEST_CASE("the sum over visible normals is the GGX integral over directions") {
   const Surface s = surface(0.3f, 0.5f, 0.6);
   const auto all = lights();
   const Vec3 bitangent = cross(s.normal, s.tangent);
-  const auto masking = [&](Vec3 d) {
+  const auto hidden = [&](Vec3 d) {
     const double n = double(dot(d, s.normal)), x = double(dot(d, s.tangent) * s.alpha_x),
                  y = double(dot(d, bitangent) * s.alpha_y);
-    return 1 / (n + std::hypot(n, x, y));
+    return std::hypot(n, x, y);
   };
   const double direct = test::integrate_hemisphere([&](double x, double y, double z) {
     const Vec3 l{float(x), float(y), float(z)}, half = normalised(l + s.view);
@@ -99,7 +99,9 @@ TEST_CASE("the sum over visible normals is the GGX integral over directions") {
     const double fresnel = 0.3 + 0.7 * std::pow(1 - double(dot(half, s.view)), 5);
     double light = 0;
     for (const SphericalGaussian& g : all) light += double(value(g, l).x);
-    return light * distribution * masking(l) * masking(s.view) * fresnel * z;
+    // The masking of both directions over 4 times both cosines.
+    const double eye = double(dot(s.view, s.normal)), both = 0.5 / (eye * hidden(l) + z * hidden(s.view));
+    return light * distribution * both * fresnel * z;
   });
   // Both are grids of some 10,000 points.
   CHECK(std::abs(reflected(s, all) / direct - 1) < 2e-3);
@@ -127,7 +129,7 @@ TEST_CASE("under constant light anisotropic surfaces reflect their directional a
   const struct {
     float reflectance;
     double worst, rms;
-  } bounds[] = {{1, 0.06, 0.03}, {0.5f, 0.09, 0.03}, {0.04f, 0.26, 0.06}};
+  } bounds[] = {{1, 0.05, 0.02}, {0.5f, 0.065, 0.02}, {0.04f, 0.2, 0.06}};
   for (const auto& bound : bounds) {
     double worst = 0, square = 0;
     int count = 0;
@@ -149,13 +151,13 @@ TEST_CASE("under constant light anisotropic surfaces reflect their directional a
 }
 
 TEST_CASE("glossy reflection of a probe against the GGX integral") {
-  // From any view, 0.02 to 1. What one lobe leaves of a distribution with GGX's tails and a horizon; at 0.2
-  // the lobe of a grazing view is longest in proportion, and its product integral has the largest error.
+  // From any view, 0.02 to 1. What one lobe, and four, leave of a distribution with GGX's tails and a
+  // horizon.
   const struct {
     float alpha;
     double isotropic, anisotropic;
-  } bounds[] = {{0.05f, 0.08, 0.06},  {0.1f, 0.08, 0.1},  {0.2f, 0.1, 0.17},
-                {0.4f, 0.065, 0.085}, {0.7f, 0.06, 0.07}, {1, 0.05, 0.05}};
+  } bounds[] = {{0.05f, 0.075, 0.07}, {0.1f, 0.035, 0.095}, {0.2f, 0.125, 0.09},
+                {0.4f, 0.115, 0.09},  {0.7f, 0.065, 0.055}, {1, 0.035, 0.065}};
   for (const auto& bound : bounds) {
     const Errors errors = errors_of(bound.alpha, bound.alpha);
     INFO("alpha " << bound.alpha << " isotropic " << errors.isotropic << " anisotropic "
@@ -170,10 +172,9 @@ TEST_CASE("anisotropic surfaces against the GGX integral") {
     const Errors errors = errors_of(x, y);
     INFO("alpha " << x << " " << y << " isotropic " << errors.isotropic << " anisotropic "
                   << errors.anisotropic);
-    CHECK(errors.anisotropic < 0.32);
-    // From 0.1, 0.3 on both forms are alike in the mean square, and the anisotropic one is better where
-    // widths differ more.
-    if (x * 3.5f < y || y * 3.5f < x) CHECK(errors.anisotropic_square < 0.6 * errors.isotropic_square);
+    CHECK(errors.anisotropic < 0.14);
+    // One lobe has no direction in which it is wider.
+    CHECK(errors.anisotropic_square < 0.1 * errors.isotropic_square);
   }
 }
 
@@ -213,13 +214,22 @@ TEST_CASE("a rough metal sphere has no rim") {
   }
 }
 
-TEST_CASE("the anisotropic lobe of an isotropic one is a spherical Gaussian") {
-  // Seen straight on, both warps agree.
-  const Surface s = surface(0.2f, 0.2f, 1);
-  for (const SphericalGaussian& light : lights()) {
-    const float a = product_integral(warped_lobe(s), light).x;
-    const float b = product_integral(warped_anisotropic_lobe(s), light) * light.amplitude.x;
-    CHECK(std::abs(a - b) < 1e-4f * std::abs(a));
+TEST_CASE("lobes of a narrow surface are the mirror direction") {
+  // The lobes' integrals add up to 1, and far from the lobes a light is as if they were one point.
+  const SphericalGaussian light{{0, 0, 1}, 3, {1, 1, 1}};
+  for (const double facing : {0.3, 0.6, 1.0}) {
+    const Surface s = surface(0.002f, 0.002f, facing);
+    const Vec3 mirrored{-s.view.x, -s.view.y, s.view.z};
+    float one = product_integral(reflected_lobe(s), light).x, four = 0, whole = 0;
+    for (const SphericalGaussian& lobe : reflected_lobes(s)) {
+      four += product_integral(lobe, light).x;
+      whole += integral(lobe).x;
+    }
+    const float truth = value(light, mirrored).x;
+    CHECK(std::abs(whole - 1) < 1e-5f);
+    // GGX's tails reach 10 widths and more.
+    CHECK(std::abs(one - truth) < 0.01f);
+    CHECK(std::abs(four - truth) < 0.01f);
   }
 }
 
@@ -240,7 +250,7 @@ TEST_CASE("reflection turns with its tangent and is finite everywhere") {
       turned.tangent = {0, 1, 0};
       const Vec3 a = specular(all, SpecularForm::anisotropic, s);
       const Vec3 b = specular(all, SpecularForm::anisotropic, turned);
-      // Straight on the plane of incidence is the tangent's, of which Fresnel's small part knows.
-      CHECK(length(a - b) <= (angle == 0 ? 2e-3f : 1e-3f) * length(a));
+      // Straight on the plane of incidence is the tangent's, along which two of the four normals lie.
+      CHECK(length(a - b) <= (angle == 0 ? 1e-2f : 1e-3f) * length(a));
     }
 }

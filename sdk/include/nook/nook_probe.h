@@ -397,11 +397,12 @@ NOOK_API nook_result nook_probe_lobes_irradiance(const nook_probe_lobe* lobes, u
                                                  nook_probe_irradiance_form form, const float* normals,
                                                  float* irradiance, size_t count);
 
-/* The shape of the reflected lobe. */
+/* The shape of what a surface reflects to the eye. */
 enum {
-  /* A spherical Gaussian (Wang et al. 2009). */
+  /* One spherical Gaussian (after Wang et al. 2009). */
   NOOK_PROBE_SPECULAR_ISOTROPIC = 0,
-  /* An anisotropic spherical Gaussian (after Xu et al. 2013), which stretches at grazing views. */
+  /* Four of them round normals that the eye sees (Heitz 2018), which stretch at grazing views and where the
+   * two widths differ. */
   NOOK_PROBE_SPECULAR_ANISOTROPIC = 1
 };
 typedef int32_t nook_probe_specular_form;
@@ -422,14 +423,14 @@ typedef struct nook_probe_surface {
 } nook_probe_surface;
 
 /* Evaluates the radiance that GGX surfaces reflect to the eye, one colour for each surface: Smith masking of
- * both directions, Schlick Fresnel, single scattering. The result is the directional albedo times the mean of
- * the light over the reflected lobe. The following errors hold where the cosine between normal and view is
- * 0.02 to 1. Under constant light the result is within 5 % of the integral for reflectances from 0.02 on.
- * Under 12 lobes of sharpness 6 whose amplitudes differ by up to 1 : 9 it is within 10 %; the anisotropic
- * form is within 6 % at alpha 0.05, 10 % at 0.1, 17 % at 0.2 and 9 % above. If one lobe is 20 times as bright
- * as all others it is within 40 %. Surfaces with two widths are within 32 % in the anisotropic form; under
- * constant light they are within 6 % at reflectance 1 and 26 % at 0.04.
- * Any thread. Errors: INVALID_ARGUMENT. */
+ * both directions whose heights correlate (Heitz 2014, as engines shade their lights), Schlick Fresnel,
+ * single scattering. The result is the directional albedo times the mean of the light over the reflected
+ * lobes. The following errors hold where the cosine between normal and view is 0.02 to 1. Under constant
+ * light the result is within 5 % of the integral for reflectances from 0.02 on. Under 12 lobes of sharpness 6
+ * whose amplitudes differ by up to 1 : 9 it is within 9 % in the anisotropic form and 13 % in the isotropic
+ * one. If one lobe is 20 times as bright as all others it is within 40 %. Surfaces with two widths are within
+ * 14 % in the anisotropic form; under constant light they are within 5 % at reflectance 1 and 20 % at 0.04.
+ * docs/probes.md has the errors under lobes of real maps. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_lobes_specular(const nook_probe_lobe* lobes, uint32_t lobe_count,
                                                nook_probe_specular_form form,
                                                const nook_probe_surface* surfaces, float* rgb, size_t count);

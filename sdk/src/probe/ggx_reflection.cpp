@@ -11,38 +11,50 @@ namespace {
 
 // Sum of k u^i v^j over i + j <= degree, j fastest.
 template <int degree>
-float polynomial(const float (&k)[(degree + 1) * (degree + 2) / 2], float u, float v) {
+float polynomial(const double (&k)[(degree + 1) * (degree + 2) / 2], float u, float v) {
   int at = (degree + 1) * (degree + 2) / 2;
   float sum = 0;
   for (int i = degree; i >= 0; --i) {
     float row = 0;
-    for (int j = degree - i; j >= 0; --j) row = row * v + k[--at];
+    for (int j = degree - i; j >= 0; --j) row = row * v + float(k[--at]);
     sum = sum * u + row;
   }
   return sum;
 }
 
-// A polynomial of openness and alpha.
-constexpr float albedo_k[15] = {
-    float(NOOK_GGX_ALBEDO_0),  float(NOOK_GGX_ALBEDO_1),  float(NOOK_GGX_ALBEDO_2),
-    float(NOOK_GGX_ALBEDO_3),  float(NOOK_GGX_ALBEDO_4),  float(NOOK_GGX_ALBEDO_5),
-    float(NOOK_GGX_ALBEDO_6),  float(NOOK_GGX_ALBEDO_7),  float(NOOK_GGX_ALBEDO_8),
-    float(NOOK_GGX_ALBEDO_9),  float(NOOK_GGX_ALBEDO_10), float(NOOK_GGX_ALBEDO_11),
-    float(NOOK_GGX_ALBEDO_12), float(NOOK_GGX_ALBEDO_13), float(NOOK_GGX_ALBEDO_14)};
-// A polynomial of the square roots of facing and of alpha.
-constexpr float fresnel_k[15] = {
-    float(NOOK_GGX_FRESNEL_0),  float(NOOK_GGX_FRESNEL_1),  float(NOOK_GGX_FRESNEL_2),
-    float(NOOK_GGX_FRESNEL_3),  float(NOOK_GGX_FRESNEL_4),  float(NOOK_GGX_FRESNEL_5),
-    float(NOOK_GGX_FRESNEL_6),  float(NOOK_GGX_FRESNEL_7),  float(NOOK_GGX_FRESNEL_8),
-    float(NOOK_GGX_FRESNEL_9),  float(NOOK_GGX_FRESNEL_10), float(NOOK_GGX_FRESNEL_11),
-    float(NOOK_GGX_FRESNEL_12), float(NOOK_GGX_FRESNEL_13), float(NOOK_GGX_FRESNEL_14)};
-// A polynomial of openness and the square root of alpha.
-constexpr float tilt_k[6] = {float(NOOK_GGX_TILT_0), float(NOOK_GGX_TILT_1), float(NOOK_GGX_TILT_2),
-                             float(NOOK_GGX_TILT_3), float(NOOK_GGX_TILT_4), float(NOOK_GGX_TILT_5)};
-// Polynomials of facing and the square root of alpha.
-constexpr float width_k[6] = {float(NOOK_GGX_WIDTH_0), float(NOOK_GGX_WIDTH_1), float(NOOK_GGX_WIDTH_2),
-                              float(NOOK_GGX_WIDTH_3), float(NOOK_GGX_WIDTH_4), float(NOOK_GGX_WIDTH_5)};
-constexpr float wider_k[3] = {float(NOOK_GGX_WIDER_0), float(NOOK_GGX_WIDER_1), float(NOOK_GGX_WIDER_2)};
+constexpr double albedo_k[] = {NOOK_GGX_ALBEDO_0, NOOK_GGX_ALBEDO_1,
+                               NOOK_GGX_ALBEDO_2};  // of openness and alpha
+constexpr double fresnel_k[] = {NOOK_GGX_FRESNEL_0, NOOK_GGX_FRESNEL_1,
+                                NOOK_GGX_FRESNEL_2};  // of the square roots of facing and of alpha
+// Polynomials of openness and the square root of alpha.
+constexpr double middle_along_k[] = {NOOK_GGX_MIDDLE_ALONG};
+constexpr double middle_sharpness_k[] = {NOOK_GGX_MIDDLE_SHARPNESS};
+constexpr double near_along_k[] = {NOOK_GGX_NEAR_ALONG};
+constexpr double near_share_k[] = {NOOK_GGX_NEAR_SHARE};
+constexpr double near_sharpness_k[] = {NOOK_GGX_NEAR_SHARPNESS};
+constexpr double far_along_k[] = {NOOK_GGX_FAR_ALONG};
+constexpr double far_share_k[] = {NOOK_GGX_FAR_SHARE};
+constexpr double far_sharpness_k[] = {NOOK_GGX_FAR_SHARPNESS};
+constexpr double pair_across_k[] = {NOOK_GGX_PAIR_ACROSS};
+constexpr double pair_along_k[] = {NOOK_GGX_PAIR_ALONG};
+constexpr double pair_sharpness_k[] = {NOOK_GGX_PAIR_SHARPNESS};
+
+// The root of the isotropic width that stands for both.
+float mean_roughness(const Surface& surface) {
+  return std::sqrt(std::sqrt(surface.alpha_x * surface.alpha_y));
+}
+
+// A visible normal's stretched slopes, unit: the view's is `flat` along the plane of incidence and `openness`
+// up.
+Vec3 among_round_slopes(const SurfaceView& view, float across, float along) {
+  // The rim of the disc reflects along the horizon.
+  const float shrink = std::min(1.0f, 0.99f / std::max(std::hypot(across, along), 1e-6f));
+  const float a = shrink * across, lifted = 0.5f + 0.5f * view.openness;
+  const float b = (1 - lifted) * std::sqrt(1 - a * a) + lifted * shrink * along;
+  const float c = std::sqrt(std::max(1 - a * a - b * b, 0.0f));
+  const float flat = std::sqrt(std::max(1 - view.openness * view.openness, 0.0f));
+  return {a, c * flat - b * view.openness, b * flat + c * view.openness};
+}
 
 }  // namespace
 
@@ -59,9 +71,10 @@ SurfaceView view_of(const Surface& surface) {
   const float x = tilted ? view.view_x / std::sqrt(sine2) : 1,
               y = tilted ? view.view_y / std::sqrt(sine2) : 0;
   const float x2 = surface.alpha_x * surface.alpha_x, y2 = surface.alpha_y * surface.alpha_y;
-  view.in_plane = view.tangent * x + view.bitangent * y;
   view.alpha2_in_plane = x * x * x2 + y * y * y2;
   view.alpha2_across = y * y * x2 + x * x * y2;
+  view.stretched_x = surface.alpha_x * x / std::sqrt(view.alpha2_in_plane);
+  view.stretched_y = surface.alpha_y * y / std::sqrt(view.alpha2_in_plane);
   view.openness = view.facing / std::sqrt(view.facing * view.facing + sine2 * view.alpha2_in_plane);
   // Wide slopes across the plane leave fewer normals that lean far within it.
   const float alpha2 = view.alpha2_in_plane * std::pow(view.alpha2_in_plane / view.alpha2_across, 0.1f);
@@ -83,22 +96,49 @@ float directional_albedo(const SurfaceView& view, const Surface& surface) {
   return whole * (surface.reflectance + (1 - surface.reflectance) * off2 * off2 * off);
 }
 
-Vec3 mean_micro_normal(const SurfaceView& view, const Surface& surface) {
-  const float lean = std::max(polynomial<2>(tilt_k, view.openness, view.roughness_in_plane), 0.0f) /
-                     ((1 + view.facing) * view.alpha2_in_plane);
-  // Slopes lean towards the view as far as they are wide: out of the plane of incidence, where one width
-  // exceeds the other.
-  return normalised(surface.normal + view.tangent * (lean * surface.alpha_x * surface.alpha_x * view.view_x) +
-                    view.bitangent * (lean * surface.alpha_y * surface.alpha_y * view.view_y));
+VisibleNormal middle_normal(const SurfaceView& view, const Surface& surface) {
+  const float u = view.openness, rho = mean_roughness(surface);
+  return {0, polynomial<2>(middle_along_k, u, rho), 1, polynomial<2>(middle_sharpness_k, u, rho)};
 }
 
-LobeWidths lobe_widths(const SurfaceView& view) {
-  const float in_plane = std::sqrt(std::sqrt(view.alpha2_in_plane));
-  const float across = std::sqrt(std::sqrt(view.alpha2_across));
-  // Seen straight on, both are one function of the width of slopes in their direction.
-  return {polynomial<2>(width_k, view.facing, in_plane),
-          polynomial<2>(width_k, view.facing, across) +
-              (1 - view.facing) * polynomial<1>(wider_k, view.facing, across)};
+std::array<VisibleNormal, 4> visible_normals(const SurfaceView& view, const Surface& surface) {
+  const float u = view.openness, rho = mean_roughness(surface);
+  const float across = polynomial<2>(pair_across_k, u, rho), along = polynomial<2>(pair_along_k, u, rho);
+  const float sharpness = polynomial<2>(pair_sharpness_k, u, rho);
+  return {{{0, polynomial<2>(near_along_k, u, rho), polynomial<2>(near_share_k, u, rho),
+            polynomial<2>(near_sharpness_k, u, rho)},
+           {0, polynomial<2>(far_along_k, u, rho), polynomial<2>(far_share_k, u, rho),
+            polynomial<2>(far_sharpness_k, u, rho)},
+           {across, along, 1, sharpness},
+           {-across, along, 1, sharpness}}};
+}
+
+void reflect(const SurfaceView& view, const Surface& surface, std::span<const VisibleNormal> normals,
+             std::span<SphericalGaussian> lobes) {
+  const float ax = surface.alpha_x, ay = surface.alpha_y;
+  const Vec3 eye{view.view_x, view.view_y, view.facing};
+  const float masked = view.facing / view.openness;  // root of facing^2 + (slopes towards the eye)^2
+  float all = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Vec3 slopes = among_round_slopes(view, normals[i].across, normals[i].along);
+    const Vec3 whole{ax * (slopes.y * view.stretched_x - slopes.x * view.stretched_y),
+                     ay * (slopes.y * view.stretched_y + slopes.x * view.stretched_x), slopes.z};
+    const float length2 = dot(whole, whole);
+    const Vec3 l = whole * (2 * dot(whole, eye) / length2) - eye;
+    const float up = std::max(l.z, 0.0f);
+    const float hidden = std::sqrt(up * up + ax * ax * l.x * l.x + ay * ay * l.y * l.y);
+    const float masking = up * (view.facing + masked) / (view.facing * hidden + up * masked);
+    const float weight = std::max(normals[i].share, 0.0f) * std::max(masking, 1e-6f);
+    // The density of visible normals over four times the cosine is that of reflected directions.
+    const float sharpness =
+        std::max(normals[i].sharpness, 0.2f) * length2 * length2 / (ax * ay * (view.facing + masked));
+    lobes[i] = {normalised(view.tangent * l.x + view.bitangent * l.y + surface.normal * l.z),
+                sharpness,
+                {weight, weight, weight}};
+    all += weight;
+  }
+  for (SphericalGaussian& lobe : lobes)
+    lobe.amplitude = lobe.amplitude * (1 / (all * gaussian_integral(lobe.sharpness)));
 }
 
 }  // namespace nook::probe

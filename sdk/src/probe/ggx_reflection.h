@@ -1,10 +1,14 @@
-// The reflection of a GGX surface as numbers that depend on the view alone: its directional albedo, and the
-// mean and the widths of the lobe of directions that it reflects to the eye.
+// The reflection of a GGX surface as numbers that depend on the view alone: its directional albedo, and a few
+// visible normals that stand for all of them.
 //
 // Polynomials fitted to quadrature over visible normals, alpha 0.004 to 1, facing 0.02 to 1, by
 // tests/probe/ggx_fit.cpp, which prints their coefficients; shaders/probe/ggx_reflection.glsl has the same.
 #pragma once
 
+#include <array>
+#include <span>
+
+#include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook::probe {
@@ -22,29 +26,37 @@ struct Surface {
 // the tangent's is taken.
 struct SurfaceView {
   Vec3 tangent, bitangent;
-  Vec3 in_plane;             // unit, across the normal, to the view's side
-  float view_x, view_y;      // dot(view, tangent), dot(view, bitangent)
-  float facing;              // dot(normal, view), 1e-3 or more
-  float alpha2_in_plane;     // squared width of slopes along in_plane
+  float view_x, view_y;  // dot(view, tangent), dot(view, bitangent)
+  float facing;          // dot(normal, view), 1e-3 or more
+  float stretched_x;     // that plane among round slopes: a unit vector along tangent and bitangent
+  float stretched_y;
+  float alpha2_in_plane;     // squared width of slopes within the plane
   float alpha2_across;       // and at right angles to it
   float openness;            // facing / sqrt(facing^2 + (slopes towards the eye)^2): 0 where masked, 1 open
   float roughness_in_plane;  // root of the isotropic alpha that tilts alike
 };
 SurfaceView view_of(const Surface& surface);
 
-// Share of uniform light that leaves towards the eye, single scattering: Smith masking of both directions,
-// Schlick Fresnel. Isotropic within 5 % from reflectance 0.02 on; the header has the rest.
+// Share of uniform light that leaves towards the eye, single scattering: Smith masking whose heights
+// correlate (E. Heitz, Understanding the Masking-Shadowing Function, 2014, equation 99), Schlick Fresnel.
+// Isotropic within 5 % from reflectance 0.02 on; nook_probe.h has the rest.
 float directional_albedo(const SurfaceView& view, const Surface& surface);
 
-// The mean normal, weighed by what it reflects: the lobe's centre is the view mirrored in it. Towards the
-// eye of the surface's own normal, ever more so the rougher it is.
-Vec3 mean_micro_normal(const SurfaceView& view, const Surface& surface);
-
-// Squared widths of the lobe over those of slopes: how much of GGX's tails counts for broad lights, less what
-// masking cuts off.
-struct LobeWidths {
-  float in_plane, across;
+// A normal that the eye sees, as a point of the unit disc on which all of them are spread evenly (E. Heitz,
+// Sampling the GGX Distribution of Visible Normals, 2018), so that both widths and the view are in that
+// mapping. It stands for those round it.
+struct VisibleNormal {
+  float across, along;  // at right angles to the plane of incidence, among round slopes, and within it
+  float share;          // of the disc, relative to the others'
+  float sharpness;      // of the lobe that those round it reflect, over the density of directions there
 };
-LobeWidths lobe_widths(const SurfaceView& view);
+// For one lobe, and for four: two within the plane of incidence, a pair beside it.
+VisibleNormal middle_normal(const SurfaceView& view, const Surface& surface);
+std::array<VisibleNormal, 4> visible_normals(const SurfaceView& view, const Surface& surface);
+
+// Replaces `lobes` by those that the normals reflect to the eye: as many, of integral 1 together. Each
+// counts with its share and with the masking of the light.
+void reflect(const SurfaceView& view, const Surface& surface, std::span<const VisibleNormal> normals,
+             std::span<SphericalGaussian> lobes);
 
 }  // namespace nook::probe

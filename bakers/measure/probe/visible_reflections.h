@@ -1,6 +1,7 @@
 // Integrals over what a GGX surface reflects to the eye, by an even grid of visible normals (E. Heitz,
 // Sampling the GGX Distribution of Visible Normals, 2018): what remains to be weighed is the masking of the
-// light and Fresnel, both smooth, so that grazing views are as exact as others.
+// light, whose heights correlate with those of the view (E. Heitz, Understanding the Masking-Shadowing
+// Function, 2014, equation 99), and Fresnel, both smooth, so that grazing views are as exact as others.
 #pragma once
 
 #include <cmath>
@@ -9,7 +10,7 @@
 
 #include "sdk/src/probe/ggx_reflection.h"
 
-namespace nook::test {
+namespace nook::measure {
 
 struct ReflectedDirection {
   double x, y, z;  // along tangent, bitangent and normal
@@ -39,7 +40,8 @@ inline std::vector<ReflectedDirection> visible_reflections(double alpha_x, doubl
       const double cosine = hx * x + hy * y + hz * z;
       const ReflectedDirection l{2 * cosine * hx - x, 2 * cosine * hy - y, 2 * cosine * hz - z, 0, 0};
       if (l.z <= 0) continue;
-      const double masking = 2 * l.z / (l.z + std::hypot(l.z, alpha_x * l.x, alpha_y * l.y));
+      const double hidden = std::hypot(l.z, alpha_x * l.x, alpha_y * l.y);
+      const double masking = l.z * (z + size) / (z * hidden + l.z * size);
       all.push_back({l.x, l.y, l.z, masking / steps / steps, std::pow(1 - cosine, 5)});
     }
   return all;
@@ -51,4 +53,4 @@ inline std::vector<ReflectedDirection> visible_reflections(const probe::Surface&
                              double(dot(s.view, bitangent)), double(dot(s.view, s.normal)), steps);
 }
 
-}  // namespace nook::test
+}  // namespace nook::measure

@@ -1,0 +1,15 @@
+/* A room of 6 x 3 x 5 metres with a window in the wall at +x, a table, a shelf and four spheres; y is up and
+ * the middle of the floor is the origin. */
+#ifndef RELIGHT_ROOM_H
+#define RELIGHT_ROOM_H
+
+/* The share of normal light that a surface mirrors is reflectance; 0 is matt. */
+typedef struct room_vertex {
+  float position[3], normal[3], albedo[3], roughness, reflectance;
+} room_vertex;
+
+/* Makes triangles with three vertices each, *count vertices in all. The caller frees them. Returns NULL if
+ * memory runs out. */
+room_vertex* room_make(int* count);
+
+#endif
