@@ -10,8 +10,8 @@ namespace nook::bake {
 namespace {
 
 constexpr std::uint32_t exr_magic = 20000630;
-constexpr std::uint32_t is_multipart = 0x1000;  // of the version field
-constexpr std::size_t max_name_length = 255;    // of an attribute and of its type, bytes
+constexpr std::uint32_t is_tiled = 0x200, is_multipart = 0x1000;  // of the version field
+constexpr std::size_t max_name_length = 255;                      // of an attribute and of its type, bytes
 
 // Little endian, as all numbers of the format; 0 beyond the end of the file.
 std::uint32_t read_u32(std::istream& file) {
@@ -43,6 +43,23 @@ void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t 
   file.seekg(std::streamoff(size), std::ios::cur);
 }
 
+// Checks the rows that the attribute of the image's extent says; its name is read. A file of scanlines has
+// the place of each block of rows, 8 bytes for at most 256 rows.
+void check_rows(std::istream& file, std::uint32_t version, std::uintmax_t file_bytes, const char* what) {
+  const auto at = file.tellg();
+  read_name(file);  // its type
+  std::int64_t edge[5] = {};
+  for (std::int64_t& value : edge)
+    value = std::int32_t(read_u32(file));  // its size, left, top, right, bottom
+  const std::int64_t rows = edge[4] - edge[2] + 1;
+  if (file && (version & is_tiled) == 0 && rows > 0 && std::uintmax_t(rows) / 32 > file_bytes)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%.250s is a damaged EXR file: it says %lld rows, too many for its %ju bytes", what,
+                  static_cast<long long>(rows), file_bytes);
+  file.clear();
+  file.seekg(at);
+}
+
 }  // namespace
 
 void check_exr_head(const char* what, const std::filesystem::path& path) {
@@ -56,6 +73,7 @@ void check_exr_head(const char* what, const std::filesystem::path& path) {
     const std::string name = read_name(file);
     if (!file || (name.empty() && (head_is_empty || (version & is_multipart) == 0))) return;
     head_is_empty = name.empty();
+    if (name == "dataWindow") check_rows(file, version, file_bytes, what);
     if (!head_is_empty) skip_attribute(file, name, file_bytes, what);
   }
 }

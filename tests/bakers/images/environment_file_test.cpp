@@ -120,6 +120,19 @@ TEST_CASE("images that are no maps of radiance are refused") {
   CHECK_FALSE(failure_of(folder.path()).empty());
 }
 
+TEST_CASE("the first bytes of an image choose its reader, and no other is tried") {
+  const Folder folder;
+  const std::vector<float> values = values_of(3);
+  const auto misnamed = folder.path() / "misnamed.hdr", sgi = folder.path() / "sgi.hdr";
+  std::filesystem::rename(folder.write("a.exr", 8, 4, 3, OIIO::TypeDesc::FLOAT, values), misnamed);
+  CHECK(read_environment(misnamed).width() == 8);
+  // OpenImageIO reads files of SGI, whatever their names are.
+  std::filesystem::rename(folder.write("a.sgi", 8, 4, 3, OIIO::TypeDesc::UINT8, values), sgi);
+  CHECK(OIIO::ImageInput::open(sgi.string()));
+  CHECK(failure_of(sgi).find("cannot be read as an image") != std::string::npos);
+  CHECK(failure_of(folder.write_text("a.txt", "text")).find("neither PNG") != std::string::npos);
+}
+
 TEST_CASE("damaged images are refused at any length") {
   const Folder folder;
   for (const char* name : {"a.exr", "a.hdr"}) {
@@ -128,6 +141,22 @@ TEST_CASE("damaged images are refused at any length") {
     for (std::size_t size = 0; size + 16 < whole.size(); size += 37)
       CHECK_FALSE(failure_of(folder.write_text(std::string("cut-") + name, whole.substr(0, size))).empty());
   }
+}
+
+TEST_CASE(
+    "an EXR file that says more rows than it has places for is refused before memory is taken for them") {
+  const Folder folder;
+  const std::string name = "a.exr", extent = "dataWindow";
+  std::ifstream file(folder.write(name, 8, 4, 3, OIIO::TypeDesc::FLOAT, values_of(3)), std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  // Behind the name its type "box2i", its size, the left, the top and the right edge.
+  const std::size_t bottom = bytes.find(extent) + extent.size() + 1 + 6 + 4 + 12;
+  const auto with_rows = [&](std::uint32_t rows) {
+    for (std::size_t i = 0; i < 4; ++i) bytes[bottom + i] = char((rows - 1) >> (8 * i) & 255);
+    return failure_of(folder.write_text(name, bytes));
+  };
+  CHECK(with_rows(4).empty());
+  CHECK(with_rows(1u << 30).find("says 1073741824 rows, too many for its") != std::string::npos);
 }
 
 TEST_CASE("a map whose head says more than its file holds is refused before memory is taken for it") {
