@@ -1,8 +1,10 @@
 #include "bakers/images/exr_head.h"
 
+#include <array>
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include "sdk/src/core/failure.h"
 
@@ -29,10 +31,40 @@ std::string read_name(std::istream& file) {
   return name;
 }
 
+// The types whose values OpenEXR reads by their own size, whatever the attribute says, bytes.
+struct FixedType {
+  std::string_view name;
+  std::uint32_t size;
+};
+constexpr std::array fixed_types{
+    FixedType{"box2f", 16},   FixedType{"box2i", 16},      FixedType{"chromaticities", 32},
+    FixedType{"double", 8},   FixedType{"compression", 1}, FixedType{"deepImageState", 1},
+    FixedType{"envmap", 1},   FixedType{"float", 4},       FixedType{"int", 4},
+    FixedType{"keycode", 28}, FixedType{"lineOrder", 1},   FixedType{"m33d", 72},
+    FixedType{"m33f", 36},    FixedType{"m44d", 128},      FixedType{"m44f", 64},
+    FixedType{"rational", 8}, FixedType{"tiledesc", 9},    FixedType{"timecode", 8},
+    FixedType{"v2d", 16},     FixedType{"v2f", 8},         FixedType{"v2i", 8},
+    FixedType{"v3d", 24},     FixedType{"v3f", 12},        FixedType{"v3i", 12}};
+
+// Returns the bytes of the value where the file is, as OpenEXR reads one of this type; `said` for types that
+// it reads by what the attribute says.
+std::uint64_t value_size(std::istream& file, const std::string& type, std::uint32_t said) {
+  for (const FixedType& fixed : fixed_types)
+    if (type == fixed.name) return fixed.size;
+  if (type == "preview") {
+    const std::uint64_t width = read_u32(file), height = read_u32(file);
+    return height == 0 || width < (std::uint64_t{1} << 32) / height ? 8 + 4 * width * height : UINT64_MAX;
+  }
+  if (type != "chlist") return said;
+  const auto at = file.tellg();
+  while (!read_name(file).empty()) file.seekg(16, std::ios::cur);
+  return file ? std::uint64_t(file.tellg() - at) : UINT64_MAX;
+}
+
 // Moves behind one attribute, whose name is read.
 void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t file_bytes,
                     const char* what) {
-  read_name(file);  // its type
+  const std::string type = read_name(file);
   const std::uint32_t size = read_u32(file);
   if (!file) return;
   const auto at = std::uintmax_t(file.tellg());
@@ -40,7 +72,15 @@ void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t 
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "%.250s is a damaged EXR file: its attribute \"%.60s\" says %u bytes, and %ju follow", what,
                   name.c_str(), size, file_bytes - at);
-  file.seekg(std::streamoff(size), std::ios::cur);
+  // OpenEXR would go on at another place than this does, and take what it finds there for a size.
+  if (value_size(file, type, size) != size)
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "%.250s is a damaged EXR file: its attribute \"%.60s\" says %u bytes, which is not the size "
+        "of its \"%.60s\"",
+        what, name.c_str(), size, type.c_str());
+  file.clear();
+  file.seekg(std::streamoff(at + size));
 }
 
 // Checks the rows that the attribute of the image's extent says; its name is read. A file of scanlines has

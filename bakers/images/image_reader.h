@@ -5,6 +5,7 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <span>
