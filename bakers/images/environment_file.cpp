@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "bakers/images/exr_head.h"
 #include "bakers/images/image_reader.h"
@@ -23,7 +24,7 @@ void check_layout(const OIIO::ImageSpec& spec, const char* format) {
     throw Failure(NOOK_ERROR_BAD_FILE, "an image of %d channels (need red, green and blue)", spec.nchannels);
   if (spec.depth > 1)
     throw Failure(NOOK_ERROR_BAD_FILE, "an image of %d layers is no map (need 1)", spec.depth);
-  if (spec.width != 2 * spec.height || spec.width < fewest_columns || spec.width > most_columns)
+  if (spec.width != 2 * std::int64_t{spec.height} || spec.width < fewest_columns || spec.width > most_columns)
     throw Failure(
         NOOK_ERROR_BAD_FILE,
         "an image of %d x %d pixels is no latitude-longitude map (need twice as wide as high, %d to %d "

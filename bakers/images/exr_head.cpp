@@ -13,7 +13,9 @@ namespace {
 
 constexpr std::uint32_t exr_magic = 20000630;
 constexpr std::uint32_t is_tiled = 0x200, is_multipart = 0x1000;  // of the version field
-constexpr std::size_t max_name_length = 255;                      // of an attribute and of its type, bytes
+// OpenEXR takes memory for up to 256 whole rows when it opens a file.
+constexpr std::int64_t max_columns = 1 << 16;
+constexpr std::size_t max_name_length = 255;  // of an attribute and of its type, bytes
 
 // Little endian, as all numbers of the format; 0 beyond the end of the file.
 std::uint32_t read_u32(std::istream& file) {
@@ -83,9 +85,9 @@ void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t 
   file.seekg(std::streamoff(at + size));
 }
 
-// Checks the rows that the attribute of the image's extent says; its name is read. A file of scanlines has
-// the place of each block of rows, 8 bytes for at most 256 rows.
-void check_rows(std::istream& file, std::uint32_t version, std::uintmax_t file_bytes, const char* what) {
+// Checks the rows and columns that the attribute of the image's extent says; its name is read. A file of
+// scanlines has the place of each block of rows, 8 bytes for at most 256 rows.
+void check_extent(std::istream& file, std::uint32_t version, std::uintmax_t file_bytes, const char* what) {
   const auto at = file.tellg();
   read_name(file);  // its type
   std::int64_t edge[5] = {};
@@ -96,6 +98,10 @@ void check_rows(std::istream& file, std::uint32_t version, std::uintmax_t file_b
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "%.250s is a damaged EXR file: it says %lld rows, too many for its %ju bytes", what,
                   static_cast<long long>(rows), file_bytes);
+  const std::int64_t columns = edge[3] - edge[1] + 1;
+  if (file && columns > max_columns)
+    throw Failure(NOOK_ERROR_BAD_FILE, "%.250s has %lld columns (need at most %lld); make it smaller", what,
+                  static_cast<long long>(columns), static_cast<long long>(max_columns));
   file.clear();
   file.seekg(at);
 }
@@ -113,7 +119,7 @@ void check_exr_head(const char* what, const std::filesystem::path& path) {
     const std::string name = read_name(file);
     if (!file || (name.empty() && (head_is_empty || (version & is_multipart) == 0))) return;
     head_is_empty = name.empty();
-    if (name == "dataWindow") check_rows(file, version, file_bytes, what);
+    if (name == "dataWindow") check_extent(file, version, file_bytes, what);
     if (!head_is_empty) skip_attribute(file, name, file_bytes, what);
   }
 }

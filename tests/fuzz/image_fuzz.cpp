@@ -74,7 +74,8 @@ bool takes_long(const std::unique_ptr<OIIO::ImageInput>& image, std::size_t file
 
 bool takes_long(std::span<const std::byte> bytes) {
   const char* format = image_format_of(bytes);
-  if (!format) return false;
+  // Textures are of these two; others are refused before they are opened.
+  if (!format || (format != std::string("png") && format != std::string("jpg"))) return false;
   OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
   OIIO::Filesystem::IOProxy* proxy = &reader;
   OIIO::ImageSpec config;

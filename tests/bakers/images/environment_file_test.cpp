@@ -115,6 +115,9 @@ TEST_CASE("images that are no maps of radiance are refused") {
             .find("negative values add up to") != std::string::npos);
   CHECK(failure_of(folder.write_text("text.hdr", "not an image")).find("cannot be read as an image") !=
         std::string::npos);
+  CHECK(
+      failure_of(folder.write_text("tall.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2147483647 +X 1\n"))
+          .find("1 x 2147483647 pixels") != std::string::npos);
   CHECK_FALSE(failure_of(folder.write_text("empty.exr", "")).empty());
   CHECK_FALSE(failure_of(folder.path() / "missing.hdr").empty());
   CHECK_FALSE(failure_of(folder.path()).empty());
