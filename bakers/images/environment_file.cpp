@@ -1,11 +1,11 @@
 #include "bakers/images/environment_file.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "bakers/images/exr_head.h"
+#include "bakers/images/image_reader.h"
 #include "bakers/images/image_size.h"
 #include "sdk/src/core/failure.h"
 
@@ -22,7 +22,9 @@ void check_layout(const OIIO::ImageSpec& spec, const char* format) {
                   format, spec.format.c_str());
   if (spec.nchannels < 3)
     throw Failure(NOOK_ERROR_BAD_FILE, "an image of %d channels (need red, green and blue)", spec.nchannels);
-  if (spec.width != 2 * spec.height || spec.width < fewest_columns || spec.width > most_columns)
+  if (spec.depth > 1)
+    throw Failure(NOOK_ERROR_BAD_FILE, "an image of %d layers is no map (need 1)", spec.depth);
+  if (spec.width != 2 * std::int64_t{spec.height} || spec.width < fewest_columns || spec.width > most_columns)
     throw Failure(
         NOOK_ERROR_BAD_FILE,
         "an image of %d x %d pixels is no latitude-longitude map (need twice as wide as high, %d to %d "
@@ -55,15 +57,16 @@ void check_radiance(const std::vector<float>& rgb) {
 
 Environment read_environment(const std::filesystem::path& path) {
   check_exr_head("the map", path);
-  const auto image = OIIO::ImageInput::open(path.string());
-  if (!image) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be read as an image (%s)", OIIO::geterror().c_str());
+  std::string why;
+  const auto image = open_image(path, {}, why);
+  if (!image) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be read as an image (%s)", why.c_str());
   const OIIO::ImageSpec spec = image->spec();
   check_layout(spec, image->format_name());
   std::error_code unknown;  // the size is then the largest number
   check_image_size("the map", spec.width, spec.height, std::size_t{most_columns} * (most_columns / 2),
                    std::filesystem::file_size(path, unknown));
   std::vector<float> rgb(3 * std::size_t(spec.width) * std::size_t(spec.height));
-  if (!image->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, rgb.data()))
+  if (!read_pixels(*image, 3, OIIO::TypeDesc::FLOAT, rgb.data()))
     throw Failure(NOOK_ERROR_BAD_FILE, "a damaged image (%s)", image->geterror().c_str());
   check_radiance(rgb);
   for (float& value : rgb) value = std::max(value, 0.0f);

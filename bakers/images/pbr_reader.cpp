@@ -9,6 +9,7 @@
 
 #include "bakers/images/exr_head.h"
 #include "bakers/images/image_files.h"
+#include "bakers/images/image_reader.h"
 #include "bakers/images/image_size.h"
 #include "bakers/images/pbr_names.h"
 #include "bakers/images/srgb.h"
@@ -56,8 +57,9 @@ MapImage read_image(const fs::path& path, bool needs_colour) {
   OIIO::ImageSpec config;
   // Colours would otherwise be multiplied by alpha.
   config["oiio:UnassociatedAlpha"] = 1;
-  const auto input = OIIO::ImageInput::open(path.string(), &config);
-  if (!input) fail(path, OIIO::geterror());
+  std::string why;
+  const auto input = open_image(path, config, why);
+  if (!input) fail(path, why);
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.nchannels < 1 || spec.depth > 1) fail(path, "it is no flat image");
   std::error_code unknown;  // the size is then the largest number
@@ -74,7 +76,7 @@ MapImage read_image(const fs::path& path, bool needs_colour) {
                  spec.nchannels >= 3 ? std::size_t{3} : std::size_t{1},
                  {}};
   image.texels.resize(image.channels * image.side * image.side);
-  if (!input->read_image(0, 0, 0, int(image.channels), OIIO::TypeDesc::FLOAT, image.texels.data()))
+  if (!read_pixels(*input, int(image.channels), OIIO::TypeDesc::FLOAT, image.texels.data()))
     fail(path, input->geterror());
   check_finite(image);
   return image;

@@ -1,29 +1,25 @@
 #include "bakers/images/texture_file.h"
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 
 #include <string>
+#include <string_view>
 
+#include "bakers/images/image_reader.h"
 #include "bakers/images/image_size.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {
 
+using namespace std::string_view_literals;
+
 constexpr std::size_t most_texels = std::size_t{1} << 26;
 
-// OpenImageIO chooses the format by the name, which images of glTF may lack.
+// Null for what glTF does not allow.
 const char* format_of(const std::vector<std::byte>& bytes) {
-  const auto starts = [&](std::initializer_list<unsigned> magic) {
-    std::size_t i = 0;
-    for (const unsigned m : magic)
-      if (i >= bytes.size() || std::to_integer<unsigned>(bytes[i++]) != m) return false;
-    return true;
-  };
-  if (starts({0x89, 'P', 'N', 'G'})) return "texture.png";
-  if (starts({0xff, 0xd8, 0xff})) return "texture.jpg";
-  return nullptr;
+  const char* format = image_format_of(bytes);
+  return format && (format == "png"sv || format == "jpg"sv) ? format : nullptr;
 }
 
 }  // namespace
@@ -38,17 +34,17 @@ Texture decode_texture(const EncodedImage& image) {
   OIIO::ImageSpec config;
   config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   config["oiio:UnassociatedAlpha"] = 1;
-  const auto input = OIIO::ImageInput::open(format, &config);
+  std::string why;
+  const auto input = open_image_in_memory(format, config, why);
   if (!input)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s cannot be decoded (%s)", image.name.c_str(),
-                  OIIO::geterror().c_str());
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s cannot be decoded (%s)", image.name.c_str(), why.c_str());
   const OIIO::ImageSpec spec = input->spec();
   check_image_size(image.name.c_str(), spec.width, spec.height, most_texels, image.bytes.size());
   if (spec.nchannels < 1) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no channels", image.name.c_str());
   const std::size_t texels = std::size_t(spec.width) * std::size_t(spec.height);
   const auto channels = std::size_t(std::min(spec.nchannels, 4));
   std::vector<std::uint8_t> read(channels * texels);
-  if (!input->read_image(0, 0, 0, int(channels), OIIO::TypeDesc::UINT8, read.data()))
+  if (!read_pixels(*input, int(channels), OIIO::TypeDesc::UINT8, read.data()))
     throw Failure(NOOK_ERROR_BAD_FILE, "%s is a damaged image (%s)", image.name.c_str(),
                   input->geterror().c_str());
   const bool grey = channels < 3;

@@ -1,6 +1,5 @@
 #include "bakers/images/ubo_reader.h"
 
-#include <OpenImageIO/imageio.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 
 #include "bakers/images/exr_head.h"
 #include "bakers/images/image_files.h"
+#include "bakers/images/image_reader.h"
 #include "bakers/images/image_size.h"
 #include "bakers/images/srgb.h"
 #include "bakers/images/ubo_names.h"
@@ -43,8 +43,9 @@ class UboImage {
  public:
   UboImage(const fs::path& path, FloatColours colours) : path_(path) {
     check_exr_head(path.c_str(), path);
-    input_ = OIIO::ImageInput::open(path.string());
-    if (!input_) fail(OIIO::geterror());
+    std::string why;
+    input_ = open_image(path, {}, why);
+    if (!input_) fail(why);
     const OIIO::ImageSpec& spec = input_->spec();
     if (spec.nchannels < 1 || spec.depth > 1) fail("it is no flat image");
     std::error_code unknown;  // the size is then the largest number
@@ -114,8 +115,7 @@ class UboImage {
     const int left = spec.x + held.left, right = left + held.size.width;
     const int top = spec.y + held.top, bottom = top + held.size.height;
     const bool read = spec.tile_width == 0
-                          ? input_->read_scanlines(0, 0, top, bottom, spec.z, 0, int(channels_read_),
-                                                   OIIO::TypeDesc::FLOAT, raw)
+                          ? read_rows(*input_, top, bottom, int(channels_read_), OIIO::TypeDesc::FLOAT, raw)
                           : input_->read_tiles(0, 0, left, right, top, bottom, spec.z, spec.z + 1, 0,
                                                int(channels_read_), OIIO::TypeDesc::FLOAT, raw);
     if (!read) fail(input_->geterror());

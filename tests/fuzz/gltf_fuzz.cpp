@@ -1,4 +1,4 @@
-// Imports bytes as a rigged character through the C ABI and queries everything that can be read from it, and
+// Imports bytes as a rigged character through the C ABI and queries everything that can be read from it, or
 // as a static scene: nothing may crash, and every number in the answers is finite, whatever the bytes. Built
 // for libFuzzer with clang; elsewhere gltf_fuzz_replay.cpp drives it.
 #include <nook/nook_bake_character.h>
@@ -166,7 +166,9 @@ void import_scene(const std::uint8_t* data, std::size_t size) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  import_character(data, size);
-  import_scene(data, size);
+  // Either import parses the document, which is most of its time: the sum of the bytes chooses one.
+  std::uint32_t sum = 0;
+  for (std::size_t i = 0; i < size; ++i) sum += data[i];
+  sum % 3 == 2 ? import_scene(data, size) : import_character(data, size);
   return 0;
 }

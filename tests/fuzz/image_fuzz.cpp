@@ -2,16 +2,23 @@
 // images, measured materials in one file. Nothing may crash or take more memory than the file can fill, and
 // every number is finite, whatever the bytes. OpenImageIO is not instrumented: what guides the fuzzer is the
 // code round it. Built for libFuzzer with clang; elsewhere image_fuzz_replay.cpp drives it.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <span>
 
 #include "bakers/images/environment_file.h"
+#include "bakers/images/exr_head.h"
+#include "bakers/images/image_reader.h"
 #include "bakers/images/texture_file.h"
 #include "bakers/images/ubo_reader.h"
 #include "bakers/material/btf_file.h"
@@ -30,31 +37,56 @@ void require(bool sound, const char* what) {
   std::abort();
 }
 
-// A folder of this process, gone when it ends.
+// A folder of this process, gone when it ends, with a folder for each ending. Files are written over: making
+// and removing one takes longer than reading it.
 class Folder {
  public:
   Folder() : path_(fs::temp_directory_path() / ("nook_image_fuzz_" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
+    for (const ImageKind& kind : nook::test::image_kinds) fs::create_directories(path_ / kind.ending);
+    // Images of a few texels are read faster without others to hand work to.
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1);
   }
   ~Folder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
   }
-  // The only file there, named as a measured image for one light and one view.
+  // The only file in its folder, named as a measured image for one light and one view.
   fs::path write(const char* ending, std::span<const std::byte> bytes) const {
-    fs::path file = path_ / (std::string("a_tl0_pl0_tv0_pv0.") + ending);
+    fs::path file = path_ / ending / (std::string("a_tl0_pl0_tv0_pv0.") + ending);
     std::ofstream out(file, std::ios::binary);
     out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
     out.flush();
     return file;
   }
-  const fs::path& path() const { return path_; }
 
  private:
   fs::path path_;
 };
 
+// A file of a few bytes may say millions of texels before its reader finds out; 16384 for each byte are
+// believed. Such images take a tenth of a second, and are not read.
+bool takes_long(const std::unique_ptr<OIIO::ImageInput>& image, std::size_t file_bytes) {
+  if (!image) return false;
+  const OIIO::ImageSpec& spec = image->spec();
+  const auto texels = std::uint64_t(std::max(spec.width, 0)) * std::uint64_t(std::max(spec.height, 0));
+  return texels > 1 << 14 && texels >> 14 <= file_bytes;
+}
+
+bool takes_long(std::span<const std::byte> bytes) {
+  const char* format = image_format_of(bytes);
+  // Textures are of these two; others are refused before they are opened.
+  if (!format || (format != std::string("png") && format != std::string("jpg"))) return false;
+  OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
+  OIIO::Filesystem::IOProxy* proxy = &reader;
+  OIIO::ImageSpec config;
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  std::string why;
+  return takes_long(open_image_in_memory(format, config, why), bytes.size());
+}
+
 void read_texture(std::span<const std::byte> bytes) {
+  if (takes_long(bytes)) return;
   const Texture texture = decode_texture({"image 0", {bytes.begin(), bytes.end()}});
   TextureUse use;
   use.image = 0;
@@ -86,13 +118,12 @@ void read(const ImageKind& kind, std::span<const std::byte> bytes) {
   if (kind.reader == nook::test::ImageReader::measured_file)
     return read_measured(material::read_btf_file(bytes, 0, most_bytes));
   const fs::path file = folder.write(kind.ending, bytes);
-  try {
-    kind.reader == nook::test::ImageReader::environment
-        ? read_map(file)
-        : read_measured(material::read_ubo_folder(folder.path(), 0));
-  } catch (const nook::Failure&) {
-  }
-  fs::remove(file);
+  check_exr_head("the image", file);
+  std::string why;
+  if (takes_long(open_image(file, {}, why), bytes.size())) return;
+  kind.reader == nook::test::ImageReader::environment
+      ? read_map(file)
+      : read_measured(material::read_ubo_folder(file.parent_path(), 0));
 }
 
 }  // namespace

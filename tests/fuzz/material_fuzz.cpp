@@ -29,7 +29,7 @@ Work work_of(std::span<const std::byte> file, material::Material& material) {
   } catch (const Failure&) {
     return Work::refused;
   }
-  if (expanded(material.btf.shape) + expanded(material.votf.shape) > 1 << 16 || material.views.size() > 64)
+  if (expanded(material.btf.shape) + expanded(material.votf.shape) > 1 << 13 || material.views.size() > 24)
     return Work::large;
   return material.btf.map.side == 0 ? Work::resampled : Work::little;
 }
@@ -75,7 +75,7 @@ void for_each_sample(Script& script, Visit&& visit) {
 
 // The same resampling as on loading, to few cells.
 void resample(const material::Material& material, Script& script) {
-  constexpr std::uint32_t few_cells = 8;
+  constexpr std::uint32_t few_cells = 4;
   const material::MaterialTables tables =
       material::make_tables(material, Parallel(), default_memory(), few_cells);
   for_each_sample(script, [&](const nook_material_sample& s) {

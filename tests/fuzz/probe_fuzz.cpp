@@ -133,10 +133,13 @@ nook_probe_fit_desc fit_desc(Script& script, Axes& given) {
   ok(nook_probe_fit_desc_init(&desc, sizeof desc, NOOK_VERSION));
   desc.isa = nook_isa(script.below(6));
   desc.method = nook_probe_method(script.below(5));
-  desc.basis = nook_probe_basis(script.below(4));
+  // Dice are one in 256, because the products of their functions are sums over 8192 directions.
+  const std::uint32_t basis = script.byte();
+  desc.basis = nook_probe_basis(basis < 4 ? basis : basis % 2);
   desc.domain = nook_probe_domain(script.below(3));
   const std::uint32_t settings = script.byte();
-  desc.lobe_count = settings & 1 ? script.byte() : 3 + (settings >> 5);
+  // Few unless the script names a number: the integrals of their products are most of a fit's time.
+  desc.lobe_count = settings & 1 ? script.byte() : 3 + (settings >> 6);
   desc.ambient = settings >> 1 & 1;
   if (settings & 4) fill_direction(script, desc.up);
   if (settings & 8) {

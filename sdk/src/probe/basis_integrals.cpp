@@ -1,6 +1,7 @@
 // Integrals of a basis over its domain: closed forms where there are, one-dimensional quadrature for lobes
 // cut by the horizon, a product rule for the smooth functions of the others.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,7 +15,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-using Rule = GaussLegendre<64>;
+constexpr GaussLegendre<64> rule;
+// Exact for products of two harmonics, which are polynomials of degree 2 max_order.
+constexpr GaussLegendre<16> harmonics_rule;
+static_assert(2 * max_order < 2 * std::tuple_size_v<decltype(harmonics_rule.node)>);
 
 // Integral of e^(sharpness (t - 1)) over t in [1 - depth, 1], times 2 pi: a lobe over a cap round its axis.
 double cap_integral(double sharpness, double depth) {
@@ -24,7 +28,7 @@ double cap_integral(double sharpness, double depth) {
 // Integral of a lobe over the hemisphere whose axis is at `cosine` from the lobe's. The circle at angle a
 // round the lobe's axis is complete up to a = |90 degrees - tilt|, then cut by the horizon, and then empty
 // (for a lobe below the horizon in reverse order).
-double hemisphere_integral(const Rule& rule, double sharpness, double cosine) {
+double hemisphere_integral(double sharpness, double cosine) {
   const double tilt = std::acos(std::clamp(cosine, -1.0, 1.0));
   const double first = std::abs(pi / 2 - tilt), last = pi - first;
   const double to_first = 1 - std::cos(first), to_last = 1 - std::cos(last);
@@ -45,29 +49,34 @@ double hemisphere_integral(const Rule& rule, double sharpness, double cosine) {
   return whole + cut * (end - first) / 2;
 }
 
-double gaussian_inner(const Rule& rule, const Basis& basis, std::uint32_t i, std::uint32_t k) {
+double gaussian_inner(const Basis& basis, std::uint32_t i, std::uint32_t k) {
   const double a = basis.sharpness[i], b = basis.sharpness[k];
   const double apart = one_minus_cosine(basis.axis[i], basis.axis[k]);
   if (basis.domain == Domain::sphere) return gaussian_product_integral(a, b, apart);
   const ProductShape<double> shape = gaussian_product_shape(a, b, apart);
   const double along = a * double(dot(basis.axis[i], basis.up)) + b * double(dot(basis.axis[k], basis.up));
   return shape.scale *
-         hemisphere_integral(rule, shape.sharpness, shape.sharpness > 0 ? along / shape.sharpness : 1);
+         hemisphere_integral(shape.sharpness, shape.sharpness > 0 ? along / shape.sharpness : 1);
 }
 
-// visit(values, weight) at the points of a product rule over the domain, exact for polynomials of degree
-// 127.
-template <class Visit>
-void over_domain(const Rule& rule, const Basis& basis, Visit&& visit) {
-  constexpr int azimuths = 128;
+// visit(values, weight) at the points of a product rule over the domain: N circles of 2 N points, exact for
+// polynomials of degree 2 N - 1.
+template <int N, class Visit>
+void over_circles(const GaussLegendre<N>& heights, const Basis& basis, Visit&& visit) {
+  constexpr std::size_t azimuths = 2 * N;
+  std::array<double, azimuths> cosine, sine;
+  for (std::size_t k = 0; k < azimuths; ++k) {
+    cosine[k] = std::cos(2 * pi * double(k) / azimuths);
+    sine[k] = std::sin(2 * pi * double(k) / azimuths);
+  }
   const Frame frame = frame_round(basis.domain == Domain::sphere ? Vec3{0, 0, 1} : basis.up);
   const double lowest = basis.domain == Domain::sphere ? -1 : 0;
   std::array<double, max_functions> values;
-  for (std::size_t i = 0; i < rule.node.size(); ++i) {
-    const double z = lowest + (1 - lowest) * (rule.node[i] + 1) / 2, r = std::sqrt(1 - z * z);
-    const double weight = rule.weight[i] * (1 - lowest) / 2 * 2 * pi / azimuths;
-    for (int k = 0; k < azimuths; ++k) {
-      const double x = r * std::cos(2 * pi * k / azimuths), y = r * std::sin(2 * pi * k / azimuths);
+  for (std::size_t i = 0; i < heights.node.size(); ++i) {
+    const double z = lowest + (1 - lowest) * (heights.node[i] + 1) / 2, r = std::sqrt(1 - z * z);
+    const double weight = heights.weight[i] * (1 - lowest) / 2 * 2 * pi / azimuths;
+    for (std::size_t k = 0; k < azimuths; ++k) {
+      const double x = r * cosine[k], y = r * sine[k];
       const double direction[3] = {frame.x.x * x + frame.y.x * y + frame.z.x * z,
                                    frame.x.y * x + frame.y.y * y + frame.z.y * z,
                                    frame.x.z * x + frame.y.z * y + frame.z.z * z};
@@ -77,37 +86,43 @@ void over_domain(const Rule& rule, const Basis& basis, Visit&& visit) {
   }
 }
 
+// Over the directions of the basis' domain; the functions of dice have edges, and take many points.
+template <class Visit>
+void over_domain(const Basis& basis, Visit&& visit) {
+  if (basis.kind == BasisKind::harmonics)
+    over_circles(harmonics_rule, basis, visit);
+  else
+    over_circles(rule, basis, visit);
+}
+
 }  // namespace
 
 Vector<double> basis_integrals(const Basis& basis, Memory* memory) {
-  const Rule rule;
   Vector<double> integrals(basis.count, memory);
   if (basis.kind == BasisKind::gaussians) {
     for (std::uint32_t i = 0; i < basis.count; ++i) {
       const double sharpness = basis.sharpness[i];
       integrals[i] = basis.domain == Domain::sphere
                          ? gaussian_integral(sharpness)
-                         : hemisphere_integral(rule, sharpness, double(dot(basis.axis[i], basis.up)));
+                         : hemisphere_integral(sharpness, double(dot(basis.axis[i], basis.up)));
     }
     return integrals;
   }
-  over_domain(rule, basis, [&](const double* values, double weight) {
+  over_domain(basis, [&](const double* values, double weight) {
     for (std::uint32_t i = 0; i < basis.count; ++i) integrals[i] += weight * values[i];
   });
   return integrals;
 }
 
 Vector<double> basis_gram(const Basis& basis, Memory* memory) {
-  const Rule rule;
   const std::size_t n = basis.count;
   Vector<double> gram(n * n, memory);
   if (basis.kind == BasisKind::gaussians) {
     for (std::uint32_t i = 0; i < n; ++i)
-      for (std::uint32_t k = 0; k <= i; ++k)
-        gram[i * n + k] = gram[k * n + i] = gaussian_inner(rule, basis, i, k);
+      for (std::uint32_t k = 0; k <= i; ++k) gram[i * n + k] = gram[k * n + i] = gaussian_inner(basis, i, k);
     return gram;
   }
-  over_domain(rule, basis, [&](const double* values, double weight) {
+  over_domain(basis, [&](const double* values, double weight) {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k <= i; ++k) gram[i * n + k] += weight * values[i] * values[k];
   });

@@ -115,9 +115,25 @@ TEST_CASE("images that are no maps of radiance are refused") {
             .find("negative values add up to") != std::string::npos);
   CHECK(failure_of(folder.write_text("text.hdr", "not an image")).find("cannot be read as an image") !=
         std::string::npos);
+  CHECK(
+      failure_of(folder.write_text("tall.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2147483647 +X 1\n"))
+          .find("1 x 2147483647 pixels") != std::string::npos);
   CHECK_FALSE(failure_of(folder.write_text("empty.exr", "")).empty());
   CHECK_FALSE(failure_of(folder.path() / "missing.hdr").empty());
   CHECK_FALSE(failure_of(folder.path()).empty());
+}
+
+TEST_CASE("the first bytes of an image choose its reader, and no other is tried") {
+  const Folder folder;
+  const std::vector<float> values = values_of(3);
+  const auto misnamed = folder.path() / "misnamed.hdr", sgi = folder.path() / "sgi.hdr";
+  std::filesystem::rename(folder.write("a.exr", 8, 4, 3, OIIO::TypeDesc::FLOAT, values), misnamed);
+  CHECK(read_environment(misnamed).width() == 8);
+  // OpenImageIO reads files of SGI, whatever their names are.
+  std::filesystem::rename(folder.write("a.sgi", 8, 4, 3, OIIO::TypeDesc::UINT8, values), sgi);
+  CHECK(OIIO::ImageInput::open(sgi.string()));
+  CHECK(failure_of(sgi).find("cannot be read as an image") != std::string::npos);
+  CHECK(failure_of(folder.write_text("a.txt", "text")).find("neither PNG") != std::string::npos);
 }
 
 TEST_CASE("damaged images are refused at any length") {
@@ -128,6 +144,26 @@ TEST_CASE("damaged images are refused at any length") {
     for (std::size_t size = 0; size + 16 < whole.size(); size += 37)
       CHECK_FALSE(failure_of(folder.write_text(std::string("cut-") + name, whole.substr(0, size))).empty());
   }
+}
+
+TEST_CASE(
+    "an EXR file whose head says more rows or bytes than it has is refused before memory is taken for them") {
+  const Folder folder;
+  const std::string name = "a.exr", extent = "dataWindow";
+  std::ifstream file(folder.write(name, 8, 4, 3, OIIO::TypeDesc::FLOAT, values_of(3)), std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  // Behind the name its type "box2i", its size, the left, the top and the right edge.
+  const std::size_t bottom = bytes.find(extent) + extent.size() + 1 + 6 + 4 + 12;
+  const auto with_rows = [&](std::uint32_t rows) {
+    for (std::size_t i = 0; i < 4; ++i) bytes[bottom + i] = char((rows - 1) >> (8 * i) & 255);
+    return failure_of(folder.write_text(name, bytes));
+  };
+  CHECK(with_rows(4).empty());
+  CHECK(with_rows(1u << 30).find("says 1073741824 rows, too many for its") != std::string::npos);
+  CHECK(with_rows(4).empty());
+  // OpenEXR reads one byte of a compression, and takes the rest for further attributes.
+  bytes[bytes.find("compression", bytes.find("compression") + 1) + 12] = 2;
+  CHECK(with_rows(4).find("says 2 bytes, which is not the size") != std::string::npos);
 }
 
 TEST_CASE("a map whose head says more than its file holds is refused before memory is taken for it") {
