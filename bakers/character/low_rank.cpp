@@ -65,8 +65,7 @@ LowRank factorise(const Eigen::MatrixXf& values, std::size_t count, std::uint64_
   LowRank result;
   result.modes = basis * turn;
   result.weights = weights * turn;
-  for (Eigen::Index k = 0; k < kept; ++k)
-    result.removed.push_back(std::max(eigen.values[used - 1 - k], 0.0));
+  for (Eigen::Index k = 0; k < kept; ++k) result.removed.push_back(std::max(eigen.values[used - 1 - k], 0.0));
   for (Eigen::Index c = 0; c < values.cols(); ++c) result.total += values.col(c).cast<double>().squaredNorm();
   return result;
 }

@@ -87,7 +87,9 @@ room(bakers/measure/character bakers/measure/character bakers/measure/truth bake
 room(bakers/measure/synthesis bakers/measure/synthesis bakers/images sdk/src/core sdk/src/material sdk/src/synthesis)
 room(bakers/measure/transfer bakers/measure/transfer bakers/measure/material/raw_reflectance.h bakers/images bakers/transfer
      ${stopwatch} ${ground} sdk/src/material sdk/src/transfer)
-room(bakers/measure/world bakers/measure/world bakers/images bakers/world ${ground} sdk/src/character sdk/src/world)
+# Floors are lit by the lobes of maps.
+room(bakers/measure/world bakers/measure/world bakers/images bakers/probe bakers/world ${ground} sdk/src/character
+     sdk/src/probe sdk/src/world)
 room(bakers/measure/nnao bakers/measure/nnao bakers/nnao platform ${ground} sdk/src/nnao)
 room(bakers/measure/composite bakers/measure/composite bakers/measure/nnao bakers/nnao bakers/world platform ${ground}
      sdk/src/character sdk/src/world sdk/src/nnao)
