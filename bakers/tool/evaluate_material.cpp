@@ -46,7 +46,7 @@ void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, cons
         .commit(measure::chart_svg(charts[i]));
 }
 
-// The pictures that --images asks for: of each material, and of all side by side.
+// The pictures of --images: one of each material, and one of all side by side.
 class Pictures {
  public:
   Pictures(const Options& o, const RawMaterial& raw) : o_(o), raw_(raw) {}

@@ -82,7 +82,7 @@ class ViewDrawing {
   Picture traced() const {
     return draw([&](std::size_t texel) { return shown(traced_at(texel), true); });
   }
-  // What is decoded, and the absolute difference three times.
+  // The decoded material, and three times the absolute difference.
   std::array<Picture, 2> decoded(const nook::material::Material& material) const {
     const std::vector<float> basis(material.light_basis.begin(), material.light_basis.end());
     const auto values = bake::material::decode_btf_view(basis, material.btf, view_);

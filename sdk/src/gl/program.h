@@ -8,7 +8,7 @@ namespace nook::gl {
 // Returns the text of an embedded shader. Throws Failure(NOOK_ERROR_INTERNAL) if no shader has that path.
 const char* embedded_text(const char* path);
 
-// What shaders need beyond OpenGL 3.3 and OpenGL ES 3.0.
+// The needs of shaders beyond OpenGL 3.3 and OpenGL ES 3.0.
 struct ShaderNeeds {
   bool sample_textures = false;  // multisample textures, which OpenGL ES 3.0 lacks
   bool sample_arrays = false;    // arrays of them, which OpenGL ES 3.1 lacks
