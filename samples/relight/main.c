@@ -408,6 +408,10 @@ int main(int argc, char** argv) {
     if (engine.room && engine.shadow) {
       result = pass_day(&engine, &light, frames, picture);
       saved = !result && picture_write(argv[1], picture, 2 * panel_width, 2 * panel_height);
+      if (!result && !saved)
+        fprintf(stderr,
+                "relight: %s cannot be written; check that its folder exists and that it is no folder\n",
+                argv[1]);
     }
   }
   if (result) fprintf(stderr, "%s (%s)\n", nook_last_message(), nook_result_name(result));
