@@ -1,10 +1,7 @@
 // The sample as a user runs it: its pictures and exit codes; and its loader against Nook's own check of
 // poses.
-#include <OpenImageIO/imageio.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,42 +9,27 @@
 
 #include "samples/gltf_viewer/character_file.h"
 #include "tests/catch.h"
+#include "tests/samples/sample_run.h"
+
+using nook::test::Folder, nook::test::quoted;
 
 namespace {
 
-constexpr int kWidth = 320, kHeight = 240;
+const std::string character = quoted(VIEWER_CHARACTER), baked = quoted(VIEWER_MODEL);
 
 int run(const std::string& arguments) {
-  const int status = std::system((std::string(VIEWER) + " " + arguments + " 2> /dev/null").c_str());
-  return WEXITSTATUS(status);
+  return nook::test::exit_code(quoted(VIEWER) + " " + arguments + " 2> /dev/null");
 }
 
 std::vector<float> read(const std::filesystem::path& path) {
-  const auto input = OIIO::ImageInput::open(path.string());
-  REQUIRE(input);
-  REQUIRE(input->spec().width == kWidth);
-  REQUIRE(input->spec().height == kHeight);
-  std::vector<float> rgb(3 * kWidth * kHeight);
-  REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, rgb.data()));
-  return rgb;
+  return nook::test::read_picture<float>(path, 320, 240).values;
 }
-
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "nook_viewer_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary directory");
-    path = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
 
 }  // namespace
 
 TEST_CASE("sample gltf_viewer: its pictures move, and have neither holes nor black dots") {
   const Folder folder;
-  REQUIRE(run(VIEWER_CHARACTER " " VIEWER_MODEL " --frames 2 --size 320x240 --out " + folder.path.string()) ==
-          0);
+  REQUIRE(run(character + " " + baked + " --frames 2 --size 320x240 --out " + quoted(folder.path)) == 0);
   const std::vector<float> first = read(folder.path / "frame_0000.png"),
                            second = read(folder.path / "frame_0001.png");
   CHECK(first != second);
@@ -56,12 +38,12 @@ TEST_CASE("sample gltf_viewer: its pictures move, and have neither holes nor bla
 
 TEST_CASE("sample gltf_viewer: faults have exit codes") {
   const Folder folder;
-  const std::string out = " --out " + folder.path.string();
+  const std::string out = " --out " + quoted(folder.path);
   CHECK(run("") == 2);
-  CHECK(run(VIEWER_CHARACTER " " VIEWER_MODEL " --size 0x0" + out) == 2);
-  CHECK(run(VIEWER_CHARACTER " " VIEWER_MODEL " --clip no_such_clip" + out) == 3);
-  CHECK(run(VIEWER_CHARACTER " " VIEWER_CHARACTER + out) == 3);
-  CHECK(run(VIEWER_MODEL " " VIEWER_MODEL + out) == 3);
+  CHECK(run(character + " " + baked + " --size 0x0" + out) == 2);
+  CHECK(run(character + " " + baked + " --clip no_such_clip" + out) == 3);
+  CHECK(run(character + " " + character + out) == 3);
+  CHECK(run(baked + " " + baked + out) == 3);
 }
 
 TEST_CASE("sample gltf_viewer: its skinning is what Nook expects of the same matrices") {

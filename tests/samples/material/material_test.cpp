@@ -1,19 +1,17 @@
 // The sample as a user runs it: its pictures, its report, and its exit codes.
-#include <OpenImageIO/imageio.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sdk/src/material/material_file.h"
 #include "tests/catch.h"
 #include "tests/material/open_weave.h"
+#include "tests/samples/sample_run.h"
 
 using namespace nook::material;
 
@@ -40,31 +38,16 @@ struct Picture {
 };
 
 Picture read(const std::filesystem::path& path) {
-  const auto input = OIIO::ImageInput::open(path.string());
-  REQUIRE(input);
-  REQUIRE((input->spec().width == width && input->spec().height == height && input->spec().nchannels == 3));
-  Picture picture;
-  picture.values.resize(std::size_t(3) * width * height);
-  REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.values.data()));
-  return picture;
+  auto picture = nook::test::read_picture<float>(path, width, height);
+  REQUIRE(picture.channels == 3);
+  return {std::move(picture.values)};
 }
 
 int run(const std::string& arguments) {
-  const int status =
-      std::system((std::string(MATERIAL_SAMPLE) + " " + arguments + " > /dev/null 2>&1").c_str());
-  return WEXITSTATUS(status);
+  return nook::test::exit_code(nook::test::quoted(MATERIAL_SAMPLE) + " " + arguments + " > /dev/null 2>&1");
 }
 
-// Of its own for each case: they run side by side.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "nook_material_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary directory");
-    path = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-
+struct Folder : nook::test::Folder {
   std::string write(const char* name, const std::vector<std::byte>& bytes) const {
     const std::filesystem::path file = path / name;
     std::ofstream(file, std::ios::binary)

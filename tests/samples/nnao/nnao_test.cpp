@@ -1,64 +1,37 @@
 // The sample as a user runs it: its pictures, and its exit codes.
-#include <OpenImageIO/imageio.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "tests/catch.h"
+#include "tests/samples/sample_run.h"
+
+using nook::test::Folder, nook::test::quoted;
 
 namespace {
 
-struct Picture {
-  int width = 0, height = 0, channels = 0;
-  std::vector<float> values;
-  float at(int x, int y) const { return values[(std::size_t(y) * width + x) * channels]; }
-};
+using Picture = nook::test::SamplePicture<float>;
 
 Picture read(const std::filesystem::path& path) {
-  Picture picture;
-  const auto input = OIIO::ImageInput::open(path.string());
-  REQUIRE(input);
-  const OIIO::ImageSpec& spec = input->spec();
-  picture.width = spec.width;
-  picture.height = spec.height;
-  picture.channels = spec.nchannels;
-  picture.values.resize(std::size_t(spec.width) * spec.height * spec.nchannels);
-  REQUIRE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, picture.values.data()));
-  return picture;
+  return nook::test::read_picture<float>(path, 960, 540);
 }
 
 int run(const std::string& arguments) {
-  const int status = std::system((std::string(NNAO_SAMPLE) + " " + arguments + " 2> /dev/null").c_str());
-  return WEXITSTATUS(status);
+  return nook::test::exit_code(quoted(NNAO_SAMPLE) + " " + arguments + " 2> /dev/null");
 }
-
-// Of its own for each case: they run side by side.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "nook_nnao_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary directory");
-    path = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
 
 }  // namespace
 
 TEST_CASE("sample nnao: its pictures show a room that AO darkens, in the corners and nowhere else") {
   const Folder folder;
-  REQUIRE(run(folder.path.string()) == 0);
+  REQUIRE(run(quoted(folder.path)) == 0);
   const Picture before = read(folder.path / "before.png"), after = read(folder.path / "after.png"),
                 ao = read(folder.path / "ao.png");
-  REQUIRE((before.width == 960 && before.height == 540 && ao.width == 960 && after.height == 540));
   // Open floor, sky above the walls, the corner of wall and wall, the floor under the ball.
   CHECK(ao.at(480, 500) > 0.95f);
   CHECK(ao.at(600, 5) == 1);
@@ -74,19 +47,19 @@ TEST_CASE("sample nnao: its pictures show a room that AO darkens, in the corners
 
 TEST_CASE("sample nnao: bad arguments and folders have exit codes of their own") {
   const Folder folder;
-  CHECK(run(folder.path.string() + " 0") == 2);
+  CHECK(run(quoted(folder.path) + " 0") == 2);
   CHECK(run("a b c") == 2);
-  CHECK(run((folder.path / "absent").string()) == 1);
+  CHECK(run(quoted(folder.path / "absent")) == 1);
   CHECK(std::filesystem::is_empty(folder.path));
 }
 
 #ifdef NOOK_TOOL
 TEST_CASE("sample nnao: its recorded frame replays to the same AO, and the tool shows what it holds") {
   const Folder folder;
-  REQUIRE(run(folder.path.string()) == 0);
-  const std::string tool = NOOK_TOOL, path = folder.path.string(), frame = path + "/frame.nook";
+  REQUIRE(run(quoted(folder.path)) == 0);
+  const std::string path = folder.path.string(), frame = path + "/frame.nook";
   const auto tool_run = [&](const std::string& arguments) {
-    return WEXITSTATUS(std::system((tool + " " + arguments + " 2> /dev/null").c_str()));
+    return nook::test::exit_code(quoted(NOOK_TOOL) + " " + arguments + " 2> /dev/null");
   };
   REQUIRE(tool_run("evaluate nnao --frame " + frame + " --methods replayed,fast --quiet --images " + path +
                    "/replay --report " + path + "/r.json") == 0);
@@ -103,7 +76,6 @@ TEST_CASE("sample nnao: its recorded frame replays to the same AO, and the tool 
   CHECK(rows.at(2).at("oracle_mse").is_null());
   const Picture shown = read(folder.path / "ao.png"),
                 recorded = read(folder.path / "replay" / "frame_recorded.png");
-  REQUIRE(recorded.width == 960);
   float largest = 0;
   for (int y = 0; y < 540; ++y)
     for (int x = 0; x < 960; ++x) largest = std::max(largest, std::abs(shown.at(x, y) - recorded.at(x, y)));

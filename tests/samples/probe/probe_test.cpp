@@ -1,9 +1,6 @@
 // The sample as a user runs it, without a display: what its picture shows of the light.
-#include <OpenImageIO/imageio.h>
-#include <sys/wait.h>
 
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nook/nook.hpp>
@@ -11,15 +8,16 @@
 #include <vector>
 
 #include "tests/catch.h"
+#include "tests/samples/sample_run.h"
 
 namespace {
 
 constexpr int width = 1280, height = 540;
 
+using Picture = nook::test::SamplePicture<unsigned char>;
+
 int run(const std::string& arguments) {
-  const std::string command = std::string("'" PROBE_SAMPLE "' ") + arguments;
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return nook::test::exit_code(nook::test::quoted(PROBE_SAMPLE) + " " + arguments);
 }
 
 // Red light from +x, blue light from -x, a little white everywhere.
@@ -52,28 +50,18 @@ std::string write_probe() {
   return path;
 }
 
-std::vector<unsigned char> read_png(const std::string& path) {
-  const auto input = OIIO::ImageInput::open(path);
-  REQUIRE(input);
-  REQUIRE(input->spec().width == width);
-  REQUIRE(input->spec().height == height);
-  std::vector<unsigned char> rgb(std::size_t(3) * width * height);
-  REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, rgb.data()));
-  return rgb;
-}
-
 }  // namespace
 
 TEST_CASE("spheres are red on the red light's side and blue on the blue one's, glossy ones the more so") {
   const std::string probe = write_probe(), picture = PROBE_OUT "/two_lights.png";
   std::filesystem::remove(picture);
   REQUIRE(run("'" + probe + "' '" + picture + "'") == 0);
-  const std::vector<unsigned char> rgb = read_png(picture);
+  const Picture shown = nook::test::read_picture<unsigned char>(picture, width, height);
   // Spheres stand 0.6 m apart from -1.5 m on, the picture is 2.17 m high round y = 1.
   const auto at = [&](float x_m, float y_m) {
     const float pixel_per_m = float(height) / (2 * 7.2f * 0.15113522f);
     const int x = int(0.5f * width + x_m * pixel_per_m), y = int(0.5f * height - (y_m - 1) * pixel_per_m);
-    const unsigned char* p = &rgb[3 * (std::size_t(y) * width + std::size_t(x))];
+    const unsigned char* p = &shown.at(x, y);
     return std::array<int, 3>{p[0], p[1], p[2]};
   };
   for (int i = 0; i < 6; ++i) {

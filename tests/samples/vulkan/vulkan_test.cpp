@@ -1,8 +1,6 @@
 // The sample as a user runs it: in Vulkan the stages draw the AO that the OpenGL pass draws of the same
 // depth, without a complaint of the validation layer.
-#include <OpenImageIO/imageio.h>
 #include <glad/gl.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,39 +12,30 @@
 #include <iterator>
 #include <memory>
 #include <nook/nook.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "platform/platform.h"
 #include "tests/catch.h"
+#include "tests/samples/sample_run.h"
+
+using nook::test::Folder, nook::test::quoted;
 
 namespace {
 
 constexpr int width = 960, height = 540;
 
-struct Picture {
-  int channels = 0;
-  std::vector<unsigned char> texels;  // the upper row first
-  int at(int x, int y) const { return texels[(std::size_t(y) * width + x) * channels]; }
-};
+using Picture = nook::test::SamplePicture<unsigned char>;
 
 Picture read(const std::filesystem::path& path) {
-  const auto input = OIIO::ImageInput::open(path.string());
-  REQUIRE(input);
-  REQUIRE(input->spec().width == width);
-  REQUIRE(input->spec().height == height);
-  Picture picture{input->spec().nchannels, {}};
-  picture.texels.resize(std::size_t(width) * height * picture.channels);
-  REQUIRE(input->read_image(0, 0, 0, picture.channels, OIIO::TypeDesc::UINT8, picture.texels.data()));
-  return picture;
+  return nook::test::read_picture<unsigned char>(path, width, height);
 }
 
-// Returns the exit code. Where the validation layer is installed, it looks for missing barriers as well.
+// Where the validation layer is installed, it looks for missing barriers as well.
 int run(const std::string& arguments) {
   const std::string validation =
       "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT ";
-  return WEXITSTATUS(std::system((validation + VULKAN_SAMPLE + " " + arguments).c_str()));
+  return nook::test::exit_code(validation + quoted(VULKAN_SAMPLE) + " " + arguments);
 }
 
 bool required(const char* variable) {
@@ -77,17 +66,6 @@ std::unique_ptr<platform::Context> opengl() {
     return nullptr;
   }
 }
-
-// Of its own for each case: they run side by side.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "nook_vulkan_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary directory");
-    path = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
 
 // Draws the recorded frame with OpenGL so many times, and returns its AO in the order of the recording.
 std::vector<unsigned char> drawn_by_opengl(platform::Context& context, const nook_nnao_recording_desc& frame,
@@ -137,7 +115,7 @@ std::vector<unsigned char> drawn_by_opengl(platform::Context& context, const noo
 // Returns false where there is no Vulkan or no OpenGL.
 bool compare(const Folder& folder, const std::string& arguments, int frames) {
   const std::unique_ptr<platform::Context> context = opengl();
-  if (!context || !drew(folder.path.string() + " " + arguments)) return false;
+  if (!context || !drew(quoted(folder.path) + " " + arguments)) return false;
   std::ifstream file(folder.path / "frame.nook", std::ios::binary);
   const std::vector<char> bytes(std::istreambuf_iterator<char>(file), {});
   const nook::Context nook_context;
@@ -191,8 +169,8 @@ TEST_CASE("sample vulkan: AO is the OpenGL pass's, preset default, and darkens c
   CHECK(ao.at(370, 150) < 204);
   CHECK(ao.at(541, 362) < 179);
   int brighter = 0;
-  for (std::size_t i = 0; i < before.texels.size(); ++i)
-    brighter = std::max(brighter, after.texels[i] - before.texels[i]);
+  for (std::size_t i = 0; i < before.values.size(); ++i)
+    brighter = std::max(brighter, after.values[i] - before.values[i]);
   CHECK(brighter <= 0);
   CHECK(after.at(480, 500) > before.at(480, 500) - 8);
   CHECK(after.at(541, 362) < before.at(541, 362) - 20);
@@ -200,7 +178,7 @@ TEST_CASE("sample vulkan: AO is the OpenGL pass's, preset default, and darkens c
 
 TEST_CASE("sample vulkan: bad arguments and folders have exit codes of their own") {
   const Folder folder;
-  CHECK(run(folder.path.string() + " backwards 2> /dev/null") == 2);
-  if (!drew(folder.path.string() + " 0 2> /dev/null", 2)) return;
-  CHECK(run((folder.path / "absent").string() + " 2> /dev/null") == 1);
+  CHECK(run(quoted(folder.path) + " backwards 2> /dev/null") == 2);
+  if (!drew(quoted(folder.path) + " 0 2> /dev/null", 2)) return;
+  CHECK(run(quoted(folder.path / "absent") + " 2> /dev/null") == 1);
 }
