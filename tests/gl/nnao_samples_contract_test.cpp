@@ -1,4 +1,5 @@
-// What passes of multisampled images refuse, the memory that they take, and the OpenGL state that they leave.
+// Passes of multisampled images: the frames that they refuse, their memory, and the OpenGL state that they
+// leave.
 #include <cstring>
 
 #include "sdk/src/gl/touched_state.h"
