@@ -158,7 +158,7 @@ def jumps_table(bench):
     def pair(row, rest):
         return [f"{row[key + rest]:.3f}" for key in ("jump_largest", "jump_99")] if "jump_largest" + rest in row else ["-", "-"]
     rows = []
-    for material in ("49 x 49 fiber", "49 x 49 roughhole"):
+    for material in ("49 x 49 fiber", "weave", "49 x 49 roughhole"):
         report = bench.run(f"{material} jumps", "evaluate", "material", bench.path(f"{material}.raw"),
                            bench.path(f"{material} k-cta 8 bits.nook"), "--methods", "n-svd,cta", "--jumps", "--images",
                            bench.path("images"))
