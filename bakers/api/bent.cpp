@@ -6,6 +6,7 @@
 #include "bakers/job/bent_bake.h"
 #include "bakers/job/character_model.h"
 #include "bakers/job/job_progress.h"
+#include "bakers/job/worker_arena.h"
 #include "sdk/src/core/descriptors.h"
 
 using namespace nook;
@@ -14,7 +15,6 @@ using namespace nook::bake;
 namespace {
 
 constexpr std::size_t first_bent_desc = offsetof(nook_bake_bent_desc, progress_user) + sizeof(void*);
-constexpr std::uint32_t max_threads = 1024;
 
 nook_bake_bent_desc default_bent_desc() {
   const BentTask task;
@@ -44,9 +44,7 @@ nook_result nook_bake_bent_start(nook_bake_character character, const nook_bake_
     need(character, "character");
     const nook_bake_bent_desc d =
         read_descriptor(desc, "nook_bake_bent_desc_init", first_bent_desc, default_bent_desc());
-    if (d.threads > max_threads)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.threads is out of range (got %u, need at most %u)",
-                    d.threads, max_threads);
+    need_threads(d.threads);
     const BentTask task = bent_task_of(d);
     need(d.model, "desc.model");
     auto model = std::make_shared<const CharacterModel>(

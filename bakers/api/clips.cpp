@@ -6,6 +6,7 @@
 #include "bakers/job/character_model.h"
 #include "bakers/job/clip_bake.h"
 #include "bakers/job/job_progress.h"
+#include "bakers/job/worker_arena.h"
 #include "sdk/src/core/descriptors.h"
 
 using namespace nook;
@@ -14,7 +15,6 @@ using namespace nook::bake;
 namespace {
 
 constexpr std::size_t first_clips_desc = offsetof(nook_bake_clips_desc, progress_user) + sizeof(void*);
-constexpr std::uint32_t max_threads = 1024;
 
 nook_bake_clips_desc default_clips_desc() {
   const ClipTask task;
@@ -46,9 +46,7 @@ nook_result nook_bake_clips_start(nook_bake_character character, const nook_bake
     need(character, "character");
     const nook_bake_clips_desc d =
         read_descriptor(desc, "nook_bake_clips_desc_init", first_clips_desc, default_clips_desc());
-    if (d.threads > max_threads)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.threads is out of range (got %u, need at most %u)",
-                    d.threads, max_threads);
+    need_threads(d.threads);
     if (d.reserved != 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", d.reserved);
     need(d.model, "desc.model");

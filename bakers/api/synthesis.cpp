@@ -5,6 +5,7 @@
 #include "bakers/api/handles.h"
 #include "bakers/job/job_progress.h"
 #include "bakers/job/synthesis_bake.h"
+#include "bakers/job/worker_arena.h"
 #include "sdk/src/core/descriptors.h"
 
 using namespace nook;
@@ -14,7 +15,6 @@ namespace {
 
 constexpr std::size_t first_synthesis_desc =
     offsetof(nook_bake_synthesis_desc, progress_user) + sizeof(void*);
-constexpr std::uint32_t most_threads = 1024;
 
 nook_bake_synthesis_desc default_synthesis_desc() {
   const bake::synthesis::SynthesisSettings settings;
@@ -44,9 +44,7 @@ nook_result nook_bake_synthesis_start(const nook_bake_synthesis_desc* desc, nook
     *out = nullptr;
     const nook_bake_synthesis_desc d = read_descriptor(desc, "nook_bake_synthesis_desc_init",
                                                        first_synthesis_desc, default_synthesis_desc());
-    if (d.threads > most_threads)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.threads is out of range (got %u, need at most %u)",
-                    d.threads, most_threads);
+    need_threads(d.threads);
     if (d.reserved != 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", d.reserved);
     auto task = std::make_shared<SynthesisTask>(synthesis_task_of(d));

@@ -5,6 +5,7 @@
 #include "bakers/api/handles.h"
 #include "bakers/job/job_progress.h"
 #include "bakers/job/transfer_bake.h"
+#include "bakers/job/worker_arena.h"
 #include "sdk/src/core/descriptors.h"
 
 using namespace nook;
@@ -13,7 +14,6 @@ using namespace nook::bake;
 namespace {
 
 constexpr std::size_t first_transfer_desc = offsetof(nook_bake_transfer_desc, progress_user) + sizeof(void*);
-constexpr std::uint32_t most_threads = 1024;
 
 nook_bake_transfer_desc default_transfer_desc() {
   const bake::transfer::BakeSettings settings;
@@ -41,9 +41,7 @@ nook_result nook_bake_transfer_start(const nook_bake_transfer_desc* desc, nook_b
     *out = nullptr;
     const nook_bake_transfer_desc d =
         read_descriptor(desc, "nook_bake_transfer_desc_init", first_transfer_desc, default_transfer_desc());
-    if (d.threads > most_threads)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.threads is out of range (got %u, need at most %u)",
-                    d.threads, most_threads);
+    need_threads(d.threads);
     if (d.reserved != 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", d.reserved);
     if (d.reserved_2 != 0)

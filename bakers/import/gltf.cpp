@@ -75,16 +75,12 @@ struct MeshNodes {
 };
 
 MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes) {
-  const std::vector<bool> shown = shown_nodes(model, nodes);
+  const std::vector<int> shown = shown_meshes(model, nodes);
   MeshNodes out;
   std::vector<std::int64_t> place_of_skin(model.skins.size(), -1);
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
-    const int mesh = model.nodes[i].mesh;
     const int skin = model.nodes[i].skin;
-    if (mesh < 0 || !shown[i]) continue;
-    if (static_cast<std::size_t>(mesh) >= model.meshes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "node %u names mesh %d (file has %zu)", i, mesh,
-                    model.meshes.size());
+    if (shown[i] < 0) continue;
     if (skin < 0) {
       out.all.push_back({i, false, out.rigid_nodes.size()});
       out.rigid_nodes.push_back(i);

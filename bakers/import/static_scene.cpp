@@ -8,8 +8,8 @@
 #include "bakers/import/file_reader.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_textures.h"
-#include "bakers/import/morph_targets.h"
 #include "bakers/import/primitive_triangles.h"
+#include "bakers/import/shown_primitives.h"
 #include "bakers/import/validate.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/place.h"
@@ -89,20 +89,15 @@ void read_uv(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
   }
 }
 
-void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                      const std::string& what, const Affine& world_from_mesh,
-                      const std::vector<double>& morph_weights, StaticScene& scene) {
+void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown, StaticScene& scene) {
+  const tinygltf::Primitive& primitive = *shown.primitive;
+  const std::string& what = shown.what;
   if (!has_triangles(primitive)) return;
-  const int accessor = attribute(primitive, "POSITION");
-  if (accessor < 0) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no POSITION", what.c_str());
   const auto first = std::uint32_t(scene.position.size());
-  if (element_count(model, accessor, what + ".POSITION") > max_file_vertices - first)
-    throw Failure(NOOK_ERROR_BAD_FILE, "too many vertices (need at most %zu)", max_file_vertices);
-  Floats position = read_floats(model, accessor, 3, what + ".POSITION");
-  add_morph_targets(model, primitive, morph_weights, what, position.value);
+  const Floats position = read_positions(model, shown, first);
   for (std::size_t v = 0; v < position.count; ++v) {
     const float* p = &position.value[3 * v];
-    const Vec3 world = transform(world_from_mesh, Vec3{p[0], p[1], p[2]});
+    const Vec3 world = transform(shown.world_from_mesh, Vec3{p[0], p[1], p[2]});
     if (!is_place(world))
       throw Failure(NOOK_ERROR_BAD_FILE,
                     "%s: vertex %zu is out of range (got %g %g %g, need finite metres up to 1e6)",
@@ -130,25 +125,9 @@ StaticScene import_document(std::span<const std::byte> bytes, const FileAccess& 
                             SceneTextures textures) {
   const tinygltf::Model model =
       parse_gltf(bytes, files, textures == SceneTextures::read ? Images::keep : Images::skip);
-  const NodeTree nodes = read_nodes(model);
-  const std::vector<bool> shown = shown_nodes(model, nodes);
-  const std::vector<Affine> world = default_world_transforms(nodes);
   StaticScene scene;
   read_surfaces(model, textures, scene);
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const int mesh = model.nodes[n].mesh;
-    if (!shown[n] || mesh < 0) continue;
-    if (std::size_t(mesh) >= model.meshes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "node %zu names mesh %d (file has %zu)", n, mesh,
-                    model.meshes.size());
-    const auto& primitives = model.meshes[std::size_t(mesh)].primitives;
-    const std::vector<double> morph_weights =
-        default_morph_weights(model.meshes[std::size_t(mesh)], model.nodes[n]);
-    for (std::size_t p = 0; p < primitives.size(); ++p)
-      append_primitive(model, primitives[p],
-                       "mesh " + std::to_string(mesh) + " primitive " + std::to_string(p), world[n],
-                       morph_weights, scene);
-  }
+  for (const ShownPrimitive& shown : shown_primitives(model)) append_primitive(model, shown, scene);
   if (scene.triangle.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "the default scene shows no triangle; export the meshes with it");
   return scene;

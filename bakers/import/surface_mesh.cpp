@@ -6,8 +6,8 @@
 #include "bakers/import/accessor.h"
 #include "bakers/import/file_reader.h"
 #include "bakers/import/gltf_document.h"
-#include "bakers/import/morph_targets.h"
 #include "bakers/import/primitive_triangles.h"
+#include "bakers/import/shown_primitives.h"
 #include "bakers/import/tangents.h"
 #include "bakers/import/validate.h"
 #include "sdk/src/core/failure.h"
@@ -70,26 +70,22 @@ bool is_identity(const Affine& a) {
   return a.m == Affine{}.m;
 }
 
-void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                      const std::string& what, const Affine& world_from_mesh,
-                      const std::vector<double>& morph_weights, Building& building) {
+void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown, Building& building) {
+  const tinygltf::Primitive& primitive = *shown.primitive;
+  const std::string& what = shown.what;
+  const Affine& world_from_mesh = shown.world_from_mesh;
   if (!has_triangles(primitive)) return;
   SurfaceMesh& mesh = building.mesh;
-  const int accessor = attribute(primitive, "POSITION");
-  if (accessor < 0) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no POSITION", what.c_str());
   const auto first = std::uint32_t(mesh.position.size());
-  const std::size_t count = element_count(model, accessor, what + ".POSITION");
-  if (count > max_file_vertices - first)
-    throw Failure(NOOK_ERROR_BAD_FILE, "too many vertices (need at most %zu)", max_file_vertices);
-  Floats position = read_floats(model, accessor, 3, what + ".POSITION");
-  add_morph_targets(model, primitive, morph_weights, what, position.value);
+  const Floats position = read_positions(model, shown, first);
+  const std::size_t count = position.count;
   const std::vector<float> uv = read_attribute(model, primitive, "TEXCOORD_0", 2, count, what);
   if (uv.empty() && count > 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "%s has no TEXCOORD_0, which a material needs; unwrap the mesh and export it again",
                   what.c_str());
   std::vector<float> normal, tangent;
-  if (morph_weights.empty()) {
+  if (shown.morph_weights.empty()) {
     normal = read_attribute(model, primitive, "NORMAL", 3, count, what);
     if (!normal.empty()) tangent = read_attribute(model, primitive, "TANGENT", 4, count, what);
   }
@@ -164,24 +160,8 @@ void make_missing(Building& building, std::vector<std::string>& warnings) {
 
 ImportedSurface import_document(std::span<const std::byte> bytes, const FileAccess& files) {
   const tinygltf::Model model = parse_gltf(bytes, files);
-  const NodeTree nodes = read_nodes(model);
-  const std::vector<bool> shown = shown_nodes(model, nodes);
-  const std::vector<Affine> world = default_world_transforms(nodes);
   Building building;
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const int mesh = model.nodes[n].mesh;
-    if (!shown[n] || mesh < 0) continue;
-    if (std::size_t(mesh) >= model.meshes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "node %zu names mesh %d (file has %zu)", n, mesh,
-                    model.meshes.size());
-    const auto& primitives = model.meshes[std::size_t(mesh)].primitives;
-    const std::vector<double> morph_weights =
-        default_morph_weights(model.meshes[std::size_t(mesh)], model.nodes[n]);
-    for (std::size_t p = 0; p < primitives.size(); ++p)
-      append_primitive(model, primitives[p],
-                       "mesh " + std::to_string(mesh) + " primitive " + std::to_string(p), world[n],
-                       morph_weights, building);
-  }
+  for (const ShownPrimitive& shown : shown_primitives(model)) append_primitive(model, shown, building);
   if (building.mesh.triangle.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "the default scene shows no triangle; export the meshes with it");
   ImportedSurface imported;

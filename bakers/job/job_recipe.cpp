@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bakers/character/pose_sets.h"
+#include "bakers/job/worker_arena.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -11,7 +12,7 @@ namespace {
 
 // The bounds are far above any sensible bake, and keep hostile numbers from allocating all memory.
 constexpr std::uint32_t max_spheres = 1024, max_key_points = 4096, max_rays = 65536, max_poses = 1'000'000,
-                        max_threads = 1024, max_steps = 10'000'000;
+                        max_steps = 10'000'000;
 
 [[noreturn]] void unknown(const char* name, int value) {
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -113,7 +114,7 @@ void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
   at_most("desc.key_points", desc.key_points, max_key_points);
   at_most("desc.rays", desc.rays, max_rays);
   at_most("desc.steps", desc.steps, max_steps);
-  at_most("desc.threads", desc.threads, max_threads);
+  need_threads(desc.threads);
   if (desc.spheres) settings.spheres = desc.spheres;
   if (desc.key_points) settings.key_points = desc.key_points;
   if (desc.rays) settings.rays = desc.rays;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "bakers/job/worker_arena.h"
 #include "bakers/material/builtin_ranks.h"
 #include "bakers/material/directions.h"
 #include "bakers/material/raw_file.h"
@@ -177,7 +178,7 @@ MaterialTask material_task_of(const nook_bake_material_desc& desc) {
   in_range("desc.view_count", desc.view_count, 1, nook::material::max_directions);
   in_range("desc.width", desc.width, 1, nook::material::max_texels);
   in_range("desc.height", desc.height, 1, nook::material::max_texels);
-  in_range("desc.threads", desc.threads, 0, 1024);
+  need_threads(desc.threads);
   if (!(desc.rank_threshold > 0 && desc.rank_threshold < 1))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.rank_threshold is out of range (got %g, need 0 to 1)",
                   double(desc.rank_threshold));

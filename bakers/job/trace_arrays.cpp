@@ -2,13 +2,14 @@
 
 #include <cmath>
 
+#include "bakers/job/worker_arena.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/place.h"
 
 namespace nook::bake {
 namespace {
 
-constexpr std::uint32_t most_rays = 65536, most_threads = 1024;
+constexpr std::uint32_t most_rays = 65536;
 
 }  // namespace
 
@@ -64,9 +65,7 @@ void need_trace_settings(std::uint32_t rays, std::uint32_t threads, float origin
   if (rays < 1 || rays > most_rays)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.rays is out of range (got %u, need 1 to %u)", rays,
                   most_rays);
-  if (threads > most_threads)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.threads is out of range (got %u, need at most %u)",
-                  threads, most_threads);
+  need_threads(threads);
   if (!(origin_offset >= 0 && origin_offset <= max_metres))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.origin_offset is out of range (got %g, need 0 to 1e6 metres)", double(origin_offset));

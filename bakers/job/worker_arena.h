@@ -4,8 +4,21 @@
 #include <tbb/task_arena.h>
 
 #include <cstddef>
+#include <cstdint>
+
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake {
+
+// Far above any machine's cores: it keeps a hostile number from allocating all memory.
+constexpr std::uint32_t max_threads = 1024;
+
+// Refuses the field `threads` of a descriptor when it is out of range.
+inline void need_threads(std::uint32_t threads) {
+  if (threads > max_threads)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.threads is out of range (got %u, need at most %u)",
+                  threads, max_threads);
+}
 
 // 0 threads means all cores. The calling thread is one of them.
 template <class Body>

@@ -1,0 +1,30 @@
+// The primitives that the default scene of a file shows, each with its place in the world, for readers of
+// shapes that do not move.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <string>
+#include <vector>
+
+#include "bakers/import/accessor.h"
+#include "sdk/src/core/affine.h"
+
+namespace nook::bake {
+
+struct ShownPrimitive {
+  const tinygltf::Primitive* primitive = nullptr;  // of the model
+  std::string what;                                // names it in messages
+  Affine world_from_mesh;
+  std::vector<double> morph_weights;  // empty where all are 0
+};
+
+// In the order of nodes. A mesh that several nodes show comes once for each of them. Fails with BAD_FILE on
+// indices out of range.
+std::vector<ShownPrimitive> shown_primitives(const tinygltf::Model& model);
+
+// Its positions in the space of the mesh, 3 floats for each vertex, with the morph targets at their weights.
+// `before` vertices of other primitives count against the most that a shape may have. Fails with BAD_FILE.
+Floats read_positions(const tinygltf::Model& model, const ShownPrimitive& shown, std::size_t before);
+
+}  // namespace nook::bake
