@@ -65,7 +65,7 @@ TEST_CASE("a job of clips gives a file for the model, the same on any number of 
 
 TEST_CASE("faults of a job of clips come before it starts, with their cause") {
   const Character character = tube_with_clips();
-  const std::string model = model_of(character);
+  const std::string model = model_of(character), plain = model_of(tube_character());
   // Blocks and not sections, each of which would bake the model again.
   const nook_bake_clips_desc sound = desc_of(model);
   {
@@ -123,16 +123,14 @@ TEST_CASE("faults of a job of clips come before it starts, with their cause") {
   {
     INFO("the model of another character");
     nook_bake_clips_desc desc = sound;
-    const std::string other = model_of(tube_character());
-    desc.model = other.data();
-    desc.model_size = other.size();
+    desc.model = plain.data();
+    desc.model_size = plain.size();
     CHECK(start_result(character, desc) == NOOK_ERROR_BAD_FILE);
     CHECK(message_has("another character"));
   }
   {
     INFO("a character without clips");
     nook_bake_clips_desc desc = sound;
-    const std::string plain = model_of(tube_character());
     desc.model = plain.data();
     desc.model_size = plain.size();
     CHECK(start_result(tube_character(), desc) == NOOK_ERROR_INVALID_ARGUMENT);

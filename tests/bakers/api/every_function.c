@@ -105,7 +105,7 @@ static int call_job_functions(nook_bake_character character) {
   wrong += nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
   desc.preset = NOOK_BAKE_PRESET_DRAFT;
   desc.pose_mode = NOOK_BAKE_POSES_AUTO;
-  desc.auto_pose_count = 24;
+  desc.auto_pose_count = 8;
   desc.spheres = 6;
   desc.key_points = 20;
   desc.rays = 4;
