@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bakers/character/joint_origin.h"
 #include "bakers/character/rotation.h"
 
 namespace nook::bake {
 namespace {
-
-Vec3 joint_origin(const Bone& bone) {
-  return {bone.frame_rest.m[3], bone.frame_rest.m[7], bone.frame_rest.m[11]};
-}
 
 Vec3 row(const Mat3x4& a, int i) {
   return {a.m[4 * i], a.m[4 * i + 1], a.m[4 * i + 2]};

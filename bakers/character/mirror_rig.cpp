@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bakers/character/joint_origin.h"
+
 namespace nook::bake {
 namespace {
 
 constexpr std::uint32_t nobody = ~0u;
-
-Vec3 joint_origin(const Bone& bone) {
-  return {bone.frame_rest.m[3], bone.frame_rest.m[7], bone.frame_rest.m[11]};
-}
 
 struct Plane {
   Vec3 normal;

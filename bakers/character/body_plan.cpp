@@ -1,0 +1,120 @@
+#include "bakers/character/body_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nook::bake {
+
+Vec3 normal3(PoseRandom& random) {
+  const float x = random.normal(), y = random.normal(), z = random.normal();
+  return {x, y, z};
+}
+
+void plan_arm(LimbPlan& plan, PoseRandom& random) {
+  // Elevation is from straight down, azimuth from the front.
+  const float kind = random.unit();
+  float elevation, azimuth;
+  if (kind < 0.45f) {
+    elevation = std::fabs(12 + 18 * random.normal()) * degree;
+    azimuth = random.between(-60, 150) * degree;
+    plan.elbow =
+        std::fabs(random.chance(0.5f) ? 15 + 15 * random.normal() : 60 + 40 * random.normal()) * degree;
+  } else if (kind < 0.85f) {
+    elevation = (60 + 25 * random.normal()) * degree;
+    azimuth = (15 + 35 * random.normal()) * degree;
+    plan.elbow = std::fabs(60 + 45 * random.normal()) * degree;
+  } else {
+    elevation = random.between(60, 165) * degree;
+    azimuth = random.between(10, 110) * degree;
+    plan.elbow = std::fabs(45 + 45 * random.normal()) * degree;
+  }
+  plan.elbow = std::min(plan.elbow, 145 * degree);
+  plan.arm_direction = {std::sin(elevation) * std::sin(azimuth), -std::cos(elevation),
+                        std::sin(elevation) * std::cos(azimuth)};
+  plan.arm_twist = 25 * degree * random.normal();
+  plan.elbow_lean = 0.5f * normal3(random);
+}
+
+namespace {
+
+LimbPlan plan_limbs(PoseRandom& random) {
+  LimbPlan plan;
+  plan_arm(plan, random);
+  // Legs: standing, striding, crouching or sitting, kicked back.
+  const float stance = random.unit();
+  if (stance < 0.35f) {
+    plan.hip_flexion = 10 * degree * random.normal();
+    plan.knee = std::fabs(10 * random.normal()) * degree;
+  } else if (stance < 0.65f) {
+    plan.hip_flexion = (10 + 28 * random.normal()) * degree;
+    plan.knee = std::fabs(30 + 28 * random.normal()) * degree;
+  } else if (stance < 0.95f) {
+    plan.hip_flexion = (80 + 22 * random.normal()) * degree;
+    plan.knee = std::fabs(90 + 28 * random.normal()) * degree;
+  } else {
+    plan.hip_flexion = random.between(-40, 0) * degree;
+    plan.knee = random.between(20, 120) * degree;
+  }
+  plan.hip_flexion = std::clamp(plan.hip_flexion, -45 * degree, 130 * degree);
+  plan.knee = std::clamp(plan.knee, 0.0f, 145 * degree);
+  plan.hip_abduction = (6 + 12 * random.normal()) * degree;
+  plan.hip_twist = 12 * degree * random.normal();
+  plan.ankle = 15 * degree * random.normal();
+  plan.toe = random.chance(0.3f) ? random.between(0, 40) * degree : 0;
+  // Fingers: open, relaxed or a fist.
+  const float grip = random.unit();
+  plan.curl = grip < 0.25f   ? 0.08f * random.normal()
+              : grip < 0.65f ? 0.35f + 0.15f * random.normal()
+                             : 0.85f + 0.15f * random.normal();
+  plan.thumb = random.unit();
+  plan.clavicle = (12 * degree) * normal3(random);
+  plan.hand = (30 * degree) * normal3(random);
+  return plan;
+}
+
+}  // namespace
+
+BodyPlan plan_body(PoseRandom& random) {
+  BodyPlan plan;
+  plan.limb[0] = plan_limbs(random);
+  plan.limb[1] = plan_limbs(random);
+  // People often do the same with both sides; then the sides differ a little.
+  if (random.chance(0.4f)) {
+    LimbPlan& l = plan.limb[1];
+    l = plan.limb[0];
+    l.arm_direction = normalised(l.arm_direction + 0.15f * normal3(random));
+    l.elbow = std::fabs(l.elbow + 10 * degree * random.normal());
+    l.hip_flexion += 8 * degree * random.normal();
+    l.knee = std::fabs(l.knee + 8 * degree * random.normal());
+    l.curl += 0.1f * random.normal();
+  } else if (random.chance(0.4f)) {
+    plan.limb[1].hip_flexion = plan.limb[0].hip_flexion + 10 * degree * random.normal();
+    plan.limb[1].knee = std::fabs(plan.limb[0].knee + 10 * degree * random.normal());
+  }
+  // Both hands before the body, as for holding, aiming, praying or resting in the lap.
+  if (random.chance(0.15f)) {
+    LimbPlan& l = plan.limb[0];
+    const float elevation = random.between(5, 115) * degree;
+    const float azimuth = (-15 + 20 * random.normal()) * degree;
+    l.arm_direction = {std::sin(elevation) * std::sin(azimuth), -std::cos(elevation),
+                       std::sin(elevation) * std::cos(azimuth)};
+    l.elbow = random.between(5, 110) * degree;
+    l.elbow_lean = Vec3{-0.5f, 0, 0} + 0.3f * normal3(random);
+    LimbPlan& r = plan.limb[1];
+    r.arm_direction = normalised(l.arm_direction + 0.15f * normal3(random));
+    r.elbow = std::fabs(l.elbow + 20 * degree * random.normal());
+    r.elbow_lean = {l.elbow_lean.x, l.elbow_lean.y, l.elbow_lean.z};
+  }
+  const float crouch = std::max(0.0f, std::min(plan.limb[0].hip_flexion, plan.limb[1].hip_flexion));
+  plan.bend = (8 + 22 * random.normal()) * degree + 0.25f * crouch * random.unit();
+  // A spine bends backwards by about 30 degrees and forwards by three times as much.
+  plan.bend = std::clamp(plan.bend, -30 * degree, 90 * degree);
+  plan.lean = 12 * degree * random.normal();
+  plan.twist = 20 * degree * random.normal();
+  plan.neck = {28 * degree * random.normal(), 32 * degree * random.normal(), 14 * degree * random.normal()};
+  // A head over a bent trunk is raised to look ahead.
+  plan.neck.x -= 0.7f * std::max(0.0f, plan.bend) * random.unit();
+  return plan;
+}
+
+}  // namespace nook::bake

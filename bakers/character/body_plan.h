@@ -1,0 +1,41 @@
+// What a body does in one pose, before any rig: ranges and couplings of the human body, drawn at random.
+#pragma once
+
+#include <numbers>
+#include <random>
+
+#include "bakers/character/pose_prior.h"
+#include "bakers/raytrace/random.h"
+
+namespace nook::bake {
+
+constexpr float degree = std::numbers::pi_v<float> / 180;
+
+using PoseRandom = RandomFrom<std::mt19937_64>;
+
+Vec3 normal3(PoseRandom& random);  // each coordinate N(0, 1)
+
+// The motion of the limbs of one side in one pose; angles in radians.
+struct LimbPlan {
+  Vec3 arm_direction;  // of the upper arm, body frame axes (left, up, forward), mirrored for the right side
+  float arm_twist, elbow, hip_flexion, hip_abduction, hip_twist, knee, ankle, toe, curl, thumb;
+  Vec3 elbow_lean;  // random part of the direction to which the elbow bends
+  Vec3 clavicle, hand;
+};
+
+struct BodyPlan {
+  LimbPlan limb[2];         // left, right
+  float bend, lean, twist;  // of the whole spine, radians
+  Vec3 neck;
+  // A pose of motion capture, and the parts of the body that take it in place of the plan above.
+  PriorPose motion;
+  bool trunk_of_motion = false, arms_of_motion = false, legs_of_motion = false;
+};
+
+// Draws what an arm does anew: hanging, reaching forwards, raised to the side or overhead.
+void plan_arm(LimbPlan& plan, PoseRandom& random);
+
+// Nothing of it follows motion capture.
+BodyPlan plan_body(PoseRandom& random);
+
+}  // namespace nook::bake

@@ -1,0 +1,120 @@
+#include "bakers/character/hands.h"
+
+#include <algorithm>
+
+#include "bakers/character/body_frame.h"
+#include "bakers/character/joint_origin.h"
+
+namespace nook::bake {
+namespace {
+
+struct Rig {
+  const SkinnedMesh& mesh;
+  std::span<const Joint> joints;
+  const BodyTree& tree;
+
+  Vec3 origin(std::size_t bone) const { return joint_origin(mesh.bones[bone]); }
+};
+
+struct Hand {
+  Vec3 along;                         // from the wrist to the knuckles, of unit length
+  Vec3 thumb;                         // sum of the ways from the wrist to the thumb's joints
+  std::vector<std::size_t> knuckles;  // bones
+  std::vector<std::size_t> members;   // bones of fingers and thumb
+};
+
+Hand hand_of(const Rig& rig, std::size_t wrist) {
+  Hand hand;
+  const Vec3 origin = rig.origin(wrist);
+  for (std::size_t b = 0; b < rig.joints.size(); ++b) {
+    if (!is_below(rig.tree, b, wrist)) continue;
+    if (rig.joints[b].role == JointRole::finger) {
+      hand.members.push_back(b);
+      if (rig.joints[b].segment == 0) {
+        hand.knuckles.push_back(b);
+        hand.along += normalised(rig.origin(b) - origin);
+      }
+    } else if (rig.joints[b].role == JointRole::thumb) {
+      hand.members.push_back(b);
+      hand.thumb += rig.origin(b) - origin;
+    }
+  }
+  hand.along = normalised(hand.along);
+  return hand;
+}
+
+// Across the knuckles towards the index finger, which is the knuckle farthest from the others on the thumb's
+// side.
+Vec3 across_knuckles(const Rig& rig, const Hand& hand, Vec3 up) {
+  Vec3 across;
+  for (const std::size_t a : hand.knuckles)
+    for (const std::size_t b : hand.knuckles) {
+      const Vec3 d = rig.origin(a) - rig.origin(b);
+      if (length(d) > length(across)) across = d;
+    }
+  if (length(across) == 0) across = cross(hand.along, up);
+  if (dot(across, hand.thumb) < 0) across = -across;
+  return normalised(across - dot(across, hand.along) * hand.along);
+}
+
+// The axis across the knuckles, turned so that fingers curl towards the palm. Rest curl, where there is any,
+// is the surest sign; else the palm is where the thumb hangs.
+Vec3 finger_axis(const Rig& rig, const Hand& hand, Vec3 across) {
+  constexpr float least_curl = 0.05f;  // sine of the turn from joint to joint, mean over fingers
+  Vec3 bend;
+  for (const std::size_t b : hand.members) {
+    const Joint& joint = rig.joints[b];
+    const std::int32_t parent = rig.tree.parent[b];
+    if (joint.role != JointRole::finger || joint.continuation < 0 || joint.segment == 0 || parent < 0)
+      continue;
+    bend += cross(limb_direction(rig.mesh, rig.joints, std::size_t(parent)),
+                  limb_direction(rig.mesh, rig.joints, b));
+  }
+  const bool is_curled = length(bend) > least_curl * float(hand.knuckles.size());
+  const float sign = is_curled ? dot(bend, across) : dot(cross(across, hand.along), hand.thumb);
+  return sign < 0 ? -across : across;
+}
+
+// The thumb folds over the palm: half about its own length seen from the palm.
+Vec3 thumb_axis(const Hand& hand, Vec3 finger_axis, Vec3 across) {
+  const Vec3 palm = cross(finger_axis, hand.along);
+  const Vec3 fold = cross(normalised(hand.thumb), normalised(palm - across));
+  return normalised(dot(fold, fold) > 0 ? fold : finger_axis);
+}
+
+}  // namespace
+
+std::array<BodyPoint, 2> palms(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree) {
+  const Rig rig{mesh, joints, tree};
+  std::array<BodyPoint, 2> palm;
+  for (std::size_t wrist = 0; wrist < joints.size(); ++wrist) {
+    if (joints[wrist].role != JointRole::hand || joints[wrist].side == Side::none) continue;
+    Vec3 sum;
+    float count = 0;
+    for (const std::size_t knuckle : hand_of(rig, wrist).knuckles) {
+      sum += rig.origin(knuckle);
+      ++count;
+    }
+    palm[joints[wrist].side == Side::right] = {std::int32_t(wrist),
+                                               count == 0 ? rig.origin(wrist) : sum * (1 / count)};
+  }
+  return palm;
+}
+
+std::vector<Vec3> curl_axes(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
+                            Vec3 up) {
+  const Rig rig{mesh, joints, tree};
+  std::vector<Vec3> axes(mesh.bones.size());
+  for (std::size_t wrist = 0; wrist < joints.size(); ++wrist) {
+    if (joints[wrist].role != JointRole::hand) continue;
+    const Hand hand = hand_of(rig, wrist);
+    if (hand.knuckles.empty()) continue;
+    const Vec3 across = across_knuckles(rig, hand, up);
+    const Vec3 axis = finger_axis(rig, hand, across);
+    for (const std::size_t b : hand.members)
+      axes[b] = joints[b].role == JointRole::finger ? axis : thumb_axis(hand, axis, across);
+  }
+  return axes;
+}
+
+}  // namespace nook::bake
