@@ -5,49 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
-#include <vector>
 
-#include "sdk/src/core/compiler.h"
+#include "sdk/src/character/point_set.h"
+#include "sdk/src/character/pose_readings.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {
 
-using V3 = std::array<double, 3>;
-
-// One way to read the host's transforms.
-struct Reading {
-  PoseSource source;
-  bool is_turned_back = false;  // the 3x3 part is transposed, the translation stays
-  bool is_inverted = false;
-  double translation_scale = 1;
-  nook_pose_fault fault = NOOK_POSE_RIGHT;
-};
-
 struct Distances {
   double max = INFINITY, rms = INFINITY;  // metres of the world
   std::size_t worst = 0;                  // index into the compared vertices
 };
-
-double distance(const V3& a, const V3& b) {
-  return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                   (a[2] - b[2]) * (a[2] - b[2]));
-}
-
-Affine read(const Reading& reading, std::uint32_t index) {
-  Affine m = read_transform(reading.source, index);
-  if (reading.is_turned_back) {
-    std::swap(m.m[1], m.m[4]);
-    std::swap(m.m[2], m.m[8]);
-    std::swap(m.m[6], m.m[9]);
-  }
-  if (reading.is_inverted) m = inverse(m);
-  for (int i = 3; i < 12; i += 4) m.m[i] *= reading.translation_scale;
-  return m;
-}
 
 // Everything that the readings share.
 struct Check {
@@ -55,10 +25,10 @@ struct Check {
   const PoseSource& given;
   double tolerance_ws = 0;
   Vector<const RestVertex*> vertex;  // those whose bones all have transforms
-  Vector<V3> host;                   // where the host has them
+  Vector<Point3> host;               // where the host has them
   Vector<std::uint8_t> has_matrix;   // for each bone
   Vector<Affine> matrix;             // for each bone, of the latest reading
-  Vector<V3> posed;                  // by the latest reading
+  Vector<Point3> posed;              // by the latest reading
 
   Check(const CharacterModel& of, const PoseSource& source, Memory* memory)
       : model(of),
@@ -70,10 +40,10 @@ struct Check {
         posed(memory) {}
 };
 
-V3 skinned(const Check& check, const RestVertex& vertex) {
-  V3 sum{};
+Point3 skinned(const Check& check, const RestVertex& vertex) {
+  Point3 sum{};
   for (std::uint32_t b = 0; b < vertex.bone_count; ++b) {
-    const V3 p =
+    const Point3 p =
         transform(check.matrix[vertex.bone[b]], vertex.position.x, vertex.position.y, vertex.position.z);
     for (int i = 0; i < 3; ++i) sum[i] += vertex.weight[b] * p[i];
   }
@@ -93,7 +63,7 @@ bool pose(Check& check, const Reading& reading) {
   PoseSource partial = source;
   partial.is_partial = true;
   for_each_transform(check.model, partial, [&](std::size_t bone, std::uint32_t index) {
-    check.matrix[bone] = bone_matrix(check.model, source, bone, read(reading, index));
+    check.matrix[bone] = bone_matrix(check.model, source, bone, read_transform(reading, index));
     check.has_matrix[bone] = is_finite(check.matrix[bone]);
   });
   check.posed.clear();
@@ -120,191 +90,15 @@ Distances compare(const Check& check, Map&& map) {
   return out;
 }
 Distances compare(const Check& check) {
-  return compare(check, [](const V3& p) { return p; });
-}
-
-// The affine map from the posed vertices to the host's that is best in the least-squares sense. Returns false
-// where the vertices lie in a plane.
-bool best_map(const Check& check, Affine& map) {
-  V3 from{}, to{};
-  const double share = 1 / static_cast<double>(check.posed.size());
-  for (std::size_t v = 0; v < check.posed.size(); ++v)
-    for (int i = 0; i < 3; ++i) {
-      from[i] += share * check.posed[v][i];
-      to[i] += share * check.host[v][i];
-    }
-  Affine own, cross;  // 3x3 parts: sums of p p^T and of x p^T about the means
-  own.m.fill(0);
-  cross.m.fill(0);
-  for (std::size_t v = 0; v < check.posed.size(); ++v)
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        const double p = check.posed[v][j] - from[j];
-        own.m[4 * i + j] += (check.posed[v][i] - from[i]) * p;
-        cross.m[4 * i + j] += (check.host[v][i] - to[i]) * p;
-      }
-  const double trace = own.m[0] + own.m[5] + own.m[10];
-  if (!(determinant(own) > 1e-7 * trace * trace * trace)) return false;
-  map = cross * inverse(own);
-  const V3 moved = transform(map, from[0], from[1], from[2]);
-  for (int i = 0; i < 3; ++i) map.m[4 * i + 3] = to[i] - moved[i];
-  return true;
-}
-
-// The scale of a map that is a similarity, mirrored or not, to 1 %; else 0.
-double scale_of_similarity(const Affine& map) {
-  const double scale = std::cbrt(std::abs(determinant(map)));
-  double difference = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      double dot = 0;
-      for (int k = 0; k < 3; ++k) dot += map.m[4 * k + i] * map.m[4 * k + j];
-      difference = std::max(difference, std::abs(dot - (i == j ? scale * scale : 0)));
-    }
-  return difference <= 0.02 * scale * scale ? scale : 0;
-}
-
-void say(PoseFinding& finding, const char* format, ...) NOOK_PRINTF(2, 3);
-void say(PoseFinding& finding, const char* format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(finding.text, sizeof finding.text, format, arguments);
-  va_end(arguments);
-}
-
-const char* kind_name(nook_pose_kind kind) {
-  constexpr const char* names[] = {"rest-to-world matrices", "joint world matrices", "skinning matrices"};
-  return names[kind];
-}
-
-nook_transform_layout transposed(nook_transform_layout layout) {
-  switch (layout) {
-    case NOOK_TRANSFORM_ROWS_3X4:
-      return NOOK_TRANSFORM_COLUMNS_4X3;
-    case NOOK_TRANSFORM_COLUMNS_4X3:
-      return NOOK_TRANSFORM_ROWS_3X4;
-    case NOOK_TRANSFORM_ROWS_4X4:
-      return NOOK_TRANSFORM_COLUMNS_4X4;
-    case NOOK_TRANSFORM_COLUMNS_4X4:
-      return NOOK_TRANSFORM_ROWS_4X4;
-    default:
-      return layout;
-  }
-}
-
-// The readings of another kind or skin, the likeliest first.
-void add_kinds(const Check& check, Vector<Reading>& out) {
-  const PoseSource& given = check.given;
-  for (std::uint32_t skin = 0; skin < check.model.bind.skins.size(); ++skin) {
-    Reading reading{given};
-    reading.source.kind = NOOK_POSE_SKINNING;
-    reading.source.skin = skin;
-    if (given.kind == NOOK_POSE_SKINNING && skin == given.skin) continue;
-    reading.fault = given.kind == NOOK_POSE_SKINNING        ? NOOK_POSE_WRONG_SKIN
-                    : given.kind == NOOK_POSE_REST_TO_WORLD ? NOOK_POSE_MISSING_S
-                                                            : NOOK_POSE_WRONG_KIND;
-    out.push_back(reading);
-  }
-  for (const nook_pose_kind kind : {NOOK_POSE_REST_TO_WORLD, NOOK_POSE_JOINT_TO_WORLD}) {
-    if (kind == given.kind) continue;
-    Reading reading{given};
-    reading.source.kind = kind;
-    reading.fault = NOOK_POSE_WRONG_KIND;
-    out.push_back(reading);
-  }
-}
-
-Vector<Reading> other_readings(const Check& check, Memory* memory) {
-  Vector<Reading> out(memory);
-  add_kinds(check, out);
-  Reading other{check.given};
-  other.source.layout = transposed(check.given.layout);
-  other.fault = NOOK_POSE_TRANSPOSED;
-  if (other.source.layout != check.given.layout) out.push_back(other);
-  other = Reading{check.given};
-  other.is_turned_back = true;
-  other.fault = NOOK_POSE_TRANSPOSED;
-  out.push_back(other);
-  other = Reading{check.given};
-  other.is_inverted = true;
-  other.fault = NOOK_POSE_INVERTED;
-  out.push_back(other);
-  // Centimetres, millimetres, inches and feet against metres, both ways round.
-  for (const double unit : {100.0, 0.01, 1000.0, 0.001, 1 / 0.0254, 0.0254, 1 / 0.3048, 0.3048}) {
-    other = Reading{check.given};
-    other.translation_scale = unit;
-    other.fault = NOOK_POSE_WRONG_UNIT;
-    out.push_back(other);
-  }
-  // A layout read wrong hides the kind; the two mistakes occur together.
-  const std::size_t kinds = out.size();
-  for (std::size_t r = 0; r < kinds && transposed(check.given.layout) != check.given.layout; ++r)
-    if (out[r].source.kind != check.given.kind || out[r].source.skin != check.given.skin) {
-      Reading both = out[r];
-      both.source.layout = transposed(check.given.layout);
-      both.fault = NOOK_POSE_TRANSPOSED;
-      out.push_back(both);
-    }
-  return out;
-}
-
-void describe(const Check& check, const Reading& reading, PoseFinding& finding) {
-  finding.fault = reading.fault;
-  const PoseSource& source = reading.source;
-  switch (reading.fault) {
-    case NOOK_POSE_TRANSPOSED:
-      if (source.kind != check.given.kind)
-        say(finding, "the transforms are transposed, and they are %s; give desc.layout and desc.kind",
-            kind_name(source.kind));
-      else if (reading.is_turned_back)
-        say(finding, "the rotations are transposed, while the translations are right");
-      else
-        say(finding,
-            "the transforms are transposed: rows were given as columns or columns as rows; give "
-            "desc.layout");
-      break;
-    case NOOK_POSE_MISSING_S:
-      finding.fitting_skin = check.model.bind.skins[source.skin].file_index;
-      say(finding,
-          "skinning matrices were given as rest-to-world matrices, so that S^-1 is missing; give "
-          "NOOK_POSE_SKINNING with skin %u",
-          finding.fitting_skin);
-      break;
-    case NOOK_POSE_WRONG_SKIN:
-      finding.fitting_skin = check.model.bind.skins[source.skin].file_index;
-      say(finding, "the skinning matrices are those of skin %u, not of skin %u", finding.fitting_skin,
-          check.model.bind.skins[check.given.skin].file_index);
-      break;
-    case NOOK_POSE_WRONG_KIND:
-      say(finding, "the transforms are %s, not %s; give desc.kind", kind_name(source.kind),
-          kind_name(check.given.kind));
-      break;
-    case NOOK_POSE_INVERTED:
-      say(finding,
-          "the transforms are the inverses of what is needed: they lead from the world to the joints");
-      break;
-    case NOOK_POSE_WRONG_UNIT:
-      finding.scale = reading.translation_scale;
-      say(finding, "the translations are in another unit than the vertices: they fit when multiplied by %.6g",
-          reading.translation_scale);
-      break;
-    default:
-      break;
-  }
-}
-
-// The turn of a rotation in degrees.
-double turn_degrees(const Affine& map, double scale) {
-  const double cosine = 0.5 * ((map.m[0] + map.m[5] + map.m[10]) / scale - 1);
-  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 57.29577951308232;
+  return compare(check, [](const Point3& p) { return p; });
 }
 
 bool explain_by_map(Check& check, PoseFinding& finding) {
   Affine map;
-  if (!best_map(check, map)) return false;
+  if (!best_map(check.posed, check.host, map)) return false;
   const double scale = scale_of_similarity(map);
   if (scale == 0) return false;
-  const Distances left = compare(check, [&](const V3& p) { return transform(map, p[0], p[1], p[2]); });
+  const Distances left = compare(check, [&](const Point3& p) { return transform(map, p[0], p[1], p[2]); });
   if (!(left.max <= check.tolerance_ws)) return false;
   finding.scale = scale;
   const bool is_mirrored = determinant(map) < 0;
@@ -331,7 +125,7 @@ bool explain_by_map(Check& check, PoseFinding& finding) {
 }
 
 // The transform under which a vertex that hangs on one bone falls on the host's, or -1.
-std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, const V3& host) {
+std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, const Point3& host) {
   double nearest = 3 * check.tolerance_ws;
   std::int64_t fitting = -1;
   for (std::uint32_t t = 0; t < check.given.transform_count; ++t) {
@@ -372,20 +166,6 @@ bool explain_by_order(const Check& check, PoseFinding& finding) {
   return true;
 }
 
-// The root mean square distance of points from their mean.
-template <class Point>
-double spread(std::size_t count, Point&& point) {
-  V3 mean{};
-  double squares = 0;
-  for (std::size_t v = 0; v < count; ++v)
-    for (int i = 0; i < 3; ++i) mean[i] += point(v)[i] / static_cast<double>(count);
-  for (std::size_t v = 0; v < count; ++v) {
-    const double d = distance(point(v), mean);
-    squares += d * d / static_cast<double>(count);
-  }
-  return std::sqrt(squares);
-}
-
 // Vertices that only bones with transforms move. The unit of the tolerance is that of the host's vertices,
 // known by their spread, because the transforms may be misread. A pose changes the spread by a few tens of
 // percent.
@@ -411,11 +191,11 @@ void choose_vertices(Check& check, std::span<const SkinnedVertex> vertices, doub
         "none of the vertices hangs on bones of this pose alone (bone %zu, \"%s\", has no transform); "
         "check the skin that moves them",
         first_missing, check.model.bone_names[first_missing].c_str());
-  const double rest = spread(check.vertex.size(), [&](std::size_t v) {
-    const Vec3 p = check.vertex[v]->position;
-    return V3{p.x, p.y, p.z};
-  });
-  const double host = spread(check.host.size(), [&](std::size_t v) { return check.host[v]; });
+  Vector<Point3> at_rest(check.host.get_allocator());
+  at_rest.reserve(check.vertex.size());
+  for (const RestVertex* vertex : check.vertex)
+    at_rest.push_back({vertex->position.x, vertex->position.y, vertex->position.z});
+  const double rest = spread(at_rest), host = spread(check.host);
   const double scale = rest > 0 && host > 0 ? host / rest : 1;
   check.tolerance_ws = tolerance * std::max(check.model.bounding_radius, 1e-6f) * scale;
 }
@@ -439,10 +219,10 @@ PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& sourc
         finding.max_error);
     return finding;
   }
-  const Vector<Reading> readings = other_readings(check, memory);
+  const Vector<Reading> readings = other_readings(model, source, memory);
   for (const Reading& reading : readings)
     if (pose(check, reading) && compare(check).max <= check.tolerance_ws) {
-      describe(check, reading, finding);
+      describe(model, source, reading, finding);
       return finding;
     }
   if (is_readable && pose(check, as_given)) {
@@ -451,7 +231,7 @@ PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& sourc
   }
   for (const Reading& reading : readings)
     if (pose(check, reading) && explain_by_map(check, finding)) {
-      describe(check, reading, finding);
+      describe(model, source, reading, finding);
       return finding;
     }
   finding.fault = NOOK_POSE_UNKNOWN_FAULT;

@@ -1,10 +1,10 @@
 // Compares a pose with vertices that the host skinned itself, and finds out what is likely wrong.
 #pragma once
 
-#include <nook/nook_pose.h>
-
+#include <array>
 #include <span>
 
+#include "sdk/src/character/pose_finding.h"
 #include "sdk/src/character/pose_source.h"
 #include "sdk/src/core/memory.h"
 
@@ -14,16 +14,6 @@ namespace nook {
 struct SkinnedVertex {
   std::uint32_t rest_vertex = 0;
   std::array<double, 3> position_ws{};
-};
-
-// The parts of nook_pose_check that the check answers.
-struct PoseFinding {
-  nook_pose_fault fault = NOOK_POSE_RIGHT;
-  double max_error = 0, rms_error = 0;  // shares of the bounding radius times the scale of the pose
-  std::uint32_t worst_bone = 0;
-  std::uint32_t fitting_skin = 0;
-  double scale = 1;
-  char text[512] = {};
 };
 
 // Distances up to `tolerance`, a share of the bounding radius, count as equal.  Throws Failure if no vertex

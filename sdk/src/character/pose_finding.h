@@ -1,0 +1,25 @@
+// What a check of a pose found.
+#pragma once
+
+#include <nook/nook_pose.h>
+
+#include <cstdint>
+
+#include "sdk/src/core/compiler.h"
+
+namespace nook {
+
+// The parts of nook_pose_check that the check answers.
+struct PoseFinding {
+  nook_pose_fault fault = NOOK_POSE_RIGHT;
+  double max_error = 0, rms_error = 0;  // shares of the bounding radius times the scale of the pose
+  std::uint32_t worst_bone = 0;
+  std::uint32_t fitting_skin = 0;
+  double scale = 1;
+  char text[512] = {};
+};
+
+// Puts the text, which is cut where it is too long.
+void say(PoseFinding& finding, const char* format, ...) NOOK_PRINTF(2, 3);
+
+}  // namespace nook
