@@ -51,9 +51,9 @@ struct Engine {
       }
       skins.push_back(std::move(skin));
     }
-    const auto shown = bake::shown_nodes(model, imported.nodes);
+    const auto shown = bake::shown_meshes(model, imported.nodes);
     for (std::size_t n = 0; n < model.nodes.size(); ++n)
-      if (model.nodes[n].mesh >= 0 && shown[n]) add_mesh(model, static_cast<int>(n));
+      if (shown[n] >= 0) add_mesh(model, static_cast<int>(n));
   }
 
   // Global matrices of all nodes in a clip.
