@@ -56,6 +56,8 @@ void check_options(const EvaluateNnaoOptions& options) {
     throw ToolError(exit_bad_arguments,
                     "evaluate nnao: --frame: --markdown, --camera and --radius are of scenes alone");
   check_movers(options);
+  if (options.intensity != 1 && (!has_scenes || options.bent || options.temporal))
+    throw ToolError(exit_bad_arguments, "evaluate nnao: --intensity: it is of AO of single frames of scenes");
   if (options.temporal &&
       ((!has_scenes && options.movers.empty()) || options.bent || !options.methods.empty() ||
        !options.network.empty() || !options.ratios.empty() || (has_scenes && !options.images.empty())))
@@ -105,6 +107,12 @@ void add_options(CLI::App& command, EvaluateNnaoOptions& options) {
       .add_option("--max-radius-px", options.max_radius_px,
                   "where the radius covers more pixels, every method shrinks it; 0: half the height")
       ->check(CLI::Range(0.0, 1e4));
+  command
+      .add_option(
+          "--intensity", options.intensity,
+          "nook_nnao_frame_desc.intensity of the library's pass with its filter; the others have none")
+      ->check(CLI::Range(0.0, 16.0))
+      ->capture_default_str();
   command
       .add_option_function<std::string>(
           "--size",

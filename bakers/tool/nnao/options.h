@@ -37,6 +37,7 @@ struct EvaluateNnaoOptions {
   float walk_speed = 1.4f;                    // metres a second
   std::uint32_t placed_cameras = 3;
   float max_radius_px = 0;
+  float intensity = 1;  // of the library's pass
   std::string tune;  // a baseline's name, or all; empty: no tuning
 };
 

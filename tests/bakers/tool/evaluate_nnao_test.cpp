@@ -183,6 +183,13 @@ TEST_CASE("evaluate nnao measures chosen methods alone") {
   REQUIRE(report.at("rows").size() == 2 * (6 + 3));
   for (const auto& row : report.at("rows")) CHECK((row.at("method") == "nnao" || row.at("method") == "hbao"));
   CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "other"}).exit_code == 2);
+  CHECK(folder.run({"evaluate", "nnao", "--thin", "--temporal", "--intensity", "1.03"}).exit_code == 2);
+  // Without intensity AO is 1 after the filter, which leaves 0.65 or more where the reference is below 0.35.
+  arguments = tiny({"--thin", "--cameras", "1", "--methods", "nnao:9", "--intensity", "0"}, folder);
+  REQUIRE(folder.run(arguments).exit_code == 0);
+  const auto open = nlohmann::json::parse(read_text(folder.path("r.json")));
+  for (const auto& row : open.at("rows"))
+    if (row.at("blurred")) CHECK(row.at("dark_bias") >= 0.65);
   // No file, no method of that name.
   CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "nnao_paper"}).exit_code == 2);
 }
