@@ -1,17 +1,12 @@
 #include "bakers/nnao/specular_fit.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <mutex>
 #include <numbers>
 
 #include "bakers/nnao/adam.h"
 #include "bakers/raytrace/random.h"
-#include "bakers/raytrace/specular_visibility.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::nnao {
@@ -39,54 +34,6 @@ SpecularNumbers numbers_of(std::span<const float> parameters) {
   take(numbers.out);
   numbers.out_bias = parameters.back();
   return numbers;
-}
-
-// AO and bent normal of a network about as they are after the filter, which stops at edges and lines: the
-// means over some of the noise values.
-constexpr std::uint32_t averaged_noise = 2;
-
-LitPixel network_pixel(const nook::nnao::Network& network, const TracedView& view, const DataPoint& point,
-                       Vec3 to_viewer, std::uint32_t taps, Random& random) {
-  LitPixel pixel{{}, point.normal, to_viewer, 0};
-  const std::uint32_t first = random.below(NOOK_NOISE_COUNT);
-  for (std::uint32_t i = 0; i < averaged_noise; ++i) {
-    const std::uint32_t rank = (first + 4 * i) % NOOK_NOISE_COUNT;
-    const nook::nnao::Openness open = nook::nnao::evaluate_openness(
-        network, view.view(), point.normal, {point.radius, Dataset::max_radius_px + 1, taps}, point.x,
-        point.y, nook::nnao::tap_noise_of_rank(rank));
-    pixel.ao += std::clamp(open.ao, 0.0f, 1.0f) / float(averaged_noise);
-    pixel.bent_normal += open.bent_normal;
-  }
-  pixel.bent_normal = normalised(pixel.bent_normal);
-  return pixel;
-}
-
-LitPixel reference_pixel(const DataPoint& point, Vec3 to_viewer) {
-  const Vec3 bent = normalised(point.open_direction);
-  return {length(bent) > 0 ? bent : point.normal, point.normal, to_viewer, point.ao};
-}
-
-SpecularSample trace_sample(const RayScene& rays, const TracedView& view, const DataPoint& point,
-                            const nook::nnao::Network& network, const SpecularFitSettings& settings,
-                            std::uint64_t seed) {
-  const Camera& camera = view.camera;
-  const float depth = view.depth[std::size_t(point.y) * camera.width + point.x];
-  const PixelRay ray = pixel_ray(camera, float(point.x) + 0.5f, float(point.y) + 0.5f);
-  const Vec3 to_viewer_ws = normalised(-ray.direction_ws);
-  const Vec3 to_viewer = view_direction(camera, to_viewer_ws);
-  SpecularSample sample;
-  sample.reference = reference_pixel(point, to_viewer);
-  const Vec3 position = ray.origin_ws + depth * ray.direction_ws;
-  const GlossyPoint glossy{position, transform_vector(camera.world_from_view, point.normal), to_viewer_ws,
-                           point.radius, origin_offset(position, depth, point.radius)};
-  Random random(seed);
-  sample.network = network_pixel(network, view, point, to_viewer, settings.taps, random);
-  for (std::size_t i = 0; i < SpecularSample::gloss_count; ++i) {
-    sample.roughness[i] = (float(i) + random.between(0.1f, 1)) / float(SpecularSample::gloss_count);
-    sample.visible[i] =
-        trace_specular_visibility(rays, glossy, sample.roughness[i], settings.rays, random.bits());
-  }
-  return sample;
 }
 
 // Adds the gradient of the squared error of one value for each number, and returns the error squared. The
@@ -122,40 +69,6 @@ double squared(float x) {
 float lagarde_occlusion(float ao, float facing, float roughness) {
   const float power = std::exp2(-16 * roughness - 1);
   return std::clamp(std::pow(std::max(facing, 0.0f) + ao, power) - 1 + ao, 0.0f, 1.0f);
-}
-
-SpecularSamples trace_specular_samples(const nook::nnao::Network& network,
-                                       const SpecularFitSettings& settings, const DatasetProgress& progress) {
-  const Dataset data = make_dataset(settings.data);
-  const std::uint32_t scenes = settings.data.scenes;
-  std::vector<std::vector<const DataPoint*>> of_scene(scenes);
-  for (const auto* part : {&data.training, &data.validation})
-    for (const DataPoint& point : *part) of_scene[point.view % scenes].push_back(&point);
-  std::vector<std::vector<SpecularSample>> samples(scenes);
-  std::atomic<bool> cancelled{false};
-  std::mutex progress_mutex;
-  std::size_t done = 0;
-  tbb::parallel_for(std::uint32_t(0), scenes, [&](std::uint32_t s) {
-    if (cancelled) return;
-    const FlushDenormals flush;
-    const RayScene rays(make_scene(settings.data.seed, s).soup);
-    for (std::size_t i = 0; i < of_scene[s].size(); ++i) {
-      const DataPoint& point = *of_scene[s][i];
-      samples[s].push_back(trace_sample(rays, data.views[point.view], point, network, settings,
-                                        mix_bits(settings.seed ^ mix_bits(s * 1000003ull + i))));
-    }
-    if (!progress) return;
-    const std::lock_guard lock(progress_mutex);
-    if (!progress(++done, scenes)) cancelled = true;
-  });
-  if (cancelled) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing reflections");
-  SpecularSamples result;
-  const std::uint32_t first_validation = scenes - scenes / 6;
-  for (std::uint32_t s = 0; s < scenes; ++s) {
-    auto& part = s < first_validation ? result.training : result.validation;
-    part.insert(part.end(), samples[s].begin(), samples[s].end());
-  }
-  return result;
 }
 
 namespace {

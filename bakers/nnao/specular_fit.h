@@ -1,5 +1,6 @@
 // The fit of the specular occlusion of sdk/src/nnao/lighting.h to ray tracing in procedural scenes. Most
-// samples have AO and bent normals of a network, as a pass gives them, and some those of the reference.
+// samples have AO and bent normals of a network after the pass's filter, as hosts get them, and some those of
+// the reference.
 #pragma once
 
 #include <array>
@@ -12,7 +13,9 @@
 namespace nook::bake::nnao {
 
 struct SpecularFitSettings {
-  DatasetSettings data{.scenes = 192, .views = 960, .points_per_view = 300, .rays = 256, .normals = false};
+  // Of it scenes, views, points_per_view, rays, size and seed count. Pixels of a view are chosen alike, flat
+  // or not, since a host's pixels are.
+  DatasetSettings data{.scenes = 192, .views = 960, .points_per_view = 300, .rays = 256};
   std::uint32_t taps = 9;   // of the network
   std::uint32_t rays = 64;  // for each of five values of roughness
   std::uint32_t steps = 40000;
@@ -30,8 +33,9 @@ struct SpecularSample {
 struct SpecularSamples {
   std::vector<SpecularSample> training, validation;  // the last sixth of the scenes is for validation
 };
-// The same bits on any number of threads. Return false from progress to stop, which throws
-// Failure(CANCELLED).
+// The same bits on any number of threads. Each view has one radius, whose length on the screen has a uniform
+// logarithm from 12 to 110 pixels at the view's median depth. Return false from progress to stop, which
+// throws Failure(CANCELLED).
 SpecularSamples trace_specular_samples(const nook::nnao::Network& network,
                                        const SpecularFitSettings& settings,
                                        const DatasetProgress& progress = {});

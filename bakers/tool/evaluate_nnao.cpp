@@ -29,9 +29,11 @@ void run(EvaluateNnaoOptions& options) {
   if (!options.views.empty()) files.inputs.push_back({"--views", options.views});
   for (const std::filesystem::path& scene : options.scenes.files) files.inputs.push_back({"a scene", scene});
   for (const std::filesystem::path& frame : options.frames) files.inputs.push_back({"--frame", frame});
+  for (const std::filesystem::path& mover : options.movers) files.inputs.push_back({"--mover", mover});
   run_evaluation(options.common, files, [&] {
     if (!options.frames.empty()) return replay(options);
     if (!options.tune.empty()) return evaluate_tuning(options);
+    if (!options.movers.empty()) return evaluate_movers(options);
     if (options.temporal) return evaluate_sequences(options);
     return options.bent ? evaluate_bent_normals(options) : evaluate_views(options);
   });

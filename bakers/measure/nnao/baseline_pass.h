@@ -17,6 +17,7 @@ struct AoRequest {
   float radius = 0.5f;        // metres
   float max_radius_px = 90;   // where the radius covers more pixels, it shrinks
   float blur_sharpness = 16;  // as nook_nnao_desc's
+  float intensity = 1;        // of the library's pass after its filter, as nook_nnao_frame_desc's
 };
 
 class BaselinePass {

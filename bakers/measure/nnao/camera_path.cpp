@@ -75,12 +75,8 @@ constexpr float smallest_share = 0.05f;
 EarlierPixels pixels_at(const TracedView& before, Vec3 position, float tolerance) {
   EarlierPixels found;
   const Camera& camera = before.camera;
-  const float extent = camera.rays.orthographic ? 1 : -position.z;
-  const float x = (position.x / extent - camera.rays.x_offset) / camera.rays.x_scale - 0.5f,
-              y = (position.y / extent - camera.rays.y_offset) / camera.rays.y_scale - 0.5f;
-  const bool near_image =
-      extent > 0 && x > -1 && x < float(camera.width) && y > -1 && y < float(camera.height);
-  if (!near_image) return found;
+  const auto [x, y, in_image] = screen_place(camera, position);
+  if (!in_image) return found;
   const float base_x = std::floor(x), base_y = std::floor(y);
   float total = 0;
   for (std::size_t corner = 0; corner < 4; ++corner) {
@@ -99,14 +95,28 @@ EarlierPixels pixels_at(const TracedView& before, Vec3 position, float tolerance
 
 }  // namespace
 
+std::vector<Camera> path_cameras(const bake::RayScene& rays, const TracedView& view,
+                                 const PathSettings& settings) {
+  std::vector<Camera> cameras;
+  if (settings.frames < 2) return cameras;
+  const Vec3 back = step_back(rays, view, settings);
+  for (std::size_t left = settings.frames - 1; left > 0; --left)
+    cameras.push_back(moved(view.camera, float(left) * back));
+  return cameras;
+}
+
 std::vector<TracedView> trace_path(const bake::RayScene& rays, const TracedView& view,
                                    const PathSettings& settings) {
   std::vector<TracedView> frames;
-  if (settings.frames < 2) return frames;
-  const Vec3 back = step_back(rays, view, settings);
-  for (std::size_t left = settings.frames - 1; left > 0; --left)
-    frames.push_back(trace_view(rays, moved(view.camera, float(left) * back)));
+  for (const Camera& camera : path_cameras(rays, view, settings)) frames.push_back(trace_view(rays, camera));
   return frames;
+}
+
+ScreenPlace screen_place(const Camera& camera, Vec3 position) {
+  const float extent = camera.rays.orthographic ? 1 : -position.z;
+  const float x = (position.x / extent - camera.rays.x_offset) / camera.rays.x_scale - 0.5f,
+              y = (position.y / extent - camera.rays.y_offset) / camera.rays.y_scale - 0.5f;
+  return {x, y, extent > 0 && x > -1 && x < float(camera.width) && y > -1 && y < float(camera.height)};
 }
 
 Mat3x4 earlier_from_view(const Camera& now, const Camera& before) {

@@ -79,12 +79,17 @@ NetworkPass::~NetworkPass() {
 }
 
 GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blurred,
-                         const std::optional<Mat3x4>& earlier_from_view) {
+                         const std::optional<Mat3x4>& earlier_from_view, GLuint motion) {
   nook_nnao_frame_desc frame = frame_of(view);
   frame.radius = request.radius;
   frame.max_radius_px = request.max_radius_px;
   frame.view = blurred ? NOOK_NNAO_VIEW_BLURRED : NOOK_NNAO_VIEW_RAW;
+  if (blurred && request.intensity != 1) {
+    frame.view = NOOK_NNAO_VIEW_AO;
+    frame.intensity = request.intensity;
+  }
   frame.reset = !earlier_from_view;
+  frame.motion_texture = motion;
   if (earlier_from_view) std::ranges::copy(earlier_from_view->m, frame.earlier_from_view);
   succeed(nook_nnao_render(pass_, &frame));
   return info_.texture;

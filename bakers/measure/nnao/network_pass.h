@@ -50,9 +50,10 @@ class NetworkPass {
   NetworkPass& operator=(const NetworkPass&) = delete;
 
   // Returns the pass's texture: R8, or RGBA8 with bent normals. earlier_from_view: see nook_nnao_frame_desc;
-  // none: a cut. Both matter with temporal_frames alone.
+  // none: a cut. motion: a texture of motion vectors in pixels; 0: none. They matter with temporal_frames
+  // alone.
   GLuint draw(const GpuView& view, const AoRequest& request, bool blurred,
-              const std::optional<Mat3x4>& earlier_from_view = {});
+              const std::optional<Mat3x4>& earlier_from_view = {}, GLuint motion = 0);
   bool horizon_form() const { return info_.horizon_form != 0; }
 
   // Texture fetches for each pixel of all stages.

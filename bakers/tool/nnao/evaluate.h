@@ -16,6 +16,9 @@ nlohmann::ordered_json evaluate_bent_normals(EvaluateNnaoOptions& options);
 // Means over the frames of a moving camera in place of single frames.
 nlohmann::ordered_json evaluate_sequences(EvaluateNnaoOptions& options);
 
+// Means over frames where a skinned character walks.
+nlohmann::ordered_json evaluate_movers(const EvaluateNnaoOptions& options);
+
 // The best settings of baselines on training scenes; prints the rows of their table.
 nlohmann::ordered_json evaluate_tuning(const EvaluateNnaoOptions& options);
 

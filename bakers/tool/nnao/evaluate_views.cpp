@@ -40,6 +40,7 @@ Comparison compare_views(const EvaluateNnaoOptions& options, platform::Context& 
   settings.methods = options.methods;
   settings.raw = options.raw;
   settings.request.max_radius_px = max_radius_px(options);
+  settings.request.intensity = options.intensity;
   platform::ProgressBar bar(options.common.quiet);
   return compare(
       context, views, settings,
@@ -108,6 +109,7 @@ Json evaluate_views(EvaluateNnaoOptions& options) {
   report["ratios"] = ratios;
   report["views"] = nnao_view_rows(comparison, views);
   report["rays"] = options.truth.rays;
+  report["intensity"] = options.intensity;
   report["opengl"] = context->version();
   report["seed"] = options.common.seed;
   return report;

@@ -22,21 +22,48 @@ void parse_size(const std::string& text, TruthSettings& truth) {
   truth.height = height;
 }
 
+namespace {
+
+void check_movers(const EvaluateNnaoOptions& options) {
+  if (options.movers.empty()) {
+    if (!options.clip.empty()) throw ToolError(exit_bad_arguments, "evaluate nnao: --clip: it needs --mover");
+    return;
+  }
+  if (!options.temporal || !options.scenes.cameras.empty() || !options.scenes.radii.empty() ||
+      !options.references.empty())
+    throw ToolError(exit_bad_arguments,
+                    "evaluate nnao: --mover: it needs --temporal, and has no --camera, --radius and "
+                    "--references");
+  for (std::size_t i = 0; i < options.movers.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (options.movers[i].stem() == options.movers[j].stem())
+        throw ToolError(exit_bad_arguments, "evaluate nnao: --mover: two characters have one name (got " +
+                                                options.movers[i].stem().string() + ")");
+}
+
+}  // namespace
+
 void check_options(const EvaluateNnaoOptions& options) {
   const bool has_scenes = !options.scenes.files.empty() || options.scenes.thin || !options.views.empty();
-  const int works = int(has_scenes) + int(!options.tune.empty()) + int(!options.frames.empty());
+  const int works = int(has_scenes) + int(!options.tune.empty()) + int(!options.frames.empty()) +
+                    int(!options.movers.empty());
   if (works != 1)
-    throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: need scenes (files, --views or --thin), or --frame, or else --tune");
+    throw ToolError(
+        exit_bad_arguments,
+        "evaluate nnao: need scenes (files, --views or --thin), or --frame, or --mover, or else --tune");
   if (!options.frames.empty() &&
       (!options.markdown.empty() || !options.scenes.cameras.empty() || !options.scenes.radii.empty()))
     throw ToolError(exit_bad_arguments,
                     "evaluate nnao: --frame: --markdown, --camera and --radius are of scenes alone");
-  if (options.temporal && (!has_scenes || options.bent || !options.methods.empty() ||
-                           !options.network.empty() || !options.images.empty() || !options.ratios.empty()))
+  check_movers(options);
+  if (options.intensity != 1 && (!has_scenes || options.bent || options.temporal))
+    throw ToolError(exit_bad_arguments, "evaluate nnao: --intensity: it is of AO of single frames of scenes");
+  if (options.temporal &&
+      ((!has_scenes && options.movers.empty()) || options.bent || !options.methods.empty() ||
+       !options.network.empty() || !options.ratios.empty() || (has_scenes && !options.images.empty())))
     throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: --temporal: it needs scenes, and has no --bent-normals, --methods, "
-                    "--network, --images and --ratio");
+                    "evaluate nnao: --temporal: it needs scenes or --mover, and has no --bent-normals, "
+                    "--methods, --network and --ratio, and --images with --mover alone");
   if (!options.views.empty() && !options.scenes.files.empty())
     throw ToolError(exit_bad_arguments, "evaluate nnao: --views: its scenes take the place of files");
 }
@@ -81,6 +108,12 @@ void add_options(CLI::App& command, EvaluateNnaoOptions& options) {
                   "where the radius covers more pixels, every method shrinks it; 0: half the height")
       ->check(CLI::Range(0.0, 1e4));
   command
+      .add_option(
+          "--intensity", options.intensity,
+          "nook_nnao_frame_desc.intensity of the library's pass with its filter; the others have none")
+      ->check(CLI::Range(0.0, 16.0))
+      ->capture_default_str();
+  command
       .add_option_function<std::string>(
           "--size",
           [&options](const std::string& text) {
@@ -123,6 +156,16 @@ void add_options(CLI::App& command, EvaluateNnaoOptions& options) {
       .add_option("--path-step", options.truth.path.step_px,
                   "with --temporal: pixels by which surfaces at the median depth move in a frame; 0: the "
                   "camera stands still")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command
+      .add_option("--mover", options.movers,
+                  "with --temporal, instead of scenes: a character that walks before a wall, .glb or .gltf "
+                  "with clips; any number of times")
+      ->type_name("FILE");
+  command.add_option("--clip", options.clip,
+                     "the clip of --mover; default: the first whose name has walk in it, or the first");
+  command.add_option("--walk-speed", options.walk_speed, "of --mover along its way, metres a second")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   command.add_flag("!--no-raw", options.raw, "measure each method with its blur alone");

@@ -30,10 +30,14 @@ struct EvaluateNnaoOptions {
   std::vector<std::string> methods;  // empty: all
   std::vector<std::string> ratios;   // METHOD:TAPS,METHOD:TAPS
   bool raw = true;
-  bool bent = false;      // bent normals and specular occlusion in place of AO
-  bool temporal = false;  // means over frames in place of single ones
+  bool bent = false;                          // bent normals and specular occlusion in place of AO
+  bool temporal = false;                      // means over frames in place of single ones
+  std::vector<std::filesystem::path> movers;  // characters that walk, instead of scenes
+  std::string clip;                           // of the movers; empty: the first that walks
+  float walk_speed = 1.4f;                    // metres a second
   std::uint32_t placed_cameras = 3;
   float max_radius_px = 0;
+  float intensity = 1;  // of the library's pass
   std::string tune;  // a baseline's name, or all; empty: no tuning
 };
 

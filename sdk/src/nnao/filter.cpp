@@ -18,6 +18,13 @@ std::array<float, 4> unpacked(std::uint8_t bits) {
   return {float(bits >> 6), float(bits >> 4 & 3), float(bits >> 2 & 3), float(bits & 3)};
 }
 
+// The texel beside another one; on the screen's border the nearest that there is.
+std::size_t near_texel(std::uint32_t width, std::uint32_t height, std::uint32_t x, std::uint32_t y, int aside,
+                       int up) {
+  return std::size_t(std::clamp(int(y) + up, 0, int(height) - 1)) * width +
+         std::size_t(std::clamp(int(x) + aside, 0, int(width) - 1));
+}
+
 }  // namespace
 
 Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, float tolerance) {
@@ -59,35 +66,45 @@ std::uint8_t packed_edges(const std::array<float, 4>& connected) {
   return std::uint8_t(bits);
 }
 
+std::array<float, 9> filter_weights(std::span<const float> ao, std::span<const std::uint8_t> edges,
+                                    std::uint32_t width, std::uint32_t height, std::uint32_t x,
+                                    std::uint32_t y, float range_sharpness) {
+  const std::size_t centre = std::size_t(y) * width + x;
+  const std::array<float, 4> own = unpacked(edges[centre]);
+  std::array<float, 9> weights{};
+  weights[4] = 1;
+  // aside, up: -1 to 1.
+  const auto set = [&](int aside, int up, float connected) {
+    const std::size_t texel = near_texel(width, height, x, y, aside, up);
+    weights[std::size_t(4 + aside + 3 * up)] =
+        connected * std::clamp(2 - range_sharpness * std::abs(ao[texel] - ao[centre]), 0.0f, 1.0f);
+  };
+  set(-1, 0, own[0] / 3);
+  set(1, 0, own[1] / 3);
+  set(0, -1, own[2] / 3);
+  set(0, 1, own[3] / 3);
+  for (const int up : {-1, 1})
+    for (const int aside : {-1, 1}) {
+      // Two ways lead to a corner: first along x and then along the corner's own edge in y, or first along y.
+      const std::array<float, 4> back = unpacked(edges[near_texel(width, height, x, y, aside, up)]);
+      const float x_first = own[aside < 0 ? 0 : 1] * back[up < 0 ? 3 : 2],
+                  y_first = own[up < 0 ? 2 : 3] * back[aside < 0 ? 1 : 0];
+      set(aside, up, std::max(x_first, y_first) / 9);
+    }
+  return weights;
+}
+
 float filtered(std::span<const float> ao, std::span<const std::uint8_t> edges, std::uint32_t width,
                std::uint32_t height, std::uint32_t x, std::uint32_t y, float range_sharpness) {
-  const auto at = [&](int column, int row) {
-    return std::size_t(std::clamp(row, 0, int(height) - 1)) * width +
-           std::size_t(std::clamp(column, 0, int(width) - 1));
-  };
-  const int column = int(x), row = int(y);
-  const float centre = ao[at(column, row)];
-  const std::array<float, 4> own = unpacked(edges[at(column, row)]);
-  float sum = centre, weights = 1;
-  const auto add = [&](std::size_t texel, float connected) {
-    const float near = std::clamp(2 - range_sharpness * std::abs(ao[texel] - centre), 0.0f, 1.0f);
-    sum += connected * near * ao[texel];
-    weights += connected * near;
-  };
-  add(at(column - 1, row), own[0] / 3);
-  add(at(column + 1, row), own[1] / 3);
-  add(at(column, row - 1), own[2] / 3);
-  add(at(column, row + 1), own[3] / 3);
-  for (const int down : {1, 0})
-    for (const int left : {1, 0}) {
-      // Two ways lead to a corner: first along x and then along the corner's own edge in y, or first along y.
-      const std::size_t corner = at(column + 1 - 2 * left, row + 1 - 2 * down);
-      const std::array<float, 4> back = unpacked(edges[corner]);
-      const float x_first = own[left ? 0 : 1] * back[down ? 3 : 2],
-                  y_first = own[down ? 2 : 3] * back[left ? 1 : 0];
-      add(corner, std::max(x_first, y_first) / 9);
+  const std::array<float, 9> weights = filter_weights(ao, edges, width, height, x, y, range_sharpness);
+  float sum = 0, whole = 0;
+  for (int up = -1; up <= 1; ++up)
+    for (int aside = -1; aside <= 1; ++aside) {
+      const float weight = weights[std::size_t(4 + aside + 3 * up)];
+      sum += weight * ao[near_texel(width, height, x, y, aside, up)];
+      whole += weight;
     }
-  return sum / weights;
+  return sum / whole;
 }
 
 }  // namespace nook::nnao

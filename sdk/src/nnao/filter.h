@@ -38,8 +38,14 @@ constexpr float filter_range_sharpness(std::uint32_t taps) {
   return taps < 16 ? 2.0f : taps < 32 ? 2.5f : 4.0f;
 }
 
-// Filters AO over 3 x 3 pixels. edges are packed_edges of every pixel, 0 where there is no surface. A corner
-// counts by the better of the two ways around.
+// Returns the weights of the 3 x 3 pixels around one in its filtered value, row by row from the lower left;
+// the pixel's own is 1. edges are packed_edges of every pixel, 0 where there is no surface. A corner counts
+// by the better of the two ways around. Beyond the border weights are 0.
+std::array<float, 9> filter_weights(std::span<const float> ao, std::span<const std::uint8_t> edges,
+                                    std::uint32_t width, std::uint32_t height, std::uint32_t x,
+                                    std::uint32_t y, float range_sharpness);
+
+// Filters AO over 3 x 3 pixels by these weights.
 float filtered(std::span<const float> ao, std::span<const std::uint8_t> edges, std::uint32_t width,
                std::uint32_t height, std::uint32_t x, std::uint32_t y, float range_sharpness);
 

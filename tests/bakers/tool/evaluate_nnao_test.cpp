@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/bakers/tool/glb_tube.h"
 #include "tests/bakers/tool/tool_run.h"
 #include "tests/catch.h"
 
@@ -182,8 +183,49 @@ TEST_CASE("evaluate nnao measures chosen methods alone") {
   REQUIRE(report.at("rows").size() == 2 * (6 + 3));
   for (const auto& row : report.at("rows")) CHECK((row.at("method") == "nnao" || row.at("method") == "hbao"));
   CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "other"}).exit_code == 2);
+  CHECK(folder.run({"evaluate", "nnao", "--thin", "--temporal", "--intensity", "1.03"}).exit_code == 2);
+  // Without intensity AO is 1 after the filter, which leaves 0.65 or more where the reference is below 0.35.
+  arguments = tiny({"--thin", "--cameras", "1", "--methods", "nnao:9", "--intensity", "0"}, folder);
+  REQUIRE(folder.run(arguments).exit_code == 0);
+  const auto open = nlohmann::json::parse(read_text(folder.path("r.json")));
+  for (const auto& row : open.at("rows"))
+    if (row.at("blurred")) CHECK(row.at("dark_bias") >= 0.65);
   // No file, no method of that name.
   CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "nnao_paper"}).exit_code == 2);
+}
+
+TEST_CASE("evaluate nnao measures a character that walks, by the clip that says so") {
+  const TestFolder folder;
+  write_text(folder.path("tube.glb"), glb_tube({"bend", "Walk_Loop"}));
+  write_text(folder.path("other.glb"), glb_tube({}));
+  auto arguments = tiny({"--temporal", "--mover", folder.path("tube.glb")}, folder);
+  arguments.insert(arguments.end(), {"--markdown", folder.path("m.md"), "--images", folder.path("sheets")});
+  const ToolRun run = folder.run(arguments);
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
+  CHECK(report.at("clips").at("tube") == "Walk_Loop");
+  CHECK(report.at("rows").size() == 2 * 9);
+  // Four shots, each with two cameras.
+  REQUIRE(report.at("views").size() == 8 * 9);
+  CHECK(report.at("views").at(0).at("mover_pixels") > 0);
+  CHECK(read_text(folder.path("m.md")).find("| 9 | 8 frames, motion vectors |") != std::string::npos);
+  CHECK(read_text(folder.path("sheets/tube_whole_moving.png")).substr(1, 3) == "PNG");
+
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"--mover", folder.path("tube.glb")},
+           {"--temporal", "--thin", "--mover", folder.path("tube.glb")},
+           {"--temporal", "--mover", folder.path("tube.glb"), "--mover", folder.path("tube.glb")},
+           {"--temporal", "--thin", "--clip", "bend"},
+           {"--temporal", "--mover", folder.path("tube.glb"), "--radius", "1"}}) {
+    INFO(words.back());
+    CHECK(folder.run(tiny(words, folder)).exit_code == 2);
+  }
+  const ToolRun without = folder.run(tiny({"--temporal", "--mover", folder.path("other.glb")}, folder));
+  CHECK(without.exit_code == 3);
+  CHECK(without.error.find("other.glb") != std::string::npos);
+  CHECK(folder.run(tiny({"--temporal", "--mover", folder.path("tube.glb"), "--clip", "Run"}, folder))
+            .error.find("Walk_Loop") != std::string::npos);
 }
 
 TEST_CASE("evaluate nnao refuses bad arguments and bad scenes, and leaves no half file") {

@@ -1,0 +1,164 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+#include "bakers/nnao/specular_fit.h"
+#include "bakers/nnao/training_cameras.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "bakers/raytrace/specular_visibility.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/nnao/filter.h"
+
+namespace nook::bake::nnao {
+
+using nook::nnao::LitPixel;
+
+namespace {
+
+// A pixel of a view in world space.
+struct Surface {
+  std::uint32_t x = 0, y = 0;
+  Vec3 position, normal, to_viewer;
+  float depth = 0;  // metres
+};
+
+Surface surface_at(const RayScene& rays, const TracedView& view, std::uint32_t x, std::uint32_t y) {
+  const PixelRay ray = pixel_ray(view.camera, float(x) + 0.5f, float(y) + 0.5f);
+  const float depth = view.depth[view.view().at(x, y)];
+  return {x,
+          y,
+          ray.origin_ws + depth * ray.direction_ws,
+          rays.nearest(ray.origin_ws, ray.direction_ws).normal,
+          normalised(-ray.direction_ws),
+          depth};
+}
+
+// Pixels with a surface; a view that shows little but sky has fewer.
+std::vector<Surface> any_surfaces(const RayScene& rays, const TracedView& view, std::uint32_t count,
+                                  Random& random) {
+  std::vector<Surface> chosen;
+  for (std::uint32_t tries = 3 * count; chosen.size() < count && tries > 0; --tries) {
+    const std::uint32_t x = random.below(view.camera.width), y = random.below(view.camera.height);
+    if (view.view().has_surface(x, y)) chosen.push_back(surface_at(rays, view, x, y));
+  }
+  return chosen;
+}
+
+// Metres: so long on the screen where the depth is the median of those that are chosen.
+float any_radius(const TracedView& view, std::vector<Surface> surfaces, Random& random) {
+  const auto middle = surfaces.begin() + std::ptrdiff_t(surfaces.size() / 2);
+  std::ranges::nth_element(surfaces, middle, {}, &Surface::depth);
+  return random.log_between(12, 110) / std::abs(nook::nnao::pixel_scale(view.camera.rays, middle->depth).y);
+}
+
+// AO and bent normal of a pixel after the pass's filter. pass: a network's answer for one pixel.
+LitPixel filtered_pixel(const nook::nnao::Network& network, const RayScene& rays, const TracedView& traced,
+                        const Surface& surface, float radius, std::uint32_t taps) {
+  // nook_nnao_desc.blur_sharpness, and a radius of half the screen at most.
+  constexpr float sharpness = 16;
+  const nook::nnao::View view = traced.view();
+  const nook::nnao::Sampling sampling{radius, 0.5f * float(view.height), taps};
+  std::array<float, 9> ao;
+  std::array<std::uint8_t, 9> edges{};
+  std::array<Vec3, 9> bent{};
+  ao.fill(1);
+  for (std::size_t i = 0; i < ao.size(); ++i) {
+    const std::uint32_t x = surface.x + std::uint32_t(i % 3) - 1, y = surface.y + std::uint32_t(i / 3) - 1;
+    // Beyond the border x and y wrap to large numbers.
+    if (x >= view.width || y >= view.height || !view.has_surface(x, y)) continue;
+    const Vec3 normal = view_direction(traced.camera, surface_at(rays, traced, x, y).normal);
+    const nook::nnao::Openness open =
+        nook::nnao::evaluate_openness(network, view, normal, sampling, x, y, nook::nnao::tap_noise(x, y));
+    ao[i] = std::clamp(open.ao, 0.0f, 1.0f);
+    bent[i] = open.bent_normal;
+    edges[i] = nook::nnao::packed_edges(nook::nnao::neighbours_of(view, x, y, radius / sharpness).connected);
+  }
+  const std::array<float, 9> weights =
+      nook::nnao::filter_weights(ao, edges, 3, 3, 1, 1, nook::nnao::filter_range_sharpness(taps));
+  LitPixel pixel{
+      {}, view_direction(traced.camera, surface.normal), view_direction(traced.camera, surface.to_viewer), 0};
+  float whole = 0;
+  for (std::size_t i = 0; i < ao.size(); ++i) {
+    pixel.ao += weights[i] * ao[i];
+    pixel.bent_normal += weights[i] * bent[i];
+    whole += weights[i];
+  }
+  pixel.ao /= whole;
+  pixel.bent_normal = normalised(pixel.bent_normal);
+  return pixel;
+}
+
+std::vector<SpecularSample> samples_of(const nook::nnao::Network& network, const RayScene& rays,
+                                       const TracedView& view, const SpecularFitSettings& settings,
+                                       std::uint64_t seed) {
+  Random random(seed);
+  const std::vector<Surface> surfaces = any_surfaces(rays, view, settings.data.points_per_view, random);
+  std::vector<SpecularSample> samples;
+  if (surfaces.empty()) return samples;
+  const float radius = any_radius(view, surfaces, random);
+  std::vector<Vec3> position, normal;
+  std::vector<float> radii, offset;
+  for (const Surface& surface : surfaces) {
+    position.push_back(surface.position);
+    normal.push_back(surface.normal);
+    radii.push_back(radius);
+    offset.push_back(origin_offset(surface.position, surface.depth, radius));
+  }
+  const Openness open =
+      trace_openness(rays, {position, normal, radii, offset}, {.rays = settings.data.rays, .seed = seed});
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const Surface& surface = surfaces[i];
+    SpecularSample& sample = samples.emplace_back();
+    sample.network = filtered_pixel(network, rays, view, surface, radius, settings.taps);
+    sample.reference = sample.network;
+    sample.reference.ao = open.ao[i];
+    const Vec3 bent = normalised(view_direction(view.camera, open.direction[i]));
+    sample.reference.bent_normal = length(bent) > 0 ? bent : sample.reference.normal;
+    const GlossyPoint glossy{surface.position, surface.normal, surface.to_viewer, radius, offset[i]};
+    for (std::size_t g = 0; g < SpecularSample::gloss_count; ++g) {
+      sample.roughness[g] = (float(g) + random.between(0.1f, 1)) / float(SpecularSample::gloss_count);
+      sample.visible[g] =
+          trace_specular_visibility(rays, glossy, sample.roughness[g], settings.rays, random.bits());
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+SpecularSamples trace_specular_samples(const nook::nnao::Network& network,
+                                       const SpecularFitSettings& settings, const DatasetProgress& progress) {
+  const DatasetSettings& data = settings.data;
+  std::vector<std::vector<SpecularSample>> samples(data.scenes);
+  std::atomic<bool> cancelled{false};
+  std::mutex progress_mutex;
+  std::size_t done = 0;
+  tbb::parallel_for(std::uint32_t(0), data.scenes, [&](std::uint32_t s) {
+    if (cancelled) return;
+    const FlushDenormals flush;
+    const TrainingScene scene = make_scene(data.seed, s);
+    const RayScene rays(scene.soup);
+    for (std::uint32_t v = s; v < data.views; v += data.scenes) {
+      Random random(mix_bits(data.seed ^ mix_bits(v)));
+      const TracedView view =
+          trace_view(rays, place_training_camera(rays, scene, random, data.width, data.height));
+      const auto found = samples_of(network, rays, view, settings, mix_bits(settings.seed ^ random.bits()));
+      samples[s].insert(samples[s].end(), found.begin(), found.end());
+    }
+    if (!progress) return;
+    const std::lock_guard lock(progress_mutex);
+    if (!progress(++done, data.scenes)) cancelled = true;
+  });
+  if (cancelled) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing reflections");
+  SpecularSamples result;
+  const std::uint32_t first_validation = data.scenes - data.scenes / 6;
+  for (std::uint32_t s = 0; s < data.scenes; ++s) {
+    auto& part = s < first_validation ? result.training : result.validation;
+    part.insert(part.end(), samples[s].begin(), samples[s].end());
+  }
+  return result;
+}
+
+}  // namespace nook::bake::nnao
