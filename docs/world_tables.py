@@ -22,9 +22,7 @@ SCRIPT = pathlib.Path(__file__).name
 DOCUMENT = ROOT / "docs/world.md"
 BAKE = ["--split", "half", "--auto-poses", "300", "--samples-per-clip", "8", "--steps", "100", "--rays", "4"]
 EVALUATE = ["--max-poses", "44", "--points", "600"]
-
-
-LIGHTS = ["--max-poses", "12", "--points", "400", "--rays", "256"]
+LIGHTS = ["--max-poses", "12", "--points", "400", "--rays", "512"]
 ROOMS = ["--composite", "--views", "8", "--rays", "128"]
 # Rows of the table.
 RULES = ["nook", "nook, half resolution", "mask, product", "mask, sum", "mask, between sum and minimum", "mask, minimum", "product", "minimum",

@@ -1,7 +1,5 @@
 #include "bakers/raytrace/suns.h"
 
-#include <algorithm>
-
 namespace nook::bake {
 namespace {
 
@@ -14,9 +12,9 @@ struct Split {
   Vector<Sun> suns;
 };
 
-Split split(const Environment& environment) {
+Split split(const Environment& environment, std::size_t max_count) {
   Split out{Vector<float>(environment.rgb().begin(), environment.rgb().end()), Vector<Sun>()};
-  out.suns = take_suns(view_of(environment), out.sky, default_memory());
+  out.suns = take_suns(view_of(environment), out.sky, default_memory(), max_count);
   return out;
 }
 
@@ -26,14 +24,14 @@ double sun_limit(const Environment& environment) {
   return nook::sun_limit(view_of(environment), default_memory());
 }
 
-Environment without_suns(const Environment& environment) {
-  const Split parts = split(environment);
+Environment without_suns(const Environment& environment, std::size_t max_count) {
+  const Split parts = split(environment, max_count);
   return Environment(environment.width(), environment.height(), {parts.sky.begin(), parts.sky.end()});
 }
 
 std::vector<Sun> find_suns(const Environment& environment, std::size_t max_count) {
-  const Split parts = split(environment);
-  return {parts.suns.begin(), parts.suns.begin() + std::ptrdiff_t(std::min(parts.suns.size(), max_count))};
+  const Split parts = split(environment, max_count);
+  return {parts.suns.begin(), parts.suns.end()};
 }
 
 }  // namespace nook::bake

@@ -12,7 +12,8 @@ using Sun = MapSun;
 
 // The luminance where suns begin.
 double sun_limit(const Environment& environment);
-Environment without_suns(const Environment& environment);
+// Without the brightest ones, at most so many.
+Environment without_suns(const Environment& environment, std::size_t max_count = ~std::size_t(0));
 // The brightest ones, by luminance.
 std::vector<Sun> find_suns(const Environment& environment, std::size_t max_count);
 

@@ -26,10 +26,13 @@
 #define NOOK_HORIZON_FAR_1 0.25
 #define NOOK_HORIZON_FAR_2 0.0378
 
-// The bands of a disc of a cosine's weight: A1 = 1 - s (c11 + s c12), A2 = 1 - s c21.
+// The bands of a disc of a cosine's weight: A1 = 1 - s (c11 + s c12), A2 = 1 - s c21, A3 = (1 - s)^(3/2),
+// A4 = 1 - s (c41 - s c42).
 #define NOOK_DISC_BAND_11 0.25
 #define NOOK_DISC_BAND_12 0.0833333
 #define NOOK_DISC_BAND_21 0.75
+#define NOOK_DISC_BAND_41 2.5
+#define NOOK_DISC_BAND_42 1.4583333
 
 // Texels of the table of casters: of a body, a part of it, a caster. Texels of a tile's list: its first entry
 // and their number; an entry is a number of a body, four to a texel.
@@ -75,7 +78,8 @@
 #define NOOK_CONE_PARTS 16
 // Uniforms of light.glsl, which describes them.
 #define NOOK_CONE_VEC4S 18
-#define NOOK_LIGHT_VEC4S 11
+#define NOOK_LIGHT_TERMS 25
+#define NOOK_LIGHT_VEC4S 26
 // Texels of a body that casts the shadow of a cone.
 #define NOOK_SHADE_TEXELS 2
 

@@ -143,7 +143,7 @@ uniform int nook_world_first_far_tile;
 vec3 nook_world_far_here(ivec2 pixel, vec3 point, vec3 normal) {
   nook_world_far_bodies = true;
 #ifdef NOOK_COLOURED
-  nook_world_taken = NookTaken(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
+  nook_world_taken = NOOK_NOTHING_TAKEN;
 #endif
   float open = nook_world_list_open(nook_world_first_far_tile, pixel, point, normal);
 #ifdef NOOK_COLOURED

@@ -3,21 +3,31 @@
 #include "shaders/core/texels.glsl"
 #include "shaders/world/constants.h"
 
-// The light's bands in view space: scalar; vector x, y, z; tensor xx, yy, zz, twice xy, yz, zx; the darkest hemisphere.
-uniform vec4 nook_world_bands[NOOK_LIGHT_VEC4S];
+// The light's terms in view space (sdk/src/world/light_terms.h), then the darkest hemisphere.
+uniform vec4 nook_world_light_terms[NOOK_LIGHT_VEC4S];
 
-// The sums of the bands of the casters of a point, each by its share.
+// The sums of the terms of the casters of a point, each by its share, in the order of the light's.
 struct NookTaken {
   float scalar;
-  vec3 vector, straight, mixed;  // straight: xx, yy, zz; mixed: xy, yz, zx
+  vec4 terms[6];
 };
-NookTaken nook_world_taken = NookTaken(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
+#define NOOK_NOTHING_TAKEN NookTaken(0.0, vec4[6](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0)))
+NookTaken nook_world_taken = NOOK_NOTHING_TAKEN;
 
-void nook_world_add(inout NookTaken taken, vec3 d, float weight, float first, float second) {
+// band: the density's bands 1 to 4, times the weight.
+void nook_world_add(inout NookTaken taken, vec3 d, float weight, vec4 band) {
+  vec3 squared = d * d, mixed = d * d.yzx;  // mixed: xy, yz, zx
+  float apart = squared.x - squared.y, along_x = squared.x - 3.0 * squared.y, along_y = 3.0 * squared.x - squared.y;
+  float five = 5.0 * squared.z - 1.0, seven = 7.0 * squared.z - 1.0;
   taken.scalar += weight;
-  taken.vector += first * d;
-  taken.straight += second * d * d;
-  taken.mixed += second * d * d.yzx;
+  taken.terms[0] += vec4(band.x * d, band.y * (3.0 * squared.z - 1.0));
+  taken.terms[1] += band.y * vec4(mixed, apart);
+  taken.terms[2] += band.z * vec4(d.y * along_y, mixed.x * d.z, d.y * five, d.z * (five - 2.0));
+  taken.terms[3] += vec4(band.z * vec3(d.x * five, d.z * apart, d.x * along_x),
+                         band.w * (squared.z * (35.0 * squared.z - 30.0) + 3.0));
+  taken.terms[4] += band.w * vec4(mixed.x * apart, mixed.y * along_y, mixed.x * seven, mixed.y * (seven - 2.0));
+  taken.terms[5] += band.w * vec4(mixed.z * (seven - 2.0), apart * seven, mixed.z * along_x,
+                                  squared.x * along_x - squared.y * along_y);
 }
 
 void nook_world_gather(vec3 phi, vec3 normal, float share) {
@@ -27,24 +37,25 @@ void nook_world_gather(vec3 phi, vec3 normal, float share) {
   float lift = max(0.5 * (max(cosine, -sine) + sine) - cosine, 0.0);
   vec3 d = phi * inverse_size + normal * lift;
   d *= inversesqrt(max(dot(d, d), 1e-12));
-  nook_world_add(nook_world_taken, d, share, share * (1.0 - size * (size * NOOK_DISC_BAND_12 + NOOK_DISC_BAND_11)),
-                 share * (1.0 - size * NOOK_DISC_BAND_21));
+  float left = 1.0 - size;
+  nook_world_add(nook_world_taken, d, share,
+                 share * vec4(1.0 - size * (size * NOOK_DISC_BAND_12 + NOOK_DISC_BAND_11), 1.0 - size * NOOK_DISC_BAND_21,
+                              left * sqrt(left), 1.0 - size * (NOOK_DISC_BAND_41 - size * NOOK_DISC_BAND_42)));
 }
 
 vec3 nook_world_light_under(NookTaken taken) {
-  vec3 sum = taken.scalar * nook_world_bands[0].rgb;
-  for (int i = 0; i < 3; ++i)
-    sum += taken.vector[i] * nook_world_bands[1 + i].rgb + taken.straight[i] * nook_world_bands[4 + i].rgb +
-           taken.mixed[i] * nook_world_bands[7 + i].rgb;
+  vec3 sum = taken.scalar * nook_world_light_terms[0].rgb;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 4; ++j) sum += taken.terms[i][j] * nook_world_light_terms[1 + 4 * i + j].rgb;
   return sum;
 }
 
 // ao: what the gathered casters leave open.
 vec3 nook_world_open_light(vec3 normal, float ao) {
-  NookTaken hemisphere = NookTaken(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
-  nook_world_add(hemisphere, normal, 1.0, 2.0 / 3.0, 0.25);
+  NookTaken hemisphere = NOOK_NOTHING_TAKEN;
+  nook_world_add(hemisphere, normal, 1.0, vec4(2.0 / 3.0, 0.25, 0.0, -1.0 / 24.0));
   vec3 ratio = nook_world_light_under(nook_world_taken) /
-               max(nook_world_light_under(hemisphere), nook_world_bands[10].rgb);
+               max(nook_world_light_under(hemisphere), nook_world_light_terms[NOOK_LIGHT_TERMS].rgb);
   return clamp(1.0 - (1.0 - ao) / max(nook_world_taken.scalar, 1e-12) * ratio, 0.0, 1.0);
 }
 

@@ -12,14 +12,6 @@ using namespace nook::test;
 
 namespace {
 
-LightBands bands_of(const std::vector<SphericalGaussian>& lobes) {
-  LightBands bands;
-  for (const SphericalGaussian& lobe : lobes)
-    add_lobe(bands, lobe.axis, lobe.amplitude, nook::bands_of(lobe.sharpness));
-  bands.darkest = darkest_of(lobes);
-  return bands;
-}
-
 struct Shares {
   double hemisphere = 0;  // that the capsule covers
   double open = 0;        // of the green light, the part that it leaves
@@ -50,9 +42,9 @@ struct Result {
   Colour<float> open;
 };
 
-Result evaluated(const std::vector<Capsule>& casters, const LightBands& bands) {
+Result evaluated(const std::vector<Capsule>& casters, const world::LightTerms& light) {
   const Direction<float> n{0, 0, 1};
-  GatheredBands<float> gathered = GatheredBands<float>::none();
+  world::GatheredTerms<float> gathered = world::GatheredTerms<float>::none();
   float ao = 1;
   for (const Capsule& c : casters) {
     Direction<float> phi{};
@@ -60,7 +52,7 @@ Result evaluated(const std::vector<Capsule>& casters, const LightBands& bands) {
     world::gather(gathered, n, phi, share);
     ao *= 1 - share;
   }
-  return {ao, world::open_light(gathered, bands, n, ao)};
+  return {ao, world::open_light(gathered, light, n, ao)};
 }
 
 std::vector<SphericalGaussian> random_lobes(Numbers& numbers, float sharpest) {
@@ -76,12 +68,12 @@ std::vector<SphericalGaussian> random_lobes(Numbers& numbers, float sharpest) {
 
 TEST_CASE("directional: under constant light every channel is AO") {
   Numbers numbers(5);
-  LightBands bands;
-  bands.scalar = bands.darkest = {0.2f, 1, 3};
+  world::LightTerms light;
+  light.term[0] = light.darkest = {0.2f, 1, 3};
   for (int i = 0; i < 100; ++i) {
     const std::vector<Capsule> casters{{numbers.place(1), numbers.place(1), 0.1f, 0.2f},
                                        {numbers.place(1), numbers.place(1), 0.2f, 0.1f}};
-    const Result r = evaluated(casters, bands);
+    const Result r = evaluated(casters, light);
     for (const float channel : {r.open.r, r.open.g, r.open.b}) CHECK(std::abs(channel - r.ao) < 1e-5f);
   }
 }
@@ -89,10 +81,10 @@ TEST_CASE("directional: under constant light every channel is AO") {
 TEST_CASE("directional: a caster that fills the hemisphere takes all light, and none takes nothing") {
   Numbers numbers(6);
   for (int i = 0; i < 20; ++i) {
-    const LightBands bands = bands_of(random_lobes(numbers, 2));
+    const world::LightTerms light = world::terms_of(random_lobes(numbers, 2));
     // Round the point, and much larger.
-    CHECK(evaluated({{{-5, 0, 5}, {5, 0, 5}, 5.0f, 5.0f}}, bands).open.g < 0.01f);
-    CHECK(evaluated({}, bands).open.g == 1);
+    CHECK(evaluated({{{-5, 0, 5}, {5, 0, 5}, 5.0f, 5.0f}}, light).open.g < 0.01f);
+    CHECK(evaluated({}, light).open.g == 1);
   }
 }
 
@@ -102,7 +94,7 @@ TEST_CASE("directional: the open share of soft light comes near that of rays, mu
   int count = 0;
   for (int i = 0; i < 120; ++i) {
     const std::vector<SphericalGaussian> lobes = random_lobes(numbers, 3);
-    const LightBands bands = bands_of(lobes);
+    const world::LightTerms light = world::terms_of(lobes);
     // Each in a statement of its own, since compilers differ in the order of operands.
     const float distance = numbers.between(0.6f, 2.0f);
     const Vec3 a = distance * numbers.direction();
@@ -111,7 +103,7 @@ TEST_CASE("directional: the open share of soft light comes near that of rays, mu
     // Neither casters that hardly count, nor one that holds the point: it keeps the half-space of its
     // surface.
     if (truth.hemisphere < 0.01 || truth.hemisphere > 0.999) continue;
-    const double off = double(evaluated({caster}, bands).open.g) - truth.open,
+    const double off = double(evaluated({caster}, light).open.g) - truth.open,
                  ao = 1 - truth.hemisphere - truth.open;
     error += off * off;
     plain += ao * ao;
@@ -125,11 +117,61 @@ TEST_CASE("directional: the open share of soft light comes near that of rays, mu
   CHECK(std::abs(bias / count) < 0.01);
 }
 
+TEST_CASE("directional: the terms of many broad lobes are their radiance") {
+  Numbers numbers(11);
+  std::vector<SphericalGaussian> lobes;
+  for (std::size_t i = 0; i < world::lobes_for_all_bands; ++i)
+    lobes.push_back({numbers.direction(), numbers.between(0.1f, 1), {numbers.between(0, 1), 1, 1}});
+  const world::LightTerms light = world::terms_of(lobes);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 d = numbers.direction();
+    double radiance = 0;
+    for (const SphericalGaussian& lobe : lobes) radiance += double(value(lobe, d).x);
+    // A density of one direction alone, whose bands undo the taper.
+    world::GatheredTerms<float> gathered = world::GatheredTerms<float>::none();
+    gathered.add({d.x, d.y, d.z}, 1, {1, 1, 1, 1 / 0.8f, 1 / 0.6f});
+    // Band 5 of a lobe of sharpness 1 is 3e-4 of its mean, of which 11 times are in a direction.
+    CHECK(std::abs(double(gathered.light(light, &Vec3::x)) / radiance - 1) < 2e-3);
+  }
+}
+
+TEST_CASE("directional: bands 3 and 4 of many lobes bring the open share nearer to that of rays") {
+  Numbers numbers(12);
+  double error = 0, to_band_2 = 0;
+  for (int i = 0; i < 60; ++i) {
+    std::vector<SphericalGaussian> lobes;
+    for (std::size_t k = 0; k < world::lobes_for_all_bands; ++k) {
+      const Vec3 axis = numbers.direction();
+      // A few lamps in dim light.
+      const float bright = numbers.between(0, 1) < 0.1f ? 2.0f : 0.1f;
+      lobes.push_back({axis, 8, {bright, bright, bright}});
+    }
+    const world::LightTerms light = world::terms_of(lobes);
+    world::LightTerms blurred = light;
+    for (int k = 9; k < world::light_term_count; ++k) blurred.term[k] = {};
+    const float distance = numbers.between(0.8f, 2.0f);
+    const Vec3 a = distance * numbers.direction(), b = a + numbers.place(0.3f);
+    const Capsule caster{a, b, 0.2f, 0.25f};
+    const Shares truth = traced(caster, lobes, 1000);
+    if (truth.hemisphere < 0.01 || truth.hemisphere > 0.999) continue;
+    const auto square = [&](const world::LightTerms& of) {
+      const double off = double(evaluated({caster}, of).open.g) - truth.open;
+      return off * off;
+    };
+    error += square(light);
+    to_band_2 += square(blurred);
+  }
+  INFO("mean squared error over that of bands 0 to 2: " << error / to_band_2);
+  // What is left is in the bands above and in the taper.
+  CHECK(error < 0.6 * to_band_2);
+}
+
 TEST_CASE("directional: a shadow falls away from the light") {
   // A window towards +x; the caster stands towards it, or on the other side.
-  const LightBands bands = bands_of({{{1, 0, 0}, 2, {1, 1, 1}}, {{0, 0, 1}, 0, {0.1f, 0.1f, 0.1f}}});
-  const Result before = evaluated({{{1, 0, 0}, {1, 0, 1.5f}, 0.2f, 0.2f}}, bands),
-               behind = evaluated({{{-1, 0, 0}, {-1, 0, 1.5f}, 0.2f, 0.2f}}, bands);
+  const std::vector<SphericalGaussian> window{{{1, 0, 0}, 2, {1, 1, 1}}, {{0, 0, 1}, 0, {0.1f, 0.1f, 0.1f}}};
+  const world::LightTerms light = world::terms_of(window);
+  const Result before = evaluated({{{1, 0, 0}, {1, 0, 1.5f}, 0.2f, 0.2f}}, light),
+               behind = evaluated({{{-1, 0, 0}, {-1, 0, 1.5f}, 0.2f, 0.2f}}, light);
   CHECK(before.ao == behind.ao);
   CHECK(1 - before.open.g > 1.3f * (1 - before.ao));
   CHECK(1 - behind.open.g < 0.6f * (1 - behind.ao));

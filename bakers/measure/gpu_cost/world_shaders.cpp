@@ -54,6 +54,15 @@ std::vector<Loop> far_groups(bool shares) {
           branch("surfaces round which the box lies", 1), readings};
 }
 
+constexpr char coloured_host[] =
+    "#define NOOK_COLOURED 1\n"
+    "#include \"shaders/world/casters.glsl\"\n"
+    "in vec3 point;\nin vec3 facing;\nout vec4 colour;\n"
+    "void main() {\n"
+    "  float open = nook_world_caster_open(0, point, facing);\n"
+    "  colour = vec4(nook_world_open_light(facing, open), open);\n"
+    "}\n";
+
 constexpr char cone_host[] =
     "#define NOOK_COLOURED 1\n"
     "#include \"shaders/world/casters.glsl\"\n"
@@ -95,6 +104,7 @@ std::vector<ShaderCase> world_shaders() {
                   half + "#define NOOK_GATHERS 1\n"),
       host_shader(caster_host("nook_world_caster_open"), "one caster of the world pass"),
       host_shader(caster_host("nook_world_whole_open"), "one capsule for a limb or a body"),
+      host_shader(coloured_host, "one caster by channel, with the light of its point"),
       host_shader(cone_host, "one caster before one part of a cone of light")};
 }
 

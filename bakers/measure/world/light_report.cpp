@@ -25,10 +25,9 @@ namespace {
 using namespace bake;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint32_t lobe_count = 12;
+constexpr std::uint32_t lobe_count = 32;
 constexpr float visible_ao = 0.01f;
 constexpr std::uint32_t visible_rays = 128;
-constexpr std::size_t most_suns = 64;  // of a map, that are distinguished
 
 // A map as a host draws it: its brightest sun as a cone, the rest as lobes.
 struct SplitLight {
@@ -36,11 +35,11 @@ struct SplitLight {
   Environment soft, sun_map;  // their sum is the map
   std::optional<Sun> sun;
   std::vector<SphericalGaussian> lobes;
-  LightBands bands;
+  world::LightTerms terms;
   double unit = 0;  // irradiance of the map's mean radiance
 
   float sun_half_angle_radians() const {
-    return std::acos(1 - sun->solid_angle / (2 * std::numbers::pi_v<float>));
+    return std::acos(1 - sun->disc_solid_angle / (2 * std::numbers::pi_v<float>));
   }
   Vec3 sun_irradiance(Vec3 normal) const {
     return sun ? sun->irradiance * std::max(dot(normal, sun->direction), 0.0f) : Vec3{};
@@ -52,47 +51,25 @@ double mean_radiance(const Environment& map) {
   return (sum.radiance[0] + sum.radiance[1] + sum.radiance[2]) / (12 * std::numbers::pi);
 }
 
-// Moves the light above the limit from the soft map into the other one where the brightest sun is the
-// nearest of all.
-void take_brightest_sun(const Environment& map, std::span<const Sun> suns, std::vector<float>& soft,
-                        std::vector<float>& sun_map) {
-  const double limit = sun_limit(map);
-  for (std::size_t t = 0; t < map.texel_count(); ++t) {
-    const Vec3 radiance = map.texel(t), rest = without_sun(radiance, limit);
-    if (double(luminance(radiance)) <= limit) continue;
-    const Vec3 d = map.direction(std::uint32_t(t % map.width()), std::uint32_t(t / map.width()), 0.5f, 0.5f);
-    const auto nearest = std::max_element(suns.begin(), suns.end(), [&](const Sun& a, const Sun& b) {
-      return dot(a.direction, d) < dot(b.direction, d);
-    });
-    if (nearest != suns.begin()) continue;
-    const float all[3] = {radiance.x, radiance.y, radiance.z}, kept[3] = {rest.x, rest.y, rest.z};
-    for (std::size_t c = 0; c < 3; ++c) {
-      soft[3 * t + c] = kept[c];
-      sun_map[3 * t + c] = all[c] - kept[c];
-    }
-  }
+Environment difference(const Environment& all, const Environment& part) {
+  std::vector<float> rest(all.rgb().begin(), all.rgb().end());
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= part.rgb()[i];
+  return Environment(all.width(), all.height(), std::move(rest));
 }
 
 SplitLight split(const NamedMap& named) {
   const Environment& map = named.map;
-  std::vector<float> soft(map.rgb().begin(), map.rgb().end()), sun_map(soft.size(), 0.0f);
-  const std::vector<Sun> suns = find_suns(map, most_suns);
-  if (!suns.empty()) take_brightest_sun(map, suns, soft, sun_map);
-  SplitLight light{named.name,
-                   Environment(map.width(), map.height(), std::move(soft)),
-                   Environment(map.width(), map.height(), std::move(sun_map)),
-                   suns.empty() ? std::nullopt : std::optional<Sun>(suns.front()),
-                   {},
-                   {},
-                   std::numbers::pi * mean_radiance(map)};
+  const Environment soft = without_suns(map, 1);
+  const std::vector<Sun> suns = find_suns(map, 1);
+  SplitLight light{
+      named.name, soft, difference(map, soft), {}, {}, {}, std::numbers::pi * mean_radiance(map)};
+  if (!suns.empty()) light.sun = suns.front();
   bake::probe::MapBakeSettings settings;
   settings.basis = nook::probe::vogel_basis(lobe_count);
   const std::vector<Vec3> amplitude = bake::probe::bake_map(light.soft, settings);
-  for (std::uint32_t i = 0; i < lobe_count; ++i) {
+  for (std::uint32_t i = 0; i < lobe_count; ++i)
     light.lobes.push_back({settings.basis.axis[i], settings.basis.sharpness[i], amplitude[i]});
-    add_lobe(light.bands, light.lobes[i].axis, amplitude[i], bands_of(light.lobes[i].sharpness));
-  }
-  light.bands.darkest = darkest_of(light.lobes);
+  light.terms = world::terms_of(light.lobes);
   return light;
 }
 
@@ -165,7 +142,7 @@ SampledLight sample_light(std::span<const PosedCaster> casters, const SurfacePoi
   request.positions = &points.position[0].x;
   request.normals = &points.normal[0].x;
   request.count = std::uint32_t(points.size());
-  request.bands = &light.bands;
+  request.terms = &light.terms;
   request.has_light = light.sun.has_value();
   if (light.sun) {
     request.light_axis = light.sun->direction;

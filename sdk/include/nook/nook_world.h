@@ -16,7 +16,7 @@
  * with rho for each channel the mean radiance behind it over that of the hemisphere. With AO the product over
  * the casters, the open share is 1 - (1 - AO) R, R the mean of rho over the casters by their shares. A shadow
  * thus falls away from a window and takes its colour from what is left. The lobes count by their bands 0
- * to 2. Under constant light the open share is AO.
+ * to 2, and 24 or more lobes by bands 0 to 4. Under constant light the open share is AO.
  *
  * nook_gl_world.h darkens what a depth buffer shows. */
 #ifndef NOOK_WORLD_H

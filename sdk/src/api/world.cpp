@@ -85,10 +85,10 @@ nook_result nook_world_sample(nook_scene scene, const nook_world_sample_desc* de
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "light is not NULL, but desc.light_degrees is 0; give the light's full angle");
     world::SampleRequest request = request_of(given, scene ? scene->scene.settings.cutoff_error : 0);
-    LightBands bands;
+    world::LightTerms terms;
     if (given.directional_ao) {
-      bands = api::bands_of_lobes("desc", given.lobes, given.lobe_count);
-      request.bands = &bands;
+      terms = api::terms_of_lobes("desc", given.lobes, given.lobe_count);
+      request.terms = &terms;
     }
     if (given.receiver) {
       if (!scene) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.receiver is given without a scene");

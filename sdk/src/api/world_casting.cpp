@@ -64,33 +64,29 @@ Vec3 checked_light(const char* descriptor, const float (&axis)[3], float degrees
   return normalised(towards);
 }
 
-LightBands bands_of_lobes(const char* descriptor, const nook_probe_lobe* lobes, std::uint32_t count,
-                          const float* turn) {
+world::LightTerms terms_of_lobes(const char* descriptor, const nook_probe_lobe* lobes, std::uint32_t count,
+                                 const float* turn) {
   if (count > 0 && !lobes)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.lobes is NULL with %s.lobe_count %u", descriptor,
                   descriptor, count);
   if (count > max_light_lobes)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.lobe_count is too large (got %u, need at most %u)",
                   descriptor, count, max_light_lobes);
-  LightBands bands;
   if (count == 0) {
-    bands.scalar = bands.darkest = {1, 1, 1};
-    return bands;
+    world::LightTerms constant;
+    constant.term[0] = constant.darkest = {1, 1, 1};
+    return constant;
   }
   std::array<SphericalGaussian, max_light_lobes> light;
   for (std::uint32_t i = 0; i < count; ++i)
     light[i] = {vector_of(lobes[i].axis), lobes[i].sharpness, vector_of(lobes[i].amplitude)};
-  const std::span<const SphericalGaussian> all{light.data(), count};
+  const std::span<SphericalGaussian> all{light.data(), count};
   check_light_lobes(all);
-  for (const SphericalGaussian& lobe : all) {
-    Vec3 axis = lobe.axis;
-    if (turn)
-      axis = axis.x * Vec3{turn[0], turn[1], turn[2]} + axis.y * Vec3{turn[4], turn[5], turn[6]} +
-             axis.z * Vec3{turn[8], turn[9], turn[10]};
-    add_lobe(bands, axis, lobe.amplitude, bands_of(lobe.sharpness));
-  }
-  bands.darkest = darkest_of(all);
-  return bands;
+  for (SphericalGaussian& lobe : all)
+    if (const Vec3 axis = lobe.axis; turn)
+      lobe.axis = axis.x * Vec3{turn[0], turn[1], turn[2]} + axis.y * Vec3{turn[4], turn[5], turn[6]} +
+                  axis.z * Vec3{turn[8], turn[9], turn[10]};
+  return world::terms_of(all);
 }
 
 Casting::Casting(Scene* scene, nook_instance_id receiver, const nook_world_capsule* props,

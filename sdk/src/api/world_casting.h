@@ -4,8 +4,8 @@
 #include <nook/nook_world.h>
 
 #include "sdk/src/character/scene.h"
-#include "sdk/src/core/light_bands.h"
 #include "sdk/src/world/caster_parts.h"
+#include "sdk/src/world/light_terms.h"
 #include "sdk/src/world/sample.h"
 
 namespace nook::api {
@@ -20,8 +20,8 @@ void check_props(const char* descriptor, const nook_world_capsule* props, std::u
 // The light's axes are turned by `turn`, column-major with four numbers in a column, if it is not NULL.
 // Throws Failure unless the lobes are lobes; the message begins with the descriptor's name. Without lobes the
 // light is constant.
-LightBands bands_of_lobes(const char* descriptor, const nook_probe_lobe* lobes, std::uint32_t count,
-                          const float* turn = nullptr);
+world::LightTerms terms_of_lobes(const char* descriptor, const nook_probe_lobe* lobes, std::uint32_t count,
+                                 const float* turn = nullptr);
 
 // Returns the unit axis of a cone of light. Throws Failure unless it is one.
 Vec3 checked_light(const char* descriptor, const float (&axis)[3], float degrees);

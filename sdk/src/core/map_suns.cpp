@@ -51,6 +51,44 @@ void neighbours(const MapView& map, std::size_t at, Add&& add) {
     }
 }
 
+constexpr std::uint32_t no_sun = ~0u, in_no_group = no_sun - 1;
+
+struct NumberedSun {
+  MapSun sun;
+  std::uint32_t number = 0;
+};
+
+// Gives the touching texels round the first one their number. stack: room.
+NumberedSun gather_sun(const MapView& map, double limit, std::size_t first, std::size_t number,
+                       Vector<std::uint32_t>& group, Vector<std::size_t>& stack) {
+  NumberedSun found{{}, std::uint32_t(number)};
+  MapSun& sun = found.sun;
+  Vec3 direction;
+  double flux = 0, square = 0;
+  stack.assign(1, first);
+  group[first] = found.number;
+  while (!stack.empty()) {
+    const std::size_t at = stack.back();
+    stack.pop_back();
+    const MapTexel texel = map_texel(map, std::uint32_t(at % map.width), std::uint32_t(at / map.width));
+    const Vec3 light = map.texel(at) - without_sun(map.texel(at), limit);
+    const double bright = luminance(light);
+    sun.irradiance += light * float(texel.solid_angle);
+    direction += texel.direction * float(bright * texel.solid_angle);
+    sun.solid_angle += float(texel.solid_angle);
+    flux += bright * texel.solid_angle;
+    square += bright * bright * texel.solid_angle;
+    neighbours(map, at, [&](std::size_t next) {
+      if (group[next] != in_no_group) return;
+      group[next] = found.number;
+      stack.push_back(next);
+    });
+  }
+  sun.direction = normalised(direction);
+  sun.disc_solid_angle = float(flux * (flux / square));
+  return found;
+}
+
 }  // namespace
 
 double sun_limit(const MapView& map, Memory* memory) {
@@ -71,41 +109,32 @@ Vec3 without_sun(Vec3 rgb, double limit) {
   return bright > limit ? rgb * float(limit / bright) : rgb;
 }
 
-Vector<MapSun> take_suns(const MapView& map, Vector<float>& rgb, Memory* memory) {
+Vector<MapSun> take_suns(const MapView& map, Vector<float>& rgb, Memory* memory, std::size_t most) {
   const double limit = sun_limit(map, memory);
-  Vector<std::uint8_t> open(map.texel_count(), std::uint8_t(0), memory);
-  for (std::size_t i = 0; i < open.size(); ++i) open[i] = luminance(map.texel(i)) > limit;
-  Vector<MapSun> suns(memory);
+  Vector<std::uint32_t> group(map.texel_count(), no_sun, memory);
+  for (std::size_t i = 0; i < group.size(); ++i)
+    if (luminance(map.texel(i)) > limit) group[i] = in_no_group;
+  Vector<NumberedSun> found(memory);
   Vector<std::size_t> stack(memory);
-  for (std::size_t first = 0; first < open.size(); ++first) {
-    if (!open[first]) continue;
-    MapSun sun;
-    Vec3 direction;
-    stack.assign(1, first);
-    open[first] = 0;
-    while (!stack.empty()) {
-      const std::size_t at = stack.back();
-      stack.pop_back();
-      const MapTexel texel = map_texel(map, std::uint32_t(at % map.width), std::uint32_t(at / map.width));
-      const Vec3 kept = without_sun(map.texel(at), limit), light = map.texel(at) - kept;
-      rgb[3 * at] = kept.x;
-      rgb[3 * at + 1] = kept.y;
-      rgb[3 * at + 2] = kept.z;
-      sun.irradiance += light * float(texel.solid_angle);
-      direction += texel.direction * float(luminance(light) * texel.solid_angle);
-      sun.solid_angle += float(texel.solid_angle);
-      neighbours(map, at, [&](std::size_t next) {
-        if (!open[next]) return;
-        open[next] = 0;
-        stack.push_back(next);
-      });
-    }
-    sun.direction = normalised(direction);
-    suns.push_back(sun);
-  }
-  std::stable_sort(suns.begin(), suns.end(), [](const MapSun& a, const MapSun& b) {
-    return luminance(a.irradiance) > luminance(b.irradiance);
+  for (std::size_t first = 0; first < group.size(); ++first)
+    if (group[first] == in_no_group)
+      found.push_back(gather_sun(map, limit, first, found.size(), group, stack));
+  std::stable_sort(found.begin(), found.end(), [](const NumberedSun& a, const NumberedSun& b) {
+    return luminance(a.sun.irradiance) > luminance(b.sun.irradiance);
   });
+  Vector<MapSun> suns(memory);
+  Vector<std::uint8_t> taken(found.size(), std::uint8_t(0), memory);
+  for (std::size_t i = 0; i < std::min(found.size(), most); ++i) {
+    suns.push_back(found[i].sun);
+    taken[found[i].number] = 1;
+  }
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    if (group[i] == no_sun || !taken[group[i]]) continue;
+    const Vec3 kept = without_sun(map.texel(i), limit);
+    rgb[3 * i] = kept.x;
+    rgb[3 * i + 1] = kept.y;
+    rgb[3 * i + 2] = kept.z;
+  }
   return suns;
 }
 

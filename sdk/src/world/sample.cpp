@@ -21,7 +21,7 @@ struct Block {
   Vec3 centre;  // of a sphere that holds the points
   float radius = 0;
 
-  GatheredSoa bands() {
+  GatheredSoa terms() {
     GatheredSoa soa;
     for (int lane = 0; lane < GatheredSoa::lanes; ++lane) soa.lane[lane] = gathered[lane];
     return soa;
@@ -89,7 +89,7 @@ bool stands_before(const CasterGroup& group, const Block& block, const SampleReq
 void sample(const WorldKernels& kernels, const Parallel& parallel, const SampleRequest& request,
             const CasterGroups& groups, float* ao, float* light, float* rgb) noexcept {
   ConeParts parts;
-  const bool lit = request.has_light && light, coloured = request.bands && rgb;
+  const bool lit = request.has_light && light, coloured = request.terms && rgb;
   if (lit) parts = cone_parts_of(request.light_axis, request.light_half_angle_radians);
   // A capsule counts as a rectangle, whose corners reach beyond its round ends by less than a third of a
   // part.
@@ -99,7 +99,7 @@ void sample(const WorldKernels& kernels, const Parallel& parallel, const SampleR
     const std::uint32_t first = index * block_points;
     load_points(request, first, block);
     std::fill_n(block.open, block_points, 1.0f);
-    const GatheredSoa gathered = block.bands();
+    const GatheredSoa gathered = block.terms();
     if (coloured)
       for (float* const lane : gathered.lane) std::fill_n(lane, block_points, 0.0f);
     if (lit)
@@ -121,7 +121,7 @@ void sample(const WorldKernels& kernels, const Parallel& parallel, const SampleR
                             block.part[p]);
     }
     float* const channels[3] = {block.rgb[0], block.rgb[1], block.rgb[2]};
-    if (coloured) kernels.open_light(*request.bands, block.points(), gathered, block.open, channels);
+    if (coloured) kernels.open_light(*request.terms, block.points(), gathered, block.open, channels);
     for (std::uint32_t i = 0; i < block.count; ++i) {
       if (coloured)
         for (std::size_t c = 0; c < 3; ++c)

@@ -32,14 +32,14 @@ struct SampleRequest {
   const float* normals = nullptr;    // the same; of unit length
   std::uint32_t count = 0;
   std::size_t stride = 3;             // floats from point to point, of both
-  const LightBands* bands = nullptr;  // of the light whose open share colours get; NULL: none
+  const LightTerms* terms = nullptr;  // of the light whose open share colours get; NULL: none
   float cutoff_error = 0;             // AO: a group that takes less from a block of points is left out of it
   bool has_light = false;
   Vec3 light_axis;  // unit, towards the light
   float light_half_angle_radians = 0;
 };
 
-// Writes `count` values to ao, with a cone to light, and with bands three for each point to rgb; each may be
+// Writes `count` values to ao, with a cone to light, and with terms three for each point to rgb; each may be
 // NULL. A point or normal that is not finite is open. Neither allocates nor locks nor throws.
 void sample(const WorldKernels& kernels, const Parallel& parallel, const SampleRequest& request,
             const CasterGroups& groups, float* ao, float* light, float* rgb) noexcept;

@@ -19,9 +19,9 @@ struct PointSoa {
   std::uint32_t padded_count = 0;
 };
 
-// The arrays of gathered bands, in the order of GatheredBands.
+// The arrays of gathered terms, in the order of GatheredTerms.
 struct GatheredSoa {
-  static constexpr int lanes = 10;
+  static constexpr int lanes = light_term_count;
   float* lane[lanes] = {};
 };
 
@@ -32,11 +32,11 @@ struct WorldKernels {
   // open[i] *= the product over the casters of 1 - coverage.
   void (*open_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
                           float* open);
-  // The same, and adds each caster to the bands.
+  // The same, and adds each caster to the terms.
   void (*gather_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
                             float* open, const GatheredSoa& gathered);
   // Writes the open share of the light for each channel, with `open` that of AO.
-  void (*open_light)(const LightBands& bands, const PointSoa& points, const GatheredSoa& gathered,
+  void (*open_light)(const LightTerms& light, const PointSoa& points, const GatheredSoa& gathered,
                      const float* open, float* const* rgb);
   // open[i] *= the product over the casters of 1 - part_coverage, for one part of a cone.
   void (*open_part)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points, Vec3 axis,

@@ -24,9 +24,11 @@ void open_hemisphere(const PosedCaster* casters, std::uint32_t count, const worl
   }
 }
 
-GatheredBands<Float> load_gathered(const world::GatheredSoa& gathered, std::uint32_t i) {
-  const auto at = [&](int lane) { return load(gathered.lane[lane] + i); };
-  return {at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8), at(9)};
+world::GatheredTerms<Float> load_gathered(const world::GatheredSoa& gathered, std::uint32_t i) {
+  world::GatheredTerms<Float> terms;
+  for (int lane = 0; lane < world::GatheredSoa::lanes; ++lane)
+    terms.sum[lane] = load(gathered.lane[lane] + i);
+  return terms;
 }
 
 void gather_hemisphere(const PosedCaster* casters, std::uint32_t count, const world::PointSoa& points,
@@ -35,25 +37,25 @@ void gather_hemisphere(const PosedCaster* casters, std::uint32_t count, const wo
     const Float x = load(points.x + i), y = load(points.y + i), z = load(points.z + i);
     const Direction<Float> n{load(points.nx + i), load(points.ny + i), load(points.nz + i)};
     Float left = load(open + i);
-    GatheredBands<Float> sum = load_gathered(gathered, i);
+    world::GatheredTerms<Float> terms = load_gathered(gathered, i);
     for (std::uint32_t k = 0; k < count; ++k) {
       Direction<Float> phi;
       const Float share =
           world::coverage(lanes_of(casters[k], casters[k].ao_scale, x, y, z), n.x, n.y, n.z, phi);
       left = left * (Float(1.0f) - share);
-      world::gather(sum, n, phi, share);
+      world::gather(terms, n, phi, share);
     }
     store(open + i, left);
-    const Float out[] = {sum.scalar, sum.x, sum.y, sum.z, sum.xx, sum.yy, sum.zz, sum.xy, sum.yz, sum.zx};
-    for (int lane = 0; lane < world::GatheredSoa::lanes; ++lane) store(gathered.lane[lane] + i, out[lane]);
+    for (int lane = 0; lane < world::GatheredSoa::lanes; ++lane)
+      store(gathered.lane[lane] + i, terms.sum[lane]);
   }
 }
 
-void open_light(const LightBands& bands, const world::PointSoa& points, const world::GatheredSoa& gathered,
-                const float* open, float* const* rgb) {
+void open_light(const world::LightTerms& terms, const world::PointSoa& points,
+                const world::GatheredSoa& gathered, const float* open, float* const* rgb) {
   for (std::uint32_t i = 0; i < points.padded_count; i += width) {
     const Direction<Float> n{load(points.nx + i), load(points.ny + i), load(points.nz + i)};
-    const Colour<Float> light = world::open_light(load_gathered(gathered, i), bands, n, load(open + i));
+    const Colour<Float> light = world::open_light(load_gathered(gathered, i), terms, n, load(open + i));
     store(rgb[0] + i, light.r);
     store(rgb[1] + i, light.g);
     store(rgb[2] + i, light.b);

@@ -51,7 +51,26 @@ TEST_CASE("suns are found where they stand, with the light that the sky lacks") 
   CHECK(std::abs(light_of(map) - light_of(sky) - double(suns[0].irradiance.x + suns[1].irradiance.x)) <
         1e-4 * light_of(map));
   CHECK(find_suns(map, 1).size() == 1);
+  // Without the brightest alone, the other one keeps its light.
+  const Environment one = without_suns(map, 1);
+  CHECK(std::abs(light_of(map) - light_of(one) - double(suns[0].irradiance.x)) < 1e-4 * light_of(map));
+  CHECK(luminance(one.radiance(suns[1].direction)) > 900);
+  // Both are even, so that the disc has the solid angle of the texels.
+  CHECK(std::abs(suns[0].disc_solid_angle - suns[0].solid_angle) < 1e-3f * suns[0].solid_angle);
   for (std::size_t i = 0; i < sky.texel_count(); ++i) REQUIRE(luminance(sky.texel(i)) < 105);
+}
+
+TEST_CASE("glare round a sun hardly widens its disc") {
+  // Texels of 200 in a circle of 6 degrees round one of 1e6; the disc of a texel, and of little more.
+  const Vec3 towards = map_of(256, 128, [](Vec3) { return Vec3{}; }).direction(40, 60, 0.5f, 0.5f);
+  const Environment map = map_of(256, 128, [&](Vec3 d) {
+    const float cosine = dot(d, towards);
+    return Vec3{1, 1, 1} * (cosine > 0.9999f ? 1e6f : cosine > 0.9945f ? 200.0f : 1.0f);
+  });
+  const std::vector<Sun> suns = find_suns(map, 8);
+  REQUIRE(suns.size() == 1);
+  CHECK(suns[0].solid_angle > 30 * map.solid_angle(60));
+  CHECK(std::abs(suns[0].disc_solid_angle / map.solid_angle(60) - 1) < 0.05);
 }
 
 TEST_CASE("an even sky, a lamp that is broad, and no light at all have no sun") {

@@ -130,13 +130,13 @@ void check_numbers(const nook_world_frame_desc& frame) {
   check_kind("show", frame.show, NOOK_WORLD_VIEW_FAR_TESTS);
 }
 
-// The light of a coloured pass: bands in view space, the cone in world space. The view has passed its check.
+// The light of a coloured pass: lobes in view space, the cone in world space. The view has passed its check.
 void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& frame, bool coloured) {
   if (!coloured && (frame.lobe_count > 0 || frame.light_degrees != 0))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.%s needs a pass with desc.coloured 1, and this one has 0; create a coloured pass",
                   frame.lobe_count > 0 ? "lobes" : "light_degrees");
-  drawn.bands = api::bands_of_lobes("frame", frame.lobes, frame.lobe_count, frame.view);
+  drawn.light = api::terms_of_lobes("frame", frame.lobes, frame.lobe_count, frame.view);
   if (frame.light_degrees == 0) return;
   const Vec3 axis = api::checked_light("frame", frame.light_axis, frame.light_degrees);
   if (!(frame.light_reach > 0 && frame.light_reach <= max_metres))

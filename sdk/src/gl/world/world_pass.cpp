@@ -175,7 +175,7 @@ WorldPass::Stage WorldPass::make_stage(Object program) const {
   stage.counts = at("nook_world_counts");
   stage.far = at("nook_world_far");
   stage.first_far_tile = at("nook_world_first_far_tile");
-  stage.bands = at("nook_world_bands");
+  stage.light_terms = at("nook_world_light_terms");
   stage.cone = at("nook_world_cone");
   stage.light_columns = at("nook_world_light_columns");
   stage.first_light_tile = at("nook_world_first_light_tile");
@@ -380,18 +380,14 @@ void WorldPass::set_frame(const Stage& stage, const WorldFrame& frame,
 
 void WorldPass::set_light(const Stage& stage, const WorldFrame& frame) const {
   const Functions& gl = device_.gl;
-  std::array<Vec3, NOOK_LIGHT_VEC4S> light;
-  light[0] = frame.bands.scalar;
-  std::copy_n(frame.bands.vector, 3, light.begin() + 1);
-  std::copy_n(frame.bands.tensor, 6, light.begin() + 4);
-  light[10] = frame.bands.darkest;
-  std::array<float, 4 * NOOK_LIGHT_VEC4S> bands{};
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    bands[4 * i] = light[i].x;
-    bands[4 * i + 1] = light[i].y;
-    bands[4 * i + 2] = light[i].z;
+  std::array<float, 4 * NOOK_LIGHT_VEC4S> terms{};
+  for (std::size_t i = 0; i < NOOK_LIGHT_VEC4S; ++i) {
+    const Vec3 rgb = i < NOOK_LIGHT_TERMS ? frame.light.term[i] : frame.light.darkest;
+    terms[4 * i] = rgb.x;
+    terms[4 * i + 1] = rgb.y;
+    terms[4 * i + 2] = rgb.z;
   }
-  gl.Uniform4fv(stage.bands, NOOK_LIGHT_VEC4S, bands.data());
+  gl.Uniform4fv(stage.light_terms, NOOK_LIGHT_VEC4S, terms.data());
   gl.Uniform1i(stage.light_columns, static_cast<GLint>(light_columns_));
   gl.Uniform1i(stage.first_light_tile, static_cast<GLint>(first_light_tile_));
   gl.Uniform1i(stage.first_shade, static_cast<GLint>(first_shade_));

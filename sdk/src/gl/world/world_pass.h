@@ -13,12 +13,12 @@
 #include <span>
 
 #include "sdk/src/core/capsule.h"
-#include "sdk/src/core/light_bands.h"
 #include "sdk/src/gl/nnao/frame_constants.h"
 #include "sdk/src/gl/nnao/host_images.h"
 #include "sdk/src/gl/nnao/render_texture.h"
 #include "sdk/src/gl/texel_table.h"
 #include "sdk/src/world/caster_parts.h"
+#include "sdk/src/world/light_terms.h"
 #include "sdk/src/world/tile_lists.h"
 
 namespace nook::gl {
@@ -64,7 +64,7 @@ struct WorldFrame {
   nook_world_composition composition = NOOK_WORLD_PRODUCT;
   float level_error = 0;
   nook_world_view show = NOOK_WORLD_VIEW_AO;
-  LightBands bands;  // in view space; of coloured passes
+  world::LightTerms light;  // in view space; of coloured passes
   std::optional<LightCone> cone;
 };
 
@@ -94,7 +94,7 @@ class WorldPass {
           counts = -1;
     // Only coloured passes have these.
     GLint far = -1, first_far_tile = -1;  // of half resolution
-    GLint bands = -1, cone = -1, light_columns = -1, first_light_tile = -1, first_shade = -1;
+    GLint light_terms = -1, cone = -1, light_columns = -1, first_light_tile = -1, first_shade = -1;
   };
   Stage make_stage(Object program) const;
   Stage make_draw(const char* fragment, const char* defines, bool gathers = false) const;

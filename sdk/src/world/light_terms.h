@@ -1,0 +1,108 @@
+// Bands 0 to 4 of light that is a sum of lobes, as the factors of 25 harmonic polynomials, and the same of
+// densities over directions that are summed before they meet the light: the mean of the light under a density
+// round d is the sum over the bands l of A_l times the light's band at d, with A_l the density's mean of the
+// Legendre polynomial of l.
+//
+// The polynomials are spherical harmonics without their factors, which the light's terms hold. Bands 3 and 4
+// need as many lobes as have them: those of a fit by fewer lobes show the lobes' shape and not the light, so
+// that they are left out. They count by 0.8 and 0.6, which tapers the ringing at the last band.
+#pragma once
+
+#include <span>
+
+#include "sdk/src/core/light_bands.h"
+#include "shaders/world/constants.h"
+
+namespace nook::world {
+
+inline constexpr int light_band_count = 5, light_term_count = NOOK_LIGHT_TERMS;
+inline constexpr std::size_t lobes_for_all_bands = 24;
+
+// The components x, y, z are the channels red, green, blue.
+struct LightTerms {
+  Vec3 term[light_term_count];
+  Vec3 darkest;  // as that of LightBands
+};
+
+// Calls visit(index, band, value) for each polynomial at the unit vector d.
+template <class F, class Visit>
+void visit_terms(const Direction<F>& d, Visit&& visit) {
+  const F one(1.0f), three(3.0f);
+  const F xx = d.x * d.x, yy = d.y * d.y, zz = d.z * d.z;
+  const F xy = d.x * d.y, yz = d.y * d.z, zx = d.z * d.x, squares = xx - yy;
+  visit(0, 0, one);
+  visit(1, 1, d.x);
+  visit(2, 1, d.y);
+  visit(3, 1, d.z);
+  visit(4, 2, fma(three, zz, F(-1.0f)));
+  visit(5, 2, xy);
+  visit(6, 2, yz);
+  visit(7, 2, zx);
+  visit(8, 2, squares);
+  const F five = fma(F(5.0f), zz, F(-1.0f)), along_x = xx - three * yy, along_y = three * xx - yy;
+  visit(9, 3, d.y * along_y);
+  visit(10, 3, xy * d.z);
+  visit(11, 3, d.y * five);
+  visit(12, 3, d.z * (five - F(2.0f)));
+  visit(13, 3, d.x * five);
+  visit(14, 3, d.z * squares);
+  visit(15, 3, d.x * along_x);
+  const F seven = fma(F(7.0f), zz, F(-1.0f));
+  visit(16, 4, fma(zz, fma(F(35.0f), zz, F(-30.0f)), three));
+  visit(17, 4, xy * squares);
+  visit(18, 4, yz * along_y);
+  visit(19, 4, xy * seven);
+  visit(20, 4, yz * (seven - F(2.0f)));
+  visit(21, 4, zx * (seven - F(2.0f)));
+  visit(22, 4, squares * seven);
+  visit(23, 4, zx * along_x);
+  visit(24, 4, xx * along_x - yy * along_y);
+}
+
+// Sums of densities.
+template <class F>
+struct GatheredTerms {
+  F sum[light_term_count];
+
+  static GatheredTerms none() {
+    GatheredTerms terms;
+    for (F& s : terms.sum) s = F(0.0f);
+    return terms;
+  }
+  // Adds a density round the unit vector d, times `weight`.
+  void add(const Direction<F>& d, F weight, const F (&band)[light_band_count]) {
+    F scaled[light_band_count];
+    for (int l = 0; l < light_band_count; ++l) scaled[l] = weight * band[l];
+    visit_terms(d, [&](int i, int l, F value) { sum[i] = fma(scaled[l], value, sum[i]); });
+  }
+  // Returns one channel of the light under the summed densities, times the sum of weights.
+  F light(const LightTerms& light, float Vec3::*channel) const {
+    F all(0.0f);
+    for (int i = 0; i < light_term_count; ++i) all = fma(sum[i], F(light.term[i].*channel), all);
+    return all;
+  }
+};
+
+// The light of the lobes, whose axes are unit, or zero where a lobe is constant.
+inline LightTerms terms_of(std::span<const SphericalGaussian> lobes) {
+  // 4 pi times the squares of the harmonics' factors.
+  constexpr float square[light_term_count] = {1,      3,       3,         3,          1.25f,   15,     15,
+                                              15,     3.75f,   4.375f,    105,        2.625f,  1.75f,  2.625f,
+                                              26.25f, 4.375f,  9.0f / 64, 78.75f,     39.375f, 11.25f, 5.625f,
+                                              5.625f, 2.8125f, 39.375f,   315.0f / 64};
+  const bool all = lobes.size() >= lobes_for_all_bands;
+  const float taper[light_band_count] = {1, 1, 1, all ? 0.8f : 0.0f, all ? 0.6f : 0.0f};
+  LightTerms light;
+  for (const SphericalGaussian& lobe : lobes) {
+    const Vec3 mean = integral(lobe) * (1 / gaussian_integral(0.0f));
+    const std::array<float, light_band_count> band = gaussian_bands(lobe.sharpness);
+    const Vec3 d = lobe.axis;
+    visit_terms(Direction<float>{d.x, d.y, d.z}, [&](int i, int l, float value) {
+      light.term[i] += mean * (taper[l] * band[std::size_t(l)] * square[i] * value);
+    });
+  }
+  light.darkest = darkest_of(lobes);
+  return light;
+}
+
+}  // namespace nook::world
