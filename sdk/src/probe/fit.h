@@ -5,10 +5,11 @@
 // but known: the true one times the weight so far. With a the domain's area, G the Gram matrix, K = a G^-1 B
 // the dual functions at the sample, p = dot(K, B), w its weight, W the weight with it:
 //   b += w / (W + w p) K (v - R).
-// G^-1 is made once, the step costs one product with it, and no sample can make it overshoot: the residual
+// G^-1 is known once and for all, and no sample can make it overshoot: the residual
 // there shrinks by W / (W + w p). Its errors, asymptotically those of batch least squares, are measured in
-// docs/probes.md. The plain step, as published, divides by each function's own square alone: where functions
-// overlap, its slowest direction forgets the start with a power of n below 1/2.
+// docs/probes.md. In functions that are orthonormal over the domain, u = sqrt(a) L^-1 B with G = L L^T, it
+// needs no other functions (WhiteView). The plain step, as published, divides by each function's own square
+// alone: where functions overlap, its slowest direction forgets the start with a power of n below 1/2.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -52,6 +53,11 @@ constexpr bool is_running(FitMethod method) {
   return method == FitMethod::running_average || method == FitMethod::running_average_original ||
          method == FitMethod::running_average_non_negative;
 }
+
+// Weights are 1 in the mean. Up to so many samples the weight so far counts as at least their number: a first
+// sample of tiny weight and huge radiance, as a sampler by luminance draws, would otherwise be all that a
+// running average knows, and what it makes of that would not be forgotten for thousands of samples.
+inline constexpr double first_weight = 256;
 
 // Returns true if coefficients are constrained to the light's bands 0 to 2 (light_bands.h): Gaussians, except
 // for the two forms that exist for comparison.
@@ -100,39 +106,63 @@ class Fit {
 
   const Basis& basis() const { return basis_; }
   const FitSettings& settings() const { return settings_; }
-  const SampleCounts& counts() const { return counts_; }
+  SampleCounts counts() const;
 
  private:
+  // Sums, or a running average: in the fast step's own functions (WhiteView), else coefficients.
+  struct State {
+    double* sums;  // 3 x padded moments, or coefficients; count x padded Gram of the samples
+    double*
+        bands;  // 3 x band_stride moments of the harmonics, then 9 x padded of function and harmonic; or NULL
+    double* square;  // padded; of the plain step in lockstep
+  };
+  struct Gathered {
+    State state;
+    SampleCounts counts;
+  };
+
   void prepare_gram(Memory* memory);
-  std::uint32_t filter(const float* directions, const float* radiance, const float* weights,
-                       std::uint32_t count, Sample* samples);
-  void fit_samples(const Sample* samples, std::uint32_t count);
-  void step(const Sample* samples, const float* values, std::uint32_t count);
-  void sum_bands(const Sample* samples, const float* values, std::uint32_t count);
+  void prepare_whitening(float* whitening) const;
+  bool is_white() const;
+  State state_at(double* numbers) const;
+  void to_coefficients(double* sums) const;    // of a running average
+  void from_coefficients(double* sums) const;  // the same, back
+  void keep(const SampleFaults& faults, std::uint32_t count);
+  void flush();                           // samples that wait become part of the state
+  Gathered present(double* spare) const;  // the state with them, in spare; nothing else changes
+  void advance(SampleCounts& counts, std::uint32_t count) const;
+  void absorb(std::uint32_t count, State into) const;
+  void values_of(std::uint32_t count, std::uint32_t sample_stride, std::uint32_t function_stride,
+                 float* values) const;
+  void sum_samples(std::uint32_t count, const float* light, const float* harmonics, float* values,
+                   State into) const;
+  void step_white(std::uint32_t count, const float* total, float* values, State into) const;
+  void step_plainly(std::uint32_t count, const float* total, float* values, State into) const;
+  void total_weights(std::uint32_t count, float* total) const;
   void seed_bands(const Vec3* start);
-  void settle();  // changes of the running average go to double
-  LightBands light_bands() const;
+  LightBands light_bands(const Gathered& gathered) const;
   double band_weight() const;
-  void solve_moments(double* coefficients);
-  void solve_samples(double* coefficients);
-  void make_non_negative(double* coefficients);
+  void solve_moments(const Gathered& gathered, double* coefficients);
+  void solve_samples(const Gathered& gathered, double* coefficients);
+  void make_non_negative(const Gathered& gathered, double* coefficients);
 
   Basis basis_;
   FitSettings settings_;
-  SampleCounts counts_;
+  SampleCounts counts_;  // without the weights of those that wait
   const FitKernels* kernels_;
   std::uint32_t padded_;
-  double prior_weight_ = 0;      // of a seed
-  std::uint32_t unsettled_ = 0;  // samples since settle
+  double prior_weight_ = 0;    // of a seed
+  std::uint32_t waiting_ = 0;  // samples until a chunk is whole
   LobeSoa lobes_;
-  RunningView running_;
-  AlignedArray<float> floats_;    // what lobes_ and running_ point to
-  AlignedArray<double> gram_;     // of the domain, count x count
-  AlignedArray<double> factor_;   // its Cholesky factor
-  AlignedArray<double> row_sum_;  // of gram_; the naive form's denominators
-  AlignedArray<double> sums_;     // 3 x padded moments, or coefficients; count x padded Gram of the samples
-  AlignedArray<double>
-      bands_;  // 3 x band_stride moments of the harmonics, then 9 x padded of function and harmonic
+  RunningView running_;  // constants alone
+  WhiteView white_;
+  AlignedArray<SampleColumns> samples_;  // one: those that wait
+  AlignedArray<float> floats_;           // what lobes_, running_ and white_ point to
+  AlignedArray<double> gram_;            // of the domain, count x count
+  AlignedArray<double> factor_;          // its Cholesky factor
+  AlignedArray<double> row_sum_;         // of gram_; the naive form's denominators
+  AlignedArray<double> state_;
+  AlignedArray<double> spare_;    // for reading, as large
   AlignedArray<double> scratch_;  // for solving
 };
 

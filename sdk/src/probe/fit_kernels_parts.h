@@ -3,7 +3,9 @@
 
 #include <nook/nook_probe.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "sdk/src/probe/fit_kernels.h"
 #include "sdk/src/probe/fit_kernels_tables.h"
+#include "shaders/probe/constants.h"

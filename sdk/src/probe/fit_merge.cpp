@@ -16,13 +16,14 @@ void Fit::seed(Fit& short_run) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the fit has samples already; seed it before, or reset it");
   std::array<Vec3, max_functions> start;
   short_run.read(std::span(start).first(basis_.count));
+  const State state = state_at(state_.data());
   for (std::uint32_t i = 0; i < basis_.count; ++i) {
     const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};
-    for (std::size_t c = 0; c < 3; ++c) sums_[c * padded_ + i] = rgb[c];
+    for (std::size_t c = 0; c < 3; ++c) state.sums[c * padded_ + i] = rgb[c];
   }
-  prior_weight_ = short_run.counts_.weight;
-  if (bands_.size() > 0) seed_bands(start.data());
-  settle();
+  from_coefficients(state.sums);
+  prior_weight_ = short_run.counts().weight;
+  if (state.bands) seed_bands(start.data());
 }
 
 // The bands that samples of the start itself would have left.
@@ -30,12 +31,12 @@ void Fit::seed_bands(const Vec3* start) {
   std::array<double, band_functions * max_functions> function;
   project_functions(basis_, function.data());
   const double scale = prior_weight_ / domain_area(basis_.domain);
-  std::fill(bands_.begin(), bands_.end(), 0.0);
+  double* const bands = state_at(state_.data()).bands;
   for (std::size_t j = 0; j < band_functions; ++j)
     for (std::uint32_t i = 0; i < basis_.count; ++i) {
       const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};
       for (std::size_t c = 0; c < 3; ++c)
-        bands_[c * band_stride + j] += scale * function[j * basis_.count + i] * rgb[c];
+        bands[c * band_stride + j] += scale * function[j * basis_.count + i] * rgb[c];
     }
 }
 
@@ -49,38 +50,37 @@ void Fit::merge(const Fit& other) {
                   "the fits differ in basis or method; make both from equal descriptors");
   if (&other == this)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a fit cannot be merged with itself; make a second one");
+  flush();
+  const Gathered theirs = other.present(spare_.data());
+  const State mine = state_at(state_.data());
   if (is_running(settings_.method)) {
-    const double mine = counts_.weight + prior_weight_, theirs = other.counts_.weight + other.prior_weight_;
-    const double share = mine + theirs > 0 ? theirs / (mine + theirs) : 0;
-    settle();
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < padded_; ++i) {
-        const double their = other.sums_[c * padded_ + i] + double(other.running_.change[c][i]);
-        sums_[c * padded_ + i] += share * (their - sums_[c * padded_ + i]);
-      }
+    const double my_weight = counts_.weight + prior_weight_,
+                 their_weight = theirs.counts.weight + other.prior_weight_;
+    const double share = my_weight + their_weight > 0 ? their_weight / (my_weight + their_weight) : 0;
+    for (std::size_t i = 0; i < 3 * std::size_t(padded_); ++i)
+      mine.sums[i] += share * (theirs.state.sums[i] - mine.sums[i]);
     for (std::size_t i = 0; i < padded_; ++i)
-      running_.square[i] += float(share) * (other.running_.square[i] - running_.square[i]);
-    settle();
+      mine.square[i] += share * (theirs.state.square[i] - mine.square[i]);
   } else {
-    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
+    for (std::size_t i = 0; i < std::size_t(3 + basis_.count) * padded_; ++i)
+      mine.sums[i] += theirs.state.sums[i];
   }
-  for (std::size_t i = 0; i < bands_.size(); ++i) bands_[i] += other.bands_[i];
+  if (mine.bands)
+    for (std::size_t i = 0; i < 3 * std::size_t(band_stride) + std::size_t(band_functions) * padded_; ++i)
+      mine.bands[i] += theirs.state.bands[i];
   prior_weight_ += other.prior_weight_;
-  counts_.used += other.counts_.used;
-  counts_.expected_weight += other.counts_.expected_weight;
-  counts_.bad_direction += other.counts_.bad_direction;
-  counts_.bad_radiance += other.counts_.bad_radiance;
-  counts_.bad_weight += other.counts_.bad_weight;
-  counts_.weight += other.counts_.weight;
-  for (std::size_t c = 0; c < 3; ++c) counts_.radiance[c] += other.counts_.radiance[c];
+  counts_.used += theirs.counts.used;
+  counts_.expected_weight += theirs.counts.expected_weight;
+  counts_.bad_direction += theirs.counts.bad_direction;
+  counts_.bad_radiance += theirs.counts.bad_radiance;
+  counts_.bad_weight += theirs.counts.bad_weight;
+  counts_.weight += theirs.counts.weight;
+  for (std::size_t c = 0; c < 3; ++c) counts_.radiance[c] += theirs.counts.radiance[c];
 }
 
 void Fit::reset() {
-  std::fill(sums_.begin(), sums_.end(), 0.0);
-  std::fill(bands_.begin(), bands_.end(), 0.0);
-  for (float* row : {running_.change[0], running_.change[1], running_.change[2], running_.square})
-    std::fill_n(row, padded_, 0.0f);
-  settle();
+  flush();
+  std::fill(state_.begin(), state_.end(), 0.0);
   prior_weight_ = 0;
   counts_ = {};
 }

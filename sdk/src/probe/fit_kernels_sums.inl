@@ -1,0 +1,52 @@
+// Sums of products over the samples of a chunk. A part of fit_kernels_impl.inl.
+
+void weigh_rows(const SampleColumns& samples, std::uint32_t count, std::uint32_t rows, float* values) {
+  const std::uint32_t end = whole_pairs(count);
+  for (std::uint32_t k = 0; k < end; k += width) {
+    const Float root = sqrt(load(samples.weight + k));
+    for (std::uint32_t i = 0; i < rows; ++i) {
+      float* const row = values + i * sample_chunk + k;
+      store(row, load(row) * root);
+    }
+  }
+}
+
+// Left by Right sums in registers.
+template <std::uint32_t Left, std::uint32_t Right>
+void block_products(const float* left, const float* right, std::uint32_t end, double* sums,
+                    std::uint32_t stride) {
+  Float total[Right][Left];
+  for (auto& row : total)
+    for (Float& entry : row) entry = broadcast(0.0f);
+  for (std::uint32_t k = 0; k < end; k += width) {
+    Float b[Right];
+    for (std::uint32_t j = 0; j < Right; ++j) b[j] = load(right + j * sample_chunk + k);
+    for (std::uint32_t i = 0; i < Left; ++i) {
+      const Float a = load(left + i * sample_chunk + k);
+      for (std::uint32_t j = 0; j < Right; ++j) total[j][i] = fma(a, b[j], total[j][i]);
+    }
+  }
+  for (std::uint32_t j = 0; j < Right; ++j)
+    for (std::uint32_t i = 0; i < Left; ++i) sums[j * stride + i] += double(sum(total[j][i]));
+}
+
+template <std::uint32_t Right>
+void row_products(const float* left, std::uint32_t left_rows, const float* right, std::uint32_t end,
+                  double* sums, std::uint32_t stride) {
+  std::uint32_t i = 0;
+  for (; i + 4 <= left_rows; i += 4)
+    block_products<4, Right>(left + i * sample_chunk, right, end, sums + i, stride);
+  for (; i < left_rows; ++i) block_products<1, Right>(left + i * sample_chunk, right, end, sums + i, stride);
+}
+
+void sum_products(const float* left, std::uint32_t left_rows, const float* right, std::uint32_t right_rows,
+                  std::uint32_t count, bool triangle, double* sums, std::uint32_t stride) {
+  const std::uint32_t end = whole_pairs(count);
+  std::uint32_t j = 0;
+  for (; j + 3 <= right_rows; j += 3)
+    row_products<3>(left, triangle ? std::min(left_rows, (j + 6) & ~3u) : left_rows, right + j * sample_chunk,
+                    end, sums + j * stride, stride);
+  for (; j < right_rows; ++j)
+    row_products<1>(left, triangle ? j + 1 : left_rows, right + j * sample_chunk, end, sums + j * stride,
+                    stride);
+}

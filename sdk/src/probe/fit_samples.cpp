@@ -1,0 +1,240 @@
+// Samples on their way into a fit: they wait until a chunk is whole, so that neither calls nor faulty samples
+// move the places where chunks begin.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "sdk/src/probe/fit.h"
+#include "sdk/src/probe/harmonics.h"
+
+namespace nook::probe {
+namespace {
+
+using Column = float (SampleColumns::*)[SampleColumns::capacity];
+constexpr Column columns[] = {&SampleColumns::x,      &SampleColumns::y,     &SampleColumns::z,
+                              &SampleColumns::red,    &SampleColumns::green, &SampleColumns::blue,
+                              &SampleColumns::weight, &SampleColumns::growth};
+
+void move_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t count, std::uint32_t to) {
+  for (const Column column : columns) std::copy_n(samples.*column + from, count, samples.*column + to);
+}
+
+void clear_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t to) {
+  for (const Column column : columns)
+    std::fill(samples.*column + from, samples.*column + to, column == &SampleColumns::growth ? 1.0f : 0.0f);
+}
+
+// A group's records, padded as read_group needs them.
+struct LastGroup {
+  std::array<float, 3 * sample_group + 1> directions{}, radiance{};
+  std::array<float, sample_group> weights{};
+};
+
+}  // namespace
+
+void Fit::add_samples(const float* directions, const float* radiance, const float* weights,
+                      std::size_t count) {
+  const float* const up = basis_.domain == Domain::hemisphere ? &basis_.up.x : nullptr;
+  SampleColumns& samples = samples_[0];
+  while (count > sample_group) {
+    keep(kernels_->read_group(directions, radiance, weights, up, samples, waiting_), sample_group);
+    directions += 3 * sample_group;
+    radiance += 3 * sample_group;
+    if (weights) weights += sample_group;
+    count -= sample_group;
+  }
+  LastGroup last;
+  std::copy_n(directions, 3 * count, last.directions.data());
+  std::copy_n(radiance, 3 * count, last.radiance.data());
+  if (weights) std::copy_n(weights, count, last.weights.data());
+  keep(kernels_->read_group(last.directions.data(), last.radiance.data(),
+                            weights ? last.weights.data() : nullptr, up, samples, waiting_),
+       std::uint32_t(count));
+}
+
+// Closes the gaps that faulty samples leave in the last group.
+void Fit::keep(const SampleFaults& faults, std::uint32_t count) {
+  const std::uint32_t group = (1u << count) - 1;
+  const std::uint32_t directed = group & ~faults.direction, lit = directed & ~faults.radiance,
+                      good = lit & ~faults.weight, used = good & ~faults.empty;
+  counts_.bad_direction += std::uint64_t(std::popcount(group & ~directed));
+  counts_.bad_radiance += std::uint64_t(std::popcount(directed & ~lit));
+  counts_.bad_weight += std::uint64_t(std::popcount(lit & ~good));
+  SampleColumns& samples = samples_[0];
+  const bool growing = settings_.growing_samples > 0;
+  if (std::popcount(used) == int(sample_group) && !growing) {
+    counts_.used += sample_group;
+    waiting_ += sample_group;
+  } else {
+    const std::uint32_t first = waiting_;
+    for (std::uint32_t k = 0; k < sample_group; ++k) {
+      if (!(good >> k & 1)) continue;
+      ++counts_.used;
+      if (!(used >> k & 1)) continue;
+      move_samples(samples, first + k, 1, waiting_);
+      if (growing) {
+        const float growth = float(-std::expm1(-double(counts_.used) / double(settings_.growing_samples)));
+        samples.growth[waiting_] = growth;
+        samples.weight[waiting_] *= growth;
+      }
+      if (samples.weight[waiting_] > 0) ++waiting_;
+    }
+    clear_samples(samples, waiting_, first + sample_group);
+  }
+  if (waiting_ < sample_chunk) return;
+  const std::uint32_t rest = waiting_ - sample_chunk;
+  waiting_ = sample_chunk;
+  flush();
+  move_samples(samples, sample_chunk, rest, 0);
+  clear_samples(samples, sample_chunk, sample_chunk + rest);
+  waiting_ = rest;
+}
+
+void Fit::flush() {
+  absorb(waiting_, state_at(state_.data()));
+  advance(counts_, waiting_);
+  clear_samples(samples_[0], 0, waiting_);
+  waiting_ = 0;
+}
+
+Fit::Gathered Fit::present(double* spare) const {
+  std::copy(state_.begin(), state_.end(), spare);
+  const Gathered gathered{state_at(spare), counts()};
+  absorb(waiting_, gathered.state);
+  return gathered;
+}
+
+SampleCounts Fit::counts() const {
+  SampleCounts counts = counts_;
+  advance(counts, waiting_);
+  return counts;
+}
+
+void Fit::advance(SampleCounts& counts, std::uint32_t count) const {
+  const SampleColumns& samples = samples_[0];
+  std::array<double, 4> light{};
+  kernels_->sum_light(samples, count, light.data());
+  counts.weight += light[0];
+  for (std::size_t c = 0; c < 3; ++c) counts.radiance[c] += light[1 + c];
+  for (std::uint32_t k = 0; k < count && counts.expected_weight < first_weight; ++k)
+    counts.expected_weight = std::min(counts.expected_weight + double(samples.growth[k]), first_weight);
+}
+
+void Fit::total_weights(std::uint32_t count, float* total) const {
+  const SampleColumns& samples = samples_[0];
+  double weight = counts_.weight, expected = counts_.expected_weight;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    weight += double(samples.weight[k]);
+    expected = std::min(expected + double(samples.growth[k]), first_weight);
+    total[k] = float(std::max(weight, expected) + prior_weight_);
+  }
+  std::fill(total + count, total + sample_chunk, 1.0f);
+}
+
+// What the waiting samples change, but for their counts.
+void Fit::absorb(std::uint32_t count, State into) const {
+  if (count == 0) return;
+  const SampleColumns& samples = samples_[0];
+  alignas(64) std::array<float, std::size_t(sample_chunk) * max_functions> values;
+  alignas(64) std::array<float, std::size_t(sample_chunk) * band_functions> harmonics;
+  alignas(64) std::array<float, std::size_t(sample_chunk) * 3> light;
+  if (into.bands || !is_running(settings_.method)) {
+    std::copy_n(samples.red, sample_chunk, light.data());
+    std::copy_n(samples.green, sample_chunk, light.data() + sample_chunk);
+    std::copy_n(samples.blue, sample_chunk, light.data() + 2 * sample_chunk);
+    kernels_->weigh_rows(samples, count, 3, light.data());
+  }
+  if (into.bands) {
+    kernels_->harmonic_rows(samples, count, harmonics.data());
+    kernels_->weigh_rows(samples, count, band_functions, harmonics.data());
+    kernels_->sum_products(harmonics.data(), band_functions, light.data(), 3, count, false, into.bands,
+                           band_stride);
+  }
+  if (!is_running(settings_.method))
+    return sum_samples(count, light.data(), harmonics.data(), values.data(), into);
+  alignas(64) std::array<float, sample_chunk> total;
+  total_weights(count, total.data());
+  if (is_white()) return step_white(count, total.data(), values.data(), into);
+  step_plainly(count, total.data(), values.data(), into);
+}
+
+void Fit::values_of(std::uint32_t count, std::uint32_t sample_stride, std::uint32_t function_stride,
+                    float* values) const {
+  const SampleColumns& samples = samples_[0];
+  std::array<float, max_functions> at;
+  const std::uint32_t end = std::min(sample_chunk, (count + 31) & ~31u);
+  for (std::uint32_t k = 0; k < end; ++k) {
+    evaluate_basis(basis_, Vec3{samples.x[k], samples.y[k], samples.z[k]}, at.data());
+    for (std::uint32_t i = 0; i < basis_.count; ++i) values[k * sample_stride + i * function_stride] = at[i];
+  }
+}
+
+// With a Gram matrix of its samples, a fit also sums the products of every function with every harmonic, so
+// that a light which lobes make exactly leaves no noise in the bands.
+void Fit::sum_samples(std::uint32_t count, const float* light, const float* harmonics, float* values,
+                      State into) const {
+  const SampleColumns& samples = samples_[0];
+  const std::uint32_t n = basis_.count;
+  if (basis_.kind == BasisKind::gaussians)
+    kernels_->gaussian_rows(lobes_, n, samples, count, values);
+  else
+    values_of(count, 1, sample_chunk, values);
+  kernels_->weigh_rows(samples, count, n, values);
+  kernels_->sum_products(values, n, light, 3, count, false, into.sums, padded_);
+  if (settings_.method == FitMethod::least_squares ||
+      settings_.method == FitMethod::non_negative_least_squares)
+    kernels_->sum_products(values, n, values, n, count, true, into.sums + 3 * std::size_t(padded_), padded_);
+  if (has_sampled_bands(basis_, settings_))
+    kernels_->sum_products(values, n, harmonics, band_functions, count, false,
+                           into.bands + 3 * std::size_t(band_stride), padded_);
+}
+
+void Fit::step_white(std::uint32_t count, const float* total, float* values, State into) const {
+  if (basis_.kind == BasisKind::gaussians)
+    kernels_->gaussian_rows(lobes_, basis_.count, samples_[0], count, values);
+  else
+    values_of(count, 1, sample_chunk, values);
+  alignas(64) std::array<float, std::size_t(3) * max_functions> value;
+  alignas(64) std::array<float, std::size_t(4) * max_functions> change;
+  WhiteView view = white_;
+  view.change = change.data();
+  for (std::size_t c = 0; c < 3; ++c) {
+    view.value[c] = value.data() + c * max_functions;
+    for (std::size_t i = 0; i < basis_.count; ++i)
+      value[c * max_functions + i] = float(into.sums[c * padded_ + i]);
+  }
+  kernels_->step_fast(view, samples_[0], total, count, values);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < basis_.count; ++i) into.sums[c * padded_ + i] += double(change[4 * i + c]);
+}
+
+void Fit::step_plainly(std::uint32_t count, const float* total, float* values, State into) const {
+  if (basis_.kind == BasisKind::gaussians) {
+    kernels_->gaussian_values(lobes_, samples_[0], count, values);
+  } else {
+    std::fill_n(values, std::size_t(sample_chunk) * padded_, 0.0f);
+    values_of(count, padded_, 1, values);
+  }
+  alignas(64) std::array<float, std::size_t(7) * max_functions> rows{};
+  RunningView view = running_;
+  for (std::size_t c = 0; c < 3; ++c) {
+    view.value[c] = rows.data() + c * max_functions;
+    view.change[c] = rows.data() + (3 + c) * max_functions;
+    std::transform(into.sums + c * padded_, into.sums + (c + 1) * padded_, view.value[c],
+                   [](double settled) { return float(settled); });
+  }
+  view.square = rows.data() + std::size_t(6) * max_functions;
+  std::transform(into.square, into.square + padded_, view.square, [](double mean) { return float(mean); });
+  if (settings_.method == FitMethod::running_average_original)
+    kernels_->step_original(view, samples_[0], total, count, values);
+  else
+    kernels_->step_plain(view, samples_[0], total, count, values,
+                         settings_.denominator == Denominator::lockstep,
+                         settings_.method == FitMethod::running_average_non_negative);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < padded_; ++i) into.sums[c * padded_ + i] += double(view.change[c][i]);
+  std::copy_n(view.square, padded_, into.square);
+}
+
+}  // namespace nook::probe
