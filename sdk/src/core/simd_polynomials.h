@@ -1,8 +1,8 @@
 // Functions that processors lack, over a SIMD vector type F of one instruction set. F must have the
 // operations of core/simd_scalar.h and
 //   split(x, exponent, mantissa): x = mantissa * 2^exponent with mantissa in [1/sqrt(2), sqrt(2)), for normal
-//   x > 0; times_power_of_two(a, n): a * 2^n for whole n in [-126, 127]; nearest(a): a rounded to a whole
-//   number.
+//   x > 0; times_power_of_two(a, n): a * 2^n for whole n in [-126, 127], a normal and the result too;
+//   nearest(a): a rounded to a whole number.
 // The coefficients interpolate at Chebyshev nodes, which is near the best polynomial of each degree.
 #pragma once
 

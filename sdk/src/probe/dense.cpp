@@ -27,6 +27,14 @@ std::uint32_t cholesky(double* a, std::uint32_t n, double relative) {
   return n;
 }
 
+void multiply_lower(const double* l, std::uint32_t n, double* x, std::uint32_t stride) {
+  for (std::size_t i = n; i-- > 0;) {
+    double sum = 0;
+    for (std::size_t k = 0; k <= i; ++k) sum += l[i * n + k] * x[k * stride];
+    x[i * stride] = sum;
+  }
+}
+
 void cholesky_solve(const double* l, std::uint32_t n, double* x, std::uint32_t stride) {
   for (std::size_t i = 0; i < n; ++i) {
     double sum = x[i * stride];

@@ -13,6 +13,8 @@ namespace {
 constexpr float padding_sharpness = 1e4f;
 // A pivot of the Gram matrix below this share of its diagonal: coefficients would be rounding alone.
 constexpr double smallest_pivot = 1e-9;
+// Below this share, sums of floats need orthonormal functions.
+constexpr double least_plain_pivot = 0.01;
 
 void check_settings(const Basis& basis, const FitSettings& settings) {
   if (!(settings.growing_samples >= 0) || !std::isfinite(settings.growing_samples))
@@ -53,12 +55,9 @@ Fit::Fit(const Basis& basis, const FitSettings& settings, Memory* memory)
   running_.padded = padded_;
   running_.true_square = row(true_square);
   running_.inverse_mean = row(inverse_mean);
-  white_.count = n;
-  white_.whitening = row(rows);
-  std::size_t numbers = std::size_t(4 + n) * padded_;
-  if (meets_bands(basis, settings)) numbers += 3 * std::size_t(band_stride) + band_functions * padded_;
-  state_ = AlignedArray<double>(numbers, memory);
-  spare_ = AlignedArray<double>(numbers, memory);
+  whitening_ = row(rows);
+  state_ = AlignedArray<double>(state_size(), memory);
+  spare_ = AlignedArray<double>(state_size(), memory);
   samples_ = AlignedArray<SampleColumns>(1, memory);
   std::fill_n(samples_[0].growth, SampleColumns::capacity, 1.0f);
   scratch_ = AlignedArray<double>(2 * std::size_t(n) * n + 6 * std::size_t(n), memory);
@@ -89,6 +88,8 @@ void Fit::prepare_gram(Memory* memory) {
   for (std::uint32_t f = 0; f < n; ++f) {
     for (std::uint32_t k = 0; k < n; ++k) row_sum_[f] += gram[std::size_t(f) * n + k];
     if (basis_.kind == BasisKind::harmonics) row_sum_[f] = gram[std::size_t(f) * n + f];
+    const std::size_t diagonal = std::size_t(f) * n + f;
+    whitens_ |= factor_[diagonal] * factor_[diagonal] < least_plain_pivot * gram[diagonal];
   }
   prepare_whitening(constants + std::size_t(rows) * padded_);
 }
@@ -108,40 +109,23 @@ void Fit::prepare_whitening(float* whitening) const {
   }
 }
 
-bool Fit::is_white() const {
+bool Fit::is_block() const {
   return settings_.step == Step::fast && (settings_.method == FitMethod::running_average ||
                                           settings_.method == FitMethod::running_average_non_negative);
 }
 
+std::size_t Fit::state_size() const {
+  const std::size_t bands = 3 * std::size_t(band_stride) + std::size_t(band_functions) * padded_;
+  return std::size_t(7 + basis_.count) * padded_ + (meets_bands(basis_, settings_) ? bands : 0);
+}
+
 Fit::State Fit::state_at(double* numbers) const {
-  State state{numbers, nullptr, numbers + std::size_t(3 + basis_.count) * padded_};
-  if (meets_bands(basis_, settings_)) state.bands = state.square + padded_;
+  State state;
+  state.sums = numbers;
+  state.coefficients = state.sums + std::size_t(3 + basis_.count) * padded_;
+  state.square = state.coefficients + 3 * std::size_t(padded_);
+  state.bands = meets_bands(basis_, settings_) ? state.square + padded_ : nullptr;
   return state;
-}
-
-// With c those of the orthonormal functions, b = sqrt(a) L^-T c.
-void Fit::to_coefficients(double* sums) const {
-  if (!is_white()) return;
-  const std::size_t n = basis_.count;
-  const double root = std::sqrt(domain_area(basis_.domain));
-  for (std::size_t c = 0; c < 3; ++c, sums += padded_)
-    for (std::size_t i = n; i-- > 0;) {
-      double sum = sums[i] * root;
-      for (std::size_t k = i + 1; k < n; ++k) sum -= factor_[k * n + i] * sums[k];
-      sums[i] = sum / factor_[i * n + i];
-    }
-}
-
-void Fit::from_coefficients(double* sums) const {
-  if (!is_white()) return;
-  const std::size_t n = basis_.count;
-  const double root = std::sqrt(domain_area(basis_.domain));
-  for (std::size_t c = 0; c < 3; ++c, sums += padded_)
-    for (std::size_t i = 0; i < n; ++i) {
-      double sum = 0;
-      for (std::size_t k = i; k < n; ++k) sum += factor_[k * n + i] * sums[k];
-      sums[i] = sum / root;
-    }
 }
 
 }  // namespace nook::probe

@@ -1,15 +1,16 @@
 // Least-squares fits of a basis to samples of radiance while they arrive. nook_probe.h describes the methods.
 // All of them add samples, give coefficients at any time, and merge.
 //
-// The running averages' fast step is recursive least squares whose Gram matrix is not summed from the samples
-// but known: the true one times the weight so far. With a the domain's area, G the Gram matrix, K = a G^-1 B
-// the dual functions at the sample, p = dot(K, B), w its weight, W the weight with it:
-//   b += w / (W + w p) K (v - R).
-// G^-1 is known once and for all, and no sample can make it overshoot: the residual
-// there shrinks by W / (W + w p). Its errors, asymptotically those of batch least squares, are measured in
-// docs/probes.md. In functions that are orthonormal over the domain, u = sqrt(a) L^-1 B with G = L L^T, it
-// needs no other functions (WhiteView). The plain step, as published, divides by each function's own square
-// alone: where functions overlap, its slowest direction forgets the start with a power of n below 1/2.
+// The running averages' fast step is recursive least squares by blocks of samples. Of those before a block it
+// knows the coefficients b and the weight W, and takes the true Gram matrix G over the domain's area a for
+// theirs. With the block's own sums, S of products of functions and m of functions and radiance,
+//   (W G / a + S) (b' - b) = m - S b.
+// One system a block, and no sample can make it overshoot. Its errors, asymptotically those of batch least
+// squares, are measured in docs/probes.md. The plain step, as published, divides by each function's own
+// square alone: where functions overlap, its slowest direction forgets the start with a power of n below 1/2.
+//
+// Sums of a chunk are floats, whose rounding a nearly singular Gram matrix would magnify. Functions that are
+// so near to each other are summed as orthonormal ones, u = sqrt(a) L^-1 B with G = L L^T.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -109,12 +110,13 @@ class Fit {
   SampleCounts counts() const;
 
  private:
-  // Sums, or a running average: in the fast step's own functions (WhiteView), else coefficients.
+  // What samples leave. Sums over functions are over the orthonormal ones where whitens_ is set.
   struct State {
-    double* sums;  // 3 x padded moments, or coefficients; count x padded Gram of the samples
+    double* sums;          // 3 x padded moments; count x padded Gram of the samples
+    double* coefficients;  // 3 x padded, of a running average
+    double* square;        // padded; of its plain step in lockstep
     double*
         bands;  // 3 x band_stride moments of the harmonics, then 9 x padded of function and harmonic; or NULL
-    double* square;  // padded; of the plain step in lockstep
   };
   struct Gathered {
     State state;
@@ -123,22 +125,22 @@ class Fit {
 
   void prepare_gram(Memory* memory);
   void prepare_whitening(float* whitening) const;
-  bool is_white() const;
+  std::size_t state_size() const;
   State state_at(double* numbers) const;
-  void to_coefficients(double* sums) const;    // of a running average
-  void from_coefficients(double* sums) const;  // the same, back
+  bool is_block() const;  // a running average by the fast step
   void keep(const SampleFaults& faults, std::uint32_t count);
-  void flush();                           // samples that wait become part of the state
-  Gathered present(double* spare) const;  // the state with them, in spare; nothing else changes
+  void flush();                                            // samples that wait become part of the state
+  Gathered present(double* spare, double* scratch) const;  // the state with them, in spare, and blocks closed
   void advance(SampleCounts& counts, std::uint32_t count) const;
   void absorb(std::uint32_t count, State into) const;
   void values_of(std::uint32_t count, std::uint32_t sample_stride, std::uint32_t function_stride,
                  float* values) const;
-  void sum_samples(std::uint32_t count, const float* light, const float* harmonics, float* values,
-                   State into) const;
-  void step_white(std::uint32_t count, const float* total, float* values, State into) const;
-  void step_plainly(std::uint32_t count, const float* total, float* values, State into) const;
+  void sum_samples(std::uint32_t count, const float* scale, const float* light, const float* harmonics,
+                   float* values, State into) const;
+  void step_plainly(std::uint32_t count, float* values, State into) const;
   void total_weights(std::uint32_t count, float* total) const;
+  void unwhiten(State state) const;  // sums are over the functions themselves
+  void close_block(State state, const SampleCounts& counts, double* scratch) const;
   void seed_bands(const Vec3* start);
   LightBands light_bands(const Gathered& gathered) const;
   double band_weight() const;
@@ -151,13 +153,16 @@ class Fit {
   SampleCounts counts_;  // without the weights of those that wait
   const FitKernels* kernels_;
   std::uint32_t padded_;
+  bool whitens_ = false;
   double prior_weight_ = 0;    // of a seed
   std::uint32_t waiting_ = 0;  // samples until a chunk is whole
+  std::uint32_t open_ = 0;     // samples of a block so far
+  double closed_weight_ = 0;   // of the samples before it
   LobeSoa lobes_;
   RunningView running_;  // constants alone
-  WhiteView white_;
+  const float* whitening_ = nullptr;
   AlignedArray<SampleColumns> samples_;  // one: those that wait
-  AlignedArray<float> floats_;           // what lobes_, running_ and white_ point to
+  AlignedArray<float> floats_;           // what lobes_, running_ and whitening_ point to
   AlignedArray<double> gram_;            // of the domain, count x count
   AlignedArray<double> factor_;          // its Cholesky factor
   AlignedArray<double> row_sum_;         // of gram_; the naive form's denominators

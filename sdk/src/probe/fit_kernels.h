@@ -52,18 +52,10 @@ struct RunningView {
   const float* inverse_mean = nullptr;             // 1 / mean of B_i over the domain
 };
 
-// And as the fast step sees it: in functions u = W B that are orthonormal over the domain, up to its area,
-// where the dual functions are u themselves.
-struct WhiteView {
-  std::uint32_t count = 0;
-  // W, lower triangular. Four rows at a time, up to their last column: column by column, 0 where there is
-  // none.
-  const float* whitening = nullptr;
-  const float* value[3] = {nullptr, nullptr, nullptr};  // the coefficients before the chunk, a row a channel
-  float* change = nullptr;                              // by the chunk; four floats a function: RGB and 0
-};
-constexpr std::uint32_t whitening_size(std::uint32_t count) {
-  const std::uint32_t blocks = (count + 3) / 4;
+// Functions u = W B that are orthonormal over the domain, up to its area. W is lower triangular: four rows at
+// a time, up to their last column; of those column by column, 0 where there is none.
+constexpr std::uint32_t whitening_size(std::uint32_t functions) {
+  const std::uint32_t blocks = (functions + 3) / 4;
   return 8 * blocks * (blocks + 1);
 }
 
@@ -80,18 +72,20 @@ struct FitKernels {
   // sums[0] += w, sums[1 + c] += w v_c.
   void (*sum_light)(const SampleColumns& samples, std::uint32_t count, double* sums);
 
+  // The square root of each weight, and the radiance times it as three rows.
+  void (*light_rows)(const SampleColumns& samples, std::uint32_t count, float* scale, float* light);
   // Values as rows of samples, values[i * sample_chunk + sample], of `count` samples and of the rest of their
-  // group: of `functions` lobes, within 2e-6 of the exponential, relative (1e-6 times the sharpness of those
-  // above 16); and of the nine harmonics of bands 0 to 2.
+  // group, each times the sample's `scale`: of `functions` lobes, within 2e-6 of the exponential, relative
+  // (1e-7 times the sharpness of those from 16 to 80 above); and of the nine harmonics of bands 0 to 2.
   void (*gaussian_rows)(const LobeSoa& lobes, std::uint32_t functions, const SampleColumns& samples,
-                        std::uint32_t count, float* values);
-  void (*harmonic_rows)(const SampleColumns& samples, std::uint32_t count, float* values);
-  // The same of lobes, sample by sample: values[sample * padded + i], padding included.
+                        const float* scale, std::uint32_t count, float* values);
+  void (*harmonic_rows)(const SampleColumns& samples, const float* scale, std::uint32_t count, float* values);
+  // The same of lobes, sample by sample and without a scale: values[sample * padded + i], padding included.
   void (*gaussian_values)(const LobeSoa& lobes, const SampleColumns& samples, std::uint32_t count,
                           float* values);
+  // Rows of values become those of the orthonormal functions.
+  void (*whiten_rows)(const float* whitening, std::uint32_t functions, std::uint32_t count, float* values);
 
-  // Each row times the square root of the samples' weights.
-  void (*weigh_rows)(const SampleColumns& samples, std::uint32_t count, std::uint32_t rows, float* values);
   // sums[k * stride + i] += the product of row i of `left` and row k of `right`, over the samples; with
   // `triangle` for i <= k at least. Each sum of a chunk is a float, 1e-7 of the absolute sum.
   void (*sum_products)(const float* left, std::uint32_t left_rows, const float* right,
@@ -100,11 +94,6 @@ struct FitKernels {
 
   // One step of a running average for each sample in turn; R is the fit before the step, w the sample's
   // weight, W `total`: the weights up to and with it, at first not below their number.
-  // fast: c += w / (W + w p) u (v - R), p = dot(u, u); `values` are rows of samples, which become u. Blocks
-  // of eight samples take the state once: what a sample changes for the later ones of its block is the
-  // product of their u.
-  void (*step_fast)(const WhiteView& fit, const SampleColumns& samples, const float* total,
-                    std::uint32_t count, float* values);
   // plain: b_i += w / W (B_i (v - R + b_i B_i) / D_i - b_i); D_i true_square, in lockstep at least `square`.
   void (*step_plain)(const RunningView& fit, const SampleColumns& samples, const float* total,
                      std::uint32_t count, const float* values, bool lockstep, bool non_negative);

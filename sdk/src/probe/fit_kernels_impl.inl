@@ -10,7 +10,6 @@ using probe::sample_chunk;
 using probe::sample_group;
 using probe::SampleColumns;
 using probe::SampleFaults;
-using probe::WhiteView;
 
 // Samples of whole groups, two vectors at a time.
 constexpr std::uint32_t pair = 2 * width;
@@ -25,8 +24,6 @@ constexpr std::uint32_t whole_pairs(std::uint32_t count) {
 #include "sdk/src/probe/fit_kernels_values.inl"
 
 #include "sdk/src/probe/fit_kernels_sums.inl"
-
-#include "sdk/src/probe/fit_kernels_fast.inl"
 
 struct Colour {
   Float r, g, b;
@@ -107,9 +104,9 @@ void step_original(const RunningView& fit, const SampleColumns& samples, const f
   }
 }
 
-constexpr probe::FitKernels fit_table{isa,           isa_name(isa), read_group,      sum_light,
-                                      gaussian_rows, harmonic_rows, gaussian_values, weigh_rows,
-                                      sum_products,  step_fast,     step_plain,      step_original};
+constexpr probe::FitKernels fit_table{isa,         isa_name(isa), read_group,    sum_light,
+                                      light_rows,  gaussian_rows, harmonic_rows, gaussian_values,
+                                      whiten_rows, sum_products,  step_plain,    step_original};
 
 }  // namespace
 

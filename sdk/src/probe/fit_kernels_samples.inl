@@ -66,17 +66,31 @@ SampleFaults read_group(const float* directions, const float* radiance, const fl
   return faults;
 }
 
+// Of the products of two columns.
+double column_product(const float* a, const float* b, std::uint32_t count) {
+  double part[8] = {};
+  for (std::uint32_t k = 0; k < count; k += 8)
+    for (std::uint32_t lane = 0; lane < 8; ++lane) part[lane] += double(a[k + lane]) * double(b[k + lane]);
+  return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
 void sum_light(const SampleColumns& samples, std::uint32_t count, double* sums) {
-  constexpr std::uint32_t lanes = 8;
-  double part[4][lanes] = {};
-  for (std::uint32_t k = 0; k < count; k += lanes)
-    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-      const double w = double(samples.weight[k + lane]);
-      part[0][lane] += w;
-      part[1][lane] += w * double(samples.red[k + lane]);
-      part[2][lane] += w * double(samples.green[k + lane]);
-      part[3][lane] += w * double(samples.blue[k + lane]);
-    }
-  for (std::uint32_t i = 0; i < 4; ++i)
-    for (std::uint32_t lane = 0; lane < lanes; ++lane) sums[i] += part[i][lane];
+  double part[8] = {};
+  for (std::uint32_t k = 0; k < count; k += 8)
+    for (std::uint32_t lane = 0; lane < 8; ++lane) part[lane] += double(samples.weight[k + lane]);
+  for (const double lane : part) sums[0] += lane;
+  sums[1] += column_product(samples.weight, samples.red, count);
+  sums[2] += column_product(samples.weight, samples.green, count);
+  sums[3] += column_product(samples.weight, samples.blue, count);
+}
+
+void light_rows(const SampleColumns& samples, std::uint32_t count, float* scale, float* light) {
+  const std::uint32_t end = whole_pairs(count);
+  for (std::uint32_t k = 0; k < end; k += width) {
+    const Float root = sqrt(load(samples.weight + k));
+    store(scale + k, root);
+    store(light + k, load(samples.red + k) * root);
+    store(light + sample_chunk + k, load(samples.green + k) * root);
+    store(light + 2 * sample_chunk + k, load(samples.blue + k) * root);
+  }
 }

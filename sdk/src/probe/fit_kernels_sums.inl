@@ -1,14 +1,10 @@
 // Sums of products over the samples of a chunk. A part of fit_kernels_impl.inl.
 
-void weigh_rows(const SampleColumns& samples, std::uint32_t count, std::uint32_t rows, float* values) {
-  const std::uint32_t end = whole_pairs(count);
-  for (std::uint32_t k = 0; k < end; k += width) {
-    const Float root = sqrt(load(samples.weight + k));
-    for (std::uint32_t i = 0; i < rows; ++i) {
-      float* const row = values + i * sample_chunk + k;
-      store(row, load(row) * root);
-    }
-  }
+// Of the lanes of four vectors.
+Four sums_of(const Float* vectors) {
+  Four a = folded(vectors[0]), b = folded(vectors[1]), c = folded(vectors[2]), d = folded(vectors[3]);
+  transpose(a, b, c, d);
+  return (a + b) + (c + d);
 }
 
 // Left by Right sums in registers.
@@ -26,8 +22,14 @@ void block_products(const float* left, const float* right, std::uint32_t end, do
       for (std::uint32_t j = 0; j < Right; ++j) total[j][i] = fma(a, b[j], total[j][i]);
     }
   }
-  for (std::uint32_t j = 0; j < Right; ++j)
-    for (std::uint32_t i = 0; i < Left; ++i) sums[j * stride + i] += double(sum(total[j][i]));
+  for (std::uint32_t j = 0; j < Right; ++j) {
+    float sum_of[Left];
+    if constexpr (Left == 4)
+      store(sum_of, sums_of(total[j]));
+    else
+      for (std::uint32_t i = 0; i < Left; ++i) sum_of[i] = sum(total[j][i]);
+    for (std::uint32_t i = 0; i < Left; ++i) sums[j * stride + i] += double(sum_of[i]);
+  }
 }
 
 template <std::uint32_t Right>

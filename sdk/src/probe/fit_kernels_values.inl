@@ -6,7 +6,7 @@ constexpr float widest_of_distance = 16;
 
 template <bool Distance>
 void rows_of_lobes(const LobeSoa& lobes, std::uint32_t functions, const SampleColumns& samples,
-                   std::uint32_t count, float* values) {
+                   const float* scale, std::uint32_t count, float* values) {
   for (std::uint32_t i = 0; i < functions; ++i, values += sample_chunk) {
     const float sharpness = lobes.sharpness[i];
     const Float x = broadcast(lobes.x[i]), y = broadcast(lobes.y[i]), z = broadcast(lobes.z[i]);
@@ -22,28 +22,28 @@ void rows_of_lobes(const LobeSoa& lobes, std::uint32_t functions, const SampleCo
       } else {
         exponent = fma(dx, sx, fma(dy, sy, fma(dz, sz, whole)));
       }
-      store(values + k, exponential(exponent));
+      store(values + k, exponential(exponent) * load(scale + k));
     }
   }
 }
 
 void gaussian_rows(const LobeSoa& lobes, std::uint32_t functions, const SampleColumns& samples,
-                   std::uint32_t count, float* values) {
+                   const float* scale, std::uint32_t count, float* values) {
   const float sharpest = *std::max_element(lobes.sharpness, lobes.sharpness + functions);
   if (sharpest > widest_of_distance)
-    rows_of_lobes<true>(lobes, functions, samples, whole_pairs(count), values);
+    rows_of_lobes<true>(lobes, functions, samples, scale, whole_pairs(count), values);
   else
-    rows_of_lobes<false>(lobes, functions, samples, whole_pairs(count), values);
+    rows_of_lobes<false>(lobes, functions, samples, scale, whole_pairs(count), values);
 }
 
-void harmonic_rows(const SampleColumns& samples, std::uint32_t count, float* values) {
+void harmonic_rows(const SampleColumns& samples, const float* scale, std::uint32_t count, float* values) {
   const Float first = broadcast(float(NOOK_HARMONICS_1)), mixed = broadcast(float(NOOK_HARMONICS_2_MIXED)),
               squares = broadcast(float(NOOK_HARMONICS_2_SQUARES)),
               zonal = broadcast(float(3 * NOOK_HARMONICS_2_ZONAL)),
               zonal_mean = broadcast(float(-NOOK_HARMONICS_2_ZONAL));
   const std::uint32_t end = whole_pairs(count);
   const auto row = [&](std::uint32_t i, std::uint32_t k, Float value) {
-    store(values + i * sample_chunk + k, value);
+    store(values + i * sample_chunk + k, value * load(scale + k));
   };
   for (std::uint32_t k = 0; k < end; k += width) {
     const Float x = load(samples.x + k), y = load(samples.y + k), z = load(samples.z + k);
@@ -71,4 +71,32 @@ void gaussian_values(const LobeSoa& lobes, const SampleColumns& samples, std::ui
       store(values + k * lobes.padded + i, exponential(scale * apart2));
     }
   }
+}
+
+// Two vectors of samples: the functions become orthonormal ones, in place, from the last to the first,
+// which needs none of the later ones.
+void whiten(const float* whitening, std::uint32_t functions, float* values) {
+  for (std::uint32_t block = (functions + 3) / 4; block-- > 0;) {
+    const float* factor = whitening + 8 * block * (block + 1);
+    Float first[4], second[4];
+    for (std::uint32_t i = 0; i < 4; ++i) first[i] = second[i] = broadcast(0.0f);
+    const std::uint32_t end = std::min(4 * block + 4, functions);
+    for (std::uint32_t j = 0; j < end; ++j, factor += 4) {
+      const Float a = load(values + j * sample_chunk), b = load(values + j * sample_chunk + width);
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        const Float f = broadcast(factor[i]);
+        first[i] = fma(f, a, first[i]);
+        second[i] = fma(f, b, second[i]);
+      }
+    }
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      store(values + (4 * block + i) * sample_chunk, first[i]);
+      store(values + (4 * block + i) * sample_chunk + width, second[i]);
+    }
+  }
+}
+
+void whiten_rows(const float* whitening, std::uint32_t functions, std::uint32_t count, float* values) {
+  const std::uint32_t end = whole_pairs(count);
+  for (std::uint32_t k = 0; k < end; k += pair) whiten(whitening, functions, values + k);
 }

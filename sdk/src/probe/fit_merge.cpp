@@ -19,9 +19,8 @@ void Fit::seed(Fit& short_run) {
   const State state = state_at(state_.data());
   for (std::uint32_t i = 0; i < basis_.count; ++i) {
     const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};
-    for (std::size_t c = 0; c < 3; ++c) state.sums[c * padded_ + i] = rgb[c];
+    for (std::size_t c = 0; c < 3; ++c) state.coefficients[c * padded_ + i] = rgb[c];
   }
-  from_coefficients(state.sums);
   prior_weight_ = short_run.counts().weight;
   if (state.bands) seed_bands(start.data());
 }
@@ -51,14 +50,15 @@ void Fit::merge(const Fit& other) {
   if (&other == this)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a fit cannot be merged with itself; make a second one");
   flush();
-  const Gathered theirs = other.present(spare_.data());
   const State mine = state_at(state_.data());
+  if (is_block()) close_block(mine, counts_, scratch_.data());
+  const Gathered theirs = other.present(spare_.data(), scratch_.data());
   if (is_running(settings_.method)) {
     const double my_weight = counts_.weight + prior_weight_,
                  their_weight = theirs.counts.weight + other.prior_weight_;
     const double share = my_weight + their_weight > 0 ? their_weight / (my_weight + their_weight) : 0;
     for (std::size_t i = 0; i < 3 * std::size_t(padded_); ++i)
-      mine.sums[i] += share * (theirs.state.sums[i] - mine.sums[i]);
+      mine.coefficients[i] += share * (theirs.state.coefficients[i] - mine.coefficients[i]);
     for (std::size_t i = 0; i < padded_; ++i)
       mine.square[i] += share * (theirs.state.square[i] - mine.square[i]);
   } else {
@@ -75,6 +75,8 @@ void Fit::merge(const Fit& other) {
   counts_.bad_radiance += theirs.counts.bad_radiance;
   counts_.bad_weight += theirs.counts.bad_weight;
   counts_.weight += theirs.counts.weight;
+  closed_weight_ = counts_.weight;
+  open_ = 0;
   for (std::size_t c = 0; c < 3; ++c) counts_.radiance[c] += theirs.counts.radiance[c];
 }
 
@@ -82,6 +84,8 @@ void Fit::reset() {
   flush();
   std::fill(state_.begin(), state_.end(), 0.0);
   prior_weight_ = 0;
+  closed_weight_ = 0;
+  open_ = 0;
   counts_ = {};
 }
 

@@ -25,6 +25,11 @@ void clear_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t to)
     std::fill(samples.*column + from, samples.*column + to, column == &SampleColumns::growth ? 1.0f : 0.0f);
 }
 
+constexpr std::uint32_t all_of_group = (1u << sample_group) - 1;
+
+// A running average takes so many samples at once: one solution of a system then costs little for each.
+constexpr std::uint32_t block_samples = 4 * sample_chunk;
+
 // A group's records, padded as read_group needs them.
 struct LastGroup {
   std::array<float, 3 * sample_group + 1> directions{}, radiance{};
@@ -58,15 +63,15 @@ void Fit::keep(const SampleFaults& faults, std::uint32_t count) {
   const std::uint32_t group = (1u << count) - 1;
   const std::uint32_t directed = group & ~faults.direction, lit = directed & ~faults.radiance,
                       good = lit & ~faults.weight, used = good & ~faults.empty;
-  counts_.bad_direction += std::uint64_t(std::popcount(group & ~directed));
-  counts_.bad_radiance += std::uint64_t(std::popcount(directed & ~lit));
-  counts_.bad_weight += std::uint64_t(std::popcount(lit & ~good));
   SampleColumns& samples = samples_[0];
   const bool growing = settings_.growing_samples > 0;
-  if (std::popcount(used) == int(sample_group) && !growing) {
+  if (used == all_of_group && !growing) {
     counts_.used += sample_group;
     waiting_ += sample_group;
   } else {
+    counts_.bad_direction += std::uint64_t(std::popcount(group & ~directed));
+    counts_.bad_radiance += std::uint64_t(std::popcount(directed & ~lit));
+    counts_.bad_weight += std::uint64_t(std::popcount(lit & ~good));
     const std::uint32_t first = waiting_;
     for (std::uint32_t k = 0; k < sample_group; ++k) {
       if (!(good >> k & 1)) continue;
@@ -86,6 +91,11 @@ void Fit::keep(const SampleFaults& faults, std::uint32_t count) {
   const std::uint32_t rest = waiting_ - sample_chunk;
   waiting_ = sample_chunk;
   flush();
+  if (is_block() && open_ >= block_samples) {
+    close_block(state_at(state_.data()), counts_, scratch_.data());
+    closed_weight_ = counts_.weight;
+    open_ = 0;
+  }
   move_samples(samples, sample_chunk, rest, 0);
   clear_samples(samples, sample_chunk, sample_chunk + rest);
   waiting_ = rest;
@@ -95,13 +105,15 @@ void Fit::flush() {
   absorb(waiting_, state_at(state_.data()));
   advance(counts_, waiting_);
   clear_samples(samples_[0], 0, waiting_);
+  open_ += waiting_;
   waiting_ = 0;
 }
 
-Fit::Gathered Fit::present(double* spare) const {
+Fit::Gathered Fit::present(double* spare, double* scratch) const {
   std::copy(state_.begin(), state_.end(), spare);
   const Gathered gathered{state_at(spare), counts()};
   absorb(waiting_, gathered.state);
+  if (is_block()) close_block(gathered.state, gathered.counts, scratch);
   return gathered;
 }
 
@@ -139,24 +151,17 @@ void Fit::absorb(std::uint32_t count, State into) const {
   alignas(64) std::array<float, std::size_t(sample_chunk) * max_functions> values;
   alignas(64) std::array<float, std::size_t(sample_chunk) * band_functions> harmonics;
   alignas(64) std::array<float, std::size_t(sample_chunk) * 3> light;
-  if (into.bands || !is_running(settings_.method)) {
-    std::copy_n(samples.red, sample_chunk, light.data());
-    std::copy_n(samples.green, sample_chunk, light.data() + sample_chunk);
-    std::copy_n(samples.blue, sample_chunk, light.data() + 2 * sample_chunk);
-    kernels_->weigh_rows(samples, count, 3, light.data());
-  }
+  alignas(64) std::array<float, sample_chunk> scale;
+  kernels_->light_rows(samples, count, scale.data(), light.data());
   if (into.bands) {
-    kernels_->harmonic_rows(samples, count, harmonics.data());
-    kernels_->weigh_rows(samples, count, band_functions, harmonics.data());
+    kernels_->harmonic_rows(samples, scale.data(), count, harmonics.data());
     kernels_->sum_products(harmonics.data(), band_functions, light.data(), 3, count, false, into.bands,
                            band_stride);
   }
-  if (!is_running(settings_.method))
-    return sum_samples(count, light.data(), harmonics.data(), values.data(), into);
-  alignas(64) std::array<float, sample_chunk> total;
-  total_weights(count, total.data());
-  if (is_white()) return step_white(count, total.data(), values.data(), into);
-  step_plainly(count, total.data(), values.data(), into);
+  if (is_running(settings_.method) && !is_block())
+    step_plainly(count, values.data(), into);
+  else
+    sum_samples(count, scale.data(), light.data(), harmonics.data(), values.data(), into);
 }
 
 void Fit::values_of(std::uint32_t count, std::uint32_t sample_stride, std::uint32_t function_stride,
@@ -170,46 +175,32 @@ void Fit::values_of(std::uint32_t count, std::uint32_t sample_stride, std::uint3
   }
 }
 
-// With a Gram matrix of its samples, a fit also sums the products of every function with every harmonic, so
-// that a light which lobes make exactly leaves no noise in the bands.
-void Fit::sum_samples(std::uint32_t count, const float* light, const float* harmonics, float* values,
-                      State into) const {
-  const SampleColumns& samples = samples_[0];
+// With a Gram matrix of its samples, least squares also sums the products of every function with every
+// harmonic, so that a light which lobes make exactly leaves no noise in the bands.
+void Fit::sum_samples(std::uint32_t count, const float* scale, const float* light, const float* harmonics,
+                      float* values, State into) const {
   const std::uint32_t n = basis_.count;
-  if (basis_.kind == BasisKind::gaussians)
-    kernels_->gaussian_rows(lobes_, n, samples, count, values);
-  else
+  if (basis_.kind == BasisKind::gaussians) {
+    kernels_->gaussian_rows(lobes_, n, samples_[0], scale, count, values);
+  } else {
     values_of(count, 1, sample_chunk, values);
-  kernels_->weigh_rows(samples, count, n, values);
+    for (std::uint32_t i = 0; i < n; ++i)
+      for (std::uint32_t k = 0; k < sample_chunk; ++k) values[i * sample_chunk + k] *= scale[k];
+  }
+  if (whitens_) kernels_->whiten_rows(whitening_, n, count, values);
   kernels_->sum_products(values, n, light, 3, count, false, into.sums, padded_);
-  if (settings_.method == FitMethod::least_squares ||
-      settings_.method == FitMethod::non_negative_least_squares)
+  const bool solves = settings_.method == FitMethod::least_squares ||
+                      settings_.method == FitMethod::non_negative_least_squares;
+  if (solves || is_block())
     kernels_->sum_products(values, n, values, n, count, true, into.sums + 3 * std::size_t(padded_), padded_);
   if (has_sampled_bands(basis_, settings_))
     kernels_->sum_products(values, n, harmonics, band_functions, count, false,
                            into.bands + 3 * std::size_t(band_stride), padded_);
 }
 
-void Fit::step_white(std::uint32_t count, const float* total, float* values, State into) const {
-  if (basis_.kind == BasisKind::gaussians)
-    kernels_->gaussian_rows(lobes_, basis_.count, samples_[0], count, values);
-  else
-    values_of(count, 1, sample_chunk, values);
-  alignas(64) std::array<float, std::size_t(3) * max_functions> value;
-  alignas(64) std::array<float, std::size_t(4) * max_functions> change;
-  WhiteView view = white_;
-  view.change = change.data();
-  for (std::size_t c = 0; c < 3; ++c) {
-    view.value[c] = value.data() + c * max_functions;
-    for (std::size_t i = 0; i < basis_.count; ++i)
-      value[c * max_functions + i] = float(into.sums[c * padded_ + i]);
-  }
-  kernels_->step_fast(view, samples_[0], total, count, values);
-  for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t i = 0; i < basis_.count; ++i) into.sums[c * padded_ + i] += double(change[4 * i + c]);
-}
-
-void Fit::step_plainly(std::uint32_t count, const float* total, float* values, State into) const {
+void Fit::step_plainly(std::uint32_t count, float* values, State into) const {
+  alignas(64) std::array<float, sample_chunk> total;
+  total_weights(count, total.data());
   if (basis_.kind == BasisKind::gaussians) {
     kernels_->gaussian_values(lobes_, samples_[0], count, values);
   } else {
@@ -221,19 +212,19 @@ void Fit::step_plainly(std::uint32_t count, const float* total, float* values, S
   for (std::size_t c = 0; c < 3; ++c) {
     view.value[c] = rows.data() + c * max_functions;
     view.change[c] = rows.data() + (3 + c) * max_functions;
-    std::transform(into.sums + c * padded_, into.sums + (c + 1) * padded_, view.value[c],
+    std::transform(into.coefficients + c * padded_, into.coefficients + (c + 1) * padded_, view.value[c],
                    [](double settled) { return float(settled); });
   }
   view.square = rows.data() + std::size_t(6) * max_functions;
   std::transform(into.square, into.square + padded_, view.square, [](double mean) { return float(mean); });
   if (settings_.method == FitMethod::running_average_original)
-    kernels_->step_original(view, samples_[0], total, count, values);
+    kernels_->step_original(view, samples_[0], total.data(), count, values);
   else
-    kernels_->step_plain(view, samples_[0], total, count, values,
+    kernels_->step_plain(view, samples_[0], total.data(), count, values,
                          settings_.denominator == Denominator::lockstep,
                          settings_.method == FitMethod::running_average_non_negative);
   for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t i = 0; i < padded_; ++i) into.sums[c * padded_ + i] += double(view.change[c][i]);
+    for (std::size_t i = 0; i < padded_; ++i) into.coefficients[c * padded_ + i] += double(view.change[c][i]);
   std::copy_n(view.square, padded_, into.square);
 }
 

@@ -27,12 +27,11 @@ void Fit::read(std::span<Vec3> coefficients) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "function_count is not the fit's (got %zu, need %zu)",
                   coefficients.size(), n);
   std::array<double, 3 * max_functions> b{};  // function by function
-  const Gathered gathered = present(spare_.data());
-  double* const sums = gathered.state.sums;
+  const Gathered gathered = present(spare_.data(), scratch_.data());
+  if (!is_block()) unwhiten(gathered.state);
   if (is_running(settings_.method)) {
-    to_coefficients(sums);
     for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = sums[c * padded_ + i];
+      for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = gathered.state.coefficients[c * padded_ + i];
     if (settings_.method == FitMethod::running_average_non_negative)
       make_non_negative(gathered, b.data());
     else if (gathered.state.bands)

@@ -56,9 +56,11 @@ inline Four operator*(Four a, const Four& b) {
   for (int i = 0; i < 4; ++i) a.v[i] *= b.v[i];
   return a;
 }
-using nook::fma;
-inline Four fma(const Four& a, const Four& b, const Four& c) {
-  return a * b + c;
+// Returns four floats that have the sum of all lanes.
+inline Four folded(Float a) {
+  Four four(0.0f);
+  four.v[0] = a;
+  return four;
 }
 inline void transpose(Four& a, Four& b, Four& c, Four& d) {
   Four* const rows[4] = {&a, &b, &c, &d};
