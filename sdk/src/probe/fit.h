@@ -123,16 +123,24 @@ class Fit {
     SampleCounts counts;
   };
 
+  // Memory for `present`, whose owner may be another fit of the same basis and settings.
+  struct Room {
+    double* state;
+    double* solver;
+    float* values;
+  };
+
   void prepare_gram(Memory* memory);
   void prepare_whitening(float* whitening) const;
   std::size_t state_size() const;
   State state_at(double* numbers) const;
   bool is_block() const;  // a running average by the fast step
   void keep(const SampleFaults& faults, std::uint32_t count);
-  void flush();                                            // samples that wait become part of the state
-  Gathered present(double* spare, double* scratch) const;  // the state with them, in spare, and blocks closed
+  void flush();                              // samples that wait become part of the state
+  Gathered present(const Room& room) const;  // the state with them, and blocks closed
   void advance(SampleCounts& counts, std::uint32_t count) const;
-  void absorb(std::uint32_t count, State into) const;
+  void absorb(std::uint32_t count, float* values, State into) const;
+  Room room() { return {spare_.data(), scratch_.data(), values_.data()}; }
   void values_of(std::uint32_t count, std::uint32_t sample_stride, std::uint32_t function_stride,
                  float* values) const;
   void sum_samples(std::uint32_t count, const float* scale, const float* light, const float* harmonics,
@@ -141,6 +149,7 @@ class Fit {
   void total_weights(std::uint32_t count, float* total) const;
   void unwhiten(State state) const;  // sums are over the functions themselves
   void close_block(State state, const SampleCounts& counts, double* scratch) const;
+  void join(State mine, State theirs, double share) const;
   void seed_bands(const Vec3* start);
   LightBands light_bands(const Gathered& gathered) const;
   double band_weight() const;
@@ -163,6 +172,7 @@ class Fit {
   const float* whitening_ = nullptr;
   AlignedArray<SampleColumns> samples_;  // one: those that wait
   AlignedArray<float> floats_;           // what lobes_, running_ and whitening_ point to
+  AlignedArray<float> values_;           // of a chunk
   AlignedArray<double> gram_;            // of the domain, count x count
   AlignedArray<double> factor_;          // its Cholesky factor
   AlignedArray<double> row_sum_;         // of gram_; the naive form's denominators

@@ -48,7 +48,7 @@ void Fit::close_block(State state, const SampleCounts& counts, double* scratch) 
   const double before = std::max({total - weight, least_before, total * least_share_before});
   const double prior = before / domain_area(basis_.domain);
   double* const system = scratch;
-  double* const change = scratch + n * n;  // function by function, RGB
+  double* const change = scratch + n * n;
   const double* const gram = state.sums + 3 * std::size_t(padded_);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k <= i; ++k) system[i * n + k] = system[k * n + i] = gram[i * padded_ + k];
@@ -57,14 +57,14 @@ void Fit::close_block(State state, const SampleCounts& counts, double* scratch) 
     for (std::size_t i = 0; i < n; ++i) {
       double residual = state.sums[c * padded_ + i];
       for (std::size_t k = 0; k < n; ++k) residual -= system[i * n + k] * b[k];
-      change[3 * i + c] = residual;
+      change[c * n + i] = residual;
     }
   }
   for (std::size_t i = 0; i < n * n; ++i) system[i] += prior * gram_[i];
   cholesky(system, std::uint32_t(n), 0);
   for (std::size_t c = 0; c < 3; ++c) {
-    cholesky_solve(system, std::uint32_t(n), change + c, 3);
-    for (std::size_t i = 0; i < n; ++i) state.coefficients[c * padded_ + i] += change[3 * i + c];
+    cholesky_solve(system, std::uint32_t(n), change + c * n, 1);
+    for (std::size_t i = 0; i < n; ++i) state.coefficients[c * padded_ + i] += change[c * n + i];
   }
   std::fill_n(state.sums, (3 + n) * padded_, 0.0);
 }

@@ -9,12 +9,20 @@
 
 namespace nook::probe {
 
-// Samples that go through the kernels at once; a whole number of groups, which are read at once.
-inline constexpr std::uint32_t sample_chunk = 128;
-inline constexpr std::uint32_t sample_group = 16;
+// Samples that go through the kernels at once; and those that are read at once, as whole vectors.
+inline constexpr std::uint32_t sample_chunk = 256;
+inline constexpr std::uint32_t sample_group = 64;
+inline constexpr std::uint32_t sample_vector = 16;
+constexpr std::uint32_t whole_vectors(std::uint32_t samples) {
+  return (samples + sample_vector - 1) / sample_vector * sample_vector;
+}
+// What kernels work on: two vectors at a time.
+constexpr std::uint32_t whole_pairs(std::uint32_t samples) {
+  return (samples + 2 * sample_vector - 1) / (2 * sample_vector) * (2 * sample_vector);
+}
 
 // Samples in structure-of-arrays form, with room for a group that begins inside a chunk. Those beyond the
-// ones in use have weight 0 and are finite: kernels work on whole groups.
+// ones in use have weight 0 and are finite: kernels work on whole pairs of vectors.
 struct SampleColumns {
   static constexpr std::uint32_t capacity = sample_chunk + sample_group;
   float x[capacity], y[capacity], z[capacity];  // unit directions
@@ -25,10 +33,10 @@ struct SampleColumns {
 
 // One bit for each sample of a group, the first lowest.
 struct SampleFaults {
-  std::uint32_t direction = 0;  // not unit, or below the horizon
-  std::uint32_t radiance = 0;   // not finite, or beyond the bound
-  std::uint32_t weight = 0;     // negative, not finite, or beyond the bound
-  std::uint32_t empty = 0;      // the weight is 0
+  std::uint64_t direction = 0;  // not unit, or below the horizon
+  std::uint64_t radiance = 0;   // not finite, or beyond the bound
+  std::uint64_t weight = 0;     // negative, not finite, or beyond the bound
+  std::uint64_t empty = 0;      // the weight is 0
 };
 
 // Lobes in structure-of-arrays form. Padding has axis 0 and a sharpness that makes it vanish.
@@ -63,20 +71,22 @@ struct FitKernels {
   Isa isa = Isa::scalar;
   const char* name = nullptr;
 
-  // The first group of `directions` and `radiance`, three floats for each entry, and of `weights`, which may
-  // be NULL, becomes columns from `first` on; directions are made unit. Reads one float beyond the group's
-  // directions and radiance. up: of a hemisphere; NULL for the sphere. Faulty samples are columns too.
+  // `count` entries, at most a group, of `directions` and `radiance`, three floats for each, and of
+  // `weights`, which may be NULL, become columns from `first` on; directions are made unit. Reads whole
+  // vectors and one float more. up: of a hemisphere; NULL for the sphere. Faulty samples are columns too.
   SampleFaults (*read_group)(const float* directions, const float* radiance, const float* weights,
-                             const float* up, SampleColumns& samples, std::uint32_t first);
+                             const float* up, std::uint32_t count, SampleColumns& samples,
+                             std::uint32_t first);
 
-  // sums[0] += w, sums[1 + c] += w v_c.
+  // sums[0] += w, sums[1 + c] += w v_c, each by a float.
   void (*sum_light)(const SampleColumns& samples, std::uint32_t count, double* sums);
 
   // The square root of each weight, and the radiance times it as three rows.
   void (*light_rows)(const SampleColumns& samples, std::uint32_t count, float* scale, float* light);
   // Values as rows of samples, values[i * sample_chunk + sample], of `count` samples and of the rest of their
-  // group, each times the sample's `scale`: of `functions` lobes, within 2e-6 of the exponential, relative
-  // (1e-7 times the sharpness of those from 16 to 80 above); and of the nine harmonics of bands 0 to 2.
+  // pair of vectors, each times the sample's `scale`: of `functions` lobes, within 2e-6 of the exponential,
+  // relative (1e-7 times the sharpness of those from 16 to 80 above); and of the nine harmonics of bands 0
+  // to 2.
   void (*gaussian_rows)(const LobeSoa& lobes, std::uint32_t functions, const SampleColumns& samples,
                         const float* scale, std::uint32_t count, float* values);
   void (*harmonic_rows)(const SampleColumns& samples, const float* scale, std::uint32_t count, float* values);

@@ -7,17 +7,12 @@ namespace {
 using probe::LobeSoa;
 using probe::RunningView;
 using probe::sample_chunk;
-using probe::sample_group;
 using probe::SampleColumns;
 using probe::SampleFaults;
+using probe::whole_pairs;
 
-// Samples of whole groups, two vectors at a time.
 constexpr std::uint32_t pair = 2 * width;
-static_assert(sample_chunk % 32 == 0);
-constexpr std::uint32_t whole_pairs(std::uint32_t count) {
-  constexpr std::uint32_t step = pair > sample_group ? pair : sample_group;
-  return (count + step - 1) / step * step;
-}
+static_assert(probe::sample_vector % width == 0);
 
 #include "sdk/src/probe/fit_kernels_samples.inl"
 

@@ -5,8 +5,8 @@ constexpr float above_max_sample = 1.00000006e18f;    // of radiance and weight:
 constexpr float above_length_error = 2.00000033e-3f;  // of the squared length of a direction
 
 // Records of three floats become three columns. Reads a float beyond the last record.
-void split_records(const float* records, float* x, float* y, float* z) {
-  for (std::uint32_t k = 0; k < sample_group; k += 4, records += 12) {
+void split_records(const float* records, std::uint32_t count, float* x, float* y, float* z) {
+  for (std::uint32_t k = 0; k < count; k += 4, records += 12) {
     Four a = load_four(records), b = load_four(records + 3), c = load_four(records + 6),
          d = load_four(records + 9);
     transpose(a, b, c, d);
@@ -44,44 +44,46 @@ std::uint32_t make_unit(const float* up, float* px, float* py, float* pz) {
   return bad;
 }
 
+// All are split before any is checked: a load of what several smaller stores have just left would wait.
 SampleFaults read_group(const float* directions, const float* radiance, const float* weights, const float* up,
-                        SampleColumns& samples, std::uint32_t first) {
+                        std::uint32_t count, SampleColumns& samples, std::uint32_t first) {
   float *const x = samples.x + first, *const y = samples.y + first, *const z = samples.z + first;
   float *const red = samples.red + first, *const green = samples.green + first,
                *const blue = samples.blue + first, *const weight = samples.weight + first;
-  split_records(directions, x, y, z);
-  split_records(radiance, red, green, blue);
+  const std::uint32_t end = probe::whole_vectors(count);
+  split_records(directions, end, x, y, z);
+  split_records(radiance, end, red, green, blue);
   const Float zero = broadcast(0.0f), bound = broadcast(above_max_sample);
   SampleFaults faults;
-  for (std::uint32_t k = 0; k < sample_group; k += width) {
+  for (std::uint32_t k = 0; k < end; k += width) {
     const Float w = weights ? load(weights + k) : broadcast(1.0f);
     store(weight + k, w);
-    faults.direction |= make_unit(up, x + k, y + k, z + k) << k;
-    const Float r = magnitude(load(red + k)), g = magnitude(load(green + k)), b = magnitude(load(blue + k));
-    faults.radiance |= (not_below(r, bound) | not_below(g, bound) | not_below(b, bound)) << k;
+    faults.direction |= std::uint64_t(make_unit(up, x + k, y + k, z + k)) << k;
+    const std::uint32_t bad = not_below(magnitude(load(red + k)), bound) |
+                              not_below(magnitude(load(green + k)), bound) |
+                              not_below(magnitude(load(blue + k)), bound);
+    faults.radiance |= std::uint64_t(bad) << k;
     const std::uint32_t negative = std::uint32_t(bits(less(w, zero)));
-    faults.weight |= (negative | not_below(w, bound)) << k;
-    faults.empty |= not_below(zero, w) << k;
+    faults.weight |= std::uint64_t(negative | not_below(w, bound)) << k;
+    faults.empty |= std::uint64_t(not_below(zero, w)) << k;
   }
   return faults;
 }
 
-// Of the products of two columns.
-double column_product(const float* a, const float* b, std::uint32_t count) {
-  double part[8] = {};
-  for (std::uint32_t k = 0; k < count; k += 8)
-    for (std::uint32_t lane = 0; lane < 8; ++lane) part[lane] += double(a[k + lane]) * double(b[k + lane]);
-  return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-}
-
 void sum_light(const SampleColumns& samples, std::uint32_t count, double* sums) {
-  double part[8] = {};
-  for (std::uint32_t k = 0; k < count; k += 8)
-    for (std::uint32_t lane = 0; lane < 8; ++lane) part[lane] += double(samples.weight[k + lane]);
-  for (const double lane : part) sums[0] += lane;
-  sums[1] += column_product(samples.weight, samples.red, count);
-  sums[2] += column_product(samples.weight, samples.green, count);
-  sums[3] += column_product(samples.weight, samples.blue, count);
+  const std::uint32_t end = whole_pairs(count);
+  Float weight = broadcast(0.0f), red = weight, green = weight, blue = weight;
+  for (std::uint32_t k = 0; k < end; k += width) {
+    const Float w = load(samples.weight + k);
+    weight = weight + w;
+    red = fma(w, load(samples.red + k), red);
+    green = fma(w, load(samples.green + k), green);
+    blue = fma(w, load(samples.blue + k), blue);
+  }
+  sums[0] += double(sum(weight));
+  sums[1] += double(sum(red));
+  sums[2] += double(sum(green));
+  sums[3] += double(sum(blue));
 }
 
 void light_rows(const SampleColumns& samples, std::uint32_t count, float* scale, float* light) {

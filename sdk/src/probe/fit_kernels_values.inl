@@ -4,11 +4,21 @@
 // sharpness. Above, it is half of the squared distance, whose error is relative.
 constexpr float widest_of_distance = 16;
 
+constexpr float log2_of_e = 1.44269504f;
+
+template <class F>
+F two_to_the(F a) {  // a near 0 or below
+  if constexpr (std::floating_point<F>)
+    return std::exp2(a);
+  else
+    return simd::exp2_of_bounded(a);
+}
+
 template <bool Distance>
 void rows_of_lobes(const LobeSoa& lobes, std::uint32_t functions, const SampleColumns& samples,
                    const float* scale, std::uint32_t count, float* values) {
   for (std::uint32_t i = 0; i < functions; ++i, values += sample_chunk) {
-    const float sharpness = lobes.sharpness[i];
+    const float sharpness = log2_of_e * lobes.sharpness[i];
     const Float x = broadcast(lobes.x[i]), y = broadcast(lobes.y[i]), z = broadcast(lobes.z[i]);
     const Float half = broadcast(-0.5f * sharpness), whole = broadcast(-sharpness);
     const Float sx = broadcast(sharpness * lobes.x[i]), sy = broadcast(sharpness * lobes.y[i]),
@@ -22,7 +32,7 @@ void rows_of_lobes(const LobeSoa& lobes, std::uint32_t functions, const SampleCo
       } else {
         exponent = fma(dx, sx, fma(dy, sy, fma(dz, sz, whole)));
       }
-      store(values + k, exponential(exponent) * load(scale + k));
+      store(values + k, two_to_the(exponent) * load(scale + k));
     }
   }
 }

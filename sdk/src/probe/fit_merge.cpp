@@ -6,6 +6,19 @@
 #include "sdk/src/probe/fit.h"
 
 namespace nook::probe {
+namespace {
+
+void add_counts(SampleCounts& counts, const SampleCounts& more) {
+  counts.used += more.used;
+  counts.expected_weight += more.expected_weight;
+  counts.bad_direction += more.bad_direction;
+  counts.bad_radiance += more.bad_radiance;
+  counts.bad_weight += more.bad_weight;
+  counts.weight += more.weight;
+  for (std::size_t c = 0; c < 3; ++c) counts.radiance[c] += more.radiance[c];
+}
+
+}  // namespace
 
 void Fit::seed(Fit& short_run) {
   if (!(short_run.basis_ == basis_))
@@ -49,35 +62,34 @@ void Fit::merge(const Fit& other) {
                   "the fits differ in basis or method; make both from equal descriptors");
   if (&other == this)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a fit cannot be merged with itself; make a second one");
-  flush();
-  const State mine = state_at(state_.data());
-  if (is_block()) close_block(mine, counts_, scratch_.data());
-  const Gathered theirs = other.present(spare_.data(), scratch_.data());
-  if (is_running(settings_.method)) {
-    const double my_weight = counts_.weight + prior_weight_,
-                 their_weight = theirs.counts.weight + other.prior_weight_;
-    const double share = my_weight + their_weight > 0 ? their_weight / (my_weight + their_weight) : 0;
-    for (std::size_t i = 0; i < 3 * std::size_t(padded_); ++i)
-      mine.coefficients[i] += share * (theirs.state.coefficients[i] - mine.coefficients[i]);
-    for (std::size_t i = 0; i < padded_; ++i)
-      mine.square[i] += share * (theirs.state.square[i] - mine.square[i]);
-  } else {
-    for (std::size_t i = 0; i < std::size_t(3 + basis_.count) * padded_; ++i)
-      mine.sums[i] += theirs.state.sums[i];
+  const double their_weight = other.counts().weight + other.prior_weight_;
+  if (their_weight > 0) {
+    flush();
+    const State mine = state_at(state_.data());
+    if (is_block()) close_block(mine, counts_, scratch_.data());
+    const double my_weight = counts_.weight + prior_weight_;
+    join(mine, other.present(room()).state, their_weight / (my_weight + their_weight));
   }
-  if (mine.bands)
-    for (std::size_t i = 0; i < 3 * std::size_t(band_stride) + std::size_t(band_functions) * padded_; ++i)
-      mine.bands[i] += theirs.state.bands[i];
   prior_weight_ += other.prior_weight_;
-  counts_.used += theirs.counts.used;
-  counts_.expected_weight += theirs.counts.expected_weight;
-  counts_.bad_direction += theirs.counts.bad_direction;
-  counts_.bad_radiance += theirs.counts.bad_radiance;
-  counts_.bad_weight += theirs.counts.bad_weight;
-  counts_.weight += theirs.counts.weight;
-  closed_weight_ = counts_.weight;
-  open_ = 0;
-  for (std::size_t c = 0; c < 3; ++c) counts_.radiance[c] += theirs.counts.radiance[c];
+  add_counts(counts_, other.counts());
+  if (their_weight > 0) {
+    closed_weight_ = counts_.weight;
+    open_ = 0;
+  }
+}
+
+// `share` is that of theirs in a mean.
+void Fit::join(State mine, State theirs, double share) const {
+  if (is_running(settings_.method)) {
+    for (std::size_t i = 0; i < 3 * std::size_t(padded_); ++i)
+      mine.coefficients[i] += share * (theirs.coefficients[i] - mine.coefficients[i]);
+    for (std::size_t i = 0; i < padded_; ++i) mine.square[i] += share * (theirs.square[i] - mine.square[i]);
+  } else {
+    for (std::size_t i = 0; i < std::size_t(3 + basis_.count) * padded_; ++i) mine.sums[i] += theirs.sums[i];
+  }
+  if (!mine.bands) return;
+  for (std::size_t i = 0; i < 3 * std::size_t(band_stride) + std::size_t(band_functions) * padded_; ++i)
+    mine.bands[i] += theirs.bands[i];
 }
 
 void Fit::reset() {

@@ -20,21 +20,25 @@ void move_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t coun
   for (const Column column : columns) std::copy_n(samples.*column + from, count, samples.*column + to);
 }
 
+// Faulty samples may be infinite.
 void clear_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t to) {
   for (const Column column : columns)
     std::fill(samples.*column + from, samples.*column + to, column == &SampleColumns::growth ? 1.0f : 0.0f);
 }
-
-constexpr std::uint32_t all_of_group = (1u << sample_group) - 1;
 
 // A running average takes so many samples at once: one solution of a system then costs little for each.
 constexpr std::uint32_t block_samples = 4 * sample_chunk;
 
 // A group's records, padded as read_group needs them.
 struct LastGroup {
-  std::array<float, 3 * sample_group + 1> directions{}, radiance{};
-  std::array<float, sample_group> weights{};
+  std::array<float, 3 * sample_group + 1> directions, radiance;
+  std::array<float, sample_group> weights;
 };
+
+void copy_padded(const float* from, std::size_t count, float* to, std::size_t padded) {
+  std::copy_n(from, count, to);
+  std::fill(to + count, to + padded, 0.0f);
+}
 
 }  // namespace
 
@@ -43,29 +47,33 @@ void Fit::add_samples(const float* directions, const float* radiance, const floa
   const float* const up = basis_.domain == Domain::hemisphere ? &basis_.up.x : nullptr;
   SampleColumns& samples = samples_[0];
   while (count > sample_group) {
-    keep(kernels_->read_group(directions, radiance, weights, up, samples, waiting_), sample_group);
+    keep(kernels_->read_group(directions, radiance, weights, up, sample_group, samples, waiting_),
+         sample_group);
     directions += 3 * sample_group;
     radiance += 3 * sample_group;
     if (weights) weights += sample_group;
     count -= sample_group;
   }
   LastGroup last;
-  std::copy_n(directions, 3 * count, last.directions.data());
-  std::copy_n(radiance, 3 * count, last.radiance.data());
-  if (weights) std::copy_n(weights, count, last.weights.data());
+  const auto rest = std::uint32_t(count);
+  const std::size_t whole = whole_vectors(rest);
+  copy_padded(directions, 3 * count, last.directions.data(), 3 * whole + 1);
+  copy_padded(radiance, 3 * count, last.radiance.data(), 3 * whole + 1);
+  if (weights) copy_padded(weights, count, last.weights.data(), whole);
   keep(kernels_->read_group(last.directions.data(), last.radiance.data(),
-                            weights ? last.weights.data() : nullptr, up, samples, waiting_),
-       std::uint32_t(count));
+                            weights ? last.weights.data() : nullptr, up, rest, samples, waiting_),
+       rest);
 }
 
 // Closes the gaps that faulty samples leave in the last group.
 void Fit::keep(const SampleFaults& faults, std::uint32_t count) {
-  const std::uint32_t group = (1u << count) - 1;
-  const std::uint32_t directed = group & ~faults.direction, lit = directed & ~faults.radiance,
+  if (count == 0) return;
+  const std::uint64_t group = ~std::uint64_t(0) >> (sample_group - count);
+  const std::uint64_t directed = group & ~faults.direction, lit = directed & ~faults.radiance,
                       good = lit & ~faults.weight, used = good & ~faults.empty;
   SampleColumns& samples = samples_[0];
   const bool growing = settings_.growing_samples > 0;
-  if (used == all_of_group && !growing) {
+  if (used == ~std::uint64_t(0) && !growing) {
     counts_.used += sample_group;
     waiting_ += sample_group;
   } else {
@@ -73,7 +81,7 @@ void Fit::keep(const SampleFaults& faults, std::uint32_t count) {
     counts_.bad_radiance += std::uint64_t(std::popcount(directed & ~lit));
     counts_.bad_weight += std::uint64_t(std::popcount(lit & ~good));
     const std::uint32_t first = waiting_;
-    for (std::uint32_t k = 0; k < sample_group; ++k) {
+    for (std::uint32_t k = 0; k < count; ++k) {
       if (!(good >> k & 1)) continue;
       ++counts_.used;
       if (!(used >> k & 1)) continue;
@@ -85,7 +93,7 @@ void Fit::keep(const SampleFaults& faults, std::uint32_t count) {
       }
       if (samples.weight[waiting_] > 0) ++waiting_;
     }
-    clear_samples(samples, waiting_, first + sample_group);
+    clear_samples(samples, waiting_, first + whole_vectors(count));
   }
   if (waiting_ < sample_chunk) return;
   const std::uint32_t rest = waiting_ - sample_chunk;
@@ -97,23 +105,24 @@ void Fit::keep(const SampleFaults& faults, std::uint32_t count) {
     open_ = 0;
   }
   move_samples(samples, sample_chunk, rest, 0);
-  clear_samples(samples, sample_chunk, sample_chunk + rest);
+  std::fill_n(samples.weight + sample_chunk, rest, 0.0f);
   waiting_ = rest;
 }
 
 void Fit::flush() {
-  absorb(waiting_, state_at(state_.data()));
+  absorb(waiting_, values_.data(), state_at(state_.data()));
   advance(counts_, waiting_);
-  clear_samples(samples_[0], 0, waiting_);
+  std::fill_n(samples_[0].weight, waiting_, 0.0f);
   open_ += waiting_;
   waiting_ = 0;
 }
 
-Fit::Gathered Fit::present(double* spare, double* scratch) const {
+Fit::Gathered Fit::present(const Room& room) const {
+  double* const spare = room.state;
   std::copy(state_.begin(), state_.end(), spare);
   const Gathered gathered{state_at(spare), counts()};
-  absorb(waiting_, gathered.state);
-  if (is_block()) close_block(gathered.state, gathered.counts, scratch);
+  absorb(waiting_, room.values, gathered.state);
+  if (is_block()) close_block(gathered.state, gathered.counts, room.solver);
   return gathered;
 }
 
@@ -145,10 +154,9 @@ void Fit::total_weights(std::uint32_t count, float* total) const {
 }
 
 // What the waiting samples change, but for their counts.
-void Fit::absorb(std::uint32_t count, State into) const {
+void Fit::absorb(std::uint32_t count, float* values, State into) const {
   if (count == 0) return;
   const SampleColumns& samples = samples_[0];
-  alignas(64) std::array<float, std::size_t(sample_chunk) * max_functions> values;
   alignas(64) std::array<float, std::size_t(sample_chunk) * band_functions> harmonics;
   alignas(64) std::array<float, std::size_t(sample_chunk) * 3> light;
   alignas(64) std::array<float, sample_chunk> scale;
@@ -159,16 +167,16 @@ void Fit::absorb(std::uint32_t count, State into) const {
                            band_stride);
   }
   if (is_running(settings_.method) && !is_block())
-    step_plainly(count, values.data(), into);
+    step_plainly(count, values, into);
   else
-    sum_samples(count, scale.data(), light.data(), harmonics.data(), values.data(), into);
+    sum_samples(count, scale.data(), light.data(), harmonics.data(), values, into);
 }
 
 void Fit::values_of(std::uint32_t count, std::uint32_t sample_stride, std::uint32_t function_stride,
                     float* values) const {
   const SampleColumns& samples = samples_[0];
   std::array<float, max_functions> at;
-  const std::uint32_t end = std::min(sample_chunk, (count + 31) & ~31u);
+  const std::uint32_t end = whole_pairs(count);
   for (std::uint32_t k = 0; k < end; ++k) {
     evaluate_basis(basis_, Vec3{samples.x[k], samples.y[k], samples.z[k]}, at.data());
     for (std::uint32_t i = 0; i < basis_.count; ++i) values[k * sample_stride + i * function_stride] = at[i];
@@ -185,7 +193,7 @@ void Fit::sum_samples(std::uint32_t count, const float* scale, const float* ligh
   } else {
     values_of(count, 1, sample_chunk, values);
     for (std::uint32_t i = 0; i < n; ++i)
-      for (std::uint32_t k = 0; k < sample_chunk; ++k) values[i * sample_chunk + k] *= scale[k];
+      for (std::uint32_t k = 0; k < whole_pairs(count); ++k) values[i * sample_chunk + k] *= scale[k];
   }
   if (whitens_) kernels_->whiten_rows(whitening_, n, count, values);
   kernels_->sum_products(values, n, light, 3, count, false, into.sums, padded_);
