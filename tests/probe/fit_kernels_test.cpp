@@ -20,23 +20,29 @@ TEST_CASE("values of lobes in every instruction set") {
                     sharpness[16] = {6, 1e4f, 0.3f};
   for (int i = 3; i < 16; ++i) sharpness[i] = 1e4f;
   const LobeSoa lobes{x, y, z, sharpness, 16};
-  std::vector<Sample> samples;
+  constexpr std::uint32_t count = 37;
+  SampleColumns samples{};
   test::Directions directions(5);
-  for (int i = 0; i < 37; ++i) {
-    const Vec3 d = i == 0 ? Vec3{0, 0, 1} : directions.next();
-    samples.push_back({{d.x, d.y, d.z}, 1, {}, 1});
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const Vec3 d = k == 0 ? Vec3{0, 0, 1} : directions.next();
+    samples.x[k] = d.x;
+    samples.y[k] = d.y;
+    samples.z[k] = d.z;
   }
   for (const Isa isa : all_isas) {
     const FitKernels* kernels = fit_kernels(isa);
     if (!kernels) continue;
-    std::vector<float> values(samples.size() * 16);
-    kernels->gaussian_values(lobes, samples.data(), std::uint32_t(samples.size()), values.data());
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      const float* d = samples[k].direction;
+    std::vector<float> values(std::size_t(count) * 16), rows(std::size_t(sample_chunk) * 3),
+        twos(sample_chunk, 2.0f);
+    kernels->gaussian_values(lobes, samples, count, values.data());
+    kernels->gaussian_rows(lobes, 3, samples, twos.data(), count, rows.data());
+    for (std::size_t k = 0; k < count; ++k) {
       for (std::size_t i = 0; i < 3; ++i) {
-        const float truth = gaussian_value({x[i], y[i], z[i]}, sharpness[i], {d[0], d[1], d[2]});
+        const float truth =
+            gaussian_value({x[i], y[i], z[i]}, sharpness[i], {samples.x[k], samples.y[k], samples.z[k]});
         // 2e-7 of the exponential; rounding of its argument, up to 80, 6e-8 each.
         REQUIRE(std::abs(values[k * 16 + i] - truth) <= 6e-6f * truth + 2e-38f);
+        REQUIRE(std::abs(0.5f * rows[i * sample_chunk + k] - truth) <= 6e-6f * truth + 2e-38f);
       }
       for (std::size_t i = 3; i < 16; ++i) REQUIRE(values[k * 16 + i] < 1e-30f);  // padding
     }

@@ -1,8 +1,8 @@
 // Functions that processors lack, over a SIMD vector type F of one instruction set. F must have the
 // operations of core/simd_scalar.h and
 //   split(x, exponent, mantissa): x = mantissa * 2^exponent with mantissa in [1/sqrt(2), sqrt(2)), for normal
-//   x > 0; times_power_of_two(a, n): a * 2^n for whole n in [-126, 127]; nearest(a): a rounded to a whole
-//   number.
+//   x > 0; times_power_of_two(a, n): a * 2^n for whole n in [-126, 127], a normal and the result too;
+//   nearest(a): a rounded to a whole number.
 // The coefficients interpolate at Chebyshev nodes, which is near the best polynomial of each degree.
 #pragma once
 
@@ -24,11 +24,11 @@ F log2_of(F a) {
   return fma(p, f, exponent);
 }
 
-// The relative error is at most 1e-7 plus rounding. The result stays normal: 2^-126 for anything smaller,
-// 2^127 for anything larger.
+// For a <= 127. The relative error is at most 1e-7 plus rounding. The result stays normal: 2^-126 for
+// anything smaller.
 template <class F>
-F exp2_of(F a) {
-  const F x = min(max(a, F(-126.0f)), F(127.0f));
+F exp2_of_bounded(F a) {
+  const F x = max(a, F(-126.0f));
   const F whole = nearest(x);
   const F f = x - whole;
   F p = F(0.00133908634f);
@@ -38,6 +38,12 @@ F exp2_of(F a) {
   p = fma(p, f, F(0.693147188f));
   p = fma(p, f, F(1.0f));
   return times_power_of_two(p, whole);
+}
+
+// The same for any a; 2^127 for anything larger.
+template <class F>
+F exp2_of(F a) {
+  return exp2_of_bounded(min(a, F(127.0f)));
 }
 
 // The relative error is at most 1e-5 for base in [1e-6, 1e3] and exponent in (0, 4]: it is the error of the

@@ -8,35 +8,40 @@
 
 namespace nook::probe {
 
+// Column by column, each of which the rows below subtract at once: their sums do not wait for each other.
 std::uint32_t cholesky(double* a, std::uint32_t n, double relative) {
-  for (std::size_t i = 0; i < n; ++i) {
-    double* row = a + i * n;
-    const double diagonal = row[i];
-    for (std::size_t k = 0; k <= i; ++k) {
-      const double* other = a + k * n;
-      double sum = row[k];
-      for (std::size_t j = 0; j < k; ++j) sum -= row[j] * other[j];
-      if (k < i)
-        row[k] = sum / other[k];
-      else if (!(sum > relative * diagonal))
-        return std::uint32_t(i);
-      else
-        row[i] = std::sqrt(sum);
+  std::array<double, max_functions> diagonal, column;
+  for (std::size_t i = 0; i < n; ++i) diagonal[i] = a[i * n + i];
+  for (std::size_t k = 0; k < n; ++k) {
+    const double pivot = a[k * n + k];
+    if (!(pivot > relative * diagonal[k])) return std::uint32_t(k);
+    a[k * n + k] = std::sqrt(pivot);
+    const double inverse = 1 / a[k * n + k];
+    for (std::size_t i = k + 1; i < n; ++i) column[i] = a[i * n + k] *= inverse;
+    for (std::size_t i = k + 1; i < n; ++i) {
+      double* const row = a + i * n;
+      for (std::size_t j = k + 1; j <= i; ++j) row[j] -= column[i] * column[j];
     }
   }
   return n;
 }
 
-void cholesky_solve(const double* l, std::uint32_t n, double* x, std::uint32_t stride) {
-  for (std::size_t i = 0; i < n; ++i) {
-    double sum = x[i * stride];
-    for (std::size_t k = 0; k < i; ++k) sum -= l[i * n + k] * x[k * stride];
-    x[i * stride] = sum / l[i * n + i];
-  }
+void multiply_lower(const double* l, std::uint32_t n, double* x, std::uint32_t stride) {
   for (std::size_t i = n; i-- > 0;) {
-    double sum = x[i * stride];
-    for (std::size_t k = i + 1; k < n; ++k) sum -= l[k * n + i] * x[k * stride];
-    x[i * stride] = sum / l[i * n + i];
+    double sum = 0;
+    for (std::size_t k = 0; k <= i; ++k) sum += l[i * n + k] * x[k * stride];
+    x[i * stride] = sum;
+  }
+}
+
+void cholesky_solve(const double* l, std::uint32_t n, double* x, std::uint32_t stride) {
+  for (std::size_t k = 0; k < n; ++k) {
+    const double solved = x[k * stride] /= l[k * n + k];
+    for (std::size_t i = k + 1; i < n; ++i) x[i * stride] -= l[i * n + k] * solved;
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    const double solved = x[k * stride] /= l[k * n + k];
+    for (std::size_t i = 0; i < k; ++i) x[i * stride] -= l[k * n + i] * solved;
   }
 }
 

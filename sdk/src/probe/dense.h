@@ -9,6 +9,9 @@ namespace nook::probe {
 // first row whose pivot falls below `relative` of its diagonal: that row depends on the ones before it.
 std::uint32_t cholesky(double* a, std::uint32_t n, double relative);
 
+// x becomes L x, in place; element i of x lies at x[i * stride].
+void multiply_lower(const double* l, std::uint32_t n, double* x, std::uint32_t stride);
+
 // x of L L^T x = b, in place; element i of x lies at x[i * stride].
 void cholesky_solve(const double* l, std::uint32_t n, double* x, std::uint32_t stride);
 

@@ -1,14 +1,16 @@
 // Least-squares fits of a basis to samples of radiance while they arrive. nook_probe.h describes the methods.
 // All of them add samples, give coefficients at any time, and merge.
 //
-// The running averages' fast step is recursive least squares whose Gram matrix is not summed from the samples
-// but known: the true one times the weight so far. With a the domain's area, G the Gram matrix, K = a G^-1 B
-// the dual functions at the sample, p = dot(K, B), w its weight, W the weight with it:
-//   b += w / (W + w p) K (v - R).
-// G^-1 is made once, the step costs one product with it, and no sample can make it overshoot: the residual
-// there shrinks by W / (W + w p). Its errors, asymptotically those of batch least squares, are measured in
-// docs/probes.md. The plain step, as published, divides by each function's own square alone: where functions
-// overlap, its slowest direction forgets the start with a power of n below 1/2.
+// The running averages' fast step is recursive least squares by blocks of samples. Of those before a block it
+// knows the coefficients b and the weight W, and takes the true Gram matrix G over the domain's area a for
+// theirs. With the block's own sums, S of products of functions and m of functions and radiance,
+//   (W G / a + S) (b' - b) = m - S b.
+// One system a block, and no sample can make it overshoot. Its errors, asymptotically those of batch least
+// squares, are measured in docs/probes.md. The plain step, as published, divides by each function's own
+// square alone: where functions overlap, its slowest direction forgets the start with a power of n below 1/2.
+//
+// Sums of a chunk are floats, whose rounding a nearly singular Gram matrix would magnify. Functions that are
+// so near to each other are summed as orthonormal ones, u = sqrt(a) L^-1 B with G = L L^T.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -52,6 +54,11 @@ constexpr bool is_running(FitMethod method) {
   return method == FitMethod::running_average || method == FitMethod::running_average_original ||
          method == FitMethod::running_average_non_negative;
 }
+
+// Weights are 1 in the mean. Up to so many samples the weight so far counts as at least their number: a first
+// sample of tiny weight and huge radiance, as a sampler by luminance draws, would otherwise be all that a
+// running average knows, and what it makes of that would not be forgotten for thousands of samples.
+inline constexpr double first_weight = 256;
 
 // Returns true if coefficients are constrained to the light's bands 0 to 2 (light_bands.h): Gaussians, except
 // for the two forms that exist for comparison.
@@ -100,39 +107,77 @@ class Fit {
 
   const Basis& basis() const { return basis_; }
   const FitSettings& settings() const { return settings_; }
-  const SampleCounts& counts() const { return counts_; }
+  SampleCounts counts() const;
 
  private:
+  // What samples leave. Sums over functions are over the orthonormal ones where whitens_ is set.
+  struct State {
+    double* sums;          // 3 x padded moments; count x padded Gram of the samples
+    double* coefficients;  // 3 x padded, of a running average
+    double* square;        // padded; of its plain step in lockstep
+    double*
+        bands;  // 3 x band_stride moments of the harmonics, then 9 x padded of function and harmonic; or NULL
+  };
+  struct Gathered {
+    State state;
+    SampleCounts counts;
+  };
+
+  // Memory for `present`, whose owner may be another fit of the same basis and settings.
+  struct Room {
+    double* state;
+    double* solver;
+    float* values;
+  };
+
   void prepare_gram(Memory* memory);
-  std::uint32_t filter(const float* directions, const float* radiance, const float* weights,
-                       std::uint32_t count, Sample* samples);
-  void fit_samples(const Sample* samples, std::uint32_t count);
-  void step(const Sample* samples, const float* values, std::uint32_t count);
-  void sum_bands(const Sample* samples, const float* values, std::uint32_t count);
+  void prepare_whitening(float* whitening) const;
+  std::size_t state_size() const;
+  State state_at(double* numbers) const;
+  bool is_block() const;  // a running average by the fast step
+  void keep(const SampleFaults& faults, std::uint32_t count);
+  void flush();                              // samples that wait become part of the state
+  Gathered present(const Room& room) const;  // the state with them, and blocks closed
+  void advance(SampleCounts& counts, std::uint32_t count) const;
+  void absorb(std::uint32_t count, float* values, State into) const;
+  Room room() { return {spare_.data(), scratch_.data(), values_.data()}; }
+  void values_of(std::uint32_t count, std::uint32_t sample_stride, std::uint32_t function_stride,
+                 float* values) const;
+  void sum_samples(std::uint32_t count, const float* scale, const float* light, const float* harmonics,
+                   float* values, State into) const;
+  void step_plainly(std::uint32_t count, float* values, State into) const;
+  void total_weights(std::uint32_t count, float* total) const;
+  void unwhiten(State state) const;  // sums are over the functions themselves
+  void close_block(State state, const SampleCounts& counts, double* scratch) const;
+  void join(State mine, State theirs, double share) const;
   void seed_bands(const Vec3* start);
-  void settle();  // changes of the running average go to double
-  LightBands light_bands() const;
+  LightBands light_bands(const Gathered& gathered) const;
   double band_weight() const;
-  void solve_moments(double* coefficients);
-  void solve_samples(double* coefficients);
-  void make_non_negative(double* coefficients);
+  void solve_moments(const Gathered& gathered, double* coefficients);
+  void solve_samples(const Gathered& gathered, double* coefficients);
+  void make_non_negative(const Gathered& gathered, double* coefficients);
 
   Basis basis_;
   FitSettings settings_;
-  SampleCounts counts_;
+  SampleCounts counts_;  // without the weights of those that wait
   const FitKernels* kernels_;
   std::uint32_t padded_;
-  double prior_weight_ = 0;      // of a seed
-  std::uint32_t unsettled_ = 0;  // samples since settle
+  bool whitens_ = false;
+  double prior_weight_ = 0;    // of a seed
+  std::uint32_t waiting_ = 0;  // samples until a chunk is whole
+  std::uint32_t open_ = 0;     // samples of a block so far
+  double closed_weight_ = 0;   // of the samples before it
   LobeSoa lobes_;
-  RunningView running_;
-  AlignedArray<float> floats_;    // what lobes_ and running_ point to
-  AlignedArray<double> gram_;     // of the domain, count x count
-  AlignedArray<double> factor_;   // its Cholesky factor
-  AlignedArray<double> row_sum_;  // of gram_; the naive form's denominators
-  AlignedArray<double> sums_;     // 3 x padded moments, or coefficients; count x padded Gram of the samples
-  AlignedArray<double>
-      bands_;  // 3 x band_stride moments of the harmonics, then 9 x padded of function and harmonic
+  RunningView running_;  // constants alone
+  const float* whitening_ = nullptr;
+  AlignedArray<SampleColumns> samples_;  // one: those that wait
+  AlignedArray<float> floats_;           // what lobes_, running_ and whitening_ point to
+  AlignedArray<float> values_;           // of a chunk
+  AlignedArray<double> gram_;            // of the domain, count x count
+  AlignedArray<double> factor_;          // its Cholesky factor
+  AlignedArray<double> row_sum_;         // of gram_; the naive form's denominators
+  AlignedArray<double> state_;
+  AlignedArray<double> spare_;    // for reading, as large
   AlignedArray<double> scratch_;  // for solving
 };
 

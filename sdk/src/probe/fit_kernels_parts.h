@@ -3,7 +3,13 @@
 
 #include <nook/nook_probe.h>
 
+#include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <cstdint>
 
+#include "sdk/src/core/compiler.h"
+#include "sdk/src/core/simd_polynomials.h"
 #include "sdk/src/probe/fit_kernels.h"
 #include "sdk/src/probe/fit_kernels_tables.h"
+#include "shaders/probe/constants.h"

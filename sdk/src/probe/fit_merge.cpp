@@ -6,6 +6,19 @@
 #include "sdk/src/probe/fit.h"
 
 namespace nook::probe {
+namespace {
+
+void add_counts(SampleCounts& counts, const SampleCounts& more) {
+  counts.used += more.used;
+  counts.expected_weight += more.expected_weight;
+  counts.bad_direction += more.bad_direction;
+  counts.bad_radiance += more.bad_radiance;
+  counts.bad_weight += more.bad_weight;
+  counts.weight += more.weight;
+  for (std::size_t c = 0; c < 3; ++c) counts.radiance[c] += more.radiance[c];
+}
+
+}  // namespace
 
 void Fit::seed(Fit& short_run) {
   if (!(short_run.basis_ == basis_))
@@ -16,13 +29,13 @@ void Fit::seed(Fit& short_run) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the fit has samples already; seed it before, or reset it");
   std::array<Vec3, max_functions> start;
   short_run.read(std::span(start).first(basis_.count));
+  const State state = state_at(state_.data());
   for (std::uint32_t i = 0; i < basis_.count; ++i) {
     const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};
-    for (std::size_t c = 0; c < 3; ++c) sums_[c * padded_ + i] = rgb[c];
+    for (std::size_t c = 0; c < 3; ++c) state.coefficients[c * padded_ + i] = rgb[c];
   }
-  prior_weight_ = short_run.counts_.weight;
-  if (bands_.size() > 0) seed_bands(start.data());
-  settle();
+  prior_weight_ = short_run.counts().weight;
+  if (state.bands) seed_bands(start.data());
 }
 
 // The bands that samples of the start itself would have left.
@@ -30,12 +43,12 @@ void Fit::seed_bands(const Vec3* start) {
   std::array<double, band_functions * max_functions> function;
   project_functions(basis_, function.data());
   const double scale = prior_weight_ / domain_area(basis_.domain);
-  std::fill(bands_.begin(), bands_.end(), 0.0);
+  double* const bands = state_at(state_.data()).bands;
   for (std::size_t j = 0; j < band_functions; ++j)
     for (std::uint32_t i = 0; i < basis_.count; ++i) {
       const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};
       for (std::size_t c = 0; c < 3; ++c)
-        bands_[c * band_stride + j] += scale * function[j * basis_.count + i] * rgb[c];
+        bands[c * band_stride + j] += scale * function[j * basis_.count + i] * rgb[c];
     }
 }
 
@@ -49,39 +62,42 @@ void Fit::merge(const Fit& other) {
                   "the fits differ in basis or method; make both from equal descriptors");
   if (&other == this)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a fit cannot be merged with itself; make a second one");
-  if (is_running(settings_.method)) {
-    const double mine = counts_.weight + prior_weight_, theirs = other.counts_.weight + other.prior_weight_;
-    const double share = mine + theirs > 0 ? theirs / (mine + theirs) : 0;
-    settle();
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < padded_; ++i) {
-        const double their = other.sums_[c * padded_ + i] + double(other.running_.change[c][i]);
-        sums_[c * padded_ + i] += share * (their - sums_[c * padded_ + i]);
-      }
-    for (std::size_t i = 0; i < padded_; ++i)
-      running_.square[i] += float(share) * (other.running_.square[i] - running_.square[i]);
-    settle();
-  } else {
-    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
+  const double their_weight = other.counts().weight + other.prior_weight_;
+  if (their_weight > 0) {
+    flush();
+    const State mine = state_at(state_.data());
+    if (is_block()) close_block(mine, counts_, scratch_.data());
+    const double my_weight = counts_.weight + prior_weight_;
+    join(mine, other.present(room()).state, their_weight / (my_weight + their_weight));
   }
-  for (std::size_t i = 0; i < bands_.size(); ++i) bands_[i] += other.bands_[i];
   prior_weight_ += other.prior_weight_;
-  counts_.used += other.counts_.used;
-  counts_.expected_weight += other.counts_.expected_weight;
-  counts_.bad_direction += other.counts_.bad_direction;
-  counts_.bad_radiance += other.counts_.bad_radiance;
-  counts_.bad_weight += other.counts_.bad_weight;
-  counts_.weight += other.counts_.weight;
-  for (std::size_t c = 0; c < 3; ++c) counts_.radiance[c] += other.counts_.radiance[c];
+  add_counts(counts_, other.counts());
+  if (their_weight > 0) {
+    closed_weight_ = counts_.weight;
+    open_ = 0;
+  }
+}
+
+// `share` is that of theirs in a mean.
+void Fit::join(State mine, State theirs, double share) const {
+  if (is_running(settings_.method)) {
+    for (std::size_t i = 0; i < 3 * std::size_t(padded_); ++i)
+      mine.coefficients[i] += share * (theirs.coefficients[i] - mine.coefficients[i]);
+    for (std::size_t i = 0; i < padded_; ++i) mine.square[i] += share * (theirs.square[i] - mine.square[i]);
+  } else {
+    for (std::size_t i = 0; i < std::size_t(3 + basis_.count) * padded_; ++i) mine.sums[i] += theirs.sums[i];
+  }
+  if (!mine.bands) return;
+  for (std::size_t i = 0; i < 3 * std::size_t(band_stride) + std::size_t(band_functions) * padded_; ++i)
+    mine.bands[i] += theirs.bands[i];
 }
 
 void Fit::reset() {
-  std::fill(sums_.begin(), sums_.end(), 0.0);
-  std::fill(bands_.begin(), bands_.end(), 0.0);
-  for (float* row : {running_.change[0], running_.change[1], running_.change[2], running_.square})
-    std::fill_n(row, padded_, 0.0f);
-  settle();
+  flush();
+  std::fill(state_.begin(), state_.end(), 0.0);
   prior_weight_ = 0;
+  closed_weight_ = 0;
+  open_ = 0;
   counts_ = {};
 }
 

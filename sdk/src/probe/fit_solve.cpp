@@ -27,61 +27,64 @@ void Fit::read(std::span<Vec3> coefficients) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "function_count is not the fit's (got %zu, need %zu)",
                   coefficients.size(), n);
   std::array<double, 3 * max_functions> b{};  // function by function
+  const Gathered gathered = present(room());
+  if (!is_block()) unwhiten(gathered.state);
   if (is_running(settings_.method)) {
     for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < n; ++i)
-        b[3 * i + c] = sums_[c * padded_ + i] + double(running_.change[c][i]);
+      for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = gathered.state.coefficients[c * padded_ + i];
     if (settings_.method == FitMethod::running_average_non_negative)
-      make_non_negative(b.data());
-    else if (bands_.size() > 0)
-      meet_bands(light_bands(), factor_.data(), basis_.count, band_weight(), b.data());
-  } else if (counts_.weight > 0) {
+      make_non_negative(gathered, b.data());
+    else if (gathered.state.bands)
+      meet_bands(light_bands(gathered), factor_.data(), basis_.count, band_weight(), b.data());
+  } else if (gathered.counts.weight > 0) {
     if (settings_.method == FitMethod::naive || settings_.method == FitMethod::moments)
-      solve_moments(b.data());
+      solve_moments(gathered, b.data());
     else
-      solve_samples(b.data());
+      solve_samples(gathered, b.data());
   }
   for (std::size_t i = 0; i < n; ++i)
     coefficients[i] = {in_range(b[3 * i]), in_range(b[3 * i + 1]), in_range(b[3 * i + 2])};
 }
 
-void Fit::solve_moments(double* b) {
+void Fit::solve_moments(const Gathered& gathered, double* b) {
   const std::uint32_t n = basis_.count;
-  const double scale = domain_area(basis_.domain) / counts_.weight;
+  const double scale = domain_area(basis_.domain) / gathered.counts.weight;
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t i = 0; i < n; ++i) {
-      b[3 * i + c] = sums_[c * padded_ + i] * scale;
+      b[3 * i + c] = gathered.state.sums[c * padded_ + i] * scale;
       if (settings_.method == FitMethod::naive) b[3 * i + c] /= row_sum_[i];
     }
     if (settings_.method == FitMethod::moments) cholesky_solve(factor_.data(), n, b + c, 3);
   }
-  if (bands_.size() > 0) meet_bands(light_bands(), factor_.data(), n, band_weight(), b);
+  if (gathered.state.bands) meet_bands(light_bands(gathered), factor_.data(), n, band_weight(), b);
 }
 
-void Fit::solve_samples(double* b) {
+void Fit::solve_samples(const Gathered& gathered, double* b) {
   const std::uint32_t n = basis_.count;
   double* const gram = scratch_.data();
   double* const rest = gram + std::size_t(n) * n;
-  const double scale = counts_.weight / domain_area(basis_.domain);  // of the samples' sums to integrals
+  const double scale =
+      gathered.counts.weight / domain_area(basis_.domain);  // of the samples' sums to integrals
   const double prior = regularisation * scale;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k <= i; ++k)
-      gram[i * n + k] = gram[k * n + i] = sums_[(3 + i) * padded_ + k] + prior * gram_[i * n + k];
+      gram[i * n + k] = gram[k * n + i] =
+          gathered.state.sums[(3 + i) * padded_ + k] + prior * gram_[i * n + k];
   if (settings_.method == FitMethod::least_squares) {
     for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = sums_[c * padded_ + i];
+      for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = gathered.state.sums[c * padded_ + i];
     cholesky(gram, n, 0);
     for (std::size_t c = 0; c < 3; ++c) cholesky_solve(gram, n, b + c, 3);
-    if (bands_.size() > 0) meet_bands(light_bands(), gram, n, band_weight() * scale, b);
+    if (gathered.state.bands) meet_bands(light_bands(gathered), gram, n, band_weight() * scale, b);
     return;
   }
   double* const x = rest + std::size_t(n) * n + 2 * n;
   double* const target = x + n;
-  const LightBands bands = bands_.size() == 0 ? LightBands{} : light_bands();
-  if (bands_.size() > 0) add_bands(bands, n, band_weight() * scale, gram);
+  const LightBands bands = !gathered.state.bands ? LightBands{} : light_bands(gathered);
+  if (gathered.state.bands) add_bands(bands, n, band_weight() * scale, gram);
   for (std::size_t c = 0; c < 3; ++c) {
-    std::copy_n(sums_.data() + c * padded_, n, target);
-    if (bands_.size() > 0) add_bands(bands, n, band_weight() * scale, c, target);
+    std::copy_n(gathered.state.sums + c * padded_, n, target);
+    if (gathered.state.bands) add_bands(bands, n, band_weight() * scale, c, target);
     non_negative_solve(gram, target, n, x, rest);
     for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = x[i];
   }
@@ -90,24 +93,24 @@ void Fit::solve_samples(double* b) {
 // The non-negative coefficients nearest to b in the mean square over the domain, and to the light's bands. As
 // b tends to least squares, they tend to its non-negative form. With the plain step and no bands they are b
 // itself: no sample has left it a negative one.
-void Fit::make_non_negative(double* b) {
+void Fit::make_non_negative(const Gathered& gathered, double* b) {
   const std::uint32_t n = basis_.count;
   bool negative = false;
   for (std::size_t i = 0; i < 3 * std::size_t(n); ++i) negative |= b[i] < 0;
-  if (!negative && bands_.size() == 0) return;
+  if (!negative && !gathered.state.bands) return;
   double* const gram = scratch_.data();
   double* const target = gram + std::size_t(n) * n;
   double* const x = target + n;
   double* const rest = x + n;
-  const LightBands bands = bands_.size() == 0 ? LightBands{} : light_bands();
+  const LightBands bands = !gathered.state.bands ? LightBands{} : light_bands(gathered);
   std::copy(gram_.begin(), gram_.end(), gram);
-  if (bands_.size() > 0) add_bands(bands, n, band_weight(), gram);
+  if (gathered.state.bands) add_bands(bands, n, band_weight(), gram);
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t i = 0; i < n; ++i) {
       target[i] = 0;
       for (std::size_t k = 0; k < n; ++k) target[i] += gram_[i * n + k] * b[3 * k + c];
     }
-    if (bands_.size() > 0) add_bands(bands, n, band_weight(), c, target);
+    if (gathered.state.bands) add_bands(bands, n, band_weight(), c, target);
     non_negative_solve(gram, target, n, x, rest);
     for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = x[i];
   }
@@ -121,20 +124,22 @@ double Fit::band_weight() const {
 
 // As integrals: of the light under each harmonic, and of the functions under it over the same directions.
 // What lies below a hemisphere's horizon is dark, and counts.
-LightBands Fit::light_bands() const {
+LightBands Fit::light_bands(const Gathered& gathered) const {
   LightBands bands;
   const std::uint32_t n = basis_.count;
-  const double weight = is_running(settings_.method)
-                            ? std::max(counts_.weight, counts_.expected_weight) + prior_weight_
-                            : counts_.weight;
+  const double weight =
+      is_running(settings_.method)
+          ? std::max(gathered.counts.weight, gathered.counts.expected_weight) + prior_weight_
+          : gathered.counts.weight;
   const double scale = weight > 0 ? domain_area(basis_.domain) / weight : 0;
   for (std::size_t j = 0; j < band_functions; ++j)
-    for (std::size_t c = 0; c < 3; ++c) bands.light[3 * j + c] = scale * bands_[c * band_stride + j];
+    for (std::size_t c = 0; c < 3; ++c)
+      bands.light[3 * j + c] = scale * gathered.state.bands[c * band_stride + j];
   if (!has_sampled_bands(basis_, settings_)) {
     project_functions(basis_, bands.function.data());
     return bands;
   }
-  const double* const sums = bands_.data() + 3 * std::size_t(band_stride);
+  const double* const sums = gathered.state.bands + 3 * std::size_t(band_stride);
   for (std::size_t j = 0; j < band_functions; ++j)
     for (std::size_t i = 0; i < n; ++i) bands.function[j * n + i] = scale * sums[j * padded_ + i];
   return bands;

@@ -104,9 +104,10 @@ inline void split(Float a, Float& exponent, Float& mantissa) {
 inline Float nearest(Float a) {
   return _mm256_round_ps(a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
 }
+// The exponent lies above the mantissa, where a and the result are normal.
 inline Float times_power_of_two(Float a, Float n) {
-  const __m256i e = _mm256_slli_epi32(_mm256_add_epi32(_mm256_cvtps_epi32(n.v), _mm256_set1_epi32(127)), 23);
-  return a * Float(_mm256_castsi256_ps(e));
+  const __m256i e = _mm256_slli_epi32(_mm256_cvtps_epi32(n.v), 23);
+  return _mm256_castsi256_ps(_mm256_add_epi32(_mm256_castps_si256(a.v), e));
 }
 inline Float power(Float base, Float exponent) {
   return simd::power_of(base, exponent);
@@ -125,6 +126,11 @@ inline float sum(Float a) {
 }
 
 #include "sdk/src/isa/x86_four.inl"
+
+// Returns four floats that have the sum of all lanes.
+inline Four folded(Float a) {
+  return _mm_add_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
+}
 
 #include "sdk/src/isa/x86_eight.inl"
 

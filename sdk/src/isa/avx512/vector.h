@@ -120,6 +120,13 @@ inline float sum(Float a) {
 
 #include "sdk/src/isa/x86_four.inl"
 
+// Returns four floats that have the sum of all lanes.
+inline Four folded(Float a) {
+  const __m256 upper = _mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd(a.v), 1));
+  const __m256 half = _mm256_add_ps(_mm512_castps512_ps256(a.v), upper);
+  return _mm_add_ps(_mm256_castps256_ps128(half), _mm256_extractf128_ps(half, 1));
+}
+
 #include "sdk/src/isa/x86_eight.inl"
 
 }  // namespace nook::isa_avx512

@@ -56,6 +56,21 @@ inline Four operator*(Four a, const Four& b) {
   for (int i = 0; i < 4; ++i) a.v[i] *= b.v[i];
   return a;
 }
+// Returns four floats that have the sum of all lanes.
+inline Four folded(Float a) {
+  Four four(0.0f);
+  four.v[0] = a;
+  return four;
+}
+inline void transpose(Four& a, Four& b, Four& c, Four& d) {
+  Four* const rows[4] = {&a, &b, &c, &d};
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < i; ++k) {
+      const float above = rows[k]->v[i];
+      rows[k]->v[i] = rows[i]->v[k];
+      rows[i]->v[k] = above;
+    }
+}
 
 #include "sdk/src/isa/eight_of_fours.inl"
 

@@ -102,9 +102,10 @@ inline void split(Float a, Float& exponent, Float& mantissa) {
 inline Float nearest(Float a) {
   return _mm_cvtepi32_ps(_mm_cvtps_epi32(a.v));
 }
+// The exponent lies above the mantissa, where a and the result are normal.
 inline Float times_power_of_two(Float a, Float n) {
-  const __m128i e = _mm_slli_epi32(_mm_add_epi32(_mm_cvtps_epi32(n.v), _mm_set1_epi32(127)), 23);
-  return a * Float(_mm_castsi128_ps(e));
+  const __m128i e = _mm_slli_epi32(_mm_cvtps_epi32(n.v), 23);
+  return _mm_castsi128_ps(_mm_add_epi32(_mm_castps_si128(a.v), e));
 }
 inline Float power(Float base, Float exponent) {
   return simd::power_of(base, exponent);
@@ -122,6 +123,11 @@ inline float sum(Float a) {
 }
 
 #include "sdk/src/isa/x86_four.inl"
+
+// Returns four floats that have the sum of all lanes.
+inline Four folded(Float a) {
+  return a.v;
+}
 
 #include "sdk/src/isa/eight_of_fours.inl"
 

@@ -120,6 +120,10 @@ inline float sum(Float a) {
 
 // The transforms take vectors of four floats.
 using Four = Float;
+// Returns four floats that have the sum of all lanes.
+inline Four folded(Float a) {
+  return a;
+}
 inline Four load_four(const float* p) {
   return load(p);
 }

@@ -1,0 +1,239 @@
+// Samples on their way into a fit: they wait until a chunk is whole, so that neither calls nor faulty samples
+// move the places where chunks begin.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "sdk/src/probe/fit.h"
+#include "sdk/src/probe/harmonics.h"
+
+namespace nook::probe {
+namespace {
+
+using Column = float (SampleColumns::*)[SampleColumns::capacity];
+constexpr Column columns[] = {&SampleColumns::x,      &SampleColumns::y,     &SampleColumns::z,
+                              &SampleColumns::red,    &SampleColumns::green, &SampleColumns::blue,
+                              &SampleColumns::weight, &SampleColumns::growth};
+
+void move_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t count, std::uint32_t to) {
+  for (const Column column : columns) std::copy_n(samples.*column + from, count, samples.*column + to);
+}
+
+// Faulty samples may be infinite.
+void clear_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t to) {
+  for (const Column column : columns)
+    std::fill(samples.*column + from, samples.*column + to, column == &SampleColumns::growth ? 1.0f : 0.0f);
+}
+
+// A running average takes so many samples at once: one solution of a system then costs little for each.
+constexpr std::uint32_t block_samples = 4 * sample_chunk;
+
+// A group's records, padded as read_group needs them.
+struct LastGroup {
+  std::array<float, 3 * sample_group + 1> directions, radiance;
+  std::array<float, sample_group> weights;
+};
+
+void copy_padded(const float* from, std::size_t count, float* to, std::size_t padded) {
+  std::copy_n(from, count, to);
+  std::fill(to + count, to + padded, 0.0f);
+}
+
+}  // namespace
+
+void Fit::add_samples(const float* directions, const float* radiance, const float* weights,
+                      std::size_t count) {
+  const float* const up = basis_.domain == Domain::hemisphere ? &basis_.up.x : nullptr;
+  SampleColumns& samples = samples_[0];
+  while (count > sample_group) {
+    keep(kernels_->read_group(directions, radiance, weights, up, sample_group, samples, waiting_),
+         sample_group);
+    directions += 3 * sample_group;
+    radiance += 3 * sample_group;
+    if (weights) weights += sample_group;
+    count -= sample_group;
+  }
+  LastGroup last;
+  const auto rest = std::uint32_t(count);
+  const std::size_t whole = whole_vectors(rest);
+  copy_padded(directions, 3 * count, last.directions.data(), 3 * whole + 1);
+  copy_padded(radiance, 3 * count, last.radiance.data(), 3 * whole + 1);
+  if (weights) copy_padded(weights, count, last.weights.data(), whole);
+  keep(kernels_->read_group(last.directions.data(), last.radiance.data(),
+                            weights ? last.weights.data() : nullptr, up, rest, samples, waiting_),
+       rest);
+}
+
+// Closes the gaps that faulty samples leave in the last group.
+void Fit::keep(const SampleFaults& faults, std::uint32_t count) {
+  if (count == 0) return;
+  const std::uint64_t group = ~std::uint64_t(0) >> (sample_group - count);
+  const std::uint64_t directed = group & ~faults.direction, lit = directed & ~faults.radiance,
+                      good = lit & ~faults.weight, used = good & ~faults.empty;
+  SampleColumns& samples = samples_[0];
+  const bool growing = settings_.growing_samples > 0;
+  if (used == ~std::uint64_t(0) && !growing) {
+    counts_.used += sample_group;
+    waiting_ += sample_group;
+  } else {
+    counts_.bad_direction += std::uint64_t(std::popcount(group & ~directed));
+    counts_.bad_radiance += std::uint64_t(std::popcount(directed & ~lit));
+    counts_.bad_weight += std::uint64_t(std::popcount(lit & ~good));
+    const std::uint32_t first = waiting_;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      if (!(good >> k & 1)) continue;
+      ++counts_.used;
+      if (!(used >> k & 1)) continue;
+      move_samples(samples, first + k, 1, waiting_);
+      if (growing) {
+        const float growth = float(-std::expm1(-double(counts_.used) / double(settings_.growing_samples)));
+        samples.growth[waiting_] = growth;
+        samples.weight[waiting_] *= growth;
+      }
+      if (samples.weight[waiting_] > 0) ++waiting_;
+    }
+    clear_samples(samples, waiting_, first + whole_vectors(count));
+  }
+  if (waiting_ < sample_chunk) return;
+  const std::uint32_t rest = waiting_ - sample_chunk;
+  waiting_ = sample_chunk;
+  flush();
+  if (is_block() && open_ >= block_samples) {
+    close_block(state_at(state_.data()), counts_, scratch_.data());
+    closed_weight_ = counts_.weight;
+    open_ = 0;
+  }
+  move_samples(samples, sample_chunk, rest, 0);
+  std::fill_n(samples.weight + sample_chunk, rest, 0.0f);
+  waiting_ = rest;
+}
+
+void Fit::flush() {
+  absorb(waiting_, values_.data(), state_at(state_.data()));
+  advance(counts_, waiting_);
+  std::fill_n(samples_[0].weight, waiting_, 0.0f);
+  open_ += waiting_;
+  waiting_ = 0;
+}
+
+Fit::Gathered Fit::present(const Room& room) const {
+  double* const spare = room.state;
+  std::copy(state_.begin(), state_.end(), spare);
+  const Gathered gathered{state_at(spare), counts()};
+  absorb(waiting_, room.values, gathered.state);
+  if (is_block()) close_block(gathered.state, gathered.counts, room.solver);
+  return gathered;
+}
+
+SampleCounts Fit::counts() const {
+  SampleCounts counts = counts_;
+  advance(counts, waiting_);
+  return counts;
+}
+
+void Fit::advance(SampleCounts& counts, std::uint32_t count) const {
+  const SampleColumns& samples = samples_[0];
+  std::array<double, 4> light{};
+  kernels_->sum_light(samples, count, light.data());
+  counts.weight += light[0];
+  for (std::size_t c = 0; c < 3; ++c) counts.radiance[c] += light[1 + c];
+  for (std::uint32_t k = 0; k < count && counts.expected_weight < first_weight; ++k)
+    counts.expected_weight = std::min(counts.expected_weight + double(samples.growth[k]), first_weight);
+}
+
+void Fit::total_weights(std::uint32_t count, float* total) const {
+  const SampleColumns& samples = samples_[0];
+  double weight = counts_.weight, expected = counts_.expected_weight;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    weight += double(samples.weight[k]);
+    expected = std::min(expected + double(samples.growth[k]), first_weight);
+    total[k] = float(std::max(weight, expected) + prior_weight_);
+  }
+  std::fill(total + count, total + sample_chunk, 1.0f);
+}
+
+// What the waiting samples change, but for their counts.
+void Fit::absorb(std::uint32_t count, float* values, State into) const {
+  if (count == 0) return;
+  const SampleColumns& samples = samples_[0];
+  alignas(64) std::array<float, std::size_t(sample_chunk) * band_functions> harmonics;
+  alignas(64) std::array<float, std::size_t(sample_chunk) * 3> light;
+  alignas(64) std::array<float, sample_chunk> scale;
+  kernels_->light_rows(samples, count, scale.data(), light.data());
+  if (into.bands) {
+    kernels_->harmonic_rows(samples, scale.data(), count, harmonics.data());
+    kernels_->sum_products(harmonics.data(), band_functions, light.data(), 3, count, false, into.bands,
+                           band_stride);
+  }
+  if (is_running(settings_.method) && !is_block())
+    step_plainly(count, values, into);
+  else
+    sum_samples(count, scale.data(), light.data(), harmonics.data(), values, into);
+}
+
+void Fit::values_of(std::uint32_t count, std::uint32_t sample_stride, std::uint32_t function_stride,
+                    float* values) const {
+  const SampleColumns& samples = samples_[0];
+  std::array<float, max_functions> at;
+  const std::uint32_t end = whole_pairs(count);
+  for (std::uint32_t k = 0; k < end; ++k) {
+    evaluate_basis(basis_, Vec3{samples.x[k], samples.y[k], samples.z[k]}, at.data());
+    for (std::uint32_t i = 0; i < basis_.count; ++i) values[k * sample_stride + i * function_stride] = at[i];
+  }
+}
+
+// With a Gram matrix of its samples, least squares also sums the products of every function with every
+// harmonic, so that a light which lobes make exactly leaves no noise in the bands.
+void Fit::sum_samples(std::uint32_t count, const float* scale, const float* light, const float* harmonics,
+                      float* values, State into) const {
+  const std::uint32_t n = basis_.count;
+  if (basis_.kind == BasisKind::gaussians) {
+    kernels_->gaussian_rows(lobes_, n, samples_[0], scale, count, values);
+  } else {
+    values_of(count, 1, sample_chunk, values);
+    for (std::uint32_t i = 0; i < n; ++i)
+      for (std::uint32_t k = 0; k < whole_pairs(count); ++k) values[i * sample_chunk + k] *= scale[k];
+  }
+  if (whitens_) kernels_->whiten_rows(whitening_, n, count, values);
+  kernels_->sum_products(values, n, light, 3, count, false, into.sums, padded_);
+  const bool solves = settings_.method == FitMethod::least_squares ||
+                      settings_.method == FitMethod::non_negative_least_squares;
+  if (solves || is_block())
+    kernels_->sum_products(values, n, values, n, count, true, into.sums + 3 * std::size_t(padded_), padded_);
+  if (has_sampled_bands(basis_, settings_))
+    kernels_->sum_products(values, n, harmonics, band_functions, count, false,
+                           into.bands + 3 * std::size_t(band_stride), padded_);
+}
+
+void Fit::step_plainly(std::uint32_t count, float* values, State into) const {
+  alignas(64) std::array<float, sample_chunk> total;
+  total_weights(count, total.data());
+  if (basis_.kind == BasisKind::gaussians) {
+    kernels_->gaussian_values(lobes_, samples_[0], count, values);
+  } else {
+    std::fill_n(values, std::size_t(sample_chunk) * padded_, 0.0f);
+    values_of(count, padded_, 1, values);
+  }
+  alignas(64) std::array<float, std::size_t(7) * max_functions> rows{};
+  RunningView view = running_;
+  for (std::size_t c = 0; c < 3; ++c) {
+    view.value[c] = rows.data() + c * max_functions;
+    view.change[c] = rows.data() + (3 + c) * max_functions;
+    std::transform(into.coefficients + c * padded_, into.coefficients + (c + 1) * padded_, view.value[c],
+                   [](double settled) { return float(settled); });
+  }
+  view.square = rows.data() + std::size_t(6) * max_functions;
+  std::transform(into.square, into.square + padded_, view.square, [](double mean) { return float(mean); });
+  if (settings_.method == FitMethod::running_average_original)
+    kernels_->step_original(view, samples_[0], total.data(), count, values);
+  else
+    kernels_->step_plain(view, samples_[0], total.data(), count, values,
+                         settings_.denominator == Denominator::lockstep,
+                         settings_.method == FitMethod::running_average_non_negative);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < padded_; ++i) into.coefficients[c * padded_ + i] += double(view.change[c][i]);
+  std::copy_n(view.square, padded_, into.square);
+}
+
+}  // namespace nook::probe
