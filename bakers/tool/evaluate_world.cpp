@@ -8,6 +8,7 @@
 #include "bakers/measure/character/evaluated_poses.h"
 #include "bakers/measure/character/report.h"
 #include "bakers/measure/composite/composite.h"
+#include "bakers/measure/composite/lit_room.h"
 #include "bakers/measure/composite/own_room.h"
 #include "bakers/measure/world/light_report.h"
 #include "bakers/measure/world/pictures.h"
@@ -77,6 +78,21 @@ std::vector<measure::NamedMap> maps_of(const Options& options) {
   return maps;
 }
 
+void draw_lit_rooms(const Options& options, const measure::BakedCharacter& baked,
+                    std::span<const bake::Pose> poses, std::span<const measure::NamedMap> maps) {
+  std::filesystem::create_directories(options.images);
+  measure::LitRoomSettings settings;
+  settings.figures = options.rooms.figures;
+  settings.rays = options.study.rays;
+  settings.seed = options.common.seed;
+  for (const measure::NamedMap& map : maps) {
+    const measure::SplitLight light = measure::split(map);
+    for (const measure::MeasuredRoom& room : rooms_of(options))
+      measure::write_lit_room(options.images / (room.name + "_" + map.name + ".png"), room,
+                              baked.character.mesh, baked.model, poses, light, settings);
+  }
+}
+
 Json evaluate(const Options& options) {
   const measure::BakedCharacter baked = read_evaluated_files(options.files);
   std::vector<std::string> present;
@@ -102,6 +118,7 @@ Json evaluate(const Options& options) {
                                        progress);
     return measure::world_rows(baked.character.mesh, baked.model, measured.poses, study, progress);
   });
+  if (!options.images.empty() && !maps.empty()) draw_lit_rooms(options, baked, measured.poses, maps);
   if (!options.images.empty() && !options.composite && maps.empty())
     measure::write_world_pictures(options.images, baked.character.mesh, baked.model, measured.poses,
                                   options.image_count, study.rays, study.seed);
@@ -141,7 +158,8 @@ void add_evaluate_world(CLI::App& evaluate_command) {
   command->add_option(
       "--images", o.images,
       "draw floor and wall by ray tracing, Nook, capsules and blobs, with --composite a view of each room by "
-      "ray tracing, Nook and the screen pass alone: PNG files in this directory");
+      "ray tracing, Nook and the screen pass alone, with --light a view of each room in its light by ray "
+      "tracing, Nook, AO times the probe and capsules: PNG files in this directory");
   command->add_option("--image-count", o.image_count, "poses to draw")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
@@ -152,7 +170,7 @@ void add_evaluate_world(CLI::App& evaluate_command) {
   command
       ->add_option("--light", o.lights,
                    "measure instead the irradiance of floor and wall under this latitude-longitude map, "
-                   "channel by channel against path tracing; any number of maps, no pictures")
+                   "channel by channel against path tracing; any number of maps")
       ->check(CLI::ExistingFile)
       ->excludes(composite);
   command->add_option("--scene", o.scenes, "a room in glTF, with +y up, beside the built-in one")

@@ -91,8 +91,9 @@ room(bakers/measure/transfer bakers/measure/transfer bakers/measure/material/raw
 room(bakers/measure/world bakers/measure/world bakers/images bakers/probe bakers/world ${ground} sdk/src/character
      sdk/src/probe sdk/src/world)
 room(bakers/measure/nnao bakers/measure/nnao bakers/nnao platform ${ground} sdk/src/nnao)
-room(bakers/measure/composite bakers/measure/composite bakers/measure/nnao bakers/nnao bakers/world platform ${ground}
-     sdk/src/character sdk/src/world sdk/src/nnao)
+# Rooms are lit as floors are.
+room(bakers/measure/composite bakers/measure/composite bakers/measure/nnao bakers/measure/world bakers/nnao bakers/world
+     platform ${ground} sdk/src/character sdk/src/world sdk/src/nnao)
 room(bakers/measure/probe bakers/measure/probe bakers/probe ${ground} sdk/src/probe)
 room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor ${process}
      ${ground} sdk/src/material)

@@ -2,22 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "bakers/import/skinning.h"
 #include "bakers/measure/world/ratio_bounds.h"
+#include "bakers/measure/world/split_light.h"
 #include "bakers/probe/map_bake.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/path_tracer.h"
 #include "bakers/raytrace/random.h"
-#include "bakers/raytrace/suns.h"
-#include "bakers/world/posed_casters.h"
 #include "bakers/world/surroundings.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/evaluate.h"
-#include "sdk/src/world/sample.h"
 
 namespace nook::measure {
 namespace {
@@ -25,53 +20,8 @@ namespace {
 using namespace bake;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint32_t lobe_count = 32;
 constexpr float visible_ao = 0.01f;
 constexpr std::uint32_t visible_rays = 128;
-
-// A map as a host draws it: its brightest sun as a cone, the rest as lobes.
-struct SplitLight {
-  std::string name;
-  Environment soft, sun_map;  // their sum is the map
-  std::optional<Sun> sun;
-  std::vector<SphericalGaussian> lobes;
-  world::LightTerms terms;
-  double unit = 0;  // irradiance of the map's mean radiance
-
-  float sun_half_angle_radians() const {
-    return std::acos(1 - sun->disc_solid_angle / (2 * std::numbers::pi_v<float>));
-  }
-  Vec3 sun_irradiance(Vec3 normal) const {
-    return sun ? sun->irradiance * std::max(dot(normal, sun->direction), 0.0f) : Vec3{};
-  }
-};
-
-double mean_radiance(const Environment& map) {
-  const bake::probe::MapIntegrals sum = bake::probe::integrate(map, {});
-  return (sum.radiance[0] + sum.radiance[1] + sum.radiance[2]) / (12 * std::numbers::pi);
-}
-
-Environment difference(const Environment& all, const Environment& part) {
-  std::vector<float> rest(all.rgb().begin(), all.rgb().end());
-  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= part.rgb()[i];
-  return Environment(all.width(), all.height(), std::move(rest));
-}
-
-SplitLight split(const NamedMap& named) {
-  const Environment& map = named.map;
-  const Environment soft = without_suns(map, 1);
-  const std::vector<Sun> suns = find_suns(map, 1);
-  SplitLight light{
-      named.name, soft, difference(map, soft), {}, {}, {}, std::numbers::pi * mean_radiance(map)};
-  if (!suns.empty()) light.sun = suns.front();
-  bake::probe::MapBakeSettings settings;
-  settings.basis = nook::probe::vogel_basis(lobe_count);
-  const std::vector<Vec3> amplitude = bake::probe::bake_map(light.soft, settings);
-  for (std::uint32_t i = 0; i < lobe_count; ++i)
-    light.lobes.push_back({settings.basis.axis[i], settings.basis.sharpness[i], amplitude[i]});
-  light.terms = world::terms_of(light.lobes);
-  return light;
-}
 
 // The ways to light a point.
 constexpr std::array<const char*, 3> methods{"none", "ao_x_probe", "per_lobe"};
@@ -131,36 +81,6 @@ class LitBody {
   float offset_;
 };
 
-struct SampledLight {
-  std::vector<float> ao, cone, rgb;
-};
-
-// The shares that the casters leave open, as nook_world_sample gives them.
-SampledLight sample_light(std::span<const PosedCaster> casters, const SurfacePoints& points,
-                          const SplitLight& light) {
-  world::SampleRequest request;
-  request.positions = &points.position[0].x;
-  request.normals = &points.normal[0].x;
-  request.count = std::uint32_t(points.size());
-  request.terms = &light.terms;
-  request.has_light = light.sun.has_value();
-  if (light.sun) {
-    request.light_axis = light.sun->direction;
-    request.light_half_angle_radians = light.sun_half_angle_radians();
-  }
-  world::CasterGroups groups{
-      1, &casters, [](const void* user, std::uint32_t, PosedCaster&) {
-        constexpr float everywhere = 1e3f;  // metres
-        return world::CasterGroup{
-            *static_cast<const std::span<const PosedCaster>*>(user), {}, everywhere, everywhere};
-      }};
-  SampledLight sampled{std::vector<float>(points.size()), std::vector<float>(points.size(), 1.0f),
-                       std::vector<float>(3 * points.size())};
-  world::sample(*world::world_kernels(choose_isa(NOOK_ISA_AUTO)), {}, request, groups, sampled.ao.data(),
-                sampled.cone.data(), sampled.rgb.data());
-  return sampled;
-}
-
 double product_of_errors(Vec3 value, Vec3 first, Vec3 second) {
   const Vec3 a = value - first, b = value - second;
   return double(a.x) * double(b.x) + double(a.y) * double(b.y) + double(a.z) * double(b.z);
@@ -174,9 +94,8 @@ Sums sums_of(const SurfacePoints& points, const TracedLight& traced, const Sampl
   const std::vector<Vec3> exact =
       bake::probe::map_irradiance(light.soft, {}, {points.normal.data(), std::size_t(1)});
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 normal = points.normal[i], sun = light.sun_irradiance(normal);
-    Vec3 soft = nook::probe::irradiance(light.lobes, nook::probe::IrradianceForm::bands, normal);
-    soft = {std::max(soft.x, 0.0f), std::max(soft.y, 0.0f), std::max(soft.z, 0.0f)};
+    const Vec3 normal = points.normal[i], sun = light.sun_irradiance(normal),
+               soft = light.soft_irradiance(normal);
     const float* const rgb = &sampled.rgb[3 * i];
     const float ao = sampled.ao[i];
     const std::array<Vec3, methods.size()> shares{Vec3{1, 1, 1}, {ao, ao, ao}, {rgb[0], rgb[1], rgb[2]}};
@@ -235,13 +154,6 @@ Json row_of(const LitSurface& lit, std::size_t method, const WorldStudy& study) 
   return row;
 }
 
-std::vector<PosedCaster> posed_casters(const CharacterModel& model, const Pose& pose) {
-  std::vector<PosedCaster> casters;
-  for (const WorldCaster& caster : model.world_casters)
-    casters.push_back({posed(caster, pose, CasterUse::light), caster.ao_scale});
-  return casters;
-}
-
 }  // namespace
 
 Json world_light_rows(const SkinnedMesh& mesh, const CharacterModel& model, std::span<const Pose> poses,
@@ -261,7 +173,7 @@ Json world_light_rows(const SkinnedMesh& mesh, const CharacterModel& model, std:
     std::vector<Vec3> position;
     skin_positions(mesh, poses[p], position);
     const LitBody body(position, mesh);
-    const std::vector<PosedCaster> casters = posed_casters(model, poses[p]);
+    const std::vector<PosedCaster> casters = casters_in(model, poses[p]);
     Random random(mix_bits(~study.seed) + p);
     const float bearing = 2 * std::numbers::pi_v<float> * random.unit();
     const std::array<SurfacePoints, 2> points{

@@ -4,22 +4,16 @@
 
 #include <nlohmann/json.hpp>
 #include <span>
-#include <string>
 
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/world/report.h"
-#include "bakers/raytrace/environment.h"
+#include "bakers/measure/world/split_light.h"
 #include "sdk/src/character/model.h"
 
 namespace nook::measure {
 
-struct NamedMap {
-  std::string name;
-  bake::Environment map;
-};
-
 // One row for each map, surface and method: "none" (the light as if no body stood in it), "ao_x_probe" and
-// "per_lobe". In both of the latter the map's brightest sun is a cone of light, and the rest 12 lobes. The
+// "per_lobe". In both of the latter the map's brightest sun is a cone of light, and the rest 32 lobes. The
 // casters are those of the model; study.rays are paths for a point. Throws Failure (INVALID_ARGUMENT: the
 // model has no world casters; CANCELLED).
 nlohmann::ordered_json world_light_rows(const bake::SkinnedMesh& mesh, const CharacterModel& model,

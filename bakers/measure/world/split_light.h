@@ -1,0 +1,51 @@
+// A map as a host draws it: its brightest sun as a cone of light, the rest as lobes; and what casters take of
+// both.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bakers/import/skinned_mesh.h"
+#include "bakers/raytrace/environment.h"
+#include "bakers/raytrace/suns.h"
+#include "bakers/world/surroundings.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/core/capsule.h"
+#include "sdk/src/world/light_terms.h"
+
+namespace nook::measure {
+
+struct NamedMap {
+  std::string name;
+  bake::Environment map;
+};
+
+struct SplitLight {
+  std::string name;
+  bake::Environment soft, sun_map;  // their sum is the map
+  std::optional<bake::Sun> sun;
+  std::vector<SphericalGaussian> lobes;  // 32
+  world::LightTerms terms;
+  double unit = 0;  // irradiance of the map's mean radiance
+
+  float sun_half_angle_radians() const;
+  Vec3 sun_irradiance(Vec3 normal) const;   // where no body stands
+  Vec3 soft_irradiance(Vec3 normal) const;  // the same, of the lobes
+};
+
+SplitLight split(const NamedMap& named);
+
+// Three floats for each point in rgb, one in the others.
+struct SampledLight {
+  std::vector<float> ao, cone, rgb;
+};
+
+// The shares that the casters leave open, as nook_world_sample gives them.
+SampledLight sample_light(std::span<const PosedCaster> casters, const bake::SurfacePoints& points,
+                          const SplitLight& light);
+
+std::vector<PosedCaster> casters_in(const CharacterModel& model, const bake::Pose& pose);
+
+}  // namespace nook::measure
