@@ -17,7 +17,7 @@ namespace nook::measure {
 // Frames of a sequence, and the longest mean.
 inline constexpr std::size_t mover_frames = 8;
 
-// How the pass is used.
+// The earlier frames that a pass takes.
 enum class MoverPass : std::uint8_t {
   single,   // each frame alone
   vectors,  // a mean over frames with motion vectors of the body

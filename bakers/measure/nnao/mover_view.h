@@ -9,7 +9,7 @@
 
 namespace nook::measure {
 
-// What a pixel of the last frame shows.
+// The part of the image that a pixel of the last frame belongs to.
 enum class MoverPart : std::uint8_t {
   sky,
   mover,      // the body

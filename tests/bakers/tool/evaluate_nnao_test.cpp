@@ -194,7 +194,7 @@ TEST_CASE("evaluate nnao measures chosen methods alone") {
   CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "nnao_paper"}).exit_code == 2);
 }
 
-TEST_CASE("evaluate nnao measures a character that walks, by the clip that says so") {
+TEST_CASE("evaluate nnao measures a character by its clip of walking") {
   const TestFolder folder;
   write_text(folder.path("tube.glb"), glb_tube({"bend", "Walk_Loop"}));
   write_text(folder.path("other.glb"), glb_tube({}));
