@@ -168,9 +168,7 @@ void check_file_limits(const CompressionSettings& s, const RawMaterial& raw) {
 nook::material::VisibilityMapping default_mapping(VisibilityForm form, std::uint32_t width,
                                                   std::uint32_t height) {
   if (form != VisibilityForm::distance) return nook::material::paper_mapping(form);
-  const float half_texel = 0.5f / (distance_cut * float(std::max(width, height)));
-  // A texture so small that distances are cut within half a texel.
-  const float threshold = std::min(half_texel, 1.0f);
+  const float threshold = saturated_distance(0.5f, std::max(width, height));
   return {threshold, 1 / threshold};
 }
 

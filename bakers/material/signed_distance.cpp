@@ -59,9 +59,12 @@ std::vector<float> squared_distances(std::span<const float> mask, std::size_t wi
 
 }  // namespace
 
+float saturated_distance(float distance_texels, std::uint32_t longer_side) {
+  return std::tanh(distance_texels / (distance_scale * float(longer_side)));
+}
+
 std::vector<float> signed_distances(std::span<const float> masks, std::uint32_t width, std::uint32_t height) {
   const std::size_t texels = std::size_t(width) * height, views = masks.size() / texels;
-  const float longest = distance_cut * float(std::max(width, height));
   std::vector<float> distance(masks.size());
   tbb::parallel_for(std::size_t{0}, views, [&](std::size_t view) {
     const auto mask = masks.subspan(view * texels, texels);
@@ -71,7 +74,7 @@ std::vector<float> signed_distances(std::span<const float> masks, std::uint32_t 
       const bool visible = mask[i] > 0.5f;
       // The boundary lies half a texel before the other class's nearest centre.
       const float d = std::sqrt(visible ? to_hidden[i] : to_visible[i]) - 0.5f;
-      distance[view * texels + i] = std::copysign(std::min(d / longest, 1.0f), visible ? 1.0f : -1.0f);
+      distance[view * texels + i] = saturated_distance(visible ? d : -d, std::max(width, height));
     }
   });
   return distance;

@@ -18,6 +18,7 @@ void begin_picture(const Stage& stage) {
   gl.DepthMask(GL_TRUE);
   gl.ClearColor(0.16f, 0.22f, 0.27f, 1);
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  stage.is_one_sided ? gl.Enable(GL_CULL_FACE) : gl.Disable(GL_CULL_FACE);
 }
 
 }  // namespace

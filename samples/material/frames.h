@@ -18,6 +18,7 @@ struct Stage {
   const std::vector<Mesh>& meshes;
   const platform::RenderTarget& target;
   float aspect = 1;
+  bool is_one_sided = false;  // without the insides of the surfaces
 };
 
 // Draws all passes of a frame. Without silhouettes it leaves out the visibility of the meso-structure.

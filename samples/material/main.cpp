@@ -87,7 +87,7 @@ void run(const Options& o) {
   std::vector<Mesh> meshes;
   for (const Shape& shape : make_shapes(o.tile_m)) meshes.emplace_back(context->gl(), shape);
   const platform::RenderTarget target(*context, o.width_px, o.height_px);
-  const Stage stage{*context, meshes, target, float(o.width_px) / float(o.height_px)};
+  const Stage stage{*context, meshes, target, float(o.width_px) / float(o.height_px), o.is_one_sided};
   if (o.frames == 0) {
     run_window(stage, Loaded(host, gl, *context, o.files[0]).program);
     return;

@@ -23,6 +23,8 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--size", size, "pixels of a picture, WIDTHxHEIGHT");
   app.add_option("--tile", o.tile_m, "side of a material's tile on the shapes, metres")
       ->check(CLI::Range(0.01f, 1.0f));
+  app.add_flag("--one-sided", o.is_one_sided,
+               "leave out the insides of the shapes, which show through holes");
   app.add_option("--out", o.out, "folder of the pictures");
   app.add_option("--report", o.report, "JSON with sizes, fetches and times (default: report.json in --out)");
   app.add_flag("--quiet", o.quiet, "no progress");

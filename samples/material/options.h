@@ -14,7 +14,8 @@ struct Options {
   std::string context = "egl";
   std::uint32_t frames = 6;
   int width_px = 960, height_px = 540;
-  float tile_m = 0.16f;  // the side of a tile on the shapes
+  float tile_m = 0.16f;       // the side of a tile on the shapes
+  bool is_one_sided = false;  // without the insides of the surfaces
   std::filesystem::path out = "out/material", report;
   bool quiet = false;
 };

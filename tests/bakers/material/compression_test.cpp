@@ -2,6 +2,7 @@
 
 #include <tbb/global_control.h>
 
+#include <cmath>
 #include <string>
 
 #include "bakers/material/visibility_margin.h"
@@ -224,11 +225,10 @@ TEST_CASE("compression can be stopped, and a material without a mask has no VOTF
 
 TEST_CASE("the visibility mapping is half a texel's, or that of the settings") {
   using nook::material::VisibilityForm;
-  // Distances are cut at 1/32 of the side: 3 texels of 96, half a texel is a sixth of that.
+  // The scale of distances is 2.5 texels of 96.
   const auto at_96 = default_mapping(VisibilityForm::distance, 96, 64);
-  CHECK(at_96.threshold == Approx(1.0f / 6));
-  CHECK(at_96.weight == Approx(6));
-  CHECK(default_mapping(VisibilityForm::distance, 8, 8).threshold == 1);
+  CHECK(at_96.threshold == Approx(std::tanh(0.5 / 2.5)));
+  CHECK(at_96.weight == Approx(1 / std::tanh(0.5 / 2.5)));
   CHECK(default_mapping(VisibilityForm::binary, 96, 96).threshold == 0.5f);
   const RawMaterial raw = test::small_material();
   CompressionSettings s;

@@ -20,8 +20,8 @@ float slow_distance(const std::vector<float>& mask, int width, int height, int x
       const bool other = mask[std::size_t((i + width) % width * height + (j + height) % height)] > 0.5f;
       if (other != visible) nearest = std::min(nearest, std::hypot(float(i - x), float(j - y)));
     }
-  const float cut = distance_cut * float(std::max(width, height));
-  return std::min((nearest - 0.5f) / cut, 1.0f) * (visible ? 1 : -1);
+  const float scale = distance_scale * float(std::max(width, height));
+  return std::tanh((nearest - 0.5f) / scale) * (visible ? 1 : -1);
 }
 
 }  // namespace

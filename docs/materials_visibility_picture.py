@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""materials_visibility_picture.py RAW.png BINARY.png DISTANCES.png: writes docs/materials_visibility.png from pictures of
+samples/material, 960 x 540 pixels each: the vase of each side by side, twice as large, and below it one of its holes, six times
+as large.
+
+The commands that make the pictures stand in docs/materials.md.
+"""
+import pathlib
+import sys
+
+from with_and_without import DOCS, read, write
+
+# Left, top, width and height of the parts, and how often a pixel is repeated along each side.
+PARTS = (((630, 120, 180, 275), 2), ((693, 203, 60, 50), 6))
+GAP = b"\xff" * (3 * 6)
+
+
+def part(lines, box, scale):
+    left, top, width, height = box
+    for y in range(top, top + height):
+        line = b"".join(bytes(lines[y][3 * x:3 * x + 3]) * scale for x in range(left, left + width))
+        for _ in range(scale):
+            yield line
+
+
+def main():
+    pictures = [read(pathlib.Path(path))[1] for path in sys.argv[1:4]]
+    lines = []
+    for box, scale in PARTS:
+        lines += [GAP.join(row) for row in zip(*(part(picture, box, scale) for picture in pictures))]
+    write(DOCS / "materials_visibility.png", len(lines[0]) // 3, lines)
+
+
+if __name__ == "__main__":
+    main()
