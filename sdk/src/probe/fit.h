@@ -110,7 +110,7 @@ class Fit {
   SampleCounts counts() const;
 
  private:
-  // What samples leave. Sums over functions are over the orthonormal ones where whitens_ is set.
+  // The samples leave sums. Those over functions are over the orthonormal ones where whitens_ is set.
   struct State {
     double* sums;          // 3 x padded moments; count x padded Gram of the samples
     double* coefficients;  // 3 x padded, of a running average
