@@ -118,9 +118,10 @@ typedef int32_t nook_probe_denominator;
 
 /* The step of running averages. */
 enum {
-  /* Recursive least squares with the exact Gram matrix: with K = a G^-1 B(w) and p = dot(K, B(w)), b += K (v
-   * - R) / (n + p). Its error tends to that of batch least squares. The result of the non-negative form is
-   * the non-negative coefficients that are nearest to b in the mean square. */
+  /* Recursive least squares by blocks of 1,024 samples: with S and m the block's sums of B_i B_k and B_i v
+   * and n the weight before it, (n G / a + S) (b' - b) = m - S b. What is read inside a block is its solution
+   * so far. Its error tends to that of batch least squares. The result of the non-negative form is the
+   * non-negative coefficients that are nearest to b in the mean square. */
   NOOK_PROBE_STEP_FAST = 0,
   /* The step 1 / n as published and as written above; the non-negative form clamps after each sample. */
   NOOK_PROBE_STEP_PLAIN = 1
@@ -202,7 +203,7 @@ NOOK_API nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float*
 NOOK_API nook_result nook_probe_fit_seed(nook_probe_fit fit, nook_probe_fit short_run);
 
 /* Adds the samples of other, such as a fit on another thread, to fit; both must have equal descriptors.
- * Methods that solve end with the sums of one fit with all samples, up to the rounding of double. Running
+ * Methods that solve end with the sums of one fit with all samples, up to rounding. Running
  * averages, which depend on the order of their samples, become the average weighted by the samples' weights.
  * other stays as it is. Neither fit may be in use elsewhere.
  * One at a time. Errors: INVALID_ARGUMENT. */

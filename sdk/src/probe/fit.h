@@ -110,13 +110,13 @@ class Fit {
   SampleCounts counts() const;
 
  private:
-  // What samples leave. Sums over functions are over the orthonormal ones where whitens_ is set.
+  // The samples leave sums. Those over functions are over the orthonormal ones where whitens_ is set.
   struct State {
     double* sums;          // 3 x padded moments; count x padded Gram of the samples
     double* coefficients;  // 3 x padded, of a running average
     double* square;        // padded; of its plain step in lockstep
-    double*
-        bands;  // 3 x band_stride moments of the harmonics, then 9 x padded of function and harmonic; or NULL
+    // 3 x band_stride moments of the harmonics, then 9 x padded of function and harmonic; or NULL.
+    double* bands;
   };
   struct Gathered {
     State state;

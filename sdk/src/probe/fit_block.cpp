@@ -8,14 +8,14 @@
 namespace nook::probe {
 namespace {
 
-// What is known before a block counts at least as much as one sample of weight 1, and as this share of all:
+// The knowledge before a block counts at least as much as one sample of weight 1, and as this share of all:
 // the start, 0, or coefficients that a few samples gave. It keeps the first solutions small.
 constexpr double least_before = 1;
 constexpr double least_share_before = 1.0 / 512;
 
 }  // namespace
 
-// With B = L u / sqrt(a).
+// The functions are B = L u / sqrt(a).
 void Fit::unwhiten(State state) const {
   if (!whitens_) return;
   const std::uint32_t n = basis_.count;

@@ -16,7 +16,7 @@ inline constexpr std::uint32_t sample_vector = 16;
 constexpr std::uint32_t whole_vectors(std::uint32_t samples) {
   return (samples + sample_vector - 1) / sample_vector * sample_vector;
 }
-// What kernels work on: two vectors at a time.
+// Kernels work on two vectors at a time.
 constexpr std::uint32_t whole_pairs(std::uint32_t samples) {
   return (samples + 2 * sample_vector - 1) / (2 * sample_vector) * (2 * sample_vector);
 }

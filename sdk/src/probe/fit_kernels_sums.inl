@@ -1,6 +1,6 @@
 // Sums of products over the samples of a chunk. A part of fit_kernels_impl.inl.
 
-// Of the lanes of four vectors.
+// Returns the four vectors' sums over their lanes.
 NOOK_INLINE Four sums_of(Float first, Float second, Float third, Float fourth) {
   Four a = folded(first), b = folded(second), c = folded(third), d = folded(fourth);
   transpose(a, b, c, d);

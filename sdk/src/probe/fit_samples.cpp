@@ -153,7 +153,7 @@ void Fit::total_weights(std::uint32_t count, float* total) const {
   std::fill(total + count, total + sample_chunk, 1.0f);
 }
 
-// What the waiting samples change, but for their counts.
+// The waiting samples change the state; their counts stay the caller's.
 void Fit::absorb(std::uint32_t count, float* values, State into) const {
   if (count == 0) return;
   const SampleColumns& samples = samples_[0];
