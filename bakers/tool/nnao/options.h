@@ -38,7 +38,7 @@ struct EvaluateNnaoOptions {
   std::uint32_t placed_cameras = 3;
   float max_radius_px = 0;
   float intensity = 1;  // of the library's pass
-  std::string tune;  // a baseline's name, or all; empty: no tuning
+  std::string tune;     // a baseline's name, or all; empty: no tuning
 };
 
 // Adds the options to the command. They stay where they are until the command has run.
