@@ -13,8 +13,8 @@
 namespace nook::bake::nnao {
 
 struct SpecularFitSettings {
-  // Of it scenes, views, points_per_view, rays, size and seed count. Pixels of a view are chosen alike, flat
-  // or not, since a host's pixels are.
+  // The fit reads scenes, views, points_per_view, rays, size and seed. Pixels of a view are chosen alike,
+  // whether flat or not, since a host lights all of them.
   DatasetSettings data{.scenes = 192, .views = 960, .points_per_view = 300, .rays = 256};
   std::uint32_t taps = 9;   // of the network
   std::uint32_t rays = 64;  // for each of five values of roughness

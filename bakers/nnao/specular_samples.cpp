@@ -53,7 +53,7 @@ float any_radius(const TracedView& view, std::vector<Surface> surfaces, Random& 
   return random.log_between(12, 110) / std::abs(nook::nnao::pixel_scale(view.camera.rays, middle->depth).y);
 }
 
-// AO and bent normal of a pixel after the pass's filter. pass: a network's answer for one pixel.
+// AO and bent normal of a pixel after the pass's filter.
 LitPixel filtered_pixel(const nook::nnao::Network& network, const RayScene& rays, const TracedView& traced,
                         const Surface& surface, float radius, std::uint32_t taps) {
   // nook_nnao_desc.blur_sharpness, and a radius of half the screen at most.

@@ -1,8 +1,9 @@
 #include "bakers/measure/nnao/mover_comparison.h"
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <deque>
+#include <optional>
 
 #include "bakers/measure/nnao/mean.h"
 #include "bakers/measure/nnao/network_pass.h"
