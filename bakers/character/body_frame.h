@@ -12,7 +12,7 @@ struct BodyFrame {
   Vec3 left, up, forward;
 };
 
-// Left is told by the joints whose side is known; +x where there are none.
+// The joints whose side is known show where left is; without any it is +x.
 BodyFrame body_frame(const SkinnedMesh& mesh, std::span<const Joint> joints);
 
 // From a joint to the one that continues its limb, of unit length in rest space; zero where there is none.

@@ -1,4 +1,4 @@
-// What a body does in one pose, before any rig: ranges and couplings of the human body, drawn at random.
+// One pose of a body apart from any rig: random turns within the ranges and couplings of the human body.
 #pragma once
 
 #include <numbers>

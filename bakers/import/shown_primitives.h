@@ -23,8 +23,9 @@ struct ShownPrimitive {
 // indices out of range.
 std::vector<ShownPrimitive> shown_primitives(const tinygltf::Model& model);
 
-// Its positions in the space of the mesh, 3 floats for each vertex, with the morph targets at their weights.
-// `before` vertices of other primitives count against the most that a shape may have. Fails with BAD_FILE.
+// The positions of a primitive in the space of its mesh, 3 floats for each vertex, with the morph targets at
+// their weights. A shape has a limit of vertices, of which `before` belong to other primitives. Fails with
+// BAD_FILE.
 Floats read_positions(const tinygltf::Model& model, const ShownPrimitive& shown, std::size_t before);
 
 }  // namespace nook::bake

@@ -2,7 +2,7 @@
 # -DROOT= -DBUILD= -DC_COMPILER= -DCXX_COMPILER= -DLAUNCHER= -DWERROR= -DSHARED=
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
-# Whether it builds, installs and links is the same without optimisation, which takes a third of the compiler's time.
+# The build goes without optimisation, which takes a third of the compiler's time and changes nothing of what is tested here.
 run(${CMAKE_COMMAND} --preset cpu-only -S ${ROOT} -B ${BUILD} -DCMAKE_C_COMPILER=${C_COMPILER}
     -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DNOOK_WERROR=${WERROR}
     -DBUILD_SHARED_LIBS=${SHARED} -DGLAD_EXECUTABLE=absent

@@ -1,4 +1,4 @@
-// What a check of a pose found.
+// The finding of a check of a pose.
 #pragma once
 
 #include <nook/nook_pose.h>
