@@ -8,21 +8,23 @@
 
 namespace nook::bake {
 
-std::vector<ShownPrimitive> shown_primitives(const tinygltf::Model& model) {
+void for_each_shown_primitive(const tinygltf::Model& model,
+                              const std::function<void(const ShownPrimitive&)>& visit) {
   const NodeTree nodes = read_nodes(model);
   const std::vector<int> meshes = shown_meshes(model, nodes);
   const std::vector<Affine> world = default_world_transforms(nodes);
-  std::vector<ShownPrimitive> shown;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (meshes[n] < 0) continue;
     const tinygltf::Mesh& mesh = model.meshes[std::size_t(meshes[n])];
-    const std::vector<double> morph_weights = default_morph_weights(mesh, model.nodes[n]);
-    for (std::size_t p = 0; p < mesh.primitives.size(); ++p)
-      shown.push_back({&mesh.primitives[p],
-                       "mesh " + std::to_string(meshes[n]) + " primitive " + std::to_string(p), world[n],
-                       morph_weights});
+    ShownPrimitive shown;
+    shown.world_from_mesh = world[n];
+    shown.morph_weights = default_morph_weights(mesh, model.nodes[n]);
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+      shown.primitive = &mesh.primitives[p];
+      shown.what = "mesh " + std::to_string(meshes[n]) + " primitive " + std::to_string(p);
+      visit(shown);
+    }
   }
-  return shown;
 }
 
 Floats read_positions(const tinygltf::Model& model, const ShownPrimitive& shown, std::size_t before) {

@@ -4,6 +4,7 @@
 
 #include <tiny_gltf.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,10 @@ struct ShownPrimitive {
   std::vector<double> morph_weights;  // empty where all are 0
 };
 
-// In the order of nodes. A mesh that several nodes show comes once for each of them. Fails with BAD_FILE on
-// indices out of range.
-std::vector<ShownPrimitive> shown_primitives(const tinygltf::Model& model);
+// One at a time, because a small file may show a mesh of many primitives by many nodes. In the order of
+// nodes. Fails with BAD_FILE on indices out of range.
+void for_each_shown_primitive(const tinygltf::Model& model,
+                              const std::function<void(const ShownPrimitive&)>& visit);
 
 // The positions of a primitive in the space of its mesh, 3 floats for each vertex, with the morph targets at
 // their weights. A shape has a limit of vertices, of which `before` belong to other primitives. Fails with

@@ -127,7 +127,8 @@ StaticScene import_document(std::span<const std::byte> bytes, const FileAccess& 
       parse_gltf(bytes, files, textures == SceneTextures::read ? Images::keep : Images::skip);
   StaticScene scene;
   read_surfaces(model, textures, scene);
-  for (const ShownPrimitive& shown : shown_primitives(model)) append_primitive(model, shown, scene);
+  for_each_shown_primitive(model,
+                           [&](const ShownPrimitive& shown) { append_primitive(model, shown, scene); });
   if (scene.triangle.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "the default scene shows no triangle; export the meshes with it");
   return scene;

@@ -161,7 +161,8 @@ void make_missing(Building& building, std::vector<std::string>& warnings) {
 ImportedSurface import_document(std::span<const std::byte> bytes, const FileAccess& files) {
   const tinygltf::Model model = parse_gltf(bytes, files);
   Building building;
-  for (const ShownPrimitive& shown : shown_primitives(model)) append_primitive(model, shown, building);
+  for_each_shown_primitive(model,
+                           [&](const ShownPrimitive& shown) { append_primitive(model, shown, building); });
   if (building.mesh.triangle.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "the default scene shows no triangle; export the meshes with it");
   ImportedSurface imported;

@@ -55,7 +55,7 @@ struct CompressionSettings {
 using StageProgress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
 
 // Returns the default mapping of (26). Masks have the paper's, T = 0.5 and W = 1. For distances, visibility
-// rises continuously over half a texel inwards from the boundary: T is the value of that distance, 0.205 at
+// rises continuously over half a texel inwards from the boundary: T is the value of that distance, 0.197 at
 // 96 texels, and W = 1 / T. The paper's T = 0.05 and W = 12, sdk's paper_mapping(), jump from 0.6 to 1.
 nook::material::VisibilityMapping default_mapping(nook::material::VisibilityForm form, std::uint32_t width,
                                                   std::uint32_t height);

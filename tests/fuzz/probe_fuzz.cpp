@@ -132,7 +132,7 @@ nook_probe_fit_desc fit_desc(Script& script, Axes& given) {
   nook_probe_fit_desc desc;
   ok(nook_probe_fit_desc_init(&desc, sizeof desc, NOOK_VERSION));
   desc.isa = nook_isa(script.below(6));
-  desc.method = nook_probe_method(script.below(5));
+  desc.method = nook_probe_method(script.below(8));
   // Dice are one in 256, because the products of their functions are sums over 8192 directions.
   const std::uint32_t basis = script.byte();
   desc.basis = nook_probe_basis(basis < 4 ? basis : basis % 2);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -233,12 +234,12 @@ inline void Body::light(const ShadowKernels& kernels, const Kernel& kernel) {
   kernels.directional_ground(ground(), posed_points(6), view, {0, 1, 0}, rgb);
 }
 
-// Lobes and samples of a fit, twelve lobes in rows of sixteen.
+// Lobes and a chunk of samples of a fit, twelve lobes in rows of sixteen.
 class ProbeFit {
  public:
-  static constexpr std::uint32_t lobes = 12, padded = 16, samples = 1024;
+  static constexpr std::uint32_t lobes = 12, padded = 16, samples = probe::sample_chunk;
 
-  explicit ProbeFit(std::uint32_t seed) : samples_(samples) {
+  explicit ProbeFit(std::uint32_t seed) {
     Random random(seed);
     for (std::uint32_t i = 0; i < padded; ++i) {
       const Vec3 axis = i < lobes ? random.direction() : Vec3{};
@@ -249,53 +250,54 @@ class ProbeFit {
     }
     for (std::uint32_t k = 0; k < samples; ++k) {
       const Vec3 d = random.direction();
+      samples_->x[k] = d.x;
+      samples_->y[k] = d.y;
+      samples_->z[k] = d.z;
+      samples_->red[k] = random.from(0, 2);
+      samples_->green[k] = random.from(0, 2);
+      samples_->blue[k] = random.from(0, 2);
+      samples_->weight[k] = 1;
+      samples_->growth[k] = 1;
       // As the owner of a fit does: the sum of weights counts at least 256 at first.
-      samples_[k] = {
-          {d.x, d.y, d.z}, 1, {random.from(0, 2), random.from(0, 2), random.from(0, 2)}, 256.0f + float(k)};
+      total_.row(0)[k] = 256.0f + float(k);
     }
     for (std::uint32_t i = 0; i < padded; ++i) {
       weights_.row(0)[i] = i < lobes ? 1.0f / 12 : 1;  // the mean square of such a lobe over the sphere
       weights_.row(1)[i] = i < lobes ? 6 : 0;          // 1 / its mean
-      for (std::uint32_t f = 0; f < padded; ++f)
-        dual_.row(f)[i] = f == i && i < lobes ? 8.0f : f < lobes && i < lobes ? -0.25f : 0.0f;
     }
   }
 
-  enum class Step { fast, plain, original };
+  enum class Step { plain, original };
 
   void values(const probe::FitKernels& kernels) {
-    const probe::LobeSoa view{axes_.row(0), axes_.row(1), axes_.row(2), axes_.row(3), padded};
-    kernels.gaussian_values(view, samples_.data(), samples, values_.row(0));
+    kernels.gaussian_values(view(), *samples_, samples, values_.row(0));
   }
   void fit(const probe::FitKernels& kernels, Step step) {
     for (std::uint32_t r = 0; r < 7; ++r)
       for (std::uint32_t i = 0; i < padded; ++i) running_.row(r)[i] = 0;
-    probe::RunningView view;
-    view.count = lobes;
-    view.padded = padded;
+    probe::RunningView running;
+    running.count = lobes;
+    running.padded = padded;
     for (std::uint32_t c = 0; c < 3; ++c) {
-      view.value[c] = running_.row(c);
-      view.change[c] = running_.row(3 + c);
+      running.value[c] = running_.row(c);
+      running.change[c] = running_.row(3 + c);
     }
-    view.square = running_.row(6);
-    view.true_square = weights_.row(0);
-    view.inverse_mean = weights_.row(1);
-    view.dual = dual_.row(0);
-    switch (step) {
-      case Step::fast:
-        return kernels.step_fast(view, samples_.data(), values_.row(0), samples);
-      case Step::plain:
-        return kernels.step_plain(view, samples_.data(), values_.row(0), samples, true, true);
-      case Step::original:
-        return kernels.step_original(view, samples_.data(), values_.row(0), samples);
-    }
+    running.square = running_.row(6);
+    running.true_square = weights_.row(0);
+    running.inverse_mean = weights_.row(1);
+    if (step == Step::plain)
+      kernels.step_plain(running, *samples_, total_.row(0), samples, values_.row(0), true, true);
+    else
+      kernels.step_original(running, *samples_, total_.row(0), samples, values_.row(0));
   }
   // The means over the samples of lobes times colour and of products of lobes.
   void sums(const probe::FitKernels& kernels) {
+    kernels.light_rows(*samples_, samples, scale_.row(0), light_.row(0));
+    kernels.gaussian_rows(view(), lobes, *samples_, scale_.row(0), samples, rows_.row(0));
     moments_.assign(3 * padded, 0);
     gram_.assign(padded * padded, 0);
-    kernels.sum_moments(samples_.data(), values_.row(0), samples, padded, moments_.data());
-    kernels.sum_gram(samples_.data(), values_.row(0), samples, lobes, padded, gram_.data());
+    kernels.sum_products(rows_.row(0), lobes, light_.row(0), 3, samples, false, moments_.data(), padded);
+    kernels.sum_products(rows_.row(0), lobes, rows_.row(0), lobes, samples, true, gram_.data(), padded);
     for (double& m : moments_) m /= samples;
     for (double& g : gram_) g /= samples;
   }
@@ -306,9 +308,12 @@ class ProbeFit {
   const std::vector<double>& gram() const { return gram_; }  // the lower triangle
 
  private:
-  std::vector<probe::Sample> samples_;
+  probe::LobeSoa view() const { return {axes_.row(0), axes_.row(1), axes_.row(2), axes_.row(3), padded}; }
+
+  std::unique_ptr<probe::SampleColumns> samples_ = std::make_unique<probe::SampleColumns>();
   Rows axes_{4, padded}, values_{1, std::size_t(padded) * samples}, running_{7, padded}, weights_{2, padded},
-      dual_{padded, padded};
+      total_{1, samples}, scale_{1, samples}, light_{1, 3 * std::size_t(samples)},
+      rows_{1, std::size_t(padded) * samples};
   std::vector<double> moments_, gram_;
 };
 

@@ -94,6 +94,43 @@ TEST_CASE("lobes that are nearly mixtures of each other are fitted in spite of s
   }
 }
 
+TEST_CASE("few samples, or few directions, leave a small and nearly exact answer") {
+  const auto light = [](Vec3 d) { return Vec3{1.5f + d.z, std::exp(d.x), 1}; };
+  std::vector<Vec3> axes(24);
+  vogel_sphere(axes);
+  const Basis bases[] = {vogel_basis(12), gaussian_basis(axes, std::vector<float>(24, 2.0f), false),
+                         harmonic_basis(4)};
+  const float gather[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (const Basis& basis : bases)
+    for (const std::size_t count : {1, 2, 6, 11, 600}) {
+      test::Samples samples = test::sample(9, count, light);
+      if (count == 600)
+        for (std::size_t k = 0; k < count; ++k) {
+          const float* const d = gather[k % 6];
+          const Vec3 rgb = light({d[0], d[1], d[2]});
+          std::copy_n(d, 3, &samples.directions[3 * k]);
+          const float colour[3] = {rgb.x, rgb.y, rgb.z};
+          std::copy_n(colour, 3, &samples.radiance[3 * k]);
+        }
+      INFO(basis.count << " functions, " << count << " samples");
+      Fit fit(basis, with(FitMethod::least_squares));
+      test::add(fit, samples);
+      const Coefficients b = test::read(fit);
+      // The prior keeps 1e-4 or ten times that of the answer, and the sums' rounding over it adds to that.
+      for (std::size_t k = 0; k < std::min<std::size_t>(count, 6); ++k) {
+        const float* const d = &samples.directions[3 * k];
+        const Vec3 at = function_of(basis, b)({d[0], d[1], d[2]});
+        CHECK(length(at - light({d[0], d[1], d[2]})) < 0.05f);
+      }
+      // The light at the samples is at most 3. A fit through eleven of them swings as far as 50.
+      for (const Vec3& rgb : b) CHECK(length(rgb) < 100);
+      FitSettings bands;
+      Fit constrained(basis, bands);
+      test::add(constrained, samples);
+      for (const Vec3& rgb : test::read(constrained)) CHECK(length(rgb) < 100);
+    }
+}
+
 TEST_CASE("a block of the running average is the system of fit.h") {
   const Basis basis = vogel_basis(12);
   const Vector<double> gram = basis_gram(basis);

@@ -219,6 +219,8 @@ TEST_CASE("bands merge, start from a short run, and are forgotten") {
   test::add(short_run, samples, 0, 500);
   seeded.seed(short_run);
   CHECK(largest_gap(bands_of(basis, test::read(seeded)), bands_of(basis, test::read(short_run))) < 1e-4);
+  seeded.seed(short_run);  // a second start replaces the first
+  CHECK(largest_gap(bands_of(basis, test::read(seeded)), bands_of(basis, test::read(short_run))) < 1e-4);
   // Fits that differ in the constraint alone do not merge.
   FitSettings none = running;
   none.constraint = Constraint::none;

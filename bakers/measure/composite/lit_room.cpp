@@ -115,6 +115,7 @@ std::vector<Vec3> lit_by_capsules(const Scene& scene, const SkinnedMesh& mesh, c
 
 // The paper-white share of the light, so that one pixel in twenty is brighter than it.
 float exposure_of(std::span<const Vec3> light) {
+  if (light.empty()) return 1;
   std::vector<float> bright;
   for (const Vec3 rgb : light) bright.push_back(luminance(rgb));
   const auto at = bright.begin() + std::ptrdiff_t(bright.size() * 19 / 20);

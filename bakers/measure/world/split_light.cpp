@@ -30,7 +30,8 @@ Environment difference(const Environment& all, const Environment& part) {
 }  // namespace
 
 float SplitLight::sun_half_angle_radians() const {
-  return std::acos(1 - sun->disc_solid_angle / (2 * std::numbers::pi_v<float>));
+  // By the sine of its half, because the cosine of a small disc rounds to 1.
+  return 2 * std::asin(std::sqrt(std::min(sun->disc_solid_angle / (4 * std::numbers::pi_v<float>), 1.0f)));
 }
 
 Vec3 SplitLight::sun_irradiance(Vec3 normal) const {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <vector>
 
 namespace nook {
 namespace {
@@ -85,7 +86,7 @@ NumberedSun gather_sun(const MapView& map, double limit, std::size_t first, std:
     });
   }
   sun.direction = normalised(direction);
-  sun.disc_solid_angle = float(flux * (flux / square));
+  if (square > 0) sun.disc_solid_angle = float(flux * (flux / square));
   return found;
 }
 
@@ -119,11 +120,15 @@ Vector<MapSun> take_suns(const MapView& map, Vector<float>& rgb, Memory* memory,
   for (std::size_t first = 0; first < group.size(); ++first)
     if (group[first] == in_no_group)
       found.push_back(gather_sun(map, limit, first, found.size(), group, stack));
-  std::stable_sort(found.begin(), found.end(), [](const NumberedSun& a, const NumberedSun& b) {
-    return luminance(a.sun.irradiance) > luminance(b.sun.irradiance);
+  // Texels above the limit by less than a float shows have no light of their own and no direction.
+  const std::size_t groups = found.size();
+  std::erase_if(found, [](const NumberedSun& one) { return !(luminance(one.sun.irradiance) > 0); });
+  std::sort(found.begin(), found.end(), [](const NumberedSun& a, const NumberedSun& b) {
+    const double first = luminance(a.sun.irradiance), second = luminance(b.sun.irradiance);
+    return first != second ? first > second : a.number < b.number;
   });
   Vector<MapSun> suns(memory);
-  Vector<std::uint8_t> taken(found.size(), std::uint8_t(0), memory);
+  Vector<std::uint8_t> taken(groups, std::uint8_t(0), memory);
   for (std::size_t i = 0; i < std::min(found.size(), most); ++i) {
     suns.push_back(found[i].sun);
     taken[found[i].number] = 1;

@@ -154,6 +154,7 @@ class Fit {
   LightBands light_bands(const Gathered& gathered) const;
   double band_weight() const;
   void solve_moments(const Gathered& gathered, double* coefficients);
+  void factor_samples(const Gathered& gathered, double scale, double* gram, double* factor) const;
   void solve_samples(const Gathered& gathered, double* coefficients);
   void make_non_negative(const Gathered& gathered, double* coefficients);
 

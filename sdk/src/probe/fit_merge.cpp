@@ -44,6 +44,7 @@ void Fit::seed_bands(const Vec3* start) {
   project_functions(basis_, function.data());
   const double scale = prior_weight_ / domain_area(basis_.domain);
   double* const bands = state_at(state_.data()).bands;
+  std::fill_n(bands, 3 * std::size_t(band_stride), 0.0);  // those of an earlier start
   for (std::size_t j = 0; j < band_functions; ++j)
     for (std::uint32_t i = 0; i < basis_.count; ++i) {
       const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};

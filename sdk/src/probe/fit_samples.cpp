@@ -147,7 +147,7 @@ void Fit::total_weights(std::uint32_t count, float* total) const {
   double weight = counts_.weight, expected = counts_.expected_weight;
   for (std::uint32_t k = 0; k < count; ++k) {
     weight += double(samples.weight[k]);
-    expected = std::min(expected + double(samples.growth[k]), first_weight);
+    if (expected < first_weight) expected = std::min(expected + double(samples.growth[k]), first_weight);
     total[k] = float(std::max(weight, expected) + prior_weight_);
   }
   std::fill(total + count, total + sample_chunk, 1.0f);

@@ -11,12 +11,26 @@
 namespace nook::probe {
 namespace {
 
-// The samples' Gram matrix is singular before there are as many samples as functions; so much of the true
-// one, relative, leaves the smallest of all exact answers, and later nothing that could be seen.
+// So much of the true Gram matrix joins that of the samples. It leaves nothing that could be seen.
 constexpr double regularisation = 1e-8;
+// Samples determine the coefficients where each pivot of their Gram matrix is at least this share of the true
+// one's. Below it lies the rounding of sums of floats, 1e-6 of the diagonal.
+constexpr double least_share = 1e-4;
 
+// Enormous samples of lobes that are nearly mixtures of each other have sums beyond floats; what they give is
+// 0.
 float in_range(double value) {
+  if (std::isnan(value)) return 0;
   return float(std::clamp(value, -double(max_coefficient), double(max_coefficient)));
+}
+
+// Each pivot of a Cholesky factor is at least `share` of the other's.
+bool has_pivots(const double* factor, const double* other, std::uint32_t n, double share) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const double pivot = factor[i * n + i], need = other[i * n + i];
+    if (!(pivot * pivot >= share * need * need)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -59,23 +73,38 @@ void Fit::solve_moments(const Gathered& gathered, double* b) {
   if (gathered.state.bands) meet_bands(light_bands(gathered), factor_.data(), n, band_weight(), b);
 }
 
+// The Gram matrix of the samples and its Cholesky factor. With fewer samples than functions, or from few
+// directions, it is singular but for the rounding of its sums; then more of the true one joins it, which
+// leaves nearly the smallest of all exact answers.
+void Fit::factor_samples(const Gathered& gathered, double scale, double* gram, double* factor) const {
+  const std::uint32_t n = basis_.count;
+  const auto factor_with = [&](double prior) {
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k <= i; ++k)
+        gram[i * n + k] = gram[k * n + i] =
+            gathered.state.sums[(3 + i) * padded_ + k] + prior * scale * gram_[i * n + k];
+    std::copy_n(gram, std::size_t(n) * n, factor);
+    return cholesky(factor, n, 0) == n;
+  };
+  if (factor_with(regularisation) && has_pivots(factor, factor_.data(), n, least_share * scale)) return;
+  // Without rounding the samples would only add to the pivots of the prior.
+  for (double prior = least_share; prior < 1; prior *= 10)
+    if (factor_with(prior) && has_pivots(factor, factor_.data(), n, 0.9 * prior * scale)) return;
+  factor_with(1);
+}
+
 void Fit::solve_samples(const Gathered& gathered, double* b) {
   const std::uint32_t n = basis_.count;
   double* const gram = scratch_.data();
   double* const rest = gram + std::size_t(n) * n;
   const double scale =
       gathered.counts.weight / domain_area(basis_.domain);  // of the samples' sums to integrals
-  const double prior = regularisation * scale;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k <= i; ++k)
-      gram[i * n + k] = gram[k * n + i] =
-          gathered.state.sums[(3 + i) * padded_ + k] + prior * gram_[i * n + k];
+  factor_samples(gathered, scale, gram, rest);
   if (settings_.method == FitMethod::least_squares) {
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = gathered.state.sums[c * padded_ + i];
-    cholesky(gram, n, 0);
-    for (std::size_t c = 0; c < 3; ++c) cholesky_solve(gram, n, b + c, 3);
-    if (gathered.state.bands) meet_bands(light_bands(gathered), gram, n, band_weight() * scale, b);
+    for (std::size_t c = 0; c < 3; ++c) cholesky_solve(rest, n, b + c, 3);
+    if (gathered.state.bands) meet_bands(light_bands(gathered), rest, n, band_weight() * scale, b);
     return;
   }
   double* const x = rest + std::size_t(n) * n + 2 * n;
