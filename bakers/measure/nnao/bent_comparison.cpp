@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <deque>
 #include <map>
 #include <memory>
@@ -10,6 +9,7 @@
 
 #include "bakers/measure/nnao/edge_average.h"
 #include "bakers/measure/nnao/network_pass.h"
+#include "bakers/measure/nnao/row_means.h"
 #include "bakers/nnao/specular_fit.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/nnao/lighting.h"
@@ -137,13 +137,6 @@ Json mean_row(const std::vector<Json>& sources) {
   return row;
 }
 
-std::string cell(const Json& row, const char* key, const char* format) {
-  if (!row.contains(key)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, format, row[key].get<double>());
-  return text;
-}
-
 }  // namespace
 
 Json bent_rows(platform::Context& context, std::span<const MeasuredView> views, AoRequest request,
@@ -216,9 +209,13 @@ std::string bent_markdown(const Json& rows) {
     if (row["scene"] != "mean") continue;
     text.append("| ").append(row["method"].get<std::string>()).append(" | ").append(row["taps"].dump());
     text.append(" | ").append(row["denoiser"].get<std::string>()).append(" | ");
-    text.append(cell(row, "angle", "%.1f")).append(" | ").append(cell(row, "angle_mean", "%.1f"));
-    text.append(" | ").append(cell(row, "specular_mse", "%.4f")).append(" | ");
-    text.append(cell(row, "lagarde_mse", "%.4f")).append(" | ").append(cell(row, "specular_ratio", "%.2f"));
+    text.append(table_number(row, "angle", "%.1f"))
+        .append(" | ")
+        .append(table_number(row, "angle_mean", "%.1f"));
+    text.append(" | ").append(table_number(row, "specular_mse", "%.4f")).append(" | ");
+    text.append(table_number(row, "lagarde_mse", "%.4f"))
+        .append(" | ")
+        .append(table_number(row, "specular_ratio", "%.2f"));
     text += " |\n";
   }
   return text;

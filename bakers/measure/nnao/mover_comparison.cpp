@@ -1,13 +1,12 @@
 #include "bakers/measure/nnao/mover_comparison.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <deque>
 #include <optional>
 
-#include "bakers/measure/nnao/mean.h"
 #include "bakers/measure/nnao/network_pass.h"
 #include "bakers/measure/nnao/ratio_statistics.h"
+#include "bakers/measure/nnao/row_means.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::measure {
@@ -82,13 +81,6 @@ bool counts(const MeasuredMover& mover, MoverPart part) {
   return mover.pixels[std::size_t(part)] >= fewest_part_pixels;
 }
 
-std::vector<std::string> characters_of(std::span<const MeasuredMover> movers) {
-  std::vector<std::string> names;
-  for (const MeasuredMover& mover : movers)
-    if (std::ranges::find(names, mover.character) == names.end()) names.push_back(mover.character);
-  return names;
-}
-
 Json character_row(std::span<const MeasuredMover> movers, const std::string& character, std::size_t method) {
   const MoverError& first = movers.front().errors[method];
   Json row{{"taps", first.taps}, {"pass", mover_pass_name(first.pass)}, {"character", character}};
@@ -100,25 +92,17 @@ Json character_row(std::span<const MeasuredMover> movers, const std::string& cha
       bias.add(mover.errors[method].bias[std::size_t(part)]);
     }
     const std::string key = name;
-    row[key + "_mse"] = mse.count > 0 ? Json(mse.value()) : Json();
-    row[key + "_bias"] = bias.count > 0 ? Json(bias.value()) : Json();
+    row[key + "_mse"] = mean_or_null(mse);
+    row[key + "_bias"] = mean_or_null(bias);
   }
   return row;
 }
 
-// The mean over the characters that have the column.
-Json mean_row(const std::vector<Json>& characters) {
-  Json row = characters.front();
-  row["character"] = "mean";
-  for (const auto& [part, name] : named_parts)
-    for (const char* end : {"_mse", "_bias"}) {
-      const std::string key = std::string(name) + end;
-      Mean mean;
-      for (const Json& character : characters)
-        if (!character[key].is_null()) mean.add(character[key].get<double>());
-      row[key] = mean.count > 0 ? Json(mean.value()) : Json();
-    }
-  return row;
+std::vector<std::string> mean_columns() {
+  std::vector<std::string> columns;
+  for (const NamedPart& part : named_parts)
+    for (const char* end : {"_mse", "_bias"}) columns.push_back(std::string(part.name) + end);
+  return columns;
 }
 
 const MoverError& single_of(const MeasuredMover& mover, int taps) {
@@ -179,13 +163,6 @@ Json view_rows(std::span<const MeasuredMover> movers) {
   return rows;
 }
 
-std::string cell(const Json& row, const char* key, const char* format) {
-  if (!row.contains(key) || !row[key].is_number()) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, format, row[key].get<double>());
-  return text;
-}
-
 }  // namespace
 
 const char* mover_pass_name(MoverPass pass) {
@@ -224,11 +201,12 @@ Json mover_report(std::span<const MeasuredMover> movers, std::uint64_t seed) {
   Json report;
   report["rows"] = Json::array();
   report["ratios"] = Json::array();
-  const std::vector<std::string> characters = characters_of(movers);
+  const std::vector<std::string> characters = distinct_names(movers, &MeasuredMover::character);
   for (std::size_t method = 0; method < movers.front().errors.size(); ++method) {
     std::vector<Json> rows;
     for (const std::string& character : characters) rows.push_back(character_row(movers, character, method));
-    rows.push_back(mean_row(rows));
+    rows.push_back(mean_row(rows, mean_columns()));
+    rows.back()["character"] = "mean";
     for (const Json& row : rows) report["rows"].push_back(row);
     if (movers.front().errors[method].pass == MoverPass::single) continue;
     for (const NamedPart& part : named_parts)
@@ -246,9 +224,9 @@ std::string mover_markdown(const Json& report) {
     if (row["character"] != "mean") continue;
     text.append("| ").append(row["taps"].dump()).append(" | ").append(row["pass"].get<std::string>());
     for (const char* key : {"mover_mse", "uncovered_mse", "beside_mse", "elsewhere_mse"})
-      text.append(" | ").append(cell(row, key, "%.5f"));
+      text.append(" | ").append(table_number(row, key, "%.5f"));
     for (const char* key : {"mover_bias", "uncovered_bias", "beside_bias"})
-      text.append(" | ").append(cell(row, key, "%.3f"));
+      text.append(" | ").append(table_number(row, key, "%.3f"));
     text += " |\n";
   }
   text +=
@@ -259,10 +237,13 @@ std::string mover_markdown(const Json& report) {
     text.append(" | ")
         .append(row["part"].get<std::string>())
         .append(" | ")
-        .append(cell(row, "ratio", "%.3f"));
-    text.append(" | ").append(cell(row, "lower_95", "%.3f")).append(" to ");
-    text.append(cell(row, "upper_95", "%.3f")).append(" | ");
-    text.append(row.value("worst_view", "-")).append(" ").append(cell(row, "worst", "%.2f")).append(" |\n");
+        .append(table_number(row, "ratio", "%.3f"));
+    text.append(" | ").append(table_number(row, "lower_95", "%.3f")).append(" to ");
+    text.append(table_number(row, "upper_95", "%.3f")).append(" | ");
+    text.append(row.value("worst_view", "-"))
+        .append(" ")
+        .append(table_number(row, "worst", "%.2f"))
+        .append(" |\n");
   }
   return text;
 }

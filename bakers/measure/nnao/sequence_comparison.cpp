@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <deque>
 #include <functional>
 
 #include "bakers/measure/nnao/network_pass.h"
 #include "bakers/measure/nnao/ratio_statistics.h"
+#include "bakers/measure/nnao/row_means.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::measure {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using bake::nnao::Mean;
 using bake::nnao::TracedView;
 
 constexpr int measured_taps[] = {9, 16, 32, 64};
@@ -116,17 +117,10 @@ bool has_disoccluded(const SequenceView& view) {
   return view.disoccluded >= fewest_disoccluded;
 }
 
-std::vector<std::string> sources_of(std::span<const SequenceView> views) {
-  std::vector<std::string> sources;
-  for (const SequenceView& view : views)
-    if (std::ranges::find(sources, view.source) == sources.end()) sources.push_back(view.source);
-  return sources;
-}
-
 Json source_row(std::span<const SequenceView> views, const std::string& source, std::size_t method) {
   Json row;
   for (const NamedColumn& column : columns()) {
-    double sum = 0, count = 0;
+    Mean mean;
     for (const SequenceView& view : views) {
       if (view.source != source) continue;
       const SequenceError& error = view.errors[method];
@@ -136,31 +130,17 @@ Json source_row(std::span<const SequenceView> views, const std::string& source, 
                {"frames", error.frames},
                {"scene", source}};
       if (column.of_disoccluded && !has_disoccluded(view)) continue;
-      sum += column.value(view, error);
-      count += 1;
+      mean.add(column.value(view, error));
     }
-    if (count > 0)
-      row[column.name] = sum / count;
-    else
-      row[column.name] = nullptr;
+    row[column.name] = mean_or_null(mean);
   }
   return row;
 }
 
-// The mean over the sources that have the column.
-Json mean_row(const std::vector<Json>& sources) {
-  Json row = sources.front();
-  row["scene"] = "mean";
-  for (const NamedColumn& column : columns()) {
-    double sum = 0, count = 0;
-    for (const Json& source : sources) {
-      if (source[column.name].is_null()) continue;
-      sum += source[column.name].get<double>();
-      count += 1;
-    }
-    if (count > 0) row[column.name] = sum / count;
-  }
-  return row;
+std::vector<std::string> mean_columns() {
+  std::vector<std::string> names;
+  for (const NamedColumn& column : columns()) names.emplace_back(column.name);
+  return names;
 }
 
 // A pass over another, over all pixels or the disoccluded ones.
@@ -224,13 +204,6 @@ Json view_rows(std::span<const SequenceView> views) {
   return rows;
 }
 
-std::string cell(const Json& value, const char* format) {
-  if (!value.is_number()) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, format, value.get<double>());
-  return text;
-}
-
 std::string pass_words(const Json& taps, const Json& frames) {
   std::string text = taps.dump();
   text += frames == 1 ? " taps" : " taps, " + frames.dump() + " frames";
@@ -243,23 +216,19 @@ std::string mean_table(const Json& rows) {
   for (const Json& row : rows) {
     if (row["scene"] != "mean") continue;
     text.append("| ").append(row["taps"].dump()).append(" | ").append(row["frames"].dump());
-    text.append(" | ").append(cell(row["mse"], "%.5f"));
-    text.append(" | ").append(cell(row["disoccluded_mse"], "%.5f"));
-    text.append(" | ").append(cell(row["path_change"], "%.4f"));
-    text.append(" | ").append(cell(row["path_flicker"], "%.4f")).append(" |\n");
+    text.append(" | ").append(table_number(row, "mse", "%.5f"));
+    text.append(" | ").append(table_number(row, "disoccluded_mse", "%.5f"));
+    text.append(" | ").append(table_number(row, "path_change", "%.4f"));
+    text.append(" | ").append(table_number(row, "path_flicker", "%.4f")).append(" |\n");
   }
   return text;
 }
 
 std::string worst_source(const Json& sources) {
   std::string name;
-  double largest = 0;
   for (const auto& [source, ratio] : sources.items())
-    if (ratio.get<double>() > largest) {
-      largest = ratio.get<double>();
-      name = source;
-    }
-  return name + " " + cell(largest, "%.2f");
+    if (name.empty() || ratio > sources[name]) name = source;
+  return name + " " + table_number(sources, name.c_str(), "%.2f");
 }
 
 std::string ratio_table(const Json& ratios) {
@@ -274,8 +243,10 @@ std::string ratio_table(const Json& ratios) {
       text += "- | - | - |\n";
       continue;
     }
-    text.append(cell(row["ratio"], "%.3f")).append(" | ").append(cell(row["lower_95"], "%.3f"));
-    text.append(" to ").append(cell(row["upper_95"], "%.3f")).append(" | ");
+    text.append(table_number(row, "ratio", "%.3f"))
+        .append(" | ")
+        .append(table_number(row, "lower_95", "%.3f"));
+    text.append(" to ").append(table_number(row, "upper_95", "%.3f")).append(" | ");
     text.append(worst_source(row["sources"])).append(" |\n");
   }
   return text;
@@ -333,10 +304,11 @@ Json sequence_report(std::span<const SequenceView> views, std::uint64_t seed) {
   Json rows = Json::array(), ratios = Json::array();
   for (std::size_t method = 0; method < views.front().errors.size(); ++method) {
     std::vector<Json> of_sources;
-    for (const std::string& source : sources_of(views))
+    for (const std::string& source : distinct_names(views, &SequenceView::source))
       of_sources.push_back(source_row(views, source, method));
     for (const Json& row : of_sources) rows.push_back(row);
-    rows.push_back(mean_row(of_sources));
+    rows.push_back(mean_row(of_sources, mean_columns()));
+    rows.back()["scene"] = "mean";
   }
   for (const SequenceRatio& ratio : measured_ratios()) ratios.push_back(ratio_row(views, ratio, seed));
   return {{"rows", rows}, {"ratios", ratios}, {"views", view_rows(views)}};

@@ -29,8 +29,7 @@ Json evaluate_bent_normals(EvaluateNnaoOptions& options) {
   });
   if (markdown) markdown->commit(bent_markdown(report["rows"]));
   report["roughness"] = measured_roughness;
-  report["rays"] = options.truth.rays;
-  report["seed"] = options.common.seed;
+  add_conditions(report, options, *context);
   return report;
 }
 

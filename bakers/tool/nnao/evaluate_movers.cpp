@@ -95,9 +95,7 @@ Json evaluate_movers(const EvaluateNnaoOptions& options) {
   report["clips"] = clips;
   report["walk_speed"] = options.walk_speed;
   report["step_px"] = options.truth.path.step_px;
-  report["rays"] = options.truth.rays;
-  report["opengl"] = context->version();
-  report["seed"] = options.common.seed;
+  add_conditions(report, options, *context);
   return report;
 }
 

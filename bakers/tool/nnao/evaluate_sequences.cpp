@@ -37,9 +37,7 @@ Json evaluate_sequences(EvaluateNnaoOptions& options) {
   Json report = sequence_report(measured, options.common.seed);
   if (markdown) markdown->commit(sequence_markdown(report));
   report["step_px"] = options.truth.path.step_px;
-  report["rays"] = options.truth.rays;
-  report["opengl"] = context->version();
-  report["seed"] = options.common.seed;
+  add_conditions(report, options, *context);
   return report;
 }
 

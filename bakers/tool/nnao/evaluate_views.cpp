@@ -108,10 +108,8 @@ Json evaluate_views(EvaluateNnaoOptions& options) {
   report["borders"] = std::move(borders);
   report["ratios"] = ratios;
   report["views"] = nnao_view_rows(comparison, views);
-  report["rays"] = options.truth.rays;
   report["intensity"] = options.intensity;
-  report["opengl"] = context->version();
-  report["seed"] = options.common.seed;
+  add_conditions(report, options, *context);
   return report;
 }
 

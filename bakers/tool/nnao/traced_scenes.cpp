@@ -67,6 +67,13 @@ std::unique_ptr<platform::Context> make_context() {
   return platform::create_context(request);
 }
 
+void add_conditions(nlohmann::ordered_json& report, const EvaluateNnaoOptions& options,
+                    platform::Context& context) {
+  report["rays"] = options.truth.rays;
+  report["opengl"] = context.version();
+  report["seed"] = options.common.seed;
+}
+
 float max_radius_px(const EvaluateNnaoOptions& options) {
   return options.max_radius_px > 0 ? options.max_radius_px : 0.5f * float(options.truth.height);
 }

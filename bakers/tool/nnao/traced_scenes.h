@@ -1,7 +1,9 @@
-// The common start of the protocols of `nook evaluate nnao`: scenes, their ray-traced views, and OpenGL.
+// The common start of the protocols of `nook evaluate nnao`: scenes, their ray-traced views, and OpenGL; and
+// what all their reports end with.
 #pragma once
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "bakers/measure/nnao/report.h"
@@ -30,6 +32,10 @@ std::vector<measure::MeasuredView> traced_views(const Work& work, const Evaluate
 
 // OpenGL 3.3 without a display.
 std::unique_ptr<platform::Context> make_context();
+
+// What all rows of a report depend on: rays of a reference, OpenGL and the seed.
+void add_conditions(nlohmann::ordered_json& report, const EvaluateNnaoOptions& options,
+                    platform::Context& context);
 
 // The largest radius on the screen that every method takes, pixels.
 float max_radius_px(const EvaluateNnaoOptions& options);
