@@ -33,7 +33,7 @@ std::vector<measure::MeasuredView> traced_views(const Work& work, const Evaluate
 // OpenGL 3.3 without a display.
 std::unique_ptr<platform::Context> make_context();
 
-// What all rows of a report depend on: rays of a reference, OpenGL and the seed.
+// Adds the conditions of all rows of a report: rays of a reference, OpenGL and the seed.
 void add_conditions(nlohmann::ordered_json& report, const EvaluateNnaoOptions& options,
                     platform::Context& context);
 

@@ -227,10 +227,10 @@ nook_result nook_world_pass_describe(nook_world_pass pass, nook_world_pass_info*
     need(pass, "pass");
     nook_world_pass_info known{};
     known.texture = pass->pass->ao_texture();
-    known.caster_texture = pass->pass->table().texture();
+    known.caster_texture = pass->pass->casters().table().texture();
     known.caster_target = gl::TexelTable::target(pass->gl->device);
-    known.group_count = static_cast<std::int32_t>(pass->pass->group_count());
-    known.caster_count = static_cast<std::int32_t>(pass->pass->caster_count());
+    known.group_count = static_cast<std::int32_t>(pass->pass->casters().group_count());
+    known.caster_count = static_cast<std::int32_t>(pass->pass->casters().caster_count());
     known.texture_bytes = pass->pass->bytes();
     known.glsl = gl::embedded_text("world/host.glsl");
     write_info(info, first_info, known);

@@ -1,6 +1,7 @@
 #include "sdk/src/gl/world/caster_texels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sdk/src/character/world_casters.h"
@@ -62,11 +63,6 @@ Vec3 viewed(const float* m, Vec3 p) {
 Vec3 turned(const float* m, Vec3 d) {
   return {m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,
           m[2] * d.x + m[6] * d.y + m[10] * d.z};
-}
-
-float ReachingGroup::merging_distance(float level_error) const {
-  // One caster has no level below it.
-  return world::merging_distance(strength, radius, parts ? level_error : 0);
 }
 
 std::uint64_t texels_of(const ReachingGroup& group) {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "sdk/src/gl/world/world_pass.h"
+#include "sdk/src/gl/world/world_frame.h"
 
 namespace nook::gl {
 

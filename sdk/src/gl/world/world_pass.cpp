@@ -10,7 +10,6 @@
 #include "sdk/src/gl/program.h"
 #include "sdk/src/gl/state_guard.h"
 #include "sdk/src/gl/world/caster_texels.h"
-#include "sdk/src/nnao/host_depth.h"
 #include "sdk/src/world/cone.h"
 #include "shaders/nnao/layout.h"
 #include "shaders/world/constants.h"
@@ -61,21 +60,6 @@ constexpr int far_length(int length, int step) {
   return (length + step - 1) / step;
 }
 
-// A capsule counts as a rectangle in each part of a cone, whose corners reach beyond its round ends by less
-// than a third of a part.
-float angle_round(const LightCone& cone, float slope) {
-  constexpr float widest = 1.56f;
-  return std::min(cone.half_angle_radians + 2 * std::atan(slope), widest);
-}
-
-[[noreturn]] void refuse_casters(const Device& device, std::uint32_t casters, std::uint32_t bodies) {
-  throw Failure(
-      NOOK_ERROR_INVALID_ARGUMENT,
-      "the frame has more casters in view than this OpenGL has room for (got %u in %u bodies, need at most "
-      "%u of both); leave out bodies that are far from the view",
-      casters, bodies, device.max_texels / NOOK_BODY_TEXELS);
-}
-
 }  // namespace
 
 WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
@@ -86,15 +70,7 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
       coloured_(desc.coloured != 0),
       computes_(half_ && device.gl.can.compute_images),
       far_step_(far_step(desc.max_height)),
-      casters_(device.memory, caster_unit),
-      kept_(device.memory),
-      ranges_(device.memory),
-      lists_(device.memory),
-      near_ranges_(device.memory),
-      near_lists_(device.memory),
-      shades_(device.memory),
-      shade_ranges_(device.memory),
-      shade_lists_(device.memory) {
+      casters_(device.memory, caster_unit, {tile_px(computes_, far_step_), half_}) {
   const Functions& gl = device.gl;
   GLint largest = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -112,12 +88,7 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
   if (half_) make_half(desc);
   own_ = RenderTexture(device, result_format(coloured_), desc.max_width, desc.max_height,
                        "nook: AO of the world");
-  const std::uint64_t texels = std::uint64_t{desc.casters} * NOOK_CASTER_TEXELS;
-  if (texels > device.max_texels)
-    throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.casters is larger than this OpenGL's tables (got %u, need at most %llu)",
-                  desc.casters, static_cast<unsigned long long>(device.max_texels / NOOK_CASTER_TEXELS));
-  casters_.reserve(device, GL_RGBA32F, texels, "nook: world casters");
+  casters_.reserve(device, desc.casters);
   sampler_ = Object::make(device, Object::Kind::sampler);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     gl.SamplerParameteri(sampler_.name(), filter, GL_NEAREST);
@@ -222,7 +193,7 @@ std::uint64_t WorldPass::bytes() const {
                (bytes_per_texel(half_format()) + bytes_per_texel(TextureFormat::depth)) +
            texels(far_length(max_width_, far_step_), far_length(max_height_, far_step_)) *
                bytes_per_texel(half_format());
-  return sum + casters_.bytes();
+  return sum + casters_.table().bytes();
 }
 
 void WorldPass::check(const WorldFrame& frame) {
@@ -234,145 +205,19 @@ void WorldPass::check(const WorldFrame& frame) {
   checked_ = images;
 }
 
-std::uint64_t WorldPass::choose(const WorldFrame& frame, const ReachingGroups& groups) {
-  const Viewport viewport = viewport_of(frame.screen);
-  const auto width = std::uint32_t(viewport.width), height = std::uint32_t(viewport.height);
-  const nnao::ScreenRays rays = nnao::projection_rays(frame.screen.projection, width, height);
-  world::TileGrid grid;
-  grid.width_px = width;
-  grid.height_px = height;
-  grid.x_scale = rays.x_scale;
-  grid.x_offset = rays.x_offset;
-  grid.y_scale = rays.y_scale;
-  grid.y_offset = rays.y_offset;
-  grid.orthographic = rays.orthographic;
-  grid.tile_px = tile_px(computes_, far_step_);
-  kept_.clear();
-  ranges_.clear();
-  lists_.clear();
-  near_ranges_.clear();
-  near_lists_.clear();
-  far_ = false;
-  caster_count_ = 0;
-  std::uint64_t texels = 0;
-  for (std::uint32_t g = 0; g < groups.count; ++g) {
-    PosedCaster room;
-    const ReachingGroup group = groups.group(groups.user, g, room);
-    if (group.casters.empty()) continue;
-    const world::TileRange tiles = world::covered_tiles(grid, viewed(frame.view, group.centre), group.reach);
-    if (tiles.empty) continue;
-    keep(frame, grid, g, group, tiles);
-    texels += texels_of(group);
-  }
-  tile_columns_ = 0;
-  first_shade_ = static_cast<std::uint32_t>(texels);
-  texels += choose_shades(frame, grid, groups);
-  first_tile_ = static_cast<std::uint32_t>(texels);
-  if (kept_.empty() && shades_.empty()) return 0;
-  const auto most_texels = [&] {
-    return texels + world::most_list_texels(grid, ranges_) + world::most_list_texels(grid, near_ranges_) +
-           world::most_list_texels(grid, shade_ranges_);
-  };
-  // Larger tiles have shorter lists, down to one list of all bodies.
-  while (most_texels() > device_.max_texels && grid.columns() * grid.rows() > 1) {
-    grid.tile_px *= 2;
-    for (auto* const ranges : {&ranges_, &near_ranges_, &shade_ranges_})
-      for (world::TileRange& range : *ranges) {
-        range.first_column /= 2;
-        range.last_column /= 2;
-        range.first_row /= 2;
-        range.last_row /= 2;
-      }
-  }
-  if (most_texels() > device_.max_texels) refuse_casters(device_, caster_count_, group_count());
-  tile_px_ = grid.tile_px;
-  if (!kept_.empty()) {
-    world::write_tile_lists(grid, ranges_, lists_);
-    texels += lists_.size() / 4;
-    tile_columns_ = grid.columns();
-    first_near_tile_ = static_cast<std::uint32_t>(texels);
-    if (half_) world::write_tile_lists(grid, near_ranges_, near_lists_);
-    texels += near_lists_.size() / 4;
-  }
-  first_light_tile_ = static_cast<std::uint32_t>(texels);
-  if (!shades_.empty()) {
-    world::write_tile_lists(grid, shade_ranges_, shade_lists_);
-    texels += shade_lists_.size() / 4;
-    light_columns_ = grid.columns();
-  }
-  return texels;
-}
-
-void WorldPass::keep(const WorldFrame& frame, const world::TileGrid& grid, std::uint32_t index,
-                     const ReachingGroup& group, const world::TileRange& tiles) {
-  kept_.push_back(index);
-  ranges_.push_back(tiles);
-  caster_count_ += static_cast<std::uint32_t>(group.casters.size());
-  if (!half_) return;
-  const float merging = group.merging_distance(frame.level_error);
-  const bool far = merging < group.reach;
-  near_ranges_.push_back(far ? world::covered_tiles(grid, viewed(frame.view, group.centre), merging) : tiles);
-  far_ = far_ || far;
-}
-
-std::uint64_t WorldPass::choose_shades(const WorldFrame& frame, const world::TileGrid& grid,
-                                       const ReachingGroups& groups) {
-  shades_.clear();
-  shade_ranges_.clear();
-  shade_lists_.clear();
-  light_columns_ = 0;
-  if (!frame.cone) return 0;
-  const LightCone& cone = *frame.cone;
-  const float wide = angle_round(cone, world::cone_parts_of(cone.axis, cone.half_angle_radians).slope);
-  const world::Shadow shadow{-1.0f * turned(frame.view, cone.axis), std::tan(wide), cone.reach};
-  std::uint64_t texels = 0;
-  for (std::uint32_t g = 0; g < groups.count; ++g) {
-    PosedCaster room;
-    const ReachingGroup group = groups.group(groups.user, g, room);
-    if (group.casters.empty()) continue;
-    const world::TileRange tiles =
-        world::shaded_tiles(grid, viewed(frame.view, group.centre), group.radius, shadow);
-    if (tiles.empty) continue;
-    shades_.push_back(g);
-    shade_ranges_.push_back(tiles);
-    texels += shade_texels_of(group);
-  }
-  return texels;
-}
-
-void WorldPass::upload(const WorldFrame& frame, const ReachingGroups& groups) {
-  const std::uint64_t texels = choose(frame, groups);
-  if (texels == 0) return;
-  casters_.write(device_, texels, [&](void* memory) {
-    CasterTexels out(static_cast<float*>(memory), frame.view, group_count());
-    for (std::uint32_t body = 0; body < group_count(); ++body) {
-      PosedCaster room;
-      out.put(body, groups.group(groups.user, kept_[body], room), frame.level_error);
-    }
-    out.begin_shades(first_shade_, static_cast<std::uint32_t>(shades_.size()));
-    for (std::uint32_t body = 0; body < shades_.size(); ++body) {
-      PosedCaster room;
-      out.put_shade(body, groups.group(groups.user, shades_[body], room));
-    }
-    float* const table = static_cast<float*>(memory);
-    std::copy(lists_.begin(), lists_.end(), table + 4 * std::size_t{first_tile_});
-    std::copy(near_lists_.begin(), near_lists_.end(), table + 4 * std::size_t{first_near_tile_});
-    std::copy(shade_lists_.begin(), shade_lists_.end(), table + 4 * std::size_t{first_light_tile_});
-  });
-}
-
 void WorldPass::set_frame(const Stage& stage, const WorldFrame& frame,
                           const FrameConstants& constants) const {
   const Functions& gl = device_.gl;
   gl.UseProgram(stage.program.name());
   gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
-  gl.Uniform1i(stage.groups, static_cast<GLint>(group_count()));
-  gl.Uniform1i(stage.columns, static_cast<GLint>(tile_columns_));
-  gl.Uniform1i(stage.tile_size, static_cast<GLint>(tile_px_));
+  gl.Uniform1i(stage.groups, static_cast<GLint>(casters_.group_count()));
+  gl.Uniform1i(stage.columns, static_cast<GLint>(casters_.columns()));
+  gl.Uniform1i(stage.tile_size, static_cast<GLint>(casters_.tile_px()));
   const bool near = &stage == &half_ao_;
-  gl.Uniform1i(stage.first_tile, static_cast<GLint>(near ? first_near_tile_ : first_tile_));
-  gl.Uniform1i(stage.far, far_);
-  gl.Uniform1i(stage.first_far_tile, static_cast<GLint>(first_tile_));
+  gl.Uniform1i(stage.first_tile,
+               static_cast<GLint>(near ? casters_.first_near_tile() : casters_.first_tile()));
+  gl.Uniform1i(stage.far, casters_.far());
+  gl.Uniform1i(stage.first_far_tile, static_cast<GLint>(casters_.first_tile()));
   gl.Uniform1i(stage.composition, frame.ao_texture ? 1 + frame.composition : 0);
   gl.Uniform1i(stage.counts, frame.show);
   if (coloured_) set_light(stage, frame);
@@ -388,9 +233,9 @@ void WorldPass::set_light(const Stage& stage, const WorldFrame& frame) const {
     terms[4 * i + 2] = rgb.z;
   }
   gl.Uniform4fv(stage.light_terms, NOOK_LIGHT_VEC4S, terms.data());
-  gl.Uniform1i(stage.light_columns, static_cast<GLint>(light_columns_));
-  gl.Uniform1i(stage.first_light_tile, static_cast<GLint>(first_light_tile_));
-  gl.Uniform1i(stage.first_shade, static_cast<GLint>(first_shade_));
+  gl.Uniform1i(stage.light_columns, static_cast<GLint>(casters_.light_columns()));
+  gl.Uniform1i(stage.first_light_tile, static_cast<GLint>(casters_.first_light_tile()));
+  gl.Uniform1i(stage.first_shade, static_cast<GLint>(casters_.first_shade()));
   if (!frame.cone) return;
   // The parts lie as in nook_world_sample, whatever the view.
   const world::ConeParts parts = world::cone_parts_of(frame.cone->axis, frame.cone->half_angle_radians);
@@ -443,7 +288,7 @@ void WorldPass::darken(const RenderTexture& target, int width, int height) const
 
 void WorldPass::darken_half(const WorldFrame& frame, const FrameConstants& constants) const {
   const Viewport viewport = viewport_of(frame.screen);
-  if (far_) {
+  if (casters_.far()) {
     set_frame(far_ao_, frame, constants);
     darken(far_texture_, far_length(viewport.width, far_step_), far_length(viewport.height, far_step_));
   }
@@ -483,7 +328,7 @@ void WorldPass::draw_output(const Stage& stage, const WorldFrame& frame, const F
 
 void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
   check(frame);
-  upload(frame, groups);
+  casters_.write(device_, frame, groups);
   const Functions& gl = device_.gl;
   const nook_nnao_frame_desc& screen = frame.screen;
   const bool layered = screen.layer != NOOK_NNAO_LAYER_NONE;
