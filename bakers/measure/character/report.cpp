@@ -145,6 +145,9 @@ Json caster_rows(const std::vector<CasterRow>& rows) {
                      {"darkening", r.darkening},
                      {"darkening_traced", r.darkening_traced},
                      {"ratio", r.darkening_traced > 0 ? r.darkening / r.darkening_traced : 0},
+                     {"mse_over_none", r.mse_over_none},
+                     {"rms_darkened", r.rms_darkened},
+                     {"share_inside", r.share_inside},
                      {"change_of_groups", r.change_of_groups}});
   return array;
 }

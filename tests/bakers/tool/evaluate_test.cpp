@@ -179,9 +179,9 @@ TEST_CASE("pictures of the error") {
 TEST_CASE("a neighbour darkens less the farther it is, by each form and by ray tracing") {
   const Baked baked;
   const auto rows_with = [&](const char* threads) {
-    const ToolRun run =
-        baked.folder.run({"evaluate", "casters", baked.glb, baked.model, "--report", baked.report, "--rays",
-                          "64", "--bearings", "2", "--poses", "2", "--threads", threads});
+    const ToolRun run = baked.folder.run({"evaluate", "casters", baked.glb, baked.model, "--report",
+                                          baked.report, "--rays", "64", "--bearings", "2", "--poses", "2",
+                                          "--distances", "1,2,3,5,10", "--threads", threads});
     INFO(run.error);
     REQUIRE(run.exit_code == 0);
     CHECK(has(run.out, "darkening_traced"));
