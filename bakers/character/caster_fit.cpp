@@ -60,7 +60,7 @@ std::vector<Point> points_near(const SkinnedMesh& mesh, std::span<const Vec3> po
 
 std::vector<Point> fit_points(const SkinnedMesh& mesh, std::span<const Vec3> position, Vec3 centre,
                               float radius, const CasterFitSettings& settings, std::uint64_t seed) {
-  const std::size_t near = settings.points_per_pose / 5;
+  const std::size_t near = settings.points_per_pose / 10;
   std::vector<Point> points = points_round(centre, radius, settings.points_per_pose - near, seed);
   const std::vector<Point> others = points_near(mesh, position, radius, near, ~seed);
   points.insert(points.end(), others.begin(), others.end());

@@ -13,7 +13,7 @@ namespace nook::bake {
 
 struct CasterFitSettings {
   std::size_t poses = 48;  // at most this many of those given, evenly chosen
-  // Random points and normals: most are 0.3 to 8 body radii away from the body's middle, a fifth near its
+  // Random points and normals: most are 0.3 to 8 body radii away from the body's middle, a tenth near its
   // surface, where neighbours that touch it are.
   std::size_t points_per_pose = 600;
   std::uint32_t rays = 256;  // a point

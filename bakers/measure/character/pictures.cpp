@@ -68,10 +68,25 @@ DrawnPair drawn_pair(const SkinnedMesh& mesh, const CharacterModel& model, const
   return drawn;
 }
 
+// Holds both bodies from any side.
+BodyCamera pair_camera(std::span<const Vec3> position, Vec3 towards) {
+  Vec3 low = position[0], high = position[0];
+  for (const Vec3 p : position) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const float wide = std::hypot(high.x - low.x, high.z - low.z), tall = high.y - low.y;
+  constexpr float margin = 1.04f;
+  return {(low + high) * 0.5f, towards,
+          margin * std::max(wide / float(pair_width_px), tall / float(height_px))};
+}
+
+// Obliquely, because one body hides the other where both stand in a row.
 Picture draw_pair(const DrawnPair& pair) {
   std::vector<Picture> panels;
-  for (BodySide side : {BodySide::front, BodySide::back}) {
-    const BodyView view(pair.soup.triangle, pair.soup.position, side, pair_width_px, height_px);
+  for (const Vec3 towards : {Vec3{0.8f, 0, 0.6f}, Vec3{-0.8f, 0, -0.6f}}) {
+    const BodyView view(pair.soup.triangle, pair.soup.position, pair_camera(pair.soup.position, towards),
+                        pair_width_px, height_px);
     panels.push_back(view.draw(pair.traced, grey));
     panels.push_back(view.draw(pair.predicted, grey));
     panels.push_back(view.draw(pair.error, viridis));

@@ -18,8 +18,8 @@ void write_pictures(const std::filesystem::path& directory, const bake::SkinnedM
                     const CharacterModel& model, std::span<const bake::Pose> poses, std::size_t count,
                     std::span<const float> vertex_rms, std::uint32_t rays, std::uint64_t seed);
 
-// Two bodies, each darkened by itself and the other: front traced, front predicted, front |error| x 4, then
-// the same from the back. The file's directory is created.
+// Two bodies, each darkened by itself and the other, obliquely from before: traced, predicted, |error| x 4,
+// then the same from behind. The file's directory is created.
 void write_pair_picture(const std::filesystem::path& path, const bake::SkinnedMesh& mesh,
                         const CharacterModel& model, const bake::BodyPair& pair,
                         const bake::CasterStudy& study);
