@@ -69,7 +69,7 @@ struct TestSphere {
   float radius = 0;
   double weight = 0;
 
-  // On the surface of a frame.
+  // Of the hemisphere above a place, clipped at its horizon.
   double share(const Frame& frame) const {
     const Vec3 d = (centre - frame.position) * (1 / radius);
     return double(form_factor_exact(dot(d, frame.normal), dot(d, d)));

@@ -4,11 +4,9 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 #include <tuple>
 
-#include "bakers/import/clip.h"
 #include "bakers/measure/character/pictures.h"
 #include "bakers/measure/character/report.h"
 #include "bakers/tool/character/evaluated_files.h"
@@ -34,18 +32,6 @@ struct Options {
   std::filesystem::path images;
 };
 
-bake::Pose middle_of(const bake::ImportedCharacter& character, const std::string& clip) {
-  const std::size_t found = bake::find_clip(character, clip);
-  return bake::sample_clip(character, found, character.clips[found].duration_s / 2);
-}
-
-bake::BodyPair contact_of(const measure::BakedCharacter& baked, const Contact& contact) {
-  const auto& [receiver, caster, x, y, z, degrees] = contact;
-  return bake::body_pair(baked.model, middle_of(baked.character, receiver),
-                         middle_of(baked.character, caster), {x, y, z},
-                         degrees * std::numbers::pi_v<float> / 180);
-}
-
 std::string picture_name(float distance_m) {
   char name[32];
   std::snprintf(name, sizeof name, "pair_%.2f_m.png", double(distance_m));
@@ -66,7 +52,8 @@ Json evaluate(const Options& options) {
   platform::ProgressBar bar(options.common.quiet);
   const bake::SkinnedMesh& mesh = baked.character.mesh;
   if (!std::get<0>(options.contact).empty()) {
-    const bake::BodyPair pair = contact_of(baked, options.contact);
+    const auto& [receiver, caster, x, y, z, degrees] = options.contact;
+    const bake::BodyPair pair = measure::contact_pair(baked, receiver, caster, {x, y, z}, degrees);
     if (!options.images.empty())
       measure::write_pair_picture(options.images / "contact.png", mesh, baked.model, pair, study);
     return report_of(bake::measure_pair(mesh, baked.model, pair, study), study.seed);

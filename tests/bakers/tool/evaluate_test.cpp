@@ -205,8 +205,8 @@ TEST_CASE("a neighbour darkens less the farther it is, by each form and by ray t
   CHECK(rows[8].at("darkening_traced").get<double>() < 0.1 * rows[0].at("darkening_traced").get<double>());
   // Two tubes across each other: parts of both lie inside the other one.
   const auto contact = [&](const char* clip) {
-    return baked.folder.run({"evaluate", "casters", baked.glb, baked.model, "--report", baked.report, "--rays",
-                             "64", "--contact", "walk", clip, "0", "0", "0.05", "90", "--images",
+    return baked.folder.run({"evaluate", "casters", baked.glb, baked.model, "--report", baked.report,
+                             "--rays", "64", "--contact", "walk", clip, "0", "0", "0.05", "90", "--images",
                              baked.folder.path("touch")});
   };
   REQUIRE(contact("run").exit_code == 0);
