@@ -41,6 +41,38 @@ std::vector<Point> points_round(Vec3 centre, float radius, std::size_t count, st
   return points;
 }
 
+// In front of random vertices, 0.03 to 0.5 body radii away, turned towards the surface.
+std::vector<Point> points_near(const SkinnedMesh& mesh, std::span<const Vec3> position, float radius,
+                               std::size_t count, std::uint64_t seed) {
+  std::vector<Vec3> normal;
+  vertex_normals(mesh.triangle, position, normal);
+  std::vector<Point> points(count);
+  Random random(seed);
+  for (Point& p : points) {
+    const std::uint32_t vertex = random.below(std::uint32_t(position.size()));
+    p.position = position[vertex] + radius * random.log_between(0.03f, 0.5f) * normal[vertex];
+    const float u = random.unit(), v = random.unit();
+    p.normal = sphere_direction(u, v);
+    if (dot(p.normal, normal[vertex]) > 0) p.normal = -p.normal;
+  }
+  return points;
+}
+
+std::vector<Point> fit_points(const SkinnedMesh& mesh, std::span<const Vec3> position, Vec3 centre,
+                              float radius, const CasterFitSettings& settings, std::uint64_t seed) {
+  const std::size_t near = settings.points_per_pose / 10;
+  std::vector<Point> points = points_round(centre, radius, settings.points_per_pose - near, seed);
+  const std::vector<Point> others = points_near(mesh, position, radius, near, ~seed);
+  points.insert(points.end(), others.begin(), others.end());
+  return points;
+}
+
+// The sum over spheres whose solid_depth is `depth`.
+double sum_of_solid_depth(double depth) {
+  constexpr double c = NOOK_SOLID_DEPTH;
+  return (std::sqrt(1 + 4 * c * depth) - 1) / (2 * c);
+}
+
 }  // namespace
 
 void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::span<const Pose> poses,
@@ -60,7 +92,7 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
     skin_positions(mesh, pose, body.position);
     const Vec3 centre = transform_point(pose[model.root_bone], model.bounding_centre);
     const std::vector<Point> points =
-        points_round(centre, model.bounding_radius, settings.points_per_pose, settings.seed + s);
+        fit_points(mesh, body.position, centre, model.bounding_radius, settings, settings.seed + s);
     std::vector<Vec3> position, normal;
     for (const Point& p : points) {
       position.push_back(p.position);
@@ -80,7 +112,7 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
       // Points inside the body see nothing and say nothing about it from outside.
       const double occlusion = 1 - double(ao[i]);
       if (occlusion > 0.97) continue;
-      const double depth = -std::log1p(-occlusion);
+      const double depth = sum_of_solid_depth(-std::log1p(-occlusion));
       // The expected depth, not the noisy traced one, sets the weight, or lucky rays would count more.
       const double expected = std::max(row.sum() * 0.5, 1e-4);
       const double weight = 1 / ((expected + 0.003) * (expected + 0.003));

@@ -12,14 +12,16 @@
 namespace nook::bake {
 
 struct CasterFitSettings {
-  std::size_t poses = 48;             // at most this many of those given, evenly chosen
-  std::size_t points_per_pose = 600;  // random points and normals round the body, 0.3 to 8 body radii away
-  std::uint32_t rays = 256;           // a point
+  std::size_t poses = 48;  // at most this many of those given, evenly chosen
+  // Random points and normals: most are 0.3 to 8 body radii away from the body's middle, a tenth near its
+  // surface, where neighbours that touch it are.
+  std::size_t points_per_pose = 600;
+  std::uint32_t rays = 256;  // a point
   std::uint64_t seed = 1;
 };
 
 // Sets caster_weight of every sphere, >= 0: the non-negative least-squares solution of
-//   sum over spheres of caster_weight * form factor = -log(1 - traced occlusion)
+//   solid_depth(sum over spheres of caster_weight * form factor) = -log(1 - traced occlusion)
 // at points outside the body, relative errors weighed alike near and far. Overlapping spheres share what they
 // cover, so that one character does not darken twice; what several casters add is a sum of the same optical
 // depth.

@@ -1,8 +1,13 @@
 // nook evaluate casters: how much a lone neighbour darkens, by each form and by ray tracing.
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <tuple>
 
+#include "bakers/measure/character/pictures.h"
 #include "bakers/measure/character/report.h"
 #include "bakers/tool/character/evaluated_files.h"
 #include "bakers/tool/commands.h"
@@ -15,28 +20,55 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Clips of the receiver and the caster; the caster's place seen from the receiver, metres; its turn, degrees.
+using Contact = std::tuple<std::string, std::string, float, float, float, float>;
+
 struct Options {
   CommonOptions common;
   EvaluatedFiles files;
   bake::CasterStudy study;
   std::size_t poses = 4;
+  Contact contact;
+  std::filesystem::path images;
 };
+
+std::string picture_name(float distance_m) {
+  char name[32];
+  std::snprintf(name, sizeof name, "pair_%.2f_m.png", double(distance_m));
+  return name;
+}
+
+Json report_of(const std::vector<bake::CasterRow>& rows, std::uint64_t seed) {
+  Json report;
+  report["rows"] = measure::caster_rows(rows);
+  report["seed"] = seed;
+  return report;
+}
 
 Json evaluate(const Options& options) {
   const measure::BakedCharacter baked = read_evaluated_files(options.files);
   bake::CasterStudy study = options.study;
   study.seed = options.common.seed;
   platform::ProgressBar bar(options.common.quiet);
-  const auto rows = bake::measure_casters(baked.character.mesh, baked.model,
-                                          measure::caster_poses(baked.character, options.poses), study,
-                                          [&](std::size_t done, std::size_t total) {
-                                            bar.show("ray tracing neighbours", "pairs", done, total);
-                                            return !interrupted();
-                                          });
-  Json report;
-  report["rows"] = measure::caster_rows(rows);
-  report["seed"] = options.common.seed;
-  return report;
+  const bake::SkinnedMesh& mesh = baked.character.mesh;
+  if (!std::get<0>(options.contact).empty()) {
+    const auto& [receiver, caster, x, y, z, degrees] = options.contact;
+    const bake::BodyPair pair = measure::contact_pair(baked, receiver, caster, {x, y, z}, degrees);
+    if (!options.images.empty())
+      measure::write_pair_picture(options.images / "contact.png", mesh, baked.model, pair, study);
+    return report_of(bake::measure_pair(mesh, baked.model, pair, study), study.seed);
+  }
+  const std::vector<bake::Pose> poses = measure::caster_poses(baked.character, options.poses);
+  const auto rows =
+      bake::measure_casters(mesh, baked.model, poses, study, [&](std::size_t done, std::size_t total) {
+        bar.show("ray tracing neighbours", "pairs", done, total);
+        return !interrupted();
+      });
+  if (!options.images.empty())
+    for (const float distance : study.distances_m)
+      measure::write_pair_picture(options.images / picture_name(distance), mesh, baked.model,
+                                  bake::body_pair(baked.model, poses, 0, 0, study.bearings, distance), study);
+  return report_of(rows, study.seed);
 }
 
 }  // namespace
@@ -44,8 +76,8 @@ Json evaluate(const Options& options) {
 void add_evaluate_casters(CLI::App& evaluate_command) {
   CLI::App* command =
       evaluate_command.add_subcommand("casters",
-                                      "a lone neighbour at 1, 2, 3, 5 and 10 m: mean darkening of the body "
-                                      "by each form and by ray tracing, over several "
+                                      "a lone neighbour from 0.3 to 10 m away: mean darkening of the body "
+                                      "by each form and by ray tracing, and its error, over several "
                                       "bearings and poses");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
@@ -59,9 +91,24 @@ void add_evaluate_casters(CLI::App& evaluate_command) {
   command->add_option("--poses", o.poses, "poses, spread over the clips")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  command
+      ->add_option("--distances", o.study.distances_m,
+                   "metres between the bodies' middles along the ground, separated by commas; vertices that "
+                   "lie inside the neighbour are left out")
+      ->delimiter(',')
+      ->check(CLI::Range(0.01, 1000.0))
+      ->default_str("0.3,0.5,0.75,1,2,3,5,10");
+  command->add_option(
+      "--contact", o.contact,
+      "two bodies in the middles of two clips instead, each darkened by the other: the names of "
+      "both clips, the place of the second body seen from the first one's middle (x, y and z in "
+      "metres), and its turn about the vertical axis in degrees");
+  command->add_option("--images", o.images,
+                      "draw both bodies of the contact, or of a pair at each distance: PNG files in this "
+                      "directory");
   add_common_options(*command, o.common);
   command->callback([options] {
-    run_evaluation(options->common, {named_files(options->files), {}, {}},
+    run_evaluation(options->common, {named_files(options->files), {}, options->images},
                    [&] { return evaluate(*options); });
   });
 }

@@ -48,7 +48,8 @@ vec3 nook_depth(uint light, vec3 inverse, vec3 n, vec4 joint) {
   float squared = dot(joint.xyz, joint.xyz);
   vec3 d = joint.xyz * inversesqrt(max(squared, 1e-30));
   float sharpest = 1.0 / max(1.0 - sqrt(squared) / max(joint.w, 1e-15), 1e-4);
-  return joint.w * nook_light_ratio(light, inverse, n, NookSight(d, dot(d, n)), min(joint.w, 1.0), sharpest);
+  return nook_solid_depth(joint.w) *
+         nook_light_ratio(light, inverse, n, NookSight(d, dot(d, n)), min(joint.w, 1.0), sharpest);
 }
 
 vec3 nook_left(vec3 open, float share, vec3 ratio) { return open * (1.0 - min(share * ratio, 1.0)); }

@@ -50,6 +50,9 @@ float nook_form_factor_exact(float xi, float delta2) {
   return f + max(1.0 - f, 0.0) * max(1.0 - delta2, 0.0);
 }
 
+// The optical depth of a caster, of the sum over its spheres; sdk/src/character/kernel.h has the reason.
+float nook_solid_depth(float d) { return d + NOOK_SOLID_DEPTH * d * d; }
+
 // Returns the same share without angles, for the many spheres of a caster; sdk/src/character/kernel.h has the
 // derivation.
 float nook_form_factor_fast(float xi, float delta2) {

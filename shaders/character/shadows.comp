@@ -30,7 +30,7 @@ float nook_depth(uint first, uint count, NookPoint point) {
       sum += nook_tile_weight[i] * nook_form_factor_fast(seen.x, seen.y);
     }
   }
-  return sum;
+  return nook_solid_depth(sum);
 }
 
 void main() {

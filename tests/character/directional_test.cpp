@@ -324,7 +324,7 @@ TEST_CASE("directional sums follow the formulas on every instruction set") {
           compare(norm.rgb[1][k], coloured_sum(gathered, bands, n).g);
           compare(
               depth.rgb[1][k],
-              joint.taken *
+              solid_depth(joint.taken) *
                   light_ratio(light, dark, n, joint.mean(n), std::min(joint.taken, 1.0), joint.sharpest()).g);
           compare(open.rgb[1][k], open_k);
         }

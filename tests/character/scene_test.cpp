@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 
+#include "sdk/src/character/kernel.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 #include "tests/character/scene_sample.h"
@@ -77,7 +78,7 @@ TEST_CASE("a linked caster darkens by its form factor, and no more once unlinked
   link(scene, receiver, caster);
   update(scene);
   // Overhead and wholly visible: f = (r / d)^2; weighted, as optical depth.
-  CHECK(near(ao_of(scene, receiver)[0], alone * std::exp(-0.7 * 0.3 * 0.3 / 4)));
+  CHECK(near(ao_of(scene, receiver)[0], alone * std::exp(-solid_depth(0.7 * 0.3 * 0.3 / 4))));
   CHECK(scene.stats.links == 1);
 
   // The caster stays as it was: links have a direction.

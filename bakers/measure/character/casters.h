@@ -12,27 +12,64 @@
 
 namespace nook::bake {
 
+// Means are by area, over the receiver's vertices outside the neighbour, bearings and poses. Darkening is the
+// AO of the body alone minus that with the neighbour.
 struct CasterRow {
   float distance_m = 0;   // between the two bodies' centres, along the ground
   const char* form = "";  // "composed" or "paper"
-  double darkening =
-      0;  // mean over receiver vertices by area, bearings and poses: AO alone minus AO with the caster
+  double darkening = 0;
   double darkening_traced = 0;
+  double mse_over_none = 0;  // mean squared error of the darkening over that of no darkening, without the
+                             // noise of the rays
+  double rms_darkened = 0;   // root mean squared error where the traced darkening is above darkened_from
+  double share_inside = 0;   // of the area, left out: inside the neighbour, where no camera sees it
   // Root mean square over vertices, by area, of what a scene's default far_error changes, by the neighbour
   // and by the body's own far spheres.
   double change_of_groups = 0;
+
+  static constexpr float darkened_from = 0.02f;
 };
 
 struct CasterStudy {
-  std::vector<float> distances_m{1, 2, 3, 5, 10};
+  std::vector<float> distances_m{0.3f, 0.5f, 0.75f, 1, 2, 3, 5, 10};
   std::size_t bearings = 6;
-  std::uint32_t rays = 256;  // a vertex; the same rays with and without the neighbour
+  std::uint32_t rays = 256;  // a vertex, in two halves; the same rays with and without the neighbour
   std::uint64_t seed = 1;
 };
+
+// Two bodies in world space.
+struct BodyPair {
+  Pose receiver, caster;
+};
+
+// Pose p of the receiver and the next one of the caster, which is turned and stands at a bearing of its
+// centre.
+BodyPair body_pair(const CharacterModel& model, std::span<const Pose> poses, std::size_t p,
+                   std::size_t bearing, std::size_t bearings, float distance_m);
+
+// The caster turned about the vertical axis through its centre, and moved from the receiver's centre by
+// `offset` (x, y and z, metres).
+BodyPair body_pair(const CharacterModel& model, const Pose& receiver, const Pose& caster, Vec3 offset,
+                   float yaw_radians);
+
+// The traced AO of the receiver's vertices, alone and with the caster, and whether a vertex is outside it.
+struct TracedPair {
+  std::vector<float> alone, together;
+  std::vector<bool> outside;
+};
+TracedPair trace_pair(const SkinnedMesh& mesh, const BodyPair& pair, std::uint32_t rays, std::uint64_t seed);
+
+// The AO of a receiver with one linked caster, by the runtime itself. Nothing is culled.
+std::vector<float> linked_ao(const CharacterModel& model, const BodyPair& pair);
 
 // poses: of the receiver, each also of the caster in turn; placed on +y-up ground. Two rows a distance.
 std::vector<CasterRow> measure_casters(const SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const Pose> poses, const CasterStudy& study,
                                        const Progress& progress = {});
+
+// One pair: means over the vertices of both bodies, each darkened by the other. Two rows, whose distance is
+// along the ground.
+std::vector<CasterRow> measure_pair(const SkinnedMesh& mesh, const CharacterModel& model,
+                                    const BodyPair& pair, const CasterStudy& study);
 
 }  // namespace nook::bake

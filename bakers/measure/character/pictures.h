@@ -6,6 +6,7 @@
 #include <span>
 
 #include "bakers/import/skinned_mesh.h"
+#include "bakers/measure/character/casters.h"
 #include "sdk/src/character/model.h"
 
 namespace nook::measure {
@@ -16,5 +17,11 @@ namespace nook::measure {
 void write_pictures(const std::filesystem::path& directory, const bake::SkinnedMesh& mesh,
                     const CharacterModel& model, std::span<const bake::Pose> poses, std::size_t count,
                     std::span<const float> vertex_rms, std::uint32_t rays, std::uint64_t seed);
+
+// Two bodies, each darkened by itself and the other, obliquely from before: traced, predicted, |error| x 4,
+// then the same from behind. The file's directory is created.
+void write_pair_picture(const std::filesystem::path& path, const bake::SkinnedMesh& mesh,
+                        const CharacterModel& model, const bake::BodyPair& pair,
+                        const bake::CasterStudy& study);
 
 }  // namespace nook::measure

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "bakers/character/pose_sets.h"
+#include "bakers/import/clip.h"
 #include "bakers/import/skinning.h"
 #include "bakers/measure/character/linear_pose.h"
 #include "bakers/measure/character/pose_clusters.h"
@@ -137,6 +139,16 @@ std::vector<Pose> caster_poses(const ImportedCharacter& character, std::size_t c
   return poses;
 }
 
+BodyPair contact_pair(const BakedCharacter& baked, const std::string& receiver_clip,
+                      const std::string& caster_clip, Vec3 offset, float turn_degrees) {
+  const auto middle_of = [&](const std::string& name) {
+    const std::size_t clip = find_clip(baked.character, name);
+    return sample_clip(baked.character, clip, baked.character.clips[clip].duration_s / 2);
+  };
+  return body_pair(baked.model, middle_of(receiver_clip), middle_of(caster_clip), offset,
+                   turn_degrees * std::numbers::pi_v<float> / 180);
+}
+
 Json caster_rows(const std::vector<CasterRow>& rows) {
   Json array = Json::array();
   for (const CasterRow& r : rows)
@@ -145,6 +157,9 @@ Json caster_rows(const std::vector<CasterRow>& rows) {
                      {"darkening", r.darkening},
                      {"darkening_traced", r.darkening_traced},
                      {"ratio", r.darkening_traced > 0 ? r.darkening / r.darkening_traced : 0},
+                     {"mse_over_none", r.mse_over_none},
+                     {"rms_darkened", r.rms_darkened},
+                     {"share_inside", r.share_inside},
                      {"change_of_groups", r.change_of_groups}});
   return array;
 }

@@ -44,6 +44,10 @@ std::uint64_t evaluation_ray_seed(std::uint64_t seed);
 
 // Poses spread over the motion clips; the rest pose where there are none.
 std::vector<bake::Pose> caster_poses(const bake::ImportedCharacter& character, std::size_t count);
+// Two bodies in the middles of two clips, the caster moved from the receiver's middle by `offset` metres and
+// turned about the vertical axis. Throws Failure (INVALID_ARGUMENT) for an unknown clip.
+bake::BodyPair contact_pair(const BakedCharacter& baked, const std::string& receiver_clip,
+                            const std::string& caster_clip, Vec3 offset, float turn_degrees);
 nlohmann::ordered_json caster_rows(const std::vector<bake::CasterRow>& rows);
 
 }  // namespace nook::measure

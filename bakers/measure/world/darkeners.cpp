@@ -236,7 +236,7 @@ class ProxySpheres final : public Darkener {
       const Vec3 d = (s.centre - point) * (1 / s.radius);
       depth += s.weight * form_factor_fast(dot(d, normal), dot(d, d));
     }
-    return std::exp(-depth);
+    return std::exp(-solid_depth(depth));
   }
   float cone(Vec3 point, const LightCone& cone) const override {
     float open = 1;

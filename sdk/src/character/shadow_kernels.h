@@ -154,8 +154,8 @@ struct ShadowKernels {
   // shadow[k] = sum[k]^(1 / gamma); sum and shadow may be the same array.
   void (*norm_root)(const float* sum, std::uint32_t padded_count, float gamma, float* shadow);
 
-  // depth[k] += sum over spheres of caster_weight * form factor, by the fast form. points are the surface key
-  // points.
+  // depth[k] += solid_depth(sum over spheres of caster_weight * form factor), by the fast form. The spheres
+  // are those of one caster, points are the surface key points.
   void (*composed_depth)(const SphereSoa& spheres, const KeyPointSoa& points, float* depth);
   // open[k] *= 1 - min(1, caster_weight * form factor) for each sphere, by the exact form. The spheres are
   // the ground and free occluders. With caster_weight NULL all weights are 1.
@@ -186,8 +186,8 @@ struct ShadowKernels {
                                const LightBands& light, float* const* rgb);
   // inverse[k] = inverse_hemisphere at the key point, which the next two functions need.
   void (*directional_hemisphere)(const KeyPointSoa& points, const LightView& light, float* const* inverse);
-  // rgb[k] += rho * sum over spheres of caster_weight * form factor: the coloured form of composed_depth. The
-  // spheres are those of one caster and share one rho.
+  // rgb[k] += rho * solid_depth(sum over spheres of caster_weight * form factor): the coloured form of
+  // composed_depth. The spheres are those of one caster and share one rho.
   void (*directional_depth)(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
                             float* const* inverse, float* const* rgb);
   // rgb[k] *= 1 - min(1, form factor * rho) for each sphere: the coloured form of exact_open.

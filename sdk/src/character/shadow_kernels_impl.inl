@@ -194,12 +194,12 @@ void norm_root(const float* sum, std::uint32_t padded_count, float gamma, float*
 template <class F>
 void composed_depth_at(const SphereSoa& spheres, const KeyPointSoa& points, std::uint32_t k, float* depth) {
   const Points<F> p = load_points<F>(points, k);
-  F total = Lanes<F>::read(depth + k);
+  F sum = F(broadcast(0.0f));
   for (std::uint32_t i = 0; i < spheres.count; ++i) {
     const Seen<F> seen = see(spheres, i, p);
-    total = fma(F(broadcast(spheres.caster_weight[i])), form_factor_fast(seen.xi, seen.delta2), total);
+    sum = fma(F(broadcast(spheres.caster_weight[i])), form_factor_fast(seen.xi, seen.delta2), sum);
   }
-  Lanes<F>::write(depth + k, total);
+  Lanes<F>::write(depth + k, Lanes<F>::read(depth + k) + solid_depth(sum));
 }
 
 void composed_depth(const SphereSoa& spheres, const KeyPointSoa& points, float* depth) {

@@ -100,9 +100,9 @@ void add_depth(const JointSight<Float>& joint, const Points<Float>& p, const Lig
   const Colour<Float> ratio = light_ratio(light, load_colour(inverse, k), n, joint.mean(n),
                                           min(joint.taken, broadcast(1.0f)), joint.sharpest());
   const Colour<Float> total = load_colour(rgb, k);
+  const Float depth = solid_depth(joint.taken);
   store_colour(rgb, k,
-               {fma(joint.taken, ratio.r, total.r), fma(joint.taken, ratio.g, total.g),
-                fma(joint.taken, ratio.b, total.b)});
+               {fma(depth, ratio.r, total.r), fma(depth, ratio.g, total.g), fma(depth, ratio.b, total.b)});
 }
 
 void directional_depth(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,

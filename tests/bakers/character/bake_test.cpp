@@ -13,6 +13,7 @@
 #include "sdk/src/character/model_file.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/bakers/character/direct_objective.h"
+#include "tests/bakers/character/patch_and_sphere.h"
 #include "tests/catch.h"
 
 using namespace nook;
@@ -150,9 +151,62 @@ TEST_CASE("caster weights give the traced darkening of points outside the body")
     const Vec3 d = (s.centre - position) * (1 / s.radius);
     depth += s.caster_weight * form_factor_fast(dot(d, normal), dot(d, d));
   }
-  const float fitted = 1 - std::exp(-depth);
+  const float fitted = 1 - std::exp(-solid_depth(depth));
   CHECK(traced > 0.03f);
   CHECK(std::abs(fitted - traced) < 0.15f * traced);  // real bodies have up to 0.24, docs/character.md
+}
+
+TEST_CASE("a ball of fitted casters darkens as its closed form, from contact to far away") {
+  // A ball of 0.2 m, by spheres as the fit of self-shadow leaves them: small, and scattered in its inside.
+  constexpr float radius = 0.2f;
+  const SkinnedMesh mesh = patch_and_sphere({0, 0, 0}, radius);
+  CharacterModel model;
+  model.bounding_radius = radius;
+  for (int i = 0; i < 60; ++i) {
+    // Even directions by the golden angle, at three depths.
+    const float z = 1 - (2 * float(i) + 1) / 60, turn = 2.3999632f * float(i), across = std::sqrt(1 - z * z),
+                depth = radius * (0.45f + 0.2f * float(i % 3));
+    model.spheres.push_back({depth * Vec3{across * std::cos(turn), across * std::sin(turn), z}, 0.02f, 0, 1});
+  }
+  const std::vector<Pose> rest{Pose(1)};
+  fit_caster_weights(model, mesh, rest, {});
+  const auto fitted = [&](Vec3 point, Vec3 normal) {
+    float sum = 0;
+    for (const ProxySphere& s : model.spheres) {
+      const Vec3 d = (s.centre - point) * (1 / s.radius);
+      sum += s.caster_weight * form_factor_fast(dot(d, normal), dot(d, d));
+    }
+    return 1 - std::exp(-solid_depth(sum));
+  };
+  const auto exact = [&](Vec3 point, Vec3 normal) {
+    const Vec3 d = -point * (1 / radius);
+    return form_factor_exact(dot(d, normal), dot(d, d));
+  };
+  SECTION("a plane beneath it") {
+    // From a hand's breadth on; the small spheres show one by one where the plane is nearer. A ball is
+    // thicker than limbs, for which solid_depth stands, so that its fit is brighter near it and darker far
+    // away.
+    for (const float gap : {0.1f, 0.2f, 0.4f, 0.8f, 1.6f})
+      for (const float aside : {0.0f, 0.1f, 0.3f}) {
+        const Vec3 point{aside, -radius - gap, 0}, normal{0, 1, 0};
+        INFO("gap " << gap << " aside " << aside << " fitted " << fitted(point, normal) << " exact "
+                    << exact(point, normal));
+        CHECK(std::abs(fitted(point, normal) / exact(point, normal) - 1) < 0.2f);
+      }
+  }
+  SECTION("another ball that touches it") {
+    double mean = 0, truth = 0;
+    for (int i = 0; i < 400; ++i) {
+      const float z = 1 - (2 * float(i) + 1) / 400, turn = 2.3999632f * float(i),
+                  across = std::sqrt(1 - z * z);
+      const Vec3 normal{across * std::cos(turn), across * std::sin(turn), z};
+      const Vec3 point = Vec3{0, 2 * radius, 0} + radius * normal;
+      mean += double(fitted(point, normal));
+      truth += double(exact(point, normal));
+    }
+    INFO("fitted " << mean / 400 << " exact " << truth / 400);
+    CHECK(std::abs(mean / truth - 1) < 0.07);  // docs/character.md has bodies in contact
+  }
 }
 
 TEST_CASE("bakes refuse invalid settings and stop when they are cancelled") {

@@ -5,6 +5,7 @@
 
 #include "bakers/character/bake.h"
 #include "bakers/import/skinning.h"
+#include "sdk/src/character/kernel.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"
 
@@ -53,6 +54,37 @@ double plane_error(const Tube& tube, const nook::Vector<float>& weight, const Po
   return sum / double(model.vertex_count());
 }
 
+// The same for spheres near the tube: mean square of the difference of shares, in units of the share of a
+// surface that faces the sphere.
+double sphere_error(const Tube& tube, const nook::Vector<float>& weight, const Pose& pose) {
+  const CharacterModel& model = tube.model;
+  std::vector<Vec3> position, normal;
+  skin_positions(tube.mesh, pose, position);
+  vertex_normals(tube.mesh.triangle, position, normal);
+  constexpr float radius = 0.1f;
+  const auto share = [&](Vec3 centre, Vec3 at, Vec3 facing) {
+    const Vec3 d = (centre - at) * (1 / radius);
+    return double(form_factor_exact(dot(d, facing), dot(d, d)));
+  };
+  double sum = 0;
+  for (std::size_t i = 0; i < model.vertex_count(); ++i)
+    for (int s = 0; s < 8; ++s) {
+      const float turn = 0.785398f * float(s), distance = 0.2f + 0.1f * float(s % 4);
+      const Vec3 centre = position[i] + distance * Vec3{0.6f, 0.8f * std::cos(turn), 0.8f * std::sin(turn)};
+      double blended = 0;
+      for (std::size_t e = i * model.influences; e < (i + 1) * model.influences; ++e) {
+        const KeyPoint& point = model.key_points[model.influence[e]];
+        Vec3 at;
+        for (int b = 0; b < KeyPoint::max_bones; ++b)
+          at += transform_point(pose[point.bone[b]], point.surface_position) * point.weight[b];
+        blended += double(weight[e]) * share(centre, at, posed_normal(point, pose));
+      }
+      const double error = (blended - share(centre, position[i], normal[i])) * std::pow(distance / radius, 2);
+      sum += error * error;
+    }
+  return sum / double(8 * model.vertex_count());
+}
+
 }  // namespace
 
 TEST_CASE("blend weights sum to one exactly and belong to entries in use") {
@@ -69,7 +101,7 @@ TEST_CASE("blend weights sum to one exactly and belong to entries in use") {
   }
 }
 
-TEST_CASE("a plane's darkening is blended better than by the shares of alpha") {
+TEST_CASE("the darkening by a plane and by near spheres is blended better than by the shares of alpha") {
   const Tube tube;
   const CharacterModel& model = tube.model;
   nook::Vector<float> share(model.alpha);
@@ -84,6 +116,10 @@ TEST_CASE("a plane's darkening is blended better than by the shares of alpha") {
     const double fitted = plane_error(tube, model.blend, pose), by_alpha = plane_error(tube, share, pose);
     INFO("angle " << angle << " fitted " << fitted << " by alpha " << by_alpha);
     CHECK(fitted < 0.35 * by_alpha);
+    const double near = sphere_error(tube, model.blend, pose),
+                 near_by_alpha = sphere_error(tube, share, pose);
+    INFO("spheres " << near << " by alpha " << near_by_alpha);
+    CHECK(near < 0.5 * near_by_alpha);
     // A sixteenth's rounding is made up by the other entries; a tube of 60 key points leaves a few
     // hundredths.
     CHECK(std::sqrt(fitted) < 0.06);

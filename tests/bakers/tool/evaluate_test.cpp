@@ -179,9 +179,9 @@ TEST_CASE("pictures of the error") {
 TEST_CASE("a neighbour darkens less the farther it is, by each form and by ray tracing") {
   const Baked baked;
   const auto rows_with = [&](const char* threads) {
-    const ToolRun run =
-        baked.folder.run({"evaluate", "casters", baked.glb, baked.model, "--report", baked.report, "--rays",
-                          "64", "--bearings", "2", "--poses", "2", "--threads", threads});
+    const ToolRun run = baked.folder.run({"evaluate", "casters", baked.glb, baked.model, "--report",
+                                          baked.report, "--rays", "64", "--bearings", "2", "--poses", "2",
+                                          "--distances", "1,2,3,5,10", "--threads", threads});
     INFO(run.error);
     REQUIRE(run.exit_code == 0);
     CHECK(has(run.out, "darkening_traced"));
@@ -203,6 +203,19 @@ TEST_CASE("a neighbour darkens less the farther it is, by each form and by ray t
   }
   // Between 1 m and 10 m a body's solid angle falls by two orders of magnitude; rays resolve one of them.
   CHECK(rows[8].at("darkening_traced").get<double>() < 0.1 * rows[0].at("darkening_traced").get<double>());
+  // Two tubes across each other: parts of both lie inside the other one.
+  const auto contact = [&](const char* clip) {
+    return baked.folder.run({"evaluate", "casters", baked.glb, baked.model, "--report", baked.report,
+                             "--rays", "64", "--contact", "walk", clip, "0", "0", "0.05", "90", "--images",
+                             baked.folder.path("touch")});
+  };
+  REQUIRE(contact("run").exit_code == 0);
+  const Json touching = Json::parse(read_text(baked.report)).at("rows");
+  REQUIRE(touching.size() == 2);
+  const double inside = touching[0].at("share_inside").get<double>();
+  CHECK((inside > 0 && inside < 1));
+  CHECK(read_text(baked.folder.path("touch/contact.png")).substr(1, 3) == "PNG");
+  CHECK(contact("fly").exit_code == 2);
 }
 
 TEST_CASE("a model of another character is refused") {
