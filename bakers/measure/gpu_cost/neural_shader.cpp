@@ -125,10 +125,11 @@ struct Size {
   int channels, view_side;
 };
 // The default of neural_tile.h, and what fills the bytes of K-CTA on weave in docs/materials.md.
+constexpr int layers = 3;
 constexpr Size sizes[] = {{"small", 16, 1}, {"equal bytes", 24, 7}};
 
 std::string defines(const Size& size) {
-  constexpr int units = 32, layers = 3, offset_channels = 8, offset_units = 16;
+  constexpr int units = 32, offset_channels = 8, offset_units = 16;
   std::string text;
   for (const auto& [name, value] : {std::pair("FEATURE_VEC4S", size.channels / 4),
                                     {"VIEW_SIDE", size.view_side},
@@ -143,12 +144,13 @@ std::string defines(const Size& size) {
 }  // namespace
 
 std::vector<ShaderCase> neural_shaders() {
+  const Loop hidden{"hidden layers after the first", layers - 1, {}};
   std::vector<ShaderCase> shaders;
   for (const Size& size : sizes) {
     const std::string text = defines(size) + decode, name = std::string("neural material, ") + size.name;
-    shaders.push_back(host_shader(text + one_light, name));
+    shaders.push_back(host_shader(text + one_light, name, {hidden}));
     shaders.push_back(
-        host_shader(text + ten_lights, name + ", four lights and a probe", {{"lights", 10, {}}}));
+        host_shader(text + ten_lights, name + ", four lights and a probe", {{"lights", 10, {hidden}}}));
   }
   return shaders;
 }
