@@ -40,7 +40,7 @@ Numbers random_numbers() {
 }
 
 NeuralPass random_pass() {
-  const std::vector<Vec3> directions = spiral_directions(12, 1.2f);
+  const std::vector<Vec3> directions = spiral_directions(12, 69);
   NeuralPass pass;
   for (std::uint32_t i = 0; i < 7; ++i) {
     pass.positions.push_back({directions[i + 3], 4 * i + 1});
@@ -96,7 +96,7 @@ TEST_CASE("the gradient of a neural tile is that of differences") {
 TEST_CASE("a neural tile changes little between views that differ little") {
   const Numbers n = random_numbers();
   const NeuralTile tile{n.shape, n.features, n.offset_features, n.weights};
-  const std::vector<Vec3> lights = spiral_directions(4, 1.2f);
+  const std::vector<Vec3> lights = spiral_directions(4, 69);
   const auto seen = [&](int step) {  // 3,000 steps of 0.12 degrees around, at a tilt of 46 degrees
     const float azimuth = 6.2831853f * float(step) / 3000;
     return draw_neural_tile(tile, {0.72f * std::cos(azimuth), 0.72f * std::sin(azimuth), 0.694f}, lights);
@@ -137,7 +137,7 @@ namespace {
 // A matt plane of two colours with a broad lobe around the mirrored light.
 RawMaterial planted() {
   RawMaterial raw;
-  raw.lights = raw.views = spiral_directions(16, 1.2f);
+  raw.lights = raw.views = spiral_directions(16, 69);
   raw.width = raw.height = 8;
   raw.btf.resize(raw.light_rows() * raw.views.size() * raw.texels());
   for (std::size_t l = 0; l < 16; ++l)
@@ -168,8 +168,8 @@ NeuralSettings few_steps(std::uint32_t steps) {
 TEST_CASE("a neural tile finds a planted material") {
   const RawMaterial raw = planted();
   const NeuralTile tile = fit_neural_tile(raw, few_steps(1500));
-  // A mean colour of all texels has 10 dB, the lobe left out 14 dB.
-  CHECK(measure_neural_tile(raw, tile).se_db() > 25);
+  // The mean of all texels has 8 dB, the best matt plane 16 dB.
+  CHECK(measure_neural_tile(raw, tile).se_db() > 23);
   // Sixteen blocks of eight bytes for each four channels.
   CHECK(tile.bytes() == 4 * 8 * (4 + 8) + 2 * tile.weights.size());
 }
