@@ -191,6 +191,44 @@ def between_table(rows):
                    f"{row['se_db_unseen']:.2f}"] for material, views, row in rows])
 
 
+def neural_rows(bench):
+    """Files of 8 bits beside all baselines, at the bytes of the whole file, in views, and but for wood lights, that were not
+    fitted."""
+    bench.write_wood()
+    for material, ranks in NUMBERS.items():
+        if material.endswith("roughhole"):
+            continue
+        bench.compress(material, "k-cta 8 bits", [*ranks, "--method", "k-cta", "--bits", "8"], [])
+        unseen = bench.path(f"{material} between.raw")
+        if material == "wood" and not pathlib.Path(unseen).exists():
+            subprocess.run([sys.executable, str(ROOT / "docs/material_wood.py"), unseen, "--views", "between"], check=True)
+        report = bench.run(f"{material} neural", "evaluate", "material", bench.path(f"{material}.raw"),
+                           bench.path(f"{material} k-cta 8 bits.nook"), "--unseen", unseen, "--methods",
+                           "n-svd,cta,pca,pbr,neural", *NO_REFITS)
+        for row in report["rows"]:
+            yield material, row
+
+
+def neural_table(rows):
+    def cell(row, key):
+        return f"{row[key]:.2f}" if key in row else "-"
+    return table(["material", "method", "file, KiB", "S/E, dB: fitted", "unseen", "PSNR, toned, dB", "GPU, bytes for each texel"],
+                 [[material, row["method"].replace("file: ", ""), f"{row['file_bytes'] / 1024:.0f}",
+                   cell(row, "se_db"), cell(row, "se_db_unseen"), cell(row, "psnr_toned_db"),
+                   f"{row['gpu_bytes_texel']:.0f}" if "gpu_bytes_texel" in row else "-"] for material, row in rows])
+
+
+def cycles_table():
+    """Modelled cycles, as docs/gpu_cost.py counts them."""
+    counts = json.loads((ROOT / "tests/bakers/measure/gpu_cost/counts.json").read_text())["rows"]
+    sums = {row["shader"]: row["alu_cycles"] + row["texture_cycles"] for row in counts if row["family"] == "navi21"}
+    names = {"K-CTA, weave": "material, weave, K-CTA, K = 3", "neural, small": "neural material, small",
+             "neural, equal bytes": "neural material, equal bytes"}
+    return table(["", "one light", "four lights and a probe"],
+                 [[label, f"{sums[name]:,.0f}", f"{sums[name + ', four lights and a probe']:,.0f}"]
+                  for label, name in names.items()])
+
+
 def summary_table(reports):
     """Signal to error of the methods, each with its file."""
     def cell(rows, method, mixture):
@@ -238,7 +276,7 @@ def main():
          {"methods": methods_table({**methods, "weave": weave}), "unseen views": unseen_table(methods, 100, 37),
           "view maps": maps_table(maps), "view ranks": sweep_table(sweep), "thresholds": thresholds_table(thresholds),
           "first clusters": seeding_table(seeding), "numbers": numbers, "jumps": jumps_table(bench),
-          "between the samples": between}, options.write)
+          "between the samples": between, "neural": neural_table(neural_rows(bench)), "neural cycles": cycles_table()}, options.write)
     show(ROOT / "docs/evidence.md", pathlib.Path(__file__).name, {"materials": summary_table(methods)}, options.write)
 
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "bakers/nnao/adam.h"
+#include "bakers/algebra/adam.h"
 #include "bakers/raytrace/random.h"
 #include "sdk/src/core/failure.h"
 

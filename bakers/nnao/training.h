@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "bakers/nnao/adam.h"
+#include "bakers/algebra/adam.h"
 #include "bakers/nnao/dataset.h"
 #include "sdk/src/nnao/network.h"
 

@@ -102,7 +102,7 @@ Json evaluate(const Options& o) {
   pictures.add("file", material, own);
   measure::BaselineRequest request;
   request.names = o.methods;
-  if (request.names.empty() && o.peers) request.names = measure::material_baseline_names();
+  if (request.names.empty() && o.peers) request.names = measure::material_peer_names();
   request.unseen = unseen;
   request.jumps = o.jumps;
   request.votf_refits = o.votf_refits;
@@ -138,7 +138,9 @@ void add_evaluate_material(CLI::App& evaluate_command) {
       "the whole file, and fit the maps of a physically based material with parallax");
   command
       ->add_option("--methods", o.methods,
-                   "only these baselines: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr")
+                   "only these baselines: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr, and "
+                   "neural, networks of a small size and of the bytes of the whole file, which train for "
+                   "minutes and are not among those of --peers")
       ->delimiter(',')
       ->check(CLI::IsMember(measure::material_baseline_names()))
       ->type_name("NAME,...");

@@ -67,6 +67,23 @@ void main() {
 }
 )";
 
+// Four lights and a probe of six lobes, each lobe as a light along its axis.
+constexpr char ten_lights[] = R"(#include "shaders/material/host.glsl"
+in vec2 uv;
+in vec3 view;
+uniform vec3 lights[10];
+uniform vec3 colours[10];
+out vec4 colour;
+void main() {
+  vec2 dx = dFdx(uv), dy = dFdy(uv);
+  vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+  nook_material_decode(uv, dx, dy, view, modes);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 10; ++i) sum += colours[i] * nook_material_radiance(modes, lights[i]);
+  colour = vec4(sum, nook_material_visibility(nook_material_occlusion(uv, dx, dy, view)));
+}
+)";
+
 // The same under radiance transfer, with the vectors of the vertices as varyings, or fetched for each pixel.
 constexpr char transferred[] = R"(#include "shaders/material/host.glsl"
 #include "shaders/transfer/host.glsl"
@@ -119,16 +136,23 @@ void main() {
 std::vector<ShaderCase> material_shaders() {
   std::vector<ShaderCase> shaders;
   for (const Size& size : sizes) {
-    shaders.push_back(host_shader(declarations(size) + decode, std::string("material, ") + size.name,
-                                  size.loop ? std::vector<Loop>{*size.loop} : std::vector<Loop>{}));
+    const std::string name = std::string("material, ") + size.name;
+    const auto add = [&](const char* main, const std::string& case_name, const std::vector<Loop>& after) {
+      const auto loops = [&](const std::optional<Loop>& decoding) {
+        std::vector<Loop> all = after;
+        if (decoding) all.insert(all.begin(), *decoding);
+        return all;
+      };
+      shaders.push_back(host_shader(declarations(size) + main, case_name, loops(size.loop)));
+      if (size.loop_on_vega10) shaders.back().other_families = {{"vega10", loops(size.loop_on_vega10)}};
+    };
+    add(decode, name, {});
     const bool is_k_cta = size.clusters > 1;
     if (is_k_cta && size.light_modes <= 16) {
-      shaders.push_back(
-          host_shader(declarations(size) + transferred, std::string("radiance transfer, ") + size.name));
-      shaders.push_back(host_shader(declarations(size) + transferred_mix,
-                                    std::string("radiance transfer, vectors fetched, ") + size.name));
+      add(transferred, std::string("radiance transfer, ") + size.name, {});
+      add(transferred_mix, std::string("radiance transfer, vectors fetched, ") + size.name, {});
     }
-    if (size.loop_on_vega10) shaders.back().other_families = {{"vega10", {*size.loop_on_vega10}}};
+    if (size.texels == 48) add(ten_lights, name + ", four lights and a probe", {{"lights", 10, {}}});
   }
   return shaders;
 }

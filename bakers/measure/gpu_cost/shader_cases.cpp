@@ -82,7 +82,7 @@ ShaderCase host_shader(const std::string& text, const std::string& name, const s
 std::vector<ShaderCase> all_shaders() {
   std::vector<ShaderCase> shaders;
   for (const auto& room : {character_shaders(), nnao_shaders(), baseline_shaders(), probe_shaders(),
-                           material_shaders(), world_shaders()})
+                           material_shaders(), neural_shaders(), world_shaders()})
     shaders.insert(shaders.end(), room.begin(), room.end());
   return shaders;
 }

@@ -66,6 +66,7 @@ std::vector<ShaderCase> nnao_shaders();
 std::vector<ShaderCase> baseline_shaders();
 std::vector<ShaderCase> probe_shaders();
 std::vector<ShaderCase> material_shaders();
+std::vector<ShaderCase> neural_shaders();
 std::vector<ShaderCase> world_shaders();
 
 std::vector<ShaderCase> all_shaders();

@@ -24,7 +24,8 @@ constexpr Baseline baselines[] = {{"n-svd", Method::n_svd, 1},
                                   {"k-cta-2", Method::k_cta, 2},
                                   {"k-cta-3", Method::k_cta, 3},
                                   {"k-cta-4", Method::k_cta, 4}};
-constexpr const char *pca_name = "pca", *n_svd_filled_name = "n-svd-filled", *pbr_name = "pbr";
+constexpr const char *pca_name = "pca", *n_svd_filled_name = "n-svd-filled", *pbr_name = "pbr",
+                     *neural_name = "neural";
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -83,12 +84,18 @@ MethodRow measure_baseline(const RawMaterial& raw, const CompressionSettings& s,
 
 }  // namespace
 
-std::vector<std::string> material_baseline_names() {
+std::vector<std::string> material_peer_names() {
   std::vector<std::string> names;
   for (const Baseline& baseline : baselines) names.emplace_back(baseline.name);
   names.emplace_back(n_svd_filled_name);
   names.emplace_back(pca_name);
   names.emplace_back(pbr_name);
+  return names;
+}
+
+std::vector<std::string> material_baseline_names() {
+  std::vector<std::string> names = material_peer_names();
+  names.emplace_back(neural_name);
   return names;
 }
 
@@ -163,6 +170,10 @@ Json material_baseline_rows(const RawMaterial& raw, const MaterialFile& file, st
       request.progress("")("physically based maps", 0, 1);
       rows.push_back(report_row(raw.name, measure_pbr(raw, request.unseen, has_shadows)));
     }
+  if (contains(request.names, neural_name))
+    for (const NeuralSize size : {NeuralSize::small, NeuralSize::filling})
+      rows.push_back(report_row(raw.name, measure_neural(raw, request.unseen, file.bytes, size, settings.seed,
+                                                         request.progress("neural material, "))));
   return rows;
 }
 

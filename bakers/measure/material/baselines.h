@@ -16,8 +16,10 @@
 
 namespace nook::measure {
 
-// n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr.
+// n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr, neural.
 std::vector<std::string> material_baseline_names();
+// All but neural, which takes minutes.
+std::vector<std::string> material_peer_names();
 
 // The settings that the sizes of a material's tensors give: those of its view map where K-CTA made it.
 bake::material::CompressionSettings settings_of(const nook::material::Material& material, std::uint64_t seed);

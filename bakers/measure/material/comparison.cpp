@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bakers/measure/material/measures.h"
+#include "bakers/measure/material/neural_training.h"
 #include "bakers/measure/material/pbr_tile.h"
 #include "bakers/measure/material/pca.h"
 #include "bakers/measure/material/report.h"
@@ -49,6 +50,7 @@ MethodRow measure_material(const RawMaterial& raw, const Material& material) {
   const BtfError error = measure_btf(raw, plain(material.light_basis), material.btf);
   row.se_db = error.se_db();
   row.psnr_db = error.psnr_db();
+  row.psnr_toned_db = error.psnr_toned_db();
   if (material.visibility == VisibilityForm::none || raw.mask.empty()) return row;
   (material.visibility == VisibilityForm::binary ? row.error_texels_binary : row.error_texels_distance) =
       count_error_texels(raw, material.votf, material.visibility);
@@ -118,7 +120,30 @@ MethodRow measure_pbr(const RawMaterial& raw, const RawMaterial* unseen, bool ha
   const BtfError error = measure_pbr_tile(raw, tile);
   row.se_db = error.se_db();
   row.psnr_db = error.psnr_db();
+  row.psnr_toned_db = error.psnr_toned_db();
   if (unseen) row.se_db_unseen = measure_pbr_tile(*unseen, tile).se_db();
+  return row;
+}
+
+MethodRow measure_neural(const RawMaterial& raw, const RawMaterial* unseen, std::span<const std::byte> file,
+                         NeuralSize size, std::uint64_t seed, const StageProgress& progress) {
+  const platform::Stopwatch watch;
+  const std::size_t beside = bytes_beside_btf(file);
+  NeuralSettings settings;
+  settings.seed = seed;
+  if (size == NeuralSize::filling) settings.shape = filling_neural_shape(raw, file.size() - beside);
+  const NeuralTile tile = fit_neural_tile(raw, settings, progress);
+  MethodRow row;
+  row.method = size == NeuralSize::small ? "neural, small" : "neural, equal bytes";
+  row.seconds = watch.seconds();
+  row.bytes = tile.bytes();
+  row.file_bytes = beside + tile.bytes();
+  row.gpu_bytes_texel = double(tile.bytes()) / double(raw.texels());
+  const BtfError error = measure_neural_tile(raw, tile);
+  row.se_db = error.se_db();
+  row.psnr_db = error.psnr_db();
+  row.psnr_toned_db = error.psnr_toned_db();
+  if (unseen) row.se_db_unseen = measure_neural_tile(*unseen, tile).se_db();
   return row;
 }
 

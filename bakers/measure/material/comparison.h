@@ -18,6 +18,7 @@ struct MethodRow {
   // that the paper's Table I counts: numbers and indices without view maps.
   std::size_t file_bytes = 0, bytes = 0;
   double se_db = 0, psnr_db = 0;
+  std::optional<double> psnr_toned_db;  // of toned() in measures.h
   std::optional<std::size_t> error_texels_binary, error_texels_distance;
   // As drawn from textures, see table_error.h: the error, and the textures' bytes for each texel.
   std::optional<double> se_db_drawn, gpu_bytes_texel;
@@ -49,6 +50,14 @@ MethodRow measure_pca(const RawMaterial& raw, std::span<const std::byte> file, s
 // The maps of a physically based material with parallax, fitted to the raw one, and `unseen` where it is not
 // null: relief shadows take a march for each light.
 MethodRow measure_pbr(const RawMaterial& raw, const RawMaterial* unseen, bool has_shadows);
+
+// The same tile as a neural material of one of two sizes, fitted to the raw one.
+enum class NeuralSize {
+  small,   // about 14 bytes for each texel
+  filling  // the bytes of a whole file, of which VOTF and directions stay as in measure_pca
+};
+MethodRow measure_neural(const RawMaterial& raw, const RawMaterial* unseen, std::span<const std::byte> file,
+                         NeuralSize size, std::uint64_t seed, const StageProgress& progress = {});
 
 const char* method_name(Method method);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
@@ -57,6 +58,10 @@ double BtfError::psnr_db() const {
   return 10 * std::log10(peak * peak * double(values) / squared_error);
 }
 
+double BtfError::psnr_toned_db() const {
+  return 10 * std::log10(double(values) / squared_error_toned);
+}
+
 Matrix decode_btf_view(const std::vector<float>& light_basis, const ClusteredTensor& btf, std::size_t view) {
   const auto rank = Index(btf.shape.rank_light);
   return ConstMap(light_basis.data(), Index(light_basis.size()) / rank, rank) * light_modes(btf, view);
@@ -67,10 +72,16 @@ std::vector<float> decode_votf_view(const ClusteredTensor& votf, std::size_t vie
   return {value.data(), value.data() + value.size()};
 }
 
+float toned(float radiance) {
+  const float y = std::max(std::numbers::pi_v<float> * radiance, 0.0f);
+  return std::sqrt(y / (1 + y));
+}
+
 void add_error(std::span<const float> truth, const float* decoded, BtfError& error) {
   const ConstMap a(truth.data(), 1, Index(truth.size())), b(decoded, 1, Index(truth.size()));
   error.squared_signal += a.cast<double>().squaredNorm();
   error.squared_error += (a - b).cast<double>().squaredNorm();
+  error.squared_error_toned += (a.unaryExpr(&toned) - b.unaryExpr(&toned)).cast<double>().squaredNorm();
   error.peak = std::max(error.peak, double(a.maxCoeff()));
   error.values += truth.size();
 }
@@ -80,6 +91,7 @@ BtfError sum_of_errors(std::span<const BtfError> parts) {
   for (const BtfError& part : parts) {
     error.squared_signal += part.squared_signal;
     error.squared_error += part.squared_error;
+    error.squared_error_toned += part.squared_error_toned;
     error.peak = std::max(error.peak, part.peak);
     error.values += part.values;
   }

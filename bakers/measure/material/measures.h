@@ -19,12 +19,18 @@ tensor::Matrix decode_btf_view(const std::vector<float>& light_basis,
                                const nook::material::ClusteredTensor& btf, std::size_t view);
 std::vector<float> decode_votf_view(const nook::material::ClusteredTensor& votf, std::size_t view);
 
+// As on a screen, from 0 to 1: the root of y / (1 + y), where y = pi times the radiance, which is 1 for a
+// white matt plane that faces its light (E. Reinhard and others: Photographic Tone Reproduction, 2002).
+float toned(float radiance);
+
 struct BtfError {
   double squared_signal = 0, squared_error = 0;
-  double peak = 0;  // the raw BTF's greatest value
+  double peak = 0;                 // the raw BTF's greatest value
   std::size_t values = 0;
+  double squared_error_toned = 0;  // of toned()
   double se_db() const { return signal_to_error_db(squared_signal, squared_error); }
   double psnr_db() const;
+  double psnr_toned_db() const;  // the peak is 1
 };
 // Adds the error of as many decoded values as there are true ones.
 void add_error(std::span<const float> truth, const float* decoded, BtfError& error);

@@ -300,18 +300,23 @@ Matrix draw_pbr_tile(const PbrTile& tile, Vec3 view, std::span<const Vec3> light
   return drawn;
 }
 
-PbrTile fit_pbr_tile(const RawMaterial& raw, bool has_shadows) {
+PbrTile fit_relief(const RawMaterial& raw) {
   PbrTile tile;
   tile.width = raw.width;
   tile.height = raw.height;
+  tile.heights.resize(raw.texels());
+  find_heights(raw, tile);
+  return tile;
+}
+
+PbrTile fit_pbr_tile(const RawMaterial& raw, bool has_shadows) {
+  PbrTile tile = fit_relief(raw);
   const std::size_t texels = raw.texels();
   tile.has_shadows = has_shadows;
-  tile.heights.resize(texels);
   tile.diffuse.resize(texels);
   tile.slope_x.resize(texels);
   tile.slope_y.resize(texels);
   tile.gloss_width.resize(texels);
-  find_heights(raw, tile);
   const Range range = range_of(tile);
   tensor::for_each_block(texels, 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {

@@ -10,6 +10,7 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   json["bytes"] = row.bytes;
   json["se_db"] = row.se_db;
   json["psnr_db"] = row.psnr_db;
+  if (row.psnr_toned_db) json["psnr_toned_db"] = *row.psnr_toned_db;
   const auto texels = [&](const char* key, const std::optional<std::size_t>& count) {
     json[key] = count ? nlohmann::ordered_json(*count) : nlohmann::ordered_json();
   };

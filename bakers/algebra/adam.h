@@ -5,16 +5,16 @@
 #include <span>
 #include <vector>
 
-namespace nook::bake::nnao {
+namespace nook::bake {
 
 struct Adam {
   explicit Adam(std::size_t parameters) : mean(parameters), square(parameters) {}
 
-  // Takes one step against the gradient.
+  // Takes one step against the gradient, in parallel where parameters are many.
   void step(std::span<float> parameters, std::span<const float> gradient, float rate);
 
   std::vector<float> mean, square;
   std::uint64_t steps = 0;
 };
 
-}  // namespace nook::bake::nnao
+}  // namespace nook::bake
