@@ -25,7 +25,7 @@ float toned(float radiance);
 
 struct BtfError {
   double squared_signal = 0, squared_error = 0;
-  double peak = 0;                 // the raw BTF's greatest value
+  double peak = 0;  // the raw BTF's greatest value
   std::size_t values = 0;
   double squared_error_toned = 0;  // of toned()
   double se_db() const { return signal_to_error_db(squared_signal, squared_error); }
