@@ -265,7 +265,7 @@ struct Start {
   Candidates candidates;
 };
 
-// Makes clusters, key points and spheres. weight is that of each vertex.
+// Makes clusters, key points and spheres. weight is that of each vertex where they are placed.
 Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<const float> weight,
                  const BakeSettings& settings, const std::function<void(std::size_t)>& step) {
   const std::vector<Vec3> feature_normal =
@@ -321,7 +321,10 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   const Surface surface = rest_surface(mesh);
   const std::vector<float>& area = surface.area;
   set.vertex_weight = vertex_weights(area);
-  Start start = initialise(mesh, surface, set.vertex_weight, settings, step);
+  const std::vector<float> placed_by = settings.fit == FitMethod::paper
+                                           ? set.vertex_weight
+                                           : placement_weights(set.vertex_weight, set.targets, set.fitted());
+  Start start = initialise(mesh, surface, placed_by, settings, step);
   if (settings.learn_gamma)
     start.state.structure.kernel.gamma =
         learned_gamma(set, area, settings, start.candidates, start.state, progress);

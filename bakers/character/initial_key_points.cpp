@@ -73,6 +73,30 @@ FitState initial_state(const Kernel& kernel, std::span<const InitialSphere> sphe
   return state;
 }
 
+std::vector<float> placement_weights(std::span<const float> vertex_weight, const AoTargets& targets,
+                                     std::size_t poses) {
+  constexpr double least_share = 0.05;  // of the mean variance, so that every part of a body has key points
+  const std::size_t vertices = vertex_weight.size();
+  std::vector<double> sum(vertices, 0.0), squares(vertices, 0.0);
+  for (std::size_t t = 0; t < poses; ++t) {
+    const auto row = targets.row(t);
+    for (std::size_t i = 0; i < vertices; ++i) {
+      const double ao = double(row[i]) * double(AoTargets::scale);
+      sum[i] += ao;
+      squares[i] += ao * ao;
+    }
+  }
+  double mean = 0;
+  for (std::size_t i = 0; i < vertices; ++i) {
+    squares[i] = std::max(squares[i] - sum[i] * sum[i] / double(poses), 0.0);
+    mean += squares[i] / double(vertices);
+  }
+  std::vector<float> weight(vertex_weight.begin(), vertex_weight.end());
+  if (mean <= 0) return weight;
+  for (std::size_t i = 0; i < vertices; ++i) weight[i] *= float(least_share + squares[i] / mean);
+  return weight;
+}
+
 NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> normal,
                                  std::span<const KeyPoint> key_points, std::size_t count) {
   count = std::min(count, key_points.size());

@@ -29,6 +29,45 @@ TEST_CASE("initial spheres lie on the axis of each bone's flesh") {
   }
 }
 
+TEST_CASE("key points crowd where AO changes with the pose") {
+  const SkinnedMesh mesh = bending_tube();
+  const auto changes = [&](std::size_t i) { return mesh.position[i].x > 0.5f; };
+  // AO of the far half is 0.25 and 0.75 in turns, which has the variance 1/16; that of the near half is 0.6.
+  constexpr std::size_t poses = 4;
+  AoTargets targets;
+  targets.vertex_count = mesh.vertex_count();
+  std::size_t changing = 0;
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) changing += changes(i);
+  for (std::size_t t = 0; t < poses; ++t)
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i)
+      targets.value.push_back(
+          std::uint16_t((changes(i) ? (t % 2 ? 0.75f : 0.25f) : 0.6f) / AoTargets::scale));
+  targets.value.resize(targets.value.size() + mesh.vertex_count(),
+                       0);  // a held-out pose, which does not count
+  const std::vector<float> given(mesh.vertex_count(), 2.0f);
+  const std::vector<float> weight = placement_weights(given, targets, poses);
+  const float over_mean = float(mesh.vertex_count()) / float(changing);
+  for (std::size_t i = 0; i < weight.size(); ++i)  // a step of the targets is 1.5e-5
+    CHECK(std::abs(weight[i] - 2 * (0.05f + (changes(i) ? over_mean : 0.0f))) < 1e-3f);
+
+  std::vector<Vec3> normal;
+  vertex_normals(mesh.triangle, mesh.position, normal);
+  ClusterSettings settings;
+  settings.count = 30;
+  const auto far_clusters = [&](const std::vector<float>& w) {
+    std::set<std::uint32_t> far;
+    const std::vector<std::uint32_t> cluster = cluster_vertices(mesh, w, normal, settings);
+    for (std::size_t i = 0; i < cluster.size(); ++i)
+      if (changes(i)) far.insert(cluster[i]);
+    return far.size();
+  };
+  CHECK(far_clusters(given) < 20);
+  CHECK(far_clusters(weight) > 20);
+
+  // Where nothing changes, the weights are those given.
+  CHECK(placement_weights(given, targets, 1) == given);
+}
+
 TEST_CASE("clusters are connected and have the given number") {
   const SkinnedMesh mesh = bending_tube();
   std::vector<Vec3> normal;
