@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bakers/material/relief.h"
 #include "bakers/material/signed_distance.h"
 #include "bakers/material/view_spline.h"
 #include "bakers/material/visibility_margin.h"
@@ -243,18 +244,45 @@ std::vector<float> votf_values(const RawMaterial& raw, VisibilityForm form) {
   return form == VisibilityForm::binary ? raw.mask : signed_distances(raw.mask, raw.width, raw.height);
 }
 
+namespace {
+
+RawMaterial on_relief(const RawMaterial& raw, const nook::material::Relief& relief) {
+  RawMaterial moved = raw;
+  move_to_relief(raw, relief, moved.btf);
+  return moved;
+}
+
+nook::material::Relief relief_of(const RawMaterial& raw, const CompressionSettings& s,
+                                 const StageProgress& progress) {
+  if (!s.has_relief) return nook::material::Relief();
+  if (progress && !progress("relief", 0, 1)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
+  return estimate_relief(raw);
+}
+
+}  // namespace
+
+std::vector<float> votf_targets(const RawMaterial& raw, VisibilityForm form,
+                                const nook::material::Relief& relief) {
+  std::vector<float> values = votf_values(raw, form);
+  move_to_relief(raw, relief, values);
+  return values;
+}
+
 Material compress(const RawMaterial& raw, const CompressionSettings& s, const StageProgress& progress) {
   Material material;
   material.bits = s.bits;
   material.lights.assign(raw.lights.begin(), raw.lights.end());
   material.views.assign(raw.views.begin(), raw.views.end());
-  CompressedBtf btf = compress_btf(raw, s, progress);
+  check_settings(s, raw);
+  material.relief = relief_of(raw, s, progress);
+  CompressedBtf btf =
+      compress_btf(material.relief.moves() ? on_relief(raw, material.relief) : raw, s, progress);
   material.light_basis.assign(btf.light_basis.begin(), btf.light_basis.end());
   material.btf = std::move(btf.tensor);
   if (raw.mask.empty() || s.visibility == VisibilityForm::none) return material;
   material.visibility = s.visibility;
   material.mapping = s.mapping ? *s.mapping : default_mapping(s.visibility, raw.width, raw.height);
-  material.votf = compress_votf(raw, votf_values(raw, s.visibility), s, progress);
+  material.votf = compress_votf(raw, votf_targets(raw, s.visibility, material.relief), s, progress);
   return material;
 }
 

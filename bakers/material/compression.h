@@ -40,6 +40,7 @@ struct CompressionSettings {
   std::uint32_t map_side = 64;  // cells of the resampled view maps of K-CTA; 0: none
   bool is_cta_mapped = false;   // CTA has view maps as well, whose cells show one cluster each
   std::uint32_t bits = 16;      // form of the numbers, see Material in sdk's material/material.h
+  bool has_relief = false;      // views are moved to the relief that estimate_relief() finds
   std::uint64_t seed = 1;
 
   std::uint32_t cluster_count() const {
@@ -81,6 +82,10 @@ nook::material::ClusteredTensor compress_votf(const RawMaterial& raw, const std:
 
 // The VOTF's values in a form: the mask, or its signed distances.
 std::vector<float> votf_values(const RawMaterial& raw, nook::material::VisibilityForm form);
+
+// The same on the relief's points.
+std::vector<float> votf_targets(const RawMaterial& raw, nook::material::VisibilityForm form,
+                                const nook::material::Relief& relief);
 
 // Both, and the directions, as a whole; without a mask in raw there is no VOTF. Numbers are not yet rounded:
 // quantise() in sdk's material/material_file.h does.

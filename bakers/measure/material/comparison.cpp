@@ -17,10 +17,6 @@ using nook::material::ClusteredTensor;
 using nook::material::Material;
 using nook::material::VisibilityForm;
 
-std::vector<float> plain(const Vector<float>& values) {
-  return {values.begin(), values.end()};
-}
-
 }  // namespace
 
 const char* method_name(Method method) {
@@ -30,7 +26,7 @@ const char* method_name(Method method) {
 void set_core_rounding(const RawMaterial& raw, Material& material) {
   if (material.bits == 16) return;
   constexpr double added = 0.01, least = 0x1p-30, largest = 0x1p-7;
-  const BtfError error = measure_btf(raw, plain(material.light_basis), material.btf);
+  const BtfError error = measure_btf(raw, material);
   const double share =
       error.squared_signal > 0 ? added * error.squared_error / error.squared_signal : largest;
   material.core_rounding = float(std::clamp(share, least, largest));
@@ -46,12 +42,12 @@ MethodRow measure_material(const RawMaterial& raw, const Material& material) {
   row.view_rank = shape.rank_view * shape.clusters;
   row.bytes = nook::material::compressed_bytes(material);
   row.file_bytes = whole_file_bytes(material, 0);
-  const BtfError error = measure_btf(raw, plain(material.light_basis), material.btf);
+  const BtfError error = measure_btf(raw, material);
   row.se_db = error.se_db();
   row.psnr_db = error.psnr_db();
   if (material.visibility == VisibilityForm::none || raw.mask.empty()) return row;
   (material.visibility == VisibilityForm::binary ? row.error_texels_binary : row.error_texels_distance) =
-      count_error_texels(raw, material.votf, material.visibility);
+      count_error_texels(raw, material);
   return row;
 }
 
@@ -83,12 +79,13 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
     second.views = whole.views;
     second.light_basis = whole.light_basis;
     second.btf = whole.btf;
+    second.relief = whole.relief;
     second.visibility = other.visibility;
     second.mapping = nook::material::paper_mapping(other.visibility);
-    second.votf = compress_votf(raw, votf_values(raw, other.visibility), other, progress);
+    second.votf = compress_votf(raw, votf_targets(raw, other.visibility, whole.relief), other, progress);
     second = nook::material::quantise(second);
     (other.visibility == VisibilityForm::binary ? row.error_texels_binary : row.error_texels_distance) =
-        count_error_texels(raw, second.votf, other.visibility);
+        count_error_texels(raw, second);
   }
   if (material) *material = std::move(whole);
   return row;

@@ -19,6 +19,10 @@ tensor::Matrix decode_btf_view(const std::vector<float>& light_basis,
                                const nook::material::ClusteredTensor& btf, std::size_t view);
 std::vector<float> decode_votf_view(const nook::material::ClusteredTensor& votf, std::size_t view);
 
+// The same of a material, as the view sees them on its relief.
+tensor::Matrix decode_btf_view(const nook::material::Material& material, std::size_t view);
+std::vector<float> decode_votf_view(const nook::material::Material& material, std::size_t view);
+
 struct BtfError {
   double squared_signal = 0, squared_error = 0;
   double peak = 0;  // the raw BTF's greatest value
@@ -33,8 +37,11 @@ BtfError sum_of_errors(std::span<const BtfError> parts);
 BtfError measure_btf(const RawMaterial& raw, const std::vector<float>& light_basis,
                      const nook::material::ClusteredTensor& btf);
 
+BtfError measure_btf(const RawMaterial& raw, const nook::material::Material& material);
+
 // Texels whose decoded mask, binary > 0.5 or distance > 0, is another than the raw one, summed over views.
 std::size_t count_error_texels(const RawMaterial& raw, const nook::material::ClusteredTensor& votf,
                                nook::material::VisibilityForm form);
+std::size_t count_error_texels(const RawMaterial& raw, const nook::material::Material& material);
 
 }  // namespace nook::bake::material

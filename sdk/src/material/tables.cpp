@@ -257,6 +257,15 @@ std::uint64_t hash_of_votf(const Material& material) {
   for (const auto* values : {&material.votf.cores, &material.votf.x_bases, &material.votf.y_bases,
                              &material.votf.rows.coefficients, &material.votf.map.rows.coefficients})
     add_floats(hash, *values);
+  if (material.relief.moves()) {
+    const Relief& relief = material.relief;
+    const float numbers[4] = {relief.low, relief.high, relief.max_slope, float(relief.steps)};
+    add_floats(hash, numbers);
+    for (const std::uint8_t level : relief.levels) {
+      const float height = float(level);
+      add_floats(hash, {&height, 1});
+    }
+  }
   return std::max<std::uint64_t>(hash.value(), 1);
 }
 
@@ -348,13 +357,15 @@ MaterialTables make_tables(const Material& material, const Parallel& parallel, M
   make_btf(material, map_side, parallel, tables, memory);
   tables.visibility = material.visibility;
   tables.mapping = material.mapping;
+  tables.relief =
+      make_relief_tables(material.relief, material.btf.shape.width, material.btf.shape.height, memory);
   if (material.visibility != VisibilityForm::none) make_votf(material, map_side, parallel, tables, memory);
   return tables;
 }
 
 std::uint64_t table_bytes(const MaterialTables& tables) {
-  return tensor_bytes(tables.btf) + tensor_bytes(tables.votf) + tables.light_8.size() +
-         4 * std::uint64_t(tables.light.size());
+  return tensor_bytes(tables.btf) + tensor_bytes(tables.votf) + tables.relief.heights.size() +
+         tables.light_8.size() + 4 * std::uint64_t(tables.light.size());
 }
 
 }  // namespace nook::material
