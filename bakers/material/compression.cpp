@@ -261,13 +261,6 @@ nook::material::Relief relief_of(const RawMaterial& raw, const CompressionSettin
 
 }  // namespace
 
-std::vector<float> votf_targets(const RawMaterial& raw, VisibilityForm form,
-                                const nook::material::Relief& relief) {
-  std::vector<float> values = votf_values(raw, form);
-  move_to_relief(raw, relief, values);
-  return values;
-}
-
 Material compress(const RawMaterial& raw, const CompressionSettings& s, const StageProgress& progress) {
   Material material;
   material.bits = s.bits;
@@ -282,7 +275,7 @@ Material compress(const RawMaterial& raw, const CompressionSettings& s, const St
   if (raw.mask.empty() || s.visibility == VisibilityForm::none) return material;
   material.visibility = s.visibility;
   material.mapping = s.mapping ? *s.mapping : default_mapping(s.visibility, raw.width, raw.height);
-  material.votf = compress_votf(raw, votf_targets(raw, s.visibility, material.relief), s, progress);
+  material.votf = compress_votf(raw, votf_values(raw, s.visibility), s, progress);
   return material;
 }
 

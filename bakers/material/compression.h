@@ -83,10 +83,6 @@ nook::material::ClusteredTensor compress_votf(const RawMaterial& raw, const std:
 // The VOTF's values in a form: the mask, or its signed distances.
 std::vector<float> votf_values(const RawMaterial& raw, nook::material::VisibilityForm form);
 
-// The same on the relief's points.
-std::vector<float> votf_targets(const RawMaterial& raw, nook::material::VisibilityForm form,
-                                const nook::material::Relief& relief);
-
 // Both, and the directions, as a whole; without a mask in raw there is no VOTF. Numbers are not yet rounded:
 // quantise() in sdk's material/material_file.h does.
 nook::material::Material compress(const RawMaterial& raw, const CompressionSettings& settings,

@@ -61,8 +61,8 @@ double square(const std::vector<float>& values) {
 // 1, so that the stiffness bounds how much a few rounds leave.
 void fit_image(const std::vector<Taps>& taps, const std::vector<float>& shown, std::vector<float>& x,
                ConjugateWork& w) {
-  constexpr float stiffness = 0.3f;
-  constexpr int rounds = 8;
+  constexpr float stiffness = 0.05f;
+  constexpr int rounds = 12;
   const std::size_t count = taps.size();
   w.image.resize(count);
   w.rest.assign(count, 0);

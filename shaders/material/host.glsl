@@ -120,9 +120,6 @@ float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
   vec2 place = nook_parabolic_place(view, NOOK_VOTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_VOTF_SIDE - 1));
   float level = nook_mipmap_level(dx, dy, NOOK_VOTF_TEXELS);
-#if NOOK_RELIEF
-  uv = nook_material_relief(uv, view, level);
-#endif
   float value = 0.0;
   uvec4 clusters = uvec4(0u);
 #if NOOK_VOTF_BLENDED

@@ -47,7 +47,7 @@ MethodRow measure_material(const RawMaterial& raw, const Material& material) {
   row.psnr_db = error.psnr_db();
   if (material.visibility == VisibilityForm::none || raw.mask.empty()) return row;
   (material.visibility == VisibilityForm::binary ? row.error_texels_binary : row.error_texels_distance) =
-      count_error_texels(raw, material);
+      count_error_texels(raw, material.votf, material.visibility);
   return row;
 }
 
@@ -79,13 +79,12 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
     second.views = whole.views;
     second.light_basis = whole.light_basis;
     second.btf = whole.btf;
-    second.relief = whole.relief;
     second.visibility = other.visibility;
     second.mapping = nook::material::paper_mapping(other.visibility);
-    second.votf = compress_votf(raw, votf_targets(raw, other.visibility, whole.relief), other, progress);
+    second.votf = compress_votf(raw, votf_values(raw, other.visibility), other, progress);
     second = nook::material::quantise(second);
     (other.visibility == VisibilityForm::binary ? row.error_texels_binary : row.error_texels_distance) =
-        count_error_texels(raw, second);
+        count_error_texels(raw, second.votf, other.visibility);
   }
   if (material) *material = std::move(whole);
   return row;

@@ -75,21 +75,6 @@ BtfError error_of_views(const RawMaterial& raw, const Decode& decode) {
   return sum_of_errors(part);
 }
 
-template <class Decode>
-std::size_t error_texels_of_views(const RawMaterial& raw, nook::material::VisibilityForm form,
-                                  const Decode& decode) {
-  const float threshold = form == nook::material::VisibilityForm::binary ? 0.5f : 0;
-  std::atomic<std::size_t> wrong{0};
-  tensor::for_each_block(raw.views.size(), 1, [&](std::size_t view, std::size_t) {
-    const std::vector<float> value = decode(view);
-    std::size_t here = 0;
-    for (std::size_t i = 0; i < value.size(); ++i)
-      here += (value[i] > threshold) != (raw.mask[view * raw.texels() + i] > 0.5f);
-    wrong += here;
-  });
-  return wrong;
-}
-
 void need_lights(const RawMaterial& raw, std::size_t numbers, std::uint32_t rank) {
   if (numbers != raw.light_rows() * rank)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the light basis is of %zu lights, the raw material of %zu",
@@ -141,11 +126,6 @@ Matrix decode_btf_view(const nook::material::Material& material, std::size_t vie
          seen(material, view, light_modes(material.btf, view));
 }
 
-std::vector<float> decode_votf_view(const nook::material::Material& material, std::size_t view) {
-  const Matrix value = seen(material, view, light_modes(material.votf, view));
-  return {value.data(), value.data() + value.size()};
-}
-
 BtfError measure_btf(const RawMaterial& raw, const std::vector<float>& light_basis,
                      const ClusteredTensor& btf) {
   need_sizes(raw, btf, "BTF");
@@ -162,13 +142,16 @@ BtfError measure_btf(const RawMaterial& raw, const nook::material::Material& mat
 std::size_t count_error_texels(const RawMaterial& raw, const ClusteredTensor& votf,
                                nook::material::VisibilityForm form) {
   need_sizes(raw, votf, "VOTF");
-  return error_texels_of_views(raw, form, [&](std::size_t view) { return decode_votf_view(votf, view); });
-}
-
-std::size_t count_error_texels(const RawMaterial& raw, const nook::material::Material& material) {
-  need_sizes(raw, material.votf, "VOTF");
-  return error_texels_of_views(raw, material.visibility,
-                               [&](std::size_t view) { return decode_votf_view(material, view); });
+  const float threshold = form == nook::material::VisibilityForm::binary ? 0.5f : 0;
+  std::atomic<std::size_t> wrong{0};
+  tensor::for_each_block(raw.views.size(), 1, [&](std::size_t view, std::size_t) {
+    const std::vector<float> value = decode_votf_view(votf, view);
+    std::size_t here = 0;
+    for (std::size_t i = 0; i < value.size(); ++i)
+      here += (value[i] > threshold) != (raw.mask[view * raw.texels() + i] > 0.5f);
+    wrong += here;
+  });
+  return wrong;
 }
 
 }  // namespace nook::bake::material

@@ -19,9 +19,8 @@ tensor::Matrix decode_btf_view(const std::vector<float>& light_basis,
                                const nook::material::ClusteredTensor& btf, std::size_t view);
 std::vector<float> decode_votf_view(const nook::material::ClusteredTensor& votf, std::size_t view);
 
-// The same of a material, as the view sees them on its relief.
+// The BTF of a material as the view sees it on its relief.
 tensor::Matrix decode_btf_view(const nook::material::Material& material, std::size_t view);
-std::vector<float> decode_votf_view(const nook::material::Material& material, std::size_t view);
 
 struct BtfError {
   double squared_signal = 0, squared_error = 0;
@@ -42,6 +41,5 @@ BtfError measure_btf(const RawMaterial& raw, const nook::material::Material& mat
 // Texels whose decoded mask, binary > 0.5 or distance > 0, is another than the raw one, summed over views.
 std::size_t count_error_texels(const RawMaterial& raw, const nook::material::ClusteredTensor& votf,
                                nook::material::VisibilityForm form);
-std::size_t count_error_texels(const RawMaterial& raw, const nook::material::Material& material);
 
 }  // namespace nook::bake::material

@@ -95,7 +95,7 @@ class ViewDrawing {
   }
   // The decoded mask; red where the traced one is another.
   Picture mask(const nook::material::Material& material) const {
-    const std::vector<float> value = bake::material::decode_votf_view(material, view_);
+    const std::vector<float> value = bake::material::decode_votf_view(material.votf, view_);
     const float threshold = material.visibility == VisibilityForm::binary ? 0.5f : 0;
     return draw([&](std::size_t texel) {
       const bool truth = visible(raw_, view_, texel), got = value[texel] > threshold;

@@ -83,7 +83,7 @@ UnseenError measure_unseen(const RawMaterial& unseen, const Material& material) 
   UnseenError error;
   error.se_db = measure_btf(unseen, seen).se_db();
   if (seen.visibility != VisibilityForm::none && !unseen.mask.empty())
-    error.error_texels = count_error_texels(unseen, seen);
+    error.error_texels = count_error_texels(unseen, seen.votf, seen.visibility);
   return error;
 }
 

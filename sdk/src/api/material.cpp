@@ -39,14 +39,14 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   info.decode_multiply_adds = relief.multiply_adds + decode.multiply_adds;
   info.light_fetches = light.fetches;
   info.light_multiply_adds = light.multiply_adds;
+  info.occlusion_fetches = occlusion.fetches;
+  info.occlusion_multiply_adds = occlusion.multiply_adds;
   info.compressed_bytes = compressed_bytes(material);
   info.view_map_bytes = map_bytes(material.btf, material.bits);
   info.table_bytes = table_bytes(tables);
   if (material.visibility == VisibilityForm::none) return info;
   info.visibility_threshold = material.mapping.threshold;
   info.visibility_weight = material.mapping.weight;
-  info.occlusion_fetches = relief.fetches + occlusion.fetches;
-  info.occlusion_multiply_adds = relief.multiply_adds + occlusion.multiply_adds;
   info.votf = tensor_info(material.votf, tables.votf);
   info.view_map_bytes += map_bytes(material.votf, material.bits);
   return info;

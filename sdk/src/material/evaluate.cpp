@@ -170,7 +170,7 @@ void light_basis_at(const MaterialTables& tables, Vec3 light, std::span<float> b
 float evaluate_votf(const MaterialTables& tables, const Sample& sample) {
   if (tables.visibility == VisibilityForm::none) return 1;
   float value = 0;
-  decode(tables.votf, on_relief(tables, sample), &value);
+  decode(tables.votf, sample, &value);
   return value;
 }
 

@@ -75,9 +75,9 @@ constexpr VisibilityMapping paper_mapping(VisibilityForm form) {
   return form == VisibilityForm::binary ? VisibilityMapping{0.5f, 1} : VisibilityMapping{0.05f, 12};
 }
 
-// The relief whose points the texels of BTF and VOTF are: texel (x, y) of a view is what it sees at the
-// relief's point over that texel. So relief does not move between views, and mixing them does not blur it.
-// The point that a view sees through the plane z = 0 is found by the march of relief.h.
+// The relief whose points the texels of the BTF are: texel (x, y) of a view is what it sees at the relief's
+// point over that texel. So relief does not move between views, and mixing them does not blur it. The point
+// that a view sees through the plane z = 0 is found by the march of relief.h. The VOTF stays on that plane.
 struct Relief {
   explicit Relief(Memory* memory = default_memory()) : levels(memory) {}
 

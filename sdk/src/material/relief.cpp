@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sdk/src/core/half.h"
 #include "sdk/src/material/filtering.h"
 #include "sdk/src/material/spatial_modes.h"
 
@@ -25,7 +26,7 @@ float share_on_level(const ReliefTables& relief, TexturePlace at, std::uint32_t 
   const std::uint32_t w = level_size(relief.width, level), h = level_size(relief.height, level);
   const Between x = repeated(at.u, w), y = repeated(at.v, h);
   const auto texel = [&](std::uint32_t column, std::uint32_t row) {
-    return float(relief.heights[first + std::size_t(row) * w + column]) / 255;
+    return from_half(relief.heights[first + std::size_t(row) * w + column]);
   };
   return mix(mix(texel(x.low, y.low), texel(x.high, y.low), x.t),
              mix(texel(x.low, y.high), texel(x.high, y.high), x.t), y.t);
@@ -58,8 +59,7 @@ ReliefTables make_relief_tables(const Relief& relief, std::uint32_t width, std::
   other.resize(image.size());
   for (std::uint32_t level = 0; level < tables.levels; ++level) {
     const std::uint32_t w = level_size(width, level), h = level_size(height, level);
-    for (std::size_t i = 0; i < std::size_t(w) * h; ++i)
-      tables.heights.push_back(std::uint8_t(std::lround(image[i])));
+    for (std::size_t i = 0; i < std::size_t(w) * h; ++i) tables.heights.push_back(to_half(image[i] / 255));
     if (level + 1 == tables.levels) break;
     halve(image, w, h, other);
     std::swap(image, other);

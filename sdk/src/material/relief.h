@@ -16,8 +16,8 @@ struct ReliefTables {
   float low = 0, high = 0, max_slope = 0;  // as in Relief
   std::uint32_t steps = 0;
   std::uint32_t width = 0, height = 0, levels = 0;  // of the heights, 0 of a plane
-  // One mipmap level after another, each the mean over its texels' areas: 255 of low to high.
-  Vector<std::uint8_t> heights;
+  // Half floats, 0 at low to 1 at high: one mipmap level after another, each the mean over its texels' areas.
+  Vector<std::uint16_t> heights;
 
   bool moves() const { return low != 0 || high != 0; }
 };

@@ -257,15 +257,6 @@ std::uint64_t hash_of_votf(const Material& material) {
   for (const auto* values : {&material.votf.cores, &material.votf.x_bases, &material.votf.y_bases,
                              &material.votf.rows.coefficients, &material.votf.map.rows.coefficients})
     add_floats(hash, *values);
-  if (material.relief.moves()) {
-    const Relief& relief = material.relief;
-    const float numbers[4] = {relief.low, relief.high, relief.max_slope, float(relief.steps)};
-    add_floats(hash, numbers);
-    for (const std::uint8_t level : relief.levels) {
-      const float height = float(level);
-      add_floats(hash, {&height, 1});
-    }
-  }
   return std::max<std::uint64_t>(hash.value(), 1);
 }
 
@@ -364,7 +355,7 @@ MaterialTables make_tables(const Material& material, const Parallel& parallel, M
 }
 
 std::uint64_t table_bytes(const MaterialTables& tables) {
-  return tensor_bytes(tables.btf) + tensor_bytes(tables.votf) + tables.relief.heights.size() +
+  return tensor_bytes(tables.btf) + tensor_bytes(tables.votf) + 2 * tables.relief.heights.size() +
          tables.light_8.size() + 4 * std::uint64_t(tables.light.size());
 }
 

@@ -59,7 +59,7 @@ struct MaterialTables {
   TensorTables votf;  // empty if visibility is none
   VisibilityForm visibility = VisibilityForm::none;
   VisibilityMapping mapping;
-  ReliefTables relief;  // of BTF and VOTF
+  ReliefTables relief;  // of the BTF
 
   static constexpr std::uint32_t light_side = 64;
   // The light basis over the hemisphere, interpolated linearly between the lights. Beyond the outermost

@@ -31,7 +31,7 @@ Layout layout_of(const Functions& gl, ArrayUse use) {
     case ArrayUse::coordinates:
       return {GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, 4, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
     case ArrayUse::heights:
-      return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT};
+      return {GL_R16F, GL_RED, GL_HALF_FLOAT, 2, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT};
     default:
       return {gl.profile == Profile::desktop ? GL_RGBA32F : GL_RGBA16F,
               GL_RGBA,

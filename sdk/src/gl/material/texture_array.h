@@ -13,7 +13,7 @@ enum class ArrayUse {
   spatial_8,     // signed 8-bit integers as -1 to 1, else as spatial
   light_8,       // signed 8-bit integers as -1 to 1, else as light
   coordinates,   // pairs of 16-bit integers, nearest
-  heights        // unsigned 8-bit integers as 0 to 1, else as spatial
+  heights        // one half float, else as spatial
 };
 
 struct ArrayPlan {
