@@ -170,25 +170,35 @@ def jumps_table(bench):
 
 def between_rows(bench):
     """The file of a material and the maps fitted to it, in views and under lights that neither has seen, and K-CTA of more
-    views at the same ranks."""
-    for material in ("weave", "49 x 49 fiber"):
+    views at the same ranks, both without and with a relief."""
+    def evaluated(name, file, between):
+        return bench.run(f"{file} between", "evaluate", "material", bench.path(f"{name}.raw"), bench.path(f"{file}.nook"),
+                         "--unseen", between, "--jumps")["rows"][0]
+    for material in ("weave", "49 x 49 fiber", "49 x 49 roughhole"):
         shape, between = material.split()[-1], bench.path(f"{material} between.raw")
         bench.run(f"{material} between", "bake", "material", "--meso", shape, "--directions", "37", "--texels", "48", *REST,
                   "-o", bench.path(f"{material} between.nook"), "--keep-raw", between)
         report = bench.evaluate(material, "between", ["--unseen", between, "--methods", "pbr"])
-        for row in report["rows"]:
-            yield material, "49", row
+        ranks = ["--ranks", ",".join(map(str, report["settings"]["ranks"]))]
         name = f"{material} 147 views"
         bench.run(f"{name} bake", "bake", "material", "--meso", shape, "--directions", "147", "--lights", "49",
-                  "--texels", "48", "--ranks", ",".join(map(str, report["settings"]["ranks"])), *PAPER, "-o",
-                  bench.path(f"{name}.nook"), "--keep-raw", bench.path(f"{name}.raw"))
-        yield material, "147", bench.evaluate(name, "between", ["--unseen", between])["rows"][0]
+                  "--texels", "48", *ranks, *PAPER, "-o", bench.path(f"{name}.nook"), "--keep-raw", bench.path(f"{name}.raw"))
+        for raw, views in ((material, "49"), (name, "147")):
+            for relief in ("none", "estimated"):
+                file = f"{raw} relief {relief}"
+                bench.compress(raw, f"relief {relief}", [*ranks, "--relief", relief], NO_REFITS)
+                yield material, views, relief, evaluated(raw, file, between)
+        for row in report["rows"][1:]:
+            yield material, "49", "", row
 
 
 def between_table(rows):
-    return table(["material", "method", "fitted views", "S/E, dB: fitted", "unseen views and lights"],
-                 [[material, row["method"].replace("file: ", ""), views, f"{row['se_db']:.2f}",
-                   f"{row['se_db_unseen']:.2f}"] for material, views, row in rows])
+    return table(["material", "method", "fitted views", "file, KiB", "S/E, dB: fitted", "unseen views and lights",
+                  "largest jump", "99 %"],
+                 [[material, row["method"].replace("file: ", "") + (", relief" if relief == "estimated" else ""), views,
+                   f"{row['file_bytes'] / 1024:.0f}", f"{row['se_db']:.2f}", f"{row['se_db_unseen']:.2f}",
+                   *(f"{row[key]:.3f}" if key in row else "-" for key in ("jump_largest", "jump_99"))]
+                  for material, views, relief, row in rows])
 
 
 def neural_rows(bench):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bakers/material/relief.h"
 #include "bakers/material/signed_distance.h"
 #include "bakers/material/view_spline.h"
 #include "bakers/material/visibility_margin.h"
@@ -243,12 +244,45 @@ std::vector<float> votf_values(const RawMaterial& raw, VisibilityForm form) {
   return form == VisibilityForm::binary ? raw.mask : signed_distances(raw.mask, raw.width, raw.height);
 }
 
+namespace {
+
+ReliefProgress stage(const StageProgress& progress, const char* name) {
+  return [&progress, name](std::size_t done, std::size_t total) {
+    return !progress || progress(name, done, total);
+  };
+}
+
+// Without the mask.
+RawMaterial btf_on_relief(const RawMaterial& raw, const nook::material::Relief& relief,
+                          const StageProgress& progress) {
+  RawMaterial moved;
+  moved.lights = raw.lights;
+  moved.views = raw.views;
+  moved.width = raw.width;
+  moved.height = raw.height;
+  moved.btf = raw.btf;
+  move_to_relief(raw, relief, moved.btf, stage(progress, "views on the relief"));
+  return moved;
+}
+
+nook::material::Relief relief_of(const RawMaterial& raw, const CompressionSettings& s,
+                                 const StageProgress& progress) {
+  if (!s.has_relief) return nook::material::Relief();
+  return estimate_relief(raw, stage(progress, "relief"));
+}
+
+}  // namespace
+
 Material compress(const RawMaterial& raw, const CompressionSettings& s, const StageProgress& progress) {
   Material material;
   material.bits = s.bits;
   material.lights.assign(raw.lights.begin(), raw.lights.end());
   material.views.assign(raw.views.begin(), raw.views.end());
-  CompressedBtf btf = compress_btf(raw, s, progress);
+  check_settings(s, raw);
+  material.relief = relief_of(raw, s, progress);
+  CompressedBtf btf = material.relief.moves()
+                          ? compress_btf(btf_on_relief(raw, material.relief, progress), s, progress)
+                          : compress_btf(raw, s, progress);
   material.light_basis.assign(btf.light_basis.begin(), btf.light_basis.end());
   material.btf = std::move(btf.tensor);
   if (raw.mask.empty() || s.visibility == VisibilityForm::none) return material;

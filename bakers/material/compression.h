@@ -40,6 +40,7 @@ struct CompressionSettings {
   std::uint32_t map_side = 64;  // cells of the resampled view maps of K-CTA; 0: none
   bool is_cta_mapped = false;   // CTA has view maps as well, whose cells show one cluster each
   std::uint32_t bits = 16;      // form of the numbers, see Material in sdk's material/material.h
+  bool has_relief = false;      // views are moved to the relief that estimate_relief() finds
   std::uint64_t seed = 1;
 
   std::uint32_t cluster_count() const {

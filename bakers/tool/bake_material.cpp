@@ -339,6 +339,13 @@ void add_bake_material(CLI::App& bake) {
                    "mixes the three nearest views, for up to three times the work")
       ->check(CLI::Range(0, 512))
       ->capture_default_str();
+  command
+      ->add_option_function<std::string>(
+          "--relief", [&s](const std::string& v) { s.has_relief = v == "estimated"; },
+          "estimated: views are aligned by heights that they agree on, which pixels march, so that what lies "
+          "between them is sharper; no relief where that predicts no view better. none (default)")
+      ->check(CLI::IsMember({"none", "estimated"}))
+      ->type_name("NAME");
   add_compression_options(*command, o.compression);
   add_common_options(*command, o.common);
   command->callback([options] { run(*options); });

@@ -34,11 +34,39 @@ vec4 nook_material_blended(highp sampler2DArray coefficients, nook_material_cell
          texelFetch(coefficients, ivec3(c.y, layer), 0) * c.weight_y;
 }
 
+#if NOOK_RELIEF
+// Returns the point of the tile over which the view's ray through uv first meets the relief.
+// sdk/src/material/relief.cpp has the same function.
+vec2 nook_material_relief(vec2 uv, vec3 view, float level) {
+  float across = length(view.xy);
+  vec2 slope = view.xy * (view.z * nook_relief_max_slope > across ? 1.0 / max(view.z, 1e-6)
+                                                                  : nook_relief_max_slope / max(across, 1e-6));
+  vec2 lowest = uv + nook_relief_low * slope, rise = (nook_relief_high - nook_relief_low) * slope;
+#if NOOK_RELIEF_STEPS == 0
+  return lowest + rise;
+#else
+  float above_share = 1.0;
+  float above = 1.0 - textureLod(nook_relief_heights, vec3(lowest + rise, 0.0), level).x;
+  for (int i = 1; i <= NOOK_RELIEF_STEPS && above > 0.0; ++i) {
+    float share = 1.0 - float(i) / float(NOOK_RELIEF_STEPS);
+    float over = share - textureLod(nook_relief_heights, vec3(lowest + share * rise, 0.0), level).x;
+    if (over <= 0.0) return lowest + (above_share + (share - above_share) * above / (above - over)) * rise;
+    above_share = share;
+    above = over;
+  }
+  return lowest + above_share * rise;
+#endif
+}
+#endif
+
 // Computes the light modes of the point uv for the view, filtered over the pixel with the sides dx and dy.
 void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   vec2 place = nook_parabolic_place(view, NOOK_BTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_BTF_SIDE - 1));
   float level = nook_mipmap_level(dx, dy, NOOK_BTF_TEXELS);
+#if NOOK_RELIEF
+  uv = nook_material_relief(uv, view, level);
+#endif
   for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) modes[a] = vec4(0.0);
   uvec4 clusters = uvec4(0u);
 #if NOOK_BTF_BLENDED

@@ -27,6 +27,10 @@ std::vector<Seed> seeds() {
   for (const material::test::SampleSize& size : material::test::sample_forms)
     made.push_back({"material_" + std::to_string(made.size()) + ".nook",
                     material::write_material(material::test::sample_material(1, small(size)))});
+  for (const std::uint32_t steps : {0u, 4u})
+    made.push_back({"material_" + std::to_string(made.size()) + ".nook",
+                    material::write_material(material::test::sample_material(
+                        1, small({.relief_height = 0.2f, .relief_steps = steps})))});
   return made;
 }
 

@@ -329,3 +329,43 @@ TEST_CASE("numbers beyond a half float's range decode correctly") {
   for (float& core : material.btf.cores) core = 0;
   CHECK(evaluate_btf(tables_of(material), sample).green == 0);
 }
+
+TEST_CASE("a view meets the relief where its ray does") {
+  const float height = 0.05f;
+  const Material bumpy =
+      test::sample_material(1, {.width = 64, .height = 64, .relief_height = height, .relief_steps = 16});
+  const ReliefTables relief = make_relief_tables(bumpy.relief, 64, 64, nook::default_memory());
+  // Texels' heights, in closed form at the middle of texel (0, 0), which is the origin of the waves.
+  const auto height_at = [&](TexturePlace at) {
+    const float x = at.u - 0.5f / 64, y = at.v - 0.5f / 64, turn = 6.2831853f;
+    return height * 0.5f * (std::cos(turn * x) + std::sin(turn * y));
+  };
+  test::Numbers numbers(3);
+  for (int i = 0; i < 200; ++i) {
+    const TexturePlace through{numbers.between(-2, 2), numbers.between(-2, 2)};
+    const Vec3 view = normalised({numbers.between(-1, 1), numbers.between(-1, 1), numbers.between(0.8f, 1)});
+    const TexturePlace at = relief_place(relief, through, 0, view);
+    const float z = height_at(at);
+    // A 255th of 0.1 tiles for the levels, and as much for the chord of a 16th of the range on the waves.
+    CHECK(std::abs(at.u - through.u - z * view.x / view.z) < 1e-3f);
+    CHECK(std::abs(at.v - through.v - z * view.y / view.z) < 1e-3f);
+  }
+  // The smallest level is the mean height, 0, but for the rounding of levels.
+  const TexturePlace far = relief_place(relief, {0.3f, 0.4f}, 20, normalised({0.6f, 0, 0.6f}));
+  CHECK((std::abs(far.u - 0.3f) < 5e-4f && far.v == 0.4f));
+}
+
+TEST_CASE("a plane of relief moves texels by its height, and steep views no further than its slope") {
+  const Material flat = test::sample_material(5), plane = test::sample_material(5, {.relief_height = 0.1f});
+  const MaterialTables still = tables_of(flat), moving = tables_of(plane);
+  Sample sample{0.3f, 0.6f, 0, normalised({0.5f, -0.25f, 0.5f}), {0, 0, 1}};
+  Sample there = sample;
+  there.u += 0.1f;
+  there.v -= 0.05f;
+  CHECK(std::abs(evaluate_btf(moving, sample).green - evaluate_btf(still, there).green) < 1e-4f);
+  CHECK(evaluate_votf(moving, sample) == evaluate_votf(still, sample));
+  for (const Vec3 view : {normalised({1, 0, 0.1f}), Vec3{1, 0, 0}, normalised({1, 0, -0.5f})}) {
+    const TexturePlace at = relief_place(moving.relief, {0.3f, 0.6f}, 0, view);
+    CHECK((std::abs(at.u - 0.5f) < 1e-6f && at.v == 0.6f));
+  }
+}

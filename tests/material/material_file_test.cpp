@@ -210,8 +210,8 @@ TEST_CASE("a form of numbers that is neither 8 nor 16 is refused") {
 
 TEST_CASE("a file cut at any byte is refused") {
   for (const std::uint32_t bits : {8u, 16u}) {
-    const std::vector<std::byte> good =
-        write_material(test::sample_material(1, {.map_side = 3, .bits = bits}));
+    const std::vector<std::byte> good = write_material(
+        test::sample_material(1, {.map_side = 3, .bits = bits, .relief_height = 0.1f, .relief_steps = 8}));
     REQUIRE(read_outcome(good).code == NOOK_OK);
     for (std::size_t size = 0; size < good.size(); ++size) {
       // An exact copy on the heap, so that the address sanitizer sees one byte too far.
@@ -223,8 +223,8 @@ TEST_CASE("a file cut at any byte is refused") {
 
 TEST_CASE("a file flipped at any byte is refused, or with its checksum repaired loads soundly") {
   for (const std::uint32_t bits : {8u, 16u}) {
-    const std::vector<std::byte> good =
-        write_material(test::sample_material(1, {.map_side = 3, .bits = bits}));
+    const std::vector<std::byte> good = write_material(
+        test::sample_material(1, {.map_side = 3, .bits = bits, .relief_height = 0.1f, .relief_steps = 8}));
     std::size_t refused = 0;
     for (std::size_t i = 0; i < good.size(); ++i)
       for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
@@ -270,6 +270,22 @@ TEST_CASE("files of another kind and version are refused by name") {
   CHECK(read_outcome(file).code == NOOK_ERROR_FILE_VERSION);
 }
 
+TEST_CASE("a relief comes back from its file, and a file without one is of the version before") {
+  const Material bumpy = test::sample_material(1, {.relief_height = 0.1f, .relief_steps = 8});
+  const std::vector<std::byte> file = write_material(bumpy);
+  CHECK(file[8] == std::byte{3});
+  const Relief read = read_material(file).relief;
+  CHECK((read.low == -0.1f && read.high == 0.1f && read.max_slope == 2 && read.steps == 8));
+  CHECK(read.levels == bumpy.relief.levels);
+
+  // Heights of zero everywhere are no relief: the same bits as without.
+  const Material flat = test::sample_material();
+  Material zero = bumpy;
+  zero.relief.low = zero.relief.high = 0;
+  CHECK(write_material(zero) == write_material(flat));
+  CHECK(write_material(flat)[8] == std::byte{2});
+}
+
 TEST_CASE("a material with a fault is not written, and the message names it") {
   const auto refusal = [](auto&& damage, const test::SampleSize& size = {}) {
     Material material = test::sample_material(1, size);
@@ -300,6 +316,16 @@ TEST_CASE("a material with a fault is not written, and the message names it") {
   CHECK(refusal([](Material& m) { m.light_basis.pop_back(); }).says("basis of the light mode"));
   CHECK(refusal([](Material& m) { m.visibility = VisibilityForm::none; }).says("cores of the VOTF"));
   CHECK(refusal([](Material& m) { m.mapping.weight = -1; }).says("visibility mapping"));
+  const test::SampleSize bumpy = {.relief_height = 0.1f, .relief_steps = 8};
+  CHECK(refusal([](Material& m) { m.relief.low = NAN; }, bumpy).says("height of the relief"));
+  CHECK(refusal([](Material& m) { m.relief.high = 1e9f; }, bumpy).says("height of the relief"));
+  CHECK(refusal([](Material& m) { m.relief.low = 0.2f; }, bumpy).says("lowest height 0.2 is above"));
+  CHECK(refusal([](Material& m) { m.relief.max_slope = 1e3f; }, bumpy).says("slope of the relief's views"));
+  CHECK(refusal([](Material& m) { m.relief.steps = 65; }, bumpy).says("steps of the relief"));
+  CHECK(refusal([](Material& m) { m.relief.steps = 0; }, bumpy).says("levels of the relief"));
+  CHECK(refusal([](Material& m) { m.relief.levels.pop_back(); }, bumpy).says("levels of the relief"));
+  CHECK(
+      refusal([](Material& m) { m.relief.low = 0; }, {.relief_height = 0.1f}).says("no steps, but heights"));
   CHECK(refusal([](Material& m) {
           m.btf.shape = {9, 1024, 1024, 15, 9, 1, 1, 9, 1};
         }).says("expanded size of the BTF"));

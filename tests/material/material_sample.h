@@ -40,6 +40,8 @@ struct SampleSize {
   std::uint32_t map_side = 0;
   VisibilityForm visibility = VisibilityForm::distance;
   std::uint32_t bits = 16;
+  float relief_height = 0;         // tiles; 0: no relief
+  std::uint32_t relief_steps = 0;  // 0: a plane
 };
 
 inline void fill(Vector<float>& values, std::size_t count, float size, Numbers& numbers) {
@@ -69,6 +71,21 @@ inline void fill_tensor(ClusteredTensor& tensor, const TensorShape& shape, std::
   fill_rows(tensor.map.rows, shape, std::size_t(map_side) * map_side, numbers);
 }
 
+// Two gentle waves, whose slopes no view of a tilt up to 63 degrees hides; or a plane.
+inline Relief sample_relief(const SampleSize& size) {
+  Relief relief;
+  relief.high = size.relief_height;
+  relief.low = size.relief_steps ? -size.relief_height : size.relief_height;
+  relief.max_slope = 2;
+  relief.steps = size.relief_steps;
+  for (std::uint32_t i = 0; size.relief_steps && i < size.width * size.height; ++i) {
+    const float x = float(i % size.width) / float(size.width), y = float(i / size.width) / float(size.height);
+    relief.levels.push_back(
+        std::uint8_t(127.5f + 63.7f * (std::cos(6.2831853f * x) + std::sin(6.2831853f * y))));
+  }
+  return relief;
+}
+
 inline Material sample_material(std::uint32_t seed = 1, const SampleSize& size = {}) {
   Numbers numbers(seed);
   Material material;
@@ -86,6 +103,7 @@ inline Material sample_material(std::uint32_t seed = 1, const SampleSize& size =
     votf.rank_light = 1;
     fill_tensor(material.votf, votf, size.map_side, numbers);
   }
+  if (size.relief_height != 0) material.relief = sample_relief(size);
   material.recipe = "{\"meso\": \"test\"}";
   return material;
 }

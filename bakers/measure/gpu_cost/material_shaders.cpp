@@ -19,6 +19,7 @@ struct Size {
   std::uint32_t votf_view_vec4s, votf_clusters, votf_terms;
   // The loop of the decoding that is not unrolled, and the one on vega10 where that is another.
   std::optional<Loop> loop, loop_on_vega10;
+  bool has_relief = false;
 };
 // Fiber and roughhole at the paper's ranks, as docs/material_decoding.md counts them, and weave.
 const Size sizes[] = {
@@ -26,7 +27,18 @@ const Size sizes[] = {
     {"fiber, K-CTA, K = 3", 16, 1, 20, 3, 96, 1, 20, 3, {}, {}},
     {"roughhole, N-SVD", 28, 11, 1, 1, 96, 11, 1, 1, {}, Loop{"view vectors", 11, {}}},
     {"roughhole, K-CTA, K = 3", 28, 1, 11, 3, 96, 1, 11, 3, Loop{"terms", 3, {}}, Loop{"terms", 3, {}}},
-    {"weave, K-CTA, K = 3", 20, 1, 10, 3, 48, 1, 10, 3, {}, Loop{"terms", 3, {}}}};
+    {"weave, K-CTA, K = 3", 20, 1, 10, 3, 48, 1, 10, 3, {}, Loop{"terms", 3, {}}},
+    {"weave on a relief", 20, 1, 10, 3, 48, 1, 10, 3, {}, Loop{"terms", 3, {}}, true}};
+
+constexpr std::uint32_t relief_steps = 8;
+
+// The loops of a size, where one of the decoding is not unrolled; that of the relief's march never is.
+std::vector<Loop> loops_of(const Size& size, const std::optional<Loop>& decoding) {
+  std::vector<Loop> loops;
+  if (size.has_relief) loops.push_back({"planes", double(relief_steps), {}});
+  if (decoding) loops.push_back(*decoding);
+  return loops;
+}
 
 void set_tensor(material::TensorTables& t, std::uint32_t texels, std::uint32_t light_modes,
                 std::uint32_t view_vec4s, std::uint32_t clusters, std::uint32_t terms) {
@@ -44,6 +56,11 @@ std::string declarations(const Size& size) {
   material::MaterialTables tables;
   set_tensor(tables.btf, size.texels, size.light_modes, size.view_vec4s, size.clusters, size.terms);
   set_tensor(tables.votf, size.texels, 1, size.votf_view_vec4s, size.votf_clusters, size.votf_terms);
+  if (size.has_relief) {
+    tables.relief.high = 0.1f;
+    tables.relief.max_slope = 3.7f;
+    tables.relief.steps = relief_steps;
+  }
   const String source = gl::material_source(tables, max_layers, default_memory());
   std::string_view text(source.data(), source.size());
   for (const gl::EmbeddedShader* shader = gl::embedded_shaders_begin(); shader != gl::embedded_shaders_end();
@@ -139,14 +156,15 @@ std::vector<ShaderCase> material_shaders() {
     const std::string name = std::string("material, ") + size.name;
     const auto add = [&](const char* main, const std::string& case_name, const std::vector<Loop>& after) {
       const auto loops = [&](const std::optional<Loop>& decoding) {
-        std::vector<Loop> all = after;
-        if (decoding) all.insert(all.begin(), *decoding);
+        std::vector<Loop> all = loops_of(size, decoding);
+        all.insert(all.end(), after.begin(), after.end());
         return all;
       };
       shaders.push_back(host_shader(declarations(size) + main, case_name, loops(size.loop)));
       if (size.loop_on_vega10) shaders.back().other_families = {{"vega10", loops(size.loop_on_vega10)}};
     };
     add(decode, name, {});
+    if (size.has_relief) continue;
     const bool is_k_cta = size.clusters > 1;
     if (is_k_cta && size.light_modes <= 16) {
       add(transferred, std::string("radiance transfer, ") + size.name, {});

@@ -18,10 +18,6 @@ using nook::material::ClusteredTensor;
 using nook::material::Material;
 using nook::material::VisibilityForm;
 
-std::vector<float> plain(const Vector<float>& values) {
-  return {values.begin(), values.end()};
-}
-
 }  // namespace
 
 const char* method_name(Method method) {
@@ -31,7 +27,7 @@ const char* method_name(Method method) {
 void set_core_rounding(const RawMaterial& raw, Material& material) {
   if (material.bits == 16) return;
   constexpr double added = 0.01, least = 0x1p-30, largest = 0x1p-7;
-  const BtfError error = measure_btf(raw, plain(material.light_basis), material.btf);
+  const BtfError error = measure_btf(raw, material);
   const double share =
       error.squared_signal > 0 ? added * error.squared_error / error.squared_signal : largest;
   material.core_rounding = float(std::clamp(share, least, largest));
@@ -47,7 +43,7 @@ MethodRow measure_material(const RawMaterial& raw, const Material& material) {
   row.view_rank = shape.rank_view * shape.clusters;
   row.bytes = nook::material::compressed_bytes(material);
   row.file_bytes = whole_file_bytes(material, 0);
-  const BtfError error = measure_btf(raw, plain(material.light_basis), material.btf);
+  const BtfError error = measure_btf(raw, material);
   row.se_db = error.se_db();
   row.psnr_db = error.psnr_db();
   row.psnr_toned_db = error.psnr_toned_db();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bakers/material/relief.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
 
@@ -46,6 +47,39 @@ Matrix light_modes(const ClusteredTensor& t, std::size_t view) {
     }
   }
   return modes;
+}
+
+// Images of the relief's points as a view sees them.
+Matrix seen(const nook::material::Material& material, std::size_t view, const Matrix& images) {
+  if (!material.relief.moves()) return images;
+  const auto& shape = material.btf.shape;
+  const std::vector<Taps> taps =
+      relief_taps(material.relief, shape.width, shape.height, material.views[view]);
+  Matrix out(images.rows(), images.cols());
+  for (Index row = 0; row < images.rows(); ++row)
+    for (std::size_t t = 0; t < taps.size(); ++t)
+      out(row, Index(t)) = mean_of(taps[t], images.data() + row * images.cols());
+  return out;
+}
+
+// Adds up the errors of views, decode(view) being all rows of one.
+template <class Decode>
+BtfError error_of_views(const RawMaterial& raw, const Decode& decode) {
+  const std::size_t views = raw.views.size(), texels = raw.texels();
+  std::vector<BtfError> part(views);
+  tensor::for_each_block(views, 1, [&](std::size_t view, std::size_t) {
+    const Matrix decoded = decode(view);
+    for (std::size_t row = 0; row < raw.light_rows(); ++row)
+      add_error({&raw.btf[(row * views + view) * texels], texels}, decoded.row(Index(row)).data(),
+                part[view]);
+  });
+  return sum_of_errors(part);
+}
+
+void need_lights(const RawMaterial& raw, std::size_t numbers, std::uint32_t rank) {
+  if (numbers != raw.light_rows() * rank)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the light basis is of %zu lights, the raw material of %zu",
+                  numbers / (3 * rank), raw.lights.size());
 }
 
 }  // namespace
@@ -98,21 +132,23 @@ BtfError sum_of_errors(std::span<const BtfError> parts) {
   return error;
 }
 
+Matrix decode_btf_view(const nook::material::Material& material, std::size_t view) {
+  const auto rank = Index(material.btf.shape.rank_light);
+  return ConstMap(material.light_basis.data(), Index(material.light_basis.size()) / rank, rank) *
+         seen(material, view, light_modes(material.btf, view));
+}
+
 BtfError measure_btf(const RawMaterial& raw, const std::vector<float>& light_basis,
                      const ClusteredTensor& btf) {
   need_sizes(raw, btf, "BTF");
-  if (light_basis.size() != raw.light_rows() * btf.shape.rank_light)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the light basis is of %zu lights, the raw material of %zu",
-                  light_basis.size() / (3 * btf.shape.rank_light), raw.lights.size());
-  const std::size_t views = raw.views.size(), texels = raw.texels();
-  std::vector<BtfError> part(views);
-  tensor::for_each_block(views, 1, [&](std::size_t view, std::size_t) {
-    const Matrix decoded = decode_btf_view(light_basis, btf, view);
-    for (std::size_t row = 0; row < raw.light_rows(); ++row)
-      add_error({&raw.btf[(row * views + view) * texels], texels}, decoded.row(Index(row)).data(),
-                part[view]);
-  });
-  return sum_of_errors(part);
+  need_lights(raw, light_basis.size(), btf.shape.rank_light);
+  return error_of_views(raw, [&](std::size_t view) { return decode_btf_view(light_basis, btf, view); });
+}
+
+BtfError measure_btf(const RawMaterial& raw, const nook::material::Material& material) {
+  need_sizes(raw, material.btf, "BTF");
+  need_lights(raw, material.light_basis.size(), material.btf.shape.rank_light);
+  return error_of_views(raw, [&](std::size_t view) { return decode_btf_view(material, view); });
 }
 
 std::size_t count_error_texels(const RawMaterial& raw, const ClusteredTensor& votf,

@@ -19,6 +19,9 @@ tensor::Matrix decode_btf_view(const std::vector<float>& light_basis,
                                const nook::material::ClusteredTensor& btf, std::size_t view);
 std::vector<float> decode_votf_view(const nook::material::ClusteredTensor& votf, std::size_t view);
 
+// The BTF of a material as the view sees it on its relief.
+tensor::Matrix decode_btf_view(const nook::material::Material& material, std::size_t view);
+
 // As on a screen, from 0 to 1: the root of y / (1 + y), where y = pi times the radiance, which is 1 for a
 // white matt plane that faces its light (E. Reinhard and others: Photographic Tone Reproduction, 2002).
 float toned(float radiance);
@@ -38,6 +41,8 @@ BtfError sum_of_errors(std::span<const BtfError> parts);
 // Throws Failure(INVALID_ARGUMENT) where the sizes are not the raw material's.
 BtfError measure_btf(const RawMaterial& raw, const std::vector<float>& light_basis,
                      const nook::material::ClusteredTensor& btf);
+
+BtfError measure_btf(const RawMaterial& raw, const nook::material::Material& material);
 
 // Texels whose decoded mask, binary > 0.5 or distance > 0, is another than the raw one, summed over views.
 std::size_t count_error_texels(const RawMaterial& raw, const nook::material::ClusteredTensor& votf,

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "bakers/algebra/adam.h"
+#include "bakers/material/view_heights.h"
 #include "bakers/measure/material/neural_pass.h"
 #include "bakers/measure/material/pbr_tile.h"
 #include "bakers/raytrace/random.h"
@@ -140,7 +141,10 @@ void add_gradients(Trainer& t) {
 // Trains the network of the offset alone to the first hits of the relief at which views agree.
 void fit_offsets(Trainer& t, const StageProgress& progress) {
   const NeuralShape& s = t.shape;
-  const PbrTile relief = fit_relief(t.raw);
+  PbrTile relief;
+  relief.width = t.raw.width;
+  relief.height = t.raw.height;
+  relief.heights = heights_of_views(t.raw);
   const std::size_t texels = t.raw.texels();
   std::vector<float> hit(t.raw.views.size() * texels);
   constexpr float lowest_z = 0.01f;

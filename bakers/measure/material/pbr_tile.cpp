@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "bakers/material/microfacet.h"
+#include "bakers/material/tile_taps.h"
+#include "bakers/material/view_heights.h"
 #include "bakers/tensor/blocks.h"
 
 namespace nook::bake::material {
@@ -13,39 +15,12 @@ namespace {
 using Eigen::Index;
 using tensor::Matrix;
 
-// The four texels around a point of a repeating tile and their shares.
-struct Taps {
-  std::size_t texel[4];
-  float share[4];
-};
-
-Taps taps_at(const PbrTile& tile, float x, float y) {
-  const float across = x * float(tile.width) - 0.5f, along = y * float(tile.height) - 0.5f;
-  const float left = std::floor(across), low = std::floor(along);
-  const float fx = across - left, fy = along - low;
-  const auto wrap = [](float at, std::uint32_t side) {
-    const long whole = std::lround(at) % long(side);
-    return std::size_t(whole < 0 ? whole + long(side) : whole);
-  };
-  Taps taps{};
-  for (int i = 0; i < 4; ++i) {
-    const bool right = i & 1, high = i & 2;
-    taps.texel[i] =
-        wrap(left + float(right), tile.width) * tile.height + wrap(low + float(high), tile.height);
-    taps.share[i] = (right ? fx : 1 - fx) * (high ? fy : 1 - fy);
-  }
-  return taps;
-}
-
-template <class Value>
-Value mean_of(const Taps& taps, const Value* map) {
-  Value sum = taps.share[0] * map[taps.texel[0]];
-  for (int i = 1; i < 4; ++i) sum = sum + taps.share[i] * map[taps.texel[i]];
-  return sum;
+Taps taps_of(const PbrTile& tile, float x, float y) {
+  return taps_at(tile.width, tile.height, x, y);
 }
 
 float height_at(const PbrTile& tile, float x, float y) {
-  return mean_of(taps_at(tile, x, y), tile.heights.data());
+  return mean_of(taps_of(tile, x, y), tile.heights.data());
 }
 
 struct Range {
@@ -116,75 +91,6 @@ float raw_at(const RawMaterial& raw, const Taps& taps, std::size_t row, std::siz
   return mean_of(taps, &raw.btf[(row * raw.views.size() + view) * raw.texels()]);
 }
 
-// Sums of the values of views, for their variance.
-struct Spread {
-  double sum = 0, squares = 0;
-  int count = 0;
-};
-
-constexpr int height_levels = 49;
-constexpr float largest_height = 0.24f;  // tiles, on either side of the plane
-
-float level_height(float level) {
-  return largest_height * (2 * level / (height_levels - 1) - 1);
-}
-
-// The variance over views of what is seen at a texel, if it had a height.
-float disagreement(const RawMaterial& raw, const PbrTile& tile, std::size_t texel, float height) {
-  constexpr float lowest_view = 0.6f;  // views beyond 53 degrees see too little of the same points
-  const float x = (float(texel / raw.height) + 0.5f) / float(raw.width),
-              y = (float(texel % raw.height) + 0.5f) / float(raw.height);
-  const std::size_t stride = std::max<std::size_t>(raw.lights.size() / 8, 1);
-  double total = 0;
-  std::vector<Taps> taps;
-  std::vector<std::size_t> seen;
-  for (std::size_t v = 0; v < raw.views.size(); ++v) {
-    const Vec3 view = raw.views[v];
-    if (view.z < lowest_view) continue;
-    seen.push_back(v);
-    taps.push_back(taps_at(tile, x - view.x / view.z * height, y - view.y / view.z * height));
-  }
-  for (std::size_t l = 0; l < raw.lights.size(); l += stride)
-    for (std::size_t c = 0; c < 3; ++c) {
-      Spread spread;
-      for (std::size_t i = 0; i < seen.size(); ++i) {
-        const double value = raw_at(raw, taps[i], 3 * l + c, seen[i]);
-        spread.sum += value;
-        spread.squares += value * value;
-      }
-      total += spread.squares - spread.sum * spread.sum / double(std::max<std::size_t>(seen.size(), 1));
-    }
-  return float(total);
-}
-
-// Takes the height of the smallest difference between views over 3 x 3 texels; a parabola places it between
-// levels.
-void find_heights(const RawMaterial& raw, PbrTile& tile) {
-  const std::size_t texels = tile.texels();
-  Matrix cost(height_levels, Index(texels));
-  tensor::for_each_block(texels, 16, [&](std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t)
-      for (int level = 0; level < height_levels; ++level)
-        cost(level, Index(t)) = disagreement(raw, tile, t, level_height(float(level)));
-  });
-  for (std::size_t t = 0; t < texels; ++t) {
-    Eigen::VectorXf sum = Eigen::VectorXf::Zero(height_levels);
-    for (std::size_t i = 0; i < 9; ++i) {
-      const std::size_t x = (t / tile.height + tile.width + i / 3 - 1) % tile.width,
-                        y = (t % tile.height + tile.height + i % 3 - 1) % tile.height;
-      sum += cost.col(Index(x * tile.height + y));
-    }
-    Index best = 0;
-    sum.minCoeff(&best);
-    float level = float(best);
-    if (best > 0 && best + 1 < height_levels) {
-      const float bend = sum[best - 1] - 2 * sum[best] + sum[best + 1];
-      if (bend > 0) level += 0.5f * (sum[best - 1] - sum[best + 1]) / bend;
-    }
-    tile.heights[t] = level_height(level);
-  }
-}
-
 // A view and light of a texel, and what is seen.
 struct Observation {
   Vec3 view, light, value;
@@ -203,7 +109,7 @@ std::vector<Observation> observe(const RawMaterial& raw, const PbrTile& tile, Ra
     const Vec3 view = raw.views[v];
     const float x = point.x - view.x / view.z * point.z, y = point.y - view.y / view.z * point.z;
     if (march(tile, range, x, y, view) > point.z + nearest) continue;
-    const Taps taps = taps_at(tile, x, y);
+    const Taps taps = taps_of(tile, x, y);
     for (std::size_t l = 0; l < lit.size(); ++l)
       if (lit[l])
         found.push_back({view,
@@ -286,7 +192,7 @@ Matrix draw_pbr_tile(const PbrTile& tile, Vec3 view, std::span<const Vec3> light
                 y = (float(t % tile.height) + 0.5f) / float(tile.height);
     const float z = march(tile, range, x, y, view);
     const Vec3 point{x + view.x / view.z * z, y + view.y / view.z * z, z};
-    const Taps taps = taps_at(tile, point.x, point.y);
+    const Taps taps = taps_of(tile, point.x, point.y);
     const Shading s{mean_of(taps, tile.diffuse.data()),
                     normal_of(mean_of(taps, tile.slope_x.data()), mean_of(taps, tile.slope_y.data())),
                     mean_of(taps, tile.gloss_width.data())};
@@ -300,19 +206,13 @@ Matrix draw_pbr_tile(const PbrTile& tile, Vec3 view, std::span<const Vec3> light
   return drawn;
 }
 
-PbrTile fit_relief(const RawMaterial& raw) {
+PbrTile fit_pbr_tile(const RawMaterial& raw, bool has_shadows) {
   PbrTile tile;
   tile.width = raw.width;
   tile.height = raw.height;
-  tile.heights.resize(raw.texels());
-  find_heights(raw, tile);
-  return tile;
-}
-
-PbrTile fit_pbr_tile(const RawMaterial& raw, bool has_shadows) {
-  PbrTile tile = fit_relief(raw);
   const std::size_t texels = raw.texels();
   tile.has_shadows = has_shadows;
+  tile.heights = heights_of_views(raw);
   tile.diffuse.resize(texels);
   tile.slope_x.resize(texels);
   tile.slope_y.resize(texels);

@@ -32,10 +32,7 @@ float relief_height(const PbrTile& tile, float x, float y, Vec3 view);
 // The radiance of the plane's texels in a view for each light, 3 lights x texels, as in RawMaterial::btf.
 tensor::Matrix draw_pbr_tile(const PbrTile& tile, Vec3 view, std::span<const Vec3> lights);
 
-// Only the sizes and the heights, by the agreement of views.
-PbrTile fit_relief(const RawMaterial& raw);
-
-// The same heights, then the other maps by least squares in each texel over all lights and
+// Heights are those of heights_of_views; the other maps are least squares in each texel over all lights and
 // the views that see it.
 PbrTile fit_pbr_tile(const RawMaterial& raw, bool has_shadows);
 

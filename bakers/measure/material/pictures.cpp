@@ -84,8 +84,7 @@ class ViewDrawing {
   }
   // The decoded material, and three times the absolute difference.
   std::array<Picture, 2> decoded(const nook::material::Material& material) const {
-    const std::vector<float> basis(material.light_basis.begin(), material.light_basis.end());
-    const auto values = bake::material::decode_btf_view(basis, material.btf, view_);
+    const auto values = bake::material::decode_btf_view(material, view_);
     const auto at = [&](std::size_t texel) {
       Colour c;
       for (std::size_t i = 0; i < 3; ++i) c[i] = values(Eigen::Index(3 * light_ + i), Eigen::Index(texel));

@@ -34,20 +34,23 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
 }
 
 nlohmann::ordered_json describe(const CompressionSettings& s) {
-  return {{"method", method_name(s.method)},
-          {"ranks", {s.rank_light, s.rank_view, s.rank_x, s.rank_y}},
-          {"votf_ranks", {s.votf_rank_x, s.votf_rank_y}},
-          {"cluster_rank", s.method == Method::n_svd ? s.rank_view : s.cluster_rank_view},
-          {"clusters", s.method == Method::n_svd ? 1 : s.cluster_count()},
-          {"mixture", s.method == Method::k_cta ? s.mixture : 1},
-          {"seeding", s.seeding == Seeding::directions ? "directions" : "values"},
-          {"votf", s.visibility == nook::material::VisibilityForm::none     ? "none"
-                   : s.visibility == nook::material::VisibilityForm::binary ? "binary"
-                                                                            : "distance"},
-          {"votf_refits", s.votf_refits},
-          {"view_map", s.made_map_side()},
-          {"bits", s.bits},
-          {"seed", s.seed}};
+  nlohmann::ordered_json json = {
+      {"method", method_name(s.method)},
+      {"ranks", {s.rank_light, s.rank_view, s.rank_x, s.rank_y}},
+      {"votf_ranks", {s.votf_rank_x, s.votf_rank_y}},
+      {"cluster_rank", s.method == Method::n_svd ? s.rank_view : s.cluster_rank_view},
+      {"clusters", s.method == Method::n_svd ? 1 : s.cluster_count()},
+      {"mixture", s.method == Method::k_cta ? s.mixture : 1},
+      {"seeding", s.seeding == Seeding::directions ? "directions" : "values"},
+      {"votf", s.visibility == nook::material::VisibilityForm::none     ? "none"
+               : s.visibility == nook::material::VisibilityForm::binary ? "binary"
+                                                                        : "distance"},
+      {"votf_refits", s.votf_refits},
+      {"view_map", s.made_map_side()},
+      {"bits", s.bits},
+      {"seed", s.seed}};
+  if (s.has_relief) json["relief"] = "estimated";
+  return json;
 }
 
 }  // namespace nook::bake::material

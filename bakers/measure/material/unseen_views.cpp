@@ -81,7 +81,7 @@ UnseenError measure_unseen(const RawMaterial& unseen, const Material& material) 
   Material seen = as_seen_from(material, unseen.views);
   if (!same_directions(unseen.lights, material.lights)) light_from(seen, unseen.lights);
   UnseenError error;
-  error.se_db = measure_btf(unseen, {seen.light_basis.begin(), seen.light_basis.end()}, seen.btf).se_db();
+  error.se_db = measure_btf(unseen, seen).se_db();
   if (seen.visibility != VisibilityForm::none && !unseen.mask.empty())
     error.error_texels = count_error_texels(unseen, seen.votf, seen.visibility);
   return error;

@@ -39,6 +39,10 @@ Row describe_material(std::span<const std::byte> bytes) {
     row["visibility_mapping"] = Row::array({material.mapping.threshold, material.mapping.weight});
     describe_tensor(row, "votf", material.votf);
   }
+  if (material.relief.moves()) {
+    row["relief_heights"] = Row::array({material.relief.low, material.relief.high});
+    row["relief_steps"] = material.relief.steps;
+  }
   add_recipe(row, material.recipe);
   return row;
 }

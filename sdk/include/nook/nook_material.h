@@ -85,7 +85,8 @@ typedef struct nook_material_info {
   /* All members are 0 without a VOTF. */
   nook_material_tensor votf;
   /* The texels that nook_material_decode fetches, where a filtered fetch counts as one, and its multiply-adds
-   * of single numbers, four to a vector. */
+   * of single numbers, four to a vector. A relief adds a fetch for each plane of its march, fewer where
+   * the march ends early. */
   uint32_t decode_fetches;
   uint32_t decode_multiply_adds;
   /* The same for nook_material_radiance. */

@@ -34,8 +34,9 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   info.btf = tensor_info(material.btf, tables.btf);
   const DecodeCost decode = decode_cost(tables.btf), light = light_cost(tables.btf),
                    occlusion = decode_cost(tables.votf);
-  info.decode_fetches = decode.fetches;
-  info.decode_multiply_adds = decode.multiply_adds;
+  const DecodeCost relief = relief_cost(tables.relief);
+  info.decode_fetches = relief.fetches + decode.fetches;
+  info.decode_multiply_adds = relief.multiply_adds + decode.multiply_adds;
   info.light_fetches = light.fetches;
   info.light_multiply_adds = light.multiply_adds;
   info.occlusion_fetches = occlusion.fetches;

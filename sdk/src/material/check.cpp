@@ -83,6 +83,26 @@ void check_tensor(const ClusteredTensor& tensor, std::size_t lights, std::size_t
              "map coefficients", check);
 }
 
+void check_relief(const Relief& relief, const TensorShape& btf, nook_result code) {
+  const Check check{code, "relief"};
+  for (const float height : {relief.low, relief.high})
+    if (!(std::abs(height) <= max_relief_height))
+      throw Failure(code, "a height of the relief is out of range (got %g, need at most %g tiles)",
+                    double(height), double(max_relief_height));
+  if (!(relief.low <= relief.high))
+    throw Failure(code, "the relief's lowest height %g is above its highest %g", double(relief.low),
+                  double(relief.high));
+  if (!(relief.max_slope >= 0 && relief.max_slope <= max_relief_slope))
+    throw Failure(code, "the slope of the relief's views is out of range (got %g, need 0 to %g)",
+                  double(relief.max_slope), double(max_relief_slope));
+  const bool is_plane = relief.steps == 0;
+  check.range("the number of steps", relief.steps, 0, max_relief_steps);
+  check.sized("levels", relief.levels.size(), is_plane ? 0 : std::size_t(btf.width) * btf.height);
+  if (is_plane && relief.low != relief.high)
+    throw Failure(code, "the relief has no steps, but heights of %g to %g", double(relief.low),
+                  double(relief.high));
+}
+
 }  // namespace
 
 void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views, const char* name,
@@ -115,6 +135,7 @@ void check_material(const Material& material, nook_result code) {
   check_directions(material.views, {code, "views"});
   const std::size_t lights = material.lights.size(), views = material.views.size();
   check_tensor(material.btf, lights, views, "BTF", code);
+  check_relief(material.relief, material.btf.shape, code);
   const Check light{code, "light mode"};
   light.sized("the basis", material.light_basis.size(), 3 * lights * material.btf.shape.rank_light);
   light.numbers("basis", material.light_basis, max_number);

@@ -19,6 +19,11 @@ inline constexpr std::uint64_t max_expanded = std::uint64_t{1} << 29;
 // powers of two, so that no number at the limit is rounded beyond it.
 inline constexpr float max_core = 0x1p26f;
 inline constexpr float max_number = 0x1p14f;
+// The maximum height of a relief over or under the plane z = 0, tiles; of the slope of its views, 89 degrees;
+// and of the steps of its march.
+inline constexpr float max_relief_height = 1;
+inline constexpr float max_relief_slope = 57.3f;
+inline constexpr std::uint32_t max_relief_steps = 64;
 // The minimum distance of two directions of a set.
 inline constexpr float min_distance = 1e-3f;
 

@@ -27,4 +27,10 @@ inline DecodeCost light_cost(const TensorTables& btf) {
   return {3 * btf.light_modes / 4, 3 * btf.light_modes};
 }
 
+// The cost of finding a point of the relief, at most: a height and a place for each plane of the march.
+inline DecodeCost relief_cost(const ReliefTables& relief) {
+  if (!relief.moves()) return {};
+  return {relief.steps ? relief.steps + 1 : 0, 2 * (relief.steps + 1)};
+}
+
 }  // namespace nook::material

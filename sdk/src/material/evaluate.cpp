@@ -6,6 +6,7 @@
 
 #include "sdk/src/core/half.h"
 #include "sdk/src/material/check.h"
+#include "sdk/src/material/filtering.h"
 #include "sdk/src/material/parabolic.h"
 #include "sdk/src/material/spatial_modes.h"
 #include "sdk/src/material/view_cells.h"
@@ -34,16 +35,6 @@ float dot(const Four& a, const Four& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-// Two neighbouring texels along one side, and the position between their centres.
-struct Between {
-  std::uint32_t low, high;
-  float t;
-};
-Between repeated(float at, std::uint32_t size) {
-  const float place = (at - std::floor(at)) * float(size) - 0.5f, low = std::floor(place);
-  const auto first = static_cast<std::uint32_t>(low + float(size)) % size;
-  return {first, (first + 1) % size, place - low};
-}
 Between clamped(float at, std::uint32_t size) {
   const float place = std::clamp(at * float(size) - 0.5f, 0.0f, float(size - 1)), low = std::floor(place);
   const auto first = static_cast<std::uint32_t>(low);
@@ -99,6 +90,14 @@ Four blended(const TensorTables& tables, std::size_t layer, const CellBlend& ble
   return sum;
 }
 
+// The sample at the point of the relief that its view sees.
+Sample on_relief(const MaterialTables& tables, Sample sample) {
+  const TexturePlace at = relief_place(tables.relief, {sample.u, sample.v}, sample.level, sample.view);
+  sample.u = at.u;
+  sample.v = at.v;
+  return sample;
+}
+
 // Decodes the light modes of a texel for a view: each of the light_modes numbers is a sum over terms and view
 // modes.
 void decode(const TensorTables& tables, const Sample& sample, float* modes) {
@@ -141,7 +140,7 @@ Four light_texel(const MaterialTables& tables, std::uint32_t layer, const Betwee
 Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample) {
   if (!(sample.light.z > 0)) return {};
   std::array<float, 3 * max_directions + 3> modes;
-  decode(tables.btf, sample, modes.data());
+  decode(tables.btf, on_relief(tables, sample), modes.data());
   const LightPlace place = light_place(sample.light);
   float radiance[3] = {};
   const std::uint32_t light_vec4_count = tables.btf.light_modes / 4;
@@ -153,7 +152,7 @@ Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample) {
 }
 
 void decode_modes(const MaterialTables& tables, const Sample& sample, std::span<float> modes) {
-  decode(tables.btf, sample, modes.data());
+  decode(tables.btf, on_relief(tables, sample), modes.data());
 }
 
 void light_basis_at(const MaterialTables& tables, Vec3 light, std::span<float> basis) {

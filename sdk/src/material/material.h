@@ -75,9 +75,29 @@ constexpr VisibilityMapping paper_mapping(VisibilityForm form) {
   return form == VisibilityForm::binary ? VisibilityMapping{0.5f, 1} : VisibilityMapping{0.05f, 12};
 }
 
+// The relief whose points the texels of the BTF are: texel (x, y) of a view is what it sees at the relief's
+// point over that texel. So relief does not move between views, and mixing them does not blur it. The point
+// that a view sees through the plane z = 0 is found by the march of relief.h. The VOTF stays on that plane.
+struct Relief {
+  explicit Relief(Memory* memory = default_memory()) : levels(memory) {}
+
+  float low = 0, high = 0;      // heights over z = 0 of the levels 0 and 255, tiles; both 0: no relief
+  float max_slope = 0;          // the tangent of the tilt of views beyond which texels move no further
+  std::uint32_t steps = 0;      // of the march; 0 of a plane, which is at low = high
+  Vector<std::uint8_t> levels;  // I_y x I_x of the BTF, row by row; empty of a plane
+
+  bool moves() const { return low != 0 || high != 0; }
+};
+
 struct Material {
   explicit Material(Memory* memory = default_memory())
-      : lights(memory), views(memory), light_basis(memory), btf(memory), votf(memory), recipe(memory) {}
+      : lights(memory),
+        views(memory),
+        light_basis(memory),
+        btf(memory),
+        votf(memory),
+        relief(memory),
+        recipe(memory) {}
 
   Vector<Vec3> lights;  // I_l different directions to the light
   Vector<Vec3> views;   // I_v different directions to the viewer, for BTF and VOTF
@@ -92,6 +112,8 @@ struct Material {
   VisibilityForm visibility = VisibilityForm::none;
   VisibilityMapping mapping;  // not read if visibility is none
   ClusteredTensor votf;       // empty if visibility is none
+
+  Relief relief;
 
   // The form of numbers in the file and in the tables of the decoder: 16 for half floats, 8 for small
   // integers. The file's integers have steps, and those of the tables have 8 bits and scales.

@@ -104,6 +104,15 @@ void read_map(ByteReader in, std::uint32_t bits, ClusteredTensor& tensor) {
   in.check_end();
 }
 
+void read_relief(ByteReader in, Relief& relief) {
+  relief.steps = in.u8();
+  relief.low = in.f32();
+  relief.high = in.f32();
+  relief.max_slope = in.f32();
+  relief.levels.resize(in.remaining());
+  for (std::uint8_t& level : relief.levels) level = std::uint8_t(in.u8());
+}
+
 }  // namespace
 
 Material read_material(std::span<const std::byte> bytes, Memory* memory) {
@@ -127,6 +136,7 @@ Material read_material(std::span<const std::byte> bytes, Memory* memory) {
     read_tensor(file.section("VOTF"), material, 0, "VOTF", material.votf);
     if (file.has("VMAP")) read_map(file.section("VMAP"), material.bits, material.votf);
   }
+  if (file.version() >= 3 && file.has("RELF")) read_relief(file.section("RELF"), material.relief);
   ByteReader recipe = file.section("RECP");
   material.recipe = recipe.text(recipe.remaining());
   check_material(material, NOOK_ERROR_BAD_FILE);

@@ -49,6 +49,23 @@ ByteWriter write_map(std::uint32_t bits, const ClusteredTensor& tensor) {
   return out;
 }
 
+ByteWriter write_relief(const Relief& relief) {
+  ByteWriter out;
+  out.u8(relief.steps);
+  out.f32(relief.low);
+  out.f32(relief.high);
+  out.f32(relief.max_slope);
+  for (const std::uint8_t level : relief.levels) out.u8(level);
+  return out;
+}
+
+// Libraries of version 2 draw what has no relief.
+ContainerKind kind_of(const Material& material) {
+  ContainerKind kind = material_kind;
+  kind.newest_version = material.relief.moves() ? 3 : 2;
+  return kind;
+}
+
 }  // namespace
 
 std::vector<std::byte> write_material(const Material& material) {
@@ -80,9 +97,10 @@ std::vector<std::byte> write_material(const Material& material) {
     add("VOTF", write_tensor(material.bits, material.votf, votf_rounding));
     if (material.votf.map.side) add("VMAP", write_map(material.bits, material.votf));
   }
+  if (material.relief.moves()) add("RELF", write_relief(material.relief));
   recipe.text(material.recipe);
   add("RECP", recipe);
-  return write_container(material_kind, sections);
+  return write_container(kind_of(material), sections);
 }
 
 Material quantise(const Material& material) {

@@ -348,13 +348,15 @@ MaterialTables make_tables(const Material& material, const Parallel& parallel, M
   make_btf(material, map_side, parallel, tables, memory);
   tables.visibility = material.visibility;
   tables.mapping = material.mapping;
+  tables.relief =
+      make_relief_tables(material.relief, material.btf.shape.width, material.btf.shape.height, memory);
   if (material.visibility != VisibilityForm::none) make_votf(material, map_side, parallel, tables, memory);
   return tables;
 }
 
 std::uint64_t table_bytes(const MaterialTables& tables) {
-  return tensor_bytes(tables.btf) + tensor_bytes(tables.votf) + tables.light_8.size() +
-         4 * std::uint64_t(tables.light.size());
+  return tensor_bytes(tables.btf) + tensor_bytes(tables.votf) + 2 * tables.relief.heights.size() +
+         tables.light_8.size() + 4 * std::uint64_t(tables.light.size());
 }
 
 }  // namespace nook::material

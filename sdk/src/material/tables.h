@@ -7,6 +7,7 @@
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/parallel.h"
 #include "sdk/src/material/material.h"
+#include "sdk/src/material/relief.h"
 
 namespace nook::material {
 
@@ -52,12 +53,13 @@ struct TensorTables {
 
 struct MaterialTables {
   explicit MaterialTables(Memory* memory = default_memory())
-      : btf(memory), votf(memory), light(memory), light_8(memory) {}
+      : btf(memory), votf(memory), relief(memory), light(memory), light_8(memory) {}
 
   TensorTables btf;
   TensorTables votf;  // empty if visibility is none
   VisibilityForm visibility = VisibilityForm::none;
   VisibilityMapping mapping;
+  ReliefTables relief;  // of the BTF
 
   static constexpr std::uint32_t light_side = 64;
   // The light basis over the hemisphere, interpolated linearly between the lights. Beyond the outermost

@@ -38,8 +38,8 @@ void check_limits(const Functions& gl, const MaterialTables& tables, std::uint32
           "bake it with a view map or a smaller view rank",
           t->terms * t->view_vec4_count, layers);
   }
-  const std::size_t count =
-      1 + texture_count(tables.btf, max_layers) + texture_count(tables.votf, max_layers);
+  const std::size_t count = 1 + std::size_t(tables.relief.steps > 0) + texture_count(tables.btf, max_layers) +
+                            texture_count(tables.votf, max_layers);
   if (count > MaterialTextures::max_textures)
     throw Failure(
         NOOK_ERROR_UNSUPPORTED,
@@ -70,6 +70,12 @@ MaterialTextures::MaterialTextures(Device& device, const MaterialTables& tables,
                                            light_side, 0, light_layers, light_layers, 1},
                                           light, "nook: light map"),
                        "nook_light_map"});
+  if (const material::ReliefTables& r = tables.relief; r.steps > 0)
+    textures_.push_back(
+        {make_texture_array(
+             device, {ArrayUse::heights, GLsizei(r.width), GLsizei(r.height), 0, 1, 1, GLsizei(r.levels)},
+             r.heights.data(), "nook: relief"),
+         "nook_relief_heights"});
   add_tensor(device, tables.btf, "btf", max_layers);
   if (tables.votf.terms != 0) add_tensor(device, tables.votf, "votf", max_layers);
   bytes_ = material::table_bytes(tables);

@@ -45,6 +45,15 @@ void add_tensor(Text& out, const material::TensorTables& t, const char* name, co
   out += "}\n";
 }
 
+void add_relief(Text& out, const material::ReliefTables& relief) {
+  add(out, "#define NOOK_RELIEF %d\n", int(relief.moves()));
+  if (!relief.moves()) return;
+  add(out, "#define NOOK_RELIEF_STEPS %u\n", relief.steps);
+  add(out, "const float nook_relief_low = %#.9g, nook_relief_high = %#.9g, nook_relief_max_slope = %#.9g;\n",
+      double(relief.low), double(relief.high), double(relief.max_slope));
+  if (relief.steps > 0) out += "uniform highp sampler2DArray nook_relief_heights;\n";
+}
+
 const char* host_text() {
   for (const EmbeddedShader* shader = embedded_shaders_begin(); shader != embedded_shaders_end(); ++shader)
     if (std::string_view(shader->path) == "material/host.glsl") return shader->text;
@@ -59,6 +68,7 @@ String material_source(const material::MaterialTables& tables, std::uint32_t max
       tables.btf.light_modes / 4);
   add_tensor(out, tables.btf, "btf", "NOOK_BTF", max_layers);
   add_tensor(out, tables.votf, "votf", "NOOK_VOTF", max_layers);
+  add_relief(out, tables.relief);
   if (tables.votf.terms != 0)
     // OpenGL ES gives uniforms no first value.
     add(out,

@@ -30,6 +30,8 @@ Layout layout_of(const Functions& gl, ArrayUse use) {
       return {GL_RGBA8_SNORM, GL_RGBA, GL_BYTE, 4, GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE};
     case ArrayUse::coordinates:
       return {GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, 4, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
+    case ArrayUse::heights:
+      return {GL_R16F, GL_RED, GL_HALF_FLOAT, 2, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT};
     default:
       return {gl.profile == Profile::desktop ? GL_RGBA32F : GL_RGBA16F,
               GL_RGBA,

@@ -12,7 +12,8 @@ enum class ArrayUse {
   light,         // floats, linear, clamped to the edge
   spatial_8,     // signed 8-bit integers as -1 to 1, else as spatial
   light_8,       // signed 8-bit integers as -1 to 1, else as light
-  coordinates    // pairs of 16-bit integers, nearest
+  coordinates,   // pairs of 16-bit integers, nearest
+  heights        // one half float, else as spatial
 };
 
 struct ArrayPlan {
@@ -23,9 +24,9 @@ struct ArrayPlan {
   GLsizei levels = 1;
 };
 
-// Creates a GL_TEXTURE_2D_ARRAY with four numbers in each texel, or two of coordinates. `data` has all layers
-// of level 0, then those of level 1 and so on. Binds the array of unit 0, and expects plain pixel unpacking.
-// Throws Failure.
+// Creates a GL_TEXTURE_2D_ARRAY with four numbers in each texel, two of coordinates, or a height. `data` has
+// all layers of level 0, then those of level 1 and so on. Binds the array of unit 0, and expects plain pixel
+// unpacking. Throws Failure.
 Object make_texture_array(Device& device, const ArrayPlan& plan, const void* data, const char* label);
 
 // Sets pixel unpacking from host memory without gaps.

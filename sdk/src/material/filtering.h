@@ -1,0 +1,22 @@
+// Where a linear filter reads along one side of a texture.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace nook::material {
+
+// Two neighbouring texels along one side, and the position between their centres.
+struct Between {
+  std::uint32_t low, high;
+  float t;
+};
+
+// Of a side that repeats; 0 to 1 is the side.
+inline Between repeated(float at, std::uint32_t size) {
+  const float place = (at - std::floor(at)) * float(size) - 0.5f, low = std::floor(place);
+  const auto first = static_cast<std::uint32_t>(low + float(size)) % size;
+  return {first, (first + 1) % size, place - low};
+}
+
+}  // namespace nook::material
