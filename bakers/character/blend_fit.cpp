@@ -108,9 +108,9 @@ Equations equations_of(const std::vector<PosedBody>& bodies, std::size_t vertex,
   Equations e{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
   Eigen::Matrix<double, 6, Eigen::Dynamic> rows(6, n);
   Eigen::VectorXd share(n);
-  Random random(vertex);
   const double c = std::sqrt(position_weight_per_m2);
-  for (const PosedBody& body : bodies) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const PosedBody& body = bodies[b];
     const Frame& own = body.vertex[vertex];
     for (Eigen::Index k = 0; k < n; ++k) {
       const Frame& f = body.key_point[key_point[std::size_t(k)]];
@@ -123,6 +123,8 @@ Equations equations_of(const std::vector<PosedBody>& bodies, std::size_t vertex,
     wanted << double(own.normal.x), double(own.normal.y), double(own.normal.z), 0, 0, 0;
     e.gram += rows.transpose() * rows;
     e.right += rows.transpose() * wanted;
+    // The same spheres for all vertices of a pose, as seen from each, so that those side by side blend alike.
+    Random random(b);
     add_spheres(e, body, vertex, key_point, body_radius, random, share);
   }
   e.gram /= double(bodies.size());

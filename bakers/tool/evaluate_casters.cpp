@@ -34,7 +34,7 @@ struct Options {
 
 std::string picture_name(float distance_m) {
   char name[32];
-  std::snprintf(name, sizeof name, "pair_%.2f_m.png", double(distance_m));
+  std::snprintf(name, sizeof name, "pair_%g_m.png", double(distance_m));
   return name;
 }
 
@@ -85,24 +85,28 @@ void add_evaluate_casters(CLI::App& evaluate_command) {
   command->add_option("--rays", o.study.rays, "rays for each vertex")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
-  command->add_option("--bearings", o.study.bearings, "directions of the neighbour")
-      ->check(CLI::Range(1, 360))
-      ->capture_default_str();
-  command->add_option("--poses", o.poses, "poses, spread over the clips")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command
-      ->add_option("--distances", o.study.distances_m,
-                   "metres between the bodies' middles along the ground, separated by commas; vertices that "
-                   "lie inside the neighbour are left out")
-      ->delimiter(',')
-      ->check(CLI::Range(0.01, 1000.0))
-      ->default_str("0.3,0.5,0.75,1,2,3,5,10");
-  command->add_option(
+  CLI::Option* const bearings =
+      command->add_option("--bearings", o.study.bearings, "directions of the neighbour")
+          ->check(CLI::Range(1, 360))
+          ->capture_default_str();
+  CLI::Option* const poses = command->add_option("--poses", o.poses, "poses, spread over the clips")
+                                 ->check(CLI::Range(1, 1000))
+                                 ->capture_default_str();
+  CLI::Option* const distances =
+      command
+          ->add_option(
+              "--distances", o.study.distances_m,
+              "metres between the bodies' middles along the ground, separated by commas; vertices that "
+              "lie inside the neighbour are left out")
+          ->delimiter(',')
+          ->check(CLI::Range(0.01, 1000.0))
+          ->default_str("0.3,0.5,0.75,1,2,3,5,10");
+  CLI::Option* const contact = command->add_option(
       "--contact", o.contact,
       "two bodies in the middles of two clips instead, each darkened by the other: the names of "
       "both clips, the place of the second body seen from the first one's middle (x, y and z in "
       "metres), and its turn about the vertical axis in degrees");
+  for (CLI::Option* const unused : {bearings, poses, distances}) contact->excludes(unused);
   command->add_option("--images", o.images,
                       "draw both bodies of the contact, or of a pair at each distance: PNG files in this "
                       "directory");

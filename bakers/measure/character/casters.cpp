@@ -110,6 +110,7 @@ struct Sums {
     darkened_squared += weight * error;
   }
   void write(CasterRow& row) const {
+    if (!(area > 0)) return;  // all of the body is inside the other one
     row.darkening = dark / area;
     row.darkening_traced = traced / area;
     row.mse_over_none = none > 0 ? squared / none : 0;

@@ -124,7 +124,8 @@ struct Size {
   const char* name;
   int channels, view_side;
 };
-// The default of neural_tile.h, and what fills the bytes of K-CTA on weave in docs/materials.md.
+// The default of neural_tile.h, and the 22 channels that fill the bytes of K-CTA on
+// weave in docs/materials.md, rounded up to vectors.
 constexpr int layers = 3;
 constexpr Size sizes[] = {{"small", 16, 1}, {"equal bytes", 24, 7}};
 

@@ -58,7 +58,8 @@ float view_z(Vec3 view) {
 
 // A height of a tile or more comes from a network that has gone astray.
 void set_texels(const NeuralShape& s, const NeuralPosition& p, float height, NeuralPass::Tap& tap) {
-  const float shift = std::abs(height) < 1 ? height / view_z(p.view) : 0;
+  const bool shifted = std::abs(height) < 1;
+  const float shift = shifted ? height / view_z(p.view) : 0;
   const float x = float(p.texel / s.height) + p.view.x * shift * float(s.width),
               y = float(p.texel % s.height) + p.view.y * shift * float(s.height);
   const float left = std::floor(x), low = std::floor(y), fx = x - left, fy = y - low;
@@ -70,8 +71,8 @@ void set_texels(const NeuralShape& s, const NeuralPosition& p, float height, Neu
     const bool right = i & 1, high = i & 2;
     tap.texel[i] = wrap(left + float(right), s.width) * s.height + wrap(low + float(high), s.height);
     tap.texel_share[i] = (right ? fx : 1 - fx) * (high ? fy : 1 - fy);
-    tap.slope_x[i] = (right ? 1.0f : -1.0f) * (high ? fy : 1 - fy);
-    tap.slope_y[i] = (right ? fx : 1 - fx) * (high ? 1.0f : -1.0f);
+    tap.slope_x[i] = shifted ? (right ? 1.0f : -1.0f) * (high ? fy : 1 - fy) : 0;
+    tap.slope_y[i] = shifted ? (right ? fx : 1 - fx) * (high ? 1.0f : -1.0f) : 0;
   }
 }
 

@@ -18,8 +18,7 @@ struct NeuralNumbers {
   std::span<const float> features, offset_features, weights;
 };
 
-// Columns are positions, or samples: the lights of a
-// position stand beside each other.
+// Columns are positions, or samples: the lights of a position stand beside each other.
 struct NeuralPass {
   using Columns = Eigen::MatrixXf;
   // Where the features of a position are read.

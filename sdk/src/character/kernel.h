@@ -135,8 +135,8 @@ F form_factor_fast(F xi, F delta2) {
 // The optical depth of a caster whose spheres have the sum d of weight * form factor. Spheres that are strewn
 // at random leave exp(-d) open. Those of a body stand beside each other and leave less where they cover much:
 // a single sphere that covers the share f leaves 1 - f = exp(-(f + f^2 / 2 + ...)). Over vertices of bodies
-// 0.3 to 1 m apart, the traced depth is d + 0.2 d^2 to d + 0.45 d^2 up to d = 0.6, and less above, where
-// hardly anything is left.
+// 0.3 to 1 m apart, the traced depth is d + 0.2 d^2 to d + 0.45 d^2 up to d = 0.6, which leaves half open.
+// Above, it is less: what two bodies press together comes out too dark.
 template <class F>
 F solid_depth(F d) {
   return fma(F(float(NOOK_SOLID_DEPTH)) * d, d, d);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdk/src/character/kernel.h"
 #include "sdk/src/character/scene.h"
 
 namespace nook {
@@ -11,9 +10,9 @@ namespace {
 
 // Returns an upper bound of the darkening by spheres with sum(weight * radius^2) = strength of any vertex
 // whose key points are at least `gap` from their centres: a form factor is at most (radius / distance)^2, and
-// 1 - exp(-x) <= x <= solid_depth(x).
+// 1 - exp(-x) and 1 - exp(-solid_depth(x)) are at most x, since their slopes are 1 at 0 and fall from there.
 float composed_bound(const LoadedModel& receiver, float strength, float gap) {
-  return gap > 0 ? receiver.linear.max_blend_gain() * solid_depth(strength / (gap * gap)) : INFINITY;
+  return gap > 0 ? receiver.linear.max_blend_gain() * strength / (gap * gap) : INFINITY;
 }
 
 // No term of the paper's form exceeds this at `delta` radii: solid angle of slide 18 or the fall-off of the
