@@ -252,7 +252,7 @@ ReliefProgress stage(const StageProgress& progress, const char* name) {
   };
 }
 
-// Without the mask.
+// A copy that has no mask.
 RawMaterial btf_on_relief(const RawMaterial& raw, const nook::material::Relief& relief,
                           const StageProgress& progress) {
   RawMaterial moved;

@@ -365,7 +365,7 @@ TEST_CASE("what does not move with the view, or has few views, gets no relief") 
   CHECK_FALSE(estimate_relief(Painted::seen_from(spiral_directions(7))).moves());
 }
 
-TEST_CASE("the search for a relief stops when it is asked to") {
+TEST_CASE("cancelled searches for a relief end with an error") {
   const RawMaterial raw = Painted::seen_from(spiral_directions(24));
   std::size_t calls = 0;
   CHECK_THROWS(estimate_relief(raw, [&](std::size_t, std::size_t total) {
