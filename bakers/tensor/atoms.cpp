@@ -13,24 +13,21 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// Relative to the largest eigenvalue of uf(Z) uf(Z)^T; smaller eigenvalues are rounding of a core in floats.
-constexpr double least_eigenvalue = 1e-12;
-
 // Returns A^(-1/2), or the root of the pseudo-inverse.
-MatrixXd inverse_root(const MatrixXd& a) {
+MatrixXd inverse_root(const MatrixXd& a, double least_share) {
   const SymmetricEigen eigen = symmetric_eigen(a);
   Eigen::VectorXd roots = eigen.values;
-  const double least = least_eigenvalue * std::max(roots.maxCoeff(), 0.0);
+  const double least = least_share * std::max(roots.maxCoeff(), 0.0);
   for (double& r : roots) r = r > least ? 1 / std::sqrt(r) : 0;
   return eigen.vectors * roots.asDiagonal() * eigen.vectors.transpose();
 }
 
 }  // namespace
 
-DualBasis dual_basis(const Tensor& core, std::size_t mode) {
+DualBasis dual_basis(const Tensor& core, std::size_t mode, double least) {
   const MatrixXd unfolded = unfold(core, mode).cast<double>();
   DualBasis dual;
-  dual.inverse_root = inverse_root(unfolded * unfolded.transpose());
+  dual.inverse_root = inverse_root(unfolded * unfolded.transpose(), least);
   dual.v = fold((dual.inverse_root * unfolded).cast<float>(), core.dimensions, mode);
   return dual;
 }

@@ -106,6 +106,7 @@ void add_evaluate_casters(CLI::App& evaluate_command) {
       "two bodies in the middles of two clips instead, each darkened by the other: the names of "
       "both clips, the place of the second body seen from the first one's middle (x, y and z in "
       "metres), and its turn about the vertical axis in degrees");
+  contact->type_name("CLIP CLIP X Y Z DEGREES");
   for (CLI::Option* const unused : {bearings, poses, distances}) contact->excludes(unused);
   command->add_option("--images", o.images,
                       "draw both bodies of the contact, or of a pair at each distance: PNG files in this "

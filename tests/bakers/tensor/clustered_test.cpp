@@ -318,6 +318,25 @@ TEST_CASE("resampling at the sub-tensors themselves gives them back, and between
                    "35 columns"));
 }
 
+TEST_CASE("resampling leaves out directions in which the members of a cluster hardly differ") {
+  // Two patterns, each with its own second direction of a ten-thousandth.
+  Tensor a({12, 8, 8});
+  for (std::size_t i = 0; i < a.data.size(); ++i) {
+    const std::size_t view = i / 64, texel = i % 64;
+    const double phase = double(texel) * (view < 6 ? 0.7 : 1.9);
+    a.data[i] = float(std::cos(phase) + 1e-4 * std::sin(double(view) * 1.3) * std::sin(3.1 * phase));
+  }
+  std::vector<std::uint32_t> seeds(12, 0);
+  std::fill(seeds.begin() + 6, seeds.end(), 1u);
+  const ClusteredFit fit = fit_cta(a, settings_of(0, {2, 8, 8}, 2, 1, seeds));
+  Matrix half = Matrix::Zero(1, 12);
+  half(0, 0) = half(0, 6) = 0.5f;
+  const Mixture between = resample(fit, atom_projections(fit, a), half);
+  // Coefficients of a fit are at most 1. The half way between the patterns has a tenth of its size along the
+  // second direction, which would take a coefficient of hundreds.
+  CHECK(between.coefficients.cwiseAbs().maxCoeff() < 2);
+}
+
 TEST_CASE("clustered fits have the same bits on one thread and on three") {
   const Tensor a = waves({5, 24, 12, 11});
   ClusteredSettings settings = settings_of(1, {3, 2, 5, 4}, 4, 2, seeds_in_order(24, 4));
