@@ -265,17 +265,21 @@ struct Start {
   Candidates candidates;
 };
 
-// Makes clusters, key points and spheres. weight is that of each vertex where they are placed.
+// Makes clusters, key points and spheres. weight is that of each vertex for spheres, which cast as well and
+// so have to cover the body; key_point_weight is that for key points.
 Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<const float> weight,
-                 const BakeSettings& settings, const std::function<void(std::size_t)>& step) {
+                 std::span<const float> key_point_weight, const BakeSettings& settings,
+                 const std::function<void(std::size_t)>& step) {
   const std::vector<Vec3> feature_normal =
       settings.fit == FitMethod::paper ? centre_of_rotation_normals(mesh, surface.area, surface.normal)
                                        : surface.normal;
   step(1);
   ClusterSettings clustering;
   clustering.count = std::min(settings.key_points, mesh.vertex_count());
-  const std::vector<std::uint32_t> cluster = cluster_vertices(mesh, weight, feature_normal, clustering);
-  const std::vector<KeyPoint> key_points = key_points_of_clusters(mesh, cluster, weight, feature_normal);
+  const std::vector<std::uint32_t> cluster =
+      cluster_vertices(mesh, key_point_weight, feature_normal, clustering);
+  const std::vector<KeyPoint> key_points =
+      key_points_of_clusters(mesh, cluster, key_point_weight, feature_normal);
   const std::vector<InitialSphere> spheres = initial_spheres(mesh, weight, settings.spheres);
   Start start;
   start.candidates.count = std::min<std::size_t>(40, key_points.size());
@@ -324,7 +328,7 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   const std::vector<float> placed_by = settings.fit == FitMethod::paper
                                            ? set.vertex_weight
                                            : placement_weights(set.vertex_weight, set.targets, set.fitted());
-  Start start = initialise(mesh, surface, placed_by, settings, step);
+  Start start = initialise(mesh, surface, set.vertex_weight, placed_by, settings, step);
   if (settings.learn_gamma)
     start.state.structure.kernel.gamma =
         learned_gamma(set, area, settings, start.candidates, start.state, progress);

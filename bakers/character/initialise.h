@@ -29,7 +29,7 @@ std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<co
 std::vector<Vec3> centre_of_rotation_normals(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                              std::span<const Vec3> mesh_normal);
 
-// The weights by which spheres and key points are placed: those given times the variance of each vertex' AO
+// The weights by which key points are placed: those given times the variance of each vertex' AO
 // over the first `poses` rows of the targets, over its mean. What never changes needs no key point of its
 // own: a constant holds it.
 std::vector<float> placement_weights(std::span<const float> vertex_weight, const AoTargets& targets,

@@ -10,12 +10,12 @@ namespace nook::bake::tensor {
 inline constexpr double rounded_eigenvalue = 1e-12;
 
 // V_{m,c} of equation (7), folded like the core, and the inverse transformation (uf(Z) uf(Z)^T)^(-1/2). If
-// the core lacks rank, the root is that of the pseudo-inverse, and rows of V span fewer dimensions: those of
-// eigenvalues above `least` of the largest.
+// the core lacks rank, the root is that of the pseudo-inverse, and rows of V span fewer dimensions.
 struct DualBasis {
   Tensor v;                      // R_1 x ... x R_N
   Eigen::MatrixXd inverse_root;  // R_m x R_m
 };
+// Eigenvalues up to `least` times the largest count as 0.
 DualBasis dual_basis(const Tensor& core, std::size_t mode, double least = rounded_eigenvalue);
 
 // Returns O_c = V_{m,c} x_{n != m} U_{n,c} of all clusters, joined along mode m, whose size is C R_m. Global
