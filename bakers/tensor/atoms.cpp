@@ -14,20 +14,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 // Returns A^(-1/2), or the root of the pseudo-inverse.
-MatrixXd inverse_root(const MatrixXd& a, double least_share) {
+MatrixXd inverse_root(const MatrixXd& a, double lowest_share) {
   const SymmetricEigen eigen = symmetric_eigen(a);
   Eigen::VectorXd roots = eigen.values;
-  const double least = least_share * std::max(roots.maxCoeff(), 0.0);
-  for (double& r : roots) r = r > least ? 1 / std::sqrt(r) : 0;
+  const double lowest = lowest_share * std::max(roots.maxCoeff(), 0.0);
+  for (double& r : roots) r = r > lowest ? 1 / std::sqrt(r) : 0;
   return eigen.vectors * roots.asDiagonal() * eigen.vectors.transpose();
 }
 
 }  // namespace
 
-DualBasis dual_basis(const Tensor& core, std::size_t mode, double least) {
+DualBasis dual_basis(const Tensor& core, std::size_t mode, double lowest) {
   const MatrixXd unfolded = unfold(core, mode).cast<double>();
   DualBasis dual;
-  dual.inverse_root = inverse_root(unfolded * unfolded.transpose(), least);
+  dual.inverse_root = inverse_root(unfolded * unfolded.transpose(), lowest);
   dual.v = fold((dual.inverse_root * unfolded).cast<float>(), core.dimensions, mode);
   return dual;
 }

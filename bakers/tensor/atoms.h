@@ -15,8 +15,8 @@ struct DualBasis {
   Tensor v;                      // R_1 x ... x R_N
   Eigen::MatrixXd inverse_root;  // R_m x R_m
 };
-// Directions whose eigenvalue is below `least` of the largest are left out of V.
-DualBasis dual_basis(const Tensor& core, std::size_t mode, double least = rounded_eigenvalue);
+// Directions whose eigenvalue is below `lowest` of the largest are left out of V.
+DualBasis dual_basis(const Tensor& core, std::size_t mode, double lowest = rounded_eigenvalue);
 
 // Returns O_c = V_{m,c} x_{n != m} U_{n,c} of all clusters, joined along mode m, whose size is C R_m. Global
 // modes stay reduced. Expanding the few atoms of a cluster costs less than projecting every sub-tensor on its

@@ -17,12 +17,12 @@ using Eigen::Index;
 // also along those in which the members of a cluster hardly differ; for an eigenvalue of 1e-12 its
 // coefficient would be a million times those of the fit, and a file rounds all coefficients of a map by the
 // largest.
-constexpr double least_eigenvalue = 1e-6;
+constexpr double lowest_eigenvalue = 1e-6;
 
 std::vector<DualBasis> dual_bases(const ClusteredFit& fit) {
   std::vector<DualBasis> dual;
   for (const ClusteredFit::Cluster& cluster : fit.clusters)
-    dual.push_back(dual_basis(cluster.core, fit.mode, least_eigenvalue));
+    dual.push_back(dual_basis(cluster.core, fit.mode, lowest_eigenvalue));
   return dual;
 }
 
