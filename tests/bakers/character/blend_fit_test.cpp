@@ -120,8 +120,8 @@ TEST_CASE("the darkening by a plane and by near spheres is blended better than b
                  near_by_alpha = sphere_error(tube, share, pose);
     INFO("spheres " << near << " by alpha " << near_by_alpha);
     CHECK(near < 0.5 * near_by_alpha);
-    // A sixteenth's rounding is made up by the other entries; 60 key points, most of them at the bend, leave a
-    // few hundredths.
+    // A sixteenth's rounding is made up by the other entries; 60 key points, most of them at the bend, leave
+    // a few hundredths.
     CHECK(std::sqrt(fitted) < 0.08);
   }
 }
