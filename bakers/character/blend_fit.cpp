@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "bakers/import/skinning.h"
 #include "bakers/raytrace/random.h"

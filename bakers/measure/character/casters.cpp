@@ -76,15 +76,21 @@ class LinkedPair {
   nook_instance_id receiver_ = 0, caster_ = 0;
 };
 
-// Both hemispheres of a vertex inside a closed body are covered; hair and cuffs leave a few rays.
-std::vector<bool> outside_of(const RayScene& caster, std::span<const Vec3> position,
-                             std::span<const Vec3> normal, float offset, std::uint64_t seed) {
+// Returns true for each vertex of the receiver that lies outside the caster. Both hemispheres of one inside a
+// closed body are covered; hair and cuffs leave a few rays.
+std::vector<bool> outside_caster(const SkinnedMesh& mesh, const BodyPair& pair, std::uint64_t seed) {
   constexpr float covered = 0.1f;
   constexpr std::uint32_t rays = 64;
-  std::vector<Vec3> behind;
+  TriangleSoup soup;
+  skin_positions(mesh, pair.caster, soup.position);
+  soup.triangle = mesh.triangle;
+  const RayScene caster(soup);
+  std::vector<Vec3> position, normal, behind;
+  skin_positions(mesh, pair.receiver, position);
+  vertex_normals(mesh.triangle, position, normal);
   for (const Vec3 n : normal) behind.push_back(-n);
   AoSettings settings{rays, seed};
-  settings.origin_offset = offset;
+  settings.origin_offset = ray_origin_offset(mesh.position);
   const std::vector<float> before = trace_ao(caster, {position, normal}, settings),
                            after = trace_ao(caster, {position, behind}, settings);
   std::vector<bool> outside(position.size());
@@ -131,6 +137,7 @@ class CasterDistance {
   void add(const BodyPair& pair, std::uint32_t rays, std::uint64_t seed) {
     const TracedPair first = trace_pair(mesh_, pair, (rays + 1) / 2, seed),
                      second = trace_pair(mesh_, pair, (rays + 1) / 2, ~seed);
+    const std::vector<bool> outside = outside_caster(mesh_, pair, seed);
     for (LinkedPair* scene : {&composed_, &paper_, &grouped_}) scene->pose(pair);
     const std::vector<float> by_composed = composed_.darkening(), by_paper = paper_.darkening(),
                              exact = composed_.together(), with_groups = grouped_.together();
@@ -138,7 +145,7 @@ class CasterDistance {
       const double area = double(area_[i]), change = double(with_groups[i] - exact[i]);
       all_area_ += area;
       change_ += area * change * change;
-      if (!first.outside[i]) {
+      if (!outside[i]) {
         inside_area_ += area;
         continue;
       }
@@ -207,7 +214,6 @@ TracedPair trace_pair(const SkinnedMesh& mesh, const BodyPair& pair, std::uint32
   AoSettings settings{rays, seed};
   settings.origin_offset = ray_origin_offset(mesh.position);
   TracedPair traced;
-  traced.outside = outside_of(RayScene(caster), position, normal, settings.origin_offset, seed);
   traced.alone = trace_ao(soup, {position, normal}, settings);
   const auto first = std::uint32_t(position.size());
   soup.position.insert(soup.position.end(), caster.position.begin(), caster.position.end());

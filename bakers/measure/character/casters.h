@@ -52,10 +52,9 @@ BodyPair body_pair(const CharacterModel& model, std::span<const Pose> poses, std
 BodyPair body_pair(const CharacterModel& model, const Pose& receiver, const Pose& caster, Vec3 offset,
                    float yaw_radians);
 
-// The traced AO of the receiver's vertices, alone and with the caster, and whether a vertex is outside it.
+// The traced AO of the receiver's vertices, alone and with the caster.
 struct TracedPair {
   std::vector<float> alone, together;
-  std::vector<bool> outside;
 };
 TracedPair trace_pair(const SkinnedMesh& mesh, const BodyPair& pair, std::uint32_t rays, std::uint64_t seed);
 
