@@ -1,6 +1,6 @@
 # Precompiled headers for everything but the product. Most of what a translation unit costs is the parsing of the standard
 # library, of Catch2, of Eigen and of nlohmann-json. The library itself is compiled plainly, as who builds it does, but under the
-# sanitizers, where it is all that is built, and where NOOK_PRECOMPILE_LIBRARY asks for it, as samples/run.sh does.
+# sanitizers, where it is all that is built, and with NOOK_PRECOMPILE_LIBRARY, which samples/run.sh sets.
 #
 # Programs (the tool, samples and tests) are compiled with -O1: they wait for the rooms, which keep their optimisation, and a third
 # of the time to compile them went into optimising. Those that measure time keep theirs, and have no precompiled header.

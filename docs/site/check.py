@@ -30,7 +30,7 @@ class Page(html.parser.HTMLParser):
 
 
 def faults_of_sheets(folder):
-    """What a sheet loads lies in the site: the root of a server is not there where pages are opened from a folder."""
+    """Sheets load files of the site alone: pages that are opened from a folder have no root of a server."""
     faults = []
     for sheet in folder.rglob("*.css"):
         for target in re.findall(r"url\(\s*['\"]?([^)'\"]+)", sheet.read_text(encoding="utf-8", errors="replace")):
