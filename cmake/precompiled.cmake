@@ -1,6 +1,6 @@
 # Precompiled headers for everything but the product. Most of what a translation unit costs is the parsing of the standard
 # library, of Catch2, of Eigen and of nlohmann-json. The library itself is compiled plainly, as who builds it does, but under the
-# sanitizers and where it is all that is built.
+# sanitizers, where it is all that is built, and with NOOK_PRECOMPILE_LIBRARY, which samples/run.sh sets.
 #
 # Programs (the tool, samples and tests) are compiled with -O1: they wait for the rooms, which keep their optimisation, and a third
 # of the time to compile them went into optimising. Those that measure time keep theirs, and have no precompiled header.
@@ -122,7 +122,7 @@ if(NOOK_TESTS)
 endif()
 
 set(directories platform bakers samples tests)
-if(NOOK_SANITIZE OR NOOK_SANITIZE_THREAD OR NOT (NOOK_BAKERS OR NOOK_SAMPLES OR NOOK_TESTS))
+if(NOOK_PRECOMPILE_LIBRARY OR NOOK_SANITIZE OR NOOK_SANITIZE_THREAD OR NOT (NOOK_BAKERS OR NOOK_SAMPLES OR NOOK_TESTS))
   list(APPEND directories sdk)
 endif()
 foreach(directory IN LISTS directories)

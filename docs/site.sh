@@ -12,6 +12,7 @@ python=/usr/bin/python3
 [ -x "$python" ] || python=python3
 "$python" docs/site/gather.py "$folder/source"
 "$python" -m sphinx -b html -W --keep-going -q -c docs/site -d "$folder/doctrees" "$folder/source" "$folder/html"
+"$python" docs/site/theme.py "$folder/html"
 mkdir -p "$folder/html/files"
 cp -R "$folder/source/files/." "$folder/html/files"
 # The page of the browser sample, where it was built.

@@ -29,6 +29,22 @@ class Page(html.parser.HTMLParser):
                 self.links.append(value)
 
 
+def faults_of_sheets(folder):
+    """Sheets load files of the site alone: pages that are opened from a folder have no root of a server."""
+    faults = []
+    for sheet in folder.rglob("*.css"):
+        for target in re.findall(r"url\(\s*['\"]?([^)'\"]+)", sheet.read_text(encoding="utf-8", errors="replace")):
+            if not target.startswith("data:") and (re.match(r"\w+:|/", target) or not (sheet.parent / target).exists()):
+                faults.append(f"{sheet.relative_to(folder)} loads {target}")
+    return faults
+
+
+def faults_of_scripts(folder):
+    """Browsers load modules from a server alone. The live page is opened through one."""
+    return [f"{script.relative_to(folder)} is a module" for script in (folder / "_static").rglob("*.js")
+            if re.search(r"^(import|export) ", script.read_text(encoding="utf-8", errors="replace"), re.M)]
+
+
 def main():
     folder = pathlib.Path(sys.argv[1]).resolve()
     pages = {p: Page(p.read_text(encoding="utf-8")) for p in folder.rglob("*.html")}
@@ -50,9 +66,7 @@ def main():
                 faults.append(f"{name}: {target} is not there")
             elif anchor and to in pages and urllib.parse.unquote(anchor) not in pages[to].names:
                 faults.append(f"{name}: {target}: there is no such place")
-    for sheet in folder.rglob("*.css"):
-        for target in re.findall(r"url\(['\"]?((?:https?:)?//[^)'\"]+)", sheet.read_text(encoding="utf-8", errors="replace")):
-            faults.append(f"{sheet.relative_to(folder)} loads {target}")
+    faults += faults_of_sheets(folder) + faults_of_scripts(folder)
     print("\n".join(sorted(set(faults))) if faults else f"{len(pages)} pages, {count} links, none dead; nothing is loaded from elsewhere")
     return 1 if faults else 0
 

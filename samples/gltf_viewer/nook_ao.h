@@ -26,7 +26,7 @@ class NookAo {
     gl.get_proc = get_proc;
     gl.get_proc_user = user;
     gl_.emplace(context_, gl);
-    nook_nnao_desc screen = nook::nnao_desc();
+    nook_nnao_desc screen = nook::nnao_desc(NOOK_NNAO_PRESET_BEST);  // 32 taps leave no streaks on the floor
     frame_.width = screen.max_width = width;
     frame_.height = screen.max_height = height;
     screen.blur = 2;  // the picture has no temporal anti-aliasing, which would average the taps' pattern

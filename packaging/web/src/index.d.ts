@@ -127,6 +127,8 @@ export interface SceneOptions {
   lodMaxInterval?: number;
   groundRadius?: number;
   strictPoses?: boolean | number;
+  /** The change of AO, root mean square, by which far spheres may be merged; 0 merges none. */
+  farError?: number;
 }
 export interface SceneStats {
   instances: number;
@@ -309,6 +311,8 @@ export interface ProbeInfo {
   counts: Uint32Array;
   originWs: Float32Array;
   spacingWs: Float32Array;
+  /** Cells in which walls choose among the probes; 0: a grid without walls. */
+  wallCells: number;
 }
 export interface ProbeFitOptions {
   method?: "naive" | "running-average" | "running-average-original" | "running-average-non-negative" | "moments" |
