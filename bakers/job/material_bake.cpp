@@ -27,7 +27,8 @@ RawMaterial obtain(MaterialTask& task, const StageReport& progress) {
   return raw;
 }
 
-// Chooses the defaults of `nook bake material`.
+// Chooses the defaults of `nook bake material`. raw has the images that are fitted: on the relief, if there
+// is one.
 CompressionSettings settings_for(const MaterialTask& task, const RawMaterial& raw) {
   CompressionSettings s = task.settings;
   if (!task.ranks_given && !set_builtin_ranks(raw, s)) s = ranks_by_threshold(raw, task.rank_threshold, s);
@@ -64,6 +65,7 @@ Json source_of(const MaterialTask& task, const RawMaterial& raw) {
 
 nook_bake_stage stage_of(std::string_view stage) {
   if (stage == "BTF") return NOOK_BAKE_STAGE_BTF;
+  if (stage == "relief" || stage == "views on the relief") return NOOK_BAKE_STAGE_RELIEF;
   return stage == "VOTF" ? NOOK_BAKE_STAGE_VOTF : NOOK_BAKE_STAGE_VIEW_MAP;
 }
 
@@ -73,11 +75,12 @@ BakedFile bake_material(MaterialTask& task, const StageReport& progress) {
   platform::Stopwatch watch;
   const RawMaterial raw = obtain(task, progress);
   const double seconds_source = watch.lap_seconds();
-  const CompressionSettings settings = settings_for(task, raw);
-  nook::material::Material material =
-      compress(raw, settings, [&](const char* stage, std::size_t done, std::size_t total) {
-        return progress(stage_of(stage), done, total);
-      });
+  const StageProgress stages = [&](const char* stage, std::size_t done, std::size_t total) {
+    return progress(stage_of(stage), done, total);
+  };
+  const MovedMaterial moved = move_views(raw, task.settings.relief, stages);
+  const CompressionSettings settings = settings_for(task, moved.or_still(raw));
+  nook::material::Material material = compress_moved(raw, moved, settings, stages);
   const double seconds = watch.seconds();
   const Json recipe = {{"source", source_of(task, raw)}, {"compression", describe(settings)}};
   material.recipe = recipe.dump().c_str();

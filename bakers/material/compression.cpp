@@ -137,8 +137,10 @@ ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task
   if (task.progress && !task.progress("view map", 0, 1)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
   const Matrix projections = tensor::atom_projections(fitted, task.values);
   t.map.side = side;
-  t.map.rows = view_rows(
-      tensor::resample(fitted, projections, spline_weights(task.raw.views, side), tensor::Pursuit::exchange));
+  // The mask of a VOTF's values has its errors at the threshold, wherever steps are.
+  const double penalty = task.view_mode > 0 ? task.settings.step_penalty : 0;
+  t.map.rows = view_rows(tensor::resample_map(fitted, projections, spline_weights(task.raw.views, side), side,
+                                              penalty, tensor::Pursuit::exchange));
   return t;
 }
 
@@ -252,37 +254,44 @@ ReliefProgress stage(const StageProgress& progress, const char* name) {
   };
 }
 
-// A copy that has no mask.
-RawMaterial btf_on_relief(const RawMaterial& raw, const nook::material::Relief& relief,
-                          const StageProgress& progress) {
-  RawMaterial moved;
-  moved.lights = raw.lights;
-  moved.views = raw.views;
-  moved.width = raw.width;
-  moved.height = raw.height;
-  moved.btf = raw.btf;
-  move_to_relief(raw, relief, moved.btf, stage(progress, "views on the relief"));
-  return moved;
-}
-
-nook::material::Relief relief_of(const RawMaterial& raw, const CompressionSettings& s,
-                                 const StageProgress& progress) {
-  if (!s.has_relief) return nook::material::Relief();
-  return estimate_relief(raw, stage(progress, "relief"));
+nook::material::Relief relief_from(const RawMaterial& raw, ReliefSource source,
+                                   const StageProgress& progress) {
+  switch (source) {
+    case ReliefSource::estimated:
+      return estimate_relief(raw, stage(progress, "relief"));
+    case ReliefSource::known:
+      return known_relief(raw, stage(progress, "relief"));
+    case ReliefSource::none:
+      break;
+  }
+  return nook::material::Relief();
 }
 
 }  // namespace
 
+MovedMaterial move_views(const RawMaterial& raw, ReliefSource source, const StageProgress& progress) {
+  MovedMaterial moved;
+  moved.relief = relief_from(raw, source, progress);
+  if (!moved.relief.moves()) return moved;
+  moved.raw = raw;
+  move_to_relief(raw, moved.relief, moved.raw.btf, stage(progress, "views on the relief"));
+  return moved;
+}
+
 Material compress(const RawMaterial& raw, const CompressionSettings& s, const StageProgress& progress) {
+  check_settings(s, raw);
+  return compress_moved(raw, move_views(raw, s.relief, progress), s, progress);
+}
+
+Material compress_moved(const RawMaterial& raw, const MovedMaterial& moved, const CompressionSettings& s,
+                        const StageProgress& progress) {
   Material material;
   material.bits = s.bits;
   material.lights.assign(raw.lights.begin(), raw.lights.end());
   material.views.assign(raw.views.begin(), raw.views.end());
   check_settings(s, raw);
-  material.relief = relief_of(raw, s, progress);
-  CompressedBtf btf = material.relief.moves()
-                          ? compress_btf(btf_on_relief(raw, material.relief, progress), s, progress)
-                          : compress_btf(raw, s, progress);
+  material.relief = moved.relief;
+  CompressedBtf btf = compress_btf(moved.or_still(raw), s, progress);
   material.light_basis.assign(btf.light_basis.begin(), btf.light_basis.end());
   material.btf = std::move(btf.tensor);
   if (raw.mask.empty() || s.visibility == VisibilityForm::none) return material;

@@ -49,7 +49,9 @@ nlohmann::ordered_json describe(const CompressionSettings& s) {
       {"view_map", s.made_map_side()},
       {"bits", s.bits},
       {"seed", s.seed}};
-  if (s.has_relief) json["relief"] = "estimated";
+  if (s.step_penalty > 0) json["step_penalty"] = s.step_penalty;
+  if (s.relief != ReliefSource::none)
+    json["relief"] = s.relief == ReliefSource::known ? "known" : "estimated";
   return json;
 }
 

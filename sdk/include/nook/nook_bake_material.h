@@ -20,6 +20,18 @@ enum {
 };
 typedef int32_t nook_bake_method;
 
+/* The relief on which views are aligned before the compression, so that the views between them are sharper;
+ * docs/materials.md has the errors with it and without. Where it predicts no view better, the material has
+ * none. */
+enum {
+  NOOK_BAKE_RELIEF_NONE = 0,
+  /* Heights on which the views agree. */
+  NOOK_BAKE_RELIEF_ESTIMATED = 1,
+  /* The heights of meso, or those of nook_bake_material_desc.heights. */
+  NOOK_BAKE_RELIEF_KNOWN = 2
+};
+typedef int32_t nook_bake_relief;
+
 /* A material and the settings of its compression. Directions are unit vectors in tangent space that point
  * away from the surface, z >= 0, and no two directions of a set may be equal. docs/materials.md describes
  * materials and what ranks cost. The limits are 1024 directions of a kind, 1024 texels along a side, and 6
@@ -102,8 +114,11 @@ typedef struct nook_bake_material_desc {
   /* Of a number: 8 (default) for integers in the file and in textures, or 16 for half floats, which take
    * twice the room for about 0.1 dB. */
   uint32_t bits;
-  /* Must be 0. */
-  uint32_t reserved;
+  /* Default NONE. */
+  nook_bake_relief relief;
+  /* height x width, row 0 at v = 0: heights over the plane of the texels in tiles, -1 to 1, for RELIEF_KNOWN
+   * of measured data. nook_bake_material_start copies the array. NULL (default): not known. */
+  const float* heights;
 } nook_bake_material_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does.

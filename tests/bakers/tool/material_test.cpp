@@ -109,6 +109,14 @@ TEST_CASE("bake material traces a folder of maps") {
   CHECK(report.at("rows").at(0).at("material") == "planks");
   CHECK(report.at("rows").at(0).at("votf_error_texels_distance").is_null());
   CHECK(report.at("recipe").at("source").at("pbr") == "planks");
+  auto with_relief = bake;
+  with_relief.insert(with_relief.end(), {"--relief", folder.path("planks/planks_height.ppm")});
+  const ToolRun image = folder.run(with_relief);
+  INFO(image.error);
+  REQUIRE(image.exit_code == 0);
+  const auto recipe = nlohmann::json::parse(read_text(folder.path("r.json"))).at("recipe");
+  CHECK(recipe.at("compression").at("relief") == "known");
+  CHECK(recipe.at("relief").at("heights") == "planks_height.ppm");
   auto high = bake;
   high.insert(high.end(), {"--height-scale", "2"});
   const ToolRun refused = folder.run(high);
@@ -140,6 +148,10 @@ TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothin
   refused(small_bake(folder, "a.nook", {{"--radius", "0"}}), 2, "radius");
   refused({"bake", "material", "--btf", folder.path("nowhere"), "-o", folder.path("a.nook")}, 3, "nowhere");
   refused({"bake", "material", "--raw", folder.path("none.raw"), "-o", folder.path("a.nook")}, 3, "none.raw");
+  refused({"bake", "material", "--raw", folder.path("none.raw"), "-o", folder.path("a.nook"), "--relief",
+           "known"},
+          2, "--relief known needs");
+  refused(small_bake(folder, "a.nook", {{"--relief", "none.png"}}), 3, "there is no file none.png");
 }
 
 TEST_CASE("bake material refuses another kind of .btf file and names the one it reads") {
