@@ -1,4 +1,5 @@
-// From a raw material to a compressed one, by N-SVD, CTA or K-CTA.
+// From a raw material to a compressed one, by N-SVD, CTA or K-CTA, or by a neural network whose VOTF is that
+// of K-CTA.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +14,14 @@
 
 namespace nook::bake::material {
 
-enum class Method : std::uint8_t { n_svd, cta, k_cta };
+enum class Method : std::uint8_t { n_svd, cta, k_cta, neural };
 
 enum class Seeding : std::uint8_t {
   directions,  // clusters of view directions: the parametric space of the paper's 5.1
   values,      // k-means of the views' sub-tensors
 };
+
+inline constexpr std::uint32_t max_neural_steps = 1000000;
 
 // The form of numbers of a bake that sets none.
 inline constexpr std::uint32_t default_bits = 8;
@@ -41,6 +44,8 @@ struct CompressionSettings {
   bool is_cta_mapped = false;   // CTA has view maps as well, whose cells show one cluster each
   std::uint32_t bits = 16;      // form of the numbers, see Material in sdk's material/material.h
   bool has_relief = false;      // views are moved to the relief that estimate_relief() finds
+  // Of a neural material: channels of its features, a multiple of 4, and steps of its training.
+  std::uint32_t neural_channels = 16, neural_steps = 8000;
   std::uint64_t seed = 1;
 
   std::uint32_t cluster_count() const {
@@ -51,6 +56,17 @@ struct CompressionSettings {
     return method == Method::k_cta || (method == Method::cta && is_cta_mapped) ? map_side : 0;
   }
 };
+
+// Returns whether a material will have a VOTF.
+inline bool has_votf(const RawMaterial& raw, const CompressionSettings& s) {
+  return !raw.mask.empty() && s.visibility != nook::material::VisibilityForm::none;
+}
+
+// Returns the settings of the VOTF, which a neural material has by K-CTA.
+inline CompressionSettings votf_settings(CompressionSettings s) {
+  if (s.method == Method::neural) s.method = Method::k_cta;
+  return s;
+}
 
 // Returns false to stop. stage names what goes on.
 using StageProgress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;

@@ -13,6 +13,7 @@
 #include "bakers/tool/material/options.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
+#include "sdk/src/material/check.h"
 
 namespace nook::tool {
 namespace {
@@ -113,6 +114,8 @@ Json evaluate(const Options& o) {
   for (const Json& row : measure::material_baseline_rows(raw, file, o.common.seed, request))
     rows.push_back(row);
   pictures.write_sheets();
+  if (o.seeding || !o.sweep.empty())
+    nook::material::refuse_neural(material.neural.is_used(), "a fit at equal ranks");
   CompressionSettings settings = measure::settings_of(material, o.common.seed);
   settings.votf_refits = o.votf_refits;
   Json report;

@@ -11,7 +11,7 @@
 namespace nook::bake::material {
 
 struct MethodRow {
-  std::string method;  // "PCA", "N-SVD", "CTA", "K-CTA"
+  std::string method;  // "PCA", "N-SVD", "CTA", "K-CTA", "neural"
   std::uint32_t mixture = 1;
   std::optional<std::uint32_t> view_rank;  // in total over the clusters; of tensors
   // Of the whole file that a user ships, view maps of the settings' size included, and of the numbers alone

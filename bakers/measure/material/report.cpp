@@ -34,6 +34,15 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
 }
 
 nlohmann::ordered_json describe(const CompressionSettings& s) {
+  const char* const votf = s.visibility == nook::material::VisibilityForm::none     ? "none"
+                           : s.visibility == nook::material::VisibilityForm::binary ? "binary"
+                                                                                    : "distance";
+  if (s.method == Method::neural)
+    return {{"method", method_name(s.method)},
+            {"channels", s.neural_channels},
+            {"steps", s.neural_steps},
+            {"votf", votf},
+            {"seed", s.seed}};
   nlohmann::ordered_json json = {
       {"method", method_name(s.method)},
       {"ranks", {s.rank_light, s.rank_view, s.rank_x, s.rank_y}},
@@ -42,9 +51,7 @@ nlohmann::ordered_json describe(const CompressionSettings& s) {
       {"clusters", s.method == Method::n_svd ? 1 : s.cluster_count()},
       {"mixture", s.method == Method::k_cta ? s.mixture : 1},
       {"seeding", s.seeding == Seeding::directions ? "directions" : "values"},
-      {"votf", s.visibility == nook::material::VisibilityForm::none     ? "none"
-               : s.visibility == nook::material::VisibilityForm::binary ? "binary"
-                                                                        : "distance"},
+      {"votf", votf},
       {"votf_refits", s.votf_refits},
       {"view_map", s.made_map_side()},
       {"bits", s.bits},
