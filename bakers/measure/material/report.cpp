@@ -18,6 +18,9 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   texels("votf_error_texels_distance", row.error_texels_distance);
   if (row.se_db_drawn) json["se_db_drawn"] = *row.se_db_drawn;
   if (row.gpu_bytes_texel) json["gpu_bytes_texel"] = *row.gpu_bytes_texel;
+  for (const LevelError& level : row.levels)
+    json["mipmaps"].push_back(
+        {{"texels", level.side}, {"se_db", level.se_db}, {"se_db_finest", level.se_db_finest}});
   if (row.se_db_unseen) json["se_db_unseen"] = *row.se_db_unseen;
   if (row.error_texels_unseen) json["votf_error_texels_unseen"] = *row.error_texels_unseen;
   if (row.jumps) {

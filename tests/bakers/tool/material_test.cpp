@@ -100,14 +100,16 @@ TEST_CASE("bake material trains a neural material, which inspect describes and e
   CHECK(inspected.out.find("neural_channels") != std::string::npos);
 
   const ToolRun measured = folder.run({"evaluate", "material", folder.path("n.raw"), folder.path("n.nook"),
-                                       "--unseen", folder.path("n.raw"), "--methods", "pca", "--images",
-                                       folder.path("images"), "--report", folder.path("e.json")});
+                                       "--unseen", folder.path("n.raw"), "--methods", "pca", "--mipmaps",
+                                       "--images", folder.path("images"), "--report", folder.path("e.json")});
   INFO(measured.error);
   REQUIRE(measured.exit_code == 0);
   const auto row = nlohmann::json::parse(read_text(folder.path("e.json"))).at("rows").at(0);
   CHECK(row.at("method") == "file: neural");
   CHECK(row.at("se_db") == baked.at("rows").at(0).at("se_db"));
   CHECK(row.at("se_db_unseen") == row.at("se_db"));
+  REQUIRE(row.at("mipmaps").size() == 2);  // of 12 texels
+  CHECK(row.at("mipmaps").at(1).at("texels") == 4);
   CHECK(!read_text(folder.path("images") + "/fiber_file.png").empty());
 
   const ToolRun refused =
