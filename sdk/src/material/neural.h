@@ -86,7 +86,7 @@ inline std::size_t neural_bytes(const NeuralShape& s) {
   return neural_block_bytes_of(s) + 2 * NeuralLayout(s).count;
 }
 
-// What the trainer and the decoder compute alike.
+// Functions of the training and of the decoder.
 
 // The shift of the place where features are read, over x and y of a view: of a height of 1, and of any. Views
 // along the plane would see features at any distance, and a height of a tile or more comes from a network
