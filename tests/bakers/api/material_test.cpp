@@ -176,6 +176,7 @@ TEST_CASE("a neural material is a job as the others are") {
   CHECK((measured.desc.neural_channels == 16 && measured.desc.neural_steps == 8000));
   measured.desc.neural_channels = 8;
   measured.desc.neural_steps = 400;
+  measured.desc.mixture = 1;  // of the one cluster of the VOTF
   nook_bake_job handle = nullptr;
   const nook_result result = measured.start(&handle);
   INFO(nook_bake_last_message());
