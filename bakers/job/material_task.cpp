@@ -33,6 +33,8 @@ Method method_of(nook_bake_method method) {
       return Method::cta;
     case NOOK_BAKE_METHOD_N_SVD:
       return Method::n_svd;
+    case NOOK_BAKE_METHOD_NEURAL:
+      return Method::neural;
     default:
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.method is unknown (got %d); use a NOOK_BAKE_METHOD_",
                     int(method));
@@ -170,6 +172,8 @@ CompressionSettings settings_of(const nook_bake_material_desc& desc) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.bits is out of range (got %u, need 8 or 16)", desc.bits);
   s.bits = desc.bits;
   s.relief = relief_source_of(desc.relief);
+  s.neural_channels = desc.neural_channels;
+  s.neural_steps = desc.neural_steps;
   s.seed = desc.seed;
   return s;
 }
@@ -195,7 +199,8 @@ CompressionSettings known_settings(const MaterialTask& task) {
     s.votf_rank_x = task.settings.votf_rank_x;
     s.votf_rank_y = task.settings.votf_rank_y;
   }
-  if (s.method == Method::k_cta && s.clusters == 0) s.mixture = std::min(s.mixture, s.cluster_count());
+  if (votf_settings(s).method == Method::k_cta && s.clusters == 0)
+    s.mixture = std::min(s.mixture, s.cluster_count());
   return s;
 }
 

@@ -350,11 +350,26 @@ void add_bake_material(CLI::App& bake) {
       ->add_option_function<std::string>(
           "--method",
           [&s](const std::string& v) {
-            s.method = v == "n-svd" ? Method::n_svd : v == "cta" ? Method::cta : Method::k_cta;
+            s.method = v == "n-svd"    ? Method::n_svd
+                       : v == "cta"    ? Method::cta
+                       : v == "neural" ? Method::neural
+                                       : Method::k_cta;
           },
-          "k-cta (default), cta or n-svd")
-      ->check(CLI::IsMember({"k-cta", "cta", "n-svd"}))
+          "k-cta (default), cta, n-svd, or neural: a small network over features of the texels, for flat and "
+          "glossy "
+          "materials, which trains for minutes; its visibility is that of k-cta")
+      ->check(CLI::IsMember({"k-cta", "cta", "n-svd", "neural"}))
       ->type_name("NAME");
+  command
+      ->add_option(
+          "--channels", s.neural_channels,
+          "of --method neural: channels of the features, a multiple of 4 up to 64; half a byte of the file "
+          "each for a texel")
+      ->check(CLI::Range(4, 64))
+      ->capture_default_str();
+  command->add_option("--steps", s.neural_steps, "of --method neural: steps of the training")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   command
       ->add_option_function<std::string>(
           "--votf",

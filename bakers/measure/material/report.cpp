@@ -18,6 +18,9 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   texels("votf_error_texels_distance", row.error_texels_distance);
   if (row.se_db_drawn) json["se_db_drawn"] = *row.se_db_drawn;
   if (row.gpu_bytes_texel) json["gpu_bytes_texel"] = *row.gpu_bytes_texel;
+  for (const LevelError& level : row.levels)
+    json["mipmaps"].push_back(
+        {{"texels", level.side}, {"se_db", level.se_db}, {"se_db_finest", level.se_db_finest}});
   if (row.se_db_unseen) json["se_db_unseen"] = *row.se_db_unseen;
   if (row.error_texels_unseen) json["votf_error_texels_unseen"] = *row.error_texels_unseen;
   if (row.jumps) {
@@ -34,6 +37,15 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
 }
 
 nlohmann::ordered_json describe(const CompressionSettings& s) {
+  const char* const votf = s.visibility == nook::material::VisibilityForm::none     ? "none"
+                           : s.visibility == nook::material::VisibilityForm::binary ? "binary"
+                                                                                    : "distance";
+  if (s.method == Method::neural)
+    return {{"method", method_name(s.method)},
+            {"channels", s.neural_channels},
+            {"steps", s.neural_steps},
+            {"votf", votf},
+            {"seed", s.seed}};
   nlohmann::ordered_json json = {
       {"method", method_name(s.method)},
       {"ranks", {s.rank_light, s.rank_view, s.rank_x, s.rank_y}},
@@ -42,9 +54,7 @@ nlohmann::ordered_json describe(const CompressionSettings& s) {
       {"clusters", s.method == Method::n_svd ? 1 : s.cluster_count()},
       {"mixture", s.method == Method::k_cta ? s.mixture : 1},
       {"seeding", s.seeding == Seeding::directions ? "directions" : "values"},
-      {"votf", s.visibility == nook::material::VisibilityForm::none     ? "none"
-               : s.visibility == nook::material::VisibilityForm::binary ? "binary"
-                                                                        : "distance"},
+      {"votf", votf},
       {"votf_refits", s.votf_refits},
       {"view_map", s.made_map_side()},
       {"bits", s.bits},

@@ -171,6 +171,39 @@ TEST_CASE("measured data come back at their texels, colours and directions, and 
   CHECK(json["recipe"]["source"]["measured"] == true);
 }
 
+TEST_CASE("a neural material is a job as the others are") {
+  Measured measured;
+  measured.desc.method = NOOK_BAKE_METHOD_NEURAL;
+  CHECK((measured.desc.neural_channels == 16 && measured.desc.neural_steps == 8000));
+  measured.desc.neural_channels = 8;
+  measured.desc.neural_steps = 400;
+  measured.desc.mixture = 1;  // of the one cluster of the VOTF
+  nook_bake_job handle = nullptr;
+  const nook_result result = measured.start(&handle);
+  INFO(nook_bake_last_message());
+  REQUIRE(result == NOOK_OK);
+  const Job job(handle);
+  const std::vector<char> file = file_of(job);
+  const char* report = nullptr;
+  REQUIRE(nook_bake_job_report(job.get(), &report) == NOOK_OK);
+  const auto json = nlohmann::json::parse(report);
+  CHECK(json["method"] == "neural");
+  CHECK(json["recipe"]["compression"]["channels"] == 8);
+  CHECK(json["votf_error_texels_distance"] == 0);
+  // A twentieth of the usual steps: the mean of all texels has about 8 dB.
+  CHECK(json["se_db"].get<double>() > 15);
+  nook_material_sample sample{{0.4f, 0.6f}, 0, {0, 0, 1}, {0, 0, 1}};
+  CHECK(decode(file, {sample})[0].radiance[2] > 0.1f);
+
+  measured.desc.neural_channels = 10;
+  CHECK(measured.start(&handle) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("channels of a neural material is 10"));
+  measured.desc.neural_channels = 8;
+  measured.desc.neural_steps = 0;
+  CHECK(measured.start(&handle) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("steps of a training is 0"));
+}
+
 TEST_CASE("a built-in structure: the same bytes on any number of threads, another seed another file") {
   nook_bake_material_desc desc = small_weave();
   desc.threads = 1;
