@@ -9,9 +9,6 @@ namespace {
 
 using Indices = Vector<std::uint32_t>;
 
-// A multiple of all block sizes. Its AO lies in 4 KiB where the file has no other vertices between.
-constexpr std::size_t window_vertices = 1024;
-
 // Calls body(key_point) for each key point that shades a vertex.
 template <class Body>
 void for_influences(const CharacterModel& model, std::size_t vertex, Body&& body) {
@@ -111,8 +108,8 @@ Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint3
   const Indices in_file = file_order(model, memory);
   Indices order(memory);
   order.reserve(in_file.size());
-  for (std::size_t begin = 0; begin < in_file.size(); begin += window_vertices) {
-    const std::size_t count = std::min(window_vertices, in_file.size() - begin);
+  for (std::size_t begin = 0; begin < in_file.size(); begin += linear_window_vertices) {
+    const std::size_t count = std::min<std::size_t>(linear_window_vertices, in_file.size() - begin);
     Window window(model, std::span(in_file).subspan(begin, count), memory);
     while (order.size() < begin + count)
       window.append_block(
