@@ -348,10 +348,20 @@ struct BlockSums {
     const std::uint16_t* k = layer.key_point + 2 * std::size_t{block.first_pair};
     const std::uint16_t* const end = k + 2 * std::size_t{block.pairs};
     const std::int16_t* w = weights + linear_pair_weights * std::size_t{block.first_pair};
-    for (; k != end; k += 2, w += linear_pair_weights) {
-      const CodePair pair = code_pair(codes.low[k[0]], codes.high[k[1]]);
-      for (std::uint32_t p = 0; p < parts; ++p) part[p] = add_products(w + p * 2 * width, pair, part[p]);
+    if (block.pairs % 2) {
+      add(k, w, codes);
+      k += 2;
+      w += linear_pair_weights;
     }
+    // Two at a time, because the loop itself costs as much as a pair.
+    for (; k != end; k += 4, w += 2 * linear_pair_weights) {
+      add(k, w, codes);
+      add(k + 2, w + linear_pair_weights, codes);
+    }
+  }
+  void add(const std::uint16_t* k, const std::int16_t* w, const PointCodes& codes) {
+    const CodePair pair = code_pair(codes.low[k[0]], codes.high[k[1]]);
+    for (std::uint32_t p = 0; p < parts; ++p) part[p] = add_products(w + p * 2 * width, pair, part[p]);
   }
 };
 

@@ -91,12 +91,21 @@ void pose_four(const KeyPointSoa& rest, const FourMatrices& m, Vec3 offset_ws, s
   store(out.nz + k, n.z * scale);
 }
 
+// Without the surface, the matrices can stay in registers.
 void pose_key_points(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
                      const KeyPointTarget& out, const KeyPointTarget* surface) {
+  const auto blend = [&](std::uint32_t k) {
+    return blend_four(bones, rest.bone + 4 * k, rest.weight + 4 * k);
+  };
+  if (!surface) {
+    for (std::uint32_t k = 0; k < rest.padded_count; k += 4)
+      pose_four(rest.fitted, blend(k), offset_ws, k, out);
+    return;
+  }
   for (std::uint32_t k = 0; k < rest.padded_count; k += 4) {
-    const FourMatrices m = blend_four(bones, rest.bone + 4 * k, rest.weight + 4 * k);
+    const FourMatrices m = blend(k);
     pose_four(rest.fitted, m, offset_ws, k, out);
-    if (surface) pose_four(rest.surface, m, offset_ws, k, *surface);
+    pose_four(rest.surface, m, offset_ws, k, *surface);
   }
 }
 

@@ -7,6 +7,9 @@
 namespace nook {
 namespace {
 
+// The share of the allowed error in the estimate of each node: several nodes add up.
+constexpr float share_of_node = 0.7f;
+
 using Spheres = std::span<std::uint32_t>;
 
 float coordinate(const CharacterModel& model, std::uint32_t sphere, int axis) {
@@ -36,19 +39,29 @@ std::uint32_t split(const CharacterModel& model, Spheres spheres) {
   return first == 0 || first == spheres.size() ? static_cast<std::uint32_t>(spheres.size() / 2) : first;
 }
 
-// Returns the number of the node or sphere that holds all of them.
-std::uint16_t add_nodes(const CharacterModel& model, Spheres all, std::uint32_t begin, std::uint32_t end,
-                        Vector<SphereTreeNode>& nodes) {
+// Breadth first: a processor merges nodes side by side if none waits for the one before.
+Vector<SphereTreeNode> nodes_of(const CharacterModel& model, Spheres all, Memory* memory) {
+  struct Range {
+    std::uint32_t begin, end;
+  };
   const std::size_t first_sphere = all.size() - 1;  // one node less than spheres
-  if (end - begin == 1) return static_cast<std::uint16_t>(first_sphere + begin);
-  const std::size_t own = nodes.size();
-  nodes.emplace_back();
-  const std::uint32_t middle = begin + split(model, all.subspan(begin, end - begin));
-  SphereTreeNode node;
-  node.half[0] = add_nodes(model, all, begin, middle, nodes);
-  node.half[1] = add_nodes(model, all, middle, end, nodes);
-  nodes[own] = node;
-  return static_cast<std::uint16_t>(own);
+  Vector<SphereTreeNode> nodes(memory);
+  Vector<Range> ranges(memory);
+  const auto number_of = [&](std::uint32_t begin, std::uint32_t end) {
+    if (end - begin == 1) return static_cast<std::uint16_t>(first_sphere + begin);
+    ranges.push_back({begin, end});
+    return static_cast<std::uint16_t>(ranges.size() - 1);
+  };
+  number_of(0, static_cast<std::uint32_t>(all.size()));
+  for (std::size_t n = 0; n < ranges.size(); ++n) {
+    const auto [begin, end] = ranges[n];
+    const std::uint32_t middle = begin + split(model, all.subspan(begin, end - begin));
+    SphereTreeNode node;
+    node.half[0] = number_of(begin, middle);
+    node.half[1] = number_of(middle, end);
+    nodes.push_back(node);
+  }
+  return nodes;
 }
 
 // Sums over the spheres of a node, or of one sphere.
@@ -59,32 +72,35 @@ struct Moments {
   float fourth = 0;  // metres^4: sum of mass * radius^2
 };
 
-Moments joined(const Moments& a, const Moments& b) {
-  const float mass = a.mass + b.mass, share = b.mass / mass;
+// `inverse` is that of the sum of their masses.
+Moments joined(const Moments& a, const Moments& b, float inverse) {
+  const float share = b.mass * inverse;
   const Vec3 apart = b.centre - a.centre;
-  return {mass, a.centre + apart * share, a.spread + b.spread + a.mass * share * dot(apart, apart),
+  return {a.mass + b.mass, a.centre + apart * share, a.spread + b.spread + a.mass * share * dot(apart, apart),
           a.fourth + b.fourth};
+}
+
+void put_mass(const Moments& m, std::uint32_t i, float softness, float radius_squared, PosedSphereTree& out) {
+  out.x[i] = m.centre.x;
+  out.y[i] = m.centre.y;
+  out.z[i] = m.centre.z;
+  out.softness[i] = softness;
+  out.core[i] = float(NOOK_KERNEL_CORE) * radius_squared;
+  out.mass[i] = 0.75f * m.mass;
 }
 
 // Spheres that spread by sigma along the normal are, around the horizon, on average sigma / sqrt(2 pi) above
 // it, as one whose horizon is softened by 4 sigma^2 / (2 pi); sigma^2 is a third of the variance.
 constexpr float softness_of_variance = 0.21f;
 
-void put_mass(const Moments& m, std::uint32_t i, PosedSphereTree& out) {
-  const float inverse = 1 / m.mass, variance = m.spread * inverse, radius_squared = m.fourth * inverse;
-  out.x[i] = m.centre.x;
-  out.y[i] = m.centre.y;
-  out.z[i] = m.centre.z;
-  out.softness[i] = radius_squared + softness_of_variance * variance;
-  out.core[i] = float(NOOK_KERNEL_CORE) * radius_squared;
-  out.mass[i] = 0.75f * m.mass;
-}
-
 // The largest second derivative of cos / d^2 is 6 / d^4; half of all key points face away, and the mean
 // square of cos over the other half is 1/3, so that half of 6 * spread / d^4 becomes 1.2 * spread / d^4, root
-// mean square. Nearer than three times the extent the series has no meaning.
-float reach_of(const Moments& m, float error) {
-  return std::max(std::sqrt(1.2f * m.spread / error), 9 * m.spread / m.mass);
+// mean square, which is the error at the squared distance sqrt(1.2 * spread / error). Nearer than three times
+// the extent the series has no meaning.
+void put_node(const Moments& m, std::uint32_t n, float inverse, float inverse_error, PosedSphereTree& out) {
+  const float variance = m.spread * inverse, radius_squared = m.fourth * inverse;
+  put_mass(m, n, radius_squared + softness_of_variance * variance, radius_squared, out);
+  out.reach[n] = std::max(std::sqrt(1.2f * inverse_error * m.spread), 9 * variance);
 }
 
 }  // namespace
@@ -96,8 +112,7 @@ SphereTree::SphereTree(const CharacterModel& model, Memory* memory) {
     return;
   order_ = AlignedArray<std::uint32_t>(count, memory);
   for (std::uint32_t i = 0; i < count; ++i) order_[i] = i;
-  Vector<SphereTreeNode> nodes(memory);
-  add_nodes(model, {order_.data(), count}, 0, count, nodes);
+  const Vector<SphereTreeNode> nodes = nodes_of(model, {order_.data(), count}, memory);
   nodes_ = AlignedArray<SphereTreeNode>(nodes.size(), memory);
   std::copy(nodes.begin(), nodes.end(), nodes_.begin());
 }
@@ -110,14 +125,16 @@ SphereTreeView pose_tree(const SphereTree& tree, const SphereSoa& spheres, float
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t s = tree.order()[i];
     const float squared = 1 / (spheres.inverse_radius[s] * spheres.inverse_radius[s]);
-    moments[nodes + i] = {squared, {spheres.x[s], spheres.y[s], spheres.z[s]}, 0, squared * squared};
-    put_mass(moments[nodes + i], nodes + i, out);
+    Moments& m = moments[nodes + i];
+    m = {squared, {spheres.x[s], spheres.y[s], spheres.z[s]}, 0, squared * squared};
+    put_mass(m, nodes + i, squared, squared, out);
   }
+  const float inverse_error = 1 / (share_of_node * error);
   for (std::uint32_t n = nodes; n-- > 0;) {
-    const SphereTreeNode& node = tree.nodes()[n];
-    moments[n] = joined(moments[node.half[0]], moments[node.half[1]]);
-    put_mass(moments[n], n, out);
-    out.reach[n] = reach_of(moments[n], error / 2);
+    const Moments &a = moments[tree.nodes()[n].half[0]], &b = moments[tree.nodes()[n].half[1]];
+    const float inverse = 1 / (a.mass + b.mass);
+    moments[n] = joined(a, b, inverse);
+    put_node(moments[n], n, inverse, inverse_error, out);
   }
   return {tree.nodes().data(), nodes, &out};
 }

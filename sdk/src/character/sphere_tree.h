@@ -34,8 +34,7 @@ class SphereTree {
 };
 
 // Merges the spheres of a pose into the nodes of the tree. Under `error`, which is an AO, a node stands for
-// its spheres where its own estimate of the change of a shadow is below half of it, because several nodes
-// add up.
+// its spheres where its own estimate of the change of a shadow is below a share of it.
 SphereTreeView pose_tree(const SphereTree& tree, const SphereSoa& spheres, float error, PosedSphereTree& out);
 
 }  // namespace nook
