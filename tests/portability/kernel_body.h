@@ -142,7 +142,8 @@ class Body {
 
   std::vector<Mat3x4> pose_;
   Rows rest_spheres_{5, spheres}, rest_points_{12, key_points};
-  std::vector<std::uint16_t> sphere_bone_, point_bone_, layer_point_;
+  std::vector<std::uint16_t> sphere_bone_, point_bone_;
+  std::vector<std::uint32_t> layer_point_;  // two for each
   std::vector<float> point_weight_;
   Rows posed_spheres_{4, spheres}, posed_points_{12, key_points}, neighbour_x_{1, spheres}, ground_{4, 1};
   Rows sum_{1, key_points}, shadow_{1, key_points}, depth_{1, key_points}, open_{1, key_points},
@@ -160,7 +161,7 @@ inline Body::Body(std::uint32_t seed)
     : pose_(bones),
       sphere_bone_(spheres),
       point_bone_(4 * key_points),
-      layer_point_(blocks * columns),
+      layer_point_(blocks * columns / 2),
       point_weight_(4 * key_points),
       blocks_(blocks),
       alpha_(vertices * columns),
@@ -199,7 +200,7 @@ inline Body::Body(std::uint32_t seed)
   for (std::uint32_t b = 0; b < blocks; ++b) {
     blocks_[b] = {b * columns / 2, columns / 2};
     for (std::uint32_t c = 0; c < columns; ++c) {
-      layer_point_[b * columns + c] = std::uint16_t(random.below(key_points));
+      layer_point_[(b * columns + c) / 2] |= random.below(key_points) << 16 * (c % 2);
       for (std::uint32_t v = 0; v < linear_block_vertices; ++v) {
         const std::size_t at = (b * columns + c) * linear_block_vertices + v;
         alpha_[at] = std::int16_t(random.from(-0.1f, 0.2f) / alpha_step);

@@ -116,8 +116,10 @@ LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
 
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     blocks_[b] = {columns.first[b] / 2, (columns.first[b + 1] - columns.first[b]) / 2};
-  key_point_ = AlignedArray<std::uint16_t>(columns.key_point.size(), memory);
-  std::copy(columns.key_point.begin(), columns.key_point.end(), key_point_.begin());
+  key_points_ = AlignedArray<std::uint32_t>(columns.key_point.size() / 2, memory);
+  for (std::size_t pair = 0; pair < key_points_.size(); ++pair)
+    key_points_[pair] =
+        columns.key_point[2 * pair] | static_cast<std::uint32_t>(columns.key_point[2 * pair + 1]) << 16;
   Vector<float> alpha(columns.key_point.size() * linear_block_vertices, 0.0f, memory);
   Vector<float> blend(alpha.size(), 0.0f, memory);
 
@@ -149,7 +151,7 @@ LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
   blend_ = in_steps(blend, blend_step, memory);
   view_ = {blocks_.data(),
            static_cast<std::uint32_t>(blocks_.size()),
-           key_point_.data(),
+           key_points_.data(),
            alpha_.data(),
            blend_.data(),
            alpha_step,

@@ -117,9 +117,10 @@ struct SphereTreeView {
 // 16 vertices of the linear layer as a small dense matrix with one column for each key point that any of them
 // uses. A column takes few instructions for all 16 vertices, while looking up key points for each vertex
 // takes a load for each. Columns come in pairs, because processors have one instruction for the sum of two
-// products of 16-bit numbers. Pair p of the block has the key points key_point[2 (first_pair + p)] and the
-// one after; the two alphas of each of its 16 vertices are side by side from alpha[32 (first_pair + p)] on,
-// their blend weights from blend[32 (first_pair + p)] on. The last column may have no weights.
+// products of 16-bit numbers. Pair p of the block has the
+// two key points of key_points[first_pair + p]; the two alphas of each of its 16 vertices are side by side
+// from alpha[32 (first_pair + p)] on, their blend weights from blend[32 (first_pair + p)] on. The last column
+// may have no weights.
 struct LinearBlock {
   std::uint32_t first_pair = 0;
   std::uint32_t pairs = 0;
@@ -139,7 +140,8 @@ struct PointCodes {
 struct LinearView {
   const LinearBlock* blocks = nullptr;
   std::uint32_t block_count = 0;
-  const std::uint16_t* key_point = nullptr;
+  // The first key point of a pair in the lower half, the second in the upper half, for one load.
+  const std::uint32_t* key_points = nullptr;
   const std::int16_t* alpha = nullptr;
   const std::int16_t* blend = nullptr;  // blend weights, in the layout of alpha
   float alpha_step = 1, blend_step = 1;

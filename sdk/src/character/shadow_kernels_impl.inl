@@ -345,22 +345,21 @@ struct BlockSums {
   BlockSums(const LinearView& layer, const LinearBlock& block, const std::int16_t* weights,
             const PointCodes& codes) {
     for (Whole& sum : part) sum = whole_zero();
-    const std::uint16_t* k = layer.key_point + 2 * std::size_t{block.first_pair};
-    const std::uint16_t* const end = k + 2 * std::size_t{block.pairs};
+    const std::uint32_t* k = layer.key_points + block.first_pair;
+    const std::uint32_t* const end = k + block.pairs;
     const std::int16_t* w = weights + linear_pair_weights * std::size_t{block.first_pair};
     if (block.pairs % 2) {
-      add(k, w, codes);
-      k += 2;
+      add(*k++, w, codes);
       w += linear_pair_weights;
     }
     // Two at a time, because the loop itself costs as much as a pair.
-    for (; k != end; k += 4, w += 2 * linear_pair_weights) {
-      add(k, w, codes);
-      add(k + 2, w + linear_pair_weights, codes);
+    for (; k != end; k += 2, w += 2 * linear_pair_weights) {
+      add(k[0], w, codes);
+      add(k[1], w + linear_pair_weights, codes);
     }
   }
-  void add(const std::uint16_t* k, const std::int16_t* w, const PointCodes& codes) {
-    const CodePair pair = code_pair(codes.low[k[0]], codes.high[k[1]]);
+  void add(std::uint32_t key_points, const std::int16_t* w, const PointCodes& codes) {
+    const CodePair pair = code_pair(codes.low[key_points & 0xffff], codes.high[key_points >> 16]);
     for (std::uint32_t p = 0; p < parts; ++p) part[p] = add_products(w + p * 2 * width, pair, part[p]);
   }
 };

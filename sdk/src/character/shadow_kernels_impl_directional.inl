@@ -165,7 +165,7 @@ DirectionalSum directional_sum(const LinearView& layer, const LinearBlock& block
     load_pairs(layer.alpha + at, alpha[0], alpha[1]);
     if constexpr (Added) load_pairs(layer.blend + at, blend[0], blend[1]);
     for (std::uint32_t c = 0; c < 2; ++c) {
-      const std::uint32_t k = layer.key_point[2 * pair + c];
+      const std::uint32_t k = layer.key_points[pair] >> 16 * c & 0xffff;
       const Float shaded = alpha[c] * broadcast(layer.alpha_step);
       sum.shadow = fma(shaded, broadcast(shadow[k]), sum.shadow);
       for (int i = 0; i < 3; ++i) sum.coloured[i] = fma(shaded, broadcast(coloured[i][k]), sum.coloured[i]);
