@@ -151,7 +151,7 @@ struct Extents {
     low[group] = lows[0];
     high[group] = highs[0];
   }
-  // How far a place is from the boxes of the groups from `group` on.
+  // Returns the distance of a place from the boxes of the groups from `group` on.
   Float outside(Float place, std::uint32_t group) const {
     return place - min(max(place, load(low + group)), load(high + group));
   }
@@ -195,7 +195,7 @@ void transpose_bits(std::uint32_t (&row)[32]) {
       }
 }
 
-// What each group of a batch evaluates: a bit for each node out of whose reach it is while it is in the reach
+// The choice of each group of a batch: a bit for each node out of whose reach it is while it is in the reach
 // of all nodes above, and for each sphere whose nodes are all near.
 struct ChosenMasses {
   static constexpr std::uint32_t words = PosedSphereTree::max_masses / 32;
