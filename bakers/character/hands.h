@@ -18,7 +18,7 @@ struct BodyPoint {
 // Of the left and the right hand: the middle of the knuckles, or the wrist where there are none.
 std::array<BodyPoint, 2> palms(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree);
 
-// How a hand lies at rest. Directions have unit length and are zero where the rig has no fingers.
+// A hand in its rest pose. Directions have unit length and are zero where the rig has no fingers.
 struct HandFrame {
   Vec3 knuckles;  // their middle, or the wrist where there are none
   Vec3 along;     // from the wrist to the knuckles

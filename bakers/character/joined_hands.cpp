@@ -12,7 +12,7 @@ namespace {
 
 constexpr float degree = std::numbers::pi_v<float> / 180;
 
-// The least share of upper arm and of forearm in the length of both: shorter ones do not bend an arm.
+// Upper arm and forearm have more than this share of the length of both: shorter ones do not bend an arm.
 constexpr float least_bone = 0.1f;
 
 Vec3 normal3(Random& random) {
