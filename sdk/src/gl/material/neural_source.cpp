@@ -1,5 +1,6 @@
 #include "sdk/src/gl/material/neural_source.h"
 
+#include "sdk/src/gl/float_literal.h"
 #include "sdk/src/gl/material/formatted_text.h"
 
 namespace nook::gl {
@@ -27,7 +28,7 @@ void add_blocks(const char* name, const Block& block, std::span<const float> mat
     for (std::size_t i = 0; i < size; ++i) {
       const std::size_t input = b / across * block.inputs + i / block.outputs,
                         output = b % across * block.outputs + i % block.outputs;
-      add(out, "%s%.6g", i ? "," : "", double(matrix[input * outputs + output]));
+      add(out, "%s%s", i ? "," : "", float_literal(matrix[input * outputs + output]).text);
     }
     out += ")";
   }
@@ -60,9 +61,10 @@ void add_neural_declarations(const material::NeuralTables& tables, String& out) 
   add(out, "#define NOOK_NEURAL_OFFSET_VEC4S %u\n#define NOOK_NEURAL_OFFSET_UNIT_VEC4S %u\n",
       s.offset_channels / 4, s.offset_units / 4);
   add(out, "#define NOOK_NEURAL_LAYERS %u\nuniform highp sampler2DArray nook_neural_features;\n", s.layers);
-  add(out, "const float nook_neural_lowest_view_z = %#.9g, nook_neural_lowest_light_z = %#.9g;\n",
-      double(tables.lowest_view_z), double(tables.lowest_light_z));
-  add(out, "const float nook_neural_offset_level = %#.9g;\n", double(tables.weights[at.offset_level]));
+  add(out, "const float nook_neural_lowest_view_z = %s, nook_neural_lowest_light_z = %s;\n",
+      float_literal(tables.lowest_view_z).text, float_literal(tables.lowest_light_z).text);
+  add(out, "const float nook_neural_offset_level = %s;\n",
+      float_literal(tables.weights[at.offset_level]).text);
   const std::span<const float> all(tables.weights);
   const auto between = [&](std::size_t first, std::size_t last) { return all.subspan(first, last - first); };
   constexpr Block square{"mat4", 4, 4}, vector{"vec4", 1, 4};
@@ -76,8 +78,8 @@ void add_neural_declarations(const material::NeuralTables& tables, String& out) 
   }
   add_blocks("out", {"mat4x3", 4, 3}, between(at.out, at.out_bias), 3, out);
   const float* const bias = &tables.weights[at.out_bias];
-  add(out, "const vec3 nook_neural_out_bias = vec3(%.6g, %.6g, %.6g);\n", double(bias[0]), double(bias[1]),
-      double(bias[2]));
+  add(out, "const vec3 nook_neural_out_bias = vec3(%s, %s, %s);\n", float_literal(bias[0]).text,
+      float_literal(bias[1]).text, float_literal(bias[2]).text);
 }
 
 }  // namespace nook::gl

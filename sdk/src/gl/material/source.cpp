@@ -1,6 +1,7 @@
 #include "sdk/src/gl/material/source.h"
 
 #include "sdk/src/gl/embedded_shaders.h"
+#include "sdk/src/gl/float_literal.h"
 #include "sdk/src/gl/material/formatted_text.h"
 #include "sdk/src/gl/material/neural_source.h"
 
@@ -35,8 +36,8 @@ void add_relief(String& out, const material::ReliefTables& relief) {
   add(out, "#define NOOK_RELIEF %d\n", int(relief.moves()));
   if (!relief.moves()) return;
   add(out, "#define NOOK_RELIEF_STEPS %u\n", relief.steps);
-  add(out, "const float nook_relief_low = %#.9g, nook_relief_high = %#.9g, nook_relief_max_slope = %#.9g;\n",
-      double(relief.low), double(relief.high), double(relief.max_slope));
+  add(out, "const float nook_relief_low = %s, nook_relief_high = %s, nook_relief_max_slope = %s;\n",
+      float_literal(relief.low).text, float_literal(relief.high).text, float_literal(relief.max_slope).text);
   if (relief.steps > 0) out += "uniform highp sampler2DArray nook_relief_heights;\n";
 }
 
@@ -62,9 +63,8 @@ String material_source(const material::MaterialTables& tables, std::uint32_t max
   if (!is_neural) add_relief(out, tables.relief);
   if (tables.votf.terms != 0)
     // OpenGL ES gives uniforms no first value.
-    add(out,
-        "#ifdef GL_ES\nconst\n#else\nuniform\n#endif\nvec2 nook_visibility_mapping = vec2(%#.9g, %#.9g);\n",
-        double(tables.mapping.threshold), double(tables.mapping.weight));
+    add(out, "#ifdef GL_ES\nconst\n#else\nuniform\n#endif\nvec2 nook_visibility_mapping = vec2(%s, %s);\n",
+        float_literal(tables.mapping.threshold).text, float_literal(tables.mapping.weight).text);
   out += host_text(is_neural ? "material/neural/host.glsl" : "material/host.glsl");
   return out;
 }
