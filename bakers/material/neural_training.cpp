@@ -62,6 +62,17 @@ Targets targets_of(const RawMaterial& raw) {
   return targets;
 }
 
+// The last layer holds the scale in half floats: beyond these bounds its weights lose their digits or
+// overflow.
+void check_scale(float scale) {
+  constexpr float least = 1.0f / 4096, most = 4096;
+  if (!(scale >= least && scale <= most))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the root mean square of the radiance is %g; a neural material needs %g to %g, so multiply "
+                  "the radiance",
+                  double(scale), double(least), double(most));
+}
+
 struct Trainer {
   const RawMaterial& raw;
   const NeuralSettings& settings;
@@ -259,6 +270,7 @@ NeuralTile fit_neural_tile(const RawMaterial& raw, const NeuralSettings& setting
                            const StageProgress& progress) {
   Trainer t{raw, settings, shape_of(raw, settings.shape)};
   const Targets targets = targets_of(raw);
+  check_scale(targets.scale);
   set_first_numbers(t);
   fit_offsets(t, progress);
   train(t, targets, progress);

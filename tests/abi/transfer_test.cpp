@@ -2,6 +2,7 @@
 #include <nook/nook_transfer.h>
 
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -141,6 +142,12 @@ TEST_CASE("transfer: a neural material is refused, because its radiance is no su
       nook::material::write_material(nook::material::test::sample_material(1, {.channels = 4}));
   nook_material neural = nullptr;
   REQUIRE(nook_material_load(loaded.stage.context, bytes.data(), bytes.size(), &neural) == NOOK_OK);
+  nook_material_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_material_describe(neural, &info) == NOOK_OK);
+  CHECK(info.neural_channels == 4);
+  const nook_material_tensor none{};
+  CHECK(std::memcmp(&info.btf, &none, sizeof none) == 0);  // a neural material has no tensor of radiance
   CHECK(nook_transfer_check_material(loaded.transfer, neural) == invalid);
   CHECK(last_has("the material is neural"));
   nook_transfer_response_desc desc;

@@ -23,8 +23,8 @@ constexpr double bound = 4e-5;
 // weights.
 constexpr double bound_of_estimates = 1.5e-4;
 
-// Shadows that differ by rounding may have codes a step apart, which is 1/8192 of the largest, and the largest
-// is below 3. The weights of a key point are below 0.2.
+// Shadows that differ by rounding may have codes a step apart, which is 1/8192 of the largest, and the
+// largest is below 3. The weights of a key point are below 0.2.
 constexpr double bound_of_codes = 0.2 * 3 / 8192;
 
 constexpr std::uint32_t seeds = 8;

@@ -109,6 +109,7 @@ CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
   if (material.neural.is_used()) {
     s.method = Method::neural;
     s.neural_channels = material.neural.shape.channels;
+    s.neural_steps = 0;  // unknown: it is in no file
     return s;
   }
   s.rank_light = btf.rank_light;

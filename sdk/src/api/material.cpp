@@ -31,8 +31,8 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   info.view_count = static_cast<std::uint32_t>(material.views.size());
   info.width = tables.btf.width;
   info.height = tables.btf.height;
-  info.btf = tensor_info(material.btf, tables.btf);
   const bool is_neural = tables.neural.is_used();
+  if (!is_neural) info.btf = tensor_info(material.btf, tables.btf);
   const DecodeCost decode = is_neural ? neural_decode_cost(tables.neural) : decode_cost(tables.btf),
                    light = is_neural ? neural_light_cost(tables.neural) : light_cost(tables.btf),
                    occlusion = decode_cost(tables.votf);

@@ -122,6 +122,7 @@ void check_neural(const Material& material, nook_result code) {
       throw Failure(code, "weight %zu of the neural material is not finite", i);
   check.sized("cores", material.btf.cores.size(), 0);
   check.sized("the light basis", material.light_basis.size(), 0);
+  check.sized("the view map's side", material.btf.map.side, 0);
   if (material.relief.moves())
     throw Failure(code, "the material is neural and has a relief; its features have an offset of their own");
 }

@@ -9,10 +9,9 @@
 //   BMAP  the BTF's resampled view map (optional): u16 side; its rows
 //   VMAP  the VOTF's resampled view map (optional)
 //   RELF  the relief (optional, from version 3 on): u8 steps, f32 low, high, max_slope, u8 levels
-//   NEUR  a neural material (of version 4), which has neither LGHT nor BTF_, BMAP and RELF: u16 width,
-//   height; u8 channels,
-//         units, layers, offset channels, offset units; the blocks of its features and its weights, as in
-//         neural.h
+//   NEUR  a neural material (of version 4), which has neither LGHT nor BTF_, BMAP and RELF:
+//         u16 width, height; u8 channels, units, layers, offset channels, offset units;
+//         the blocks of its features and its weights, as in neural.h
 //   RECP  recipe
 // A file has the lowest version that can hold it: 4 of a neural material, 3 with a relief, else 2.
 // Packed numbers of the form 16 are an i8 exponent e, then each number as a half float h with the value

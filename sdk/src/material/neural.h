@@ -5,8 +5,9 @@
 // With all layers as matrices, r(x) = max(x, x / 100) and features read linearly at a point of the tile:
 //   height   = offset_out r(offset_in (offset features at uv, view, 1)) + offset_level
 //   decoded  = position (features at uv + view.xy / view.z height, view, 1)
-//   units    = r(decoded + light_weights (light, half vector)), then r(hidden (units, 1)) for each further
-//   layer radiance = max(out (units, 1), 0)
+//   units    = r(decoded + light_weights (light, half vector)), and for each further layer
+//   units    = r(hidden (units, 1))
+//   radiance = max(out (units, 1), 0)
 // So what does not depend on the light is computed once for a pixel.
 #pragma once
 
@@ -91,8 +92,9 @@ inline std::size_t neural_bytes(const NeuralShape& s) {
 // The shift of the place where features are read, over x and y of a view: of a height of 1, and of any. Views
 // along the plane would see features at any distance, and a height of a tile or more comes from a network
 // that has gone astray.
+inline constexpr float neural_least_view_z = 0.01f;
 inline float neural_slope(Vec3 view) {
-  return 1 / std::max(view.z, 0.01f);
+  return 1 / std::max(view.z, neural_least_view_z);
 }
 inline float neural_shift(float height, Vec3 view) {
   return height > -1 && height < 1 ? height * neural_slope(view) : 0.0f;

@@ -111,7 +111,10 @@ void decode_neural(const NeuralTables& tables, const ImagePlace& place, Vec3 giv
   const NeuralShape& s = tables.shape;
   const NeuralLayout at(s);
   const Vec3 view = raised(given, tables.lowest_view_z);
-  const float shift = neural_shift(height_at(tables, at, place, view), view);
+  const float wished = neural_shift(height_at(tables, at, place, view), view);
+  // A view that is no unit vector may be so long that no place is left.
+  const bool is_finite = std::isfinite(view.x * wished) && std::isfinite(view.y * wished);
+  const float shift = is_finite ? wished : 0;
   std::fill(decoded.begin(), decoded.end(), 0.0f);
   add_first_layer(tables, at.position, 0, s.channels,
                   {place.u + view.x * shift, place.v + view.y * shift, place.level}, view,

@@ -2,7 +2,7 @@
 // Matrices are in blocks of 4 x 4, those of four inputs to all units beside each other, and the last inputs of a first
 // layer are the view and 1. The numbers of a pixel are the sums of the first layer without a light, then the view.
 
-vec4 nook_neural_rectified(vec4 sum) { return max(sum, 0.01 * sum); }
+vec4 nook_neural_rectified(vec4 sum) { return max(sum, nook_neural_leak * sum); }
 
 // Raises a direction to the lowest of the sampled ones.
 vec3 nook_neural_raised(vec3 d, float lowest) {
@@ -34,7 +34,7 @@ void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[N
   view = nook_neural_raised(view, nook_neural_lowest_view_z);
   float level = nook_mipmap_level(dx, dy, NOOK_BTF_TEXELS);
   float height = nook_neural_height(uv, level, view);
-  if (abs(height) < 1.0) uv += view.xy * (height / max(view.z, 0.01));
+  if (abs(height) < 1.0) uv += view.xy * (height / max(view.z, nook_neural_least_view_z));
   for (int u = 0; u < NOOK_NEURAL_UNIT_VEC4S; ++u)
     modes[u] = nook_neural_position[NOOK_NEURAL_FEATURE_VEC4S * NOOK_NEURAL_UNIT_VEC4S + u] * vec4(view, 1.0);
   for (int i = 0; i < NOOK_NEURAL_FEATURE_VEC4S; ++i) {

@@ -233,6 +233,17 @@ TEST_CASE("a neural tile has the same bits on any number of threads") {
   CHECK(tiles[0].offset_features == tiles[1].offset_features);
 }
 
+TEST_CASE("radiance that half floats cannot hold is refused before the training") {
+  for (const float factor : {1e-6f, 1e8f}) {
+    RawMaterial raw = planted();
+    for (float& value : raw.btf) value *= factor;
+    std::size_t calls = 0;
+    const auto count = [&](const char*, std::size_t, std::size_t) { return ++calls > 0; };
+    CHECK_THROWS_AS(fit_neural_tile(raw, few_steps(40), count), Failure);
+    CHECK(calls == 0);
+  }
+}
+
 TEST_CASE("the training of a neural tile can be stopped") {
   const RawMaterial raw = planted();
   for (const std::size_t last : {50u, 120u}) {

@@ -65,6 +65,8 @@ void add_neural_declarations(const material::NeuralTables& tables, String& out) 
       float_literal(tables.lowest_view_z).text, float_literal(tables.lowest_light_z).text);
   add(out, "const float nook_neural_offset_level = %s;\n",
       float_literal(tables.weights[at.offset_level]).text);
+  add(out, "const float nook_neural_leak = %s, nook_neural_least_view_z = %s;\n",
+      float_literal(material::neural_leak).text, float_literal(material::neural_least_view_z).text);
   const std::span<const float> all(tables.weights);
   const auto between = [&](std::size_t first, std::size_t last) { return all.subspan(first, last - first); };
   constexpr Block square{"mat4", 4, 4}, vector{"vec4", 1, 4};
