@@ -146,6 +146,11 @@ std::vector<float> shares(const MapImage& image, std::size_t channel, std::uint3
 
 }  // namespace
 
+std::vector<float> read_height_map(const fs::path& file, std::uint32_t side) {
+  const MapImage image = read_image(file, false);
+  return averages(image, side, 1, [&](std::size_t texel, float* number) { *number = image.at(texel, 0); });
+}
+
 PbrFolder read_pbr_folder(const fs::path& folder, std::uint32_t side) {
   const std::vector<fs::path> paths = images_in(folder);
   std::vector<std::string> names;
@@ -161,11 +166,7 @@ PbrFolder read_pbr_folder(const fs::path& folder, std::uint32_t side) {
   };
   maps.base_colour = read_colours(take(files.base_colour), side);
   if (files.normal) maps.slope = read_slopes(take(*files.normal), files.green_down, side);
-  if (files.height) {
-    const MapImage image = read_image(take(*files.height), false);
-    maps.height =
-        averages(image, side, 1, [&](std::size_t texel, float* number) { *number = image.at(texel, 0); });
-  }
+  if (files.height) maps.height = read_height_map(take(*files.height), side);
   if (files.roughness)
     maps.squared_width =
         squared_widths(read_image(take(*files.roughness), false), 0, files.roughness_is_gloss, side);

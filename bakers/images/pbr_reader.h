@@ -23,4 +23,7 @@ struct PbrFolder {
 // channels, a texel that is not finite; and where the folder cannot be read or its names are those of no set.
 PbrFolder read_pbr_folder(const std::filesystem::path& folder, std::uint32_t side);
 
+// The height map of such a set alone: one image, in units of a height scale, y * side + x.
+std::vector<float> read_height_map(const std::filesystem::path& file, std::uint32_t side);
+
 }  // namespace nook::bake::material

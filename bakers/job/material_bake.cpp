@@ -27,15 +27,19 @@ RawMaterial obtain(MaterialTask& task, const StageReport& progress) {
   return raw;
 }
 
-// Chooses the defaults of `nook bake material`.
+// Chooses the defaults of `nook bake material`. raw has the images that are fitted: on the relief, if there
+// is one.
 CompressionSettings settings_for(const MaterialTask& task, const RawMaterial& raw) {
   CompressionSettings s = task.settings;
-  if (!task.ranks_given && !set_builtin_ranks(raw, s)) s = ranks_by_threshold(raw, task.rank_threshold, s);
+  const bool has_ranks = s.method != Method::neural || has_votf(raw, s);
+  if (has_ranks && !task.ranks_given && !set_builtin_ranks(raw, s))
+    s = ranks_by_threshold(raw, task.rank_threshold, s);
   if (task.votf_ranks_given) {
     s.votf_rank_x = task.settings.votf_rank_x;
     s.votf_rank_y = task.settings.votf_rank_y;
   }
-  if (s.method == Method::k_cta && s.clusters == 0) s.mixture = std::min(s.mixture, s.cluster_count());
+  if (votf_settings(s).method == Method::k_cta && s.clusters == 0)
+    s.mixture = std::min(s.mixture, s.cluster_count());
   check_settings(s, raw);
   return s;
 }
@@ -63,7 +67,8 @@ Json source_of(const MaterialTask& task, const RawMaterial& raw) {
 }
 
 nook_bake_stage stage_of(std::string_view stage) {
-  if (stage == "BTF") return NOOK_BAKE_STAGE_BTF;
+  if (stage == "BTF" || stage == "offset" || stage == "network") return NOOK_BAKE_STAGE_BTF;
+  if (stage == "relief" || stage == "views on the relief") return NOOK_BAKE_STAGE_RELIEF;
   return stage == "VOTF" ? NOOK_BAKE_STAGE_VOTF : NOOK_BAKE_STAGE_VIEW_MAP;
 }
 
@@ -73,11 +78,12 @@ BakedFile bake_material(MaterialTask& task, const StageReport& progress) {
   platform::Stopwatch watch;
   const RawMaterial raw = obtain(task, progress);
   const double seconds_source = watch.lap_seconds();
-  const CompressionSettings settings = settings_for(task, raw);
-  nook::material::Material material =
-      compress(raw, settings, [&](const char* stage, std::size_t done, std::size_t total) {
-        return progress(stage_of(stage), done, total);
-      });
+  const StageProgress stages = [&](const char* stage, std::size_t done, std::size_t total) {
+    return progress(stage_of(stage), done, total);
+  };
+  const MovedMaterial moved = move_views(raw, task.settings.relief, stages);
+  const CompressionSettings settings = settings_for(task, moved.or_still(raw));
+  nook::material::Material material = compress_moved(raw, moved, settings, stages);
   const double seconds = watch.seconds();
   const Json recipe = {{"source", source_of(task, raw)}, {"compression", describe(settings)}};
   material.recipe = recipe.dump().c_str();

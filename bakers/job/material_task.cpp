@@ -7,6 +7,7 @@
 #include "bakers/material/builtin_ranks.h"
 #include "bakers/material/directions.h"
 #include "bakers/material/raw_file.h"
+#include "bakers/material/relief.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/check.h"
 
@@ -32,10 +33,39 @@ Method method_of(nook_bake_method method) {
       return Method::cta;
     case NOOK_BAKE_METHOD_N_SVD:
       return Method::n_svd;
+    case NOOK_BAKE_METHOD_NEURAL:
+      return Method::neural;
     default:
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.method is unknown (got %d); use a NOOK_BAKE_METHOD_",
                     int(method));
   }
+}
+
+ReliefSource relief_source_of(nook_bake_relief relief) {
+  switch (relief) {
+    case NOOK_BAKE_RELIEF_NONE:
+      return ReliefSource::none;
+    case NOOK_BAKE_RELIEF_ESTIMATED:
+      return ReliefSource::estimated;
+    case NOOK_BAKE_RELIEF_KNOWN:
+      return ReliefSource::known;
+    default:
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.relief is unknown (got %d); use a NOOK_BAKE_RELIEF_",
+                    int(relief));
+  }
+}
+
+// Of measured data; ray tracing finds those of a structure.
+void read_heights(const nook_bake_material_desc& desc, RawMaterial& raw) {
+  if (desc.relief != NOOK_BAKE_RELIEF_KNOWN && desc.heights)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.heights are given, but desc.relief is %d; set it to NOOK_BAKE_RELIEF_KNOWN",
+                  int(desc.relief));
+  if (desc.relief != NOOK_BAKE_RELIEF_KNOWN) return;
+  need(desc.heights, "desc.heights");
+  for (std::size_t x = 0; x < raw.width; ++x)
+    for (std::size_t y = 0; y < raw.height; ++y) raw.heights.push_back(desc.heights[y * raw.width + x]);
+  check_heights(raw);
 }
 
 std::vector<Vec3> directions_of(const char* name, const float* xyz, std::uint32_t count,
@@ -93,6 +123,7 @@ void read_measured(const nook_bake_material_desc& desc, MaterialTask& task) {
   need(desc.btf, "desc.btf");
   task.coverage = coverage_of(desc, task.raw);
   read_btf(desc.btf, task.coverage, task.raw);
+  read_heights(desc, task.raw);
   for (const float share : task.coverage) task.raw.mask.push_back(share >= 0.5f ? 1.0f : 0.0f);
   task.raw.name = "measured";
   try {
@@ -104,9 +135,9 @@ void read_measured(const nook_bake_material_desc& desc, MaterialTask& task) {
 }
 
 void read_meso(const nook_bake_material_desc& desc, MaterialTask& task) {
-  if (desc.btf || desc.coverage)
+  if (desc.btf || desc.coverage || desc.heights)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.meso and desc.btf or desc.coverage are given; give one or the other");
+                  "desc.meso and desc.btf, desc.coverage or desc.heights are given; give one or the other");
   in_range("desc.samples", desc.samples, 1, 16);
   in_range("desc.bounces", desc.bounces, 0, 16);
   in_range("desc.bounce_rays", desc.bounce_rays, 1, 4096);
@@ -140,8 +171,9 @@ CompressionSettings settings_of(const nook_bake_material_desc& desc) {
   if (desc.bits != 8 && desc.bits != 16)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.bits is out of range (got %u, need 8 or 16)", desc.bits);
   s.bits = desc.bits;
-  if (desc.reserved != 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved must be 0 (got %u)", desc.reserved);
+  s.relief = relief_source_of(desc.relief);
+  s.neural_channels = desc.neural_channels;
+  s.neural_steps = desc.neural_steps;
   s.seed = desc.seed;
   return s;
 }
@@ -167,7 +199,8 @@ CompressionSettings known_settings(const MaterialTask& task) {
     s.votf_rank_x = task.settings.votf_rank_x;
     s.votf_rank_y = task.settings.votf_rank_y;
   }
-  if (s.method == Method::k_cta && s.clusters == 0) s.mixture = std::min(s.mixture, s.cluster_count());
+  if (votf_settings(s).method == Method::k_cta && s.clusters == 0)
+    s.mixture = std::min(s.mixture, s.cluster_count());
   return s;
 }
 

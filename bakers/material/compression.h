@@ -1,4 +1,5 @@
-// From a raw material to a compressed one, by N-SVD, CTA or K-CTA.
+// From a raw material to a compressed one, by N-SVD, CTA or K-CTA, or by a neural network whose VOTF is that
+// of K-CTA.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +14,21 @@
 
 namespace nook::bake::material {
 
-enum class Method : std::uint8_t { n_svd, cta, k_cta };
+enum class Method : std::uint8_t { n_svd, cta, k_cta, neural };
 
 enum class Seeding : std::uint8_t {
   directions,  // clusters of view directions: the parametric space of the paper's 5.1
   values,      // k-means of the views' sub-tensors
 };
+
+// Where the relief comes from on which views are moved; see relief.h.
+enum class ReliefSource : std::uint8_t {
+  none,
+  estimated,  // from what the views agree on
+  known,      // from RawMaterial::heights
+};
+
+inline constexpr std::uint32_t max_neural_steps = 1000000;
 
 // The form of numbers of a bake that sets none.
 inline constexpr std::uint32_t default_bits = 8;
@@ -38,9 +48,12 @@ struct CompressionSettings {
   nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;
   std::optional<nook::material::VisibilityMapping> mapping;  // none: default_mapping() below
   std::uint32_t map_side = 64;  // cells of the resampled view maps of K-CTA; 0: none
+  double step_penalty = 0;      // of the steps in the BTF's view map, see tensor/map_steps.h; 0: none
   bool is_cta_mapped = false;   // CTA has view maps as well, whose cells show one cluster each
   std::uint32_t bits = 16;      // form of the numbers, see Material in sdk's material/material.h
-  bool has_relief = false;      // views are moved to the relief that estimate_relief() finds
+  ReliefSource relief = ReliefSource::none;
+  // Of a neural material: channels of its features, a multiple of 4, and steps of its training.
+  std::uint32_t neural_channels = 16, neural_steps = 8000;
   std::uint64_t seed = 1;
 
   std::uint32_t cluster_count() const {
@@ -52,6 +65,17 @@ struct CompressionSettings {
   }
 };
 
+// Returns whether a material will have a VOTF.
+inline bool has_votf(const RawMaterial& raw, const CompressionSettings& s) {
+  return !raw.mask.empty() && s.visibility != nook::material::VisibilityForm::none;
+}
+
+// Returns the settings of the VOTF, which a neural material has by K-CTA.
+inline CompressionSettings votf_settings(CompressionSettings s) {
+  if (s.method == Method::neural) s.method = Method::k_cta;
+  return s;
+}
+
 // Returns false to stop. stage names what goes on.
 using StageProgress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
 
@@ -60,6 +84,9 @@ using StageProgress = std::function<bool(const char* stage, std::size_t done, st
 // 96 texels, and W = 1 / T. The paper's T = 0.05 and W = 12, sdk's paper_mapping(), jump from 0.6 to 1.
 nook::material::VisibilityMapping default_mapping(nook::material::VisibilityForm form, std::uint32_t width,
                                                   std::uint32_t height);
+
+// Throws Failure INVALID_ARGUMENT for settings that no neural material has, whatever its data are.
+void check_neural(const CompressionSettings& s);
 
 // Ranks, clusters and mixture against the material's sizes; throws Failure(INVALID_ARGUMENT) that names the
 // first that does not fit.
@@ -83,13 +110,28 @@ nook::material::ClusteredTensor compress_votf(const RawMaterial& raw, const std:
 // The VOTF's values in a form: the mask, or its signed distances.
 std::vector<float> votf_values(const RawMaterial& raw, nook::material::VisibilityForm form);
 
+// A relief, and the raw material with its images on it; without one that moves texels raw is empty.
+struct MovedMaterial {
+  nook::material::Relief relief;
+  RawMaterial raw;
+
+  const RawMaterial& or_still(const RawMaterial& still) const { return relief.moves() ? raw : still; }
+};
+MovedMaterial move_views(const RawMaterial& raw, ReliefSource source, const StageProgress& progress = {});
+
 // Both, and the directions, as a whole; without a mask in raw there is no VOTF. Numbers are not yet rounded:
 // quantise() in sdk's material/material_file.h does.
 nook::material::Material compress(const RawMaterial& raw, const CompressionSettings& settings,
                                   const StageProgress& progress = {});
 
+// The same of views that move_views() has moved already; settings.relief is not read.
+nook::material::Material compress_moved(const RawMaterial& raw, const MovedMaterial& moved,
+                                        const CompressionSettings& settings,
+                                        const StageProgress& progress = {});
+
 // Chooses ranks as in section 6 of the paper, for light, view, x, y, and x, y of the VOTF: in each mode alone
-// the smallest multiple of 4 at which the squared error stays below a share of the squared norm.
+// the smallest multiple of 4 at which the squared error stays below a share of the squared norm. Of a
+// material with a relief, raw is what move_views() returns.
 CompressionSettings ranks_by_threshold(const RawMaterial& raw, double share, CompressionSettings settings);
 
 }  // namespace nook::bake::material

@@ -64,6 +64,22 @@ void push(const std::vector<Size>& sizes, const Levels& weights, Levels& levels)
   }
 }
 
+Levels pulled_weights(const std::vector<Size>& sizes, std::span<const float> coverage) {
+  Levels weights(1);
+  weights[0].assign(coverage.begin(), coverage.end());
+  pull(sizes, weights);
+  return weights;
+}
+
+void fill_image(const std::vector<Size>& sizes, const Levels& weights, float* image) {
+  Levels levels(1);
+  levels[0].resize(sizes[0].texels());
+  for (std::size_t i = 0; i < levels[0].size(); ++i) levels[0][i] = weights[0][i] > 0 ? image[i] : 0;
+  pull(sizes, levels);
+  push(sizes, weights, levels);
+  std::ranges::copy(levels[0], image);
+}
+
 }  // namespace
 
 void fill_gaps(RawMaterial& raw, std::span<const float> coverage) {
@@ -75,19 +91,17 @@ void fill_gaps(RawMaterial& raw, std::span<const float> coverage) {
   for (std::size_t view = 0; view < views; ++view) {
     const std::span<const float> own = coverage.subspan(view * texels, texels);
     if (std::ranges::all_of(own, [](float share) { return share == 1; })) continue;
-    Levels weights(1);
-    weights[0].assign(own.begin(), own.end());
-    pull(sizes, weights);
+    const Levels weights = pulled_weights(sizes, own);
     tbb::parallel_for(std::size_t{0}, raw.light_rows(), [&](std::size_t row) {
-      float* const image = &raw.btf[(row * views + view) * texels];
-      Levels levels(1);
-      levels[0].resize(texels);
-      for (std::size_t i = 0; i < texels; ++i) levels[0][i] = own[i] > 0 ? image[i] : 0;
-      pull(sizes, levels);
-      push(sizes, weights, levels);
-      std::ranges::copy(levels[0], image);
+      fill_image(sizes, weights, &raw.btf[(row * views + view) * texels]);
     });
   }
+}
+
+void fill_image_gaps(std::span<float> image, std::span<const float> coverage, std::uint32_t width,
+                     std::uint32_t height) {
+  const std::vector<Size> sizes = sizes_of({width, height});
+  fill_image(sizes, pulled_weights(sizes, coverage), image.data());
 }
 
 }  // namespace nook::bake::material

@@ -17,4 +17,8 @@ namespace nook::bake::material {
 // The same bits on any number of threads.
 void fill_gaps(RawMaterial& raw, std::span<const float> coverage);
 
+// The same for one image, x * height + y.
+void fill_image_gaps(std::span<float> image, std::span<const float> coverage, std::uint32_t width,
+                     std::uint32_t height);
+
 }  // namespace nook::bake::material

@@ -11,23 +11,6 @@ namespace {
 
 constexpr float most_height = 0.5f;  // tiles
 
-// Heights in tiles, their middle at 0.
-std::vector<float> heights_of(const PbrMaps& maps, float tiles) {
-  std::vector<float> z(std::size_t(maps.side) * maps.side, 0.0f);
-  if (maps.height.empty()) return z;
-  const auto [low, high] = std::minmax_element(maps.height.begin(), maps.height.end());
-  const float range = (*high - *low) * tiles, middle = *low + (*high - *low) / 2;
-  // A comparison with a number that is not finite is false.
-  if (!(range <= most_height))
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the surface is %g tiles high, need at most %g; give a smaller height scale or a larger side "
-        "of the tile",
-        double(range), double(most_height));
-  for (std::size_t i = 0; i < z.size(); ++i) z[i] = (maps.height[i] - middle) * tiles;
-  return z;
-}
-
 // Central differences of the heights, across the border of the tile too.
 MapSlope slope_of(const std::vector<float>& z, std::uint32_t side, std::uint32_t x, std::uint32_t y) {
   const auto at = [&](std::uint32_t column, std::uint32_t row) {
@@ -56,14 +39,31 @@ void add_vertex(const PbrMaps& maps, const std::vector<float>& z, std::uint32_t 
 
 }  // namespace
 
-MesoSurface surface_of_maps(const PbrMaps& maps, float height_scale_m, float side_m) {
+std::vector<float> heights_of_map(const PbrMaps& maps, float height_scale_m, float side_m) {
   if (!(height_scale_m >= 0 && std::isfinite(height_scale_m)))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the height scale is %g metres, need a number from 0 on",
                   double(height_scale_m));
   if (!(side_m > 0 && std::isfinite(side_m)))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the side of the tile is %g metres, need a number above 0",
                   double(side_m));
-  const std::vector<float> z = heights_of(maps, height_scale_m / side_m);
+  const float tiles = height_scale_m / side_m;
+  std::vector<float> z(std::size_t(maps.side) * maps.side, 0.0f);
+  if (maps.height.empty()) return z;
+  const auto [low, high] = std::minmax_element(maps.height.begin(), maps.height.end());
+  const float range = (*high - *low) * tiles, middle = *low + (*high - *low) / 2;
+  // A comparison with a number that is not finite is false.
+  if (!(range <= most_height))
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the surface is %g tiles high, need at most %g; give a smaller height scale or a larger side "
+        "of the tile",
+        double(range), double(most_height));
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] = (maps.height[i] - middle) * tiles;
+  return z;
+}
+
+MesoSurface surface_of_maps(const PbrMaps& maps, float height_scale_m, float side_m) {
+  const std::vector<float> z = heights_of_map(maps, height_scale_m, side_m);
   const std::uint32_t side = maps.side, across = side + 1;
   MesoSurface surface;
   // The last column and row are the first ones of the next tile.

@@ -24,6 +24,10 @@ struct PbrMaps {
   std::vector<float> metalness;      // 0 to 1; empty: 0
 };
 
+// Heights of a map in tiles, their middle at 0: values times height_scale_m over side_m. Empty: flat. Throws
+// what surface_of_maps() throws.
+std::vector<float> heights_of_map(const PbrMaps& maps, float height_scale_m, float side_m);
+
 // Makes the displaced surface: heights times height_scale_m over side_m are tiles, and the middle of the
 // heights is z = 0. Normals for shading come from the slopes. Slopes that vary around a point widen its
 // gloss: twice their variance is added to the squared width (M. Olano, D. Baker, LEAN Mapping, I3D 2010). A

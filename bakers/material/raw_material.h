@@ -21,6 +21,8 @@ struct RawMaterial {
   // VOTF: view x width x height, 1 where the view meets the meso-structure, 0 where it passes through; empty:
   // all 1.
   std::vector<float> mask;
+  // Heights over the plane z = 0 in tiles, x * height + y; empty: not known.
+  std::vector<float> heights;
 
   std::size_t texels() const { return std::size_t(width) * height; }
   std::size_t light_rows() const { return 3 * lights.size(); }

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <initializer_list>
 #include <numeric>
 
 #include "bakers/material/view_heights.h"
 #include "bakers/material/view_spline.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/material/check.h"
 #include "sdk/src/material/relief.h"
 
 namespace nook::bake::material {
@@ -174,6 +175,21 @@ double prediction_error(const RawMaterial& raw, const Relief& relief, const std:
 
 }  // namespace
 
+void check_heights(const RawMaterial& raw) {
+  using nook::material::max_relief_height;
+  if (raw.heights.empty())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the heights of the material are not known; give an image of them, or have them estimated");
+  if (raw.heights.size() != raw.texels())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the relief has %zu heights, need %zu, one for each texel",
+                  raw.heights.size(), raw.texels());
+  for (const float height : raw.heights)
+    if (!(std::abs(height) <= max_relief_height))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "a height of the relief is out of range (got %g, need at most %g tiles)", double(height),
+                    double(max_relief_height));
+}
+
 Relief relief_of_heights(const RawMaterial& raw, const std::vector<float>& heights, std::uint32_t steps) {
   Relief relief;
   for (const Vec3 view : raw.views)
@@ -195,17 +211,19 @@ Relief relief_of_heights(const RawMaterial& raw, const std::vector<float>& heigh
   return relief;
 }
 
-Relief estimate_relief(const RawMaterial& raw, const ReliefProgress& progress) {
-  constexpr float smoothings[] = {1, 2, 4, 8};  // texels
-  constexpr std::size_t fewest_views = 8;
-  if (raw.views.size() < fewest_views) return Relief();
-  const std::vector<float> heights = heights_of_views(raw), shown = few_rows(raw);
+namespace {
+
+// Of a plane at the heights' mean, the heights smoothed over some numbers of texels, 0 for as they are, and
+// no relief.
+Relief best_relief(const RawMaterial& raw, const std::vector<float>& heights,
+                   std::initializer_list<float> smoothings, const ReliefProgress& progress) {
+  const std::vector<float> shown = few_rows(raw);
   Relief best;
   double least = prediction_error(raw, best, shown, {});
   std::size_t tried = 0;
   const auto try_relief = [&](Relief relief) {
     const double error = prediction_error(raw, relief, shown, [&](std::size_t done, std::size_t total) {
-      return !progress || progress(tried * total + done, (1 + std::size(smoothings)) * total);
+      return !progress || progress(tried * total + done, (1 + smoothings.size()) * total);
     });
     ++tried;
     if (!(error < least)) return;
@@ -213,8 +231,24 @@ Relief estimate_relief(const RawMaterial& raw, const ReliefProgress& progress) {
     best = std::move(relief);
   };
   try_relief(relief_of_heights(raw, heights, 0));
-  for (const float texels : smoothings) try_relief(relief_of_heights(raw, smooth(raw, heights, texels)));
+  for (const float texels : smoothings)
+    try_relief(relief_of_heights(raw, texels > 0 ? smooth(raw, heights, texels) : heights));
   return best;
+}
+
+constexpr std::size_t fewest_views = 8;
+
+}  // namespace
+
+Relief estimate_relief(const RawMaterial& raw, const ReliefProgress& progress) {
+  if (raw.views.size() < fewest_views) return Relief();
+  return best_relief(raw, heights_of_views(raw), {1, 2, 4, 8}, progress);
+}
+
+Relief known_relief(const RawMaterial& raw, const ReliefProgress& progress) {
+  check_heights(raw);
+  if (raw.views.size() < fewest_views) return Relief();
+  return best_relief(raw, raw.heights, {0, 1, 2, 4, 8}, progress);
 }
 
 std::vector<Taps> relief_taps(const Relief& relief, std::uint32_t width, std::uint32_t height, Vec3 view) {

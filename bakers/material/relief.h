@@ -19,6 +19,10 @@ inline constexpr std::uint32_t default_relief_steps = 8;
 nook::material::Relief relief_of_heights(const RawMaterial& raw, const std::vector<float>& heights,
                                          std::uint32_t steps = default_relief_steps);
 
+// Throws Failure(INVALID_ARGUMENT) where the raw material's heights are not known, are not as many as texels,
+// or go beyond those of a file.
+void check_heights(const RawMaterial& raw);
+
 // Called with the views that are done; returns false to stop with Failure(NOOK_ERROR_CANCELLED).
 using ReliefProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
@@ -26,6 +30,9 @@ using ReliefProgress = std::function<bool(std::size_t done, std::size_t total)>;
 // at all: that on which views of the raw material are predicted best from the others. Without at least 8
 // views there is no relief.
 nook::material::Relief estimate_relief(const RawMaterial& raw, const ReliefProgress& progress = {});
+
+// The same of the raw material's own heights, as they are too. Throws what check_heights() throws.
+nook::material::Relief known_relief(const RawMaterial& raw, const ReliefProgress& progress = {});
 
 // For each texel of a view, the texels of the relief that it shows.
 std::vector<Taps> relief_taps(const nook::material::Relief& relief, std::uint32_t width, std::uint32_t height,

@@ -104,6 +104,28 @@ class Column {
   std::uint32_t samples_;
 };
 
+// Where vertical rays through the samples of a texel meet the surface first.
+std::vector<float> heights_from_above(const TiledScene& scene, const TraceSettings& s) {
+  const FlushDenormals flush;
+  const float start = scene.top() + 1e-3f;
+  std::vector<float> heights(std::size_t(s.width) * s.height), coverage(heights.size());
+  const auto per_texel = float(s.samples * s.samples);
+  const auto at = [&](std::uint32_t texel, std::uint32_t sample, std::uint32_t count) {
+    return (float(texel) + (float(sample) + 0.5f) / float(s.samples)) / float(count);
+  };
+  for (std::uint32_t x = 0; x < s.width; ++x)
+    for (std::uint32_t y = 0; y < s.height; ++y)
+      for (std::uint32_t i = 0; i < s.samples * s.samples; ++i) {
+        const Vec3 origin{at(x, i % s.samples, s.width), at(y, i / s.samples, s.height), start};
+        const SurfaceHit hit = scene.nearest(origin, {0, 0, -1});
+        if (hit.triangle == SurfaceHit::nothing) continue;
+        heights[std::size_t(x) * s.height + y] += hit.position.z / per_texel;
+        coverage[std::size_t(x) * s.height + y] += 1 / per_texel;
+      }
+  fill_image_gaps(heights, coverage, s.width, s.height);
+  return heights;
+}
+
 }  // namespace
 
 void round_to_halves(RawMaterial& raw) {
@@ -138,6 +160,7 @@ RawMaterial trace_material(const MesoSurface& surface, std::vector<Vec3> lights,
     });
   }
   fill_gaps(raw, coverage);
+  raw.heights = heights_from_above(scene, settings);
   if (progress) progress(raw.views.size(), raw.views.size());
   round_to_halves(raw);
   return raw;

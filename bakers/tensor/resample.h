@@ -17,4 +17,9 @@ Matrix atom_projections(const ClusteredFit& fit, const TensorView& a);
 Mixture resample(const ClusteredFit& fit, const Matrix& projections, const Matrix& weights,
                  Pursuit pursuit = Pursuit::greedy);
 
+// The same for the cells of a map, weights row by row, side x side of them, with lower steps between cells
+// that mix different clusters; see map_steps.h.
+Mixture resample_map(const ClusteredFit& fit, const Matrix& projections, const Matrix& weights,
+                     std::size_t side, double step_penalty, Pursuit pursuit);
+
 }  // namespace nook::bake::tensor

@@ -37,11 +37,12 @@ struct Options {
   CompressionOptions compression;
   std::string meso, visibility_mapping;
   std::filesystem::path pbr, btf, raw, output, keep_raw, images;
+  std::filesystem::path relief;              // an image of heights; empty: none
   FloatColours colours = FloatColours::rgb;  // of the images of --btf
   std::uint32_t directions = 100, lights = 0, texels = 0;
   float max_tilt_deg = bake::material::default_max_tilt_deg;
   TraceSettings trace;
-  float tile_side_m = 1;  // of a mesh that --meso names, and of the maps of --pbr
+  float tile_side_m = 1;  // of a mesh that --meso names, of the maps of --pbr and of the image of --relief
   float height_scale_m = 0.05f;
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   std::optional<std::uint32_t> count;
@@ -152,22 +153,47 @@ RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
   return raw;
 }
 
+// Reads the image of --relief onto the material's texels.
+void read_relief(const Options& o, RawMaterial& raw) {
+  if (raw.width != raw.height)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "--relief takes an image for a material of as many columns as rows, this one has %u x %u",
+                  raw.width, raw.height);
+  PbrMaps maps;
+  maps.side = raw.width;
+  const std::vector<float> z = naming_file(o.relief, [&] {
+    maps.height = read_height_map(o.relief, maps.side);
+    return heights_of_map(maps, o.height_scale_m, o.tile_side_m);
+  });
+  raw.heights.resize(z.size());
+  for (std::size_t x = 0; x < raw.width; ++x)
+    for (std::size_t y = 0; y < raw.height; ++y) raw.heights[x * raw.height + y] = z[y * raw.width + x];
+}
+
 Json bake(const Options& o, platform::OutputFile& output, std::optional<platform::OutputFile>& raw_file) {
   platform::ProgressBar bar(o.common.quiet);
   platform::Stopwatch watch;
-  const RawMaterial raw = obtain(o, bar);
+  RawMaterial raw = obtain(o, bar);
   const double seconds_obtain = watch.seconds();
   if (raw_file) raw_file->commit(write_raw_material(raw));
-  CompressionSettings settings = compression_settings(o.compression, raw);
-  settings.seed = o.common.seed;
+  if (!o.relief.empty()) read_relief(o, raw);
+  check_compression(o.compression, raw);
 
   watch = {};
-  nook::material::Material material = compress(raw, settings, stage_progress(bar, "compressing the "));
+  const StageProgress progress = stage_progress(bar, "compressing the ");
+  const MovedMaterial moved = move_views(raw, o.compression.settings.relief, progress);
+  CompressionSettings settings = compression_settings(o.compression, moved.or_still(raw));
+  settings.seed = o.common.seed;
+  nook::material::Material material = compress_moved(raw, moved, settings, progress);
   const double seconds_compress = watch.seconds();
   if (!o.common.quiet && settings.method == Method::k_cta && settings.map_side == 0)
     std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
                  std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);
-  const Json recipe = {{"source", recipe_of_trace(o)}, {"compression", describe(settings)}};
+  Json recipe = {{"source", recipe_of_trace(o)}, {"compression", describe(settings)}};
+  if (!o.relief.empty())
+    recipe["relief"] = {{"heights", o.relief.filename().string()},
+                        {"height_scale", o.height_scale_m},
+                        {"tile_side", o.tile_side_m}};
   material.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
   set_core_rounding(raw, material);
   const std::vector<std::byte> file = nook::material::write_material(material);
@@ -206,11 +232,22 @@ RawMaterial expected_sizes(const Options& o) {
 void run(Options& o) {
   if (int(!o.meso.empty()) + int(!o.pbr.empty()) + int(!o.btf.empty()) + int(!o.raw.empty()) != 1)
     throw ToolError(exit_bad_arguments, "bake material: one of --meso, --pbr, --btf and --raw is needed");
-  require_distinct_files(
-      {{{"--pbr", o.pbr}, {"--btf", o.btf}, {"--raw", o.raw}, {"--meso", is_mesh(o.meso) ? o.meso : ""}},
-       {{"-o", o.output}, {"--keep-raw", o.keep_raw}, {"--report", o.common.report}},
-       o.images});
+  if (o.compression.settings.relief == ReliefSource::known && o.relief.empty() && o.meso.empty() &&
+      o.pbr.empty())
+    throw ToolError(exit_bad_arguments,
+                    "bake material: --relief known needs --meso or --pbr, whose heights are known; give an "
+                    "image of the heights of --btf or --raw");
+  require_distinct_files({{{"--pbr", o.pbr},
+                           {"--btf", o.btf},
+                           {"--raw", o.raw},
+                           {"--meso", is_mesh(o.meso) ? o.meso : ""},
+                           {"--relief", o.relief}},
+                          {{"-o", o.output}, {"--keep-raw", o.keep_raw}, {"--report", o.common.report}},
+                          o.images});
   if (is_mesh(o.meso) && !std::filesystem::exists(o.meso)) meso_parameters(o.meso);
+  if (!o.relief.empty() && !std::filesystem::exists(o.relief))
+    throw ToolError(exit_bad_input, "bake material: --relief: there is no file " + o.relief.string() +
+                                        "; need an image of heights, none, estimated or known");
   if (o.texels) o.trace.width = o.trace.height = o.texels;
   o.trace.seed = o.common.seed;
   CompressionSettings& settings = o.compression.settings;
@@ -254,12 +291,14 @@ void add_bake_material(CLI::App& bake) {
       "roughness or gloss, metalness, height, by their names");
   command
       ->add_option("--height-scale", o.height_scale_m,
-                   "of --pbr: metres from 0 to 1 of the height map; 1 where it holds metres")
+                   "of --pbr and of an image of --relief: metres from 0 to 1 of the height map; 1 where it "
+                   "holds metres")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command
       ->add_option("--tile-size", o.tile_side_m,
-                   "metres after which the mesh of --meso repeats along x and z, and the maps of --pbr")
+                   "metres after which the mesh of --meso repeats along x and z, and the maps of --pbr and "
+                   "the image of --relief")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_linked_files_option(*command, o.linked);
@@ -311,11 +350,26 @@ void add_bake_material(CLI::App& bake) {
       ->add_option_function<std::string>(
           "--method",
           [&s](const std::string& v) {
-            s.method = v == "n-svd" ? Method::n_svd : v == "cta" ? Method::cta : Method::k_cta;
+            s.method = v == "n-svd"    ? Method::n_svd
+                       : v == "cta"    ? Method::cta
+                       : v == "neural" ? Method::neural
+                                       : Method::k_cta;
           },
-          "k-cta (default), cta or n-svd")
-      ->check(CLI::IsMember({"k-cta", "cta", "n-svd"}))
+          "k-cta (default), cta, n-svd, or neural: a small network over features of the texels, for flat and "
+          "glossy "
+          "materials, which trains for minutes; its visibility is that of k-cta")
+      ->check(CLI::IsMember({"k-cta", "cta", "n-svd", "neural"}))
       ->type_name("NAME");
+  command
+      ->add_option(
+          "--channels", s.neural_channels,
+          "of --method neural: channels of the features, a multiple of 4 up to 64; half a byte of the file "
+          "each for a texel")
+      ->check(CLI::Range(4, 64))
+      ->capture_default_str();
+  command->add_option("--steps", s.neural_steps, "of --method neural: steps of the training")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   command
       ->add_option_function<std::string>(
           "--votf",
@@ -340,12 +394,25 @@ void add_bake_material(CLI::App& bake) {
       ->check(CLI::Range(0, 512))
       ->capture_default_str();
   command
+      ->add_option(
+          "--step-penalty", s.step_penalty,
+          "of the steps between cells of the BTF's view map, for a calmer picture as the view moves; 10 "
+          "halves the largest for some error")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  command
       ->add_option_function<std::string>(
-          "--relief", [&s](const std::string& v) { s.has_relief = v == "estimated"; },
+          "--relief",
+          [&o, &s](const std::string& v) {
+            s.relief = v == "none"        ? ReliefSource::none
+                       : v == "estimated" ? ReliefSource::estimated
+                                          : ReliefSource::known;
+            o.relief = s.relief == ReliefSource::known && v != "known" ? v : "";
+          },
           "estimated: views are aligned by heights that they agree on, which pixels march, so that what lies "
-          "between them is sharper; no relief where that predicts no view better. none (default)")
-      ->check(CLI::IsMember({"none", "estimated"}))
-      ->type_name("NAME");
+          "between them is sharper; no relief where that predicts no view better. known: by the heights of "
+          "--meso or --pbr; or those of an image, as --pbr reads them. none (default)")
+      ->type_name("none|estimated|known|IMAGE");
   add_compression_options(*command, o.compression);
   add_common_options(*command, o.common);
   command->callback([options] { run(*options); });

@@ -13,6 +13,7 @@
 #include "bakers/tool/material/options.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
+#include "sdk/src/material/check.h"
 
 namespace nook::tool {
 namespace {
@@ -28,7 +29,7 @@ struct Options {
   std::filesystem::path raw, material, unseen, images;
   std::vector<std::uint32_t> sweep;
   std::vector<std::string> methods;  // baselines; empty: all, where baselines are requested
-  bool peers = false, seeding = false, jumps = false;
+  bool peers = false, seeding = false, jumps = false, mipmaps = false;
   std::uint32_t votf_refits = 2;
 };
 
@@ -95,8 +96,8 @@ Json evaluate(const Options& o) {
     unseen_material = read_raw(o.unseen);
     unseen = &unseen_material;
   }
-  const MethodRow own =
-      naming_file(o.material, [&] { return measure::material_file_row(raw, file, unseen, o.jumps); });
+  const MethodRow own = naming_file(
+      o.material, [&] { return measure::material_file_row(raw, file, unseen, o.jumps, o.mipmaps); });
   Json rows = Json::array({bake::material::report_row(raw.name, own)});
   Pictures pictures(o, raw);
   pictures.add("file", material, own);
@@ -113,6 +114,8 @@ Json evaluate(const Options& o) {
   for (const Json& row : measure::material_baseline_rows(raw, file, o.common.seed, request))
     rows.push_back(row);
   pictures.write_sheets();
+  if (o.seeding || !o.sweep.empty())
+    nook::material::refuse_neural(material.neural.is_used(), "a fit at equal ranks");
   CompressionSettings settings = measure::settings_of(material, o.common.seed);
   settings.votf_refits = o.votf_refits;
   Json report;
@@ -156,6 +159,9 @@ void add_evaluate_material(CLI::App& evaluate_command) {
       "--jumps", o.jumps,
       "measure jumps as the view moves by 0.1 degrees, with and without view maps, which CTA has "
       "then as well; with --images a picture of the largest of each method");
+  command->add_flag(
+      "--mipmaps", o.mipmaps,
+      "measure pixels that cover 2 x 2, 4 x 4 and more texels, at their mipmap level and at the finest");
   command->add_flag("--compare-seeding", o.seeding,
                     "CTA and K-CTA from clusters of directions and of values");
   command->add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")

@@ -100,7 +100,7 @@ void set_rest(const CompressionOptions& options, CompressionSettings& s) {
     s.votf_rank_x = r[0];
     s.votf_rank_y = r[1];
   }
-  if (s.method == Method::k_cta && options.settings.clusters == 0)
+  if (votf_settings(s).method == Method::k_cta && options.settings.clusters == 0)
     s.mixture = std::min(s.mixture, s.cluster_count());
 }
 
@@ -108,7 +108,8 @@ void set_rest(const CompressionOptions& options, CompressionSettings& s) {
 
 CompressionSettings compression_settings(const CompressionOptions& options, const RawMaterial& raw) {
   CompressionSettings s = options.settings;
-  if (!set_known_ranks(options, raw, s)) s = ranks_by_threshold(raw, options.threshold, s);
+  const bool has_ranks = s.method != Method::neural || has_votf(raw, s);
+  if (has_ranks && !set_known_ranks(options, raw, s)) s = ranks_by_threshold(raw, options.threshold, s);
   set_rest(options, s);
   check_settings(s, raw);
   return s;
@@ -116,6 +117,7 @@ CompressionSettings compression_settings(const CompressionOptions& options, cons
 
 void check_compression(const CompressionOptions& options, const RawMaterial& sizes) {
   CompressionSettings s = options.settings;
+  if (s.method == Method::neural) check_neural(s);
   const bool known = set_known_ranks(options, sizes, s);
   set_rest(options, s);
   if (known && !sizes.views.empty()) check_settings(s, sizes);

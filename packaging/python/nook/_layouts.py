@@ -14,6 +14,7 @@ NOOK_BAKE_KERNEL_PAPER = 1
 NOOK_BAKE_KERNEL_RATIONAL = 2
 NOOK_BAKE_METHOD_CTA = 1
 NOOK_BAKE_METHOD_K_CTA = 0
+NOOK_BAKE_METHOD_NEURAL = 3
 NOOK_BAKE_METHOD_N_SVD = 2
 NOOK_BAKE_POSES_ALL = 3
 NOOK_BAKE_POSES_AUTO = 0
@@ -23,6 +24,9 @@ NOOK_BAKE_POSES_SINGLE_JOINT = 1
 NOOK_BAKE_PRESET_DRAFT = 0
 NOOK_BAKE_PRESET_PRODUCTION = 2
 NOOK_BAKE_PRESET_STANDARD = 1
+NOOK_BAKE_RELIEF_ESTIMATED = 1
+NOOK_BAKE_RELIEF_KNOWN = 2
+NOOK_BAKE_RELIEF_NONE = 0
 NOOK_BAKE_SPLIT_ALL = 0
 NOOK_BAKE_SPLIT_FAMILIES = 2
 NOOK_BAKE_SPLIT_HALF = 1
@@ -32,6 +36,7 @@ NOOK_BAKE_STAGE_DONE = 5
 NOOK_BAKE_STAGE_FIT = 3
 NOOK_BAKE_STAGE_INITIALISE = 2
 NOOK_BAKE_STAGE_RAYTRACE = 1
+NOOK_BAKE_STAGE_RELIEF = 9
 NOOK_BAKE_STAGE_VIEW_MAP = 8
 NOOK_BAKE_STAGE_VOTF = 7
 NOOK_BAKE_STAGE_WAITING = 0
@@ -477,6 +482,8 @@ class nook_material_info(ctypes.Structure):
         ("compressed_bytes", ctypes.c_uint64),
         ("view_map_bytes", ctypes.c_uint64),
         ("table_bytes", ctypes.c_uint64),
+        ("neural_channels", ctypes.c_uint32),
+        ("neural_units", ctypes.c_uint32),
     ]
 
 
@@ -701,6 +708,7 @@ class nook_bake_job_desc(ctypes.Structure):
 
 
 nook_bake_method = ctypes.c_int32
+nook_bake_relief = ctypes.c_int32
 
 
 class nook_bake_material_desc(ctypes.Structure):
@@ -741,7 +749,10 @@ class nook_bake_material_desc(ctypes.Structure):
         ("progress", nook_bake_progress_fn),
         ("progress_user", ctypes.c_void_p),
         ("bits", ctypes.c_uint32),
-        ("reserved", ctypes.c_uint32),
+        ("relief", nook_bake_relief),
+        ("heights", ctypes.POINTER(ctypes.c_float)),
+        ("neural_channels", ctypes.c_uint32),
+        ("neural_steps", ctypes.c_uint32),
     ]
 
 

@@ -126,11 +126,13 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
 
 
 def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any = None, lights: Any = None, views: Any = None,
-                  method: Optional[str] = None, progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
+                  method: Optional[str] = None, relief: Optional[str] = None, heights: Any = None,
+                  progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
     """Starts to bake a material and returns at once.
 
     meso: fiber, roughhole or weave; or btf: lights x views x height x width x 3, with lights and views as directions in tangent
-    space, and coverage: views x height x width. method: k_cta, cta or n_svd. settings are the numbers of nook_bake_material_desc.
+    space, and coverage: views x height x width. method: k_cta, cta, n_svd or neural. relief: none, estimated, or known: the heights of meso,
+    or with btf heights: height x width, in tiles. settings are the numbers of nook_bake_material_desc.
     """
     desc = descriptor(c.nook_bake_material_desc, "nook_bake_material_desc_init")
     kept: List[Any] = []
@@ -155,7 +157,12 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
         give("coverage", coverage, (desc.view_count, desc.height, desc.width))
     if method is not None:
         desc.method = choice("NOOK_BAKE_METHOD_", method, "method")
-    own = {"struct_size", "header_version", "next", "meso", "btf", "coverage", "lights", "views", "method", "progress", "progress_user"}
+    if relief is not None:
+        desc.relief = choice("NOOK_BAKE_RELIEF_", relief, "relief")
+    if heights is not None:
+        give("heights", heights, (desc.height, desc.width))
+    own = {"struct_size", "header_version", "next", "meso", "btf", "coverage", "lights", "views", "method", "relief", "heights",
+           "progress", "progress_user"}
     _set(desc, settings, [name for name, *_ in c.nook_bake_material_desc._fields_ if name not in own])
     return Job(lambda out: call("nook_bake_material_start", ctypes.byref(desc), out), desc, progress)
 

@@ -16,9 +16,24 @@ enum {
   /* Clustered tensor approximation: each view has one cluster. */
   NOOK_BAKE_METHOD_CTA = 1,
   /* N-mode singular value decomposition: one cluster. */
-  NOOK_BAKE_METHOD_N_SVD = 2
+  NOOK_BAKE_METHOD_N_SVD = 2,
+  /* A small network over features of the texels, which trains for minutes; its VOTF is that of K-CTA. It is
+   * the better one on flat and glossy materials, see docs/materials.md. Ranks are those of the VOTF. */
+  NOOK_BAKE_METHOD_NEURAL = 3
 };
 typedef int32_t nook_bake_method;
+
+/* The relief on which views are aligned before the compression, so that the views between them are sharper;
+ * docs/materials.md has the errors with it and without. Where it predicts no view better, the material has
+ * none. */
+enum {
+  NOOK_BAKE_RELIEF_NONE = 0,
+  /* Heights on which the views agree. */
+  NOOK_BAKE_RELIEF_ESTIMATED = 1,
+  /* The heights of meso, or those of nook_bake_material_desc.heights. */
+  NOOK_BAKE_RELIEF_KNOWN = 2
+};
+typedef int32_t nook_bake_relief;
 
 /* A material and the settings of its compression. Directions are unit vectors in tangent space that point
  * away from the surface, z >= 0, and no two directions of a set may be equal. docs/materials.md describes
@@ -102,8 +117,15 @@ typedef struct nook_bake_material_desc {
   /* Of a number: 8 (default) for integers in the file and in textures, or 16 for half floats, which take
    * twice the room for about 0.1 dB. */
   uint32_t bits;
-  /* Must be 0. */
-  uint32_t reserved;
+  /* Default NONE. */
+  nook_bake_relief relief;
+  /* height x width, row 0 at v = 0: heights over the plane of the texels in tiles, -1 to 1, for RELIEF_KNOWN
+   * of measured data. nook_bake_material_start copies the array. NULL (default): not known. */
+  const float* heights;
+  /* For NEURAL: channels of the features, a multiple of 4 up to 64; default 16. */
+  uint32_t neural_channels;
+  /* For NEURAL: steps of the training, 1 to 1000000; default 8000. */
+  uint32_t neural_steps;
 } nook_bake_material_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does.

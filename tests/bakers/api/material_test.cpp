@@ -1,6 +1,7 @@
 // Material jobs, judged by what the runtime decodes from their files.
 #include <nook/nook_material.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -170,6 +171,39 @@ TEST_CASE("measured data come back at their texels, colours and directions, and 
   CHECK(json["recipe"]["source"]["measured"] == true);
 }
 
+TEST_CASE("a neural material is a job as the others are") {
+  Measured measured;
+  measured.desc.method = NOOK_BAKE_METHOD_NEURAL;
+  CHECK((measured.desc.neural_channels == 16 && measured.desc.neural_steps == 8000));
+  measured.desc.neural_channels = 8;
+  measured.desc.neural_steps = 400;
+  measured.desc.mixture = 1;  // of the one cluster of the VOTF
+  nook_bake_job handle = nullptr;
+  const nook_result result = measured.start(&handle);
+  INFO(nook_bake_last_message());
+  REQUIRE(result == NOOK_OK);
+  const Job job(handle);
+  const std::vector<char> file = file_of(job);
+  const char* report = nullptr;
+  REQUIRE(nook_bake_job_report(job.get(), &report) == NOOK_OK);
+  const auto json = nlohmann::json::parse(report);
+  CHECK(json["method"] == "neural");
+  CHECK(json["recipe"]["compression"]["channels"] == 8);
+  CHECK(json["votf_error_texels_distance"] == 0);
+  // A twentieth of the usual steps: the mean of all texels has about 8 dB.
+  CHECK(json["se_db"].get<double>() > 15);
+  nook_material_sample sample{{0.4f, 0.6f}, 0, {0, 0, 1}, {0, 0, 1}};
+  CHECK(decode(file, {sample})[0].radiance[2] > 0.1f);
+
+  measured.desc.neural_channels = 10;
+  CHECK(measured.start(&handle) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("channels of a neural material is 10"));
+  measured.desc.neural_channels = 8;
+  measured.desc.neural_steps = 0;
+  CHECK(measured.start(&handle) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("steps of a training is 0"));
+}
+
 TEST_CASE("a built-in structure: the same bytes on any number of threads, another seed another file") {
   nook_bake_material_desc desc = small_weave();
   desc.threads = 1;
@@ -209,6 +243,109 @@ TEST_CASE("a material job goes through its stages and stops where it is cancelle
     std::size_t size = 0;
     CHECK(nook_bake_job_model(job.get(), &bytes, &size) == NOOK_ERROR_CANCELLED);
   }
+}
+
+namespace {
+
+// A striped plane 0.3 tiles over z = 0, which a view moves by the tangent of its tilt.
+struct Stripes {
+  static constexpr std::uint32_t count = 9, across = 32, along = 4;
+  static constexpr float lift = 0.3f;
+  std::vector<float> directions = fan(count), btf;
+  std::vector<float> heights = std::vector<float>(across * along, lift);
+  nook_bake_material_desc desc;
+
+  static float paint(float x) { return 0.5f + 0.3f * std::cos(2 * 6.2831853f * x); }
+  static float seen(float u, const float* view) { return paint(u + lift * view[0] / view[2]); }
+
+  Stripes() {
+    for (std::uint32_t l = 0; l < count; ++l)
+      for (std::uint32_t v = 0; v < count; ++v)
+        for (std::uint32_t texel = 0; texel < across * along; ++texel)
+          btf.insert(btf.end(), 3, seen((float(texel % across) + 0.5f) / float(across), &directions[3 * v]));
+    nook_bake_material_desc_init(&desc, sizeof desc, NOOK_VERSION);
+    CHECK(desc.relief == NOOK_BAKE_RELIEF_NONE);
+    desc.light_count = desc.view_count = count;
+    desc.lights = desc.views = directions.data();
+    desc.btf = btf.data();
+    desc.width = desc.rank_x = across;
+    desc.height = desc.rank_y = along;
+    desc.rank_light = 4;
+    desc.rank_view = 8;
+    desc.method = NOOK_BAKE_METHOD_N_SVD;
+  }
+
+  // The largest error in a view between two of the samples.
+  static float error_between(const std::vector<char>& file) {
+    const float half = std::sqrt(0.5f), phi = 6.2831853f / 16;
+    std::vector<nook_material_sample> samples;
+    for (std::uint32_t x = 0; x < across; ++x)
+      samples.push_back({{(float(x) + 0.5f) / float(across), 0.125f},
+                         0,
+                         {half * std::cos(phi), half * std::sin(phi), half},
+                         {0, 0, 1}});
+    const std::vector<nook_material_value> values = decode(file, samples);
+    float worst = 0;
+    for (std::uint32_t x = 0; x < across; ++x)
+      worst = std::max(worst, std::abs(values[x].radiance[1] - seen(samples[x].uv[0], samples[x].view)));
+    return worst;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("stripes on a plane of known height stay sharp between the sampled views") {
+  Stripes stripes;
+  // The views beside it show the stripes 0.02 tiles before and behind, of waves of 0.5.
+  CHECK(Stripes::error_between(file_of(start(stripes.desc))) > 0.06f);
+  stripes.desc.relief = NOOK_BAKE_RELIEF_KNOWN;
+  stripes.desc.heights = stripes.heights.data();
+  const Job job = start(stripes.desc);
+  // Copied, too.
+  stripes.heights.assign(stripes.heights.size(), 0.0f);
+  // Two linear filters of waves of 16 texels leave up to 2 (2 pi / 16)^2 / 8 of 0.3.
+  CHECK(Stripes::error_between(file_of(job)) < 0.013f);
+  const char* report = nullptr;
+  REQUIRE(nook_bake_job_report(job.get(), &report) == NOOK_OK);
+  CHECK(nlohmann::json::parse(report)["recipe"]["compression"]["relief"] == "known");
+
+  stripes.desc.heights = nullptr;
+  CHECK(refused(stripes.desc, "desc.heights is NULL"));
+  stripes.heights[5] = 1.5f;
+  stripes.desc.heights = stripes.heights.data();
+  CHECK(refused(stripes.desc, "got 1.5"));
+  stripes.desc.relief = NOOK_BAKE_RELIEF_ESTIMATED;
+  CHECK(refused(stripes.desc, "NOOK_BAKE_RELIEF_KNOWN"));
+  stripes.desc.relief = 3;
+  CHECK(refused(stripes.desc, "desc.relief is unknown (got 3)"));
+}
+
+TEST_CASE("a structure's job finds a relief, of its own heights too, and stops while it looks") {
+  struct Watch {
+    std::vector<nook_bake_stage> stages;
+    bool stops = false;
+    static std::int32_t call(void* user, const nook_bake_progress* progress) {
+      Watch& w = *static_cast<Watch*>(user);
+      if (w.stages.empty() || w.stages.back() != progress->stage) w.stages.push_back(progress->stage);
+      return !(w.stops && progress->stage == NOOK_BAKE_STAGE_RELIEF);
+    }
+  };
+  nook_bake_material_desc desc = small_weave();
+  desc.progress = Watch::call;
+  std::vector<std::vector<char>> files;
+  for (const nook_bake_relief relief : {NOOK_BAKE_RELIEF_ESTIMATED, NOOK_BAKE_RELIEF_KNOWN}) {
+    Watch watch;
+    desc.progress_user = &watch;
+    desc.relief = relief;
+    files.push_back(file_of(start(desc)));
+    REQUIRE(watch.stages.size() > 2);
+    CHECK(watch.stages[1] == NOOK_BAKE_STAGE_RELIEF);
+    CHECK(watch.stages[2] == NOOK_BAKE_STAGE_BTF);
+    watch.stops = true;
+    const Job job = start(desc);
+    CHECK(nook_bake_job_wait(job.get()) == NOOK_ERROR_CANCELLED);
+  }
+  CHECK(files[0] != files[1]);
 }
 
 TEST_CASE("what a material cannot be baked from is named") {

@@ -1,6 +1,7 @@
 // Planted sets of maps of physically based materials.
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -139,6 +140,25 @@ TEST_CASE("a planted set of other sizes and depths arrives as it was planted") {
     CHECK(s.y == Approx(-0.4).margin(1e-4));
     CHECK(s.variance == Approx(0.045).margin(1e-4));
   }
+}
+
+TEST_CASE("an image of heights alone is read as the map of a set, its rows from the top") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "heights.tif";
+  write_image(file, 8, 8, 1, OIIO::TypeDesc::FLOAT, [](int, int y, int) { return 2.0f + float(y); });
+  PbrMaps maps;
+  maps.side = 8;
+  maps.height = read_height_map(file, maps.side);
+  REQUIRE(maps.height.size() == 64);
+  for (std::size_t y = 1; y < 7; ++y) CHECK(maps.height[y * 8 + 3] == Approx(9.0f - float(y)));
+  // 7 of the image's units of 0.05 m, on a tile of 2 m, around 0.
+  const std::vector<float> tiles = heights_of_map(maps, 0.05f, 2);
+  const auto [low, high] = std::minmax_element(tiles.begin(), tiles.end());
+  CHECK(*low == Approx(-*high));
+  CHECK(tiles[3] - tiles[11] == Approx(0.05f / 2 * (maps.height[3] - maps.height[11])));
+  CHECK_THROWS_AS(heights_of_map(maps, 0.05f, 0), Failure);
+  CHECK_THROWS_AS(heights_of_map(maps, 1, 2), Failure);  // higher than half a tile
+  CHECK_THROWS_AS(read_height_map(folder.path / "none.tif", 8), Failure);
 }
 
 TEST_CASE("packed maps and gloss stand for roughness, and green may point down") {

@@ -352,9 +352,133 @@ TEST_CASE("an estimated relief is the planted one, and views between the samples
   s.rank_light = 6;
   s.visibility = VisibilityForm::none;
   const double without = measure_unseen(unseen, compress(raw, s)).se_db;
-  s.has_relief = true;
+  s.relief = ReliefSource::estimated;
   // Without a relief waves of 12 texels move by up to 4 between the views.
   CHECK(measure_unseen(unseen, compress(raw, s)).se_db > without + 6);
+}
+
+TEST_CASE("of known heights the planted ones are taken, and those that are no heights are refused") {
+  const auto refused = [](const RawMaterial& raw, const char* why) {
+    try {
+      known_relief(raw);
+    } catch (const Failure& failure) {
+      return std::string(failure.what()).find(why) != std::string::npos;
+    }
+    return false;
+  };
+  RawMaterial raw = Painted::seen_from(spiral_directions(24));
+  CHECK(refused(raw, "not known"));
+  for (std::size_t t = 0; t < raw.texels(); ++t)
+    raw.heights.push_back(Painted::height(Painted::middle(t / Painted::side)));
+  const nook::material::Relief found = known_relief(raw);
+  REQUIRE(found.steps > 0);
+  for (std::size_t t = 0; t < raw.texels(); ++t)
+    // Smoothed over no more than one texel, which takes 3.4 % from waves of 24 texels.
+    CHECK(found.low + float(found.levels[t]) * (found.high - found.low) / 255 ==
+          Approx(Painted::height(Painted::middle(t % Painted::side))).margin(0.001));
+  raw.heights.pop_back();
+  CHECK(refused(raw, "575 heights, need 576"));
+  raw.heights.push_back(std::nanf(""));
+  CHECK(refused(raw, "out of range"));
+}
+
+TEST_CASE("ranks by threshold are those of the views on the relief") {
+  RawMaterial raw = Painted::seen_from(spiral_directions(24));
+  for (std::size_t t = 0; t < raw.texels(); ++t)
+    raw.heights.push_back(Painted::height(Painted::middle(t / Painted::side)));
+  const MovedMaterial moved = move_views(raw, ReliefSource::known);
+  REQUIRE(moved.relief.moves());
+  // Linear filters leave 1e-4 of the squares.
+  const CompressionSettings still = ranks_by_threshold(raw, 2e-4, {}),
+                            on_relief = ranks_by_threshold(moved.or_still(raw), 2e-4, {});
+  // All views show the same paint.
+  CHECK(on_relief.rank_view == 4);
+  CHECK(still.rank_view > 4);
+  CHECK_FALSE(move_views(raw, ReliefSource::none).relief.moves());
+}
+
+namespace {
+
+// A wall over all y, 0.3 tiles high, from x = 0.25 to 0.75 of the tile: half a tile of ground between two
+// walls, of which views across it beyond 59 degrees see nothing.
+struct Walled {
+  static constexpr std::uint32_t side = 48;
+  static constexpr float low_x = 0.25f, high_x = 0.75f, top = 0.3f;
+
+  static float middle(std::size_t texel) { return (float(texel) + 0.5f) / float(side); }
+  static bool is_wall(float x) { return x - std::floor(x) > low_x && x - std::floor(x) < high_x; }
+  static float paint(float x, float y) {
+    return 1 + 0.3f * std::cos(6.2831853f * x) + 0.2f * std::sin(6.2831853f * (2 * x + y));
+  }
+
+  // Where the ray through (x, 0) meets the walls or the ground.
+  static float met_x(float x, float slope) {
+    const float at_top = x + top * slope;
+    if (is_wall(at_top) || slope == 0) return at_top;
+    // Along x towards the ground; the ray comes from the side that the view is on.
+    const float tile = std::floor(at_top);
+    const float edge = slope > 0 ? (at_top - tile > high_x ? tile + high_x : tile - 1 + high_x)
+                                 : (at_top - tile < low_x ? tile + low_x : tile + 1 + low_x);
+    return slope > 0 ? std::max(x, edge) : std::min(x, edge);
+  }
+
+  static RawMaterial seen_from(std::vector<Vec3> views) {
+    RawMaterial raw;
+    raw.lights = {{0, 0, 1}};
+    raw.views = std::move(views);
+    raw.width = raw.height = side;
+    for (std::size_t row = 0; row < 3; ++row)
+      for (const Vec3 view : raw.views)
+        for (std::size_t x = 0; x < side; ++x)
+          for (std::size_t y = 0; y < side; ++y) {
+            const float slope = view.x / view.z, at = met_x(middle(x), slope);
+            // The share of the ray's way at which it meets them.
+            const float z = std::abs(slope) > 1e-6f ? (at - middle(x)) / slope : is_wall(at) ? top : 0;
+            raw.btf.push_back(paint(at, middle(y) + z * view.y / view.z));
+          }
+    return raw;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("points of a relief that hides itself keep what stands before them, the others have their own") {
+  RawMaterial raw = Walled::seen_from(spiral_directions(24));
+  for (std::size_t t = 0; t < raw.texels(); ++t)
+    raw.heights.push_back(Walled::is_wall(Walled::middle(t / Walled::side)) ? Walled::top : 0);
+  // With 64 planes a view of 75 degrees moves by 0.84 texels from one to the next.
+  const nook::material::Relief relief = relief_of_heights(raw, raw.heights, 64);
+  std::vector<float> moved = raw.btf;
+  move_to_relief(raw, relief, moved);
+  // Sides of the wall lie between two texels of the heights.
+  constexpr float near = 2.0f / float(Walled::side);
+  std::size_t hidden = 0, shown = 0;
+  double square = 0;
+  for (std::size_t v = 0; v < raw.views.size(); ++v) {
+    const float slope = raw.views[v].x / raw.views[v].z;
+    for (std::size_t t = 0; t < raw.texels(); ++t) {
+      const float x = Walled::middle(t / Walled::side), y = Walled::middle(t % Walled::side);
+      if (std::abs(x - Walled::low_x) < near || std::abs(x - Walled::high_x) < near) continue;
+      const std::size_t at = v * raw.texels() + t;
+      INFO("x " << x << ", y " << y << ", slope " << slope);
+      const auto sees = [&](float ground) { return Walled::met_x(ground, slope) == ground; };
+      const int seen = sees(x - near) + sees(x) + sees(x + near);
+      if (!Walled::is_wall(x) && seen == 0) {
+        ++hidden;
+        // The ray through a point of the ground crosses z = 0 there: the view's own texel shows the wall.
+        CHECK(moved[at] == Approx(raw.btf[at]));
+      } else if (Walled::is_wall(x) || seen == 3) {
+        ++shown;
+        // The colours of the sides, which are one texel wide, ring through the fit for some texels more.
+        CHECK(moved[at] == Approx(Walled::paint(x, y)).margin(0.04));
+        square += std::pow(double(moved[at]) - double(Walled::paint(x, y)), 2);
+      }
+    }
+  }
+  CHECK(hidden > raw.views.size() * raw.texels() / 10);
+  CHECK(shown > raw.views.size() * raw.texels() / 2);
+  // Two linear filters of waves of 24 and 48 texels leave up to 2 (2 pi / 24)^2 / 8 of 0.2, and less.
+  CHECK(std::sqrt(square / double(shown)) < 0.004);
 }
 
 TEST_CASE("what does not move with the view, or has few views, gets no relief") {

@@ -65,6 +65,24 @@ TEST_CASE("a strip occludes and shadows where the ray's slope says, across the t
   }
 }
 
+TEST_CASE("heights are those of the highest points over the texels, and of their surroundings over gaps") {
+  const std::vector<Vec3> up{{0, 0, 1}};
+  const Vec3 grey{0.5f, 0.5f, 0.5f};
+  const TraceSettings settings{8, 4, 2, 0, 1, 1};
+  // Half of the samples of the third column lie under the strip.
+  const RawMaterial strip =
+      trace_material(test::strip_over_ground(0.3125f, 0.75f, 0.25f, grey), up, up, settings);
+  const std::vector<float> columns{0, 0, 0.125f, 0.25f, 0.25f, 0.25f, 0, 0};
+  REQUIRE(strip.heights.size() == 32);
+  for (std::size_t x = 0; x < 8; ++x)
+    for (std::size_t y = 0; y < 4; ++y) CHECK(strip.heights[x * 4 + y] == Approx(columns[x]).margin(1e-5));
+
+  MesoSurface half;
+  test::add_quad(half, {0, 0, 0.25f}, {0.5f, 0, 0.25f}, {0.5f, 1, 0.25f}, {0, 1, 0.25f}, grey);
+  for (const float height : trace_material(half, up, up, settings).heights)
+    CHECK(height == Approx(0.25f).margin(1e-5));
+}
+
 TEST_CASE("the VOTF is where the view meets the structure, on the plane z = 0") {
   // A lone strip at height 0.1: texel x of the plane z = 0 sees it along (slope, 0, 1) where x + 0.1 slope
   // lies on it.

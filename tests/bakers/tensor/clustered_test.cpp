@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bakers/tensor/map_steps.h"
 #include "bakers/tensor/resample.h"
 #include "bakers/tensor/seed_clusters.h"
 #include "sdk/src/core/failure.h"
@@ -316,6 +317,60 @@ TEST_CASE("resampling at the sub-tensors themselves gives them back, and between
   CHECK(squared_distance(reconstruct(resampled), between) < 1.5 * error);
   CHECK(test::says(test::failure_of([&] { resample(fit, projections, Matrix::Identity(35, 35)); }),
                    "35 columns"));
+}
+
+namespace {
+
+// Columns of a map whose left half is cluster 0 and right half cluster 1, of one atom each, orthogonal, so
+// that the error is the sum of (weight - 1)^2.
+MixedCells two_halves(std::size_t side) {
+  MixedCells cells;
+  cells.side = side;
+  cells.count = 1;
+  for (std::size_t i = 0; i < side * side; ++i) cells.clusters.push_back(2 * (i % side) < side ? 0 : 1);
+  cells.weights = WideMatrix::Ones(Index(side * side), 1);
+  return cells;
+}
+
+}  // namespace
+
+TEST_CASE("weights with lower steps are those of the closed form, between cells and where cells go on") {
+  const AtomGram atoms{2, 1, Eigen::MatrixXd::Identity(2, 2)};
+  // The border of two cells: (w - 1)^2 + 3 w^2.
+  MixedCells cells = two_halves(2);
+  lower_steps(atoms, WideMatrix::Ones(4, 2), 3, cells);
+  for (Index i = 0; i < 4; ++i) CHECK(cells.weights(i, 0) == Approx(0.25));
+  // Of four columns the inner ones go on from the outer ones: without a step 3 w_inner = w_outer, and
+  // (w_outer - 1)^2 + (w_inner - 1)^2 is smallest at 1.2 and 0.4.
+  cells = two_halves(4);
+  lower_steps(atoms, WideMatrix::Ones(16, 2), 1e6, cells);
+  for (Index i = 0; i < 16; ++i)
+    CHECK(cells.weights(i, 0) == Approx(i % 4 == 0 || i % 4 == 3 ? 1.2 : 0.4).epsilon(1e-4));
+  // Nothing changes without a penalty, or where all cells mix the same.
+  cells = two_halves(4);
+  lower_steps(atoms, WideMatrix::Zero(16, 2), 0, cells);
+  CHECK(cells.weights == WideMatrix::Ones(16, 1));
+}
+
+TEST_CASE("a map with lower steps is resampled from the same clusters") {
+  const Tensor a = waves({4, 36, 10, 9});
+  ClusteredSettings settings = settings_of(1, {3, 2, 5, 4}, 6, 3, seeds_in_order(36, 6));
+  settings.global_modes = {0};
+  const ClusteredFit fit = fit_k_cta(a, settings);
+  const Matrix projections = atom_projections(fit, a);
+  const auto map = [&](double penalty) {
+    return resample_map(fit, projections, Matrix::Identity(36, 36), 6, penalty, Pursuit::greedy);
+  };
+  const Mixture plain = resample(fit, projections, Matrix::Identity(36, 36));
+  CHECK(map(0).coefficients == plain.coefficients);
+  const Mixture calm = map(1);
+  CHECK(calm.membership == plain.membership);
+  ClusteredFit of_plain = fit, of_calm = fit;
+  of_plain.mixture = plain;
+  of_calm.mixture = calm;
+  // Optimal projection has the smallest error of the cells, so that a penalty raises it.
+  CHECK(squared_distance(reconstruct(of_calm), a) > squared_distance(reconstruct(of_plain), a));
+  CHECK(squared_distance(reconstruct(of_calm), a) < 0.5 * squared_norm(a));
 }
 
 TEST_CASE("resampling leaves out directions in which the members of a cluster hardly differ") {

@@ -84,6 +84,43 @@ TEST_CASE(
   CHECK(again.at("rows").at(0).at("se_db") == row.at("se_db"));
 }
 
+TEST_CASE("bake material trains a neural material, which inspect describes and evaluate measures") {
+  const TestFolder folder;
+  const ToolRun run = folder.run(small_bake(folder, "n.nook",
+                                            {{"--method", "neural"},
+                                             {"--channels", "8"},
+                                             {"--steps", "60"},
+                                             {"--keep-raw", folder.path("n.raw")},
+                                             {"--report", folder.path("r.json")}}));
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  const auto baked = nlohmann::json::parse(read_text(folder.path("r.json")));
+  CHECK(baked.at("rows").at(0).at("method") == "neural");
+  const ToolRun inspected = folder.run({"inspect", folder.path("n.nook")});
+  CHECK(inspected.out.find("neural_channels") != std::string::npos);
+
+  const ToolRun measured = folder.run({"evaluate", "material", folder.path("n.raw"), folder.path("n.nook"),
+                                       "--unseen", folder.path("n.raw"), "--methods", "pca", "--mipmaps",
+                                       "--images", folder.path("images"), "--report", folder.path("e.json")});
+  INFO(measured.error);
+  REQUIRE(measured.exit_code == 0);
+  const auto row = nlohmann::json::parse(read_text(folder.path("e.json"))).at("rows").at(0);
+  CHECK(row.at("method") == "file: neural");
+  CHECK(row.at("se_db") == baked.at("rows").at(0).at("se_db"));
+  CHECK(row.at("se_db_unseen") == row.at("se_db"));
+  REQUIRE(row.at("mipmaps").size() == 2);  // of 12 texels
+  CHECK(row.at("mipmaps").at(1).at("texels") == 4);
+  CHECK(!read_text(folder.path("images") + "/fiber_file.png").empty());
+
+  const ToolRun refused =
+      folder.run({"evaluate", "material", folder.path("n.raw"), folder.path("n.nook"), "--methods", "n-svd"});
+  CHECK(refused.exit_code != 0);
+  CHECK(refused.error.find("the material is neural") != std::string::npos);
+  const ToolRun odd = folder.run(small_bake(folder, "o.nook", {{"--method", "neural"}, {"--channels", "6"}}));
+  CHECK(odd.exit_code != 0);
+  CHECK(odd.error.find("need a multiple of 4") != std::string::npos);
+}
+
 TEST_CASE("bake material traces a folder of maps") {
   const TestFolder folder;
   std::filesystem::create_directory(folder.path("planks"));
@@ -109,6 +146,14 @@ TEST_CASE("bake material traces a folder of maps") {
   CHECK(report.at("rows").at(0).at("material") == "planks");
   CHECK(report.at("rows").at(0).at("votf_error_texels_distance").is_null());
   CHECK(report.at("recipe").at("source").at("pbr") == "planks");
+  auto with_relief = bake;
+  with_relief.insert(with_relief.end(), {"--relief", folder.path("planks/planks_height.ppm")});
+  const ToolRun image = folder.run(with_relief);
+  INFO(image.error);
+  REQUIRE(image.exit_code == 0);
+  const auto recipe = nlohmann::json::parse(read_text(folder.path("r.json"))).at("recipe");
+  CHECK(recipe.at("compression").at("relief") == "known");
+  CHECK(recipe.at("relief").at("heights") == "planks_height.ppm");
   auto high = bake;
   high.insert(high.end(), {"--height-scale", "2"});
   const ToolRun refused = folder.run(high);
@@ -140,6 +185,10 @@ TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothin
   refused(small_bake(folder, "a.nook", {{"--radius", "0"}}), 2, "radius");
   refused({"bake", "material", "--btf", folder.path("nowhere"), "-o", folder.path("a.nook")}, 3, "nowhere");
   refused({"bake", "material", "--raw", folder.path("none.raw"), "-o", folder.path("a.nook")}, 3, "none.raw");
+  refused({"bake", "material", "--raw", folder.path("none.raw"), "-o", folder.path("a.nook"), "--relief",
+           "known"},
+          2, "--relief known needs");
+  refused(small_bake(folder, "a.nook", {{"--relief", "none.png"}}), 3, "there is no file none.png");
 }
 
 TEST_CASE("bake material refuses another kind of .btf file and names the one it reads") {
