@@ -151,7 +151,13 @@ void read_meso(const nook_bake_material_desc& desc, MaterialTask& task) {
   task.meso = meso_parameters(desc.meso);
   task.raw.name = task.meso->name;
   task.meso->seed = desc.seed;
-  task.trace = {desc.width, desc.height, desc.samples, desc.bounces, desc.bounce_rays, desc.seed};
+  task.trace = {desc.width,
+                desc.height,
+                desc.samples,
+                desc.bounces,
+                desc.bounce_rays,
+                desc.seed,
+                task.settings.relief == ReliefSource::known};
 }
 
 CompressionSettings settings_of(const nook_bake_material_desc& desc) {

@@ -250,6 +250,7 @@ void run(Options& o) {
                                         "; need an image of heights, none, estimated or known");
   if (o.texels) o.trace.width = o.trace.height = o.texels;
   o.trace.seed = o.common.seed;
+  o.trace.finds_heights = o.compression.settings.relief == ReliefSource::known && o.relief.empty();
   CompressionSettings& settings = o.compression.settings;
   if (!o.visibility_mapping.empty())
     settings.mapping = visibility_mapping(o.visibility_mapping, settings.visibility);
