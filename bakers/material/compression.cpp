@@ -140,8 +140,11 @@ ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task
   t.map.side = side;
   // The mask of a VOTF's values has its errors at the threshold, wherever steps are.
   const double penalty = task.view_mode > 0 ? task.settings.step_penalty : 0;
+  const auto progress = [&](std::size_t round, std::size_t rounds) {
+    return !task.progress || task.progress("view map", round, rounds);
+  };
   t.map.rows = view_rows(tensor::resample_map(fitted, projections, spline_weights(task.raw.views, side), side,
-                                              penalty, tensor::Pursuit::exchange));
+                                              penalty, tensor::Pursuit::exchange, progress));
   return t;
 }
 
