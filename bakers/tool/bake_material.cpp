@@ -177,7 +177,7 @@ Json bake(const Options& o, platform::OutputFile& output, std::optional<platform
   const double seconds_obtain = watch.seconds();
   if (raw_file) raw_file->commit(write_raw_material(raw));
   if (!o.relief.empty()) read_relief(o, raw);
-  check_compression(o.compression, raw);
+  check_compression(o.compression, raw, !raw.mask.empty());
 
   watch = {};
   const StageProgress progress = stage_progress(bar, "compressing the ");
@@ -254,7 +254,8 @@ void run(Options& o) {
   CompressionSettings& settings = o.compression.settings;
   if (!o.visibility_mapping.empty())
     settings.mapping = visibility_mapping(o.visibility_mapping, settings.visibility);
-  check_compression(o.compression, expected_sizes(o));
+  // A height field has no gaps.
+  check_compression(o.compression, expected_sizes(o), !o.meso.empty());
   platform::OutputFile output(o.output);
   std::optional<platform::OutputFile> raw_file, report_file;
   if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);

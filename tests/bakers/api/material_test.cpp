@@ -367,6 +367,27 @@ TEST_CASE("what a material cannot be baked from is named") {
   desc = small_weave();
   desc.light_count = desc.view_count = desc.width = desc.height = 1024;
   CHECK(refused(desc, "MiB"));
+  desc = small_weave();
+  desc.votf_rank_x = desc.votf_rank_y = 13;
+  CHECK(refused(desc, "the VOTF's x rank is 13"));
+  desc.method = NOOK_BAKE_METHOD_NEURAL;
+  CHECK(refused(desc, "the VOTF's x rank is 13"));
+  desc.visibility = NOOK_MATERIAL_VISIBILITY_NONE;
+  desc.view_map_side = 1;  // of the VOTF alone
+  CHECK(nook_bake_job_cancel(start(desc).get()) == NOOK_OK);
+  desc = small_weave();
+  desc.method = NOOK_BAKE_METHOD_NEURAL;
+  desc.view_map_side = 1;
+  CHECK(refused(desc, "a view map of 1 cells"));
+  desc = small_weave();
+  desc.method = NOOK_BAKE_METHOD_NEURAL;
+  desc.clusters = 2;
+  desc.mixture = 8;
+  CHECK(refused(desc, "the mixture K is 8"));
+  desc = small_weave();
+  desc.method = NOOK_BAKE_METHOD_NEURAL;
+  desc.visibility_threshold = -1;
+  CHECK(refused(desc, "threshold -1"));
   const float one = 1;
   desc = small_weave();
   desc.btf = &one;

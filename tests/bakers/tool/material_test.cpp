@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "tests/bakers/tool/tool_run.h"
 #include "tests/catch.h"
@@ -189,6 +190,14 @@ TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothin
   refused(small_bake(folder, "a.nook", {{"--visibility-mapping", "wide"}}), 2, "--visibility-mapping");
   refused(small_bake(folder, "a.nook", {{"--visibility-mapping", "-1,12"}}), 2, "threshold -1");
   refused(small_bake(folder, "a.nook", {{"--radius", "0"}}), 2, "radius");
+  refused(small_bake(folder, "a.nook", {{"--votf-ranks", "13,8"}}), 2, "VOTF's x rank is 13");
+  refused(small_bake(folder, "a.nook", {{"--ranks", "auto"}, {"--clusters", "20"}}), 2, "clusters is 20");
+  for (const auto& [option, value, word] : {std::tuple("--view-map", "1", "view map of 1"),
+                                            std::tuple("--visibility-mapping", "-1,12", "threshold -1"),
+                                            std::tuple("--votf-ranks", "8,13", "VOTF's y rank is 13")})
+    refused(small_bake(folder, "a.nook", {{"--method", "neural"}, {option, value}}), 2, word);
+  refused(small_bake(folder, "a.nook", {{"--method", "neural"}, {"--clusters", "2"}, {"--mixture", "8"}}), 2,
+          "mixture K is 8");
   refused({"bake", "material", "--btf", folder.path("nowhere"), "-o", folder.path("a.nook")}, 3, "nowhere");
   refused({"bake", "material", "--raw", folder.path("none.raw"), "-o", folder.path("a.nook")}, 3, "none.raw");
   refused({"bake", "material", "--raw", folder.path("none.raw"), "-o", folder.path("a.nook"), "--relief",
