@@ -172,6 +172,28 @@ TEST_CASE("bake material traces a folder of maps") {
   CHECK(missing.error.find("planks_height.ppm") != std::string::npos);
 }
 
+TEST_CASE("bake material reads the image of --relief before it traces rays or reads a material") {
+  const TestFolder folder;
+  write_text(folder.path("text.png"), "no image");
+  // From 0 to 1, on a tile of 1 m.
+  write_text(folder.path("edge.ppm"),
+             std::string("P6\n2 2\n255\n") + std::string(6, '\0') + std::string(6, '\xff'));
+  for (const auto& [image, code, word] :
+       {std::tuple("text.png", 3, "text.png"), std::tuple("edge.ppm", 2, "tiles high")})
+    for (const std::vector<std::string>& source :
+         std::vector<std::vector<std::string>>{{"--meso", "weave"}, {"--raw", folder.path("none.raw")}}) {
+      std::vector<std::string> arguments{"bake",           "material", "--relief", folder.path(image),
+                                         "--height-scale", "0.8",      "-o",       folder.path("a.nook")};
+      arguments.insert(arguments.end(), source.begin(), source.end());
+      const ToolRun run = folder.run(arguments);
+      INFO(run.error);
+      CHECK(run.exit_code == code);
+      CHECK(run.error.find(word) != std::string::npos);
+      CHECK(run.error.find("ray tracing") == std::string::npos);
+      CHECK(run.error.find("none.raw") == std::string::npos);
+    }
+}
+
 TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothing behind") {
   const TestFolder folder;
   const auto refused = [&](const std::vector<std::string>& arguments, int code, const std::string& word) {
