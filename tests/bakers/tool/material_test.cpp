@@ -1,9 +1,13 @@
+#include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "tests/bakers/relief_in_file.h"
 #include "tests/bakers/tool/tool_run.h"
 #include "tests/catch.h"
 
@@ -170,6 +174,50 @@ TEST_CASE("bake material traces a folder of maps") {
   const ToolRun missing = folder.run(bake);
   CHECK(missing.exit_code == 3);
   CHECK(missing.error.find("planks_height.ppm") != std::string::npos);
+}
+
+TEST_CASE("heights of an image are in the file at their texels, whose rows begin at its top") {
+  const TestFolder folder;
+  std::filesystem::create_directory(folder.path("mounds"));
+  constexpr std::size_t side = 32, texels = 16;
+  constexpr double turn = 6.283185307179586;
+  // Waves of other heights along x and y, none of them symmetric.
+  const auto height_at = [](double x, double y) {
+    return 128 + 70 * std::cos(turn * (x - 0.15)) + 40 * std::sin(turn * y);
+  };
+  std::string colour = "P6\n32 32\n255\n", height = colour;
+  for (std::size_t row = 0; row < side; ++row)
+    for (std::size_t column = 0; column < side; ++column) {
+      const double x = (double(column) + 0.5) / side, y = 1 - (double(row) + 0.5) / side;
+      colour.append(3, char(int(128 + 60 * std::cos(turn * (2 * x + y)) + 60 * std::sin(turn * (y - x)))));
+      height.append(3, char(int(std::lround(height_at(x, y)))));
+    }
+  write_text(folder.path("mounds/mounds_diffuse.ppm"), colour);
+  write_text(folder.path("mounds/mounds_height.ppm"), height);
+  const auto levels_of = [&](const std::vector<std::string>& source) {
+    std::vector<std::string> arguments{
+        "bake", "material",           "--ranks", "8,8,8,8",  "--view-map",
+        "0",    "--height-scale",     "0.2",     "--relief", folder.path("mounds/mounds_height.ppm"),
+        "-o",   folder.path("a.nook")};
+    arguments.insert(arguments.end(), source.begin(), source.end());
+    const ToolRun run = folder.run(arguments);
+    INFO(run.error);
+    REQUIRE(run.exit_code == 0);
+    return relief_in_file(read_text(folder.path("a.nook"))).levels;
+  };
+  const std::vector<std::uint8_t> levels =
+      levels_of({"--pbr", folder.path("mounds"), "--texels", "16", "--directions", "16", "--max-tilt", "45",
+                 "--bounces", "0", "--keep-raw", folder.path("a.raw")});
+  REQUIRE(levels.size() == texels * texels);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    INFO("texel " << i % texels << " " << i / texels);
+    const double at = height_at((double(i % texels) + 0.5) / texels, (double(i / texels) + 0.5) / texels);
+    // From 18 to 238 the heights have 220 steps. Means over texels take as much from both waves, of 16 texels
+    // each, and levels go from the lowest texel to the highest; extremes between texels are left.
+    CHECK(std::abs(double(levels[i]) - 255 * (at - 18) / 220) < 8);
+  }
+  // The image has the texels of a file's material only when that is read.
+  CHECK(levels_of({"--raw", folder.path("a.raw")}) == levels);
 }
 
 TEST_CASE("bake material reads the image of --relief before it traces rays or reads a material") {
