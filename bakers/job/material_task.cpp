@@ -151,7 +151,13 @@ void read_meso(const nook_bake_material_desc& desc, MaterialTask& task) {
   task.meso = meso_parameters(desc.meso);
   task.raw.name = task.meso->name;
   task.meso->seed = desc.seed;
-  task.trace = {desc.width, desc.height, desc.samples, desc.bounces, desc.bounce_rays, desc.seed};
+  task.trace = {desc.width,
+                desc.height,
+                desc.samples,
+                desc.bounces,
+                desc.bounce_rays,
+                desc.seed,
+                task.settings.relief == ReliefSource::known};
 }
 
 CompressionSettings settings_of(const nook_bake_material_desc& desc) {
@@ -187,14 +193,10 @@ bool given(const char* names, std::initializer_list<std::uint32_t> ranks) {
   return zeros == 0;
 }
 
-// Returns the settings that do not depend on the data. Ranks by threshold may turn out as low as those of one
-// cluster.
+// Returns the settings that do not depend on the data.
 CompressionSettings known_settings(const MaterialTask& task) {
   CompressionSettings s = task.settings;
-  if (!set_builtin_ranks(task.raw, s)) {
-    s.rank_light = s.rank_x = s.rank_y = 1;
-    s.rank_view = std::min(s.cluster_rank_view, std::uint32_t(task.raw.views.size()));
-  }
+  if (!set_builtin_ranks(task.raw, s)) set_lowest_ranks(task.raw, s);
   if (task.votf_ranks_given) {
     s.votf_rank_x = task.settings.votf_rank_x;
     s.votf_rank_y = task.settings.votf_rank_y;
@@ -235,6 +237,7 @@ MaterialTask material_task_of(const nook_bake_material_desc& desc) {
   desc.meso ? read_meso(desc, task) : read_measured(desc, task);
 
   CompressionSettings& s = task.settings;
+  const bool has_mask = task.meso || !task.raw.mask.empty();
   if (task.votf_ranks_given) {
     s.votf_rank_x = desc.votf_rank_x;
     s.votf_rank_y = desc.votf_rank_y;
@@ -243,14 +246,14 @@ MaterialTask material_task_of(const nook_bake_material_desc& desc) {
     s.votf_rank_y = std::min(s.votf_rank_y, desc.height);
   }
   if (!task.ranks_given) {
-    check_settings(known_settings(task), task.raw);
+    check_settings(known_settings(task), task.raw, has_mask);
     return task;
   }
   s.rank_light = desc.rank_light;
   s.rank_view = desc.rank_view;
   s.rank_x = desc.rank_x;
   s.rank_y = desc.rank_y;
-  check_settings(s, task.raw);
+  check_settings(s, task.raw, has_mask);
   return task;
 }
 

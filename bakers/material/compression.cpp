@@ -140,8 +140,11 @@ ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task
   t.map.side = side;
   // The mask of a VOTF's values has its errors at the threshold, wherever steps are.
   const double penalty = task.view_mode > 0 ? task.settings.step_penalty : 0;
+  const auto progress = [&](std::size_t round, std::size_t rounds) {
+    return !task.progress || task.progress("view map", round, rounds);
+  };
   t.map.rows = view_rows(tensor::resample_map(fitted, projections, spline_weights(task.raw.views, side), side,
-                                              penalty, tensor::Pursuit::exchange));
+                                              penalty, tensor::Pursuit::exchange, progress));
   return t;
 }
 
@@ -191,11 +194,15 @@ void check_neural(const CompressionSettings& s) {
 }
 
 void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
+  check_settings(s, raw, !raw.mask.empty());
+}
+
+void check_settings(const CompressionSettings& s, const RawMaterial& raw, bool has_mask) {
   if (s.bits != 8 && s.bits != 16)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the form of numbers is %u bits; need 8 or 16", s.bits);
   if (s.method == Method::neural) {
     check_neural(s);
-    if (has_votf(raw, s)) check_settings(votf_settings(s), raw);
+    if (will_have_votf(has_mask, s)) check_settings(votf_settings(s), raw, has_mask);
     return;
   }
   const auto check = [](std::size_t got, std::size_t most, const char* what, const char* of) {
@@ -207,7 +214,7 @@ void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
   check(s.rank_view, views, "the view rank", "the number of views");
   check(s.rank_x, raw.width, "the x rank", "the width in texels");
   check(s.rank_y, raw.height, "the y rank", "the height in texels");
-  if (has_votf(raw, s)) {
+  if (will_have_votf(has_mask, s)) {
     check(s.votf_rank_x, raw.width, "the VOTF's x rank", "the width in texels");
     check(s.votf_rank_y, raw.height, "the VOTF's y rank", "the height in texels");
   }
@@ -226,6 +233,11 @@ void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
   if (s.map_side == 1 || s.map_side > nook::material::max_map_side)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a view map of %u cells a side; need 2 to %u, or 0 for none",
                   s.map_side, nook::material::max_map_side);
+}
+
+void set_lowest_ranks(const RawMaterial& sizes, CompressionSettings& s) {
+  s.rank_light = s.rank_x = s.rank_y = s.votf_rank_x = s.votf_rank_y = 1;
+  s.rank_view = std::min(s.cluster_rank_view, std::uint32_t(sizes.views.size()));
 }
 
 CompressedBtf compress_btf(const RawMaterial& raw, const CompressionSettings& s,

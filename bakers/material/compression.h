@@ -65,9 +65,12 @@ struct CompressionSettings {
   }
 };
 
-// Returns whether a material will have a VOTF.
+// Returns whether a material will have a VOTF: views that pass through it have a mask.
+inline bool will_have_votf(bool has_mask, const CompressionSettings& s) {
+  return has_mask && s.visibility != nook::material::VisibilityForm::none;
+}
 inline bool has_votf(const RawMaterial& raw, const CompressionSettings& s) {
-  return !raw.mask.empty() && s.visibility != nook::material::VisibilityForm::none;
+  return will_have_votf(!raw.mask.empty(), s);
 }
 
 // Returns the settings of the VOTF, which a neural material has by K-CTA.
@@ -91,6 +94,14 @@ void check_neural(const CompressionSettings& s);
 // Ranks, clusters and mixture against the material's sizes; throws Failure(INVALID_ARGUMENT) that names the
 // first that does not fit.
 void check_settings(const CompressionSettings& settings, const RawMaterial& raw);
+
+// The same before a material is traced, of which only the sizes and directions are there. has_mask: its views
+// will have a mask.
+void check_settings(const CompressionSettings& settings, const RawMaterial& sizes, bool has_mask);
+
+// Sets the lowest ranks that a threshold chooses for a material of these sizes, to check the other settings
+// before the threshold has values to choose by.
+void set_lowest_ranks(const RawMaterial& sizes, CompressionSettings& settings);
 
 // Both throw Failure(NOOK_ERROR_CANCELLED) when progress returns false. The same bits for the same seed on
 // any number of threads.

@@ -152,7 +152,10 @@ void add_gradients(Trainer& t) {
 // Trains the network of the offset alone to the first hits of the relief at which views agree.
 void fit_offsets(Trainer& t, const StageProgress& progress) {
   const NeuralShape& s = t.shape;
-  const std::vector<float> heights = heights_of_views(t.raw);
+  const std::vector<float> heights = heights_of_views(t.raw, [&](std::size_t, std::size_t) {
+    report(progress, "offset", 0, t.settings.offset_steps);
+    return true;
+  });
   const HeightMap relief{t.raw.width, t.raw.height, heights};
   const HeightRange range = range_of(relief);
   const std::size_t texels = t.raw.texels();

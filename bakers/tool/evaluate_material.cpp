@@ -1,6 +1,7 @@
 // nook evaluate material: a compressed material against the raw one, beside its baselines, with pictures and
 // plots.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -76,6 +77,18 @@ class Pictures {
   std::vector<bake::Picture> jumps_;
 };
 
+std::vector<std::string> baselines_of(const Options& o) {
+  return o.methods.empty() && o.peers ? measure::material_peer_names() : o.methods;
+}
+
+// Baselines of bytes or of texels need no ranks of the file.
+bool fits_at_equal_ranks(const Options& o) {
+  const auto needs_ranks = [](const std::string& name) {
+    return name != "pca" && name != "pbr" && name != "neural";
+  };
+  return o.seeding || !o.sweep.empty() || std::ranges::any_of(baselines_of(o), needs_ranks);
+}
+
 RawMaterial read_raw(const std::filesystem::path& path) {
   return naming_file(path, [&] { return bake::material::read_raw_material(read_file(path)); });
 }
@@ -88,6 +101,8 @@ Json evaluate(const Options& o) {
   const RawMaterial raw = read_raw(o.raw);
   const std::vector<std::byte> bytes = read_file(o.material);
   const Material material = naming_file(o.material, [&] { return nook::material::read_material(bytes); });
+  if (fits_at_equal_ranks(o))
+    nook::material::refuse_neural(material.neural.is_used(), "a fit at equal ranks");
   const measure::MaterialFile file{bytes, material};
   bar.show("measuring", "files", 0, 1);
   RawMaterial unseen_material;
@@ -102,8 +117,7 @@ Json evaluate(const Options& o) {
   Pictures pictures(o, raw);
   pictures.add("file", material, own);
   measure::BaselineRequest request;
-  request.names = o.methods;
-  if (request.names.empty() && o.peers) request.names = measure::material_peer_names();
+  request.names = baselines_of(o);
   request.unseen = unseen;
   request.jumps = o.jumps;
   request.votf_refits = o.votf_refits;
@@ -114,8 +128,6 @@ Json evaluate(const Options& o) {
   for (const Json& row : measure::material_baseline_rows(raw, file, o.common.seed, request))
     rows.push_back(row);
   pictures.write_sheets();
-  if (o.seeding || !o.sweep.empty())
-    nook::material::refuse_neural(material.neural.is_used(), "a fit at equal ranks");
   CompressionSettings settings = measure::settings_of(material, o.common.seed);
   settings.votf_refits = o.votf_refits;
   Json report;

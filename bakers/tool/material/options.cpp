@@ -115,12 +115,12 @@ CompressionSettings compression_settings(const CompressionOptions& options, cons
   return s;
 }
 
-void check_compression(const CompressionOptions& options, const RawMaterial& sizes) {
+void check_compression(const CompressionOptions& options, const RawMaterial& sizes, bool has_mask) {
   CompressionSettings s = options.settings;
   if (s.method == Method::neural) check_neural(s);
-  const bool known = set_known_ranks(options, sizes, s);
+  if (!set_known_ranks(options, sizes, s)) set_lowest_ranks(sizes, s);
   set_rest(options, s);
-  if (known && !sizes.views.empty()) check_settings(s, sizes);
+  if (!sizes.views.empty()) check_settings(s, sizes, has_mask);
 }
 
 nook::material::VisibilityMapping visibility_mapping(const std::string& text, VisibilityForm form) {
