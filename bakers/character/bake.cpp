@@ -80,8 +80,8 @@ TrainingSet precise_share(const SkinnedMesh& mesh, const TrainingSet& set, const
   return share;
 }
 
-// Half of the weight by vertex, as the reported mse has it, half by area, as the eye does. The paper sums over
-// vertices alike (slide 25).
+// Half of the weight by vertex, as the reported mse has it, half by area, as the eye does. The paper sums
+// over vertices alike (slide 25).
 std::vector<float> vertex_weights(std::span<const float> area, FitMethod fit) {
   if (fit == FitMethod::paper) return std::vector<float>(area.size(), 1.0f);
   double mean = 0;
@@ -92,8 +92,8 @@ std::vector<float> vertex_weights(std::span<const float> area, FitMethod fit) {
   return weight;
 }
 
-// Non-negative least squares over all candidates of a vertex, and nothing that another part of the library
-// asks for: no weights for added casters, and no entry left out that gains little.
+// Non-negative least squares over all candidates of a vertex: near key points have no weights for added
+// casters, and an entry stays however little it gains.
 LinearFitSettings plain_linear_fit(std::size_t entries) {
   LinearFitSettings plain;
   plain.entries = entries;
