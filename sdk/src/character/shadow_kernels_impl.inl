@@ -218,8 +218,8 @@ struct ChosenMasses {
 
 // For a word that is not 0. std::countr_zero is a function of the C++ library, which the linker may merge.
 std::uint32_t lowest_bit(std::uint32_t word) {
-#if defined(__GNUC__)
-  return static_cast<std::uint32_t>(__builtin_ctz(word));
+#ifdef NOOK_TRAILING_ZEROS
+  return static_cast<std::uint32_t>(NOOK_TRAILING_ZEROS(word));
 #else
   std::uint32_t bit = 0;
   while (!(word >> bit & 1)) ++bit;
